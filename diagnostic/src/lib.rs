@@ -1,0 +1,217 @@
+//! Messages that point at the text they are about.
+//!
+//! The translator's sources and flight plans are both texts that people write and get wrong.
+//! They share one [`Diagnostic`] type, so that an error in either looks the same: the message, the
+//! file with line and column, the source line with a caret under the exact span, and what to do.
+//!
+//! ```
+//! use diagnostic::{Diagnostic, Source};
+//!
+//! let source = Source { name: "flight.txt", text: "takeof\n" };
+//! let error = Diagnostic::error("unknown command `takeof`", 0..6)
+//!     .label("not a flight plan command")
+//!     .help("did you mean `takeoff`?");
+//! let text = error.render(&source);
+//! assert!(text.contains("flight.txt:1:1"));
+//! ```
+#![forbid(unsafe_code)]
+
+use std::fmt;
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+/// A byte range of a source text.
+pub type Span = Range<usize>;
+
+/// A named text that spans refer to.
+#[derive(Debug, Clone, Copy)]
+pub struct Source<'a> {
+    /// The file's name as the user gave it.
+    pub name: &'a str,
+    /// The whole text.
+    pub text: &'a str,
+}
+
+/// How much a [`Diagnostic`] matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Legal, but probably not what was meant.
+    Warning,
+    /// Nothing is produced.
+    Error,
+}
+
+/// One message about one place in a source text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// Error or warning.
+    pub severity: Severity,
+    /// What is wrong, in one line without a full stop.
+    pub message: String,
+    /// Where: bytes of the source text.
+    pub span: Span,
+    /// What stands under the caret; may be empty.
+    pub label: String,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// An error at `span`.
+    pub fn error(message: impl Into<String>, span: Span) -> Self {
+        Self {
+            severity: Severity::Error,
+            message: message.into(),
+            span,
+            label: String::new(),
+            help: None,
+        }
+    }
+
+    /// A warning at `span`.
+    pub fn warning(message: impl Into<String>, span: Span) -> Self {
+        Self { severity: Severity::Warning, ..Self::error(message, span) }
+    }
+
+    /// Sets the text under the caret.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Sets the advice below the source line.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// The message with file, line, column, source line and caret, as rustc prints it, without
+    /// colours. A span outside the text is moved to its nearest place inside.
+    pub fn render(&self, source: &Source<'_>) -> String {
+        let level = match self.severity {
+            Severity::Error => Level::ERROR,
+            Severity::Warning => Level::WARNING,
+        };
+        let mut annotation = AnnotationKind::Primary.span(clamp_span(&self.span, source.text));
+        if !self.label.is_empty() {
+            annotation = annotation.label(self.label.as_str());
+        }
+        let mut group = level
+            .primary_title(self.message.as_str())
+            .element(Snippet::source(source.text).path(source.name).annotation(annotation));
+        if let Some(help) = &self.help {
+            group = group.element(Level::HELP.message(help.as_str()));
+        }
+        Renderer::plain().render(&[group])
+    }
+}
+
+/// Renders all of `diagnostics` in the order of the text, an empty line between two.
+pub fn render_all(diagnostics: &[Diagnostic], source: &Source<'_>) -> String {
+    let mut sorted: Vec<&Diagnostic> = diagnostics.iter().collect();
+    sorted.sort_by_key(|diagnostic| diagnostic.span.start);
+    let rendered: Vec<String> =
+        sorted.into_iter().map(|diagnostic| diagnostic.render(source)).collect();
+    rendered.join("\n\n")
+}
+
+/// Line and column of a byte of `text`, both counted from 1; the column counts characters.
+pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
+    let offset = floor_char_boundary(text, offset);
+    let before = &text[..offset];
+    let line = before.matches('\n').count() + 1;
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (line, before[line_start..].chars().count() + 1)
+}
+
+/// The candidate that is most like `name`, if any is close enough to be a slip of the pen.
+pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let limit = (name.chars().count() / 3).max(1);
+    candidates
+        .into_iter()
+        .map(|candidate| (edit_distance(name, candidate), candidate))
+        .filter(|(distance, _)| *distance <= limit)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+fn clamp_span(span: &Span, text: &str) -> Span {
+    let start = floor_char_boundary(text, span.start);
+    let end = floor_char_boundary(text, span.end.max(start));
+    start..end
+}
+
+fn floor_char_boundary(text: &str, offset: usize) -> usize {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
+/// Levenshtein distance, case ignored.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().flat_map(char::to_lowercase).collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, a_char) in a.chars().flat_map(char::to_lowercase).enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, b_char) in b.iter().enumerate() {
+            let substitution = diagonal + usize::from(a_char != *b_char);
+            diagonal = row[j + 1];
+            row[j + 1] = substitution.min(row[j] + 1).min(row[j + 1] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn line_and_column_count_from_one_and_in_characters() {
+        assert_eq!(line_column("ab\ncd", 0), (1, 1));
+        assert_eq!(line_column("ab\ncd", 4), (2, 2));
+        assert_eq!(line_column("äb", 2), (1, 2));
+        assert_eq!(line_column("ab", 99), (1, 3));
+    }
+
+    #[test]
+    fn a_span_outside_the_text_or_inside_a_character_is_rendered_all_the_same() {
+        let source = Source { name: "x", text: "ä" };
+        for span in [0..1, 1..2, 5..9, 2..2] {
+            assert!(Diagnostic::error("bad", span).render(&source).contains("bad"));
+        }
+    }
+
+    #[test]
+    fn the_closest_candidate_is_a_slip_of_the_pen_not_a_guess() {
+        let commands = ["takeoff", "land", "goto"];
+        assert_eq!(closest("takeof", commands), Some("takeoff"));
+        assert_eq!(closest("GOTO", commands), Some("goto"));
+        assert_eq!(closest("hover", commands), None);
+    }
+
+    #[test]
+    fn rendered_errors_show_place_caret_and_advice() {
+        let source = Source { name: "flight.txt", text: "takeoff\ngoto 1 2\n" };
+        let text = Diagnostic::error("too few numbers", 8..16)
+            .label("2 of 4")
+            .help("write `goto x y z yaw`")
+            .render(&source);
+        assert_eq!(
+            text,
+            "error: too few numbers\n --> flight.txt:2:1\n  |\n2 | goto 1 2\n  | ^^^^^^^^ 2 of 4\n  |\n  = help: write `goto x y z yaw`"
+        );
+    }
+}
