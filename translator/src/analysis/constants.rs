@@ -1,0 +1,157 @@
+//! Numbers and strings as C constants of the type that is asked for.
+
+use std::fmt::Write as _;
+
+use diagnostic::Diagnostic;
+
+use crate::program::Value;
+use crate::syntax::ast::{Number, Term};
+use crate::types::{CType, TypeKind};
+
+/// `term` as a constant of type `ctype`; nothing if it is no constant at all.
+pub(super) fn constant(term: &Term, ctype: &CType) -> Option<Result<Value, Diagnostic>> {
+    let text = match term {
+        Term::Number(number) => c_number(number, ctype),
+        Term::Text { text, span } => match ctype.kind {
+            TypeKind::Text | TypeKind::Opaque => Ok(c_string(text)),
+            _ => Err(Diagnostic::error(
+                format!("a string where a value of type `{}` is expected", ctype.name),
+                span.clone(),
+            )),
+        },
+        Term::Variable(_) | Term::Unnamed(_) | Term::Call(_) => return None,
+    };
+    Some(text.map(|text| Value::Constant(text, ctype.clone())))
+}
+
+fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnostic> {
+    let error = |message: String| Err(Diagnostic::error(message, number.span.clone()));
+    let integral = number.digits.bytes().all(|byte| byte.is_ascii_digit());
+    let sign = if number.negative { "-" } else { "" };
+    match ctype.kind {
+        TypeKind::Float64 | TypeKind::Float32 => {
+            let finite = match ctype.kind {
+                TypeKind::Float64 => number.digits.parse().is_ok_and(f64::is_finite),
+                _ => number.digits.parse().is_ok_and(f32::is_finite),
+            };
+            if !finite {
+                return error(format!("number out of the range of `{}`", ctype.name));
+            }
+            let fraction = if integral { ".0" } else { "" };
+            let suffix = if ctype.kind == TypeKind::Float32 { "F" } else { "" };
+            // C reads a leading zero of an integer as octal, but not in `00.5`.
+            Ok(format!("{sign}{}{fraction}{suffix}", number.digits))
+        }
+        TypeKind::Signed { bits } | TypeKind::Unsigned { bits } => {
+            if !integral {
+                return error(format!("a fraction where `{}` is expected", ctype.name));
+            }
+            let signed = matches!(ctype.kind, TypeKind::Signed { .. });
+            let magnitude = number.digits.parse::<u128>().ok();
+            let value = magnitude.and_then(|magnitude| {
+                let magnitude = i128::try_from(magnitude).ok()?;
+                Some(if number.negative { -magnitude } else { magnitude })
+            });
+            let (low, high) = if signed {
+                (-(1_i128 << (bits - 1)), (1_i128 << (bits - 1)) - 1)
+            } else {
+                (0, (1_i128 << bits) - 1)
+            };
+            match value.filter(|value| (low..=high).contains(value)) {
+                Some(value) => Ok(c_integer(value, bits, signed)),
+                None => error(format!("number out of the range of `{}`", ctype.name)),
+            }
+        }
+        TypeKind::Bool | TypeKind::Void | TypeKind::Text | TypeKind::Opaque => {
+            error(format!("a number where a value of type `{}` is expected", ctype.name))
+        }
+    }
+}
+
+fn c_integer(value: i128, bits: u32, signed: bool) -> String {
+    let suffix = match (signed, bits) {
+        (true, 64) => "LL",
+        (false, 64) => "ULL",
+        (true, _) => "",
+        (false, _) => "U",
+    };
+    if signed && bits >= 32 && value == -(1_i128 << (bits - 1)) {
+        // The digits alone would be out of range before the sign is applied.
+        return format!("(({}{suffix}) - 1{suffix})", value + 1);
+    }
+    format!("{value}{suffix}")
+}
+
+/// A C string constant: plain ASCII stands as it is, everything else as octal escapes, so that no
+/// trigraph, comment or source encoding can change it.
+fn c_string(text: &str) -> String {
+    let mut out = String::from("\"");
+    for byte in text.bytes() {
+        match byte {
+            b'"' => out.push_str("\\\""),
+            b'\\' => out.push_str("\\\\"),
+            b'\n' => out.push_str("\\n"),
+            b'\t' => out.push_str("\\t"),
+            b'?' => out.push_str("\\?"),
+            b' '..=b'~' => out.push(char::from(byte)),
+            // Writing to a string cannot fail.
+            _ => _ = write!(out, "\\{byte:03o}"),
+        }
+    }
+    out.push('"');
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(text: &str, ctype: &str) -> Result<String, String> {
+        let (negative, digits) = match text.strip_prefix('-') {
+            Some(digits) => (true, digits),
+            None => (false, text),
+        };
+        let number = Number { digits: digits.to_owned(), negative, span: 0..text.len() };
+        c_number(&number, &CType::named(ctype)).map_err(|diagnostic| diagnostic.message)
+    }
+
+    #[test]
+    fn numbers_keep_their_exact_value() {
+        for (text, ctype, expected) in [
+            ("0.123456789", "double", "0.123456789"),
+            ("5", "double", "5.0"),
+            ("-2", "float", "-2.0F"),
+            ("1e3", "double", "1e3"),
+            ("2147483647", "int", "2147483647"),
+            ("-2147483648", "int32_t", "((-2147483647) - 1)"),
+            ("-9223372036854775808", "int64_t", "((-9223372036854775807LL) - 1LL)"),
+            ("255", "uint8_t", "255U"),
+            ("18446744073709551615", "uint64_t", "18446744073709551615ULL"),
+            ("007", "int", "7"),
+        ] {
+            assert_eq!(number(text, ctype), Ok(expected.to_owned()), "{text} {ctype}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_do_not_fit_are_refused() {
+        for (text, ctype) in [
+            ("3.7", "int"),
+            ("2147483648", "int"),
+            ("-1", "unsigned int"),
+            ("256", "uint8_t"),
+            ("1e999", "double"),
+            ("1e39", "float"),
+            ("1", "bool"),
+            ("1", "positiont"),
+            ("999999999999999999999999999999999999999999", "int64_t"),
+        ] {
+            assert!(number(text, ctype).is_err(), "{text} {ctype}");
+        }
+    }
+
+    #[test]
+    fn strings_survive_the_journey_to_c() {
+        assert_eq!(c_string("a\"\\\n??=ä*/"), r#""a\"\\\n\?\?=\303\244*/""#);
+    }
+}

@@ -1,0 +1,211 @@
+//! What the configuration declares, by name.
+
+use std::collections::HashMap;
+
+use diagnostic::{Diagnostic, closest};
+
+use crate::configuration::{Basic, Configuration};
+use crate::program::BasicId;
+use crate::syntax::ast::{Atom, Name};
+use crate::types::{CType, TypeKind};
+
+/// C99 keywords and the `<stdbool.h>` names: no basic action can be called so.
+const C_WORDS: [&str; 42] = [
+    "auto",
+    "break",
+    "case",
+    "char",
+    "const",
+    "continue",
+    "default",
+    "do",
+    "double",
+    "else",
+    "enum",
+    "extern",
+    "float",
+    "for",
+    "goto",
+    "if",
+    "inline",
+    "int",
+    "long",
+    "register",
+    "restrict",
+    "return",
+    "short",
+    "signed",
+    "sizeof",
+    "static",
+    "struct",
+    "switch",
+    "typedef",
+    "union",
+    "unsigned",
+    "void",
+    "volatile",
+    "while",
+    "_Bool",
+    "_Complex",
+    "_Imaginary",
+    "bool",
+    "true",
+    "false",
+    "main",
+    "errno",
+];
+
+/// Names that the generated interface uses itself.
+const INTERFACE: [&str; 8] = [
+    "init",
+    "next_step",
+    "can_add_event",
+    "take_event",
+    "handle_event",
+    "unhandled_events",
+    "updateBeliefs",
+    "agent",
+];
+
+/// Prefixes of generated functions.
+const PREFIXES: [&str; 9] =
+    ["achieve_", "add_", "del_", "set_", "run_", "plan", "equal_", "post_", "defer_"];
+
+#[derive(Debug, Clone)]
+enum Declared {
+    Basic(BasicId),
+    Predicate(Vec<CType>),
+}
+
+#[derive(Debug)]
+pub(super) struct Declarations {
+    names: HashMap<String, Declared>,
+    basics: Vec<Basic>,
+}
+
+impl Declarations {
+    pub(super) fn new(configuration: &Configuration, findings: &mut Vec<Diagnostic>) -> Self {
+        let mut declarations = Self { names: HashMap::new(), basics: configuration.basics.clone() };
+        for (index, basic) in configuration.basics.iter().enumerate() {
+            let name = &basic.name.text;
+            let generated = PREFIXES.iter().any(|prefix| name.starts_with(prefix));
+            if C_WORDS.contains(&name.as_str()) || name.starts_with('_') {
+                findings.push(
+                    Diagnostic::error(
+                        format!("`{name}` cannot be the name of a C function"),
+                        basic.name.span.clone(),
+                    )
+                    .help("C reserves this word; rename the basic action"),
+                );
+            } else if INTERFACE.contains(&name.as_str()) || generated {
+                findings.push(
+                    Diagnostic::error(
+                        format!("`{name}` may clash with a generated function"),
+                        basic.name.span.clone(),
+                    )
+                    .help(format!(
+                        "generated names are {} and those that start with {}",
+                        INTERFACE.join(", "),
+                        PREFIXES.join(", ")
+                    )),
+                );
+            }
+            declarations.declare(&basic.name, Declared::Basic(BasicId(index)), findings);
+        }
+        for predicate in &configuration.predicates {
+            let declared = Declared::Predicate(predicate.parameters.clone());
+            declarations.declare(&predicate.name, declared, findings);
+        }
+        declarations
+    }
+
+    fn declare(&mut self, name: &Name, declared: Declared, findings: &mut Vec<Diagnostic>) {
+        if self.names.insert(name.text.clone(), declared).is_some() {
+            findings.push(
+                Diagnostic::error(format!("`{}` is declared twice", name.text), name.span.clone())
+                    .help("a name is one basic action or one predicate"),
+            );
+        }
+    }
+
+    /// The types of a belief or goal as used in the agent.
+    pub(super) fn predicate(&self, atom: &Atom) -> Result<Vec<CType>, Diagnostic> {
+        match self.names.get(&atom.name.text) {
+            Some(Declared::Predicate(types)) => {
+                check_arity(atom, types.len())?;
+                Ok(types.clone())
+            }
+            Some(Declared::Basic(_)) => Err(Diagnostic::error(
+                format!("`{}` is a basic action, not a belief or goal", atom.name.text),
+                atom.name.span.clone(),
+            )
+            .help("the section `types` declares beliefs and goals, `basics` actions")),
+            None => Err(self.undeclared(&atom.name, "types")),
+        }
+    }
+
+    /// The types of a belief or goal named in `settables` or `triggerables`.
+    pub(super) fn external_predicate(
+        &self,
+        name: &Name,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Option<Vec<CType>> {
+        if let Some(Declared::Predicate(types)) = self.names.get(&name.text) {
+            return Some(types.clone());
+        }
+        findings.push(self.undeclared(name, "types"));
+        None
+    }
+
+    /// The basic action or function that `atom` calls.
+    pub(super) fn basic(&self, atom: &Atom) -> Result<(BasicId, &Basic), Diagnostic> {
+        match self.names.get(&atom.name.text) {
+            Some(Declared::Basic(id)) => {
+                let basic = &self.basics[id.0];
+                check_arity(atom, basic.parameters.len())?;
+                Ok((*id, basic))
+            }
+            Some(Declared::Predicate(_)) => Err(Diagnostic::error(
+                format!("`{}` is a belief or goal, not a basic action", atom.name.text),
+                atom.name.span.clone(),
+            )
+            .help("in a body write `!g` for a goal, `?b`, `+b` or `-b` for a belief")),
+            None => Err(self.undeclared(&atom.name, "basics")),
+        }
+    }
+
+    pub(super) fn is_basic(&self, name: &str) -> bool {
+        matches!(self.names.get(name), Some(Declared::Basic(_)))
+    }
+
+    fn undeclared(&self, name: &Name, section: &str) -> Diagnostic {
+        let help = match closest(&name.text, self.names.keys().map(String::as_str)) {
+            Some(candidate) => format!("did you mean `{candidate}`?"),
+            None => format!("declare it in the section `{section}` of the configuration"),
+        };
+        Diagnostic::error(format!("`{}` is not declared", name.text), name.span.clone()).help(help)
+    }
+}
+
+/// Refuses results that cannot be used as a value.
+pub(super) fn check_value_result(basic: &Basic, atom: &Atom) -> Result<(), Diagnostic> {
+    if basic.result.kind == TypeKind::Void {
+        return Err(Diagnostic::error(
+            format!("`{}` returns no value", atom.name.text),
+            atom.span.clone(),
+        )
+        .label("declared `void`"));
+    }
+    Ok(())
+}
+
+fn check_arity(atom: &Atom, expected: usize) -> Result<(), Diagnostic> {
+    let found = atom.arguments.len();
+    if found == expected {
+        return Ok(());
+    }
+    Err(Diagnostic::error(
+        format!("`{}` takes {expected} arguments, not {found}", atom.name.text),
+        atom.span.clone(),
+    ))
+}

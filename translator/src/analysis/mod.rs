@@ -1,0 +1,376 @@
+//! Checks a syntax tree against its configuration and resolves it to a [`Program`].
+//!
+//! The order: declarations, then the triggers and which of them are recursive, then each plan. All
+//! errors of a file are reported in one run.
+
+mod constants;
+mod declarations;
+mod graph;
+mod plans;
+mod reach;
+
+use std::collections::HashMap;
+
+use diagnostic::{Diagnostic, Severity, line_column};
+
+use self::constants::constant;
+use self::declarations::Declarations;
+use self::graph::TriggerGraph;
+use self::reach::{Reached, reach, warn_unreachable};
+use crate::configuration::{Configuration, ExternalTrigger};
+use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Program, Value};
+use crate::syntax::ast::{Agent, Atom, Operator, Term, TriggerKind};
+use crate::types::CType;
+
+/// What was found wrong, by the file it is wrong in.
+#[derive(Debug, Default)]
+pub(crate) struct Findings {
+    /// About the configuration.
+    pub(crate) configuration: Vec<Diagnostic>,
+    /// About the agent.
+    pub(crate) agent: Vec<Diagnostic>,
+}
+
+impl Findings {
+    /// Whether anything forbids translation.
+    pub(crate) fn has_errors(&self) -> bool {
+        self.configuration.iter().chain(&self.agent).any(|d| d.severity == Severity::Error)
+    }
+}
+
+/// A trigger: operator, kind and name.
+pub(crate) type TriggerKey = (Operator, TriggerKind, String);
+
+/// Checks `agent`, whose source is `text`. The program is there exactly if no finding is an error.
+pub(crate) fn analyse(
+    configuration: Configuration,
+    agent: &Agent,
+    text: &str,
+) -> (Option<Program>, Findings) {
+    let mut findings = Findings::default();
+    let declarations = Declarations::new(&configuration, &mut findings.configuration);
+    let mut analysis = Analysis {
+        text,
+        declarations,
+        findings,
+        beliefs: Vec::new(),
+        belief_ids: HashMap::new(),
+        handler_ids: HashMap::new(),
+        handlers: Vec::new(),
+    };
+    analysis.collect_triggers(agent);
+    let graph = TriggerGraph::new(agent, &analysis.handler_ids);
+    analysis.initial_beliefs(agent);
+    for plan in &agent.plans {
+        analysis.plan(plan, &graph);
+    }
+    let initial_goal = agent.goal.as_ref().and_then(|goal| analysis.initial_goal(goal));
+    analysis.settables(&configuration);
+    let external = analysis.external(&configuration);
+    let Analysis { mut findings, beliefs, mut handlers, .. } = analysis;
+    if findings.has_errors() {
+        return (None, findings);
+    }
+    let roots = external
+        .iter()
+        .filter_map(|event| event.handler)
+        .chain(initial_goal.as_ref().map(|(handler, _)| *handler));
+    let Reached { mut posted, deferred } = reach(&mut handlers, roots);
+    let posted_by_plans = posted.iter().copied().collect();
+    posted.extend(initial_goal.as_ref().map(|(handler, _)| *handler));
+    warn_unreachable(&handlers, &mut findings.agent);
+    let program = Program {
+        configuration,
+        beliefs,
+        handlers,
+        posted: posted.into_iter().collect(),
+        posted_by_plans,
+        deferred: deferred.into_iter().collect(),
+        external,
+        initial_goal,
+    };
+    (Some(program), findings)
+}
+
+struct Analysis<'a> {
+    text: &'a str,
+    declarations: Declarations,
+    findings: Findings,
+    beliefs: Vec<Belief>,
+    belief_ids: HashMap<String, BeliefId>,
+    handler_ids: HashMap<TriggerKey, HandlerId>,
+    handlers: Vec<Handler>,
+}
+
+impl Analysis<'_> {
+    fn error(&mut self, diagnostic: Diagnostic) {
+        self.findings.agent.push(diagnostic);
+    }
+
+    fn line(&self, offset: usize) -> usize {
+        line_column(self.text, offset).0
+    }
+
+    fn handler_id(&self, operator: Operator, kind: TriggerKind, name: &str) -> Option<HandlerId> {
+        self.handler_ids.get(&(operator, kind, name.to_owned())).copied()
+    }
+
+    /// One handler for each trigger that has plans.
+    fn collect_triggers(&mut self, agent: &Agent) {
+        for plan in &agent.plans {
+            let trigger = &plan.trigger;
+            if trigger.kind == TriggerKind::Test {
+                self.error(
+                    Diagnostic::error(
+                        "plans for test goals are not translated yet",
+                        trigger.span.clone(),
+                    )
+                    .help("`?b` in a body succeeds if `b` is believed and fails otherwise"),
+                );
+                continue;
+            }
+            let name = trigger.atom.name.text.clone();
+            let Some(types) = self.predicate_types(&trigger.atom) else { continue };
+            let key = (trigger.operator, trigger.kind, name.clone());
+            if self.handler_ids.contains_key(&key) {
+                continue;
+            }
+            self.handler_ids.insert(key, HandlerId(self.handlers.len()));
+            self.handlers.push(Handler {
+                operator: trigger.operator,
+                kind: trigger.kind,
+                name,
+                types,
+                plans: Vec::new(),
+                failure: None,
+                reachable: false,
+                span: trigger.span.clone(),
+            });
+        }
+        for index in 0..self.handlers.len() {
+            let handler = &self.handlers[index];
+            if (handler.operator, handler.kind) == (Operator::Add, TriggerKind::Achieve) {
+                let failure =
+                    self.handler_id(Operator::Delete, TriggerKind::Achieve, &handler.name.clone());
+                self.handlers[index].failure = failure;
+            }
+        }
+        for plan in &agent.plans {
+            let trigger = &plan.trigger;
+            let name = &trigger.atom.name.text;
+            if (trigger.operator, trigger.kind) == (Operator::Delete, TriggerKind::Achieve)
+                && self.handler_id(Operator::Add, TriggerKind::Achieve, name).is_none()
+            {
+                self.error(
+                    Diagnostic::error(
+                        format!("`-!{name}` can never run: no plan for `+!{name}`"),
+                        trigger.span.clone(),
+                    )
+                    .help("a failure plan runs when a plan of its goal fails"),
+                );
+            }
+        }
+    }
+
+    fn initial_beliefs(&mut self, agent: &Agent) {
+        for atom in &agent.beliefs {
+            let Some(types) = self.predicate_types(atom) else { continue };
+            let values: Option<Vec<Value>> = atom
+                .arguments
+                .iter()
+                .zip(&types)
+                .map(|(term, ctype)| match constant(term, ctype) {
+                    Some(Ok(value)) => Some(value),
+                    Some(Err(diagnostic)) => {
+                        self.error(diagnostic);
+                        None
+                    }
+                    None => {
+                        self.error(
+                            Diagnostic::error("not a constant", term.span())
+                                .help("initial beliefs are numbers and strings"),
+                        );
+                        None
+                    }
+                })
+                .collect();
+            let id = self.belief_id(&atom.name.text, &types);
+            if self.beliefs[id.0].initial.is_some() {
+                self.error(
+                    Diagnostic::error(
+                        format!("a second initial belief `{}`", atom.name.text),
+                        atom.span.clone(),
+                    )
+                    .help("an agent believes at most one instance of a predicate"),
+                );
+            }
+            self.beliefs[id.0].initial = values;
+        }
+    }
+
+    fn initial_goal(&mut self, goal: &Atom) -> Option<(HandlerId, Vec<Value>)> {
+        let types = self.predicate_types(goal)?;
+        let handler = self.goal_handler(goal)?;
+        let mut values = Vec::new();
+        for (term, ctype) in goal.arguments.iter().zip(&types) {
+            match constant(term, ctype) {
+                Some(Ok(value)) => values.push(value),
+                Some(Err(diagnostic)) => self.error(diagnostic),
+                None => self.error(
+                    Diagnostic::error("not a constant", term.span())
+                        .help("the initial goal's arguments are numbers and strings"),
+                ),
+            }
+        }
+        Some((handler, values))
+    }
+
+    /// The handler of `+!goal`, or an error that there is none.
+    fn goal_handler(&mut self, goal: &Atom) -> Option<HandlerId> {
+        let name = &goal.name.text;
+        let handler = self.handler_id(Operator::Add, TriggerKind::Achieve, name);
+        if handler.is_none() {
+            self.error(
+                Diagnostic::error(format!("no plan for `+!{name}`"), goal.span.clone())
+                    .label("this goal could never be achieved")
+                    .help(format!("add a plan `+!{name} : context <- body.`")),
+            );
+        }
+        handler
+    }
+
+    fn settables(&mut self, configuration: &Configuration) {
+        for name in &configuration.settables {
+            let Some(types) =
+                self.declarations.external_predicate(name, &mut self.findings.configuration)
+            else {
+                continue;
+            };
+            let id = self.belief_id(&name.text, &types);
+            self.beliefs[id.0].settable = true;
+        }
+    }
+
+    fn external(&mut self, configuration: &Configuration) -> Vec<External> {
+        let mut external: Vec<External> = Vec::new();
+        for trigger in &configuration.triggerables {
+            if let Some(event) = self.external_event(trigger, configuration) {
+                let known = external.iter().any(|other| {
+                    (other.operator, other.kind, &other.name)
+                        == (event.operator, event.kind, &event.name)
+                });
+                if known {
+                    self.findings.configuration.push(Diagnostic::error(
+                        "this trigger is listed twice",
+                        trigger.span.clone(),
+                    ));
+                } else {
+                    external.push(event);
+                }
+            }
+        }
+        for trigger in &configuration.preemptive {
+            let listed = configuration.triggerables.iter().any(|other| {
+                (other.operator, other.kind, &other.name.text)
+                    == (trigger.operator, trigger.kind, &trigger.name.text)
+            });
+            if !listed {
+                self.findings.configuration.push(
+                    Diagnostic::error(
+                        "a pre-emptive event must be triggerable",
+                        trigger.span.clone(),
+                    )
+                    .help("list it in `triggerables` too"),
+                );
+            } else if trigger.kind != TriggerKind::Achieve {
+                self.findings.configuration.push(
+                    Diagnostic::error(
+                        "pre-emptive percepts are not translated yet",
+                        trigger.span.clone(),
+                    )
+                    .help("only goals, `+!goal`, can pre-empt"),
+                );
+            }
+        }
+        // Pre-emptive events first, in their order of priority.
+        let priority = |event: &External| {
+            configuration
+                .preemptive
+                .iter()
+                .position(|trigger| trigger.name.text == event.name && event.preemptive)
+                .unwrap_or(usize::MAX)
+        };
+        external.sort_by_key(priority);
+        external
+    }
+
+    fn external_event(
+        &mut self,
+        trigger: &ExternalTrigger,
+        configuration: &Configuration,
+    ) -> Option<External> {
+        let types = self
+            .declarations
+            .external_predicate(&trigger.name, &mut self.findings.configuration)?;
+        let name = trigger.name.text.clone();
+        let handler = self.handler_id(trigger.operator, trigger.kind, &name);
+        let belief = match trigger.kind {
+            TriggerKind::Belief => Some(self.belief_id(&name, &types)),
+            _ => None,
+        };
+        if belief.is_none() && handler.is_none() {
+            self.findings.configuration.push(
+                Diagnostic::error(format!("no plan for `+!{name}`"), trigger.span.clone())
+                    .help("the environment could order what the agent can't do"),
+            );
+        }
+        let preemptive = configuration.preemptive.iter().any(|other| {
+            other.name.text == name
+                && other.kind == trigger.kind
+                && other.operator == trigger.operator
+        });
+        // An event that deletes a belief carries no arguments.
+        let types = if trigger.operator == Operator::Delete { Vec::new() } else { types };
+        Some(External {
+            operator: trigger.operator,
+            kind: trigger.kind,
+            name,
+            types,
+            belief,
+            handler,
+            preemptive,
+        })
+    }
+
+    /// The id of a belief; a predicate becomes a belief when it is first used as one.
+    fn belief_id(&mut self, name: &str, types: &[CType]) -> BeliefId {
+        if let Some(id) = self.belief_ids.get(name) {
+            return *id;
+        }
+        let id = BeliefId(self.beliefs.len());
+        self.belief_ids.insert(name.to_owned(), id);
+        self.beliefs.push(Belief {
+            name: name.to_owned(),
+            types: types.to_vec(),
+            initial: None,
+            settable: false,
+        });
+        id
+    }
+
+    /// The declared argument types of a belief or goal, if it is declared and the arity fits.
+    fn predicate_types(&mut self, atom: &Atom) -> Option<Vec<CType>> {
+        match self.declarations.predicate(atom) {
+            Ok(types) => Some(types),
+            Err(diagnostic) => {
+                self.error(diagnostic);
+                None
+            }
+        }
+    }
+}
+
+/// Whether a term is an unnamed variable.
+fn is_unnamed(term: &Term) -> bool {
+    matches!(term, Term::Unnamed(_))
+}

@@ -1,0 +1,60 @@
+//! Which triggers any event can lead to.
+
+use std::collections::BTreeSet;
+
+use diagnostic::Diagnostic;
+
+use crate::program::{Handler, HandlerId, Raise, Step, trigger_text};
+
+/// What the reachable plans do besides calling each other.
+pub(super) struct Reached {
+    /// Handlers whose events they post for the next step.
+    pub(super) posted: BTreeSet<HandlerId>,
+    /// Handlers whose goals they defer.
+    pub(super) deferred: BTreeSet<HandlerId>,
+}
+
+/// Marks the handlers that can be reached from `roots`.
+pub(super) fn reach(handlers: &mut [Handler], roots: impl Iterator<Item = HandlerId>) -> Reached {
+    let mut reached = Reached { posted: BTreeSet::new(), deferred: BTreeSet::new() };
+    let mut open: Vec<HandlerId> = roots.collect();
+    while let Some(HandlerId(index)) = open.pop() {
+        if std::mem::replace(&mut handlers[index].reachable, true) {
+            continue;
+        }
+        open.extend(handlers[index].failure);
+        for step in handlers[index].plans.iter().flat_map(|plan| &plan.body) {
+            match step {
+                Step::Achieve { handler, .. } => open.push(*handler),
+                Step::Post { handler, .. } => {
+                    reached.posted.insert(*handler);
+                    open.push(*handler);
+                }
+                Step::Defer { handler, .. } => {
+                    reached.deferred.insert(*handler);
+                    open.push(*handler);
+                }
+                Step::Add { raise, .. } | Step::Delete { raise, .. } => match raise {
+                    Raise::Nothing => {}
+                    Raise::Call(handler) => open.push(*handler),
+                    Raise::Post(handler) => {
+                        reached.posted.insert(*handler);
+                        open.push(*handler);
+                    }
+                },
+                Step::Action(_) | Step::Assign { .. } | Step::Ask { .. } => {}
+            }
+        }
+    }
+    reached
+}
+
+pub(super) fn warn_unreachable(handlers: &[Handler], findings: &mut Vec<Diagnostic>) {
+    for handler in handlers.iter().filter(|handler| !handler.reachable) {
+        let text = trigger_text(handler.operator, handler.kind, &handler.name);
+        findings.push(
+            Diagnostic::warning(format!("nothing ever triggers `{text}`"), handler.span.clone())
+                .help("its plans are left out; list it in `triggerables` or let a plan post it"),
+        );
+    }
+}

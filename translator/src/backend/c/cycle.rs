@@ -1,0 +1,295 @@
+//! The deliberation cycle: posting events, taking the next one, handling it.
+
+use super::names::{Names, argument, argument_names};
+use super::state::{
+    Slot, belief_value, event, external_name, handler_name, held, pending, queued, slot_value,
+};
+use crate::backend::writer::Writer;
+use crate::program::{External, HandlerId, Program};
+use crate::syntax::ast::{Operator, TriggerKind};
+use crate::types::CType;
+
+/// The enumerator of an event, with the prefix of the agent.
+pub(super) fn event_name(names: &Names, slot: Slot, trigger: &str) -> String {
+    format!("{}{}", names.interface("").to_uppercase(), event(slot, trigger))
+}
+
+/// The enumerator that stands for no event.
+pub(super) fn no_event(names: &Names) -> String {
+    format!("{}EVENT_NONE", names.interface("").to_uppercase())
+}
+
+/// Functions that post an event for the next step or defer a goal.
+pub(super) fn posting(writer: &mut Writer, program: &Program, names: &Names) {
+    for id in &program.posted_by_plans {
+        let trigger = handler_name(program, *id);
+        let types = &program.handler(*id).types;
+        writer.line("/* The event of the next step. */");
+        writer.open(format!("static void post_{trigger}({})", names.parameters(types)));
+        store(writer, names, Slot::Posted, &trigger, types, "");
+        writer.line(format!(
+            "{} = {};",
+            names.field("posted"),
+            event_name(names, Slot::Posted, &trigger)
+        ));
+        writer.close("}");
+        writer.line("");
+    }
+    for id in &program.deferred {
+        deferring(writer, program, names, *id);
+    }
+}
+
+fn deferring(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId) {
+    let trigger = handler_name(program, id);
+    let types = &program.handler(id).types;
+    let slots = program.deferred.len();
+    let flag = names.field(&pending(Slot::Deferred, &trigger));
+    writer.line("/* One slot for this goal: posted again, it keeps its place. */");
+    writer.open(format!("static void defer_{trigger}({})", names.parameters(types)));
+    store(writer, names, Slot::Deferred, &trigger, types, "");
+    writer.open(format!("if (!{flag})"));
+    let first = names.field("deferred_first");
+    let count = names.field("deferred_count");
+    writer.line(format!("const uint32_t slot = ({first} + {count}) % {slots}U;"));
+    writer.line(format!("{flag} = true;"));
+    writer.line(format!(
+        "{}[slot] = {};",
+        names.field("deferred_queue"),
+        event_name(names, Slot::Deferred, &trigger)
+    ));
+    writer.line(format!("{count} = {count} + 1U;"));
+    writer.close("}");
+    writer.close("}");
+    writer.line("");
+}
+
+/// Stores a function's arguments in the slot of an event.
+pub(super) fn store(
+    writer: &mut Writer,
+    names: &Names,
+    slot: Slot,
+    trigger: &str,
+    types: &[CType],
+    index: &str,
+) {
+    for number in 0..types.len() {
+        let field = names.field(&slot_value(slot, trigger, number));
+        writer.line(format!("{field}{index} = {};", argument(number)));
+    }
+}
+
+/// `take_event`, `handle_event` and `next_step`.
+pub(super) fn cycle(writer: &mut Writer, program: &Program, names: &Names) {
+    take_event(writer, program, names);
+    handle_event(writer, program, names);
+    next_step(writer, program, names);
+}
+
+fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
+    let posted = names.field("posted");
+    let none = no_event(names);
+    let mut branches: Vec<(String, Vec<String>)> = Vec::new();
+    for external in program.external.iter().filter(|external| external.preemptive) {
+        let trigger = external_name(external);
+        let flag = names.field(&pending(Slot::Preemptive, &trigger));
+        branches.push((
+            flag.clone(),
+            vec![
+                format!("event = {};", event_name(names, Slot::Preemptive, &trigger)),
+                format!("{flag} = false;"),
+                format!("{posted} = {none};"),
+            ],
+        ));
+    }
+    branches.push((
+        format!("{posted} != {none}"),
+        vec![format!("event = {posted};"), format!("{posted} = {none};")],
+    ));
+    let queue = |name: &str, length: usize| {
+        let field = |part: &str| names.field(&format!("{name}_{part}"));
+        let (first, count) = (field("first"), field("count"));
+        let taken = vec![
+            format!("event = {}[{first}];", field("queue")),
+            format!("{first} = ({first} + 1U) % {length}U;"),
+            format!("{count} = {count} - 1U;"),
+        ];
+        (format!("{count} > 0U"), taken)
+    };
+    if queued(program).next().is_some() {
+        let (condition, mut taken) = queue("inbox", program.configuration.settings.inbox as usize);
+        let remember = format!("{} = {};", names.field("inbox_taken"), names.field("inbox_first"));
+        taken.insert(0, remember);
+        branches.push((condition, taken));
+    }
+    if !program.deferred.is_empty() {
+        branches.push(queue("deferred", program.deferred.len()));
+    }
+
+    let none_types: [CType; 0] = [];
+    writer.line("/* Pre-empting events first, then the posted one, then those of the environment,");
+    writer.line(" * then deferred goals.");
+    writer.line(" */");
+    writer.open(format!(
+        "static {} take_event({})",
+        names.interface("event_t"),
+        names.parameters(&none_types)
+    ));
+    writer.line(format!("{} event = {none};", names.interface("event_t")));
+    writer.line("");
+    for (index, (condition, lines)) in branches.iter().enumerate() {
+        let keyword = if index == 0 { "if" } else { "else if" };
+        writer.open(format!("{keyword} ({condition})"));
+        for line in lines {
+            writer.line(line);
+        }
+        writer.close("}");
+    }
+    if branches.len() > 1 {
+        writer.open("else");
+        writer.line("/* Nothing to do. */");
+        writer.close("}");
+    }
+    writer.line("return event;");
+    writer.close("}");
+    writer.line("");
+}
+
+fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
+    writer.line("/* Runs one event to its end; false for a mere update of a belief. */");
+    let event_type = names.interface("event_t");
+    let mut parameters = names.state_parameter();
+    parameters.push(format!("{event_type} event"));
+    writer.open(format!("static bool handle_event({})", parameters.join(", ")));
+    writer.line("outcome_t outcome = OUTCOME_ACHIEVED;");
+    writer.line("bool handled = true;");
+    writer.line("");
+    writer.line("switch (event)");
+    writer.line("{");
+    writer.indent();
+    for id in &program.posted {
+        let trigger = handler_name(program, *id);
+        open_case(writer, names, Slot::Posted, &trigger);
+        run(writer, program, names, *id, &slot_values(program, names, Slot::Posted, *id));
+        close_case(writer);
+    }
+    for external in &program.external {
+        external_case(writer, program, names, external);
+    }
+    for id in &program.deferred {
+        let trigger = handler_name(program, *id);
+        open_case(writer, names, Slot::Deferred, &trigger);
+        writer.line(format!("{} = false;", names.field(&pending(Slot::Deferred, &trigger))));
+        run(writer, program, names, *id, &slot_values(program, names, Slot::Deferred, *id));
+        close_case(writer);
+    }
+    writer.line(format!("case {}:", no_event(names)));
+    writer.line("default:");
+    writer.indent();
+    writer.line("/* No event is waiting. */");
+    writer.line("break;");
+    writer.dedent();
+    writer.dedent();
+    writer.line("}");
+    let unhandled = names.field("unhandled");
+    writer.open(format!("if ((outcome != OUTCOME_ACHIEVED) && ({unhandled} < UINT32_MAX))"));
+    writer.line(format!("{unhandled} = {unhandled} + 1U;"));
+    writer.close("}");
+    writer.line("return handled;");
+    writer.close("}");
+    writer.line("");
+}
+
+fn open_case(writer: &mut Writer, names: &Names, slot: Slot, trigger: &str) {
+    writer.line(format!("case {}:", event_name(names, slot, trigger)));
+    writer.indent();
+}
+
+fn close_case(writer: &mut Writer) {
+    writer.line("break;");
+    writer.dedent();
+}
+
+fn slot_values(program: &Program, names: &Names, slot: Slot, id: HandlerId) -> Vec<String> {
+    let trigger = handler_name(program, id);
+    (0..program.handler(id).types.len())
+        .map(|index| names.field(&slot_value(slot, &trigger, index)))
+        .collect()
+}
+
+fn run(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId, values: &[String]) {
+    let trigger = handler_name(program, id);
+    let arguments = names.arguments(values.iter().cloned());
+    writer.line(format!("outcome = run_{trigger}({arguments});"));
+    if program.handler(id).kind == TriggerKind::Belief {
+        // A percept that no plan cares for is no failure.
+        writer.open("if (outcome == OUTCOME_NOT_APPLICABLE)");
+        writer.line("outcome = OUTCOME_ACHIEVED;");
+        writer.close("}");
+    }
+}
+
+fn external_case(writer: &mut Writer, program: &Program, names: &Names, external: &External) {
+    let trigger = external_name(external);
+    let slot = if external.preemptive { Slot::Preemptive } else { Slot::Inbox };
+    let index = if external.preemptive {
+        String::new()
+    } else {
+        format!("[{}]", names.field("inbox_taken"))
+    };
+    let mut values: Vec<String> = (0..external.types.len())
+        .map(|number| format!("{}{index}", names.field(&slot_value(slot, &trigger, number))))
+        .collect();
+    open_case(writer, names, slot, &trigger);
+    if let Some(belief) = external.belief {
+        let belief = program.belief(belief);
+        let fields: Vec<String> = (0..belief.types.len())
+            .map(|number| names.field(&belief_value(&belief.name, number)))
+            .collect();
+        let believed = external.operator == Operator::Add;
+        for (field, value) in fields.iter().zip(&values) {
+            writer.line(format!("{field} = {value};"));
+        }
+        writer.line(format!("{} = {believed};", names.field(&held(&belief.name))));
+        values = fields;
+    }
+    match external.handler {
+        Some(handler) => run(writer, program, names, handler, &values),
+        None => writer.line("handled = false;"),
+    }
+    close_case(writer);
+}
+
+fn next_step(writer: &mut Writer, program: &Program, names: &Names) {
+    let none: [CType; 0] = [];
+    writer.open(format!("void {}({})", names.interface("next_step"), names.parameters(&none)));
+    let update = names.interface("updateBeliefs");
+    let update_arguments = if names.is_context() { "self, self->environment" } else { "" };
+    let no_arguments = || names.arguments(std::iter::empty());
+    let handle =
+        format!("handle_event({})", names.arguments([format!("take_event({})", no_arguments())]));
+    let updates = queued(program).any(|external| external.handler.is_none());
+    if updates {
+        writer.line("bool handled = false;");
+        writer.line("");
+    }
+    writer.line(format!("{update}({update_arguments});"));
+    if updates {
+        // Each round that handles nothing takes one event out of the inbox.
+        let rounds = program.configuration.settings.inbox;
+        writer.open(format!(
+            "for (uint32_t round = 0U; (round <= {rounds}U) && (!handled); round++)"
+        ));
+        writer.line(format!("handled = {handle};"));
+        writer.close("}");
+    } else {
+        writer.line(format!("(void){handle};"));
+    }
+    writer.close("}");
+    writer.line("");
+}
+
+/// The arguments of an interface function as they are stored.
+pub(super) fn interface_arguments(types: &[CType]) -> Vec<String> {
+    argument_names(types).collect()
+}

@@ -1,0 +1,137 @@
+//! The functions that the environment calls.
+
+use super::cycle::{event_name, interface_arguments, no_event, store};
+use super::header::init_prototype;
+use super::names::Names;
+use super::state::{
+    Slot, belief_value, external_name, handler_name, held, pending, queued, slot_value,
+};
+use crate::backend::writer::Writer;
+use crate::program::{Belief, External, Program, Value};
+use crate::types::CType;
+
+pub(super) fn interface(writer: &mut Writer, program: &Program, names: &Names) {
+    init(writer, program, names);
+    let none: [CType; 0] = [];
+    let no_parameters = names.parameters(&none);
+    writer.open(format!("bool {}({no_parameters})", names.interface("can_add_event")));
+    if queued(program).next().is_some() {
+        let inbox = program.configuration.settings.inbox;
+        writer.line(format!("return {} < {inbox}U;", names.field("inbox_count")));
+    } else {
+        if names.is_context() {
+            writer.line("(void)self;");
+        }
+        writer.line("return true;");
+    }
+    writer.close("}");
+    writer.line("");
+    writer.open(format!("uint32_t {}({no_parameters})", names.interface("unhandled_events")));
+    writer.line(format!("return {};", names.field("unhandled")));
+    writer.close("}");
+    for external in &program.external {
+        writer.line("");
+        raise(writer, program, names, external);
+    }
+    for belief in program.beliefs.iter().filter(|belief| belief.settable) {
+        writer.line("");
+        set(writer, names, belief);
+    }
+}
+
+fn init(writer: &mut Writer, program: &Program, names: &Names) {
+    writer.open(init_prototype(names));
+    if names.is_context() {
+        writer.line("self->environment = environment;");
+    }
+    for belief in &program.beliefs {
+        let held = names.field(&held(&belief.name));
+        if let Some(initial) = &belief.initial {
+            for (index, value) in initial.iter().enumerate() {
+                let field = names.field(&belief_value(&belief.name, index));
+                writer.line(format!("{field} = {};", constant_text(value)));
+            }
+        }
+        writer.line(format!("{held} = {};", belief.initial.is_some()));
+    }
+    match &program.initial_goal {
+        Some((handler, values)) => {
+            let trigger = handler_name(program, *handler);
+            for (index, value) in values.iter().enumerate() {
+                let field = names.field(&slot_value(Slot::Posted, &trigger, index));
+                writer.line(format!("{field} = {};", constant_text(value)));
+            }
+            let event = event_name(names, Slot::Posted, &trigger);
+            writer.line(format!("{} = {event};", names.field("posted")));
+        }
+        None => writer.line(format!("{} = {};", names.field("posted"), no_event(names))),
+    }
+    if queued(program).next().is_some() {
+        for field in ["inbox_count", "inbox_first", "inbox_taken"] {
+            writer.line(format!("{} = 0U;", names.field(field)));
+        }
+    }
+    for external in program.external.iter().filter(|external| external.preemptive) {
+        let flag = pending(Slot::Preemptive, &external_name(external));
+        writer.line(format!("{} = false;", names.field(&flag)));
+    }
+    if !program.deferred.is_empty() {
+        for field in ["deferred_count", "deferred_first"] {
+            writer.line(format!("{} = 0U;", names.field(field)));
+        }
+    }
+    for id in &program.deferred {
+        let flag = pending(Slot::Deferred, &handler_name(program, *id));
+        writer.line(format!("{} = false;", names.field(&flag)));
+    }
+    writer.line(format!("{} = 0U;", names.field("unhandled")));
+    writer.close("}");
+    writer.line("");
+}
+
+/// Initial beliefs and goals carry constants only.
+fn constant_text(value: &Value) -> &str {
+    match value {
+        Value::Constant(text, _) => text,
+        Value::Variable(_) | Value::Field(..) | Value::Call(_) => {
+            unreachable!("analysis lets only constants into initial beliefs and goals")
+        }
+    }
+}
+
+fn raise(writer: &mut Writer, program: &Program, names: &Names, external: &External) {
+    let trigger = external_name(external);
+    let head = format!("bool {}({})", names.interface(&trigger), names.parameters(&external.types));
+    writer.open(head);
+    if external.preemptive {
+        store(writer, names, Slot::Preemptive, &trigger, &external.types, "");
+        let flag = names.field(&pending(Slot::Preemptive, &trigger));
+        writer.line(format!("{flag} = true;"));
+        writer.line("return true;");
+    } else {
+        let inbox = program.configuration.settings.inbox;
+        let (first, count) = (names.field("inbox_first"), names.field("inbox_count"));
+        writer.line(format!("const bool accepted = {count} < {inbox}U;"));
+        writer.line("");
+        writer.open("if (accepted)");
+        writer.line(format!("const uint32_t slot = ({first} + {count}) % {inbox}U;"));
+        store(writer, names, Slot::Inbox, &trigger, &external.types, "[slot]");
+        let event = event_name(names, Slot::Inbox, &trigger);
+        writer.line(format!("{}[slot] = {event};", names.field("inbox_queue")));
+        writer.line(format!("{count} = {count} + 1U;"));
+        writer.close("}");
+        writer.line("return accepted;");
+    }
+    writer.close("}");
+}
+
+fn set(writer: &mut Writer, names: &Names, belief: &Belief) {
+    let name = names.interface(&format!("set_{}", belief.name));
+    writer.open(format!("void {name}({})", names.parameters(&belief.types)));
+    for (index, argument) in interface_arguments(&belief.types).into_iter().enumerate() {
+        let field = names.field(&belief_value(&belief.name, index));
+        writer.line(format!("{field} = {argument};"));
+    }
+    writer.line(format!("{} = true;", names.field(&held(&belief.name))));
+    writer.close("}");
+}

@@ -1,0 +1,63 @@
+//! The C back end: MISRA-style C99 without heap, recursion or unbounded loops.
+//!
+//! Each plan becomes one function, each trigger one function that tries its plans in order, and
+//! `next_step()` runs at most one event to its end. All state is in one struct: static in the C
+//! file, or passed in, as the configuration's `instance` says.
+
+mod cycle;
+mod header;
+mod interface;
+mod names;
+mod plan;
+mod state;
+
+use self::names::Names;
+use self::state::StateLayout;
+use super::writer::Writer;
+use crate::program::Program;
+
+pub(crate) use self::names::{action_symbol, symbol_prefix};
+pub(crate) use self::state::{Field, FieldType, layout};
+
+/// The generated C texts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Files {
+    pub(crate) source: String,
+    pub(crate) header: String,
+    pub(crate) basics: String,
+}
+
+/// Translates `program`; `input` is the name of its source for comments.
+pub(crate) fn emit(program: &Program, input: &str) -> Files {
+    let names = Names::new(program);
+    let layout = layout(program);
+    Files {
+        source: source(program, &names, &layout, input),
+        header: header::agent_header(program, &names, &layout, input),
+        basics: header::basics_header(program, &names, input),
+    }
+}
+
+fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -> String {
+    // Plans first: what they use decides which helpers are needed.
+    let mut plans = Writer::default();
+    let helpers = plan::handlers(&mut plans, program, names, input);
+
+    let mut writer = Writer::default();
+    header::banner(&mut writer, program, input);
+    writer.line("");
+    writer.line(format!("#include \"{}\"", program.configuration.settings.header));
+    writer.line(format!("#include \"{}\"", program.configuration.settings.basics));
+    writer.line("");
+    header::private_types(&mut writer, names, layout);
+    plan::prototypes(&mut writer, program, names);
+    helpers.emit(&mut writer);
+    cycle::posting(&mut writer, program, names);
+    let mut text = writer.finish();
+    text.push_str(&plans.finish());
+    let mut writer = Writer::default();
+    cycle::cycle(&mut writer, program, names);
+    interface::interface(&mut writer, program, names);
+    text.push_str(&writer.finish());
+    text
+}

@@ -1,0 +1,182 @@
+//! The layout of the agent's state, one list for the C struct and its Rust mirror.
+
+use crate::configuration::Instance;
+use crate::program::{External, HandlerId, Program, trigger_name};
+use crate::types::CType;
+
+/// All fields of the agent's state, in order, and the events that it can hold.
+pub(crate) struct StateLayout {
+    pub(crate) fields: Vec<Field>,
+    /// Enumerators of the event type, behind `EVENT_NONE`.
+    pub(crate) events: Vec<String>,
+}
+
+/// One field.
+pub(crate) struct Field {
+    pub(crate) name: String,
+    pub(crate) content: FieldType,
+    /// The number of elements of an array.
+    pub(crate) length: Option<usize>,
+}
+
+/// The type of a field.
+pub(crate) enum FieldType {
+    /// The environment's own pointer.
+    Environment,
+    Flag,
+    Count,
+    Event,
+    Value(CType),
+}
+
+/// The layout of `program`'s state.
+pub(crate) fn layout(program: &Program) -> StateLayout {
+    let mut layout = StateLayout { fields: Vec::new(), events: Vec::new() };
+    if program.configuration.settings.instance == Instance::Context {
+        layout.field("environment".to_owned(), FieldType::Environment, None);
+    }
+    for belief in &program.beliefs {
+        layout.field(held(&belief.name), FieldType::Flag, None);
+        for (index, ctype) in belief.types.iter().enumerate() {
+            let name = belief_value(&belief.name, index);
+            layout.field(name, FieldType::Value(ctype.clone()), None);
+        }
+    }
+    layout.field("posted".to_owned(), FieldType::Event, None);
+    for id in &program.posted {
+        layout.events.push(event(Slot::Posted, &handler_name(program, *id)));
+        layout.values(program, Slot::Posted, *id);
+    }
+    layout.inbox(program);
+    layout.preemptive(program);
+    layout.deferred(program);
+    layout.field("unhandled".to_owned(), FieldType::Count, None);
+    layout
+}
+
+impl StateLayout {
+    fn field(&mut self, name: String, content: FieldType, length: Option<usize>) {
+        self.fields.push(Field { name, content, length });
+    }
+
+    fn values(&mut self, program: &Program, slot: Slot, id: HandlerId) {
+        let trigger = handler_name(program, id);
+        for (index, ctype) in program.handler(id).types.iter().enumerate() {
+            let name = slot_value(slot, &trigger, index);
+            self.field(name, FieldType::Value(ctype.clone()), None);
+        }
+    }
+
+    fn inbox(&mut self, program: &Program) {
+        let inbox: Vec<&External> = queued(program).collect();
+        if inbox.is_empty() {
+            return;
+        }
+        let length = Some(program.configuration.settings.inbox as usize);
+        self.field("inbox_count".to_owned(), FieldType::Count, None);
+        self.field("inbox_first".to_owned(), FieldType::Count, None);
+        self.field("inbox_taken".to_owned(), FieldType::Count, None);
+        self.field("inbox_queue".to_owned(), FieldType::Event, length);
+        for external in inbox {
+            let trigger = external_name(external);
+            self.events.push(event(Slot::Inbox, &trigger));
+            for (index, ctype) in external.types.iter().enumerate() {
+                let name = slot_value(Slot::Inbox, &trigger, index);
+                self.field(name, FieldType::Value(ctype.clone()), length);
+            }
+        }
+    }
+
+    fn preemptive(&mut self, program: &Program) {
+        for external in program.external.iter().filter(|external| external.preemptive) {
+            let trigger = external_name(external);
+            self.events.push(event(Slot::Preemptive, &trigger));
+            self.field(pending(Slot::Preemptive, &trigger), FieldType::Flag, None);
+            for (index, ctype) in external.types.iter().enumerate() {
+                let name = slot_value(Slot::Preemptive, &trigger, index);
+                self.field(name, FieldType::Value(ctype.clone()), None);
+            }
+        }
+    }
+
+    fn deferred(&mut self, program: &Program) {
+        if program.deferred.is_empty() {
+            return;
+        }
+        self.field("deferred_count".to_owned(), FieldType::Count, None);
+        self.field("deferred_first".to_owned(), FieldType::Count, None);
+        let length = Some(program.deferred.len());
+        self.field("deferred_queue".to_owned(), FieldType::Event, length);
+        for id in &program.deferred {
+            let trigger = handler_name(program, *id);
+            self.events.push(event(Slot::Deferred, &trigger));
+            self.field(pending(Slot::Deferred, &trigger), FieldType::Flag, None);
+            self.values(program, Slot::Deferred, *id);
+        }
+    }
+}
+
+/// Where an event waits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Slot {
+    /// The event of the next step, posted by a plan.
+    Posted,
+    /// Raised by the environment.
+    Inbox,
+    /// Raised by the environment, aborting what runs.
+    Preemptive,
+    /// Posted with `!!`.
+    Deferred,
+}
+
+impl Slot {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Posted => "posted",
+            Self::Inbox => "inbox",
+            Self::Preemptive => "preemptive",
+            Self::Deferred => "deferred",
+        }
+    }
+}
+
+/// External events that wait in the inbox.
+pub(super) fn queued(program: &Program) -> impl Iterator<Item = &External> {
+    program.external.iter().filter(|external| !external.preemptive)
+}
+
+/// The flag that tells whether a belief is held.
+pub(super) fn held(belief: &str) -> String {
+    format!("belief_{belief}_held")
+}
+
+/// An argument of a belief.
+pub(super) fn belief_value(belief: &str, index: usize) -> String {
+    format!("belief_{belief}_{}", index + 1)
+}
+
+/// An argument of a waiting event.
+pub(super) fn slot_value(slot: Slot, trigger: &str, index: usize) -> String {
+    format!("{}_{trigger}_{}", slot.name(), index + 1)
+}
+
+/// The flag of an event that has a slot of its own.
+pub(super) fn pending(slot: Slot, trigger: &str) -> String {
+    format!("{}_{trigger}_pending", slot.name())
+}
+
+/// The enumerator of a waiting event.
+pub(super) fn event(slot: Slot, trigger: &str) -> String {
+    format!("EVENT_{}_{trigger}", slot.name().to_uppercase())
+}
+
+/// `achieve_goto`
+pub(super) fn handler_name(program: &Program, id: HandlerId) -> String {
+    let handler = program.handler(id);
+    trigger_name(handler.operator, handler.kind, &handler.name)
+}
+
+/// `achieve_goto`
+pub(super) fn external_name(external: &External) -> String {
+    trigger_name(external.operator, external.kind, &external.name)
+}

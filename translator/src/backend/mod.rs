@@ -1,0 +1,5 @@
+//! Checked programs to text in other languages.
+
+pub(crate) mod c;
+pub(crate) mod rust;
+mod writer;

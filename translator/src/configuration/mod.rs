@@ -1,0 +1,122 @@
+//! The configuration: what the environment offers the agent, and where the output goes.
+//!
+//! The format is the paper's: named sections in braces, declarations that end in semicolons.
+//!
+//! ```text
+//! settings { input = pilot.asl; output = pilot.c; header = pilot.h; basics = actions.h; };
+//! includes { #include <stdbool.h> };
+//! basics { void sendLand(void); bool closeEnough(double, double); };
+//! types { position(double, double); land(void); };
+//! settables { position; };
+//! triggerables { +!land; };
+//! preemptive { +!land; };
+//! ```
+//!
+//! Sections may stand in any order and may be left out or empty, except `settings`.
+
+mod parser;
+
+use diagnostic::Span;
+
+pub use parser::parse;
+
+use crate::syntax::ast::{Name, Operator, TriggerKind};
+use crate::types::CType;
+
+/// A parsed configuration.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Configuration {
+    /// File names and options.
+    pub settings: Settings,
+    /// Preprocessor lines, copied to the generated headers.
+    pub includes: Vec<String>,
+    /// Basic actions and functions.
+    pub basics: Vec<Basic>,
+    /// Beliefs and goals with the types of their arguments.
+    pub predicates: Vec<Predicate>,
+    /// Beliefs with a `set_b` function.
+    pub settables: Vec<Name>,
+    /// Events that the environment can raise.
+    pub triggerables: Vec<ExternalTrigger>,
+    /// External events that abort what runs, in order of priority.
+    pub preemptive: Vec<ExternalTrigger>,
+}
+
+/// The `settings` section.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Settings {
+    /// The AgentSpeak source, relative to the configuration.
+    pub input: String,
+    /// The C file, relative to the output folder.
+    pub output: String,
+    /// The header with the agent's interface.
+    pub header: String,
+    /// The header with the basic actions that the environment provides.
+    pub basics: String,
+    /// The Rust side of the boundary, if wanted.
+    pub rust: Option<Name>,
+    /// Whether the agent's state is static or passed in.
+    pub instance: Instance,
+    /// External events that can wait at the same time.
+    pub inbox: u32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            input: String::new(),
+            output: String::new(),
+            header: String::new(),
+            basics: String::new(),
+            rust: None,
+            instance: Instance::Static,
+            inbox: 1,
+        }
+    }
+}
+
+/// Where the agent's state lives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Instance {
+    /// In the C file: one agent a process, the paper's `next_step(void)`.
+    Static,
+    /// In a struct that the caller owns and passes to each function.
+    Context,
+}
+
+/// A function that the environment provides.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Basic {
+    /// The C function's name.
+    pub name: Name,
+    /// What it returns.
+    pub result: CType,
+    /// What it takes.
+    pub parameters: Vec<CType>,
+    /// The whole declaration.
+    pub span: Span,
+}
+
+/// A belief or goal declaration.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Predicate {
+    /// The name used in the agent.
+    pub name: Name,
+    /// The types of its arguments.
+    pub parameters: Vec<CType>,
+    /// The whole declaration.
+    pub span: Span,
+}
+
+/// `+!g`, `+b` or `-b` in `triggerables` or `preemptive`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExternalTrigger {
+    /// `+` or `-`
+    pub operator: Operator,
+    /// A belief or an achievement goal.
+    pub kind: TriggerKind,
+    /// Its name.
+    pub name: Name,
+    /// The whole entry.
+    pub span: Span,
+}

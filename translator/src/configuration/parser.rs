@@ -1,0 +1,511 @@
+//! Reads a configuration.
+
+use diagnostic::{Diagnostic, Span};
+
+use super::{Basic, Configuration, ExternalTrigger, Instance, Predicate};
+use crate::syntax::ast::{Name, Operator, TriggerKind};
+use crate::types::CType;
+
+const SECTIONS: [&str; 7] =
+    ["settings", "includes", "basics", "types", "settables", "triggerables", "preemptive"];
+const SETTINGS: [&str; 7] = ["input", "output", "header", "basics", "rust", "instance", "inbox"];
+/// More waiting events than this is a mistake: each costs memory and makes commands stale.
+const MAX_INBOX: u32 = 64;
+
+type Parsed<T> = Result<T, Diagnostic>;
+
+/// The configuration in `text` and everything that is wrong with it.
+pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
+    let mut parser = Parser {
+        text,
+        position: 0,
+        configuration: Configuration::default(),
+        seen: Vec::new(),
+        diagnostics: Vec::new(),
+    };
+    parser.run();
+    (parser.configuration, parser.diagnostics)
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    position: usize,
+    configuration: Configuration,
+    seen: Vec<&'a str>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> Parser<'a> {
+    fn run(&mut self) {
+        loop {
+            match self.section() {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(diagnostic) => {
+                    self.diagnostics.push(diagnostic);
+                    // Go on behind the section, or stop where no section ends.
+                    match self.rest().find('}') {
+                        Some(offset) => self.position += offset + 1,
+                        None => break,
+                    }
+                }
+            }
+        }
+        if self.diagnostics.is_empty() {
+            self.check_settings();
+        }
+    }
+
+    fn section(&mut self) -> Parsed<bool> {
+        self.skip_blanks()?;
+        while self.take(";") {
+            self.skip_blanks()?;
+        }
+        if self.rest().is_empty() {
+            return Ok(false);
+        }
+        let name = self.word("a section name")?;
+        let section: &'a str = &self.text[name.span.clone()];
+        if !SECTIONS.contains(&section) {
+            return Err(Diagnostic::error(format!("unknown section `{section}`"), name.span)
+                .help(advice(section, &SECTIONS)));
+        }
+        if self.seen.contains(&section) {
+            return Err(Diagnostic::error(format!("a second section `{section}`"), name.span)
+                .help("put its entries into the first one"));
+        }
+        self.seen.push(section);
+        self.expect("{")?;
+        if section == "includes" {
+            return self.includes().map(|()| true);
+        }
+        self.skip_blanks()?;
+        while !self.take("}") {
+            if self.rest().is_empty() {
+                return Err(self.unexpected("`}`"));
+            }
+            if let Err(diagnostic) = self.entry(section) {
+                self.diagnostics.push(diagnostic);
+                self.skip_entry();
+            }
+            self.skip_blanks()?;
+        }
+        Ok(true)
+    }
+
+    fn entry(&mut self, section: &str) -> Parsed<()> {
+        match section {
+            "settings" => self.setting(),
+            "basics" => self.basic(),
+            "types" => self.predicate(),
+            "settables" => {
+                let name = self.word("a belief")?;
+                self.expect(";")?;
+                self.configuration.settables.push(name);
+                Ok(())
+            }
+            "triggerables" => {
+                let trigger = self.external_trigger()?;
+                self.configuration.triggerables.push(trigger);
+                Ok(())
+            }
+            _ => {
+                let trigger = self.external_trigger()?;
+                self.configuration.preemptive.push(trigger);
+                Ok(())
+            }
+        }
+    }
+
+    fn setting(&mut self) -> Parsed<()> {
+        let key = self.word("a setting")?;
+        self.expect("=")?;
+        let value = self.setting_value()?;
+        self.expect(";")?;
+        let settings = &mut self.configuration.settings;
+        match key.text.as_str() {
+            "input" => settings.input = value.text,
+            "output" => settings.output = value.text,
+            "header" => settings.header = value.text,
+            "basics" => settings.basics = value.text,
+            "rust" => settings.rust = Some(value),
+            "instance" => {
+                settings.instance = match value.text.as_str() {
+                    "static" => Instance::Static,
+                    "context" => Instance::Context,
+                    _ => {
+                        return Err(Diagnostic::error("unknown kind of instance", value.span)
+                            .help("write `static` or `context`"));
+                    }
+                };
+            }
+            "inbox" => match value.text.parse() {
+                Ok(inbox @ 1..=MAX_INBOX) => settings.inbox = inbox,
+                _ => {
+                    return Err(Diagnostic::error("inbox out of range", value.span)
+                        .help(format!("a whole number from 1 to {MAX_INBOX}")));
+                }
+            },
+            "max_events" => {
+                return Err(Diagnostic::error("queue mode is not translated yet", key.span)
+                    .help("leave `max_events` out; `inbox = N` lets N external events wait"));
+            }
+            other => {
+                return Err(Diagnostic::error(format!("unknown setting `{other}`"), key.span)
+                    .help(advice(other, &SETTINGS)));
+            }
+        }
+        Ok(())
+    }
+
+    fn setting_value(&mut self) -> Parsed<Name> {
+        self.skip_blanks()?;
+        let length = self.rest().find([';', '\n', '}']).unwrap_or(self.rest().len());
+        let raw = &self.rest()[..length];
+        let trimmed = raw.trim_end();
+        let start = self.position;
+        self.position += length;
+        let span = start..start + trimmed.len();
+        let unquoted = trimmed
+            .strip_prefix('"')
+            .and_then(|rest| rest.strip_suffix('"'))
+            .unwrap_or(trimmed)
+            .to_owned();
+        if unquoted.is_empty() {
+            return Err(Diagnostic::error("setting without a value", start..start + 1));
+        }
+        if unquoted.contains(['"', '\\']) || unquoted.chars().any(char::is_control) {
+            return Err(Diagnostic::error("value with a quote or backslash", span)
+                .help("generated C includes files by these names"));
+        }
+        Ok(Name { text: unquoted, span })
+    }
+
+    fn basic(&mut self) -> Parsed<()> {
+        let start = self.position;
+        let (result, name) = self.typed_name()?;
+        let parameters = self.parameters()?;
+        let span = start..self.position;
+        self.expect(";")?;
+        if name.text != "updateBeliefs" {
+            self.configuration.basics.push(Basic { name, result, parameters, span });
+        } else if result.name != "void" || !parameters.is_empty() {
+            return Err(Diagnostic::error("`updateBeliefs` has another signature", span)
+                .help("it is always declared, as `void updateBeliefs(void)`"));
+        }
+        Ok(())
+    }
+
+    fn predicate(&mut self) -> Parsed<()> {
+        let start = self.position;
+        let name = self.word("a belief or a goal")?;
+        let parameters = self.parameters()?;
+        let span = start..self.position;
+        self.expect(";")?;
+        self.configuration.predicates.push(Predicate { name, parameters, span });
+        Ok(())
+    }
+
+    /// `unsigned int f` → the type and the name.
+    fn typed_name(&mut self) -> Parsed<(CType, Name)> {
+        let mut words = self.type_words()?;
+        let name = match words.pop() {
+            Some(name) if !words.is_empty() && name.text != "*" => name,
+            _ => return Err(self.unexpected("a result type and a function name")),
+        };
+        Ok((c_type(&words), name))
+    }
+
+    fn parameters(&mut self) -> Parsed<Vec<CType>> {
+        self.expect("(")?;
+        let mut parameters = Vec::new();
+        self.skip_blanks()?;
+        if self.take(")") {
+            return Ok(parameters);
+        }
+        loop {
+            let start = self.position;
+            let words = self.type_words()?;
+            if words.is_empty() {
+                return Err(self.unexpected("a type"));
+            }
+            let parameter = c_type(&words);
+            if parameter.name == "void" {
+                self.skip_blanks()?;
+                if parameters.is_empty() && self.take(")") {
+                    return Ok(parameters);
+                }
+                return Err(Diagnostic::error("`void` is no parameter", start..self.position)
+                    .help("`(void)` alone says that there is none"));
+            }
+            parameters.push(parameter);
+            self.skip_blanks()?;
+            if self.take(")") {
+                return Ok(parameters);
+            }
+            self.expect(",")?;
+        }
+    }
+
+    fn type_words(&mut self) -> Parsed<Vec<Name>> {
+        let mut words = Vec::new();
+        loop {
+            self.skip_blanks()?;
+            if self.rest().starts_with('*') {
+                let span = self.position..self.position + 1;
+                self.position += 1;
+                words.push(Name { text: "*".to_owned(), span });
+            } else if self.rest().starts_with(is_word_start) {
+                words.push(self.word("a type")?);
+            } else {
+                return Ok(words);
+            }
+        }
+    }
+
+    fn external_trigger(&mut self) -> Parsed<ExternalTrigger> {
+        let start = self.position;
+        let operator = if self.take("+") {
+            Operator::Add
+        } else if self.take("-") {
+            Operator::Delete
+        } else {
+            return Err(self.unexpected("`+!goal`, `+belief` or `-belief`"));
+        };
+        let kind = if self.take("!") {
+            TriggerKind::Achieve
+        } else if self.rest().starts_with('?') {
+            return Err(self.unexpected("`+!goal`, `+belief` or `-belief`"));
+        } else {
+            TriggerKind::Belief
+        };
+        let name = self.word("a name")?;
+        let span = start..self.position;
+        self.expect(";")?;
+        if operator == Operator::Delete && kind == TriggerKind::Achieve {
+            return Err(Diagnostic::error("`-!goal` cannot be raised from outside", span)
+                .help("failure plans run when their goal fails"));
+        }
+        Ok(ExternalTrigger { operator, kind, name, span })
+    }
+
+    /// `#include <file>` or `#include "file"`, one after the other.
+    fn includes(&mut self) -> Parsed<()> {
+        loop {
+            self.skip_blanks()?;
+            if self.take("}") {
+                return Ok(());
+            }
+            let start = self.position;
+            if !self.take("#include") {
+                return Err(self.unexpected("`#include` or `}`"));
+            }
+            self.skip_blanks()?;
+            let close = match self.rest().as_bytes().first() {
+                Some(b'<') => '>',
+                Some(b'"') => '"',
+                _ => return Err(self.unexpected("`<file>` or `\"file\"`")),
+            };
+            let Some(length) = self.rest()[1..].find([close, '\n']) else {
+                return Err(self.unexpected("a file name that ends on its line"));
+            };
+            let file = &self.rest()[..length + 2];
+            self.position += file.len();
+            if file.ends_with('\n') {
+                return Err(Diagnostic::error("include is never closed", start..self.position - 1));
+            }
+            self.configuration.includes.push(format!("#include {file}"));
+        }
+    }
+
+    fn check_settings(&mut self) {
+        let settings = &self.configuration.settings;
+        for (key, value) in [
+            ("input", &settings.input),
+            ("output", &settings.output),
+            ("header", &settings.header),
+            ("basics", &settings.basics),
+        ] {
+            if value.is_empty() {
+                self.diagnostics.push(
+                    Diagnostic::error(format!("the setting `{key}` is missing"), 0..0)
+                        .help(format!("add `{key} = FILE;` to the section `settings`")),
+                );
+            }
+        }
+    }
+
+    fn rest(&self) -> &'a str {
+        &self.text[self.position..]
+    }
+
+    fn take(&mut self, symbol: &str) -> bool {
+        let found = self.rest().starts_with(symbol);
+        if found {
+            self.position += symbol.len();
+        }
+        found
+    }
+
+    fn expect(&mut self, symbol: &str) -> Parsed<()> {
+        self.skip_blanks()?;
+        if self.take(symbol) { Ok(()) } else { Err(self.unexpected(&format!("`{symbol}`"))) }
+    }
+
+    fn word(&mut self, expected: &str) -> Parsed<Name> {
+        self.skip_blanks()?;
+        if !self.rest().starts_with(is_word_start) {
+            return Err(self.unexpected(expected));
+        }
+        let length = self.rest().find(|c| !is_word(c)).unwrap_or(self.rest().len());
+        let span = self.position..self.position + length;
+        self.position = span.end;
+        Ok(Name { text: self.text[span.clone()].to_owned(), span })
+    }
+
+    fn skip_blanks(&mut self) -> Parsed<()> {
+        loop {
+            let trimmed = self.rest().trim_start();
+            self.position = self.text.len() - trimmed.len();
+            if trimmed.starts_with("//") {
+                self.position += trimmed.find('\n').unwrap_or(trimmed.len());
+            } else if trimmed.starts_with("/*") {
+                let start = self.position;
+                let Some(length) = trimmed.find("*/") else {
+                    self.position = self.text.len();
+                    return Err(Diagnostic::error("comment is never closed", start..start + 2)
+                        .help("close it with `*/`"));
+                };
+                self.position += length + 2;
+            } else {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Goes on behind the next `;`, or before the `}` that ends the section.
+    fn skip_entry(&mut self) {
+        match self.rest().find([';', '}']) {
+            Some(offset) if self.rest()[offset..].starts_with(';') => self.position += offset + 1,
+            Some(offset) => self.position += offset,
+            None => self.position = self.text.len(),
+        }
+    }
+
+    fn unexpected(&self, expected: &str) -> Diagnostic {
+        match self.rest().chars().next() {
+            Some(found) => Diagnostic::error(
+                format!("expected {expected}, found `{}`", found.escape_debug()),
+                span_of(self.position, found),
+            ),
+            None => Diagnostic::error(
+                format!("expected {expected}, found the end of the file"),
+                self.position..self.position,
+            ),
+        }
+    }
+}
+
+fn span_of(position: usize, character: char) -> Span {
+    position..position + character.len_utf8()
+}
+
+fn is_word_start(character: char) -> bool {
+    character.is_ascii_alphabetic() || character == '_'
+}
+
+fn is_word(character: char) -> bool {
+    character.is_ascii_alphanumeric() || character == '_'
+}
+
+fn c_type(words: &[Name]) -> CType {
+    let words: Vec<&str> = words.iter().map(|word| word.text.as_str()).collect();
+    CType::named(&words.join(" "))
+}
+
+fn advice(word: &str, known: &[&str]) -> String {
+    match diagnostic::closest(word, known.iter().copied()) {
+        Some(candidate) => format!("did you mean `{candidate}`?"),
+        None => format!("known are: {}", known.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::types::TypeKind;
+
+    const MINIMAL: &str =
+        "settings { input = a.asl; output = my-a.c; header = a.h; basics = b.h; };";
+
+    fn messages(text: &str) -> Vec<String> {
+        parse(text).1.into_iter().map(|diagnostic| diagnostic.message).collect()
+    }
+
+    #[test]
+    fn sections_may_be_empty_in_any_order_and_without_semicolon() {
+        let text = format!("types {{ }} triggerables {{}}; {MINIMAL} includes {{ }};");
+        let (configuration, diagnostics) = parse(&text);
+        assert_eq!(diagnostics, []);
+        assert_eq!(configuration.settings.output, "my-a.c");
+    }
+
+    #[test]
+    fn declarations_carry_their_types() {
+        let text = format!(
+            "{MINIMAL} includes {{\n  #include <stdbool.h>\n  #include \"types.h\" // ours\n}};\n\
+             basics {{ unsigned int f(const char *, double); void g(); void updateBeliefs(void); }};\n\
+             types {{ p(int, posit_t); q(void); }}; settables {{ p; }};\n\
+             triggerables {{ +!q; -p; }}; preemptive {{ +!q; }};"
+        );
+        let (configuration, diagnostics) = parse(&text);
+        assert_eq!(diagnostics, []);
+        assert_eq!(configuration.basics.len(), 2);
+        assert_eq!(configuration.basics[0].result.kind, TypeKind::Unsigned { bits: 32 });
+        assert_eq!(configuration.basics[0].parameters[0].kind, TypeKind::Text);
+        assert_eq!(configuration.predicates[0].parameters[1].kind, TypeKind::Opaque);
+        assert_eq!(configuration.includes.len(), 2);
+        assert_eq!(configuration.triggerables.len(), 2);
+    }
+
+    #[test]
+    fn every_error_is_reported_with_its_place() {
+        let text = format!(
+            "{MINIMAL} basics {{ void (int); int f(void, int); }}; typs {{ }}; settables {{ 3; }}; \
+             triggerables {{ q; +?t; -!g; }};"
+        );
+        let expected = [
+            "expected a result type and a function name, found `(`",
+            "`void` is no parameter",
+            "unknown section `typs`",
+            "expected a belief, found `3`",
+            "expected `+!goal`, `+belief` or `-belief`, found `q`",
+            "expected `+!goal`, `+belief` or `-belief`, found `?`",
+            "`-!goal` cannot be raised from outside",
+        ];
+        assert_eq!(messages(&text), expected);
+    }
+
+    #[test]
+    fn incomplete_and_odd_configurations_are_refused() {
+        for text in [
+            "",
+            "settings",
+            "settings {",
+            "settings { input",
+            "settings { input = ; };",
+            "settings { colour = red; };",
+            "settings { max_events = 3; };",
+            "settings { inbox = 0; };",
+            "settings { instance = both; };",
+            "includes { int x; };",
+            "includes { #include <a\n> };",
+            "settables { 3",
+            "includes { #include <a>",
+            "/* open",
+            "\0\u{fffd}}}{{",
+        ] {
+            assert!(!messages(text).is_empty(), "{text:?}");
+        }
+    }
+}

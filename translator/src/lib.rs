@@ -1,0 +1,183 @@
+//! AgentSpeak to C: a compiler for agents that fly.
+//!
+//! An agent is written in the fragment of AgentSpeak of Bucheli, Kroening, Martins and Natraj,
+//! "From AgentSpeak to C for Safety Considerations in Unmanned Aerial Vehicles" (TAROS 2015), with
+//! a configuration that declares what the environment offers. The output is C99 without heap,
+//! recursion or unbounded loops, and the Rust side of the boundary if asked for.
+//!
+//! The crate is pure: texts in, texts out. Layers, each using only those before it:
+//! `syntax` and `configuration` (texts to trees) → `analysis` (trees to a checked `Program`) →
+//! `backend` (programs to C and Rust).
+//!
+//! ```
+//! let configuration = "settings { input = lamp.asl; output = lamp.c; header = lamp.h; basics = actions.h; };
+//!     basics { void switchOn(void); }; types { light(void); }; triggerables { +!light; };";
+//! let parsed = translator::parse_configuration("lamp.conf", configuration)?;
+//! let translation = translator::translate(parsed, "+!light <- switchOn.")?;
+//! assert!(translation.files[0].text.contains("switchOn();"));
+//! # Ok::<(), translator::TranslateError>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod analysis;
+mod backend;
+pub mod configuration;
+mod program;
+pub mod syntax;
+pub mod types;
+
+use configuration::{Configuration, Instance};
+use diagnostic::{Diagnostic, Severity, Source, render_all};
+use types::TypeKind;
+
+/// A configuration that was read without errors.
+#[derive(Debug, Clone)]
+pub struct ParsedConfiguration {
+    name: String,
+    text: String,
+    configuration: Configuration,
+}
+
+impl ParsedConfiguration {
+    /// The AgentSpeak source's name, relative to the configuration.
+    pub fn input(&self) -> &str {
+        &self.configuration.settings.input
+    }
+}
+
+/// A finished translation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Translation {
+    /// The C file, its header, the header of the basic actions, and the Rust bindings if asked for.
+    pub files: Vec<GeneratedFile>,
+    /// Warnings, rendered.
+    pub warnings: String,
+}
+
+/// One generated file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GeneratedFile {
+    /// Its name as the configuration gives it, relative to the output folder.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// Why nothing was translated.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum TranslateError {
+    /// The configuration has errors.
+    #[error("{rendered}")]
+    Configuration {
+        /// All errors with line, column and caret.
+        rendered: String,
+    },
+    /// The agent has errors, perhaps the configuration too.
+    #[error("{rendered}")]
+    Agent {
+        /// All errors with line, column and caret.
+        rendered: String,
+    },
+}
+
+/// Reads a configuration; `name` is its file's name for messages.
+///
+/// # Errors
+/// [`TranslateError::Configuration`] with everything that is wrong in it.
+pub fn parse_configuration(name: &str, text: &str) -> Result<ParsedConfiguration, TranslateError> {
+    let (configuration, diagnostics) = configuration::parse(text);
+    if diagnostics.is_empty() {
+        let (name, text) = (name.to_owned(), text.to_owned());
+        return Ok(ParsedConfiguration { name, text, configuration });
+    }
+    let rendered = render_all(&diagnostics, &Source { name, text });
+    Err(TranslateError::Configuration { rendered })
+}
+
+/// Translates the agent in `agent_text`, the content of the configuration's input file.
+///
+/// # Errors
+/// [`TranslateError::Agent`] with everything that is wrong in either text. Nothing is produced
+/// then: the translator refuses what it cannot translate.
+pub fn translate(
+    configuration: ParsedConfiguration,
+    agent_text: &str,
+) -> Result<Translation, TranslateError> {
+    let ParsedConfiguration { name, text, configuration } = configuration;
+    let input = configuration.settings.input.clone();
+    let configuration_source = Source { name: &name, text: &text };
+    let agent_source = Source { name: &input, text: agent_text };
+
+    let boundary = check_rust_boundary(&configuration);
+    let (agent, diagnostics) = syntax::parse(agent_text);
+    if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
+        // What cannot be read cannot be checked either.
+        let mut rendered = render_all(&diagnostics, &agent_source);
+        append(&mut rendered, &render_all(&boundary, &configuration_source));
+        return Err(TranslateError::Agent { rendered });
+    }
+    let (program, mut findings) = analysis::analyse(configuration, &agent, agent_text);
+    findings.configuration.extend(boundary);
+    let mut rendered = render_all(&findings.configuration, &configuration_source);
+    append(&mut rendered, &render_all(&findings.agent, &agent_source));
+    let Some(program) = program.filter(|_| !findings.has_errors()) else {
+        return Err(TranslateError::Agent { rendered });
+    };
+
+    let settings = &program.configuration.settings;
+    let c = backend::c::emit(&program, &input);
+    let mut files = vec![
+        GeneratedFile { name: settings.output.clone(), text: c.source },
+        GeneratedFile { name: settings.header.clone(), text: c.header },
+        GeneratedFile { name: settings.basics.clone(), text: c.basics },
+    ];
+    if let Some(rust) = &settings.rust {
+        let text = backend::rust::emit(&program, &input);
+        files.push(GeneratedFile { name: rust.text.clone(), text });
+    }
+    Ok(Translation { files, warnings: rendered })
+}
+
+/// The Rust side needs the state passed in, and types that it knows.
+fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
+    let mut findings = Vec::new();
+    let Some(rust) = &configuration.settings.rust else { return findings };
+    if configuration.settings.instance != Instance::Context {
+        findings.push(
+            Diagnostic::error("Rust bindings need the agent's state passed in", rust.span.clone())
+                .help("add `instance = context;` to the settings"),
+        );
+    }
+    let mut check = |name: &str, kind: TypeKind, span: &diagnostic::Span| {
+        if kind == TypeKind::Opaque {
+            findings.push(
+                Diagnostic::error(
+                    format!("type `{name}` has no Rust counterpart yet"),
+                    span.clone(),
+                )
+                .help("pass its parts as numbers, or leave the setting `rust` out"),
+            );
+        }
+    };
+    for basic in &configuration.basics {
+        for ctype in basic.parameters.iter().chain([&basic.result]) {
+            check(&ctype.name, ctype.kind, &basic.span);
+        }
+        if basic.result.kind == TypeKind::Text {
+            check(&basic.result.name, TypeKind::Opaque, &basic.span);
+        }
+    }
+    for predicate in &configuration.predicates {
+        for ctype in &predicate.parameters {
+            check(&ctype.name, ctype.kind, &predicate.span);
+        }
+    }
+    findings
+}
+
+fn append(text: &mut String, more: &str) {
+    if !text.is_empty() && !more.is_empty() {
+        text.push_str("\n\n");
+    }
+    text.push_str(more);
+}

@@ -1,0 +1,80 @@
+//! `asl2c`: translates an AgentSpeak agent to C.
+#![forbid(unsafe_code)]
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+use translator::{TranslateError, parse_configuration, translate};
+
+/// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
+///
+/// Writes the files that the configuration's `settings` name: the C file, its header, the header
+/// of the basic actions and, with `rust = FILE`, the Rust side of the boundary. Nothing is written
+/// if anything is wrong.
+#[derive(Debug, Parser)]
+#[command(version, after_help = "Exit status: 0 translated, 1 refused or unreadable, 2 usage.")]
+struct Arguments {
+    /// The agent's configuration
+    #[arg(value_name = "AGENT.CONF")]
+    configuration: PathBuf,
+    /// Where the generated files go [default: the configuration's folder]
+    #[arg(short, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Debug, thiserror::Error)]
+enum CommandError {
+    #[error("cannot {action} {path}: {source}")]
+    File { action: &'static str, path: PathBuf, source: std::io::Error },
+    #[error("{0}")]
+    Translate(#[from] TranslateError),
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let mut stderr = std::io::stderr().lock();
+    // A message that cannot be printed has nowhere else to go.
+    match run(&arguments) {
+        Ok(warnings) => {
+            if !warnings.is_empty() {
+                _ = writeln!(stderr, "{warnings}");
+            }
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            let prefix = if matches!(error, CommandError::File { .. }) { "error: " } else { "" };
+            _ = writeln!(stderr, "{prefix}{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<String, CommandError> {
+    let path = &arguments.configuration;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let configuration = parse_configuration(&path.display().to_string(), &read(path)?)?;
+    let agent = read(&folder.join(configuration.input()))?;
+    let translation = translate(configuration, &agent)?;
+    let output = arguments.output.as_deref().unwrap_or(folder);
+    for file in &translation.files {
+        let path = output.join(&file.name);
+        std::fs::write(&path, &file.text).map_err(|source| CommandError::File {
+            action: "write",
+            path,
+            source,
+        })?;
+    }
+    Ok(translation.warnings)
+}
+
+fn read(path: &Path) -> Result<String, CommandError> {
+    let bytes = std::fs::read(path).map_err(|source| CommandError::File {
+        action: "read",
+        path: path.to_owned(),
+        source,
+    })?;
+    // Bytes that are no UTF-8 become characters that the lexer refuses, with line and column.
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

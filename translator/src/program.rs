@@ -1,0 +1,246 @@
+//! The checked program: what the back ends translate.
+//!
+//! A [`Program`] can only come from [`crate::analysis::analyse`], so whoever holds one knows that
+//! names are declared, arities and types fit, each variable is bound before it is used, and no
+//! call can be recursive. Everything is resolved to indices.
+
+use diagnostic::Span;
+
+use crate::configuration::{Basic, Configuration};
+use crate::syntax::ast::{Operator, TriggerKind};
+use crate::types::CType;
+
+/// A checked agent program.
+#[derive(Debug)]
+pub(crate) struct Program {
+    pub(crate) configuration: Configuration,
+    pub(crate) beliefs: Vec<Belief>,
+    pub(crate) handlers: Vec<Handler>,
+    /// Handlers whose events can be the one of the next step: those that a plan posts, and the
+    /// initial goal's. At most one is pending.
+    pub(crate) posted: Vec<HandlerId>,
+    /// Handlers whose events a plan posts as the last thing it does.
+    pub(crate) posted_by_plans: Vec<HandlerId>,
+    /// Handlers whose goals a plan can post with `!!`: each has one slot.
+    pub(crate) deferred: Vec<HandlerId>,
+    /// What the environment can raise.
+    pub(crate) external: Vec<External>,
+    pub(crate) initial_goal: Option<(HandlerId, Vec<Value>)>,
+}
+
+/// Index into [`Program::handlers`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct HandlerId(pub(crate) usize);
+
+/// Index into [`Program::beliefs`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct BeliefId(pub(crate) usize);
+
+/// Index into [`Plan::variables`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct VariableId(pub(crate) usize);
+
+/// Index into the configuration's basics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct BasicId(pub(crate) usize);
+
+/// A predicate that the belief base can hold, at most one instance of it.
+#[derive(Debug)]
+pub(crate) struct Belief {
+    pub(crate) name: String,
+    pub(crate) types: Vec<CType>,
+    /// Values believed from the start.
+    pub(crate) initial: Option<Vec<Value>>,
+    pub(crate) settable: bool,
+}
+
+/// All plans of one trigger.
+#[derive(Debug)]
+pub(crate) struct Handler {
+    pub(crate) operator: Operator,
+    pub(crate) kind: TriggerKind,
+    pub(crate) name: String,
+    pub(crate) types: Vec<CType>,
+    pub(crate) plans: Vec<Plan>,
+    /// The handler of `-!g` for a handler of `+!g`.
+    pub(crate) failure: Option<HandlerId>,
+    /// Whether any event can lead here; what cannot be reached is not generated.
+    pub(crate) reachable: bool,
+    /// Where the first trigger stands in the source.
+    pub(crate) span: Span,
+}
+
+/// An event that the environment can raise.
+#[derive(Debug)]
+pub(crate) struct External {
+    pub(crate) operator: Operator,
+    pub(crate) kind: TriggerKind,
+    pub(crate) name: String,
+    pub(crate) types: Vec<CType>,
+    /// The belief that the event changes.
+    pub(crate) belief: Option<BeliefId>,
+    /// Who handles it; a mere update of a belief has nobody.
+    pub(crate) handler: Option<HandlerId>,
+    /// Whether it aborts what runs.
+    pub(crate) preemptive: bool,
+}
+
+/// One plan.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    /// Line of the trigger in the source.
+    pub(crate) line: usize,
+    /// The plan as it stands in the source.
+    pub(crate) source: String,
+    pub(crate) variables: Vec<Variable>,
+    /// One pattern for each argument of the trigger.
+    pub(crate) patterns: Vec<Pattern>,
+    pub(crate) context: Vec<Condition>,
+    pub(crate) body: Vec<Step>,
+}
+
+/// A variable of a plan that the generated code needs.
+#[derive(Debug)]
+pub(crate) struct Variable {
+    pub(crate) name: String,
+    pub(crate) ctype: CType,
+    /// Whether its value is used; a variable that is only bound is not generated.
+    pub(crate) used: bool,
+}
+
+/// What an argument must look like.
+#[derive(Debug)]
+pub(crate) enum Pattern {
+    /// Anything.
+    Any,
+    /// Anything, remembered.
+    Bind(VariableId),
+    /// This value.
+    Equal(Value),
+}
+
+/// One conjunct of a context.
+#[derive(Debug)]
+pub(crate) enum Condition {
+    Holds { belief: BeliefId, patterns: Vec<Pattern> },
+    HoldsNot { belief: BeliefId, patterns: Vec<Pattern> },
+    Test { call: Call, negated: bool },
+}
+
+/// One formula of a body.
+#[derive(Debug)]
+pub(crate) enum Step {
+    Action(Call),
+    Assign {
+        variable: VariableId,
+        call: Call,
+    },
+    Add {
+        belief: BeliefId,
+        values: Vec<Value>,
+        raise: Raise,
+    },
+    Delete {
+        belief: BeliefId,
+        patterns: Vec<Pattern>,
+        raise: Raise,
+    },
+    /// `!g` now, as a function call.
+    Achieve {
+        handler: HandlerId,
+        values: Vec<Value>,
+    },
+    /// `!g` as the event of the next step.
+    Post {
+        handler: HandlerId,
+        values: Vec<Value>,
+    },
+    /// `!!g`
+    Defer {
+        handler: HandlerId,
+        values: Vec<Value>,
+    },
+    /// `?b`
+    Ask {
+        belief: BeliefId,
+        patterns: Vec<Pattern>,
+    },
+}
+
+/// What a change of a belief triggers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Raise {
+    Nothing,
+    /// The percept's plans now, as a function call.
+    Call(HandlerId),
+    /// The percept's plans as the event of the next step.
+    Post(HandlerId),
+}
+
+/// A value of known type.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Value {
+    Variable(VariableId),
+    /// The argument of the belief under test, for variables local to a negation.
+    Field(BeliefId, usize),
+    /// A C constant.
+    Constant(String, CType),
+    Call(Call),
+}
+
+/// A call of a basic action or function.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Call {
+    pub(crate) basic: BasicId,
+    pub(crate) arguments: Vec<Value>,
+}
+
+impl Program {
+    pub(crate) fn belief(&self, id: BeliefId) -> &Belief {
+        &self.beliefs[id.0]
+    }
+
+    pub(crate) fn handler(&self, id: HandlerId) -> &Handler {
+        &self.handlers[id.0]
+    }
+
+    /// Handlers that some event can lead to, in the order of the source.
+    pub(crate) fn reachable_handlers(&self) -> impl Iterator<Item = (HandlerId, &Handler)> {
+        self.handlers
+            .iter()
+            .enumerate()
+            .filter(|(_, handler)| handler.reachable)
+            .map(|(index, handler)| (HandlerId(index), handler))
+    }
+
+    pub(crate) fn basic(&self, id: BasicId) -> &Basic {
+        &self.configuration.basics[id.0]
+    }
+}
+
+/// `achieve_goto`, `add_battery`: how a trigger is called in generated names.
+pub(crate) fn trigger_name(operator: Operator, kind: TriggerKind, name: &str) -> String {
+    let verb = match (operator, kind) {
+        (Operator::Add, TriggerKind::Achieve) => "achieve",
+        (Operator::Delete, TriggerKind::Achieve) => "fail",
+        (Operator::Add, TriggerKind::Belief) => "add",
+        (Operator::Delete, TriggerKind::Belief) => "del",
+        (Operator::Add, TriggerKind::Test) => "test",
+        (Operator::Delete, TriggerKind::Test) => "test_failed",
+    };
+    format!("{verb}_{name}")
+}
+
+/// `+!goto`, `-battery`: how a trigger is written in AgentSpeak.
+pub(crate) fn trigger_text(operator: Operator, kind: TriggerKind, name: &str) -> String {
+    let operator = match operator {
+        Operator::Add => "+",
+        Operator::Delete => "-",
+    };
+    let kind = match kind {
+        TriggerKind::Belief => "",
+        TriggerKind::Achieve => "!",
+        TriggerKind::Test => "?",
+    };
+    format!("{operator}{kind}{name}")
+}

@@ -1,0 +1,297 @@
+//! Text to tokens.
+
+use diagnostic::{Diagnostic, Span};
+
+/// What a token is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum TokenKind {
+    /// `goto`: starts with a lower-case letter.
+    Atom,
+    /// `X`: starts with an upper-case letter.
+    Variable,
+    /// `_` or `_x`
+    Unnamed,
+    /// `12`, `0.5`, `1e-3`
+    Number,
+    /// `"text"` with escapes resolved.
+    Text(String),
+    True,
+    Not,
+    Dot,
+    Colon,
+    Semicolon,
+    Comma,
+    LeftParenthesis,
+    RightParenthesis,
+    Arrow,
+    Plus,
+    Minus,
+    Bang,
+    BangBang,
+    Question,
+    Ampersand,
+    Equals,
+    End,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Token {
+    pub(super) kind: TokenKind,
+    pub(super) span: Span,
+}
+
+/// All tokens of `text`, the last one [`TokenKind::End`], and what could not be read.
+pub(super) fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
+    let mut lexer = Lexer { text, position: 0, tokens: Vec::new(), diagnostics: Vec::new() };
+    lexer.run();
+    (lexer.tokens, lexer.diagnostics)
+}
+
+struct Lexer<'a> {
+    text: &'a str,
+    position: usize,
+    tokens: Vec<Token>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Lexer<'_> {
+    fn run(&mut self) {
+        while let Some(character) = self.peek() {
+            let start = self.position;
+            match character {
+                c if c.is_whitespace() => self.advance(),
+                '/' if self.rest().starts_with("//") => self.take_while(|c| c != '\n'),
+                '/' if self.rest().starts_with("/*") => self.block_comment(start),
+                '"' => self.string(start),
+                c if c.is_ascii_digit() => self.number(start),
+                c if c.is_ascii_alphabetic() || c == '_' => self.word(start),
+                _ => self.symbol(start),
+            }
+        }
+        self.push(TokenKind::End, self.text.len());
+    }
+
+    fn rest(&self) -> &str {
+        &self.text[self.position..]
+    }
+
+    fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    fn advance(&mut self) {
+        self.position += self.peek().map_or(0, char::len_utf8);
+    }
+
+    fn take_while(&mut self, accept: impl Fn(char) -> bool) {
+        while self.peek().is_some_and(&accept) {
+            self.advance();
+        }
+    }
+
+    fn push(&mut self, kind: TokenKind, start: usize) {
+        self.tokens.push(Token { kind, span: start..self.position });
+    }
+
+    fn error(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    fn block_comment(&mut self, start: usize) {
+        if let Some(length) = self.rest()[2..].find("*/") {
+            self.position += 2 + length + 2;
+        } else {
+            self.position = self.text.len();
+            self.error(
+                Diagnostic::error("comment is never closed", start..start + 2)
+                    .label("opened here")
+                    .help("close it with `*/`"),
+            );
+        }
+    }
+
+    fn word(&mut self, start: usize) {
+        self.take_while(|c| c.is_ascii_alphanumeric() || c == '_');
+        let kind = match &self.text[start..self.position] {
+            "true" => TokenKind::True,
+            "not" => TokenKind::Not,
+            word if word.starts_with('_') => TokenKind::Unnamed,
+            word if word.starts_with(|c: char| c.is_ascii_uppercase()) => TokenKind::Variable,
+            _ => TokenKind::Atom,
+        };
+        self.push(kind, start);
+    }
+
+    fn number(&mut self, start: usize) {
+        self.take_while(|c| c.is_ascii_digit());
+        let mut after_dot = self.rest().strip_prefix('.').into_iter().flat_map(str::chars);
+        if after_dot.next().is_some_and(|c| c.is_ascii_digit()) {
+            self.advance();
+            self.take_while(|c| c.is_ascii_digit());
+        }
+        self.exponent();
+        if self.peek().is_some_and(|c| c.is_ascii_alphanumeric() || c == '_') {
+            self.take_while(|c| c.is_ascii_alphanumeric() || c == '_');
+            self.error(
+                Diagnostic::error("malformed number", start..self.position)
+                    .help("numbers are decimal: `12`, `0.5`, `1e-3`"),
+            );
+        }
+        self.push(TokenKind::Number, start);
+    }
+
+    fn exponent(&mut self) {
+        let rest = self.rest();
+        let Some(after_e) = rest.strip_prefix(['e', 'E']) else { return };
+        let digits = after_e.strip_prefix(['+', '-']).unwrap_or(after_e);
+        if digits.starts_with(|c: char| c.is_ascii_digit()) {
+            self.position += rest.len() - digits.len();
+            self.take_while(|c| c.is_ascii_digit());
+        }
+    }
+
+    fn string(&mut self, start: usize) {
+        self.advance();
+        let mut text = String::new();
+        loop {
+            let escape_start = self.position;
+            let Some(character) = self.peek().filter(|c| *c != '\n') else {
+                self.error(
+                    Diagnostic::error("string is never closed", start..self.position)
+                        .help("close it with `\"` on the same line"),
+                );
+                break;
+            };
+            self.advance();
+            match character {
+                '"' => break,
+                '\\' => match self.peek() {
+                    Some(escaped @ ('"' | '\\')) => {
+                        self.advance();
+                        text.push(escaped);
+                    }
+                    Some('n') => {
+                        self.advance();
+                        text.push('\n');
+                    }
+                    Some('t') => {
+                        self.advance();
+                        text.push('\t');
+                    }
+                    _ => self.error(
+                        Diagnostic::error("unknown escape in string", escape_start..self.position)
+                            .help("the escapes are `\\\"`, `\\\\`, `\\n` and `\\t`"),
+                    ),
+                },
+                '\0' => self.error(
+                    Diagnostic::error("string contains a NUL", escape_start..self.position)
+                        .help("a C string would end here"),
+                ),
+                other => text.push(other),
+            }
+        }
+        self.push(TokenKind::Text(text), start);
+    }
+
+    fn symbol(&mut self, start: usize) {
+        const SYMBOLS: [(&str, TokenKind); 15] = [
+            ("<-", TokenKind::Arrow),
+            ("!!", TokenKind::BangBang),
+            ("!", TokenKind::Bang),
+            ("?", TokenKind::Question),
+            ("+", TokenKind::Plus),
+            ("-", TokenKind::Minus),
+            ("&", TokenKind::Ampersand),
+            ("=", TokenKind::Equals),
+            (".", TokenKind::Dot),
+            (":", TokenKind::Colon),
+            (";", TokenKind::Semicolon),
+            (",", TokenKind::Comma),
+            ("(", TokenKind::LeftParenthesis),
+            (")", TokenKind::RightParenthesis),
+            ("\u{feff}", TokenKind::End),
+        ];
+        let found = SYMBOLS.iter().find(|(symbol, _)| self.rest().starts_with(symbol));
+        match found {
+            Some((_, TokenKind::End)) if start == 0 => self.advance(),
+            Some((symbol, kind)) if *kind != TokenKind::End => {
+                self.position += symbol.len();
+                self.push(kind.clone(), start);
+            }
+            _ => self.unknown_symbol(start),
+        }
+    }
+
+    fn unknown_symbol(&mut self, start: usize) {
+        let character = self.peek().unwrap_or(' ');
+        self.advance();
+        let help = match character {
+            '~' => "strong negation is not translated; `not b` tests that `b` is not believed",
+            '|' => "`|` in contexts is not translated yet; write one plan for each alternative",
+            '<' | '>' | '*' | '/' => {
+                "expressions are not translated yet; use a basic function of type bool"
+            }
+            '@' => "plan labels are not translated yet",
+            '[' | ']' => "annotations are not translated yet",
+            '{' | '}' => "braces do not occur in AgentSpeak",
+            _ => "this character has no meaning in AgentSpeak",
+        };
+        self.error(
+            Diagnostic::error(
+                format!("unexpected character `{}`", character.escape_default()),
+                start..self.position,
+            )
+            .help(help),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kinds(text: &str) -> Vec<TokenKind> {
+        let (tokens, diagnostics) = tokenize(text);
+        assert_eq!(diagnostics, []);
+        tokens.into_iter().map(|token| token.kind).collect()
+    }
+
+    #[test]
+    fn a_full_stop_after_a_number_is_not_its_fraction() {
+        use TokenKind::{Dot, End, Number};
+        assert_eq!(kinds("1. 1.5."), [Number, Dot, Number, Dot, End]);
+        assert_eq!(kinds("1e5.2e-3"), [Number, Dot, Number, End]);
+    }
+
+    #[test]
+    fn words_are_told_apart_by_their_first_letter() {
+        use TokenKind::{Atom, End, Not, True, Unnamed, Variable};
+        assert_eq!(
+            kinds("go Go _ _go true not nothing"),
+            [Atom, Variable, Unnamed, Unnamed, True, Not, Atom, End]
+        );
+    }
+
+    #[test]
+    fn string_escapes_are_resolved() {
+        let text = TokenKind::Text("a\"\\\n\tb".to_owned());
+        assert_eq!(kinds(r#""a\"\\\n\tb""#), [text, TokenKind::End]);
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_an_error_at_its_place() {
+        for (text, span) in [
+            ("a ~b", 2..3),
+            ("a /* b", 2..4),
+            ("\"a", 0..2),
+            ("\"a\nb\"", 0..2),
+            ("12x", 0..3),
+            ("a \u{fffd}", 2..5),
+            ("a\u{feff}", 1..4),
+            ("\"\\q\"", 1..2),
+        ] {
+            let (_, diagnostics) = tokenize(text);
+            assert_eq!(diagnostics.first().map(|d| d.span.clone()), Some(span), "{text:?}");
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! What the translator knows of C types.
+
+/// A C type as the configuration names it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CType {
+    /// The type's name with single blanks, `unsigned int`.
+    pub name: String,
+    /// What can be done with its values.
+    pub kind: TypeKind,
+}
+
+/// What can be done with values of a type.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TypeKind {
+    /// No value.
+    Void,
+    /// `bool`
+    Bool,
+    /// Two's complement integers.
+    Signed {
+        /// Width in bits on the supported targets.
+        bits: u32,
+    },
+    /// Unsigned integers.
+    Unsigned {
+        /// Width in bits on the supported targets.
+        bits: u32,
+    },
+    /// `float`
+    Float32,
+    /// `double`
+    Float64,
+    /// `const char *`
+    Text,
+    /// Anything else: it can be passed on, but neither written down nor compared.
+    Opaque,
+}
+
+impl CType {
+    /// The type that the configuration calls `name`.
+    pub fn named(name: &str) -> Self {
+        let kind = match name {
+            "void" => TypeKind::Void,
+            "bool" | "_Bool" => TypeKind::Bool,
+            "int8_t" | "signed char" => TypeKind::Signed { bits: 8 },
+            "int16_t" | "short" | "short int" => TypeKind::Signed { bits: 16 },
+            "int32_t" | "int" | "signed" | "signed int" => TypeKind::Signed { bits: 32 },
+            "int64_t" | "long long" | "long long int" => TypeKind::Signed { bits: 64 },
+            "uint8_t" | "unsigned char" => TypeKind::Unsigned { bits: 8 },
+            "uint16_t" | "unsigned short" => TypeKind::Unsigned { bits: 16 },
+            "uint32_t" | "unsigned" | "unsigned int" => TypeKind::Unsigned { bits: 32 },
+            "uint64_t" | "unsigned long long" => TypeKind::Unsigned { bits: 64 },
+            "float" => TypeKind::Float32,
+            "double" => TypeKind::Float64,
+            "const char *" | "char const *" => TypeKind::Text,
+            _ => TypeKind::Opaque,
+        };
+        Self { name: name.to_owned(), kind }
+    }
+
+    /// Whether two values can be compared.
+    pub fn has_equality(&self) -> bool {
+        !matches!(self.kind, TypeKind::Void | TypeKind::Text | TypeKind::Opaque)
+    }
+
+    /// Whether the type is a binary floating-point type.
+    pub fn is_float(&self) -> bool {
+        matches!(self.kind, TypeKind::Float32 | TypeKind::Float64)
+    }
+
+    /// The Rust type with the same representation, if the translator knows one.
+    pub fn rust_name(&self) -> Option<&'static str> {
+        match self.kind {
+            TypeKind::Bool => Some("bool"),
+            TypeKind::Signed { bits: 8 } => Some("i8"),
+            TypeKind::Signed { bits: 16 } => Some("i16"),
+            TypeKind::Signed { bits: 32 } => Some("i32"),
+            TypeKind::Signed { .. } => Some("i64"),
+            TypeKind::Unsigned { bits: 8 } => Some("u8"),
+            TypeKind::Unsigned { bits: 16 } => Some("u16"),
+            TypeKind::Unsigned { bits: 32 } => Some("u32"),
+            TypeKind::Unsigned { .. } => Some("u64"),
+            TypeKind::Float32 => Some("f32"),
+            TypeKind::Float64 => Some("f64"),
+            TypeKind::Void | TypeKind::Text | TypeKind::Opaque => None,
+        }
+    }
+}
