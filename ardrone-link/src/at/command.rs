@@ -1,0 +1,233 @@
+//! The commands, as types that cannot hold what must not be sent.
+
+use std::fmt;
+
+/// A command to the drone. The sequence number is added when it is encoded.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Command {
+    /// Take-off, landing, emergency: a level that is repeated in every datagram.
+    Ref(Ref),
+    /// How to move, or to hold still.
+    Pcmd(Motion),
+    /// Level reference. Only on flat ground, landed.
+    FlatTrim,
+    /// Sets one configuration key; the drone acknowledges with a state bit.
+    Config(Config),
+    /// Selects the custom configuration of the CONFIG that follows in the same datagram.
+    ConfigIds {
+        /// Session id, eight lower-case hexadecimal digits.
+        session: String,
+        /// User id, likewise.
+        user: String,
+        /// Application id, likewise.
+        application: String,
+    },
+    /// Requests about configuration and acknowledge.
+    Control(ControlMode),
+    /// Resets the drone's communication watchdog.
+    CommunicationWatchdog,
+    /// A command that this crate does not model; only ever decoded.
+    Other {
+        /// Its name, between `AT*` and `=`.
+        name: String,
+    },
+}
+
+/// The REF command's levels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ref {
+    /// Land, or stay on the ground.
+    Land,
+    /// Take off, or stay in the air.
+    TakeOff,
+    /// The rising edge cuts the motors at once, or clears an emergency on the ground.
+    ToggleEmergency,
+}
+
+impl Ref {
+    /// Bits 18, 20, 22, 24 and 28 are always set.
+    const BASE: u32 = 0x1154_0000;
+    const TAKE_OFF: u32 = 1 << 9;
+    const EMERGENCY: u32 = 1 << 8;
+
+    /// The argument on the wire.
+    pub fn bits(self) -> u32 {
+        match self {
+            Self::Land => Self::BASE,
+            Self::TakeOff => Self::BASE | Self::TAKE_OFF,
+            Self::ToggleEmergency => Self::BASE | Self::EMERGENCY,
+        }
+    }
+
+    /// What a drone makes of an argument: it looks at bits 8 and 9 only, and the emergency bit
+    /// is the stronger one.
+    pub fn from_bits(bits: u32) -> Self {
+        if bits & Self::EMERGENCY != 0 {
+            Self::ToggleEmergency
+        } else if bits & Self::TAKE_OFF != 0 {
+            Self::TakeOff
+        } else {
+            Self::Land
+        }
+    }
+}
+
+/// A number in \[-1, 1\]: a fraction of one of the drone's configured limits.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+pub struct Fraction(f32);
+
+// A fraction is never NaN.
+impl Eq for Fraction {}
+
+impl Fraction {
+    /// No motion.
+    pub const ZERO: Self = Self(0.0);
+
+    /// The value if it is in \[-1, 1\].
+    pub fn new(value: f32) -> Option<Self> {
+        // Adding zero turns -0.0, which prints as -2147483648, into 0.0.
+        (-1.0..=1.0).contains(&value).then_some(Self(value + 0.0))
+    }
+
+    /// The nearest value in \[-1, 1\]; NaN becomes zero, the value that moves nothing.
+    pub fn saturating(value: f64) -> Self {
+        if value.is_nan() {
+            return Self::ZERO;
+        }
+        // The range check makes the narrowing harmless.
+        #[allow(clippy::cast_possible_truncation)]
+        let narrowed = value.clamp(-1.0, 1.0) as f32;
+        Self(narrowed + 0.0)
+    }
+
+    /// The value.
+    pub fn get(self) -> f32 {
+        self.0
+    }
+}
+
+/// The PCMD command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Motion {
+    /// Flag 0: the drone holds its position with the bottom camera.
+    #[default]
+    Hover,
+    /// Flag 1: fractions of the configured limits.
+    Progressive {
+        /// Positive flies right; of `control:euler_angle_max`.
+        roll: Fraction,
+        /// Positive flies **backward**; of `control:euler_angle_max`.
+        pitch: Fraction,
+        /// Positive climbs; of `control:control_vz_max`.
+        gaz: Fraction,
+        /// Positive turns clockwise seen from above; of `control:control_yaw`.
+        yaw: Fraction,
+    },
+}
+
+/// A configuration key and its value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Config {
+    key: String,
+    value: String,
+}
+
+/// Why a configuration key or value cannot be sent.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ConfigError {
+    /// The key is not `section:name`.
+    #[error("configuration key `{key}` is not of the form section:name")]
+    Key {
+        /// The key.
+        key: String,
+    },
+    /// The text contains a quote, a comma in the key, or a control character.
+    #[error("`{text}` contains a character that AT commands cannot carry")]
+    Character {
+        /// The text.
+        text: String,
+    },
+    /// The text is longer than any value the drone takes.
+    #[error("`{text}` is longer than {limit} bytes")]
+    Length {
+        /// The text.
+        text: String,
+        /// The longest that is sent.
+        limit: usize,
+    },
+}
+
+impl Config {
+    const MAX_TEXT_BYTES: usize = 256;
+
+    /// A setting of `key` (`section:name`) to `value`.
+    ///
+    /// # Errors
+    /// [`ConfigError`] if either cannot be carried by an AT command.
+    pub fn new(key: impl Into<String>, value: impl fmt::Display) -> Result<Self, ConfigError> {
+        let (key, value) = (key.into(), value.to_string());
+        let well_formed = key
+            .split_once(':')
+            .is_some_and(|(section, name)| !section.is_empty() && !name.is_empty());
+        if !well_formed {
+            return Err(ConfigError::Key { key });
+        }
+        for text in [&key, &value] {
+            if text.bytes().any(|byte| byte == b'"' || !(b' '..=b'~').contains(&byte)) {
+                return Err(ConfigError::Character { text: text.clone() });
+            }
+            if text.len() > Self::MAX_TEXT_BYTES {
+                return Err(ConfigError::Length {
+                    text: text.clone(),
+                    limit: Self::MAX_TEXT_BYTES,
+                });
+            }
+        }
+        Ok(Self { key, value })
+    }
+
+    /// `section:name`
+    pub fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// The value as text.
+    pub fn value(&self) -> &str {
+        &self.value
+    }
+}
+
+/// The CTRL command's modes that a client may send.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ControlMode {
+    /// Send the configuration on the control port.
+    SendConfiguration,
+    /// Clear the command-acknowledge bit.
+    ClearAcknowledge,
+    /// Send the list of custom configurations on the control port.
+    SendCustomConfigurations,
+    /// Any other mode; only ever decoded.
+    Other(i32),
+}
+
+impl ControlMode {
+    /// The argument on the wire.
+    pub fn number(self) -> i32 {
+        match self {
+            Self::SendConfiguration => 4,
+            Self::ClearAcknowledge => 5,
+            Self::SendCustomConfigurations => 6,
+            Self::Other(number) => number,
+        }
+    }
+
+    /// The mode with this number.
+    pub fn from_number(number: i32) -> Self {
+        match number {
+            4 => Self::SendConfiguration,
+            5 => Self::ClearAcknowledge,
+            6 => Self::SendCustomConfigurations,
+            other => Self::Other(other),
+        }
+    }
+}

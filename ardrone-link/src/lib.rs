@@ -1,0 +1,36 @@
+//! The AR.Drone 2.0's own protocol, without sockets or clocks.
+//!
+//! - [`at`]: AT commands (UDP 5556), typed, encoded and decoded.
+//! - [`navdata`]: what the drone says (UDP 5554), decoded to SI values and encoded again.
+//! - [`configuration`]: the text that the drone sends on its control port (TCP 5559).
+//! - [`session`]: the client's side of the conversation as a pure state machine: wake-up,
+//!   configuration with acknowledge, sequence rules, watchdogs, loss and restart.
+//!
+//! Both directions are coded here, so that a pilot and a simulated drone share one definition of
+//! the wire. Wire units end at this crate's edge: everything inside is metres, seconds and degrees.
+//!
+//! ```
+//! use ardrone_link::at::{Command, Datagram, Ref};
+//!
+//! let mut datagram = Datagram::new();
+//! datagram.push(1, &Command::Ref(Ref::TakeOff))?;
+//! assert_eq!(datagram.as_bytes(), b"AT*REF=1,290718208\r");
+//! # Ok::<(), ardrone_link::at::EncodeError>(())
+//! ```
+#![forbid(unsafe_code)]
+
+pub mod at;
+pub mod configuration;
+pub mod navdata;
+pub mod session;
+
+/// The drone's address on its own network.
+pub const DRONE_HOST: &str = "192.168.1.1";
+/// UDP: AT commands to the drone.
+pub const AT_PORT: u16 = 5556;
+/// UDP: navdata, answered to the address that woke it.
+pub const NAVDATA_PORT: u16 = 5554;
+/// TCP: the configuration dump.
+pub const CONTROL_PORT: u16 = 5559;
+/// The datagram that makes the drone send navdata to its sender.
+pub const WAKE_UP: [u8; 4] = [1, 0, 0, 0];

@@ -1,0 +1,144 @@
+//! Configuration after contact: each key set, acknowledged and cleared, then read back.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use super::{Event, SessionConfig};
+use crate::at::{Command, ControlMode};
+use crate::configuration::Configuration;
+use crate::navdata::DroneState;
+
+/// A key that is not acknowledged is sent again after this time.
+const RESEND_INTERVAL: Duration = Duration::from_millis(150);
+/// A key that is not acknowledged for this time is given up.
+const KEY_TIMEOUT: Duration = Duration::from_secs(2);
+/// Time between two requests for the configuration.
+const READ_INTERVAL: Duration = Duration::from_millis(500);
+/// The read-back is given up after this time.
+const READ_TIMEOUT: Duration = Duration::from_millis(2500);
+/// A dump has about 4 kB; more than this is no dump.
+const MAX_DUMP_BYTES: usize = 65_536;
+
+#[derive(Debug)]
+pub(super) struct Handshake {
+    step: Step,
+    /// When the current step began, once it has been acted on.
+    since: Option<Duration>,
+    last_sent: Option<Duration>,
+    keys: usize,
+    dump: Vec<u8>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Step {
+    /// Clear the acknowledge bit before key number `.0`.
+    Clear(usize),
+    /// Send key number `.0` until it is acknowledged.
+    Set(usize),
+    /// Ask for the configuration until it has come.
+    Read,
+    Done,
+}
+
+impl Handshake {
+    pub(super) fn new(keys: usize) -> Self {
+        Self { step: Step::Clear(0), since: None, last_sent: None, keys, dump: Vec::new() }
+    }
+
+    pub(super) fn is_done(&self) -> bool {
+        self.step == Step::Done
+    }
+
+    /// Looks at the acknowledge bit of a new packet.
+    pub(super) fn handle_state(
+        &mut self,
+        state: DroneState,
+        config: &SessionConfig,
+        events: &mut VecDeque<Event>,
+    ) {
+        let acknowledged = state.contains(DroneState::COMMAND_ACKNOWLEDGE);
+        match self.step {
+            Step::Clear(key) if !acknowledged => {
+                if key < self.keys {
+                    self.enter(Step::Set(key));
+                } else if config.read_back {
+                    self.enter(Step::Read);
+                } else {
+                    self.finish(events);
+                }
+            }
+            // Only an acknowledge after the key was sent is about this key.
+            Step::Set(key) if acknowledged && self.last_sent.is_some() => {
+                let name = config.settings[key].key().to_owned();
+                events.push_back(Event::Configured { key: name });
+                self.enter(Step::Clear(key + 1));
+            }
+            _ => {}
+        }
+    }
+
+    /// Collects a dump up to its NUL.
+    pub(super) fn handle_control(&mut self, bytes: &[u8], events: &mut VecDeque<Event>) {
+        if self.step != Step::Read {
+            return;
+        }
+        let room = MAX_DUMP_BYTES - self.dump.len();
+        self.dump.extend_from_slice(&bytes[..bytes.len().min(room)]);
+        if let Some(end) = self.dump.iter().position(|byte| *byte == 0) {
+            let text = String::from_utf8_lossy(&self.dump[..end]);
+            events.push_back(Event::ConfigurationRead(Configuration::parse(&text)));
+            self.finish(events);
+        }
+    }
+
+    /// The command that this tick adds to the datagram.
+    pub(super) fn command(
+        &mut self,
+        now: Duration,
+        state: DroneState,
+        config: &SessionConfig,
+        events: &mut VecDeque<Event>,
+    ) -> Option<Command> {
+        let since = *self.since.get_or_insert(now);
+        let elapsed = now.saturating_sub(since);
+        let due = |last: Option<Duration>, interval: Duration| {
+            last.is_none_or(|last| now.saturating_sub(last) >= interval)
+        };
+        match self.step {
+            Step::Clear(_) => state
+                .contains(DroneState::COMMAND_ACKNOWLEDGE)
+                .then_some(Command::Control(ControlMode::ClearAcknowledge)),
+            Step::Set(key) if elapsed >= KEY_TIMEOUT => {
+                let name = config.settings[key].key().to_owned();
+                events.push_back(Event::ConfigurationTimedOut { key: name });
+                self.enter(Step::Clear(key + 1));
+                None
+            }
+            Step::Set(key) => due(self.last_sent, RESEND_INTERVAL).then(|| {
+                self.last_sent = Some(now);
+                Command::Config(config.settings[key].clone())
+            }),
+            Step::Read if elapsed >= READ_TIMEOUT => {
+                events.push_back(Event::ConfigurationNotRead);
+                self.finish(events);
+                None
+            }
+            Step::Read => due(self.last_sent, READ_INTERVAL).then(|| {
+                self.last_sent = Some(now);
+                Command::Control(ControlMode::SendConfiguration)
+            }),
+            Step::Done => None,
+        }
+    }
+
+    fn enter(&mut self, step: Step) {
+        self.step = step;
+        self.since = None;
+        self.last_sent = None;
+    }
+
+    fn finish(&mut self, events: &mut VecDeque<Event>) {
+        self.enter(Step::Done);
+        events.push_back(Event::Ready);
+    }
+}

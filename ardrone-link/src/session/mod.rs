@@ -1,0 +1,380 @@
+//! The client's side of the conversation: a state machine fed with time and bytes.
+//!
+//! A shell owns the sockets and the clock and drives a [`Session`] so:
+//! - each navdata datagram goes to [`Session::handle_navdata`], each block of bytes from the
+//!   control port to [`Session::handle_control`];
+//! - every 30 ms [`Session::tick`] fills exactly one datagram for the AT port;
+//! - when [`Session::wake_up_due`] says so, [`crate::WAKE_UP`] goes to the navdata port;
+//! - [`Session::poll_event`] tells what happened.
+//!
+//! Rules of the drone that are kept here (see the fact sheet in `ARCHITECTURE.md`):
+//! - REF and PCMD are levels and stand in every datagram; sequence numbers start at 1 and rise.
+//! - A drone that has restarted or was lost must never take off because of an old order: the
+//!   take-off bit is withheld until take-off is ordered anew.
+//! - Navdata whose sequence number is not higher than the last is dropped, unless the drone has
+//!   visibly started again.
+
+mod handshake;
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use self::handshake::Handshake;
+use crate::at::{Command, Config, Datagram, EncodeError, Motion, Ref};
+use crate::configuration::Configuration;
+use crate::navdata::{ControlState, DroneState, Navdata, NavdataError};
+
+/// How a session behaves.
+#[derive(Debug, Clone)]
+pub struct SessionConfig {
+    /// Keys set one after the other when the drone is found, each acknowledged. The first must
+    /// be `general:navdata_demo`: it ends the bootstrap.
+    pub settings: Vec<Config>,
+    /// Whether the configuration is read back over the control port before the session is ready.
+    pub read_back: bool,
+    /// Silence after which the drone is asked for navdata again.
+    pub wake_up_interval: Duration,
+    /// Silence after which the link counts as lost. The drone itself uses 2 s.
+    pub loss_timeout: Duration,
+}
+
+impl Default for SessionConfig {
+    fn default() -> Self {
+        Self {
+            settings: Vec::new(),
+            read_back: false,
+            wake_up_interval: Duration::from_millis(200),
+            loss_timeout: Duration::from_secs(2),
+        }
+    }
+}
+
+/// What the pilot wants in this tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Order {
+    /// The REF level.
+    pub flight: FlightOrder,
+    /// The PCMD arguments.
+    pub motion: Motion,
+}
+
+/// Take-off and landing, as the pilot wants it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FlightOrder {
+    /// Land, or stay on the ground.
+    #[default]
+    Land,
+    /// Take off.
+    TakeOff,
+    /// Stay in the air. Never takes off: after a restart or a loss of the drone it is sent as
+    /// [`FlightOrder::Land`].
+    StayAirborne,
+}
+
+/// What happened in a session.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Event {
+    /// First navdata since the start or since a loss.
+    Connected,
+    /// The drone acknowledged a configuration key.
+    Configured {
+        /// `section:name`
+        key: String,
+    },
+    /// The drone never acknowledged a configuration key.
+    ConfigurationTimedOut {
+        /// `section:name`
+        key: String,
+    },
+    /// The configuration was read back over the control port.
+    ConfigurationRead(Configuration),
+    /// The configuration could not be read back.
+    ConfigurationNotRead,
+    /// All settings are made: the drone may fly.
+    Ready,
+    /// No navdata for the loss timeout.
+    LinkLost,
+    /// The drone has started again: its state is forgotten, take-off orders are withdrawn.
+    DroneRestarted,
+    /// The emergency bit rose: the motors are cut.
+    Emergency,
+    /// The emergency bit fell.
+    EmergencyCleared,
+}
+
+/// What a navdata datagram turned out to be.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Received {
+    /// New navdata.
+    Navdata(Navdata),
+    /// A packet that is older than the last one, or the same again.
+    Stale,
+    /// A damaged packet.
+    Damaged(NavdataError),
+}
+
+/// Counters of a session.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Statistics {
+    /// Packets taken.
+    pub received: u64,
+    /// Packets dropped because they were old or repeated.
+    pub stale: u64,
+    /// Packets dropped because they were damaged.
+    pub damaged: u64,
+}
+
+/// A client's session with one drone.
+#[derive(Debug)]
+pub struct Session {
+    config: SessionConfig,
+    link: Link,
+    handshake: Handshake,
+    next_sequence: u32,
+    state: DroneState,
+    last_navdata: Option<Heard>,
+    last_wake_up: Option<Duration>,
+    flat_trim_due: bool,
+    take_off: TakeOffLatch,
+    events: VecDeque<Event>,
+    statistics: Statistics,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Link {
+    /// Nothing heard yet, or not since a loss.
+    Silent,
+    Alive,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Heard {
+    at: Duration,
+    sequence: u32,
+}
+
+/// Guards the take-off bit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum TakeOffLatch {
+    /// The bit follows the orders.
+    Follow { airborne: bool },
+    /// Something happened that ends every old order: the bit stays down until the pilot has
+    /// ordered landing and then take-off again.
+    Withheld { landing_ordered: bool },
+}
+
+impl Session {
+    /// A session that has heard nothing yet.
+    pub fn new(config: SessionConfig) -> Self {
+        let handshake = Handshake::new(config.settings.len());
+        Self {
+            config,
+            link: Link::Silent,
+            handshake,
+            next_sequence: 1,
+            state: DroneState::empty(),
+            last_navdata: None,
+            last_wake_up: None,
+            flat_trim_due: false,
+            take_off: TakeOffLatch::Follow { airborne: false },
+            events: VecDeque::new(),
+            statistics: Statistics::default(),
+        }
+    }
+
+    /// Takes in a datagram from the drone's navdata port.
+    pub fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) -> Received {
+        let navdata = match Navdata::decode(datagram) {
+            Ok(navdata) => navdata,
+            Err(error) => {
+                self.statistics.damaged += 1;
+                return Received::Damaged(error);
+            }
+        };
+        if let Some(last) = self.last_navdata.filter(|_| self.link == Link::Alive)
+            && navdata.sequence <= last.sequence
+        {
+            if !has_restarted(&navdata, last, now) {
+                self.statistics.stale += 1;
+                return Received::Stale;
+            }
+            self.events.push_back(Event::DroneRestarted);
+            self.withhold_take_off();
+            self.handshake = Handshake::new(self.config.settings.len());
+        }
+        self.last_navdata = Some(Heard { at: now, sequence: navdata.sequence });
+        self.statistics.received += 1;
+        if self.link == Link::Silent {
+            self.link = Link::Alive;
+            self.events.push_back(Event::Connected);
+        }
+        self.watch_state(&navdata);
+        self.handshake.handle_state(navdata.state, &self.config, &mut self.events);
+        Received::Navdata(navdata)
+    }
+
+    /// Takes in bytes from the drone's control port.
+    pub fn handle_control(&mut self, bytes: &[u8]) {
+        self.handshake.handle_control(bytes, &mut self.events);
+    }
+
+    /// Fills `datagram` with this tick's commands: REF, PCMD, and what the conversation needs.
+    ///
+    /// # Errors
+    /// Never in practice: the commands of one tick are shorter than a datagram, whatever the
+    /// settings; the error is passed on rather than hidden.
+    pub fn tick(
+        &mut self,
+        now: Duration,
+        order: Order,
+        datagram: &mut Datagram,
+    ) -> Result<(), EncodeError> {
+        self.watch_silence(now);
+        datagram.clear();
+        let reference = if self.take_off_bit(order.flight) { Ref::TakeOff } else { Ref::Land };
+        self.push(datagram, &Command::Ref(reference))?;
+        self.push(datagram, &Command::Pcmd(order.motion))?;
+        if self.state.contains(DroneState::COMMUNICATION_WATCHDOG) {
+            self.push(datagram, &Command::CommunicationWatchdog)?;
+        }
+        if std::mem::take(&mut self.flat_trim_due) {
+            self.push(datagram, &Command::FlatTrim)?;
+        }
+        if self.link == Link::Alive
+            && let Some(command) =
+                self.handshake.command(now, self.state, &self.config, &mut self.events)
+        {
+            self.push(datagram, &command)?;
+        }
+        Ok(())
+    }
+
+    /// Whether [`crate::WAKE_UP`] is to be sent to the navdata port now.
+    pub fn wake_up_due(&mut self, now: Duration) -> bool {
+        let heard = self.last_navdata.map(|heard| heard.at);
+        let quiet = |since: Option<Duration>| {
+            since.is_none_or(|at| now.saturating_sub(at) >= self.config.wake_up_interval)
+        };
+        let due = quiet(heard) && quiet(self.last_wake_up);
+        if due {
+            self.last_wake_up = Some(now);
+        }
+        due
+    }
+
+    /// Sends one level reference with the next tick. The drone must stand level on the ground.
+    pub fn request_flat_trim(&mut self) {
+        self.flat_trim_due = true;
+    }
+
+    /// What happened, oldest first.
+    pub fn poll_event(&mut self) -> Option<Event> {
+        self.events.pop_front()
+    }
+
+    /// Whether the drone is heard and configured.
+    pub fn is_ready(&self) -> bool {
+        self.link == Link::Alive && self.handshake.is_done()
+    }
+
+    /// Whether the drone is being heard.
+    pub fn is_alive(&self) -> bool {
+        self.link == Link::Alive
+    }
+
+    /// The state bits of the newest packet.
+    pub fn state(&self) -> DroneState {
+        self.state
+    }
+
+    /// Time since the newest packet; nothing if there was none.
+    pub fn silence(&self, now: Duration) -> Option<Duration> {
+        self.last_navdata.map(|heard| now.saturating_sub(heard.at))
+    }
+
+    /// Counters since the start.
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+
+    fn push(&mut self, datagram: &mut Datagram, command: &Command) -> Result<(), EncodeError> {
+        datagram.push(self.next_sequence, command)?;
+        self.next_sequence = self.next_sequence.checked_add(1).unwrap_or(1);
+        Ok(())
+    }
+
+    fn watch_state(&mut self, navdata: &Navdata) {
+        let emergency = |state: DroneState| state.contains(DroneState::EMERGENCY);
+        match (emergency(self.state), emergency(navdata.state)) {
+            (false, true) => {
+                self.events.push_back(Event::Emergency);
+                self.withhold_take_off();
+            }
+            (true, false) => self.events.push_back(Event::EmergencyCleared),
+            _ => {}
+        }
+        self.state = navdata.state;
+        if let TakeOffLatch::Follow { airborne } = self.take_off {
+            let landed =
+                navdata.demo.is_some_and(|demo| demo.control_state == ControlState::Landed);
+            if navdata.state.contains(DroneState::FLYING) {
+                self.take_off = TakeOffLatch::Follow { airborne: true };
+            } else if airborne && landed {
+                // It flew and has landed: the order to fly is spent.
+                self.withhold_take_off();
+            }
+        }
+    }
+
+    fn watch_silence(&mut self, now: Duration) {
+        let Some(heard) = self.last_navdata else { return };
+        let lost = now.saturating_sub(heard.at) >= self.config.loss_timeout;
+        if lost && self.link == Link::Alive {
+            self.link = Link::Silent;
+            self.events.push_back(Event::LinkLost);
+            self.withhold_take_off();
+            self.handshake = Handshake::new(self.config.settings.len());
+            // The drone starts counting anew after a loss.
+            self.next_sequence = 1;
+        }
+    }
+
+    fn withhold_take_off(&mut self) {
+        self.take_off = TakeOffLatch::Withheld { landing_ordered: false };
+    }
+
+    fn take_off_bit(&mut self, order: FlightOrder) -> bool {
+        match &mut self.take_off {
+            TakeOffLatch::Follow { airborne } => match order {
+                FlightOrder::TakeOff => true,
+                FlightOrder::StayAirborne => *airborne,
+                FlightOrder::Land => false,
+            },
+            TakeOffLatch::Withheld { landing_ordered } => {
+                let renewed = *landing_ordered && order == FlightOrder::TakeOff;
+                *landing_ordered |= order == FlightOrder::Land;
+                if renewed {
+                    self.take_off = TakeOffLatch::Follow { airborne: false };
+                }
+                renewed
+            }
+        }
+    }
+}
+
+/// A sequence number that does not rise means a late or repeated packet, unless the drone says
+/// that it is bootstrapping, or was silent for a second, or counts from the very start.
+fn has_restarted(navdata: &Navdata, last: Heard, now: Duration) -> bool {
+    const FIRST_PACKETS: u32 = 3;
+    const MAX_LATENESS: Duration = Duration::from_secs(1);
+    if navdata.sequence == last.sequence {
+        return false;
+    }
+    let silent = now.saturating_sub(last.at) > MAX_LATENESS;
+    let bootstrapping = navdata.state.contains(DroneState::NAVDATA_BOOTSTRAP);
+    let from_the_start = navdata.sequence <= FIRST_PACKETS && last.sequence > 10 * FIRST_PACKETS;
+    silent || bootstrapping || from_the_start
+}
+
+#[cfg(test)]
+mod tests;

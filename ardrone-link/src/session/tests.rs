@@ -1,0 +1,208 @@
+use bytes::BytesMut;
+
+use super::*;
+use crate::at::{ControlMode, decode};
+use crate::navdata::Demo;
+
+const TICK: Duration = Duration::from_millis(30);
+
+/// A session and the time it lives in.
+struct Bench {
+    session: Session,
+    now: Duration,
+}
+
+impl Bench {
+    fn new(keys: &[(&str, &str)]) -> Self {
+        let settings = keys.iter().map(|(key, value)| Config::new(*key, value).unwrap()).collect();
+        let config = SessionConfig { settings, ..SessionConfig::default() };
+        Self { session: Session::new(config), now: Duration::ZERO }
+    }
+
+    fn hear(&mut self, sequence: u32, state: DroneState) -> Received {
+        let control_state = if state.contains(DroneState::FLYING) {
+            ControlState::Flying
+        } else {
+            ControlState::Landed
+        };
+        let demo = Some(Demo { control_state, ..Demo::default() });
+        let mut bytes = BytesMut::new();
+        Navdata { state, sequence, demo, ..Navdata::default() }.encode(false, &mut bytes);
+        self.session.handle_navdata(self.now, &bytes)
+    }
+
+    /// The commands of one tick.
+    fn tick(&mut self, flight: FlightOrder) -> Vec<Command> {
+        self.now += TICK;
+        let mut datagram = Datagram::new();
+        let order = Order { flight, motion: Motion::Hover };
+        self.session.tick(self.now, order, &mut datagram).unwrap();
+        decode(datagram.as_bytes()).map(|command| command.unwrap().1).collect()
+    }
+
+    fn takes_off(&mut self, flight: FlightOrder) -> bool {
+        self.tick(flight)[0] == Command::Ref(Ref::TakeOff)
+    }
+
+    fn events(&mut self) -> Vec<Event> {
+        std::iter::from_fn(|| self.session.poll_event()).collect()
+    }
+}
+
+const CLEAR: Command = Command::Control(ControlMode::ClearAcknowledge);
+
+#[test]
+fn the_handshake_sets_acknowledges_and_clears_each_key() {
+    let mut bench =
+        Bench::new(&[("general:navdata_demo", "TRUE"), ("control:altitude_max", "3000")]);
+    let acknowledge = DroneState::COMMAND_ACKNOWLEDGE;
+    let quiet = DroneState::empty();
+    let config = |key: &str, value: &str| Command::Config(Config::new(key, value).unwrap());
+    // Some other client left the acknowledge bit set.
+    bench.hear(1, acknowledge | DroneState::NAVDATA_BOOTSTRAP);
+    assert_eq!(bench.tick(FlightOrder::Land)[2..], [CLEAR]);
+    bench.hear(2, DroneState::NAVDATA_BOOTSTRAP);
+    let demo = config("general:navdata_demo", "TRUE");
+    assert_eq!(bench.tick(FlightOrder::Land)[2], demo);
+    // Not acknowledged: sent again, but not in every tick.
+    assert_eq!(bench.tick(FlightOrder::Land)[2..], []);
+    for _ in 0..3 {
+        bench.tick(FlightOrder::Land);
+    }
+    assert_eq!(bench.tick(FlightOrder::Land)[2..], [demo]);
+    bench.hear(3, acknowledge);
+    assert_eq!(bench.tick(FlightOrder::Land)[2..], [CLEAR]);
+    bench.hear(4, quiet);
+    let ceiling = config("control:altitude_max", "3000");
+    assert_eq!(bench.tick(FlightOrder::Land)[2..], [ceiling]);
+    bench.hear(5, acknowledge);
+    bench.tick(FlightOrder::Land);
+    assert!(!bench.session.is_ready());
+    bench.hear(6, quiet);
+    assert!(bench.session.is_ready());
+    let key = |key: &str| Event::Configured { key: key.to_owned() };
+    assert_eq!(
+        bench.events(),
+        [Event::Connected, key("general:navdata_demo"), key("control:altitude_max"), Event::Ready]
+    );
+}
+
+#[test]
+fn a_key_that_is_never_acknowledged_is_given_up_and_reported() {
+    let mut bench = Bench::new(&[("general:navdata_demo", "TRUE")]);
+    for sequence in 1..100 {
+        bench.hear(sequence, DroneState::empty());
+        bench.tick(FlightOrder::Land);
+    }
+    assert!(bench.session.is_ready());
+    let key = "general:navdata_demo".to_owned();
+    assert!(bench.events().contains(&Event::ConfigurationTimedOut { key }));
+}
+
+#[test]
+fn the_configuration_is_read_back_in_pieces() {
+    let mut bench = Bench::new(&[]);
+    bench.session.config.read_back = true;
+    bench.hear(1, DroneState::empty());
+    assert_eq!(
+        bench.tick(FlightOrder::Land)[2..],
+        [Command::Control(ControlMode::SendConfiguration)]
+    );
+    bench.session.handle_control(b"control:outdoor = FA");
+    assert!(!bench.session.is_ready());
+    bench.session.handle_control(b"LSE\n\0");
+    assert!(bench.session.is_ready());
+    let read = Configuration::parse("control:outdoor = FALSE\n");
+    assert!(bench.events().contains(&Event::ConfigurationRead(read)));
+}
+
+#[test]
+fn without_a_control_port_the_session_goes_on_and_says_so() {
+    let mut bench = Bench::new(&[]);
+    bench.session.config.read_back = true;
+    for sequence in 1..120 {
+        bench.hear(sequence, DroneState::empty());
+        bench.tick(FlightOrder::Land);
+    }
+    assert!(bench.session.is_ready());
+    assert!(bench.events().contains(&Event::ConfigurationNotRead));
+}
+
+#[test]
+fn old_repeated_and_damaged_navdata_is_dropped_and_counted() {
+    let mut bench = Bench::new(&[]);
+    assert!(matches!(bench.hear(50, DroneState::empty()), Received::Navdata(_)));
+    assert_eq!(bench.hear(50, DroneState::empty()), Received::Stale);
+    assert_eq!(bench.hear(49, DroneState::empty()), Received::Stale);
+    assert!(matches!(bench.session.handle_navdata(bench.now, b"garbage"), Received::Damaged(_)));
+    let expected = Statistics { received: 1, stale: 2, damaged: 1 };
+    assert_eq!(bench.session.statistics(), expected);
+}
+
+#[test]
+fn the_watchdog_bit_is_answered_and_nothing_else_is() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(1, DroneState::COMMUNICATION_WATCHDOG);
+    assert!(bench.tick(FlightOrder::Land).contains(&Command::CommunicationWatchdog));
+    bench.hear(2, DroneState::empty());
+    assert!(!bench.tick(FlightOrder::Land).contains(&Command::CommunicationWatchdog));
+}
+
+#[test]
+fn silence_wakes_the_drone_again_and_becomes_a_loss() {
+    let mut bench = Bench::new(&[]);
+    assert!(bench.session.wake_up_due(bench.now));
+    assert!(!bench.session.wake_up_due(bench.now + TICK));
+    bench.hear(900, DroneState::FLYING);
+    bench.now += Duration::from_millis(1900);
+    bench.tick(FlightOrder::StayAirborne);
+    assert!(bench.session.is_alive());
+    assert!(bench.session.wake_up_due(bench.now));
+    bench.now += Duration::from_millis(200);
+    let datagram = bench.tick(FlightOrder::StayAirborne);
+    assert!(!bench.session.is_alive());
+    assert_eq!(datagram[0], Command::Ref(Ref::Land));
+    // The drone is heard again with low numbers: nobody is offended.
+    assert!(matches!(bench.hear(1, DroneState::empty()), Received::Navdata(_)));
+    assert_eq!(
+        bench.events(),
+        [Event::Connected, Event::Ready, Event::LinkLost, Event::Connected, Event::Ready]
+    );
+}
+
+#[test]
+fn a_drone_that_restarts_in_flight_does_not_take_off_again() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(500, DroneState::empty());
+    assert!(bench.takes_off(FlightOrder::TakeOff));
+    bench.hear(501, DroneState::FLYING);
+    assert!(bench.takes_off(FlightOrder::StayAirborne));
+    bench.hear(1, DroneState::NAVDATA_BOOTSTRAP);
+    assert!(bench.events().contains(&Event::DroneRestarted));
+    // Neither the order to stay in the air nor the one that is still being given counts.
+    assert!(!bench.takes_off(FlightOrder::StayAirborne));
+    assert!(!bench.takes_off(FlightOrder::TakeOff));
+    // A new order does.
+    assert!(!bench.takes_off(FlightOrder::Land));
+    assert!(bench.takes_off(FlightOrder::TakeOff));
+}
+
+#[test]
+fn after_an_emergency_or_a_landing_the_order_to_fly_is_spent() {
+    for end in [DroneState::EMERGENCY, DroneState::empty()] {
+        let mut bench = Bench::new(&[]);
+        bench.hear(1, DroneState::empty());
+        assert!(bench.takes_off(FlightOrder::TakeOff));
+        bench.hear(2, DroneState::FLYING);
+        bench.hear(3, end);
+        assert!(!bench.takes_off(FlightOrder::StayAirborne));
+        assert!(!bench.takes_off(FlightOrder::TakeOff));
+    }
+}
+
+#[test]
+fn staying_airborne_never_takes_off() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(1, DroneState::empty());
+    assert!(!bench.takes_off(FlightOrder::StayAirborne));
+}
