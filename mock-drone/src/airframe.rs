@@ -1,0 +1,235 @@
+//! How the drone moves: the `rec` model, chosen inside the spread of the published ones.
+//!
+//! World frame: x right, y forward, z up, metres; yaw in radians, clockwise from above.
+//! Angles: pitch nose up, roll right side down.
+
+use nalgebra::{Vector2, Vector3};
+
+/// Gravity.
+pub const GRAVITY_M_S2: f64 = 9.81;
+/// Integration step; the attitude loop has 12 rad/s, so this is fine enough for Euler.
+pub const STEP_S: f64 = 0.0025;
+
+/// What the firmware asks of the motors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Thrust {
+    /// Motors off: the drone stands or falls.
+    Off,
+    /// Motors on.
+    On(Attitude),
+}
+
+/// An attitude and climb demand.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Attitude {
+    /// Nose up.
+    pub pitch_rad: f64,
+    /// Right side down.
+    pub roll_rad: f64,
+    /// Up.
+    pub climb_m_s: f64,
+    /// Clockwise.
+    pub turn_rad_s: f64,
+}
+
+/// A drone's body in the air.
+#[derive(Debug, Clone)]
+pub struct Airframe {
+    position_m: Vector3<f64>,
+    velocity_m_s: Vector3<f64>,
+    pitch: Tilt,
+    roll: Tilt,
+    yaw_rad: f64,
+    turn_rad_s: f64,
+    trim_rad: Vector2<f64>,
+    wind_m_s: Vector2<f64>,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Tilt {
+    angle_rad: f64,
+    rate_rad_s: f64,
+}
+
+impl Tilt {
+    const FREQUENCY_RAD_S: f64 = 12.0;
+    const DAMPING: f64 = 0.8;
+
+    fn step(&mut self, demand_rad: f64) {
+        let acceleration = Self::FREQUENCY_RAD_S.powi(2) * (demand_rad - self.angle_rad)
+            - 2.0 * Self::DAMPING * Self::FREQUENCY_RAD_S * self.rate_rad_s;
+        self.rate_rad_s += acceleration * STEP_S;
+        self.angle_rad += self.rate_rad_s * STEP_S;
+    }
+}
+
+impl Airframe {
+    const CLIMB_TIME_CONSTANT_S: f64 = 0.5;
+    const MAX_CLIMB_ACCELERATION_M_S2: f64 = 4.0;
+    const TURN_TIME_CONSTANT_S: f64 = 0.2;
+    const LINEAR_DRAG_1_S: f64 = 0.45;
+    const QUADRATIC_DRAG_1_M: f64 = 0.08;
+
+    /// A drone on the ground at the origin. `trim_rad` is the error of its level reference,
+    /// (roll, pitch), that it does not know of; `wind_m_s` blows towards (right, forward).
+    pub fn new(trim_rad: Vector2<f64>, wind_m_s: Vector2<f64>) -> Self {
+        Self {
+            position_m: Vector3::zeros(),
+            velocity_m_s: Vector3::zeros(),
+            pitch: Tilt::default(),
+            roll: Tilt::default(),
+            yaw_rad: 0.0,
+            turn_rad_s: 0.0,
+            trim_rad,
+            wind_m_s,
+        }
+    }
+
+    /// One step of [`STEP_S`] seconds.
+    pub fn step(&mut self, thrust: Thrust) {
+        match thrust {
+            Thrust::On(demand) => self.fly(&demand),
+            Thrust::Off => self.fall(),
+        }
+        if self.position_m.z <= 0.0 {
+            self.position_m.z = 0.0;
+            self.velocity_m_s.z = self.velocity_m_s.z.max(0.0);
+            if thrust == Thrust::Off {
+                self.come_to_rest();
+            } else {
+                // Standing with turning motors: no sliding.
+                self.velocity_m_s.x = 0.0;
+                self.velocity_m_s.y = 0.0;
+            }
+        }
+    }
+
+    fn fly(&mut self, demand: &Attitude) {
+        self.roll.step(demand.roll_rad + self.trim_rad.x);
+        self.pitch.step(demand.pitch_rad + self.trim_rad.y);
+        self.turn_rad_s +=
+            (demand.turn_rad_s - self.turn_rad_s) / Self::TURN_TIME_CONSTANT_S * STEP_S;
+        self.yaw_rad += self.turn_rad_s * STEP_S;
+
+        // Thrust is raised to carry the weight at any tilt.
+        let forward = -GRAVITY_M_S2 * self.pitch.angle_rad.tan();
+        let right = GRAVITY_M_S2 * self.roll.angle_rad.tan();
+        let thrust = world_from_body(right, forward, self.yaw_rad);
+        let air = self.velocity_m_s.xy() - self.wind_m_s;
+        let drag = air * (Self::LINEAR_DRAG_1_S + Self::QUADRATIC_DRAG_1_M * air.norm());
+        let climb = ((demand.climb_m_s - self.velocity_m_s.z) / Self::CLIMB_TIME_CONSTANT_S)
+            .clamp(-Self::MAX_CLIMB_ACCELERATION_M_S2, Self::MAX_CLIMB_ACCELERATION_M_S2);
+        self.accelerate((thrust - drag).push(climb));
+    }
+
+    fn fall(&mut self) {
+        let air = self.velocity_m_s.xy() - self.wind_m_s;
+        let drag =
+            if self.position_m.z > 0.0 { air * Self::LINEAR_DRAG_1_S } else { Vector2::zeros() };
+        self.turn_rad_s = 0.0;
+        self.accelerate((-drag).push(-GRAVITY_M_S2));
+    }
+
+    fn accelerate(&mut self, acceleration_m_s2: Vector3<f64>) {
+        self.velocity_m_s += acceleration_m_s2 * STEP_S;
+        self.position_m += self.velocity_m_s * STEP_S;
+    }
+
+    fn come_to_rest(&mut self) {
+        self.velocity_m_s = Vector3::zeros();
+        self.pitch = Tilt::default();
+        self.roll = Tilt::default();
+        self.turn_rad_s = 0.0;
+    }
+
+    /// Right, forward, up.
+    pub fn position_m(&self) -> Vector3<f64> {
+        self.position_m
+    }
+
+    /// Right, forward, up.
+    pub fn velocity_m_s(&self) -> Vector3<f64> {
+        self.velocity_m_s
+    }
+
+    /// (right, forward) in the levelled body frame.
+    pub fn body_velocity_m_s(&self) -> Vector2<f64> {
+        body_from_world(self.velocity_m_s.x, self.velocity_m_s.y, self.yaw_rad)
+    }
+
+    /// Nose up.
+    pub fn pitch_rad(&self) -> f64 {
+        self.pitch.angle_rad
+    }
+
+    /// Right side down.
+    pub fn roll_rad(&self) -> f64 {
+        self.roll.angle_rad
+    }
+
+    /// Clockwise from above, not wrapped.
+    pub fn yaw_rad(&self) -> f64 {
+        self.yaw_rad
+    }
+}
+
+/// (right, forward) in the body to (right, forward) in the world, at a clockwise heading.
+pub(crate) fn world_from_body(right: f64, forward: f64, yaw_rad: f64) -> Vector2<f64> {
+    let (sin, cos) = yaw_rad.sin_cos();
+    Vector2::new(sin * forward + cos * right, cos * forward - sin * right)
+}
+
+/// The inverse of [`world_from_body`].
+pub(crate) fn body_from_world(x: f64, y: f64, yaw_rad: f64) -> Vector2<f64> {
+    let (sin, cos) = yaw_rad.sin_cos();
+    Vector2::new(cos * x - sin * y, sin * x + cos * y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fly(demand: Attitude, seconds: f64) -> Airframe {
+        let mut airframe = Airframe::new(Vector2::zeros(), Vector2::zeros());
+        airframe.position_m.z = 1.0;
+        let mut time_s = 0.0;
+        while time_s < seconds {
+            airframe.step(Thrust::On(demand));
+            time_s += STEP_S;
+        }
+        airframe
+    }
+
+    #[test]
+    fn full_tilt_ends_at_three_metres_a_second() {
+        let pitch_rad = -12_f64.to_radians();
+        let airframe = fly(Attitude { pitch_rad, ..Attitude::default() }, 30.0);
+        let speed = airframe.velocity_m_s().y;
+        assert!((speed - 3.0).abs() < 0.1, "{speed}");
+    }
+
+    #[test]
+    fn the_attitude_lags_by_an_eighth_of_a_second() {
+        let demand = Attitude { roll_rad: 0.2, ..Attitude::default() };
+        let early = fly(demand, 0.07).roll_rad() / 0.2;
+        let late = fly(demand, 0.20).roll_rad() / 0.2;
+        assert!(early < 0.35 && late > 0.75, "{early} {late}");
+    }
+
+    #[test]
+    fn motors_off_means_falling_and_then_rest() {
+        let mut airframe = fly(Attitude { pitch_rad: -0.2, ..Attitude::default() }, 1.0);
+        for _ in 0..400 {
+            airframe.step(Thrust::Off);
+        }
+        assert!(airframe.position_m().z.abs() < 1e-9);
+        assert!(airframe.velocity_m_s().norm() < 1e-9);
+    }
+
+    #[test]
+    fn frames_turn_into_each_other() {
+        let world = world_from_body(0.3, 0.7, 1.1);
+        let body = body_from_world(world.x, world.y, 1.1);
+        assert!((body - Vector2::new(0.3, 0.7)).norm() < 1e-12);
+    }
+}

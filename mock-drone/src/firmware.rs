@@ -1,0 +1,450 @@
+//! The drone's firmware as the network sees it: what state it is in, and what AT commands do.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use ardrone_link::at::{Command, ControlMode, Motion, Ref, decode};
+use ardrone_link::navdata::{ControlState, DroneState};
+use nalgebra::Vector2;
+
+use crate::airframe::{Airframe, Attitude, STEP_S, Thrust, body_from_world};
+
+/// Motors turn this long before the drone climbs.
+const SPIN_UP: Duration = Duration::from_millis(900);
+const TAKE_OFF_HEIGHT_M: f64 = 0.85;
+const TAKE_OFF_CLIMB_M_S: f64 = 0.55;
+/// The take-off is complete this close to its height.
+const TAKE_OFF_TOLERANCE_M: f64 = 0.06;
+const LANDING_SPEED_M_S: f64 = 0.4;
+const TOUCH_DOWN_SPEED_M_S: f64 = 0.25;
+const TOUCH_DOWN_HEIGHT_M: f64 = 0.4;
+const ALTITUDE_GAIN_1_S: f64 = 1.2;
+/// A gaz demand below this holds the altitude.
+const GAZ_DEAD_ZONE: f64 = 0.005;
+/// Silence that raises the watchdog bit.
+const WATCHDOG: Duration = Duration::from_millis(50);
+/// Silence that counts as a lost link.
+const LINK_LOSS: Duration = Duration::from_secs(2);
+/// The drone hovers this long after a lost link before it lands.
+const LINK_LOSS_HOVER: Duration = Duration::from_secs(2);
+/// Full charge lasts this long in level hover.
+const BATTERY_LIFE_S: f64 = 720.0;
+const BATTERY_REFUSES_TAKE_OFF_PERCENT: f64 = 20.0;
+const BATTERY_LOW_PERCENT: f64 = 10.0;
+const BATTERY_LANDS_PERCENT: f64 = 8.0;
+/// Uplink and actuator delay of PCMD.
+const COMMAND_DELAY: Duration = Duration::from_millis(60);
+
+/// What the drone is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// On the ground, motors off.
+    Landed,
+    /// Spinning up, then climbing to the hover height.
+    TakingOff {
+        /// When the order came.
+        since: Duration,
+    },
+    /// In the air, following PCMD or holding position.
+    Flying,
+    /// Descending.
+    Landing,
+    /// Motors cut until the emergency is cleared.
+    Emergency,
+}
+
+/// The firmware of one drone.
+#[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "they are bits of the drone's state word")]
+pub struct Firmware {
+    phase: Phase,
+    configuration: BTreeMap<String, String>,
+    bootstrapping: bool,
+    acknowledge: bool,
+    watchdog: bool,
+    last_sequence: Option<u32>,
+    last_command: Option<Duration>,
+    emergency_bit: bool,
+    user_emergency: bool,
+    motion: DelayedMotion,
+    hold: Hold,
+    battery_percent: f64,
+    dump_requested: bool,
+}
+
+/// PCMD on its way to the motors.
+#[derive(Debug, Clone, Default)]
+struct DelayedMotion {
+    waiting: std::collections::VecDeque<(Duration, Motion)>,
+    active: Motion,
+}
+
+impl DelayedMotion {
+    fn at(&mut self, now: Duration) -> Motion {
+        while let Some((due, motion)) = self.waiting.front().copied()
+            && due <= now
+        {
+            self.active = motion;
+            self.waiting.pop_front();
+        }
+        self.active
+    }
+
+    fn clear(&mut self) {
+        *self = Self::default();
+    }
+}
+
+/// The place and height that the drone holds by itself.
+#[derive(Debug, Clone, Copy, Default)]
+struct Hold {
+    place_m: Option<Vector2<f64>>,
+    height_m: Option<f64>,
+}
+
+/// Keys that clients rely on, with the values of a factory-fresh drone.
+const DEFAULTS: [(&str, &str); 20] = [
+    ("general:num_version_soft", "2.4.8"),
+    ("general:num_version_mb", "2.0"),
+    ("general:ardrone_name", "Mock AR.Drone"),
+    ("general:navdata_demo", "FALSE"),
+    ("general:navdata_options", "65537"),
+    ("general:com_watchdog", "2"),
+    ("general:video_enable", "TRUE"),
+    ("general:vision_enable", "TRUE"),
+    ("general:vbat_min", "9000"),
+    ("control:altitude_max", "3000"),
+    ("control:altitude_min", "50"),
+    ("control:euler_angle_max", "2.0943999e-01"),
+    ("control:control_vz_max", "7.0000000e+02"),
+    ("control:control_yaw", "1.7453293e+00"),
+    ("control:outdoor", "FALSE"),
+    ("control:flight_without_shell", "FALSE"),
+    ("control:flying_mode", "0"),
+    ("network:ssid_single_player", "ardrone2_mock"),
+    ("video:video_channel", "0"),
+    ("detect:detect_type", "3"),
+];
+
+impl Firmware {
+    /// A drone that has just started, with this much charge.
+    pub fn new(battery_percent: f64) -> Self {
+        let configuration =
+            DEFAULTS.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
+        Self {
+            phase: Phase::Landed,
+            configuration,
+            bootstrapping: true,
+            acknowledge: false,
+            watchdog: false,
+            last_sequence: None,
+            last_command: None,
+            emergency_bit: false,
+            user_emergency: false,
+            motion: DelayedMotion::default(),
+            hold: Hold::default(),
+            battery_percent,
+            dump_requested: false,
+        }
+    }
+
+    /// Takes in a datagram of the AT port. Returns the errors of commands that were not
+    /// understood; the others took effect.
+    pub fn handle_at(
+        &mut self,
+        now: Duration,
+        datagram: &[u8],
+    ) -> Vec<ardrone_link::at::DecodeError> {
+        let mut errors = Vec::new();
+        for command in decode(datagram) {
+            match command {
+                Ok((sequence, command)) => self.command(now, sequence, command),
+                Err(error) => errors.push(error),
+            }
+        }
+        errors
+    }
+
+    fn command(&mut self, now: Duration, sequence: u32, command: Command) {
+        // Number 1 starts the count anew, and so does a silence that lost the link.
+        let silent = self.silence(now).is_none_or(|silence| silence >= LINK_LOSS);
+        let fresh =
+            sequence == 1 || silent || self.last_sequence.is_none_or(|last| sequence > last);
+        if !fresh {
+            return;
+        }
+        self.last_sequence = Some(sequence);
+        self.last_command = Some(now);
+        match command {
+            Command::Ref(reference) => self.reference(now, reference),
+            Command::Pcmd(motion) => {
+                self.motion.waiting.push_back((now + COMMAND_DELAY, motion));
+            }
+            Command::Config(config) => {
+                self.acknowledge = true;
+                if config.key() == "general:navdata_demo" {
+                    self.bootstrapping = false;
+                }
+                if let Some(value) = self.configuration.get_mut(config.key()) {
+                    config.value().clone_into(value);
+                }
+            }
+            Command::Control(ControlMode::ClearAcknowledge) => self.acknowledge = false,
+            Command::Control(ControlMode::SendConfiguration) => self.dump_requested = true,
+            Command::CommunicationWatchdog => self.watchdog = false,
+            // Level reference and custom ids need no model; the rest has no effect on flight.
+            Command::FlatTrim
+            | Command::ConfigIds { .. }
+            | Command::Control(_)
+            | Command::Other { .. } => {}
+        }
+    }
+
+    fn reference(&mut self, now: Duration, reference: Ref) {
+        let emergency = reference == Ref::ToggleEmergency;
+        let rising = emergency && !self.emergency_bit;
+        self.emergency_bit = emergency;
+        if rising {
+            self.user_emergency = self.phase != Phase::Emergency;
+            self.phase = match self.phase {
+                Phase::Emergency => Phase::Landed,
+                _ => Phase::Emergency,
+            };
+            return;
+        }
+        match (reference, self.phase) {
+            (Ref::TakeOff, Phase::Landed)
+                if self.battery_percent > BATTERY_REFUSES_TAKE_OFF_PERCENT =>
+            {
+                self.phase = Phase::TakingOff { since: now };
+                self.motion.clear();
+                self.hold = Hold::default();
+            }
+            (Ref::Land, Phase::TakingOff { .. } | Phase::Flying) => self.start_landing(),
+            _ => {}
+        }
+    }
+
+    fn start_landing(&mut self) {
+        self.phase = Phase::Landing;
+        self.hold = Hold::default();
+    }
+
+    /// One physics step: what the motors are to do.
+    pub fn step(&mut self, now: Duration, airframe: &Airframe) -> Thrust {
+        let silence = self.silence(now);
+        if silence.is_some_and(|silence| silence >= WATCHDOG) {
+            self.watchdog = true;
+        }
+        let lost_for = silence.and_then(|silence| silence.checked_sub(LINK_LOSS));
+        self.drain_battery(airframe);
+        self.change_phase(now, lost_for, airframe);
+        let motion = self.motion.at(now);
+        match self.phase {
+            Phase::Landed | Phase::Emergency => Thrust::Off,
+            Phase::TakingOff { since } if now.saturating_sub(since) < SPIN_UP => {
+                Thrust::On(Attitude::default())
+            }
+            Phase::TakingOff { .. } => {
+                let climb = ALTITUDE_GAIN_1_S * (TAKE_OFF_HEIGHT_M - airframe.position_m().z);
+                let climb_m_s = climb.clamp(0.0, TAKE_OFF_CLIMB_M_S);
+                Thrust::On(Attitude { climb_m_s, ..self.hover(airframe) })
+            }
+            Phase::Flying => {
+                let motion = if lost_for.is_some() { Motion::Hover } else { motion };
+                Thrust::On(self.fly(motion, airframe))
+            }
+            Phase::Landing => {
+                let near_ground = airframe.position_m().z < TOUCH_DOWN_HEIGHT_M;
+                let speed = if near_ground { TOUCH_DOWN_SPEED_M_S } else { LANDING_SPEED_M_S };
+                Thrust::On(Attitude { climb_m_s: -speed, ..self.hover(airframe) })
+            }
+        }
+    }
+
+    fn change_phase(&mut self, now: Duration, lost_for: Option<Duration>, airframe: &Airframe) {
+        let height_m = airframe.position_m().z;
+        match self.phase {
+            Phase::TakingOff { since } => {
+                let climbing = now.saturating_sub(since) >= SPIN_UP;
+                if climbing && height_m > TAKE_OFF_HEIGHT_M - TAKE_OFF_TOLERANCE_M {
+                    self.phase = Phase::Flying;
+                    self.hold = Hold { height_m: Some(TAKE_OFF_HEIGHT_M), ..self.hold };
+                }
+            }
+            Phase::Landing if height_m <= 0.0 => self.phase = Phase::Landed,
+            _ => {}
+        }
+        let lost = lost_for.is_some_and(|lost_for| lost_for >= LINK_LOSS_HOVER);
+        let empty = self.battery_percent <= BATTERY_LANDS_PERCENT;
+        if (lost || empty) && matches!(self.phase, Phase::Flying | Phase::TakingOff { .. }) {
+            self.start_landing();
+        }
+    }
+
+    fn drain_battery(&mut self, airframe: &Airframe) {
+        if matches!(self.phase, Phase::Landed | Phase::Emergency) {
+            return;
+        }
+        let tilt = (airframe.pitch_rad().hypot(airframe.roll_rad()) / 0.2).min(1.0);
+        let drain = 100.0 / BATTERY_LIFE_S * (1.0 + 0.6 * tilt) * STEP_S;
+        self.battery_percent = (self.battery_percent - drain).max(0.0);
+    }
+
+    fn fly(&mut self, motion: Motion, airframe: &Airframe) -> Attitude {
+        let Motion::Progressive { roll, pitch, gaz, yaw } = motion else {
+            let climb_m_s = self.hold_height(airframe);
+            return Attitude { climb_m_s, ..self.hover(airframe) };
+        };
+        self.hold.place_m = None;
+        let [roll, pitch, gaz, yaw] = [roll, pitch, gaz, yaw].map(|value| f64::from(value.get()));
+        let tilt_rad = self.number("control:euler_angle_max");
+        let climb_max_m_s = self.number("control:control_vz_max") / 1000.0;
+        let ceiling_m = self.number("control:altitude_max") / 1000.0;
+        let mut climb_m_s = if gaz.abs() < GAZ_DEAD_ZONE {
+            self.hold_height(airframe)
+        } else {
+            self.hold.height_m = None;
+            gaz * climb_max_m_s
+        };
+        if airframe.position_m().z >= ceiling_m {
+            climb_m_s = climb_m_s.min(0.0);
+        }
+        Attitude {
+            pitch_rad: pitch * tilt_rad,
+            roll_rad: roll * tilt_rad,
+            climb_m_s,
+            turn_rad_s: yaw * self.number("control:control_yaw"),
+        }
+    }
+
+    /// Levels and stays over the place where the drone came to rest.
+    fn hover(&mut self, airframe: &Airframe) -> Attitude {
+        const PLACE_GAIN: f64 = 0.06;
+        const SPEED_GAIN: f64 = 0.16;
+        const MAX_TILT_RAD: f64 = 0.2;
+        const SLOW_M_S: f64 = 0.2;
+        let velocity = airframe.body_velocity_m_s();
+        if self.hold.place_m.is_none() && velocity.norm() < SLOW_M_S {
+            self.hold.place_m = Some(airframe.position_m().xy());
+        }
+        let offset = self.hold.place_m.map_or(Vector2::zeros(), |place| {
+            let error = place - airframe.position_m().xy();
+            body_from_world(error.x, error.y, airframe.yaw_rad())
+        });
+        let tilt = offset * PLACE_GAIN - velocity * SPEED_GAIN;
+        Attitude {
+            roll_rad: tilt.x.clamp(-MAX_TILT_RAD, MAX_TILT_RAD),
+            pitch_rad: (-tilt.y).clamp(-MAX_TILT_RAD, MAX_TILT_RAD),
+            ..Attitude::default()
+        }
+    }
+
+    fn hold_height(&mut self, airframe: &Airframe) -> f64 {
+        let height_m = airframe.position_m().z;
+        let held_m = *self.hold.height_m.get_or_insert(height_m);
+        let limit_m_s = self.number("control:control_vz_max") / 1000.0;
+        (ALTITUDE_GAIN_1_S * (held_m - height_m)).clamp(-limit_m_s, limit_m_s)
+    }
+
+    fn silence(&self, now: Duration) -> Option<Duration> {
+        self.last_command.map(|last| now.saturating_sub(last))
+    }
+
+    /// A number of the configuration; a client may have stored text that is none.
+    fn number(&self, key: &str) -> f64 {
+        let default = || DEFAULTS.iter().find(|(name, _)| *name == key).map(|(_, value)| *value);
+        [self.configuration.get(key).map(String::as_str), default()]
+            .into_iter()
+            .flatten()
+            .find_map(|value| value.parse().ok().filter(|number: &f64| number.is_finite()))
+            .unwrap_or(0.0)
+    }
+
+    /// What the drone is doing.
+    pub fn phase(&self) -> Phase {
+        self.phase
+    }
+
+    /// Whether the pilot has been silent so long that the link is lost.
+    pub fn link_is_lost(&self, now: Duration) -> bool {
+        self.silence(now).is_some_and(|silence| silence >= LINK_LOSS)
+    }
+
+    /// Waits for a pilot to configure the drone again.
+    pub fn start_bootstrap(&mut self) {
+        self.bootstrapping = true;
+    }
+
+    /// Whether only status packets are sent.
+    pub fn is_bootstrapping(&self) -> bool {
+        self.bootstrapping
+    }
+
+    /// Whether only the demo set of options is sent.
+    pub fn is_demo(&self) -> bool {
+        self.configuration.get("general:navdata_demo").is_some_and(|value| value == "TRUE")
+    }
+
+    /// Whether option `tag` is asked for in demo mode.
+    pub fn wants_option(&self, tag: u16) -> bool {
+        let mask = self.configuration.get("general:navdata_options");
+        mask.and_then(|mask| mask.parse::<u32>().ok()).is_some_and(|mask| mask >> tag & 1 == 1)
+    }
+
+    /// Remaining charge.
+    pub fn battery_percent(&self) -> f64 {
+        self.battery_percent
+    }
+
+    /// The state word for navdata.
+    pub fn state(&self, now: Duration) -> DroneState {
+        let mut state = DroneState::ALTITUDE_CONTROL
+            | DroneState::CAMERA_READY
+            | DroneState::PIC_VERSION_OK
+            | DroneState::AT_THREAD
+            | DroneState::NAVDATA_THREAD
+            | DroneState::VIDEO_THREAD
+            | DroneState::ACQUISITION_THREAD;
+        let airborne =
+            matches!(self.phase, Phase::TakingOff { .. } | Phase::Flying | Phase::Landing);
+        for (condition, bit) in [
+            (airborne, DroneState::FLYING),
+            (self.acknowledge, DroneState::COMMAND_ACKNOWLEDGE),
+            (self.bootstrapping, DroneState::NAVDATA_BOOTSTRAP),
+            (self.is_demo(), DroneState::NAVDATA_DEMO),
+            (self.watchdog, DroneState::COMMUNICATION_WATCHDOG),
+            (self.link_is_lost(now), DroneState::COMMUNICATION_LOST),
+            (self.battery_percent <= BATTERY_LOW_PERCENT, DroneState::BATTERY_LOW),
+            (self.phase == Phase::Emergency, DroneState::EMERGENCY),
+            (self.user_emergency && self.phase == Phase::Emergency, DroneState::USER_EMERGENCY),
+        ] {
+            state.set(bit, condition);
+        }
+        state
+    }
+
+    /// The control state for navdata.
+    pub fn control_state(&self) -> ControlState {
+        match self.phase {
+            Phase::Landed => ControlState::Landed,
+            Phase::TakingOff { .. } => ControlState::TakingOff,
+            Phase::Flying if self.motion.active == Motion::Hover => ControlState::Hovering,
+            Phase::Flying => ControlState::Flying,
+            Phase::Landing => ControlState::Landing,
+            Phase::Emergency => ControlState::Default,
+        }
+    }
+
+    /// The configuration as the control port sends it, if it was asked for since the last call.
+    pub fn take_dump(&mut self) -> Option<String> {
+        std::mem::take(&mut self.dump_requested).then(|| {
+            let mut dump = String::new();
+            for (key, value) in &self.configuration {
+                dump.extend([key, " = ", value, "\n"]);
+            }
+            dump.push('\0');
+            dump
+        })
+    }
+}

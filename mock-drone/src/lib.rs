@@ -1,0 +1,20 @@
+//! A simulated AR.Drone 2.0 that real clients can fly.
+//!
+//! - [`airframe`]: how the drone moves: tilt, thrust, drag, turn.
+//! - [`firmware`]: the state machine that the network sees: take-off, landing, emergency, sequence
+//!   numbers, watchdogs, configuration with acknowledge.
+//! - [`sensors`]: what the drone believes of its own motion: noise, bias, delay.
+//! - [`Drone`]: the three together, a pure state machine fed with time and bytes.
+//! - [`server`]: the drone on real sockets.
+//!
+//! A drone with the same [`DroneConfig`] that is told the same things at the same times does the
+//! same things, bit for bit. It knows its own [`Truth`], so that a flight can be judged.
+#![forbid(unsafe_code)]
+
+pub mod airframe;
+mod drone;
+pub mod firmware;
+pub mod sensors;
+pub mod server;
+
+pub use drone::{Drone, DroneConfig, Truth};
