@@ -1,0 +1,339 @@
+//! The agent: `agent/autopilot.asl`, translated to C, behind a safe interface.
+//!
+//! [`AgentStep`] is what the agent sees and does in one step. This is the only file with `unsafe`
+//! code: the bindings that the translator generates, each block with its argument.
+
+use pid::Pose;
+
+use crate::agent::bindings::{Beliefs, Environment};
+
+#[allow(
+    unsafe_code,
+    unnameable_types,
+    clippy::pedantic,
+    reason = "generated: the Rust side of the C boundary"
+)]
+mod bindings {
+    include!(concat!(env!("OUT_DIR"), "/bindings.rs"));
+}
+
+pub use bindings::{Agent, STATE_BYTES};
+
+/// How orders are flown; plans can change it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ApproachSettings {
+    /// A target is reached within this distance.
+    pub reach_distance_m: f64,
+    /// While staying at a target the drone may be this far from it.
+    pub stay_distance_m: f64,
+    /// How long the drone stays at a target.
+    pub stay_time_ms: i64,
+}
+
+impl Default for ApproachSettings {
+    /// The defaults of `tum_ardrone`.
+    fn default() -> Self {
+        Self { reach_distance_m: 0.2, stay_distance_m: 0.5, stay_time_ms: 2000 }
+    }
+}
+
+/// A target's heading is reached within this angle.
+const REACH_ANGLE_DEG: f64 = 5.0;
+
+/// What the agent can know in one step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Senses {
+    /// Milliseconds since the program started.
+    pub now_ms: i64,
+    /// Where the drone is, once it is known.
+    pub pose: Option<Pose>,
+    /// The drone says that it has landed.
+    pub on_ground: bool,
+    /// The drone says that it hovers or flies.
+    pub hovering: bool,
+    /// How orders are flown.
+    pub settings: ApproachSettings,
+}
+
+/// What the agent wants the drone to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AgentCommand {
+    /// Stay on the ground.
+    Standby,
+    /// Take off.
+    TakeOff,
+    /// Stay in the air and hold still.
+    Hover,
+    /// Fly towards a pose.
+    GoTo(Pose),
+    /// Land.
+    Land,
+}
+
+/// How the agent's last order ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Report {
+    /// It was carried out.
+    Done,
+    /// It cannot be carried out now.
+    Refused,
+    /// It was tried and did not succeed.
+    Failed,
+}
+
+/// One step of the agent: what it senses, and what it decided.
+#[derive(Debug)]
+pub struct AgentStep {
+    senses: Senses,
+    /// What it wants the drone to do; the last word counts.
+    pub command: Option<AgentCommand>,
+    /// How many commands it issued; always one.
+    pub commands: u32,
+    /// What it said of its last order.
+    pub report: Option<Report>,
+}
+
+impl AgentStep {
+    /// Runs one deliberation cycle of `agent`.
+    pub fn run(agent: &mut Agent, senses: Senses) -> Self {
+        let mut step = Self { senses, command: None, commands: 0, report: None };
+        agent.next_step(&mut step);
+        step
+    }
+
+    fn issue(&mut self, command: AgentCommand) {
+        self.command = Some(command);
+        self.commands += 1;
+    }
+}
+
+impl Environment for AgentStep {
+    fn update_beliefs(&mut self, beliefs: &mut Beliefs<'_>) {
+        if let Some(pose) = self.senses.pose {
+            beliefs.set_position(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg);
+        }
+        let settings = self.senses.settings;
+        beliefs.set_reach_distance(settings.reach_distance_m);
+        beliefs.set_stay_distance(settings.stay_distance_m);
+        beliefs.set_stay_time(settings.stay_time_ms);
+    }
+
+    fn send_standby(&mut self) {
+        self.issue(AgentCommand::Standby);
+    }
+
+    fn send_take_off(&mut self) {
+        self.issue(AgentCommand::TakeOff);
+    }
+
+    fn send_hover(&mut self) {
+        self.issue(AgentCommand::Hover);
+    }
+
+    fn send_goto(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
+        self.issue(AgentCommand::GoTo(Pose { x_m, y_m, z_m, yaw_deg }));
+    }
+
+    fn send_land(&mut self) {
+        self.issue(AgentCommand::Land);
+    }
+
+    fn on_ground(&mut self) -> bool {
+        self.senses.on_ground
+    }
+
+    fn hovering(&mut self) -> bool {
+        self.senses.hovering
+    }
+
+    fn close_enough(
+        &mut self,
+        x_m: f64,
+        y_m: f64,
+        z_m: f64,
+        yaw_deg: f64,
+        distance_m: f64,
+    ) -> bool {
+        let target = Pose { x_m, y_m, z_m, yaw_deg };
+        self.senses.pose.is_some_and(|pose| {
+            distance(&pose, &target) <= distance_m
+                && estimator::wrap_deg(yaw_deg - pose.yaw_deg).abs() <= REACH_ANGLE_DEG
+        })
+    }
+
+    fn get_current_time_ms(&mut self) -> i64 {
+        self.senses.now_ms
+    }
+
+    fn long_enough(&mut self, since_ms: i64, time_ms: i64) -> bool {
+        self.senses.now_ms.saturating_sub(since_ms) > time_ms
+    }
+
+    fn report_done(&mut self) {
+        self.report = Some(Report::Done);
+    }
+
+    fn report_refused(&mut self) {
+        self.report = Some(Report::Refused);
+    }
+
+    fn report_failed(&mut self) {
+        self.report = Some(Report::Failed);
+    }
+}
+
+/// The distance between two places; headings don't count.
+pub fn distance(a: &Pose, b: &Pose) -> f64 {
+    (a.x_m - b.x_m).hypot(a.y_m - b.y_m).hypot(a.z_m - b.z_m)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GROUND: Senses = Senses {
+        now_ms: 0,
+        pose: Some(Pose { x_m: 0.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 }),
+        on_ground: true,
+        hovering: false,
+        settings: ApproachSettings {
+            reach_distance_m: 0.2,
+            stay_distance_m: 0.5,
+            stay_time_ms: 2000,
+        },
+    };
+    const HOVERING: Senses = Senses { on_ground: false, hovering: true, ..GROUND };
+    const TARGET: Pose = Pose { x_m: 1.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 };
+
+    /// The state is all the memory that the agent uses; it must not grow unseen.
+    const _: () = assert!(STATE_BYTES <= 320);
+
+    /// An agent and what it senses.
+    struct Bench {
+        agent: Agent,
+        senses: Senses,
+    }
+
+    impl Bench {
+        /// An agent that already waits: its initial goal took the first step.
+        fn new(senses: Senses) -> Self {
+            let mut bench = Self { agent: Agent::new(), senses };
+            bench.step();
+            bench
+        }
+
+        fn step(&mut self) -> (Option<AgentCommand>, Option<Report>) {
+            let step = AgentStep::run(&mut self.agent, self.senses);
+            assert_eq!(step.commands, 1, "exactly one AT command a step");
+            self.senses.now_ms += 30;
+            (step.command, step.report)
+        }
+
+        fn go_to(&mut self, pose: Pose) {
+            assert!(self.agent.achieve_go_to(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg));
+        }
+    }
+
+    #[test]
+    fn it_waits_on_the_ground_and_in_the_air() {
+        let mut bench = Bench::new(GROUND);
+        assert_eq!(bench.step(), (Some(AgentCommand::Standby), None));
+        bench.senses = HOVERING;
+        assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
+    }
+
+    #[test]
+    fn it_takes_off_until_the_drone_hovers_and_then_holds_the_place() {
+        let mut bench = Bench::new(GROUND);
+        assert!(bench.agent.achieve_take_off());
+        assert!(!bench.agent.can_add_event());
+        assert_eq!(bench.step(), (Some(AgentCommand::TakeOff), None));
+        assert_eq!(bench.step(), (Some(AgentCommand::TakeOff), None));
+        bench.senses = Senses { pose: Some(TARGET), now_ms: 3000, ..HOVERING };
+        let hold = Some(AgentCommand::GoTo(TARGET));
+        assert_eq!(bench.step(), (hold, Some(Report::Done)));
+        assert_eq!(bench.step(), (hold, None));
+    }
+
+    #[test]
+    fn a_take_off_that_does_not_succeed_is_given_up() {
+        let mut bench = Bench::new(GROUND);
+        assert!(bench.agent.achieve_take_off());
+        bench.step();
+        bench.senses.now_ms = 10_031;
+        assert_eq!(bench.step(), (Some(AgentCommand::Land), Some(Report::Failed)));
+        assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
+    }
+
+    #[test]
+    fn it_reaches_stays_and_reports() {
+        let mut bench = Bench::new(HOVERING);
+        bench.go_to(TARGET);
+        let approach = (Some(AgentCommand::GoTo(TARGET)), None);
+        assert_eq!(bench.step(), approach);
+        assert_eq!(bench.step(), approach);
+        bench.senses.pose = Some(TARGET);
+        assert_eq!(bench.step(), approach);
+        bench.senses.now_ms += 1900;
+        assert_eq!(bench.step(), approach);
+        // Drifting off starts the stay anew.
+        bench.senses.pose = Some(Pose { x_m: 0.4, ..TARGET });
+        assert_eq!(bench.step(), approach);
+        bench.senses.pose = Some(TARGET);
+        assert_eq!(bench.step(), approach);
+        bench.senses.now_ms += 1900;
+        assert_eq!(bench.step(), approach);
+        bench.senses.now_ms += 200;
+        assert_eq!(bench.step(), (approach.0, Some(Report::Done)));
+        assert_eq!(bench.step(), approach);
+    }
+
+    #[test]
+    fn a_heading_across_the_jump_is_close() {
+        let mut bench = Bench::new(HOVERING);
+        let target = Pose { yaw_deg: 181.0, ..TARGET };
+        bench.senses.pose = Some(Pose { yaw_deg: -178.0, ..TARGET });
+        bench.go_to(target);
+        bench.step();
+        bench.step();
+        bench.senses.now_ms += 2100;
+        assert_eq!(bench.step().1, Some(Report::Done));
+    }
+
+    #[test]
+    fn landing_is_obeyed_in_the_next_step_whatever_runs() {
+        let mut bench = Bench::new(HOVERING);
+        bench.go_to(TARGET);
+        bench.step();
+        bench.step();
+        assert!(bench.agent.achieve_land());
+        assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
+        assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
+        bench.senses = GROUND;
+        assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
+        // The old target is forgotten: the next take-off holds the new place.
+        bench.senses = HOVERING;
+        assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
+    }
+
+    #[test]
+    fn a_drone_that_lands_by_itself_is_not_lifted_again() {
+        let mut bench = Bench::new(HOVERING);
+        bench.go_to(TARGET);
+        bench.step();
+        bench.senses = GROUND;
+        assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Failed)));
+        bench.go_to(TARGET);
+        assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Refused)));
+    }
+
+    #[test]
+    fn every_event_finds_a_plan() {
+        let mut bench = Bench::new(HOVERING);
+        assert!(bench.agent.achieve_take_off());
+        for _ in 0..10 {
+            bench.step();
+        }
+        assert_eq!(bench.agent.unhandled_events(), 0);
+    }
+}

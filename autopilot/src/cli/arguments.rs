@@ -1,0 +1,92 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
+use clap::{Parser, ValueEnum};
+
+use crate::plan;
+
+const EXIT_STATUS: &str = "\
+Exit status:
+    0  the plan was flown to its end and the drone has landed
+    1  anything else that went wrong
+    2  usage
+   10  no drone answered, or the link was lost
+   20  the plan is invalid or cannot be read
+   30  the pre-flight check refused to take off
+   40  a failsafe landed the drone
+   50  emergency: the drone cut its motors
+  130  the pilot landed it (Ctrl-C)
+
+Ctrl-C lands the drone and waits for the ground; a second one leaves at once, with the
+landing ordered.";
+
+/// Fly an AR.Drone 2.0 along a plan.
+///
+/// Without a drone, add --mock: a simulated one is started and flown over the same protocol.
+#[derive(Debug, Parser)]
+#[command(name = "ardrone-pilot", version, after_help = EXIT_STATUS)]
+pub(super) struct Arguments {
+    /// The flight plan
+    #[arg(long, value_name = "FILE")]
+    pub(super) plan: PathBuf,
+    /// Fly a simulated drone, started on free loopback ports
+    #[arg(long, conflicts_with_all = ["drone", "at_port", "navdata_port", "control_port"])]
+    pub(super) mock: bool,
+    /// The drone's address
+    #[arg(long, value_name = "HOST", default_value = DRONE_HOST)]
+    pub(super) drone: String,
+    /// The drone's UDP port for AT commands
+    #[arg(long, value_name = "PORT", default_value_t = AT_PORT)]
+    pub(super) at_port: u16,
+    /// The drone's UDP port for navdata
+    #[arg(long, value_name = "PORT", default_value_t = NAVDATA_PORT)]
+    pub(super) navdata_port: u16,
+    /// The drone's TCP port for its configuration
+    #[arg(long, value_name = "PORT", default_value_t = CONTROL_PORT)]
+    pub(super) control_port: u16,
+    /// Where z = 0 of the plan is
+    #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
+    z_origin: ZOrigin,
+    /// Plain lines, no terminal tricks
+    #[arg(long)]
+    pub(super) plain: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ZOrigin {
+    /// Where the drone hovers after take-off
+    Hover,
+    /// On the floor
+    Floor,
+}
+
+impl Arguments {
+    pub(super) fn z_origin(&self) -> plan::ZOrigin {
+        match self.z_origin {
+            ZOrigin::Hover => plan::ZOrigin::Hover,
+            ZOrigin::Floor => plan::ZOrigin::Floor,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn help_lists_the_exit_statuses() {
+        let help = Arguments::command().render_long_help().to_string();
+        for status in ["0", "1", "2", "10", "20", "30", "40", "50", "130"] {
+            assert!(help.lines().any(|line| line.split_whitespace().next() == Some(status)));
+        }
+    }
+}

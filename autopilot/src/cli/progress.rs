@@ -1,0 +1,144 @@
+//! What a person sees while the drone flies.
+
+use std::io::{Write as _, stderr};
+use std::time::Duration;
+
+use crate::flight::Message;
+use crate::pilot::{FlightEvent, Status, TICK};
+use crate::plan::{Plan, Step};
+
+/// In plain mode, a line of status this often.
+const PLAIN_STATUS_INTERVAL: Duration = Duration::from_secs(1);
+
+/// Prints events as lines, and the status on a line that is overwritten, or in plain mode as a
+/// line a second. All of it goes to standard error: people read it.
+pub(super) struct Progress {
+    steps: Vec<Step>,
+    plain: bool,
+    status_shown: bool,
+    next_plain_status: Duration,
+}
+
+impl Progress {
+    pub(super) fn new(plan: &Plan, plain: bool) -> Self {
+        let mut progress = Self {
+            steps: plan.steps().to_vec(),
+            plain,
+            status_shown: false,
+            next_plain_status: Duration::ZERO,
+        };
+        for note in plan.notes() {
+            progress.say(&format!("note: {note}"));
+        }
+        progress
+    }
+
+    pub(super) fn show(&mut self, message: &Message) {
+        match message {
+            Message::Event(at, event) => {
+                let text = self.event_text(event);
+                self.say(&format!("{} {text}", time(*at)));
+            }
+            Message::Waypoint(_) => {}
+            Message::Status(at, status) => self.status(*at, status),
+        }
+    }
+
+    /// One line.
+    pub(super) fn say(&mut self, line: &str) {
+        let clear = if std::mem::take(&mut self.status_shown) { "\r\x1b[K" } else { "" };
+        write(&format!("{clear}{line}\n"));
+    }
+
+    /// The flight is over: the status line makes room.
+    pub(super) fn end(&mut self) {
+        if std::mem::take(&mut self.status_shown) {
+            write("\r\x1b[K");
+        }
+    }
+
+    fn event_text(&self, event: &FlightEvent) -> String {
+        match event {
+            FlightEvent::StepStarted { step } => {
+                let text = self.steps.get(*step).map_or("", |step| step.text.as_str());
+                format!("step {}/{}: {text}", step + 1, self.steps.len())
+            }
+            other => other.to_string(),
+        }
+    }
+
+    fn status(&mut self, at: Duration, status: &Status) {
+        let line = status_line(at, status);
+        if !self.plain {
+            write(&format!("\r\x1b[K{line}"));
+            self.status_shown = true;
+        } else if at + TICK > self.next_plain_status {
+            self.next_plain_status = at + PLAIN_STATUS_INTERVAL;
+            self.say(&line);
+        }
+    }
+}
+
+fn write(text: &str) {
+    let mut stderr = stderr().lock();
+    // Nobody watches any more: the flight goes on.
+    _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
+}
+
+fn status_line(at: Duration, status: &Status) -> String {
+    let mut parts = vec![format!("{} {:<11}", time(at), status.phase)];
+    if let Some(step) = status.step {
+        parts.push(format!("{}/{}", step + 1, status.steps));
+    }
+    let pose = &status.pose;
+    parts.push(format!(
+        " at {:+.2} {:+.2} {:.2} m {:+.0}°",
+        pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg
+    ));
+    if let (Some(target), Some(distance_m)) = (status.target, status.distance_m) {
+        parts.push(format!(
+            " to {:+.2} {:+.2} {:.2} m, {distance_m:.2} m away",
+            target.x_m, target.y_m, target.z_m
+        ));
+    }
+    if let Some(battery_percent) = status.battery_percent {
+        parts.push(format!(" battery {battery_percent} %"));
+    }
+    match status.navdata_age {
+        Some(age) if age > Duration::from_millis(300) => {
+            parts.push(format!(" NO NAVDATA for {:.1} s", age.as_secs_f64()));
+        }
+        Some(_) => {}
+        None => parts.push(" no navdata yet".to_owned()),
+    }
+    parts.join(" ")
+}
+
+fn time(at: Duration) -> String {
+    format!("{:6.1} s", at.as_secs_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use pid::Pose;
+
+    use super::*;
+
+    #[test]
+    fn the_status_line_says_where_and_where_to() {
+        let status = Status {
+            phase: "flying",
+            step: Some(2),
+            steps: 6,
+            pose: Pose { x_m: 0.12, y_m: 0.98, z_m: 0.85, yaw_deg: -1.0 },
+            target: Some(Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 }),
+            distance_m: Some(0.88),
+            battery_percent: Some(87),
+            navdata_age: Some(Duration::from_millis(40)),
+        };
+        assert_eq!(
+            status_line(Duration::from_millis(12_340), &status),
+            "  12.3 s flying      3/6  at +0.12 +0.98 0.85 m -1°  to +1.00 +1.00 0.85 m, 0.88 m away  battery 87 %"
+        );
+    }
+}

@@ -1,0 +1,61 @@
+//! What a person sees when the flight is over.
+
+use std::fmt;
+
+use mock_drone::Truth;
+use nalgebra::Vector2;
+
+use crate::flight::FinishedFlight;
+use crate::pilot::Waypoint;
+
+/// A waypoint as the simulation knows it.
+pub(super) struct TrueWaypoint {
+    /// How far the drone really was from its target, in the frame that navdata spans.
+    error_m: f64,
+    /// How far that frame has drifted from the world.
+    drift_m: f64,
+}
+
+impl TrueWaypoint {
+    pub(super) fn new(waypoint: &Waypoint, truth: &Truth) -> Self {
+        let target = &waypoint.target;
+        let place = truth.odometry_m - Vector2::new(target.x_m, target.y_m);
+        let height_m = truth.position_m.z - target.z_m;
+        Self { error_m: place.norm().hypot(height_m), drift_m: truth.drift_m().norm() }
+    }
+}
+
+/// The end of a flight in a few lines.
+pub(super) struct Summary<'a> {
+    pub(super) finished: &'a FinishedFlight,
+    pub(super) truths: &'a [TrueWaypoint],
+}
+
+impl fmt::Display for Summary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let report = &self.finished.report;
+        writeln!(f, "{}", self.finished.outcome)?;
+        writeln!(f, "  commands done   {} of {}", report.steps_done, report.steps)?;
+        match report.flight_time() {
+            Some(time) => writeln!(f, "  flight time     {:.1} s", time.as_secs_f64())?,
+            None => writeln!(f, "  flight time     -")?,
+        }
+        if let Some(error_m) = report.final_error_m() {
+            writeln!(f, "  final error     {error_m:.2} m (estimate to last target)")?;
+        }
+        let largest = |value: fn(&TrueWaypoint) -> f64| {
+            self.truths.iter().map(value).fold(None, |largest: Option<f64>, value| {
+                Some(largest.map_or(value, |largest| largest.max(value)))
+            })
+        };
+        if let (Some(error_m), Some(drift_m)) =
+            (largest(|truth| truth.error_m), largest(|truth| truth.drift_m))
+        {
+            writeln!(
+                f,
+                "  simulated truth at most {error_m:.2} m from a target, navdata drifted {drift_m:.2} m"
+            )?;
+        }
+        writeln!(f, "  ticks           {}", self.finished.ticks)
+    }
+}

@@ -1,0 +1,458 @@
+//! Flights in real time, over UDP.
+//!
+//! The tick has a thread of its own that sleeps in `ppoll` on the navdata socket until an absolute
+//! deadline, so navdata is taken in when it arrives and ticks don't drift. A missed deadline is
+//! counted and skipped, never caught up: the drone wants the newest command once. Everything slow
+//! (signals, the control port, whoever watches) is on other threads behind bounded channels that
+//! drop rather than block.
+
+use std::io;
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _, UdpSocket};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use ardrone_link::WAKE_UP;
+use ardrone_link::at::{ConfigError, Datagram, EncodeError};
+use crossbeam_channel::{Receiver, Sender, bounded};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use tokio::io::AsyncReadExt as _;
+use tokio::sync::oneshot;
+
+use crate::outcome::Outcome;
+use crate::pilot::{FlightEvent, FlightReport, Pilot, PilotConfig, Status, TICK, Waypoint};
+use crate::plan::Plan;
+use crate::statistics::{TickRecorder, TickSummary};
+
+/// Where the drone is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DroneAddress {
+    /// Name or address.
+    pub host: String,
+    /// UDP, AT commands.
+    pub at_port: u16,
+    /// UDP, navdata.
+    pub navdata_port: u16,
+    /// TCP, configuration.
+    pub control_port: u16,
+}
+
+/// What the flight tells while it lasts.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Message {
+    /// Something happened.
+    Event(Duration, FlightEvent),
+    /// A target was reached and stayed at.
+    Waypoint(Waypoint),
+    /// Where things stand, some times a second.
+    Status(Duration, Status),
+}
+
+/// A flight that is over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FinishedFlight {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// What the pilot says of it.
+    pub report: FlightReport,
+    /// How regular the ticks were.
+    pub ticks: TickSummary,
+    /// Messages that were dropped because nobody took them in time.
+    pub dropped_messages: u64,
+}
+
+/// Why a flight could not be started or went wrong in a way that is no flight's fault.
+#[derive(Debug, thiserror::Error)]
+pub enum FlightError {
+    /// The drone's name has no address.
+    #[error("cannot find the drone `{host}`: {source}")]
+    Address {
+        /// What was asked for.
+        host: String,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A socket failed.
+    #[error("network: {0}")]
+    Socket(#[source] io::Error),
+    /// A thread could not be started.
+    #[error("cannot start a thread: {0}")]
+    Thread(#[source] io::Error),
+    /// The limits cannot be sent to a drone.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// See [`Pilot::tick`].
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+    /// The flight's thread panicked.
+    #[error("internal error: the flight thread panicked; the drone's own watchdog lands it")]
+    Panicked,
+}
+
+/// A flight that goes on.
+#[derive(Debug)]
+pub struct Flight {
+    messages: Receiver<Message>,
+    thread: JoinHandle<Result<FinishedFlight, FlightError>>,
+}
+
+/// How often whoever watches is told where things stand.
+const STATUS_TICKS: u32 = 10;
+/// Messages that may wait for whoever watches.
+const MESSAGES: usize = 256;
+/// Longer than any navdata packet.
+const BUFFER_BYTES: usize = 8192;
+/// When the process ends in the air, the landing is ordered this many times.
+const PARTING_ORDERS: u32 = 10;
+
+impl Flight {
+    /// Starts flying `plan`. Ctrl-C and SIGTERM land; a second one ends the flight at once, with
+    /// the landing ordered.
+    ///
+    /// # Errors
+    /// [`FlightError`] if the drone has no address or no socket or thread can be had.
+    pub fn start(
+        plan: Plan,
+        config: &PilotConfig,
+        drone: &DroneAddress,
+    ) -> Result<Self, FlightError> {
+        let pilot = Pilot::new(plan, config)?;
+        let address = resolve(&drone.host)?;
+        let connect = |port| connected_socket(SocketAddr::new(address, port));
+        let at = connect(drone.at_port).map_err(FlightError::Socket)?;
+        let navdata = connect(drone.navdata_port).map_err(FlightError::Socket)?;
+        let services = Services::start(SocketAddr::new(address, drone.control_port))?;
+        let (sender, messages) = bounded(MESSAGES);
+        let mut tick = TickLoop {
+            pilot,
+            at,
+            navdata,
+            services,
+            messages: sender,
+            dropped_messages: 0,
+            ticks: TickRecorder::default(),
+            waypoints: 0,
+        };
+        let thread = std::thread::Builder::new()
+            .name("flight".to_owned())
+            .spawn(move || tick.run())
+            .map_err(FlightError::Thread)?;
+        Ok(Self { messages, thread })
+    }
+
+    /// What the flight tells; ends when the flight does.
+    pub fn messages(&self) -> impl Iterator<Item = Message> + '_ {
+        self.messages.iter()
+    }
+
+    /// Waits for the end.
+    ///
+    /// # Errors
+    /// [`FlightError`] if the flight's thread failed.
+    pub fn finish(self) -> Result<FinishedFlight, FlightError> {
+        self.thread.join().map_err(|_| FlightError::Panicked)?
+    }
+}
+
+fn resolve(host: &str) -> Result<IpAddr, FlightError> {
+    let error = |source| FlightError::Address { host: host.to_owned(), source };
+    let mut addresses = (host, 0).to_socket_addrs().map_err(error)?;
+    let address = addresses.find(SocketAddr::is_ipv4);
+    address
+        .map(|address| address.ip())
+        .ok_or_else(|| error(io::Error::new(io::ErrorKind::NotFound, "it has no IPv4 address")))
+}
+
+/// A socket that hears only the drone: the system drops datagrams from anybody else.
+fn connected_socket(drone: SocketAddr) -> io::Result<UdpSocket> {
+    #[allow(clippy::disallowed_methods, reason = "this is the shell")]
+    let socket = UdpSocket::bind(("0.0.0.0", 0))?;
+    socket.connect(drone)?;
+    socket.set_nonblocking(true)?;
+    Ok(socket)
+}
+
+/// The flight's clock.
+fn clock() -> Instant {
+    #[allow(clippy::disallowed_methods, reason = "this is the shell")]
+    Instant::now()
+}
+
+struct TickLoop {
+    pilot: Pilot,
+    at: UdpSocket,
+    navdata: UdpSocket,
+    services: Services,
+    messages: Sender<Message>,
+    dropped_messages: u64,
+    ticks: TickRecorder,
+    waypoints: usize,
+}
+
+impl TickLoop {
+    fn run(&mut self) -> Result<FinishedFlight, FlightError> {
+        let start = clock();
+        let mut datagram = Datagram::new();
+        let mut buffer = vec![0_u8; BUFFER_BYTES];
+        let mut deadline = Duration::ZERO;
+        let mut count = 0_u32;
+        loop {
+            let now = start.elapsed();
+            if let Some(rest) = deadline.checked_sub(now).filter(|rest| !rest.is_zero()) {
+                self.wait(rest)?;
+                self.take_in_navdata(start, &mut buffer)?;
+                continue;
+            }
+            let skipped = skip_missed(&mut deadline, now);
+            self.ticks.record(now, deadline, skipped);
+            deadline += TICK;
+            self.take_in_services(now);
+            self.pilot.tick(now, &mut datagram)?;
+            if !datagram.as_bytes().is_empty() {
+                tolerate(self.at.send(datagram.as_bytes()))?;
+            }
+            if self.pilot.wake_up_due(now) {
+                tolerate(self.navdata.send(&WAKE_UP))?;
+            }
+            self.tell(now, count.is_multiple_of(STATUS_TICKS));
+            count = count.wrapping_add(1);
+            if let Some(outcome) = self.pilot.outcome().cloned() {
+                return Ok(self.finished(outcome));
+            }
+            if self.services.wants_to_leave() {
+                return self.leave(start, &mut datagram);
+            }
+        }
+    }
+
+    /// Sleeps until navdata arrives or the time is over.
+    fn wait(&self, time: Duration) -> Result<(), FlightError> {
+        let timeout = Timespec {
+            tv_sec: i64::try_from(time.as_secs()).unwrap_or(i64::MAX),
+            tv_nsec: i64::from(time.subsec_nanos()),
+        };
+        let mut sockets = [PollFd::new(&self.navdata, PollFlags::IN)];
+        match poll(&mut sockets, Some(&timeout)) {
+            Ok(_) | Err(rustix::io::Errno::INTR) => Ok(()),
+            Err(error) => Err(FlightError::Socket(error.into())),
+        }
+    }
+
+    fn take_in_navdata(&mut self, start: Instant, buffer: &mut [u8]) -> Result<(), FlightError> {
+        while let Some(length) = tolerate(self.navdata.recv(buffer))? {
+            let packet = buffer.get(..length).unwrap_or_default();
+            self.pilot.handle_navdata(start.elapsed(), packet);
+        }
+        Ok(())
+    }
+
+    fn take_in_services(&mut self, now: Duration) {
+        while let Ok(input) = self.services.inputs.try_recv() {
+            match input {
+                ServiceInput::Control(bytes) => self.pilot.handle_control(now, &bytes),
+                ServiceInput::Stop => {
+                    self.services.stops += 1;
+                    if self.services.stops == 1 {
+                        self.pilot.order_landing(now);
+                    }
+                }
+            }
+        }
+    }
+
+    fn tell(&mut self, now: Duration, with_status: bool) {
+        while let Some(event) = self.pilot.poll_event() {
+            self.say(Message::Event(now, event));
+        }
+        while let Some(waypoint) = self.pilot.report().waypoints.get(self.waypoints).copied() {
+            self.waypoints += 1;
+            self.say(Message::Waypoint(waypoint));
+        }
+        if with_status {
+            self.say(Message::Status(now, self.pilot.status(now)));
+        }
+    }
+
+    fn say(&mut self, message: Message) {
+        if self.messages.try_send(message).is_err() {
+            self.dropped_messages += 1;
+        }
+    }
+
+    /// The second Ctrl-C: the landing is ordered a few times more, and nobody waits for it.
+    fn leave(
+        &mut self,
+        start: Instant,
+        datagram: &mut Datagram,
+    ) -> Result<FinishedFlight, FlightError> {
+        for _ in 0..PARTING_ORDERS {
+            self.pilot.tick(start.elapsed(), datagram)?;
+            if !datagram.as_bytes().is_empty() {
+                tolerate(self.at.send(datagram.as_bytes()))?;
+            }
+            self.wait(TICK)?;
+        }
+        Ok(self.finished(Outcome::Interrupted))
+    }
+
+    fn finished(&self, outcome: Outcome) -> FinishedFlight {
+        FinishedFlight {
+            outcome,
+            report: self.pilot.report().clone(),
+            ticks: self.ticks.summary(),
+            dropped_messages: self.dropped_messages,
+        }
+    }
+}
+
+/// Moves the deadline to the last one that has passed; returns how many were missed before it.
+fn skip_missed(deadline: &mut Duration, now: Duration) -> u64 {
+    let mut skipped = 0;
+    while *deadline + TICK <= now {
+        *deadline += TICK;
+        skipped += 1;
+    }
+    skipped
+}
+
+/// What a datagram socket may say without the flight being over: there is nothing to read, or the
+/// drone is not there now. Silence is judged by the session.
+fn tolerate(result: io::Result<usize>) -> Result<Option<usize>, FlightError> {
+    match result {
+        Ok(length) => Ok(Some(length)),
+        Err(error)
+            if matches!(
+                error.kind(),
+                io::ErrorKind::WouldBlock
+                    | io::ErrorKind::Interrupted
+                    | io::ErrorKind::ConnectionRefused
+                    | io::ErrorKind::ConnectionReset
+                    | io::ErrorKind::HostUnreachable
+                    | io::ErrorKind::NetworkUnreachable
+                    | io::ErrorKind::NetworkDown
+            ) =>
+        {
+            Ok(None)
+        }
+        Err(error) => Err(FlightError::Socket(error)),
+    }
+}
+
+/// What the slow side brings.
+enum ServiceInput {
+    /// Bytes from the control port.
+    Control(Vec<u8>),
+    /// Ctrl-C or SIGTERM.
+    Stop,
+}
+
+/// Signals and the control port, on a thread of their own; it ends with the flight.
+struct Services {
+    inputs: Receiver<ServiceInput>,
+    stops: u32,
+    end: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// Blocks of the configuration dump that may wait for the tick.
+const SERVICE_INPUTS: usize = 64;
+/// The control port is tried again after this time.
+const CONTROL_RETRY: Duration = Duration::from_millis(500);
+
+impl Services {
+    fn start(control: SocketAddr) -> Result<Self, FlightError> {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .build()
+            .map_err(FlightError::Thread)?;
+        let (sender, inputs) = bounded(SERVICE_INPUTS);
+        let (end, ended) = oneshot::channel();
+        let thread = std::thread::Builder::new()
+            .name("services".to_owned())
+            .spawn(move || {
+                runtime.block_on(async {
+                    tokio::select! {
+                        () = forward_signals(&sender) => {}
+                        () = read_control_port(control, &sender) => {}
+                        // The flight is over.
+                        _ = ended => {}
+                    }
+                });
+            })
+            .map_err(FlightError::Thread)?;
+        Ok(Self { inputs, stops: 0, end: Some(end), thread: Some(thread) })
+    }
+
+    fn wants_to_leave(&self) -> bool {
+        self.stops >= 2
+    }
+}
+
+impl Drop for Services {
+    fn drop(&mut self) {
+        if let Some(end) = self.end.take() {
+            // The thread may have ended by itself.
+            _ = end.send(());
+        }
+        if let Some(thread) = self.thread.take()
+            && thread.join().is_err()
+        {
+            tracing::error!("the services thread panicked");
+        }
+    }
+}
+
+/// Never returns: without signals the flight goes on.
+async fn forward_signals(inputs: &Sender<ServiceInput>) {
+    use tokio::signal::unix::{SignalKind, signal};
+    let interrupt = signal(SignalKind::interrupt());
+    let terminate = signal(SignalKind::terminate());
+    let (Ok(mut interrupt), Ok(mut terminate)) = (interrupt, terminate) else {
+        tracing::warn!("signals cannot be caught: Ctrl-C will not land the drone");
+        return std::future::pending().await;
+    };
+    loop {
+        tokio::select! {
+            _ = interrupt.recv() => {}
+            _ = terminate.recv() => {}
+        }
+        if inputs.try_send(ServiceInput::Stop).is_err() {
+            tracing::warn!("the flight is too busy to be told to land");
+        }
+    }
+}
+
+/// Never returns: a drone without control port can be flown all the same.
+async fn read_control_port(address: SocketAddr, inputs: &Sender<ServiceInput>) {
+    let mut buffer = vec![0_u8; 4096];
+    loop {
+        if let Ok(mut stream) = tokio::net::TcpStream::connect(address).await {
+            while let Ok(length @ 1..) = stream.read(&mut buffer).await {
+                let bytes = buffer.get(..length).unwrap_or_default().to_vec();
+                // A full channel loses the dump; the session asks again.
+                _ = inputs.try_send(ServiceInput::Control(bytes));
+            }
+        }
+        tokio::time::sleep(CONTROL_RETRY).await;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missed_deadlines_are_counted_and_skipped() {
+        let ms = Duration::from_millis;
+        let mut deadline = ms(30);
+        assert_eq!(skip_missed(&mut deadline, ms(59)), 0);
+        assert_eq!(deadline, ms(30));
+        assert_eq!(skip_missed(&mut deadline, ms(125)), 3);
+        assert_eq!(deadline, ms(120));
+    }
+
+    #[test]
+    fn a_drone_without_address_is_named() {
+        let error = resolve("no such host").unwrap_err();
+        assert!(error.to_string().contains("no such host"));
+    }
+}

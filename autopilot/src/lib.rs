@@ -1,0 +1,29 @@
+//! Flies an AR.Drone 2.0 along a plan.
+//!
+//! The [`Pilot`] is pure: navdata and time in, one datagram every 30 ms out. Inside it data goes
+//! round one way: navdata → estimate → beliefs → the agent's decision → the controller → command.
+//! The agent is `agent/autopilot.asl`, translated to C when this crate is built.
+//!
+//! Two shells drive the same pilot: [`flight`] in real time over UDP, [`sim`] in simulated time
+//! against a simulated drone.
+//!
+//! - [`plan`]: flight plans as text.
+//! - [`mission`]: which step of the plan is next, and where that is.
+//! - [`pilot`]: the tick.
+//! - [`safety`]: what the agent may not overrule.
+//! - [`flight`], [`sim`]: the shells. [`cli`]: the command line.
+#![deny(unsafe_code)]
+
+pub mod agent;
+pub mod cli;
+pub mod flight;
+pub mod mission;
+pub mod outcome;
+pub mod pilot;
+pub mod plan;
+pub mod safety;
+pub mod sim;
+pub mod statistics;
+
+pub use pilot::{Pilot, PilotConfig};
+pub use plan::Plan;

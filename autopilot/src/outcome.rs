@@ -1,0 +1,62 @@
+//! How a flight ended, and the exit status that says so.
+
+use std::fmt;
+
+/// How a flight ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// The plan was flown to its end and the drone has landed.
+    Completed,
+    /// No drone answered.
+    NoDrone,
+    /// The drone stopped answering in flight.
+    LinkLost,
+    /// The flight was refused before take-off.
+    PreflightRefused {
+        /// Every reason.
+        reasons: Vec<String>,
+    },
+    /// A failsafe ended the flight.
+    Failsafe {
+        /// Which.
+        reason: String,
+    },
+    /// The drone cut its motors.
+    Emergency,
+    /// The pilot ordered the landing.
+    Interrupted,
+}
+
+impl Outcome {
+    /// The process's exit status.
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Self::Completed => 0,
+            Self::NoDrone | Self::LinkLost => 10,
+            Self::PreflightRefused { .. } => 30,
+            Self::Failsafe { .. } => 40,
+            Self::Emergency => 50,
+            Self::Interrupted => 130,
+        }
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Completed => f.write_str("plan flown to its end"),
+            Self::NoDrone => f.write_str(
+                "no drone answered: is this machine on the drone's Wi-Fi, and the address right?",
+            ),
+            Self::LinkLost => f.write_str(
+                "the drone stopped answering: it hovers and lands by itself after 2 s of silence",
+            ),
+            Self::PreflightRefused { reasons } => {
+                write!(f, "not flown: {}", reasons.join("; "))
+            }
+            Self::Failsafe { reason } => write!(f, "landed by a failsafe: {reason}"),
+            Self::Emergency => f.write_str("emergency: the drone has cut its motors"),
+            Self::Interrupted => f.write_str("landed on the pilot's order"),
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! From the first packet to the ground: what the whole flight is doing, and when it ends.
+
+use std::fmt;
+use std::time::Duration;
+
+use super::{
+    BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration, DroneState, FlightEvent,
+    LANDING_BATTERY_PERCENT, LANDING_TIMEOUT, MIN_TAKE_OFF_BATTERY_PERCENT, Pilot, SETTLE_TIME,
+    STEP_TIMEOUT, session,
+};
+use crate::outcome::Outcome;
+
+/// What the whole flight is doing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum FlightPhase {
+    /// Waiting for the first packet.
+    Connecting,
+    /// Setting the drone's configuration.
+    Configuring {
+        /// When the drone was first heard.
+        since: Duration,
+    },
+    /// The level reference is being set.
+    Settling {
+        /// When it was sent.
+        since: Duration,
+    },
+    /// Flying the plan.
+    Flying,
+    /// Landing for a reason other than the plan.
+    Landing {
+        /// When it was ordered.
+        since: Duration,
+    },
+    /// Over.
+    Ended(Outcome),
+}
+
+impl FlightPhase {
+    /// One word for people.
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Self::Connecting => "connecting",
+            Self::Configuring { .. } => "configuring",
+            Self::Settling { .. } => "trimming",
+            Self::Flying => "flying",
+            Self::Landing { .. } => "landing",
+            Self::Ended(_) => "ended",
+        }
+    }
+}
+
+/// Why the drone is landed before the plan's end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LandingReason {
+    /// The person at the keyboard wants it.
+    Pilot,
+    /// The battery is nearly empty.
+    Battery {
+        /// What is left.
+        percent: u32,
+    },
+    /// The drone stopped answering.
+    LinkLost,
+    /// The drone has started again.
+    DroneRestarted,
+    /// The agent could not carry out a step.
+    StepFailed {
+        /// Its index.
+        step: usize,
+    },
+    /// A step took too long.
+    StepTimedOut {
+        /// Its index.
+        step: usize,
+    },
+}
+
+impl fmt::Display for LandingReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pilot => f.write_str("the pilot's order"),
+            Self::Battery { percent } => write!(f, "battery at {percent} %"),
+            Self::LinkLost => f.write_str("link lost"),
+            Self::DroneRestarted => f.write_str("the drone has restarted"),
+            Self::StepFailed { step } => write!(f, "step {} failed", step + 1),
+            Self::StepTimedOut { step } => {
+                let seconds = STEP_TIMEOUT.as_secs();
+                write!(f, "step {} was not done within {seconds} s", step + 1)
+            }
+        }
+    }
+}
+
+impl Pilot {
+    /// Moves from phase to phase, and notices what ends a flight.
+    pub(super) fn watch(&mut self, now: Duration) {
+        match self.phase {
+            FlightPhase::Connecting if now >= CONNECT_TIMEOUT => self.end(Outcome::NoDrone),
+            FlightPhase::Configuring { since }
+                if now.saturating_sub(since) >= CONFIGURE_TIMEOUT =>
+            {
+                let reason = "the drone does not take its configuration".to_owned();
+                self.end(Outcome::PreflightRefused { reasons: vec![reason] });
+            }
+            FlightPhase::Settling { since } if now.saturating_sub(since) >= SETTLE_TIME => {
+                self.take_off_or_refuse();
+            }
+            FlightPhase::Flying => self.watch_flight(now),
+            FlightPhase::Landing { since } => self.watch_landing(now, since),
+            FlightPhase::Connecting
+            | FlightPhase::Configuring { .. }
+            | FlightPhase::Settling { .. }
+            | FlightPhase::Ended(_) => {}
+        }
+    }
+
+    fn watch_flight(&mut self, now: Duration) {
+        let battery_percent = self.demo().map_or(100, |demo| demo.battery_percent);
+        let battery_low = battery_percent <= LANDING_BATTERY_PERCENT
+            || self.drone_state().contains(DroneState::BATTERY_LOW);
+        if battery_low && !self.on_ground() {
+            self.land(now, LandingReason::Battery { percent: battery_percent });
+        } else if let Some(active) = self.due
+            && now.saturating_sub(active.since) >= STEP_TIMEOUT
+        {
+            self.land(now, LandingReason::StepTimedOut { step: active.due.step });
+        }
+    }
+
+    fn watch_landing(&mut self, now: Duration, since: Duration) {
+        let elapsed = now.saturating_sub(since);
+        let blind = !self.session.is_alive();
+        let landed = !blind && self.on_ground();
+        // A drone that has restarted is heard before it says where it is.
+        let known = self.demo().is_some();
+        if landed && known {
+            self.report.landed_at = Some(now);
+        } else if !(blind && elapsed >= BLIND_LANDING_TIME || elapsed >= LANDING_TIMEOUT) {
+            return;
+        }
+        let outcome = match self.landing {
+            Some(LandingReason::Pilot) => Outcome::Interrupted,
+            Some(LandingReason::LinkLost) => Outcome::LinkLost,
+            Some(reason) => {
+                let mut reason = reason.to_string();
+                if !landed {
+                    reason.push_str("; the drone did not confirm that it has landed");
+                }
+                Outcome::Failsafe { reason }
+            }
+            None => Outcome::Completed,
+        };
+        self.end(if blind { Outcome::LinkLost } else { outcome });
+    }
+
+    /// Gives up the plan and lands. The first reason counts; on the ground the flight just ends.
+    pub(super) fn land(&mut self, now: Duration, reason: LandingReason) {
+        if self.landing.is_some() || matches!(self.phase, FlightPhase::Ended(_)) {
+            return;
+        }
+        let before_flight = !matches!(self.phase, FlightPhase::Flying);
+        if before_flight && self.on_ground() {
+            self.end(Outcome::Interrupted);
+            return;
+        }
+        self.events.push_back(FlightEvent::LandingOrdered(reason));
+        self.landing = Some(reason);
+        self.due = None;
+        // Pre-empting: always accepted, obeyed in the next step.
+        let accepted = self.agent.achieve_land();
+        debug_assert!(accepted);
+        self.phase = FlightPhase::Landing { since: now };
+    }
+
+    pub(super) fn end(&mut self, outcome: Outcome) {
+        self.phase = FlightPhase::Ended(outcome);
+    }
+
+    pub(super) fn session_events(&mut self, now: Duration) {
+        while let Some(event) = self.session.poll_event() {
+            match event {
+                session::Event::Connected => {
+                    if self.phase == FlightPhase::Connecting {
+                        self.phase = FlightPhase::Configuring { since: now };
+                        self.events.push_back(FlightEvent::Connected);
+                    }
+                }
+                session::Event::ConfigurationTimedOut { key } => {
+                    self.report.unconfirmed_settings.push(key);
+                }
+                session::Event::ConfigurationRead(configuration) => {
+                    self.compare_configuration(&configuration);
+                }
+                session::Event::ConfigurationNotRead => {
+                    self.events.push_back(FlightEvent::ConfigurationNotRead);
+                }
+                session::Event::Ready => {
+                    if matches!(self.phase, FlightPhase::Configuring { .. }) {
+                        self.session.request_flat_trim();
+                        self.phase = FlightPhase::Settling { since: now };
+                        self.events.push_back(FlightEvent::Configured);
+                    }
+                }
+                session::Event::LinkLost => self.link_lost(now),
+                session::Event::DroneRestarted => {
+                    self.estimator.handle_restart();
+                    self.navdata = None;
+                    match self.phase {
+                        FlightPhase::Flying => self.land(now, LandingReason::DroneRestarted),
+                        FlightPhase::Settling { .. } => {
+                            self.phase = FlightPhase::Configuring { since: now };
+                        }
+                        _ => {}
+                    }
+                }
+                session::Event::Emergency => {
+                    self.events.push_back(FlightEvent::Emergency);
+                    if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
+                        self.end(Outcome::Emergency);
+                    }
+                }
+                session::Event::Configured { .. } | session::Event::EmergencyCleared => {}
+            }
+        }
+    }
+
+    fn link_lost(&mut self, now: Duration) {
+        self.events.push_back(FlightEvent::LinkLost);
+        if self.phase == FlightPhase::Flying {
+            self.land(now, LandingReason::LinkLost);
+        } else if !matches!(self.phase, FlightPhase::Landing { .. } | FlightPhase::Ended(_)) {
+            self.end(Outcome::NoDrone);
+        }
+    }
+
+    fn compare_configuration(&mut self, configuration: &Configuration) {
+        let version = configuration.get("general:num_version_soft").map(str::to_owned);
+        self.events.push_back(FlightEvent::ConfigurationRead { version });
+        for setting in &self.settings {
+            if !configuration.has(setting.key(), setting.value()) {
+                self.report.unconfirmed_settings.push(setting.key().to_owned());
+            }
+        }
+    }
+
+    /// The pre-flight check: every reason not to fly, at once.
+    fn take_off_or_refuse(&mut self) {
+        let mut reasons = Vec::new();
+        let state = self.drone_state();
+        if state.contains(DroneState::EMERGENCY) {
+            reasons.push(
+                "the drone is in its emergency state: check it, then clear it with its reset or \
+                 battery"
+                    .to_owned(),
+            );
+        }
+        for (bit, reason) in [
+            (DroneState::MOTORS_PROBLEM, "a motor is blocked or broken"),
+            (DroneState::SOFTWARE_FAULT, "the drone reports a software fault"),
+            (DroneState::ANGLES_OUT_OF_RANGE, "the drone does not stand level"),
+            (DroneState::CUTOUT_DETECTED, "the drone reports a motor cut-out"),
+        ] {
+            if state.contains(bit) {
+                reasons.push(reason.to_owned());
+            }
+        }
+        match self.demo() {
+            None => reasons.push("the drone sends no flight data".to_owned()),
+            Some(demo) if demo.battery_percent <= MIN_TAKE_OFF_BATTERY_PERCENT => {
+                reasons.push(format!(
+                    "battery at {} %: more than {MIN_TAKE_OFF_BATTERY_PERCENT} % are needed",
+                    demo.battery_percent
+                ));
+            }
+            Some(_) => {}
+        }
+        if !self.on_ground() && !self.mission.takes_over() {
+            reasons.push(
+                "the drone is not landed: land it first, or begin the plan with `autoTakeover`"
+                    .to_owned(),
+            );
+        }
+        if !self.report.unconfirmed_settings.is_empty() {
+            reasons.push(format!(
+                "the drone has not taken its settings: {}",
+                self.report.unconfirmed_settings.join(", ")
+            ));
+        }
+        if reasons.is_empty() {
+            self.phase = FlightPhase::Flying;
+        } else {
+            self.end(Outcome::PreflightRefused { reasons });
+        }
+    }
+}

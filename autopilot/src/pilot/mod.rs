@@ -1,0 +1,392 @@
+//! The tick: navdata in, one datagram out, the agent between them.
+//!
+//! A [`Pilot`] is pure. The shell hands it navdata when it arrives ([`Pilot::handle_navdata`]),
+//! what it reads on the control port ([`Pilot::handle_control`]) and the pilot's orders
+//! ([`Pilot::order_landing`]); every 30 ms it calls [`Pilot::tick`] and sends the datagram. It goes
+//! on until [`Pilot::outcome`] tells how the flight ended.
+
+mod flight_phase;
+mod report;
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use ardrone_link::at::{Config, ConfigError, Datagram, EncodeError, Fraction, Motion};
+use ardrone_link::configuration::Configuration;
+use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
+use ardrone_link::session::{self, FlightOrder, Order, Received, Session, SessionConfig};
+use estimator::{Estimator, Sample};
+use pid::{Pose, PositionController};
+
+pub use self::flight_phase::{FlightPhase, LandingReason};
+pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
+use crate::agent::{Agent, AgentCommand, AgentStep, Report, Senses, distance};
+use crate::mission::{AgentOrder, Due, Mission};
+use crate::outcome::Outcome;
+use crate::plan::{FlightLimits, Plan};
+use crate::safety::{self, Circumstances, Veto};
+
+/// The time between two ticks.
+pub const TICK: Duration = Duration::from_millis(30);
+
+/// How to fly.
+#[derive(Debug, Clone)]
+pub struct PilotConfig {
+    /// Heights between which the drone may fly.
+    pub limits: FlightLimits,
+    /// Whether the configuration is read back over the control port before take-off.
+    pub read_back: bool,
+}
+
+impl Default for PilotConfig {
+    fn default() -> Self {
+        Self { limits: FlightLimits::default(), read_back: true }
+    }
+}
+
+/// The drone must answer within this time.
+const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
+/// The drone must be configured within this time.
+const CONFIGURE_TIMEOUT: Duration = Duration::from_secs(25);
+/// After the level reference the drone gets this time to apply it.
+const SETTLE_TIME: Duration = Duration::from_millis(500);
+/// A step that takes longer than this is given up.
+const STEP_TIMEOUT: Duration = Duration::from_mins(1);
+/// A landing that takes longer than this is not reported as one.
+const LANDING_TIMEOUT: Duration = Duration::from_secs(30);
+/// After a loss of the link, landing is ordered blindly for this time.
+const BLIND_LANDING_TIME: Duration = Duration::from_secs(4);
+/// Below this the drone may refuse to take off.
+const MIN_TAKE_OFF_BATTERY_PERCENT: u32 = 20;
+/// In flight, the drone lands before it has to.
+const LANDING_BATTERY_PERCENT: u32 = 12;
+
+/// Flies one plan.
+#[derive(Debug)]
+pub struct Pilot {
+    session: Session,
+    estimator: Estimator,
+    controller: PositionController,
+    agent: Agent,
+    mission: Mission,
+    settings: Vec<Config>,
+    phase: FlightPhase,
+    navdata: Option<Navdata>,
+    due: Option<Active>,
+    landing: Option<LandingReason>,
+    veto: Option<Veto>,
+    target: Option<Pose>,
+    last_tick: Option<Duration>,
+    events: VecDeque<FlightEvent>,
+    report: FlightReport,
+}
+
+/// The step that is being flown.
+#[derive(Debug, Clone, Copy)]
+struct Active {
+    due: Due,
+    since: Duration,
+    offered: bool,
+}
+
+impl Pilot {
+    /// A pilot with a plan, on the ground.
+    ///
+    /// # Errors
+    /// [`ConfigError`] if the limits cannot be sent to a drone.
+    pub fn new(plan: Plan, config: &PilotConfig) -> Result<Self, ConfigError> {
+        let settings = drone_settings(&config.limits)?;
+        let session_config = SessionConfig {
+            settings: settings.clone(),
+            read_back: config.read_back,
+            ..SessionConfig::default()
+        };
+        let report = FlightReport { steps: plan.steps().len(), ..FlightReport::default() };
+        Ok(Self {
+            session: Session::new(session_config),
+            estimator: Estimator::new(),
+            controller: PositionController::default(),
+            agent: Agent::new(),
+            mission: Mission::new(plan, config.limits),
+            settings,
+            phase: FlightPhase::Connecting,
+            navdata: None,
+            due: None,
+            landing: None,
+            veto: None,
+            target: None,
+            last_tick: None,
+            events: VecDeque::new(),
+            report,
+        })
+    }
+
+    /// Takes in a datagram from the drone's navdata port.
+    pub fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
+        match self.session.handle_navdata(now, datagram) {
+            Received::Navdata(navdata) => {
+                self.session_events(now);
+                if let Some(demo) = &navdata.demo {
+                    self.estimator.update(&sample(now, &navdata, demo));
+                }
+                self.navdata = Some(navdata);
+            }
+            // Counted by the session.
+            Received::Stale | Received::Damaged(_) => {}
+        }
+    }
+
+    /// Takes in bytes from the drone's control port.
+    pub fn handle_control(&mut self, now: Duration, bytes: &[u8]) {
+        self.session.handle_control(bytes);
+        self.session_events(now);
+    }
+
+    /// The person at the keyboard wants the drone on the ground.
+    pub fn order_landing(&mut self, now: Duration) {
+        self.land(now, LandingReason::Pilot);
+    }
+
+    /// Whether [`ardrone_link::WAKE_UP`] is to be sent to the navdata port now.
+    pub fn wake_up_due(&mut self, now: Duration) -> bool {
+        self.session.wake_up_due(now)
+    }
+
+    /// One tick: fills `datagram` with what the drone is to do. It stays empty until the drone is
+    /// heard: a drone that is already flying must not be landed by a first word said unseen.
+    ///
+    /// # Errors
+    /// See [`Session::tick`].
+    pub fn tick(&mut self, now: Duration, datagram: &mut Datagram) -> Result<(), EncodeError> {
+        let step_s = self
+            .last_tick
+            .map_or(TICK, |last| now.saturating_sub(last))
+            .min(2 * TICK)
+            .as_secs_f64();
+        self.last_tick = Some(now);
+        datagram.clear();
+        self.watch(now);
+        if self.navdata.is_none() {
+            return Ok(());
+        }
+        self.offer_order(now);
+        let senses = self.senses(now);
+        let step = AgentStep::run(&mut self.agent, senses);
+        if let Some(report) = step.report {
+            self.order_ended(now, report);
+        }
+        // An agent that asks for nothing gets a hover.
+        let wanted = step.command.unwrap_or(AgentCommand::Hover);
+        let (command, veto) = safety::check(wanted, self.circumstances(now));
+        if let Some(veto) = veto.filter(|_| veto != self.veto) {
+            self.events.push_back(FlightEvent::Veto(veto));
+        }
+        self.veto = veto;
+        let order = self.order(command, step_s);
+        self.session.tick(now, order, datagram)?;
+        self.session_events(now);
+        Ok(())
+    }
+
+    /// What happened, oldest first.
+    pub fn poll_event(&mut self) -> Option<FlightEvent> {
+        self.events.pop_front()
+    }
+
+    /// How the flight ended, once it has.
+    pub fn outcome(&self) -> Option<&Outcome> {
+        match &self.phase {
+            FlightPhase::Ended(outcome) => Some(outcome),
+            _ => None,
+        }
+    }
+
+    /// The flight so far.
+    pub fn report(&self) -> &FlightReport {
+        &self.report
+    }
+
+    /// A snapshot for whoever watches.
+    pub fn status(&self, now: Duration) -> Status {
+        let pose = self.pose();
+        Status {
+            phase: self.phase.name(),
+            step: self.due.as_ref().map(|active| active.due.step),
+            steps: self.report.steps,
+            pose,
+            target: self.target,
+            distance_m: self.target.map(|target| distance(&pose, &target)),
+            battery_percent: self.demo().map(|demo| demo.battery_percent),
+            navdata_age: self.session.silence(now),
+        }
+    }
+
+    /// The text of a step, for messages.
+    pub fn step_text(&self, step: usize) -> &str {
+        self.mission.steps().get(step).map_or("", |step| step.text.as_str())
+    }
+
+    fn demo(&self) -> Option<&Demo> {
+        self.navdata.as_ref().and_then(|navdata| navdata.demo.as_ref())
+    }
+
+    fn drone_state(&self) -> DroneState {
+        self.session.state()
+    }
+
+    fn on_ground(&self) -> bool {
+        let flying = self.drone_state().contains(DroneState::FLYING);
+        let landed = self.demo().is_none_or(|demo| demo.control_state == ControlState::Landed);
+        !flying && (landed || self.drone_state().contains(DroneState::EMERGENCY))
+    }
+
+    fn pose(&self) -> Pose {
+        let estimate = self.estimator.estimate();
+        Pose {
+            x_m: estimate.position_m.x,
+            y_m: estimate.position_m.y,
+            z_m: estimate.position_m.z,
+            yaw_deg: estimate.yaw_deg,
+        }
+    }
+
+    fn senses(&self, now: Duration) -> Senses {
+        let hovering = self.demo().is_some_and(|demo| {
+            matches!(demo.control_state, ControlState::Hovering | ControlState::Flying)
+        });
+        Senses {
+            now_ms: i64::try_from(now.as_millis()).unwrap_or(i64::MAX),
+            pose: self.demo().map(|_| self.pose()),
+            on_ground: self.on_ground(),
+            hovering: hovering && self.drone_state().contains(DroneState::FLYING),
+            settings: self.mission.settings(),
+        }
+    }
+
+    fn circumstances(&self, now: Duration) -> Circumstances {
+        Circumstances {
+            silence: self.session.silence(now).unwrap_or(Duration::MAX),
+            emergency: self.drone_state().contains(DroneState::EMERGENCY),
+        }
+    }
+
+    /// The agent's command as levels and sticks.
+    fn order(&mut self, command: AgentCommand, step_s: f64) -> Order {
+        self.target = None;
+        match command {
+            AgentCommand::Standby | AgentCommand::Land => {
+                self.controller.reset();
+                Order { flight: FlightOrder::Land, motion: Motion::Hover }
+            }
+            AgentCommand::TakeOff => Order { flight: FlightOrder::TakeOff, motion: Motion::Hover },
+            AgentCommand::Hover => {
+                Order { flight: FlightOrder::StayAirborne, motion: Motion::Hover }
+            }
+            AgentCommand::GoTo(target) => {
+                self.target = Some(target);
+                let velocity = self.estimator.estimate().velocity_m_s;
+                let motion =
+                    pid::Motion { x_m_s: velocity.x, y_m_s: velocity.y, z_m_s: velocity.z };
+                let limit = self.mission.max_control();
+                let demand = self.controller.step(&self.pose(), &motion, &target, step_s, limit);
+                let motion = Motion::Progressive {
+                    roll: Fraction::saturating(demand.roll),
+                    pitch: Fraction::saturating(demand.pitch),
+                    gaz: Fraction::saturating(demand.gaz),
+                    yaw: Fraction::saturating(demand.yaw),
+                };
+                Order { flight: FlightOrder::StayAirborne, motion }
+            }
+        }
+    }
+
+    /// Gives the agent the next order when the last one has ended.
+    fn offer_order(&mut self, now: Duration) {
+        if self.phase != FlightPhase::Flying || self.landing.is_some() {
+            return;
+        }
+        if self.due.is_none() {
+            match self.mission.advance(&self.pose()) {
+                Some(due) => {
+                    self.due = Some(Active { due, since: now, offered: false });
+                    self.events.push_back(FlightEvent::StepStarted { step: due.step });
+                    if due.height_corrected {
+                        self.events.push_back(FlightEvent::HeightCorrected { step: due.step });
+                    }
+                }
+                None => self.end(Outcome::Completed),
+            }
+        }
+        let Some(active) = &mut self.due else { return };
+        if active.offered {
+            return;
+        }
+        active.offered = match active.due.order {
+            AgentOrder::TakeOff => self.agent.achieve_take_off(),
+            AgentOrder::Land => self.agent.achieve_land(),
+            AgentOrder::GoTo(pose) => {
+                self.agent.achieve_go_to(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg)
+            }
+        };
+    }
+
+    /// The agent has reported how its last order ended.
+    fn order_ended(&mut self, now: Duration, report: Report) {
+        if self.landing.is_some() {
+            // The end of a landing is judged by the drone's state.
+            return;
+        }
+        let Some(active) = self.due.take() else { return };
+        if report != Report::Done {
+            self.land(now, LandingReason::StepFailed { step: active.due.step });
+            return;
+        }
+        let pose = self.pose();
+        self.report.steps_done = active.due.step + 1;
+        match active.due.order {
+            AgentOrder::TakeOff => {
+                self.mission.set_origin(&pose);
+                self.report.took_off_at.get_or_insert(active.since);
+            }
+            AgentOrder::GoTo(target) => {
+                let waypoint = Waypoint { step: active.due.step, target, pose, at: now };
+                self.report.waypoints.push(waypoint);
+            }
+            AgentOrder::Land => self.report.landed_at = Some(now),
+        }
+        self.events.push_back(FlightEvent::StepDone { step: active.due.step });
+    }
+}
+
+/// What a navdata packet says of the drone's motion.
+fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
+    Sample {
+        arrival: now,
+        drone_time: navdata.time,
+        yaw_deg: demo.yaw_deg,
+        velocity_forward_m_s: demo.velocity_forward_m_s,
+        velocity_right_m_s: demo.velocity_right_m_s,
+        altitude_m: demo.altitude_m,
+        airborne: navdata.state.contains(DroneState::FLYING),
+    }
+}
+
+/// What is set on the drone before each flight: other clients may have left anything there.
+/// The controller's gains are meant for these limits.
+fn drone_settings(limits: &FlightLimits) -> Result<Vec<Config>, ConfigError> {
+    // Demo, time and vision_detect.
+    const NAVDATA_OPTIONS: u32 = 1 | 1 << 1 | 1 << 16;
+    let ceiling_mm = (limits.ceiling_m * 1000.0).round();
+    Ok(vec![
+        Config::new("general:navdata_demo", "TRUE")?,
+        Config::new("general:navdata_options", NAVDATA_OPTIONS)?,
+        Config::new("control:outdoor", "FALSE")?,
+        Config::new("control:altitude_max", ceiling_mm)?,
+        Config::new("control:euler_angle_max", 0.209_44)?,
+        Config::new("control:control_vz_max", 700)?,
+        Config::new("control:control_yaw", 1.745)?,
+    ])
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,145 @@
+//! What a flight tells while it lasts and when it is over.
+
+use std::fmt;
+use std::time::Duration;
+
+use pid::Pose;
+
+use super::LandingReason;
+use crate::agent::distance;
+use crate::safety::Veto;
+
+/// Something that happened in a flight.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum FlightEvent {
+    /// The drone answered.
+    Connected,
+    /// The drone's configuration was read back.
+    ConfigurationRead {
+        /// The firmware's version, if it said so.
+        version: Option<String>,
+    },
+    /// The drone's configuration could not be read back.
+    ConfigurationNotRead,
+    /// All settings are made.
+    Configured,
+    /// A step of the plan began.
+    StepStarted {
+        /// Its index.
+        step: usize,
+    },
+    /// A step of the plan was carried out.
+    StepDone {
+        /// Its index.
+        step: usize,
+    },
+    /// A target was moved into the allowed heights.
+    HeightCorrected {
+        /// Its step.
+        step: usize,
+    },
+    /// The plan is given up and the drone is landed.
+    LandingOrdered(LandingReason),
+    /// The drone stopped answering.
+    LinkLost,
+    /// The drone cut its motors.
+    Emergency,
+    /// The safety layer replaced a command.
+    Veto(Veto),
+}
+
+impl fmt::Display for FlightEvent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Connected => f.write_str("drone found"),
+            Self::ConfigurationRead { version: Some(version) } => {
+                write!(f, "configuration read back, firmware {version}")
+            }
+            Self::ConfigurationRead { version: None } => f.write_str("configuration read back"),
+            Self::ConfigurationNotRead => f.write_str(
+                "configuration could not be read back: the settings are acknowledged, not verified",
+            ),
+            Self::Configured => f.write_str("drone configured, level reference set"),
+            Self::StepStarted { step } => write!(f, "step {}", step + 1),
+            Self::StepDone { step } => write!(f, "step {} done", step + 1),
+            Self::HeightCorrected { step } => {
+                write!(f, "step {}: target moved into the allowed heights", step + 1)
+            }
+            Self::LandingOrdered(reason) => write!(f, "landing: {reason}"),
+            Self::LinkLost => f.write_str("link lost: ordering the landing blindly"),
+            Self::Emergency => f.write_str("EMERGENCY: the drone has cut its motors"),
+            Self::Veto(Veto::StaleNavdata) => f.write_str("no fresh navdata: hovering"),
+            Self::Veto(Veto::Emergency) => f.write_str("emergency state: not flying"),
+        }
+    }
+}
+
+/// A target that was reached and stayed at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Waypoint {
+    /// Its step in the plan.
+    pub step: usize,
+    /// Where the drone was to be.
+    pub target: Pose,
+    /// Where the estimator saw it at the end of the stay.
+    pub pose: Pose,
+    /// When that was.
+    pub at: Duration,
+}
+
+impl Waypoint {
+    /// How far the estimate was from the target.
+    pub fn error_m(&self) -> f64 {
+        distance(&self.pose, &self.target)
+    }
+}
+
+/// What remains of a flight.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FlightReport {
+    /// Steps of the plan.
+    pub steps: usize,
+    /// Steps up to the last one that was carried out.
+    pub steps_done: usize,
+    /// Targets reached, in order.
+    pub waypoints: Vec<Waypoint>,
+    /// When the take-off was ordered.
+    pub took_off_at: Option<Duration>,
+    /// When the drone said that it has landed.
+    pub landed_at: Option<Duration>,
+    /// Settings that the drone did not acknowledge, or reported otherwise.
+    pub unconfirmed_settings: Vec<String>,
+}
+
+impl FlightReport {
+    /// From the take-off order to the ground.
+    pub fn flight_time(&self) -> Option<Duration> {
+        self.landed_at?.checked_sub(self.took_off_at?)
+    }
+
+    /// How far the drone was from its last target at the end of its stay.
+    pub fn final_error_m(&self) -> Option<f64> {
+        self.waypoints.last().map(Waypoint::error_m)
+    }
+}
+
+/// A snapshot for whoever watches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Status {
+    /// What the flight is doing, in one word.
+    pub phase: &'static str,
+    /// The step that is being flown.
+    pub step: Option<usize>,
+    /// Steps of the plan.
+    pub steps: usize,
+    /// Where the drone is.
+    pub pose: Pose,
+    /// Where it is going.
+    pub target: Option<Pose>,
+    /// How far that is.
+    pub distance_m: Option<f64>,
+    /// Remaining charge.
+    pub battery_percent: Option<u32>,
+    /// Age of the newest navdata.
+    pub navdata_age: Option<Duration>,
+}

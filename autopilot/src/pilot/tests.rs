@@ -1,0 +1,43 @@
+use super::*;
+
+fn pilot(plan: &str) -> Pilot {
+    Pilot::new(Plan::parse("plan", plan).unwrap(), &PilotConfig::default()).unwrap()
+}
+
+#[test]
+fn nothing_is_said_to_a_drone_that_was_not_heard() {
+    let mut pilot = pilot("takeoff\nland");
+    let mut datagram = Datagram::new();
+    pilot.tick(Duration::ZERO, &mut datagram).unwrap();
+    assert_eq!(datagram.as_bytes(), b"");
+    assert!(pilot.wake_up_due(Duration::ZERO));
+}
+
+#[test]
+fn a_drone_that_never_answers_ends_the_flight() {
+    let mut pilot = pilot("takeoff\nland");
+    let mut datagram = Datagram::new();
+    pilot.tick(CONNECT_TIMEOUT.saturating_sub(TICK), &mut datagram).unwrap();
+    assert_eq!(pilot.outcome(), None);
+    pilot.tick(CONNECT_TIMEOUT, &mut datagram).unwrap();
+    assert_eq!(pilot.outcome(), Some(&Outcome::NoDrone));
+}
+
+#[test]
+fn an_order_to_land_before_the_flight_just_ends_it() {
+    let mut pilot = pilot("takeoff\nland");
+    pilot.order_landing(Duration::ZERO);
+    assert_eq!(pilot.outcome(), Some(&Outcome::Interrupted));
+}
+
+#[test]
+fn random_navdata_is_ignored() {
+    let mut pilot = pilot("takeoff\nland");
+    for length in 0..600_usize {
+        let bytes: Vec<u8> =
+            (0_u8..=255).cycle().map(|i| i.wrapping_mul(37)).take(length).collect();
+        pilot.handle_navdata(Duration::ZERO, &bytes);
+        pilot.handle_control(Duration::ZERO, &bytes);
+    }
+    assert_eq!(pilot.status(Duration::ZERO).battery_percent, None);
+}

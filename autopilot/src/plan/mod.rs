@@ -1,0 +1,146 @@
+//! Flight plans: `tum_ardrone`'s script language.
+//!
+//! One command a line; `#` and `//` start comments. Lengths in metres, angles in degrees, times in
+//! seconds. x is right, y forward, z up, yaw clockwise; coordinates are relative to the reference,
+//! which is the pose at the end of the take-off until `setReference` moves it.
+//!
+//! ```
+//! let plan = autopilot::Plan::parse("square.txt", "takeoff\ngoto 0 1 0 0\nland\n")?;
+//! assert_eq!(plan.steps().len(), 3);
+//! # Ok::<(), autopilot::plan::PlanError>(())
+//! ```
+
+mod check;
+mod parser;
+
+use pid::Pose;
+
+pub use check::{FlightLimits, ZOrigin};
+
+/// A flight plan that was read without errors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    steps: Vec<Step>,
+    notes: Vec<String>,
+}
+
+/// One command of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// What to do.
+    pub command: Command,
+    /// Its line in the plan, from 1; 0 for a step that the plan does not have.
+    pub line: usize,
+    /// The command as it was written.
+    pub text: String,
+}
+
+/// What a step orders.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Command {
+    /// `takeoff`, `autoInit`, `autoTakeover`: be in the air.
+    TakeOff {
+        /// Whether the drone may be in the air already.
+        take_over: bool,
+    },
+    /// `land`
+    Land,
+    /// `goto x y z yaw`: to a pose relative to the reference.
+    GoTo(Pose),
+    /// `moveBy x y z yaw`: from the current target.
+    MoveBy(Pose),
+    /// `moveByRel x y z yaw`: from where the drone is.
+    MoveByRelative(Pose),
+    /// `setReference x y z yaw`: in the coordinates of the take-off.
+    SetReference(Pose),
+    /// `setReference $POSE$`: where the drone is.
+    SetReferenceHere,
+    /// `setInitialReachDist`: a target is reached within this distance.
+    SetReachDistance {
+        /// Metres.
+        distance_m: f64,
+    },
+    /// `setStayWithinDist`: how far the drone may stray while it stays.
+    SetStayDistance {
+        /// Metres.
+        distance_m: f64,
+    },
+    /// `setStayTime`: how long it stays.
+    SetStayTime {
+        /// Seconds.
+        time_s: f64,
+    },
+    /// `setMaxControl`: no stick is moved further than this.
+    SetMaxControl {
+        /// Fraction in (0, 1].
+        fraction: f64,
+    },
+}
+
+/// Why a plan cannot be flown: every problem with file, line, column and advice.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{rendered}")]
+pub struct PlanError {
+    rendered: String,
+}
+
+impl Plan {
+    /// Reads a plan with the default limits; `name` is its file's name for messages.
+    ///
+    /// # Errors
+    /// [`PlanError`] with everything that is wrong.
+    pub fn parse(name: &str, text: &str) -> Result<Self, PlanError> {
+        Self::parse_within(name, text, &FlightLimits::default())
+    }
+
+    /// Reads a plan and refuses targets outside `limits`.
+    ///
+    /// # Errors
+    /// [`PlanError`] with everything that is wrong.
+    pub fn parse_within(name: &str, text: &str, limits: &FlightLimits) -> Result<Self, PlanError> {
+        let (lines, mut diagnostics) = parser::parse(text);
+        let mut notes: Vec<String> = lines.iter().filter_map(parser::note).collect();
+        let lines = parser::clear_commands(lines);
+        if diagnostics.is_empty() {
+            diagnostics = check::check(&lines, text, limits);
+        }
+        if !diagnostics.is_empty() {
+            let source = diagnostic::Source { name, text };
+            return Err(PlanError { rendered: diagnostic::render_all(&diagnostics, &source) });
+        }
+        let mut steps: Vec<Step> = lines
+            .into_iter()
+            .filter_map(|line| {
+                let command = line.command?;
+                Some(Step { command, line: line.number, text: line.text })
+            })
+            .collect();
+        if steps.last().is_some_and(|step| step.command != Command::Land) {
+            notes.push("the plan does not end with `land`: the drone will land".to_owned());
+            steps.push(Step { command: Command::Land, line: 0, text: "land".to_owned() });
+        }
+        Ok(Self { steps, notes })
+    }
+
+    /// The commands in order.
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// What the pilot should be told of the plan before it is flown.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Whether the plan may start with a drone that is in the air.
+    pub fn takes_over(&self) -> bool {
+        let first = self.steps.iter().find_map(|step| match step.command {
+            Command::TakeOff { take_over } => Some(take_over),
+            _ => None,
+        });
+        first.unwrap_or(false)
+    }
+}
+
+#[cfg(test)]
+mod tests;
