@@ -253,8 +253,8 @@ impl Analysis<'_> {
         match term {
             Term::Variable(name) => {
                 let id = scope.bound(name)?;
-                check_type(&scope.variables[id.0].ctype, ctype, &name.text, &name.span)?;
                 scope.variables[id.0].used = true;
+                check_type(&scope.variables[id.0].ctype, ctype, &name.text, &name.span)?;
                 Ok(Value::Variable(id))
             }
             Term::Call(atom) => {

@@ -30,6 +30,7 @@ fn state(writer: &mut Writer, program: &Program) {
     writer.line("/// The agent's state, field for field as the C struct.");
     writer.line("#[repr(C)]");
     writer.line("#[derive(Debug, Clone)]");
+    writer.line("#[allow(non_snake_case)]");
     writer.open_here("struct State");
     for Field { name, content, length } in layout(program).fields {
         let element = match content {
@@ -48,6 +49,7 @@ fn state(writer: &mut Writer, program: &Program) {
 
 fn external_functions(writer: &mut Writer, program: &Program) {
     let prefix = symbol_prefix(program);
+    writer.line("#[allow(non_snake_case)]");
     writer.open_here("unsafe extern \"C\"");
     writer
         .line(format!("fn {prefix}init(agent: *mut State, environment: *mut core::ffi::c_void);"));
@@ -115,6 +117,7 @@ fn shims(writer: &mut Writer, program: &Program) {
             .line("let environment = unsafe { &mut *environment.cast::<&mut dyn Environment>() };");
     };
     writer.line("#[unsafe(no_mangle)]");
+    writer.line("#[allow(non_snake_case)]");
     writer.open_here(format!(
         "extern \"C\" fn {prefix}updateBeliefs(agent: *mut State, environment: *mut core::ffi::c_void)"
     ));
@@ -128,6 +131,7 @@ fn shims(writer: &mut Writer, program: &Program) {
     for basic in &program.configuration.basics {
         writer.line("");
         writer.line("#[unsafe(no_mangle)]");
+        writer.line("#[allow(non_snake_case)]");
         let symbol = action_symbol(program, &basic.name.text);
         let result = result_type(basic);
         writer.open_here(format!(

@@ -1,0 +1,122 @@
+//! Translates small agents, compiles their C with every warning an error, and runs it.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::Command;
+
+use translator::{TranslateError, Translation, parse_configuration, translate};
+
+/// The compilers' flags that generated C must pass.
+pub(crate) const STRICT: [&str; 8] = [
+    "-std=c99",
+    "-Wall",
+    "-Wextra",
+    "-Wconversion",
+    "-Wfloat-equal",
+    "-Wshadow",
+    "-pedantic",
+    "-Werror",
+];
+
+/// A small agent and what surrounds it.
+pub(crate) struct Case {
+    /// `basics` entries. Actions print themselves; functions are given in `functions`.
+    pub(crate) basics: &'static str,
+    /// `types` entries.
+    pub(crate) types: &'static str,
+    /// The other sections, as they stand in the configuration.
+    pub(crate) sections: &'static str,
+    /// The agent.
+    pub(crate) agent: &'static str,
+}
+
+impl Case {
+    pub(crate) fn configuration(&self, settings: &str) -> String {
+        let Self { basics, types, sections, .. } = self;
+        format!(
+            "settings {{ input = agent.asl; output = agent.c; header = agent.h; \
+             basics = actions.h; {settings} }};\nbasics {{ {basics} }};\ntypes {{ {types} }};\n{sections}\n"
+        )
+    }
+
+    pub(crate) fn translate(&self, settings: &str) -> Result<Translation, TranslateError> {
+        let configuration = parse_configuration("agent.conf", &self.configuration(settings))?;
+        translate(configuration, self.agent)
+    }
+
+    /// Compiles the C for both kinds of instance with every warning an error.
+    pub(crate) fn compile(&self) {
+        for settings in ["", "instance = context;"] {
+            let folder = tempfile::tempdir().unwrap();
+            self.write(settings, folder.path());
+            let result = compiler(folder.path()).args(["-c", "agent.c"]).output().unwrap();
+            let message = String::from_utf8_lossy(&result.stderr);
+            assert!(result.status.success(), "{settings}\n{message}");
+        }
+    }
+
+    /// Runs `script`, C statements that call the agent's interface, and returns what was printed.
+    /// `functions` are C definitions of the basic functions that return something.
+    pub(crate) fn run(&self, functions: &str, script: &str) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        self.write("", folder.path());
+        let mut main =
+            String::from("#include <stdio.h>\n#include \"agent.h\"\n#include \"actions.h\"\n");
+        for declaration in self.basics.split(';').map(str::trim).filter(|text| !text.is_empty()) {
+            if let Some(action) = declaration.strip_prefix("void ") {
+                main.push_str(&printing_action(action));
+            }
+        }
+        main.push_str(functions);
+        // The script may replace it.
+        if !functions.contains("updateBeliefs") {
+            main.push_str("void updateBeliefs(void) {}\n");
+        }
+        _ = write!(main, "int main(void) {{ init();\n{script}\nreturn 0; }}\n");
+        std::fs::write(folder.path().join("main.c"), main).unwrap();
+        let result =
+            compiler(folder.path()).args(["-o", "agent", "main.c", "agent.c"]).output().unwrap();
+        let message = String::from_utf8_lossy(&result.stderr);
+        assert!(result.status.success(), "{message}");
+        let result = Command::new(folder.path().join("agent")).output().unwrap();
+        assert!(result.status.success());
+        String::from_utf8(result.stdout).unwrap().split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    fn write(&self, settings: &str, folder: &Path) {
+        let translation = self.translate(settings).unwrap_or_else(|error| panic!("{error}"));
+        for file in &translation.files {
+            std::fs::write(folder.join(&file.name), &file.text).unwrap();
+        }
+    }
+}
+
+fn compiler(folder: &Path) -> Command {
+    let mut compiler = Command::new("gcc");
+    compiler.current_dir(folder).args(STRICT);
+    compiler
+}
+
+/// `act(int, double)` → a definition that prints `act(1,2.5)`.
+fn printing_action(declaration: &str) -> String {
+    let (name, types) = declaration.split_once('(').unwrap();
+    let types = types.trim_end_matches(')');
+    let types: Vec<&str> = types.split(',').map(str::trim).filter(|t| *t != "void").collect();
+    let parameters: Vec<String> =
+        types.iter().enumerate().map(|(i, ctype)| format!("{ctype} a{i}")).collect();
+    let formats: Vec<&str> = types
+        .iter()
+        .map(|ctype| match *ctype {
+            "double" => "%g",
+            "const char *" => "%s",
+            "unsigned int" => "%u",
+            _ => "%d",
+        })
+        .collect();
+    let arguments: String = (0..types.len()).map(|i| format!(", a{i}")).collect();
+    let parameters = if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
+    format!(
+        "void {name}({parameters}) {{ printf(\"{name}({})\\n\"{arguments}); }}\n",
+        formats.join(",")
+    )
+}

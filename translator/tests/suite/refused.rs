@@ -1,0 +1,203 @@
+//! What is refused, and with which words.
+
+use crate::harness::Case;
+
+fn refused(agent: &'static str) -> String {
+    refused_with("", agent)
+}
+
+fn refused_with(sections: &'static str, agent: &'static str) -> String {
+    let case = Case {
+        basics: "void act(int); bool flag(int); int count(void); void take(handle_t);",
+        types: "g(void); gi(int); b(int); d(double); h(handle_t); c(void);",
+        sections,
+        agent,
+    };
+    let error = case.translate("").map(|translation| translation.warnings).unwrap_err();
+    error.to_string()
+}
+
+/// The message and place of the first error, without the source lines.
+fn first(agent: &'static str) -> String {
+    let rendered = refused(agent);
+    let mut lines = rendered.lines();
+    let message = lines.next().unwrap_or_default();
+    let place = lines.next().unwrap_or_default().trim_start_matches([' ', '-', '>']);
+    format!("{place}: {message}")
+}
+
+#[test]
+fn an_error_shows_its_line_a_caret_and_what_to_do() {
+    insta::assert_snapshot!(refused("!g.\n+!g : b(X) & not b(Y)\n  <- act(Y); fly(1)."), @r"
+    warning: variable `X` is never used
+     --> agent.asl:2:9
+      |
+    2 | +!g : b(X) & not b(Y)
+      |         ^
+      |
+      = help: write `_` if any value will do
+
+    error: `Y` has no value here
+     --> agent.asl:3:10
+      |
+    3 |   <- act(Y); fly(1).
+      |          ^
+      |
+      = help: it occurs only inside `not`, which binds nothing
+
+    error: `fly` is not declared
+     --> agent.asl:3:14
+      |
+    3 |   <- act(Y); fly(1).
+      |              ^^^
+      |
+      = help: declare it in the section `basics` of the configuration
+    ");
+}
+
+#[test]
+fn every_static_restriction_is_checked() {
+    for (agent, expected) in [
+        ("!g. +!g <- acts(1).", "agent.asl:1:12: error: `acts` is not declared"),
+        ("!g. +!g <- act(1, 2).", "agent.asl:1:12: error: `act` takes 1 arguments, not 2"),
+        ("!g. +!g <- act(1.5).", "agent.asl:1:16: error: a fraction where `int` is expected"),
+        ("!g. +!g <- act(3000000000).", "agent.asl:1:16: error: number out of the range of `int`"),
+        (
+            "!g. +!g <- act(\"x\").",
+            "agent.asl:1:16: error: a string where a value of type `int` is expected",
+        ),
+        ("!g. +!g <- act(X).", "agent.asl:1:16: error: `X` has no value here"),
+        ("!g. +!g <- act(_).", "agent.asl:1:16: error: an unnamed variable has no value"),
+        (
+            "!g. +!g : d(X) <- act(X).",
+            "agent.asl:1:23: error: `X` has type `double`, expected `int`",
+        ),
+        (
+            "!g. +!g <- X = count; X = count; act(X).",
+            "agent.asl:1:23: error: `X` already has a value",
+        ),
+        ("!g. +!g <- X = act(1).", "agent.asl:1:16: error: `act` returns no value"),
+        ("!g. +!g : act(1) <- act(1).", "agent.asl:1:11: error: `act` does not return `bool`"),
+        ("!g. +!g : count <- act(1).", "agent.asl:1:11: error: `count` does not return `bool`"),
+        ("!g. +!g <- !c.", "agent.asl:1:13: error: no plan for `+!c`"),
+        ("!c. +!g <- act(1).", "agent.asl:1:2: error: no plan for `+!c`"),
+        ("!g. +!g <- !!c.", "agent.asl:1:14: error: no plan for `+!c`"),
+        (
+            "!g. +!g <- !g; act(1).",
+            "agent.asl:1:13: error: `g` leads back to itself and is not the last formula",
+        ),
+        (
+            "!g. +!g <- +c; act(1). +c <- +b(1). +b(X) <- -c; act(X). -c <- +c.",
+            "agent.asl:1:13: error: `c` leads back to itself and is not the last formula",
+        ),
+        ("!g. +!!g <- act(1).", "agent.asl:1:6: error: `!!` cannot be a trigger"),
+        (
+            "!g. +!g : h(X) & h(X) <- take(X).",
+            "agent.asl:1:20: error: values of type `handle_t` cannot be compared",
+        ),
+        (
+            "!g. +!g. +?b(X) <- act(X).",
+            "agent.asl:1:10: error: plans for test goals are not translated yet",
+        ),
+        (
+            "!g. +!g <- act(1). -!c <- act(1).",
+            "agent.asl:1:20: error: `-!c` can never run: no plan for `+!c`",
+        ),
+        ("!g. +!g <- b(1).", "agent.asl:1:12: error: `b` is a belief or goal, not a basic action"),
+        (
+            "!g. +!act <- act(1).",
+            "agent.asl:1:7: error: `act` is a basic action, not a belief or goal",
+        ),
+        ("b(1). b(2). !g. +!g <- act(1).", "agent.asl:1:7: error: a second initial belief `b`"),
+        ("b(X). !g. +!g <- act(1).", "agent.asl:1:3: error: not a constant"),
+        ("!g. +!g <- -b(X).", "agent.asl:1:15: error: `X` has no value here"),
+        ("!g. +!g : b(X) & X < 3 <- act(X).", "agent.asl:1:20: error: unexpected character `<`"),
+        ("!g. +!g : ~b(1) <- act(1).", "agent.asl:1:11: error: unexpected character `~`"),
+        ("@l !g. +!g <- act(1).", "agent.asl:1:1: error: unexpected character `@`"),
+    ] {
+        assert_eq!(first(agent), expected, "{agent}");
+    }
+}
+
+#[test]
+fn the_configuration_is_checked_too() {
+    insta::assert_snapshot!(
+        refused_with("settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };", "!g. +!g <- act(1)."),
+        @r"
+    error: `bb` is not declared
+     --> agent.conf:4:13
+      |
+    4 | settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };
+      |             ^^
+      |
+      = help: did you mean `b`?
+
+    error: no plan for `+!c`
+     --> agent.conf:4:35
+      |
+    4 | settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };
+      |                                   ^^^
+      |
+      = help: the environment could order what the agent can't do
+
+    error: this trigger is listed twice
+     --> agent.conf:4:44
+      |
+    4 | settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };
+      |                                            ^^
+
+    error: a pre-emptive event must be triggerable
+     --> agent.conf:4:64
+      |
+    4 | settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };
+      |                                                                ^^^^
+      |
+      = help: list it in `triggerables` too
+
+    error: pre-emptive percepts are not translated yet
+     --> agent.conf:4:70
+      |
+    4 | settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };
+      |                                                                      ^^
+      |
+      = help: only goals, `+!goal`, can pre-empt
+    "
+    );
+}
+
+#[test]
+fn names_that_c_could_not_take_are_refused() {
+    for basics in [
+        "void goto(void);",
+        "void init(void);",
+        "void _x(void);",
+        "void achieve_g(void);",
+        "void a(void); void a(int);",
+    ] {
+        let case = Case { basics, types: "g(void);", sections: "", agent: "!g. +!g." };
+        assert!(case.translate("").is_err(), "{basics}");
+    }
+}
+
+#[test]
+fn rust_bindings_need_types_that_rust_knows_and_a_passed_state() {
+    let case =
+        Case { basics: "void take(handle_t);", types: "g(void);", sections: "", agent: "!g. +!g." };
+    let error = case.translate("rust = b.rs;").unwrap_err().to_string();
+    assert!(error.contains("need the agent's state passed in"), "{error}");
+    assert!(error.contains("`handle_t` has no Rust counterpart"), "{error}");
+}
+
+#[test]
+fn what_nothing_triggers_is_left_out_with_a_warning() {
+    let case = Case {
+        basics: "void act(int);",
+        types: "g(void); c(void);",
+        sections: "",
+        agent: "!g. +!g <- act(1). +!c <- act(2).",
+    };
+    let translation = case.translate("").unwrap();
+    assert!(translation.warnings.contains("nothing ever triggers `+!c`"));
+    assert!(!translation.files[0].text.contains("act(2)"));
+    case.compile();
+}
