@@ -1,0 +1,138 @@
+//! What people type, and what goes wrong.
+
+use std::net::UdpSocket;
+use std::path::Path;
+use std::process::Output;
+use std::time::{Duration, Instant};
+
+use crate::processes::program;
+
+fn pilot(arguments: &[&str]) -> Output {
+    program("ardrone-pilot").args(arguments).output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// Flies a plan with this content and expects it to be refused with exit status 20.
+fn refused_plan(content: &[u8]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plan.txt");
+    std::fs::write(&path, content).unwrap();
+    let output = pilot(&["--plan", path.to_str().unwrap(), "--mock"]);
+    assert_eq!(output.status.code(), Some(20), "{}", stderr(&output));
+    let message = stderr(&output);
+    assert!(!message.contains("panicked"), "{message}");
+    message.replace(folder.path().to_str().unwrap(), "")
+}
+
+#[test]
+fn a_missing_plan_is_named() {
+    let output = pilot(&["--plan", "no/such/plan.txt", "--mock"]);
+    assert_eq!(output.status.code(), Some(20));
+    assert!(stderr(&output).contains("cannot read the plan no/such/plan.txt"));
+}
+
+#[test]
+fn bad_plans_are_refused_with_their_place() {
+    insta::assert_snapshot!(refused_plan(b""), @r"
+    error: the plan never takes off
+     --> /plan.txt:1:1
+      |
+    1 |
+      | ^
+      |
+      = help: begin with `takeoff` and end with `land`
+    ");
+    insta::assert_snapshot!(refused_plan(b"takeoff\nland\ngtoo 1 2 3 4\n"), @r"
+    error: unknown command `gtoo`
+     --> /plan.txt:3:1
+      |
+    3 | gtoo 1 2 3 4
+      | ^^^^
+      |
+      = help: commands are: takeoff, land, goto, moveBy, moveByRel, setReference, setInitialReachDist, setStayWithinDist, setStayTime, setMaxControl, clearCommands, autoInit, autoTakeover, lockScaleFP
+    ");
+}
+
+#[test]
+fn random_bytes_are_no_plan() {
+    let mut state = 7_u32;
+    let bytes: Vec<u8> = std::iter::repeat_with(|| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        state.to_be_bytes()[0]
+    })
+    .take(4096)
+    .collect();
+    assert!(refused_plan(&bytes).contains("unknown command"));
+}
+
+#[test]
+fn usage_errors_have_their_own_exit_status() {
+    for arguments in
+        [&["--plan"][..], &[], &["--plan", "x", "--warp"], &["--plan", "x", "--at-port", "70000"]]
+    {
+        assert_eq!(pilot(arguments).status.code(), Some(2), "{arguments:?}");
+    }
+}
+
+#[test]
+fn no_drone_is_reported_within_seconds() {
+    let start = Instant::now();
+    let output =
+        pilot(&["--plan", "../plans/square.txt", "--drone", "127.0.0.1", "--navdata-port", "9"]);
+    assert!(start.elapsed() < Duration::from_secs(10));
+    assert_eq!(output.status.code(), Some(10), "{}", stderr(&output));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("no drone answered"));
+}
+
+#[test]
+fn an_unknown_host_is_named() {
+    let output = pilot(&["--plan", "../plans/square.txt", "--drone", "no.such.drone.invalid"]);
+    assert_eq!(output.status.code(), Some(10), "{}", stderr(&output));
+    assert!(stderr(&output).contains("no.such.drone.invalid"));
+}
+
+#[test]
+fn a_port_in_use_is_named() {
+    let taken = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port().to_string();
+    let output = program("mock-drone").args(["--at-port", &port]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let message = stderr(&output);
+    assert!(message.contains(&port) && message.contains("AT commands"), "{message}");
+}
+
+#[test]
+fn help_explains_each_program() {
+    for (name, word) in [("ardrone-pilot", "--z-origin"), ("mock-drone", "--bind"), ("asl2c", "-o")]
+    {
+        let output = program(name).arg("--help").output().unwrap();
+        assert!(output.status.success());
+        assert!(String::from_utf8_lossy(&output.stdout).contains(word), "{name}");
+    }
+}
+
+#[test]
+fn asl2c_writes_its_files_beside_the_configuration_or_where_it_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let agent = Path::new("../autopilot/agent");
+    for file in ["autopilot.asl", "autopilot.conf"] {
+        std::fs::copy(agent.join(file), folder.path().join(file)).unwrap();
+    }
+    let configuration = folder.path().join("autopilot.conf");
+    let other = tempfile::tempdir().unwrap();
+    for (arguments, output) in
+        [(vec![], folder.path()), (vec!["-o", other.path().to_str().unwrap()], other.path())]
+    {
+        let result = program("asl2c").arg(&configuration).args(arguments).output().unwrap();
+        assert!(result.status.success(), "{}", stderr(&result));
+        for file in ["autopilot.c", "autopilot.h", "actions.h", "bindings.rs"] {
+            assert!(output.join(file).exists(), "{file}");
+        }
+    }
+    let result = program("asl2c").arg("no-such.conf").output().unwrap();
+    assert_eq!(result.status.code(), Some(1));
+    assert!(stderr(&result).contains("cannot read no-such.conf"));
+}

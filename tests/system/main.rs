@@ -1,0 +1,9 @@
+//! The whole system: the pilot, its agent, and a simulated drone.
+#![forbid(unsafe_code)]
+#![allow(clippy::disallowed_methods, reason = "these tests run real processes in real time")]
+
+mod architecture;
+mod command_line;
+mod processes;
+mod simulated;
+mod udp;

@@ -1,0 +1,172 @@
+//! The two programs as two processes.
+
+use std::fs::File;
+use std::io::{BufRead as _, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Output, Stdio};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+/// A program of this workspace, built like this test.
+pub(crate) fn program(name: &str) -> Command {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    let folder = FOLDER.get_or_init(|| {
+        let mut build = Command::new(env!("CARGO"));
+        build.args(["build", "--quiet", "-p", "autopilot", "-p", "mock-drone", "-p", "translator"]);
+        build.arg("--bins");
+        if !cfg!(debug_assertions) {
+            build.arg("--release");
+        }
+        assert!(build.status().unwrap().success());
+        // The test itself is in `deps` beside the programs.
+        let test = std::env::current_exe().unwrap();
+        test.ancestors().nth(2).unwrap().to_owned()
+    });
+    Command::new(folder.join(name))
+}
+
+/// A mock drone in a process of its own, killed when the test ends.
+struct MockProcess {
+    child: Child,
+    /// AT, navdata, control.
+    ports: [u16; 3],
+}
+
+impl MockProcess {
+    fn start() -> Self {
+        let mut child = program("mock-drone")
+            .args(["--at-port", "0", "--navdata-port", "0", "--control-port", "0"])
+            .env("NO_COLOR", "1")
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+        // "... AT 1234/udp, navdata 1235/udp, configuration 1236/tcp"
+        let ports: Vec<u16> = line
+            .split_whitespace()
+            .filter_map(|word| word.split_once('/')?.0.parse().ok())
+            .collect();
+        Self { child, ports: ports.try_into().expect(&line) }
+    }
+
+    fn pilot(&self, plan: &Path) -> Command {
+        let [at, navdata, control] = self.ports.map(|port| port.to_string());
+        let mut pilot = program("ardrone-pilot");
+        pilot.arg("--plan").arg(plan).args(["--drone", "127.0.0.1"]);
+        pilot.args(["--at-port", &at, "--navdata-port", &navdata, "--control-port", &control]);
+        pilot
+    }
+
+    fn kill(&mut self) {
+        self.child.kill().unwrap();
+        self.child.wait().unwrap();
+    }
+}
+
+impl Drop for MockProcess {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+fn plan_file(text: &str) -> tempfile::NamedTempFile {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(file.path(), text).unwrap();
+    file
+}
+
+/// Starts a pilot whose standard error goes to a file that can be looked at meanwhile.
+fn start(pilot: &mut Command) -> (Child, tempfile::NamedTempFile) {
+    let log = tempfile::NamedTempFile::new().unwrap();
+    let child =
+        pilot.stdout(Stdio::piped()).stderr(File::create(log.path()).unwrap()).spawn().unwrap();
+    (child, log)
+}
+
+fn wait_for(log: &Path, text: &str) {
+    let start = Instant::now();
+    while !std::fs::read_to_string(log).unwrap().contains(text) {
+        assert!(start.elapsed() < Duration::from_secs(20), "`{text}` never came");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+fn signal(child: &Child) {
+    let status = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(status.as_ref().is_ok_and(ExitStatus::success), "{status:?}");
+}
+
+fn text(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+const SHORT: &str = "takeoff\nsetStayTime 0.2\ngoto 0 0.5 0 0\nland\n";
+const LONG: &str = "takeoff\nsetStayTime 50\ngoto 0 0.5 0 0\nland\n";
+
+#[test]
+fn two_processes_fly_the_plan() {
+    let mock = MockProcess::start();
+    let plan = plan_file(SHORT);
+    let output = mock.pilot(plan.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(text(&output).contains("commands done   4 of 4"), "{}", text(&output));
+    // The drone is still there for a second flight.
+    let output = mock.pilot(plan.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn a_drone_that_vanishes_in_flight_is_reported_within_seconds() {
+    let mut mock = MockProcess::start();
+    let plan = plan_file(LONG);
+    let (child, log) = start(&mut mock.pilot(plan.path()));
+    wait_for(log.path(), "step 3/4");
+    mock.kill();
+    let killed = Instant::now();
+    let output = child.wait_with_output().unwrap();
+    assert!(killed.elapsed() < Duration::from_secs(10));
+    assert_eq!(output.status.code(), Some(10));
+    assert!(text(&output).contains("the drone stopped answering"), "{}", text(&output));
+    assert!(std::fs::read_to_string(log.path()).unwrap().contains("link lost"));
+}
+
+#[test]
+fn control_c_lands_and_waits_for_the_ground() {
+    let mock = MockProcess::start();
+    let plan = plan_file(LONG);
+    let (child, log) = start(&mut mock.pilot(plan.path()));
+    wait_for(log.path(), "step 3/4");
+    signal(&child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert!(text(&output).contains("landed on the pilot's order"));
+    assert!(!text(&output).contains("flight time     -"), "{}", text(&output));
+}
+
+#[test]
+fn a_second_control_c_leaves_at_once_with_the_landing_ordered() {
+    let mock = MockProcess::start();
+    let plan = plan_file(LONG);
+    let (child, log) = start(&mut mock.pilot(plan.path()));
+    wait_for(log.path(), "step 3/4");
+    signal(&child);
+    wait_for(log.path(), "landing: the pilot's order");
+    let second = Instant::now();
+    signal(&child);
+    let output = child.wait_with_output().unwrap();
+    assert!(second.elapsed() < Duration::from_secs(2));
+    assert_eq!(output.status.code(), Some(130));
+}
+
+#[test]
+fn control_c_before_the_drone_is_found_ends_at_once() {
+    let plan = plan_file(SHORT);
+    let mut pilot = program("ardrone-pilot");
+    pilot.arg("--plan").arg(plan.path()).args(["--drone", "127.0.0.1", "--navdata-port", "9"]);
+    let (child, log) = start(&mut pilot);
+    wait_for(log.path(), "connecting");
+    signal(&child);
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+}

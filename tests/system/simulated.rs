@@ -1,0 +1,200 @@
+//! Flights in simulated time.
+
+use std::time::Duration;
+
+use autopilot::outcome::Outcome;
+use autopilot::pilot::{FlightEvent, LandingReason};
+use autopilot::sim::{SimulatedFlight, Simulation};
+use mock_drone::DroneConfig;
+use mock_drone::firmware::Phase;
+use mock_drone::sensors::SensorModel;
+use system_tests::{SQUARE, plan, true_error_m};
+
+fn fly(simulation: &Simulation, text: &str) -> SimulatedFlight {
+    simulation.fly(plan(text)).unwrap()
+}
+
+fn largest_true_error_m(flight: &SimulatedFlight) -> f64 {
+    let pairs = flight.report.waypoints.iter().zip(&flight.truth_at_waypoints);
+    pairs.map(|(waypoint, truth)| true_error_m(waypoint, truth)).fold(0.0, f64::max)
+}
+
+const SECOND: Duration = Duration::from_secs(1);
+
+#[test]
+fn the_square_is_flown_and_the_drone_is_at_each_waypoint() {
+    for seed in 1..=20 {
+        let drone = DroneConfig { seed, ..DroneConfig::default() };
+        let flight = fly(&Simulation { drone, ..Simulation::default() }, SQUARE);
+        assert_eq!(flight.outcome, Outcome::Completed, "seed {seed}");
+        assert_eq!(flight.report.waypoints.len(), 4);
+        assert_eq!(flight.final_truth.phase, Phase::Landed);
+        let error_m = largest_true_error_m(&flight);
+        assert!(error_m < 0.2, "seed {seed}: {error_m:.2} m");
+        assert!(flight.report.flight_time().is_some_and(|time| time < 30 * SECOND));
+    }
+}
+
+#[test]
+fn every_plan_in_the_folder_is_flown_to_its_end() {
+    let mut flown = 0;
+    for entry in std::fs::read_dir("../plans").unwrap() {
+        let path = entry.unwrap().path();
+        let flight = fly(&Simulation::default(), &std::fs::read_to_string(&path).unwrap());
+        assert_eq!(flight.outcome, Outcome::Completed, "{}", path.display());
+        let error_m = largest_true_error_m(&flight);
+        assert!(error_m < 0.2, "{}: {error_m:.2} m", path.display());
+        flown += 1;
+    }
+    assert!(flown >= 4);
+}
+
+#[test]
+fn the_same_flight_twice_is_the_same_bit_for_bit() {
+    let simulation = Simulation::default();
+    assert_eq!(fly(&simulation, SQUARE), fly(&simulation, SQUARE));
+    let drone = DroneConfig { seed: 2, ..DroneConfig::default() };
+    let other = Simulation { drone, ..Simulation::default() };
+    assert_ne!(fly(&simulation, SQUARE).final_truth, fly(&other, SQUARE).final_truth);
+}
+
+#[test]
+fn perfect_sensors_make_the_estimate_the_truth() {
+    let drone = DroneConfig { sensors: SensorModel::perfect(), ..DroneConfig::default() };
+    let flight = fly(&Simulation { drone, ..Simulation::default() }, SQUARE);
+    assert_eq!(flight.outcome, Outcome::Completed);
+    for (waypoint, truth) in flight.report.waypoints.iter().zip(&flight.truth_at_waypoints) {
+        let pose = &waypoint.pose;
+        let off = (pose.x_m - truth.position_m.x).hypot(pose.y_m - truth.position_m.y);
+        assert!(off < 0.05, "{off:.3} m");
+    }
+}
+
+#[test]
+fn a_turn_goes_the_short_way_and_the_frame_does_not_turn_with_the_drone() {
+    let text = "takeoff\ngoto 0 0 0 90\ngoto 1 0 0 181\ngoto 0 0 0 0\nland";
+    let flight = fly(&Simulation::default(), text);
+    assert_eq!(flight.outcome, Outcome::Completed);
+    assert!(largest_true_error_m(&flight) < 0.2);
+    // A whole turn or none: what counts is where it points.
+    let off_deg = (flight.final_truth.yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
+    assert!(off_deg.abs() < 8.0, "{off_deg}");
+}
+
+#[test]
+fn the_pilots_order_lands_in_the_middle_of_a_step() {
+    let landing_ordered_at = Some(8 * SECOND);
+    let simulation = Simulation { landing_ordered_at, ..Simulation::default() };
+    let flight = fly(&simulation, SQUARE);
+    assert_eq!(flight.outcome, Outcome::Interrupted);
+    assert_eq!(flight.final_truth.phase, Phase::Landed);
+    assert!(flight.duration < 13 * SECOND);
+}
+
+#[test]
+fn the_pilots_order_is_obeyed_at_every_moment() {
+    for tenths in 0..250 {
+        let landing_ordered_at = Some(SECOND / 10 * tenths);
+        let simulation = Simulation { landing_ordered_at, ..Simulation::default() };
+        let flight = fly(&simulation, SQUARE);
+        let over = flight.outcome == Outcome::Completed;
+        assert!(over || flight.outcome == Outcome::Interrupted, "{tenths}: {:?}", flight.outcome);
+        assert_eq!(flight.final_truth.phase, Phase::Landed, "ordered at {tenths}/10 s");
+    }
+}
+
+#[test]
+fn a_short_outage_is_survived_and_a_long_one_lands() {
+    let outage = |from: u32, to: u32| Simulation {
+        outages: vec![SECOND * from / 10..SECOND * to / 10],
+        ..Simulation::default()
+    };
+    let flight = fly(&outage(80, 90), SQUARE);
+    assert_eq!(flight.outcome, Outcome::Completed);
+    let stale = |(_, event): &(Duration, FlightEvent)| matches!(event, FlightEvent::Veto(_));
+    assert!(flight.events.iter().any(stale), "the pilot hovered meanwhile");
+    // Three seconds: lost, landed as soon as the drone is heard again.
+    let flight = fly(&outage(80, 110), SQUARE);
+    assert_eq!(flight.outcome, Outcome::LinkLost);
+    assert_eq!(flight.final_truth.phase, Phase::Landed);
+    // For ever: the drone lands by itself.
+    let flight = fly(&outage(80, 10_000), SQUARE);
+    assert_eq!(flight.outcome, Outcome::LinkLost);
+    assert!(flight.duration < 16 * SECOND, "{:?}", flight.duration);
+}
+
+#[test]
+fn a_drone_that_never_answers_is_reported_soon() {
+    let flight = fly(
+        &Simulation { outages: vec![Duration::ZERO..100 * SECOND], ..Simulation::default() },
+        SQUARE,
+    );
+    assert_eq!(flight.outcome, Outcome::NoDrone);
+    assert!(flight.duration <= 6 * SECOND);
+}
+
+#[test]
+fn a_drone_that_restarts_in_flight_stays_on_the_ground() {
+    let simulation = Simulation { restart_at: Some(9 * SECOND), ..Simulation::default() };
+    let flight = fly(&simulation, SQUARE);
+    let reason = "the drone has restarted".to_owned();
+    assert_eq!(flight.outcome, Outcome::Failsafe { reason });
+    assert_eq!(flight.final_truth.phase, Phase::Landed);
+    assert!(flight.final_truth.position_m.z.abs() < 1e-9);
+    let ordered = FlightEvent::LandingOrdered(LandingReason::DroneRestarted);
+    assert!(flight.events.iter().any(|(_, event)| *event == ordered));
+}
+
+#[test]
+fn an_empty_battery_is_refused_before_take_off_and_lands_in_flight() {
+    let battery = |battery_percent| Simulation {
+        drone: DroneConfig { battery_percent, ..DroneConfig::default() },
+        ..Simulation::default()
+    };
+    let flight = fly(&battery(15.0), SQUARE);
+    assert!(matches!(&flight.outcome, Outcome::PreflightRefused { reasons }
+        if reasons.len() == 1 && reasons[0].contains("battery at 15 %")));
+    assert!(flight.final_truth.position_m.z.abs() < 1e-9);
+    let long = "takeoff\nsetStayTime 55\ngoto 0 1 0 0\ngoto 0 0 0 0\nland";
+    let flight = fly(&battery(21.0), long);
+    assert!(matches!(&flight.outcome, Outcome::Failsafe { reason } if reason.contains("battery")));
+    assert_eq!(flight.final_truth.phase, Phase::Landed);
+}
+
+#[test]
+fn a_step_that_makes_no_progress_is_given_up() {
+    // Nearer than the estimate's own noise: never reached for a whole stay.
+    let text = "takeoff\nsetInitialReachDist 0.01\nsetStayWithinDist 0.01\nsetStayTime 30\n\
+                goto 0 1 0 0\nland";
+    let flight = fly(&Simulation::default(), text);
+    let reason = "step 5 was not done within 60 s".to_owned();
+    assert_eq!(flight.outcome, Outcome::Failsafe { reason });
+    assert_eq!(flight.final_truth.phase, Phase::Landed);
+}
+
+#[test]
+fn a_slow_link_is_flown_all_the_same() {
+    let simulation = Simulation { delay: Duration::from_millis(40), ..Simulation::default() };
+    let flight = fly(&simulation, SQUARE);
+    assert_eq!(flight.outcome, Outcome::Completed);
+    assert!(largest_true_error_m(&flight) < 0.3);
+}
+
+#[test]
+fn settings_of_the_plan_are_obeyed() {
+    let slow = fly(&Simulation::default(), "takeoff\nsetMaxControl 0.1\ngoto 0 2 0 0\nland");
+    let fast = fly(&Simulation::default(), "takeoff\ngoto 0 2 0 0\nland");
+    assert!(slow.duration > fast.duration + 2 * SECOND);
+    let long = fly(&Simulation::default(), "takeoff\nsetStayTime 6\ngoto 0 2 0 0\nland");
+    assert!(long.duration > fast.duration + 3 * SECOND);
+}
+
+#[test]
+fn a_second_flight_in_one_plan_takes_off_again() {
+    let text = "takeoff\ngoto 0 1 0 0\nland\ntakeoff\ngoto 0 0 0 0\nland";
+    let flight = fly(&Simulation::default(), text);
+    assert_eq!(flight.outcome, Outcome::Completed);
+    assert_eq!(flight.report.waypoints.len(), 2);
+    // The second reference is where the second take-off ended: it flew no way back.
+    assert!(flight.final_truth.position_m.y > 0.7, "{}", flight.final_truth.position_m);
+}

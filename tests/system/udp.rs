@@ -1,0 +1,46 @@
+//! The same flight over real sockets.
+
+use autopilot::PilotConfig;
+use autopilot::flight::{DroneAddress, Flight, Message};
+use autopilot::outcome::Outcome;
+use autopilot::sim::Simulation;
+use mock_drone::DroneConfig;
+use mock_drone::server::{MockDrone, Ports};
+use system_tests::{SQUARE, place_in_navdata_frame, plan, true_error_m};
+
+/// The address of a drone that runs in this process.
+fn address(mock: &MockDrone) -> DroneAddress {
+    let ports = mock.ports();
+    DroneAddress {
+        host: ports.host.to_string(),
+        at_port: ports.at,
+        navdata_port: ports.navdata,
+        control_port: ports.control,
+    }
+}
+
+#[test]
+fn a_flight_over_udp_is_the_simulated_one() {
+    let simulated = Simulation::default().fly(plan(SQUARE)).unwrap();
+
+    let mock = MockDrone::start(&DroneConfig::default(), Ports::LOOPBACK).unwrap();
+    let flight = Flight::start(plan(SQUARE), &PilotConfig::default(), &address(&mock)).unwrap();
+    let mut truths = Vec::new();
+    for message in flight.messages() {
+        if let Message::Waypoint(waypoint) = message {
+            let truth = mock.truth();
+            let error_m = true_error_m(&waypoint, &truth);
+            assert!(error_m < 0.2, "{error_m:.2} m");
+            truths.push(truth);
+        }
+    }
+    let finished = flight.finish().unwrap();
+    assert_eq!(finished.outcome, Outcome::Completed);
+    assert_eq!(finished.dropped_messages, 0);
+    assert_eq!(truths.len(), simulated.truth_at_waypoints.len());
+    for (real, simulated) in truths.iter().zip(&simulated.truth_at_waypoints) {
+        let apart = place_in_navdata_frame(real) - place_in_navdata_frame(simulated);
+        println!("waypoint: {:.3} m apart", apart.norm());
+        assert!(apart.norm() < 0.05, "{:.3} m apart", apart.norm());
+    }
+}
