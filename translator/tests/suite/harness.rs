@@ -113,7 +113,7 @@ fn printing_action(declaration: &str) -> String {
             _ => "%d",
         })
         .collect();
-    let arguments: String = (0..types.len()).map(|i| format!(", a{i}")).collect();
+    let arguments = (0..types.len()).fold(String::new(), |text, i| text + &format!(", a{i}"));
     let parameters = if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
     format!(
         "void {name}({parameters}) {{ printf(\"{name}({})\\n\"{arguments}); }}\n",

@@ -105,13 +105,16 @@ fn every_static_restriction_is_checked() {
         ),
         ("!g. +!g <- b(1).", "agent.asl:1:12: error: `b` is a belief or goal, not a basic action"),
         (
-            "!g. +!act <- act(1).",
-            "agent.asl:1:7: error: `act` is a basic action, not a belief or goal",
+            "!g. +!g. +!act <- act(1).",
+            "agent.asl:1:12: error: `act` is a basic action, not a belief or goal",
         ),
         ("b(1). b(2). !g. +!g <- act(1).", "agent.asl:1:7: error: a second initial belief `b`"),
         ("b(X). !g. +!g <- act(1).", "agent.asl:1:3: error: not a constant"),
         ("!g. +!g <- -b(X).", "agent.asl:1:15: error: `X` has no value here"),
-        ("!g. +!g : b(X) & X < 3 <- act(X).", "agent.asl:1:20: error: unexpected character `<`"),
+        (
+            "!g. +!g : b(X) & flag(X) < 3 <- act(X).",
+            "agent.asl:1:26: error: unexpected character `<`",
+        ),
         ("!g. +!g : ~b(1) <- act(1).", "agent.asl:1:11: error: unexpected character `~`"),
         ("@l !g. +!g <- act(1).", "agent.asl:1:1: error: unexpected character `@`"),
     ] {
