@@ -28,6 +28,8 @@ pub struct Simulation {
     pub landing_ordered_at: Option<Duration>,
     /// When the drone is switched off and on again.
     pub restart_at: Option<Duration>,
+    /// When something stops one of the drone's propellers.
+    pub propeller_blocked_at: Option<Duration>,
 }
 
 /// A flight that was simulated.
@@ -90,10 +92,14 @@ impl Simulation {
         let mut next_tick = Duration::ZERO;
         let mut restart_at = self.restart_at;
         let mut landing_ordered_at = self.landing_ordered_at;
+        let mut propeller_blocked_at = self.propeller_blocked_at;
         while now < LIMIT {
             if restart_at.take_if(|at| now >= *at).is_some() {
                 world.drone = Drone::new(&self.drone);
                 world.booted = now;
+            }
+            if propeller_blocked_at.take_if(|at| now >= *at).is_some() {
+                world.drone.block_propeller();
             }
             if landing_ordered_at.take_if(|at| now >= *at).is_some() {
                 pilot.order_landing(now);

@@ -155,6 +155,11 @@ impl Drone {
         self.firmware.take_dump()
     }
 
+    /// Something stops a propeller: the drone cuts its motors and falls.
+    pub fn block_propeller(&mut self) {
+        self.firmware.block_propeller();
+    }
+
     /// What really happens.
     pub fn truth(&self) -> Truth {
         Truth {

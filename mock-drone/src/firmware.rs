@@ -66,6 +66,7 @@ pub struct Firmware {
     last_command: Option<Duration>,
     emergency_bit: bool,
     user_emergency: bool,
+    cutout: bool,
     motion: DelayedMotion,
     hold: Hold,
     battery_percent: f64,
@@ -141,6 +142,7 @@ impl Firmware {
             last_command: None,
             emergency_bit: false,
             user_emergency: false,
+            cutout: false,
             motion: DelayedMotion::default(),
             hold: Hold::default(),
             battery_percent,
@@ -206,6 +208,7 @@ impl Firmware {
         self.emergency_bit = emergency;
         if rising {
             self.user_emergency = self.phase != Phase::Emergency;
+            self.cutout = false;
             self.phase = match self.phase {
                 Phase::Emergency => Phase::Landed,
                 _ => Phase::Emergency,
@@ -361,6 +364,13 @@ impl Firmware {
             .unwrap_or(0.0)
     }
 
+    /// Something stops a propeller: the firmware cuts all motors.
+    pub fn block_propeller(&mut self) {
+        self.user_emergency = false;
+        self.cutout = true;
+        self.phase = Phase::Emergency;
+    }
+
     /// What the drone is doing.
     pub fn phase(&self) -> Phase {
         self.phase
@@ -417,6 +427,7 @@ impl Firmware {
             (self.link_is_lost(now), DroneState::COMMUNICATION_LOST),
             (self.battery_percent <= BATTERY_LOW_PERCENT, DroneState::BATTERY_LOW),
             (self.phase == Phase::Emergency, DroneState::EMERGENCY),
+            (self.cutout, DroneState::CUTOUT_DETECTED),
             (self.user_emergency && self.phase == Phase::Emergency, DroneState::USER_EMERGENCY),
         ] {
             state.set(bit, condition);

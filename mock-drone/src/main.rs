@@ -1,7 +1,7 @@
 //! `mock-drone`: a simulated AR.Drone 2.0 on the drone's own ports.
 #![forbid(unsafe_code)]
 
-use std::io::Write as _;
+use std::io::{IsTerminal as _, Write as _};
 use std::net::{IpAddr, Ipv4Addr};
 use std::process::ExitCode;
 
@@ -53,6 +53,7 @@ fn main() -> ExitCode {
     // Whoever closed the pipe does not want the log; the drone lives on.
     tracing_subscriber::fmt()
         .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none())
         .with_target(false)
         .log_internal_errors(false)
         .init();

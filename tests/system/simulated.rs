@@ -146,6 +146,21 @@ fn a_drone_that_restarts_in_flight_stays_on_the_ground() {
 }
 
 #[test]
+fn a_drone_that_cuts_its_motors_ends_the_flight_and_is_not_flown_again() {
+    let blocked = |seconds| Simulation {
+        propeller_blocked_at: Some(SECOND * seconds),
+        ..Simulation::default()
+    };
+    let flight = fly(&blocked(9), SQUARE);
+    assert_eq!(flight.outcome, Outcome::Emergency);
+    assert_eq!(flight.outcome.exit_status(), 50);
+    assert!(flight.events.iter().any(|(_, event)| *event == FlightEvent::Emergency));
+    // Before the flight it is refused, with every reason.
+    let flight = fly(&blocked(0), SQUARE);
+    assert!(matches!(&flight.outcome, Outcome::PreflightRefused { reasons } if reasons.len() == 2));
+}
+
+#[test]
 fn an_empty_battery_is_refused_before_take_off_and_lands_in_flight() {
     let battery = |battery_percent| Simulation {
         drone: DroneConfig { battery_percent, ..DroneConfig::default() },

@@ -3,6 +3,8 @@
 use std::io::{Write as _, stderr};
 use std::time::Duration;
 
+use rustix::termios::tcgetwinsize;
+
 use crate::flight::Message;
 use crate::pilot::{FlightEvent, Status, TICK};
 use crate::plan::{Plan, Step};
@@ -70,7 +72,7 @@ impl Progress {
     fn status(&mut self, at: Duration, status: &Status) {
         let line = status_line(at, status);
         if !self.plain {
-            write(&format!("\r\x1b[K{line}"));
+            write(&format!("\r\x1b[K{}", shortened(&line, terminal_columns())));
             self.status_shown = true;
         } else if at + TICK > self.next_plain_status {
             self.next_plain_status = at + PLAIN_STATUS_INTERVAL;
@@ -93,7 +95,11 @@ fn status_line(at: Duration, status: &Status) -> String {
     let pose = &status.pose;
     parts.push(format!(
         " at {:+.2} {:+.2} {:.2} m {:+.0}°",
-        pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg
+        pose.x_m,
+        pose.y_m,
+        pose.z_m,
+        // Without the sign of a zero.
+        pose.yaw_deg.round() + 0.0
     ));
     if let (Some(target), Some(distance_m)) = (status.target, status.distance_m) {
         parts.push(format!(
@@ -114,6 +120,17 @@ fn status_line(at: Duration, status: &Status) -> String {
     parts.join(" ")
 }
 
+/// A line that is overwritten must not wrap.
+fn shortened(line: &str, columns: usize) -> &str {
+    let end = line.char_indices().nth(columns.saturating_sub(1)).map(|(index, _)| index);
+    &line[..end.unwrap_or(line.len())]
+}
+
+fn terminal_columns() -> usize {
+    const USUAL: usize = 80;
+    tcgetwinsize(stderr()).map_or(USUAL, |size| usize::from(size.ws_col).max(1))
+}
+
 fn time(at: Duration) -> String {
     format!("{:6.1} s", at.as_secs_f64())
 }
@@ -123,6 +140,13 @@ mod tests {
     use pid::Pose;
 
     use super::*;
+
+    #[test]
+    fn a_status_line_does_not_wrap() {
+        assert_eq!(shortened("12°45", 4), "12°");
+        assert_eq!(shortened("12°45", 80), "12°45");
+        assert_eq!(shortened("", 1), "");
+    }
 
     #[test]
     fn the_status_line_says_where_and_where_to() {
