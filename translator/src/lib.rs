@@ -7,7 +7,7 @@
 //!
 //! The crate is pure: texts in, texts out. Layers, each using only those before it:
 //! `syntax` and `configuration` (texts to trees) → `analysis` (trees to a checked `Program`) →
-//! `backend` (programs to C and Rust).
+//! `backend` (programs to C and Rust). The `interpreter` beside them executes the tree directly.
 //!
 //! ```
 //! let configuration = "settings { input = lamp.asl; output = lamp.c; header = lamp.h; basics = actions.h; };
@@ -22,6 +22,7 @@
 mod analysis;
 mod backend;
 pub mod configuration;
+pub mod interpreter;
 mod program;
 pub mod syntax;
 pub mod types;

@@ -7,7 +7,7 @@
 use diagnostic::Span;
 
 use crate::configuration::{Basic, Configuration};
-use crate::syntax::ast::{Operator, TriggerKind};
+use crate::syntax::ast::{Arithmetic, Operator, Relation, TriggerKind};
 use crate::types::CType;
 
 /// A checked agent program.
@@ -68,6 +68,8 @@ pub(crate) struct Handler {
     pub(crate) reachable: bool,
     /// Where the first trigger stands in the source.
     pub(crate) span: Span,
+    /// For plans of test goals: which arguments are asked for rather than given.
+    pub(crate) holes: Vec<bool>,
 }
 
 /// An event that the environment can raise.
@@ -97,11 +99,18 @@ pub(crate) struct Plan {
     pub(crate) patterns: Vec<Pattern>,
     pub(crate) context: Vec<Condition>,
     pub(crate) body: Vec<Step>,
+    /// For plans of test goals: which variable answers which argument.
+    pub(crate) outputs: Vec<(usize, VariableId)>,
+    pub(crate) label: Option<String>,
+    pub(crate) requirements: Vec<String>,
 }
 
 /// A variable of a plan that the generated code needs.
 #[derive(Debug)]
 pub(crate) struct Variable {
+    /// Its name in the agent.
+    pub(crate) source: String,
+    /// The same, made unique within the plan.
     pub(crate) name: String,
     pub(crate) ctype: CType,
     /// Whether its value is used; a variable that is only bound is not generated.
@@ -122,9 +131,26 @@ pub(crate) enum Pattern {
 /// One conjunct of a context.
 #[derive(Debug)]
 pub(crate) enum Condition {
+    /// The belief is held and matches.
     Holds { belief: BeliefId, patterns: Vec<Pattern> },
-    HoldsNot { belief: BeliefId, patterns: Vec<Pattern> },
-    Test { call: Call, negated: bool },
+    /// A value of type bool is true.
+    Truth(Value),
+    /// Two values compare so.
+    Compare { relation: Relation, left: Value, right: Value, ctype: CType },
+    /// Always true; the variable has the value from now on.
+    Bind { variable: VariableId, value: Value },
+    /// The conjunction does not hold.
+    Not(Vec<Self>),
+    /// One of the conjunctions holds; the first that does counts.
+    Any(Alternatives),
+}
+
+/// Conjunctions of which one must hold.
+#[derive(Debug)]
+pub(crate) struct Alternatives {
+    pub(crate) branches: Vec<Vec<Condition>>,
+    /// Variables that every branch binds: the one that is seen afterwards, and each branch's own.
+    pub(crate) exports: Vec<(VariableId, Vec<VariableId>)>,
 }
 
 /// One formula of a body.
@@ -133,7 +159,7 @@ pub(crate) enum Step {
     Action(Call),
     Assign {
         variable: VariableId,
-        call: Call,
+        value: Value,
     },
     Add {
         belief: BeliefId,
@@ -160,10 +186,11 @@ pub(crate) enum Step {
         handler: HandlerId,
         values: Vec<Value>,
     },
-    /// `?b`
+    /// `?b`: asks the beliefs, then the plans.
     Ask {
         belief: BeliefId,
         patterns: Vec<Pattern>,
+        plans: Option<HandlerId>,
     },
 }
 
@@ -181,11 +208,50 @@ pub(crate) enum Raise {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Value {
     Variable(VariableId),
-    /// The argument of the belief under test, for variables local to a negation.
-    Field(BeliefId, usize),
     /// A C constant.
     Constant(String, CType),
     Call(Call),
+    /// The sign of a floating-point value turned; of an integer it is a subtraction.
+    Negate(Box<Self>),
+    Arithmetic(Box<Operation>),
+}
+
+/// An arithmetic operation on two values of one type.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Operation {
+    pub(crate) operator: Arithmetic,
+    pub(crate) left: Value,
+    pub(crate) right: Value,
+    pub(crate) ctype: CType,
+}
+
+impl Operation {
+    /// Whether the operation has no result for some operands: integers overflow, and nothing can
+    /// be divided by zero. What has no result fails.
+    pub(crate) fn can_fail(&self) -> bool {
+        !self.ctype.is_float() || self.operator == Arithmetic::Divide
+    }
+}
+
+impl Value {
+    /// Whether evaluating it can fail.
+    pub(crate) fn can_fail(&self) -> bool {
+        match self {
+            Self::Variable(_) | Self::Constant(..) => false,
+            Self::Call(call) => call.arguments.iter().any(Self::can_fail),
+            Self::Negate(operand) => operand.can_fail(),
+            Self::Arithmetic(operation) => {
+                operation.can_fail() || operation.left.can_fail() || operation.right.can_fail()
+            }
+        }
+    }
+}
+
+impl Pattern {
+    /// Whether evaluating it can fail.
+    pub(crate) fn can_fail(&self) -> bool {
+        matches!(self, Self::Equal(value) if value.can_fail())
+    }
 }
 
 /// A call of a basic action or function.

@@ -63,6 +63,43 @@ impl CType {
         !matches!(self.kind, TypeKind::Void | TypeKind::Text | TypeKind::Opaque)
     }
 
+    /// Whether one can calculate with values of the type.
+    pub fn is_numeric(&self) -> bool {
+        self.is_float() || self.integer_bits().is_some()
+    }
+
+    /// The width of an integer type, and whether it has a sign.
+    pub fn integer_bits(&self) -> Option<(u32, bool)> {
+        match self.kind {
+            TypeKind::Signed { bits } => Some((bits, true)),
+            TypeKind::Unsigned { bits } => Some((bits, false)),
+            _ => None,
+        }
+    }
+
+    /// The lowest and the highest value of an integer type.
+    pub fn integer_range(&self) -> Option<(i128, i128)> {
+        let (bits, signed) = self.integer_bits()?;
+        Some(if signed {
+            (-(1 << (bits - 1)), (1 << (bits - 1)) - 1)
+        } else {
+            (0, (1 << bits) - 1)
+        })
+    }
+
+    /// The constant that a variable of the type can start with, where the translator knows one.
+    pub fn zero(&self) -> Option<&'static str> {
+        match self.kind {
+            TypeKind::Bool => Some("false"),
+            TypeKind::Signed { .. } => Some("0"),
+            TypeKind::Unsigned { .. } => Some("0U"),
+            TypeKind::Float32 => Some("0.0F"),
+            TypeKind::Float64 => Some("0.0"),
+            TypeKind::Text => Some("\"\""),
+            TypeKind::Void | TypeKind::Opaque => None,
+        }
+    }
+
     /// Whether the type is a binary floating-point type.
     pub fn is_float(&self) -> bool {
         matches!(self.kind, TypeKind::Float32 | TypeKind::Float64)

@@ -2,24 +2,32 @@
 
 use std::fmt::Write as _;
 
-use diagnostic::Diagnostic;
+use diagnostic::{Diagnostic, Span};
 
 use crate::program::Value;
-use crate::syntax::ast::{Number, Term};
+use crate::syntax::ast::{Expression, Number};
 use crate::types::{CType, TypeKind};
 
-/// `term` as a constant of type `ctype`; nothing if it is no constant at all.
-pub(super) fn constant(term: &Term, ctype: &CType) -> Option<Result<Value, Diagnostic>> {
-    let text = match term {
-        Term::Number(number) => c_number(number, ctype),
-        Term::Text { text, span } => match ctype.kind {
-            TypeKind::Text | TypeKind::Opaque => Ok(c_string(text)),
-            _ => Err(Diagnostic::error(
-                format!("a string where a value of type `{}` is expected", ctype.name),
-                span.clone(),
-            )),
+/// An expression as a constant of type `ctype`; nothing if it is no constant at all.
+pub(super) fn constant(
+    expression: &Expression,
+    ctype: &CType,
+) -> Option<Result<Value, Diagnostic>> {
+    let wrong = |what: &str, span: &Span| {
+        let message = format!("{what} where a value of type `{}` is expected", ctype.name);
+        Err(Diagnostic::error(message, span.clone()))
+    };
+    let text = match expression {
+        Expression::Number(number) => c_number(number, ctype),
+        Expression::Boolean { value, span } => match ctype.kind {
+            TypeKind::Bool => Ok(value.to_string()),
+            _ => wrong("`true` or `false`", span),
         },
-        Term::Variable(_) | Term::Unnamed(_) | Term::Call(_) => return None,
+        Expression::Text { text, span } => match ctype.kind {
+            TypeKind::Text | TypeKind::Opaque => Ok(c_string(text)),
+            _ => wrong("a string", span),
+        },
+        _ => return None,
     };
     Some(text.map(|text| Value::Constant(text, ctype.clone())))
 }
@@ -52,11 +60,7 @@ fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnostic> {
                 let magnitude = i128::try_from(magnitude).ok()?;
                 Some(if number.negative { -magnitude } else { magnitude })
             });
-            let (low, high) = if signed {
-                (-(1_i128 << (bits - 1)), (1_i128 << (bits - 1)) - 1)
-            } else {
-                (0, (1_i128 << bits) - 1)
-            };
+            let (low, high) = ctype.integer_range().unwrap_or((0, 0));
             match value.filter(|value| (low..=high).contains(value)) {
                 Some(value) => Ok(c_integer(value, bits, signed)),
                 None => error(format!("number out of the range of `{}`", ctype.name)),
@@ -80,6 +84,17 @@ fn c_integer(value: i128, bits: u32, signed: bool) -> String {
         return format!("(({}{suffix}) - 1{suffix})", value + 1);
     }
     format!("{value}{suffix}")
+}
+
+/// The number that an integer constant stands for.
+pub(super) fn integer(value: &Value) -> Option<i128> {
+    let Value::Constant(text, ctype) = value else { return None };
+    let (low, _) = ctype.integer_range()?;
+    if text.starts_with('(') {
+        // Only the lowest value needs parentheses.
+        return Some(low);
+    }
+    text.trim_end_matches(['U', 'L']).parse().ok()
 }
 
 /// A C string constant: plain ASCII stands as it is, everything else as octal escapes, so that no

@@ -3,63 +3,72 @@
 use std::collections::HashMap;
 
 use super::TriggerKey;
-use crate::program::HandlerId;
-use crate::syntax::ast::{Agent, Formula, Operator, TriggerKind};
+use crate::syntax::ast::{Agent, Formula, Operator, Trigger, TriggerKind};
 
 /// Which triggers are recursive: from them a cycle of calls can be reached.
 pub(super) struct TriggerGraph {
+    nodes: HashMap<TriggerKey, usize>,
     recursive: Vec<bool>,
 }
 
 impl TriggerGraph {
-    pub(super) fn new(agent: &Agent, handlers: &HashMap<TriggerKey, HandlerId>) -> Self {
-        let mut callers: Vec<Vec<usize>> = vec![Vec::new(); handlers.len()];
-        let mut open_calls = vec![0_usize; handlers.len()];
-        let mut edge = |from: HandlerId, to: HandlerId| {
-            callers[to.0].push(from.0);
-            open_calls[from.0] += 1;
-        };
-        let id = |operator, kind, name: &str| handlers.get(&(operator, kind, name.to_owned()));
+    pub(super) fn new(agent: &Agent) -> Self {
+        let mut nodes: HashMap<TriggerKey, usize> = HashMap::new();
         for plan in &agent.plans {
-            let trigger = &plan.trigger;
-            let Some(from) = id(trigger.operator, trigger.kind, &trigger.atom.name.text) else {
-                continue;
-            };
+            let next = nodes.len();
+            nodes.entry(trigger_key(&plan.trigger)).or_insert(next);
+        }
+        let mut callers: Vec<Vec<usize>> = vec![Vec::new(); nodes.len()];
+        let mut open_calls = vec![0_usize; nodes.len()];
+        let mut edge = |from: usize, to: usize| {
+            callers[to].push(from);
+            open_calls[from] += 1;
+        };
+        let node = |operator, kind, name: &str| nodes.get(&(operator, kind, name.to_owned()));
+        for plan in &agent.plans {
+            let from = nodes[&trigger_key(&plan.trigger)];
             for formula in &plan.body {
                 let target = match formula {
                     Formula::Achieve(goal) => {
-                        id(Operator::Add, TriggerKind::Achieve, &goal.name.text)
+                        node(Operator::Add, TriggerKind::Achieve, &goal.name.text)
                     }
                     Formula::Add(belief) => {
-                        id(Operator::Add, TriggerKind::Belief, &belief.name.text)
+                        node(Operator::Add, TriggerKind::Belief, &belief.name.text)
                     }
                     Formula::Delete(belief) => {
-                        id(Operator::Delete, TriggerKind::Belief, &belief.name.text)
+                        node(Operator::Delete, TriggerKind::Belief, &belief.name.text)
                     }
-                    // A deferred goal is never called; actions and tests call no plan.
-                    Formula::Defer(_)
-                    | Formula::Test(_)
-                    | Formula::Action(_)
-                    | Formula::Assign { .. } => None,
+                    Formula::Test(belief) => {
+                        node(Operator::Add, TriggerKind::Test, &belief.name.text)
+                    }
+                    // A deferred goal is never called; actions call no plan.
+                    Formula::Defer(_) | Formula::Action(_) | Formula::Assign { .. } => None,
                 };
                 if let Some(to) = target {
-                    edge(*from, *to);
+                    edge(from, *to);
                 }
             }
         }
-        for ((operator, kind, name), from) in handlers {
-            if (*operator, *kind) == (Operator::Add, TriggerKind::Achieve)
-                && let Some(to) = id(Operator::Delete, TriggerKind::Achieve, name)
+        for ((operator, kind, name), from) in &nodes {
+            if *operator == Operator::Add
+                && *kind != TriggerKind::Belief
+                && let Some(to) = node(Operator::Delete, *kind, name)
             {
                 edge(*from, *to);
             }
         }
-        Self { recursive: reaches_cycle(&callers, open_calls) }
+        let recursive = reaches_cycle(&callers, open_calls);
+        Self { nodes, recursive }
     }
 
-    pub(super) fn is_recursive(&self, handler: HandlerId) -> bool {
-        self.recursive[handler.0]
+    pub(super) fn is_recursive(&self, operator: Operator, kind: TriggerKind, name: &str) -> bool {
+        let node = self.nodes.get(&(operator, kind, name.to_owned()));
+        node.is_some_and(|node| self.recursive[*node])
     }
+}
+
+fn trigger_key(trigger: &Trigger) -> TriggerKey {
+    (trigger.operator, trigger.kind, trigger.atom.name.text.clone())
 }
 
 /// Takes away, again and again, what calls nothing that is left: what remains reaches a cycle.

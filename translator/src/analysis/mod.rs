@@ -3,13 +3,16 @@
 //! The order: declarations, then the triggers and which of them are recursive, then each plan. All
 //! errors of a file are reported in one run.
 
+mod conditions;
 mod constants;
 mod declarations;
 mod graph;
 mod plans;
 mod reach;
+mod scope;
+mod values;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use diagnostic::{Diagnostic, Severity, line_column};
 
@@ -19,7 +22,7 @@ use self::graph::TriggerGraph;
 use self::reach::{Reached, reach, warn_unreachable};
 use crate::configuration::{Configuration, ExternalTrigger};
 use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Program, Value};
-use crate::syntax::ast::{Agent, Atom, Operator, Term, TriggerKind};
+use crate::syntax::ast::{Agent, Atom, Operator, TriggerKind};
 use crate::types::CType;
 
 /// What was found wrong, by the file it is wrong in.
@@ -57,17 +60,23 @@ pub(crate) fn analyse(
         belief_ids: HashMap::new(),
         handler_ids: HashMap::new(),
         handlers: Vec::new(),
+        test_handlers: HashMap::new(),
+        test_triggers: HashSet::new(),
     };
     analysis.collect_triggers(agent);
-    let graph = TriggerGraph::new(agent, &analysis.handler_ids);
+    let graph = TriggerGraph::new(agent);
     analysis.initial_beliefs(agent);
-    for plan in &agent.plans {
+    for plan in agent.plans.iter().filter(|plan| plan.trigger.kind != TriggerKind::Test) {
         analysis.plan(plan, &graph);
     }
+    analysis.test_plans(agent, &graph);
     let initial_goal = agent.goal.as_ref().and_then(|goal| analysis.initial_goal(goal));
     analysis.settables(&configuration);
     let external = analysis.external(&configuration);
     let Analysis { mut findings, beliefs, mut handlers, .. } = analysis;
+    // A plan of a test goal is looked at once for each way it is asked.
+    let mut seen = HashSet::new();
+    findings.agent.retain(|found| seen.insert((found.span.clone(), found.message.clone())));
     if findings.has_errors() {
         return (None, findings);
     }
@@ -100,6 +109,10 @@ struct Analysis<'a> {
     belief_ids: HashMap<String, BeliefId>,
     handler_ids: HashMap<TriggerKey, HandlerId>,
     handlers: Vec<Handler>,
+    /// Handlers of test goals: one for each trigger and each set of arguments that is asked for.
+    test_handlers: HashMap<(TriggerKey, Vec<bool>), HandlerId>,
+    /// Test goals that have plans.
+    test_triggers: HashSet<TriggerKey>,
 }
 
 impl Analysis<'_> {
@@ -115,18 +128,17 @@ impl Analysis<'_> {
         self.handler_ids.get(&(operator, kind, name.to_owned())).copied()
     }
 
-    /// One handler for each trigger that has plans.
+    /// One handler for each trigger that has plans, except those of test goals.
     fn collect_triggers(&mut self, agent: &Agent) {
         for plan in &agent.plans {
             let trigger = &plan.trigger;
             if trigger.kind == TriggerKind::Test {
-                self.error(
-                    Diagnostic::error(
-                        "plans for test goals are not translated yet",
-                        trigger.span.clone(),
-                    )
-                    .help("`?b` in a body succeeds if `b` is believed and fails otherwise"),
-                );
+                // Their handlers are made when somebody asks.
+                self.test_triggers.insert((
+                    trigger.operator,
+                    trigger.kind,
+                    trigger.atom.name.text.clone(),
+                ));
                 continue;
             }
             let name = trigger.atom.name.text.clone();
@@ -145,6 +157,7 @@ impl Analysis<'_> {
                 failure: None,
                 reachable: false,
                 span: trigger.span.clone(),
+                holes: Vec::new(),
             });
         }
         for index in 0..self.handlers.len() {
@@ -368,9 +381,4 @@ impl Analysis<'_> {
             }
         }
     }
-}
-
-/// Whether a term is an unnamed variable.
-fn is_unnamed(term: &Term) -> bool {
-    matches!(term, Term::Unnamed(_))
 }

@@ -1,82 +1,121 @@
-//! Resolves one plan: every variable bound before it is used, every type as declared.
+//! Resolves plans: every variable bound before it is used, every type as declared.
 
-use diagnostic::{Diagnostic, Span};
+use diagnostic::Diagnostic;
 
-use super::constants::constant;
-use super::declarations::check_value_result;
+use super::conditions::check_fresh;
 use super::graph::TriggerGraph;
-use super::{Analysis, is_unnamed};
-use crate::program::{
-    BeliefId, Call, Condition, HandlerId, Pattern, Plan, Raise, Step, Value, Variable, VariableId,
+use super::scope::Scope;
+use super::values::Resolved;
+use super::{Analysis, TriggerKey};
+use crate::program::{Handler, HandlerId, Pattern, Plan, Raise, Step, Value, VariableId};
+use crate::syntax::ast::{
+    self, Agent, Atom, Expression, Formula, Name, Operator, Trigger, TriggerKind,
 };
-use crate::syntax::ast::{self, Atom, Formula, Literal, Name, Operator, Term, TriggerKind};
-use crate::types::{CType, TypeKind};
-
-/// The variables of the plan that is being resolved.
-#[derive(Default)]
-struct Scope {
-    variables: Vec<Variable>,
-    /// Where each variable is bound.
-    bound_at: Vec<Span>,
-    /// Variables that occurred only inside a negation: unbound after it.
-    negation_only: Vec<String>,
-}
-
-impl Scope {
-    fn lookup(&self, name: &str) -> Option<VariableId> {
-        self.variables.iter().position(|variable| variable.name == name).map(VariableId)
-    }
-
-    fn bind(&mut self, name: &Name, ctype: &CType) -> VariableId {
-        self.variables.push(Variable {
-            name: name.text.clone(),
-            ctype: ctype.clone(),
-            used: false,
-        });
-        self.bound_at.push(name.span.clone());
-        VariableId(self.variables.len() - 1)
-    }
-
-    /// The variable `name`, which must have a value.
-    fn bound(&self, name: &Name) -> Resolved<VariableId> {
-        self.lookup(&name.text).ok_or_else(|| {
-            let error =
-                Diagnostic::error(format!("`{}` has no value here", name.text), name.span.clone());
-            if self.negation_only.contains(&name.text) {
-                error.help("it occurs only inside `not`, which binds nothing")
-            } else {
-                error.help("bind it in the trigger, in the context, by `?b(X)` or by `X = f(..)`")
-            }
-        })
-    }
-}
-
-/// Variables local to one negation, each standing for an argument of the belief.
-type Locals = Vec<(String, BeliefId, usize)>;
-
-type Resolved<T> = Result<T, Diagnostic>;
+use crate::types::CType;
 
 impl Analysis<'_> {
     /// Resolves `plan` and adds it to its handler.
     pub(super) fn plan(&mut self, plan: &ast::Plan, graph: &TriggerGraph) {
         let trigger = &plan.trigger;
-        let Some(handler) =
-            self.handler_id(trigger.operator, trigger.kind, &trigger.atom.name.text)
-        else {
-            return;
-        };
+        let handler = self.handler_id(trigger.operator, trigger.kind, &trigger.atom.name.text);
+        if let Some(handler) = handler {
+            self.plan_of(handler, plan, &[], graph);
+        }
+    }
+
+    /// Resolves the plans of test goals, once for each way that somebody asks; asking can make
+    /// plans that ask again.
+    pub(super) fn test_plans(&mut self, agent: &Agent, graph: &TriggerGraph) {
+        let mut done = 0;
+        loop {
+            let mut open: Vec<(HandlerId, TriggerKey, Vec<bool>)> = self
+                .test_handlers
+                .iter()
+                .filter(|(_, id)| id.0 >= done)
+                .map(|((key, holes), id)| (*id, key.clone(), holes.clone()))
+                .collect();
+            if open.is_empty() {
+                break;
+            }
+            open.sort_by_key(|(id, ..)| *id);
+            done = self.handlers.len();
+            for (id, (operator, _, name), holes) in open {
+                let plans = agent.plans.iter().filter(|plan| {
+                    let trigger = &plan.trigger;
+                    (trigger.operator, trigger.kind) == (operator, TriggerKind::Test)
+                        && trigger.atom.name.text == name
+                });
+                for plan in plans {
+                    self.plan_of(id, plan, &holes, graph);
+                }
+            }
+        }
+        for plan in &agent.plans {
+            let trigger = &plan.trigger;
+            let asked =
+                self.test_handlers.keys().any(|((_, _, name), _)| *name == trigger.atom.name.text);
+            if trigger.kind == TriggerKind::Test && !asked {
+                let text = format!("nothing ever asks `?{}`", trigger.atom.name.text);
+                self.error(
+                    Diagnostic::warning(text, trigger.span.clone())
+                        .help("its plans are left out; ask it in a body: `?b(X)`"),
+                );
+            }
+        }
+    }
+
+    /// The handler of a test goal that is asked with these holes, if it has plans.
+    fn test_handler(
+        &mut self,
+        operator: Operator,
+        atom: &Atom,
+        types: &[CType],
+        holes: &[bool],
+    ) -> Option<HandlerId> {
+        let name = &atom.name.text;
+        let key = (operator, TriggerKind::Test, name.clone());
+        if let Some(id) = self.test_handlers.get(&(key.clone(), holes.to_vec())) {
+            return Some(*id);
+        }
+        if !self.test_triggers.contains(&key) {
+            return None;
+        }
+        let id = HandlerId(self.handlers.len());
+        self.test_handlers.insert((key, holes.to_vec()), id);
+        self.handlers.push(Handler {
+            operator,
+            kind: TriggerKind::Test,
+            name: name.clone(),
+            types: types.to_vec(),
+            plans: Vec::new(),
+            failure: None,
+            reachable: false,
+            span: atom.span.clone(),
+            holes: holes.to_vec(),
+        });
+        if operator == Operator::Add {
+            let failure = self.test_handler(Operator::Delete, atom, types, holes);
+            self.handlers[id.0].failure = failure;
+        }
+        Some(id)
+    }
+
+    fn plan_of(
+        &mut self,
+        handler: HandlerId,
+        plan: &ast::Plan,
+        holes: &[bool],
+        graph: &TriggerGraph,
+    ) {
+        let trigger = &plan.trigger;
         // The arity may be wrong in a later plan of a declared trigger.
         let Some(types) = self.predicate_types(&trigger.atom) else { return };
         let mut scope = Scope::default();
-        let mut patterns = Vec::new();
-        for (term, ctype) in trigger.atom.arguments.iter().zip(&types) {
-            let pattern = self.pattern(term, ctype, &mut scope);
-            patterns.extend(self.report(pattern));
-        }
+        let (patterns, answers) = self.trigger_patterns(trigger, &types, holes, &mut scope);
         let mut context = Vec::new();
-        for literal in &plan.context {
-            let condition = self.condition(literal, &mut scope);
-            context.extend(self.report(condition));
+        if let Some(expression) = &plan.context {
+            let resolved = self.conditions(expression, &mut scope, &mut context);
+            self.report(resolved);
         }
         let mut body = Vec::new();
         for (index, formula) in plan.body.iter().enumerate() {
@@ -84,7 +123,14 @@ impl Analysis<'_> {
             let step = self.step(formula, last, graph, &mut scope);
             body.extend(self.report(step));
         }
-        self.warn_unused(&scope);
+        let outputs = self.outputs(&answers, &types, &mut scope);
+        scope.settle();
+        for (name, span) in scope.unused() {
+            let warning =
+                Diagnostic::warning(format!("variable `{name}` is never used"), span.clone())
+                    .help("write `_` if any value will do");
+            self.findings.agent.push(warning);
+        }
         let line = self.line(plan.span.start);
         self.handlers[handler.0].plans.push(Plan {
             line,
@@ -93,51 +139,72 @@ impl Analysis<'_> {
             patterns,
             context,
             body,
+            outputs,
+            label: plan.label.as_ref().map(|label| label.text.clone()),
+            requirements: plan.requirements.clone(),
         });
     }
 
-    fn report<T>(&mut self, resolved: Resolved<T>) -> Option<T> {
-        resolved.map_err(|diagnostic| self.error(diagnostic)).ok()
+    /// What the trigger's arguments must look like, and which names answer which holes.
+    fn trigger_patterns<'a>(
+        &mut self,
+        trigger: &'a Trigger,
+        types: &[CType],
+        holes: &[bool],
+        scope: &mut Scope,
+    ) -> (Vec<Pattern>, Vec<(usize, &'a Name)>) {
+        let mut patterns = Vec::new();
+        let mut answers: Vec<(usize, &Name)> = Vec::new();
+        for (index, (expression, ctype)) in trigger.atom.arguments.iter().zip(types).enumerate() {
+            if holes.get(index).copied().unwrap_or(false) {
+                match expression {
+                    Expression::Variable(name)
+                        if scope.lookup(&name.text).is_none()
+                            && answers.iter().all(|(_, other)| other.text != name.text) =>
+                    {
+                        answers.push((index, name));
+                    }
+                    _ => self.error(
+                        Diagnostic::error("this argument is asked for", expression.span())
+                            .help("write a new variable, which the plan gives its value"),
+                    ),
+                }
+                patterns.push(Pattern::Any);
+            } else {
+                let pattern = self.pattern(expression, ctype, scope);
+                patterns.extend(self.report(pattern));
+            }
+        }
+        (patterns, answers)
     }
 
-    fn warn_unused(&mut self, scope: &Scope) {
-        for (variable, span) in scope.variables.iter().zip(&scope.bound_at) {
-            if !variable.used {
-                self.error(
-                    Diagnostic::warning(
-                        format!("variable `{}` is never used", variable.name),
-                        span.clone(),
+    /// The variables that answer, each of which must have its value by now.
+    fn outputs(
+        &mut self,
+        answers: &[(usize, &Name)],
+        types: &[CType],
+        scope: &mut Scope,
+    ) -> Vec<(usize, VariableId)> {
+        let mut outputs = Vec::new();
+        for (index, name) in answers {
+            let value = Expression::Variable((*name).clone());
+            match self.value(&value, &types[*index], scope) {
+                Ok(Value::Variable(id)) => outputs.push((*index, id)),
+                Ok(_) => {}
+                Err(_) => self.error(
+                    Diagnostic::error(
+                        format!("`{}` is asked for and never gets a value", name.text),
+                        name.span.clone(),
                     )
-                    .help("write `_` if any value will do"),
-                );
+                    .help("bind it in the context, by `?b(X)` or by `X = value`"),
+                ),
             }
         }
+        outputs
     }
 
-    fn condition(&mut self, literal: &Literal, scope: &mut Scope) -> Resolved<Condition> {
-        let atom = &literal.atom;
-        if self.declarations.is_basic(&atom.name.text) {
-            let call = self.call(atom, scope)?;
-            let (_, basic) = self.declarations.basic(atom)?;
-            if basic.result.kind != TypeKind::Bool {
-                return Err(Diagnostic::error(
-                    format!("`{}` does not return `bool`", atom.name.text),
-                    atom.span.clone(),
-                )
-                .label(format!("declared `{}`", basic.result.name))
-                .help("a context is made of beliefs and functions of type bool"));
-            }
-            return Ok(Condition::Test { call, negated: literal.negated });
-        }
-        let types = self.declarations.predicate(atom)?;
-        let belief = self.belief_id(&atom.name.text, &types);
-        if literal.negated {
-            let patterns = self.negated_patterns(atom, belief, &types, scope)?;
-            Ok(Condition::HoldsNot { belief, patterns })
-        } else {
-            let patterns = self.patterns(atom, &types, scope)?;
-            Ok(Condition::Holds { belief, patterns })
-        }
+    pub(super) fn report<T>(&mut self, resolved: Resolved<T>) -> Option<T> {
+        resolved.map_err(|diagnostic| self.error(diagnostic)).ok()
     }
 
     fn step(
@@ -149,19 +216,10 @@ impl Analysis<'_> {
     ) -> Resolved<Step> {
         match formula {
             Formula::Action(atom) => Ok(Step::Action(self.call(atom, scope)?)),
-            Formula::Assign { variable, call: atom } => {
-                let call = self.call(atom, scope)?;
-                let (_, basic) = self.declarations.basic(atom)?;
-                check_value_result(basic, atom)?;
-                let result = basic.result.clone();
-                if scope.lookup(&variable.text).is_some() {
-                    return Err(Diagnostic::error(
-                        format!("`{}` already has a value", variable.text),
-                        variable.span.clone(),
-                    )
-                    .help("`=` binds a new variable; choose another name"));
-                }
-                Ok(Step::Assign { variable: scope.bind(variable, &result), call })
+            Formula::Assign { variable, value } => {
+                let (value, ctype) = self.typed_value(value, scope)?;
+                check_fresh(variable, scope)?;
+                Ok(Step::Assign { variable: scope.bind(variable, &ctype), value })
             }
             Formula::Add(atom) => {
                 let types = self.declarations.predicate(atom)?;
@@ -173,8 +231,8 @@ impl Analysis<'_> {
             Formula::Delete(atom) => {
                 let types = self.declarations.predicate(atom)?;
                 let belief = self.belief_id(&atom.name.text, &types);
-                for term in &atom.arguments {
-                    if let Term::Variable(name) = term {
+                for expression in &atom.arguments {
+                    if let Expression::Variable(name) = expression {
                         scope.bound(name)?;
                     }
                 }
@@ -184,7 +242,7 @@ impl Analysis<'_> {
             }
             Formula::Achieve(atom) => {
                 let (handler, values) = self.goal(atom, scope)?;
-                if graph.is_recursive(handler) {
+                if graph.is_recursive(Operator::Add, TriggerKind::Achieve, &atom.name.text) {
                     check_last(atom, last)?;
                     Ok(Step::Post { handler, values })
                 } else {
@@ -195,13 +253,58 @@ impl Analysis<'_> {
                 let (handler, values) = self.goal(atom, scope)?;
                 Ok(Step::Defer { handler, values })
             }
-            Formula::Test(atom) => {
-                let types = self.declarations.predicate(atom)?;
-                let belief = self.belief_id(&atom.name.text, &types);
-                let patterns = self.patterns(atom, &types, scope)?;
-                Ok(Step::Ask { belief, patterns })
+            Formula::Test(atom) => self.ask(atom, graph, scope),
+        }
+    }
+
+    fn ask(&mut self, atom: &Atom, graph: &TriggerGraph, scope: &mut Scope) -> Resolved<Step> {
+        let types = self.declarations.predicate(atom)?;
+        let belief = self.belief_id(&atom.name.text, &types);
+        check_asked_once(atom, scope)?;
+        let patterns = self.question(atom, &types, scope)?;
+        let holes: Vec<bool> =
+            patterns.iter().map(|pattern| !matches!(pattern, Pattern::Equal(_))).collect();
+        let plans = self.test_handler(Operator::Add, atom, &types, &holes);
+        if plans.is_some() {
+            if graph.is_recursive(Operator::Add, TriggerKind::Test, &atom.name.text) {
+                return Err(Diagnostic::error(
+                    format!("`?{}` leads back to itself", atom.name.text),
+                    atom.span.clone(),
+                )
+                .label("this call would be recursive")
+                .help("the answer is needed at once, so it cannot wait for the next step"));
+            }
+            let unknown = types.iter().zip(&holes).find(|(t, hole)| **hole && t.zero().is_none());
+            if let Some((ctype, _)) = unknown {
+                return Err(Diagnostic::error(
+                    format!("values of type `{}` cannot be asked for", ctype.name),
+                    atom.span.clone(),
+                )
+                .help("the translator knows no value of this type to start with"));
             }
         }
+        Ok(Step::Ask { belief, patterns, plans })
+    }
+
+    /// What is given is evaluated before any answer is known.
+    fn question(&self, atom: &Atom, types: &[CType], scope: &mut Scope) -> Resolved<Vec<Pattern>> {
+        let pairs = || atom.arguments.iter().zip(types);
+        let asked = |expression: &Expression, scope: &Scope| match expression {
+            Expression::Variable(name) => scope.lookup(&name.text).is_none(),
+            _ => false,
+        };
+        let mut given = Vec::new();
+        for (expression, ctype) in pairs() {
+            let asked = asked(expression, scope);
+            given.push(if asked { None } else { Some(self.pattern(expression, ctype, scope)?) });
+        }
+        pairs()
+            .zip(given)
+            .map(|((expression, ctype), given)| match given {
+                Some(pattern) => Ok(pattern),
+                None => self.pattern(expression, ctype, scope),
+            })
+            .collect()
     }
 
     fn goal(&mut self, atom: &Atom, scope: &mut Scope) -> Resolved<(HandlerId, Vec<Value>)> {
@@ -224,127 +327,37 @@ impl Analysis<'_> {
         last: bool,
         graph: &TriggerGraph,
     ) -> Resolved<Raise> {
-        let Some(handler) = self.handler_id(operator, TriggerKind::Belief, &atom.name.text) else {
+        let name = &atom.name.text;
+        let Some(handler) = self.handler_id(operator, TriggerKind::Belief, name) else {
             return Ok(Raise::Nothing);
         };
-        if graph.is_recursive(handler) {
+        if graph.is_recursive(operator, TriggerKind::Belief, name) {
             check_last(atom, last)?;
             Ok(Raise::Post(handler))
         } else {
             Ok(Raise::Call(handler))
         }
     }
-
-    fn call(&self, atom: &Atom, scope: &mut Scope) -> Resolved<Call> {
-        let (basic, declaration) = self.declarations.basic(atom)?;
-        let arguments = self.values(&atom.arguments, &declaration.parameters, scope)?;
-        Ok(Call { basic, arguments })
-    }
-
-    fn values(&self, terms: &[Term], types: &[CType], scope: &mut Scope) -> Resolved<Vec<Value>> {
-        terms.iter().zip(types).map(|(term, ctype)| self.value(term, ctype, scope)).collect()
-    }
-
-    /// A term whose value is needed.
-    fn value(&self, term: &Term, ctype: &CType, scope: &mut Scope) -> Resolved<Value> {
-        if let Some(constant) = constant(term, ctype) {
-            return constant;
-        }
-        match term {
-            Term::Variable(name) => {
-                let id = scope.bound(name)?;
-                scope.variables[id.0].used = true;
-                check_type(&scope.variables[id.0].ctype, ctype, &name.text, &name.span)?;
-                Ok(Value::Variable(id))
-            }
-            Term::Call(atom) => {
-                let call = self.call(atom, scope)?;
-                let (_, basic) = self.declarations.basic(atom)?;
-                check_value_result(basic, atom)?;
-                check_type(&basic.result, ctype, &atom.name.text, &atom.span)?;
-                Ok(Value::Call(call))
-            }
-            _ => Err(Diagnostic::error("an unnamed variable has no value", term.span())
-                .help("`_` matches anything; name the variable and bind it first")),
-        }
-    }
-
-    fn patterns(&self, atom: &Atom, types: &[CType], scope: &mut Scope) -> Resolved<Vec<Pattern>> {
-        atom.arguments
-            .iter()
-            .zip(types)
-            .map(|(term, ctype)| self.pattern(term, ctype, scope))
-            .collect()
-    }
-
-    /// A term that is matched against a value.
-    fn pattern(&self, term: &Term, ctype: &CType, scope: &mut Scope) -> Resolved<Pattern> {
-        match term {
-            _ if is_unnamed(term) => Ok(Pattern::Any),
-            Term::Variable(name) if scope.lookup(&name.text).is_none() => {
-                Ok(Pattern::Bind(scope.bind(name, ctype)))
-            }
-            _ => {
-                let value = self.value(term, ctype, scope)?;
-                check_equality(ctype, &term.span())?;
-                Ok(Pattern::Equal(value))
-            }
-        }
-    }
-
-    /// As [`Self::patterns`], but what the negation binds is forgotten after it.
-    fn negated_patterns(
-        &self,
-        atom: &Atom,
-        belief: BeliefId,
-        types: &[CType],
-        scope: &mut Scope,
-    ) -> Resolved<Vec<Pattern>> {
-        let mut locals = Locals::new();
-        let mut patterns = Vec::new();
-        for (index, (term, ctype)) in atom.arguments.iter().zip(types).enumerate() {
-            let Term::Variable(name) = term else {
-                patterns.push(self.pattern(term, ctype, scope)?);
-                continue;
-            };
-            if scope.lookup(&name.text).is_some() {
-                patterns.push(self.pattern(term, ctype, scope)?);
-                continue;
-            }
-            let local = locals.iter().find(|(local, ..)| *local == name.text);
-            if let Some((_, belief, first)) = local {
-                check_type(&types[*first], ctype, &name.text, &name.span)?;
-                check_equality(ctype, &name.span)?;
-                patterns.push(Pattern::Equal(Value::Field(*belief, *first)));
-            } else {
-                locals.push((name.text.clone(), belief, index));
-                patterns.push(Pattern::Any);
-            }
-        }
-        scope.negation_only.extend(locals.into_iter().map(|(name, ..)| name));
-        Ok(patterns)
-    }
 }
 
-fn check_type(found: &CType, expected: &CType, name: &str, span: &Span) -> Resolved<()> {
-    if found == expected {
-        return Ok(());
+/// A variable that is asked for gets one answer.
+fn check_asked_once(atom: &Atom, scope: &Scope) -> Resolved<()> {
+    let mut asked: Vec<&str> = Vec::new();
+    for expression in &atom.arguments {
+        if let Expression::Variable(name) = expression
+            && scope.lookup(&name.text).is_none()
+        {
+            if asked.contains(&name.text.as_str()) {
+                return Err(Diagnostic::error(
+                    format!("`{}` is asked for twice", name.text),
+                    name.span.clone(),
+                )
+                .help("ask for two variables and compare them in the context of a plan"));
+            }
+            asked.push(&name.text);
+        }
     }
-    Err(Diagnostic::error(
-        format!("`{name}` has type `{}`, expected `{}`", found.name, expected.name),
-        span.clone(),
-    ))
-}
-
-fn check_equality(ctype: &CType, span: &Span) -> Resolved<()> {
-    if ctype.has_equality() {
-        return Ok(());
-    }
-    Err(Diagnostic::error(
-        format!("values of type `{}` cannot be compared", ctype.name),
-        span.clone(),
-    )
-    .help("bind the value to a new variable and compare it with a function of type bool"))
+    Ok(())
 }
 
 fn check_last(atom: &Atom, last: bool) -> Resolved<()> {

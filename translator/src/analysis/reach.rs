@@ -42,7 +42,8 @@ pub(super) fn reach(handlers: &mut [Handler], roots: impl Iterator<Item = Handle
                         open.push(*handler);
                     }
                 },
-                Step::Action(_) | Step::Assign { .. } | Step::Ask { .. } => {}
+                Step::Ask { plans, .. } => open.extend(*plans),
+                Step::Action(_) | Step::Assign { .. } => {}
             }
         }
     }

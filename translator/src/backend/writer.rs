@@ -25,6 +25,12 @@ impl Writer {
         self.depth += 1;
     }
 
+    /// `{` on its own, then one level deeper.
+    pub(super) fn open_bare(&mut self) {
+        self.line("{");
+        self.depth += 1;
+    }
+
     /// `head {` on one line, as Rust has it.
     pub(super) fn open_here(&mut self, head: impl AsRef<str>) {
         self.line(format!("{} {{", head.as_ref()));

@@ -22,26 +22,33 @@ pub struct Name {
     pub span: Span,
 }
 
-/// `name(term, ..)`; `name` and `name()` are the same.
+/// `name(expression, ..)`; `name` and `name()` are the same.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Atom {
     /// The predicate, goal or basic action.
     pub name: Name,
     /// Its arguments.
-    pub arguments: Vec<Term>,
+    pub arguments: Vec<Expression>,
     /// From the name to the closing parenthesis.
     pub span: Span,
 }
 
-/// An argument.
+/// An argument, or a part of a context.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Term {
+pub enum Expression {
     /// `X`
     Variable(Name),
     /// `_` or `_name`: matches anything, each occurrence for itself.
     Unnamed(Span),
     /// `-1.5`
     Number(Number),
+    /// `true`, `false`
+    Boolean {
+        /// Which.
+        value: bool,
+        /// Where it stands.
+        span: Span,
+    },
     /// `"text"`, escapes resolved.
     Text {
         /// The text itself.
@@ -49,20 +56,113 @@ pub enum Term {
         /// From quote to quote.
         span: Span,
     },
-    /// `f(X)`: a value-returning basic function.
-    Call(Atom),
+    /// `f(X)`: a basic function, or in a context a belief.
+    Atom(Atom),
+    /// `-X`
+    Negate {
+        /// What is negated.
+        operand: Box<Self>,
+        /// Sign and operand.
+        span: Span,
+    },
+    /// `X + 1`
+    Arithmetic {
+        /// The operation.
+        operator: Arithmetic,
+        /// Left operand.
+        left: Box<Self>,
+        /// Right operand.
+        right: Box<Self>,
+        /// Both operands.
+        span: Span,
+    },
+    /// `X < 3`
+    Compare {
+        /// The relation.
+        operator: Relation,
+        /// Left operand.
+        left: Box<Self>,
+        /// Right operand.
+        right: Box<Self>,
+        /// Both operands.
+        span: Span,
+    },
+    /// `X = f(Y)` in a context: binds a new variable.
+    Bind {
+        /// The variable that receives the value.
+        variable: Name,
+        /// The value.
+        value: Box<Self>,
+        /// The whole.
+        span: Span,
+    },
+    /// `not b`
+    Not {
+        /// What must not hold.
+        operand: Box<Self>,
+        /// `not` and operand.
+        span: Span,
+    },
+    /// `a & b & c`
+    And(Vec<Self>),
+    /// `a | b | c`
+    Or(Vec<Self>),
 }
 
-impl Term {
-    /// Where the term stands.
+impl Expression {
+    /// Where the expression stands.
     pub fn span(&self) -> Span {
         match self {
             Self::Variable(name) => name.span.clone(),
-            Self::Unnamed(span) | Self::Text { span, .. } => span.clone(),
             Self::Number(number) => number.span.clone(),
-            Self::Call(atom) => atom.span.clone(),
+            Self::Atom(atom) => atom.span.clone(),
+            Self::Unnamed(span)
+            | Self::Boolean { span, .. }
+            | Self::Text { span, .. }
+            | Self::Negate { span, .. }
+            | Self::Arithmetic { span, .. }
+            | Self::Compare { span, .. }
+            | Self::Bind { span, .. }
+            | Self::Not { span, .. } => span.clone(),
+            Self::And(parts) | Self::Or(parts) => {
+                let start = parts.first().map_or(0, |part| part.span().start);
+                let end = parts.last().map_or(start, |part| part.span().end);
+                start..end
+            }
         }
     }
+}
+
+/// An arithmetic operation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`, truncating for integers.
+    Divide,
+    /// `mod`, the remainder of the truncating division; integers only.
+    Remainder,
+}
+
+/// A relation between two values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Relation {
+    /// `<`
+    Less,
+    /// `<=`
+    LessOrEqual,
+    /// `>`
+    Greater,
+    /// `>=`
+    GreaterOrEqual,
+    /// `==`
+    Equal,
+    /// `\==`
+    NotEqual,
 }
 
 /// A number exactly as written, so that it reaches C with its exact value.
@@ -109,26 +209,21 @@ pub struct Trigger {
     pub span: Span,
 }
 
-/// `trigger : context <- body.`
+/// `@label[req("tag")] trigger : context <- body.`
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Plan {
+    /// The plan's own name, if it has one.
+    pub label: Option<Name>,
+    /// Tags of the requirements that it fulfils.
+    pub requirements: Vec<String>,
     /// The event it is for.
     pub trigger: Trigger,
-    /// The conjunction that must hold; empty for `true`.
-    pub context: Vec<Literal>,
+    /// What must hold; nothing for `true`.
+    pub context: Option<Expression>,
     /// The formulae in order; empty for `true`.
     pub body: Vec<Formula>,
     /// The whole plan with its full stop.
     pub span: Span,
-}
-
-/// A belief or a boolean basic function in a context.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Literal {
-    /// Whether `not` stands before it.
-    pub negated: bool,
-    /// The belief pattern or the function call.
-    pub atom: Atom,
 }
 
 /// One step of a plan's body.
@@ -138,10 +233,10 @@ pub enum Formula {
     Action(Atom),
     /// `X = f(t)`
     Assign {
-        /// The variable that receives the result.
+        /// The variable that receives the value.
         variable: Name,
-        /// The function that is called.
-        call: Atom,
+        /// The value.
+        value: Expression,
     },
     /// `+b(t)`
     Add(Atom),

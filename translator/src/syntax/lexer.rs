@@ -16,7 +16,9 @@ pub(super) enum TokenKind {
     /// `"text"` with escapes resolved.
     Text(String),
     True,
+    False,
     Not,
+    Mod,
     Dot,
     Colon,
     Semicolon,
@@ -30,7 +32,21 @@ pub(super) enum TokenKind {
     BangBang,
     Question,
     Ampersand,
+    Bar,
     Equals,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    EqualsEquals,
+    NotEquals,
+    Star,
+    Slash,
+    At,
+    LeftBracket,
+    RightBracket,
+    /// Something that has been reported already.
+    Invalid,
     End,
 }
 
@@ -107,6 +123,7 @@ impl Lexer<'_> {
                     .label("opened here")
                     .help("close it with `*/`"),
             );
+            self.push(TokenKind::Invalid, start);
         }
     }
 
@@ -114,7 +131,9 @@ impl Lexer<'_> {
         self.take_while(|c| c.is_ascii_alphanumeric() || c == '_');
         let kind = match &self.text[start..self.position] {
             "true" => TokenKind::True,
+            "false" => TokenKind::False,
             "not" => TokenKind::Not,
+            "mod" => TokenKind::Mod,
             word if word.starts_with('_') => TokenKind::Unnamed,
             word if word.starts_with(|c: char| c.is_ascii_uppercase()) => TokenKind::Variable,
             _ => TokenKind::Atom,
@@ -136,6 +155,8 @@ impl Lexer<'_> {
                 Diagnostic::error("malformed number", start..self.position)
                     .help("numbers are decimal: `12`, `0.5`, `1e-3`"),
             );
+            self.push(TokenKind::Invalid, start);
+            return;
         }
         self.push(TokenKind::Number, start);
     }
@@ -194,31 +215,45 @@ impl Lexer<'_> {
     }
 
     fn symbol(&mut self, start: usize) {
-        const SYMBOLS: [(&str, TokenKind); 15] = [
+        const SYMBOLS: [(&str, TokenKind); 26] = [
             ("<-", TokenKind::Arrow),
+            ("<=", TokenKind::LessOrEqual),
+            (">=", TokenKind::GreaterOrEqual),
+            ("==", TokenKind::EqualsEquals),
+            ("\\==", TokenKind::NotEquals),
             ("!!", TokenKind::BangBang),
             ("!", TokenKind::Bang),
             ("?", TokenKind::Question),
             ("+", TokenKind::Plus),
             ("-", TokenKind::Minus),
+            ("*", TokenKind::Star),
+            ("/", TokenKind::Slash),
             ("&", TokenKind::Ampersand),
+            ("|", TokenKind::Bar),
             ("=", TokenKind::Equals),
+            ("<", TokenKind::Less),
+            (">", TokenKind::Greater),
             (".", TokenKind::Dot),
             (":", TokenKind::Colon),
             (";", TokenKind::Semicolon),
             (",", TokenKind::Comma),
             ("(", TokenKind::LeftParenthesis),
             (")", TokenKind::RightParenthesis),
-            ("\u{feff}", TokenKind::End),
+            ("@", TokenKind::At),
+            ("[", TokenKind::LeftBracket),
+            ("]", TokenKind::RightBracket),
         ];
-        let found = SYMBOLS.iter().find(|(symbol, _)| self.rest().starts_with(symbol));
-        match found {
-            Some((_, TokenKind::End)) if start == 0 => self.advance(),
-            Some((symbol, kind)) if *kind != TokenKind::End => {
+        const BYTE_ORDER_MARK: char = '\u{feff}';
+        if start == 0 && self.peek() == Some(BYTE_ORDER_MARK) {
+            self.advance();
+            return;
+        }
+        match SYMBOLS.iter().find(|(symbol, _)| self.rest().starts_with(symbol)) {
+            Some((symbol, kind)) => {
                 self.position += symbol.len();
                 self.push(kind.clone(), start);
             }
-            _ => self.unknown_symbol(start),
+            None => self.unknown_symbol(start),
         }
     }
 
@@ -227,13 +262,8 @@ impl Lexer<'_> {
         self.advance();
         let help = match character {
             '~' => "strong negation is not translated; `not b` tests that `b` is not believed",
-            '|' => "`|` in contexts is not translated yet; write one plan for each alternative",
-            '<' | '>' | '*' | '/' => {
-                "expressions are not translated yet; use a basic function of type bool"
-            }
-            '@' => "plan labels are not translated yet",
-            '[' | ']' => "annotations are not translated yet",
             '{' | '}' => "braces do not occur in AgentSpeak",
+            '\\' => "`\\==` is the only operator with a backslash",
             _ => "this character has no meaning in AgentSpeak",
         };
         self.error(
@@ -243,6 +273,7 @@ impl Lexer<'_> {
             )
             .help(help),
         );
+        self.push(TokenKind::Invalid, start);
     }
 }
 

@@ -4,6 +4,7 @@
 //! thing that it did not. A tree with errors must not be translated.
 
 pub mod ast;
+mod expression;
 mod lexer;
 mod parser;
 

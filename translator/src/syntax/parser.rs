@@ -5,13 +5,8 @@
 
 use diagnostic::{Diagnostic, Span};
 
-use super::ast::{
-    Agent, Atom, Formula, Literal, Name, Number, Operator, Plan, Term, Trigger, TriggerKind,
-};
+use super::ast::{Agent, Atom, Formula, Name, Operator, Plan, Trigger, TriggerKind};
 use super::lexer::{Token, TokenKind, tokenize};
-
-/// Function calls may be nested this deep in a term; the bound keeps the parser's stack bounded.
-const MAX_NESTING: usize = 64;
 
 /// The syntax tree of `text` and everything that is wrong with it.
 pub fn parse(text: &str) -> (Agent, Vec<Diagnostic>) {
@@ -21,21 +16,27 @@ pub fn parse(text: &str) -> (Agent, Vec<Diagnostic>) {
     (agent, parser.diagnostics)
 }
 
-struct Parser<'a> {
-    text: &'a str,
+pub(super) struct Parser<'a> {
+    pub(super) text: &'a str,
     tokens: Vec<Token>,
     position: usize,
     diagnostics: Vec<Diagnostic>,
 }
 
-type Parsed<T> = Result<T, Diagnostic>;
+pub(super) type Parsed<T> = Result<T, Diagnostic>;
+
+/// A plan's label and its requirement tags.
+type Annotations = (Option<Name>, Vec<String>);
 
 impl Parser<'_> {
     fn agent(&mut self) -> Agent {
         let mut agent = Agent::default();
         while self.peek() != &TokenKind::End {
             if let Err(diagnostic) = self.statement(&mut agent) {
-                self.diagnostics.push(diagnostic);
+                // What the lexer could not read it has reported.
+                if self.peek() != &TokenKind::Invalid {
+                    self.diagnostics.push(diagnostic);
+                }
                 self.recover();
             }
         }
@@ -51,7 +52,7 @@ impl Parser<'_> {
 
     fn statement(&mut self, agent: &mut Agent) -> Parsed<()> {
         match self.peek() {
-            TokenKind::Plus | TokenKind::Minus => agent.plans.push(self.plan()?),
+            TokenKind::Plus | TokenKind::Minus | TokenKind::At => agent.plans.push(self.plan()?),
             TokenKind::Bang => {
                 let start = self.next().span.start;
                 let goal = self.atom(0)?;
@@ -88,20 +89,61 @@ impl Parser<'_> {
 
     fn plan(&mut self) -> Parsed<Plan> {
         let start = self.span().start;
+        let (label, requirements) = self.annotations()?;
         let trigger = self.trigger()?;
-        let mut context = Vec::new();
+        let mut context = None;
         if self.take(&TokenKind::Colon) {
-            context = self.context()?;
+            context = Some(self.expression("a belief or a function of type bool")?);
         }
         let mut body = Vec::new();
         if self.take(&TokenKind::Arrow) {
             body = self.body()?;
         }
         let end = self.expect(&TokenKind::Dot, "`.` at the end of the plan")?.end;
-        Ok(Plan { trigger, context, body, span: start..end })
+        Ok(Plan { label, requirements, trigger, context, body, span: start..end })
+    }
+
+    /// `@label[req("HLR-1"), req("HLR-2")]`
+    fn annotations(&mut self) -> Parsed<Annotations> {
+        let mut requirements = Vec::new();
+        if !self.take(&TokenKind::At) {
+            return Ok((None, requirements));
+        }
+        if self.peek() != &TokenKind::Atom {
+            return Err(self.unexpected("a plan's label"));
+        }
+        let label = self.name();
+        if self.take(&TokenKind::LeftBracket) {
+            loop {
+                requirements.push(self.requirement()?);
+                if !self.take(&TokenKind::Comma) {
+                    break;
+                }
+            }
+            self.expect(&TokenKind::RightBracket, "`,` or `]`")?;
+        }
+        Ok((Some(label), requirements))
+    }
+
+    fn requirement(&mut self) -> Parsed<String> {
+        let name = self.span();
+        if self.peek() != &TokenKind::Atom || &self.text[name] != "req" {
+            return Err(self.unexpected("`req(\"tag\")`"));
+        }
+        self.next();
+        self.expect(&TokenKind::LeftParenthesis, "`(`")?;
+        let TokenKind::Text(tag) = self.peek().clone() else {
+            return Err(self.unexpected("a requirement's tag in quotes"));
+        };
+        self.next();
+        self.expect(&TokenKind::RightParenthesis, "`)`")?;
+        Ok(tag)
     }
 
     fn trigger(&mut self) -> Parsed<Trigger> {
+        if !matches!(self.peek(), TokenKind::Plus | TokenKind::Minus) {
+            return Err(self.unexpected("`+` or `-` of a trigger"));
+        }
         let operator_token = self.next();
         let operator = match operator_token.kind {
             TokenKind::Plus => Operator::Add,
@@ -122,27 +164,6 @@ impl Parser<'_> {
         let atom = self.atom(0)?;
         let span = operator_token.span.start..atom.span.end;
         Ok(Trigger { operator, kind, atom, span })
-    }
-
-    fn context(&mut self) -> Parsed<Vec<Literal>> {
-        if self.take(&TokenKind::True) {
-            return Ok(Vec::new());
-        }
-        let mut literals = vec![self.literal()?];
-        while self.take(&TokenKind::Ampersand) {
-            literals.push(self.literal()?);
-        }
-        Ok(literals)
-    }
-
-    fn literal(&mut self) -> Parsed<Literal> {
-        let negated = self.take(&TokenKind::Not);
-        let parenthesised = negated && self.take(&TokenKind::LeftParenthesis);
-        let atom = self.atom_or("a belief or a function of type bool")?;
-        if parenthesised {
-            self.expect(&TokenKind::RightParenthesis, "`)`")?;
-        }
-        Ok(Literal { negated, atom })
     }
 
     fn body(&mut self) -> Parsed<Vec<Formula>> {
@@ -166,13 +187,13 @@ impl Parser<'_> {
             TokenKind::Atom => return Ok(Formula::Action(self.atom(0)?)),
             TokenKind::Variable => {
                 let variable = self.name();
-                self.expect(&TokenKind::Equals, "`=` and a function call")?;
-                let call = self.atom_or("a function call")?;
-                return Ok(Formula::Assign { variable, call });
+                self.expect(&TokenKind::Equals, "`=` and a value")?;
+                let value = self.expression("a value")?;
+                return Ok(Formula::Assign { variable, value });
             }
             _ => {
                 return Err(
-                    self.unexpected("an action, `X = f(..)`, `+b`, `-b`, `!g`, `!!g` or `?b`")
+                    self.unexpected("an action, `X = value`, `+b`, `-b`, `!g`, `!!g` or `?b`")
                 );
             }
         };
@@ -180,11 +201,8 @@ impl Parser<'_> {
         Ok(build(self.atom(0)?))
     }
 
-    fn atom_or(&mut self, expected: &str) -> Parsed<Atom> {
-        if self.peek() == &TokenKind::Atom { self.atom(0) } else { Err(self.unexpected(expected)) }
-    }
-
-    fn atom(&mut self, depth: usize) -> Parsed<Atom> {
+    /// A name with arguments; `depth` counts what it stands inside of.
+    pub(super) fn atom(&mut self, depth: usize) -> Parsed<Atom> {
         if self.peek() != &TokenKind::Atom {
             return Err(self.unexpected("a name that starts with a lower-case letter"));
         }
@@ -193,9 +211,9 @@ impl Parser<'_> {
         let mut arguments = Vec::new();
         if self.take(&TokenKind::LeftParenthesis) {
             if self.peek() != &TokenKind::RightParenthesis {
-                arguments.push(self.term(depth + 1)?);
+                arguments.push(self.argument(depth)?);
                 while self.take(&TokenKind::Comma) {
-                    arguments.push(self.term(depth + 1)?);
+                    arguments.push(self.argument(depth)?);
                 }
             }
             end = self.expect(&TokenKind::RightParenthesis, "`,` or `)`")?.end;
@@ -204,34 +222,8 @@ impl Parser<'_> {
         Ok(Atom { name, arguments, span })
     }
 
-    fn term(&mut self, depth: usize) -> Parsed<Term> {
-        if depth > MAX_NESTING {
-            return Err(Diagnostic::error("terms are nested too deeply", self.span())
-                .help(format!("at most {MAX_NESTING} calls may stand inside each other")));
-        }
-        match self.peek().clone() {
-            TokenKind::Variable => Ok(Term::Variable(self.name())),
-            TokenKind::Unnamed => Ok(Term::Unnamed(self.next().span)),
-            TokenKind::Text(text) => Ok(Term::Text { text, span: self.next().span }),
-            TokenKind::Atom => Ok(Term::Call(self.atom(depth)?)),
-            TokenKind::Number | TokenKind::Minus => self.number(),
-            _ => Err(self.unexpected("a variable, a number, a string or a function call")),
-        }
-    }
-
-    fn number(&mut self) -> Parsed<Term> {
-        let start = self.span();
-        let negative = self.take(&TokenKind::Minus);
-        if self.peek() != &TokenKind::Number || (negative && self.span().start != start.end) {
-            return Err(self.unexpected("a number directly behind the sign"));
-        }
-        let digits_span = self.next().span;
-        let span = start.start..digits_span.end;
-        Ok(Term::Number(Number { digits: self.text[digits_span].to_owned(), negative, span }))
-    }
-
     /// The token under the cursor as a name; the caller has looked at its kind.
-    fn name(&mut self) -> Name {
+    pub(super) fn name(&mut self) -> Name {
         let span = self.next().span;
         Name { text: self.text[span.clone()].to_owned(), span }
     }
@@ -241,15 +233,15 @@ impl Parser<'_> {
         &self.tokens[self.position.min(self.tokens.len() - 1)]
     }
 
-    fn peek(&self) -> &TokenKind {
+    pub(super) fn peek(&self) -> &TokenKind {
         &self.token().kind
     }
 
-    fn span(&self) -> Span {
+    pub(super) fn span(&self) -> Span {
         self.token().span.clone()
     }
 
-    fn next(&mut self) -> Token {
+    pub(super) fn next(&mut self) -> Token {
         let token = self.token().clone();
         if token.kind != TokenKind::End {
             self.position += 1;
@@ -257,7 +249,7 @@ impl Parser<'_> {
         token
     }
 
-    fn take(&mut self, kind: &TokenKind) -> bool {
+    pub(super) fn take(&mut self, kind: &TokenKind) -> bool {
         let found = self.peek() == kind;
         if found {
             self.next();
@@ -265,11 +257,11 @@ impl Parser<'_> {
         found
     }
 
-    fn expect(&mut self, kind: &TokenKind, expected: &str) -> Parsed<Span> {
+    pub(super) fn expect(&mut self, kind: &TokenKind, expected: &str) -> Parsed<Span> {
         if self.peek() == kind { Ok(self.next().span) } else { Err(self.unexpected(expected)) }
     }
 
-    fn unexpected(&self, expected: &str) -> Diagnostic {
+    pub(super) fn unexpected(&self, expected: &str) -> Diagnostic {
         let found = match self.peek() {
             TokenKind::End => "the end of the file".to_owned(),
             _ => format!("`{}`", self.text[self.span()].escape_debug()),
@@ -286,6 +278,7 @@ impl Parser<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::syntax::ast::Expression;
 
     fn messages(text: &str) -> Vec<String> {
         parse(text).1.into_iter().map(|diagnostic| diagnostic.message).collect()
@@ -294,15 +287,16 @@ mod tests {
     #[test]
     fn a_whole_plan_is_parsed() {
         let (agent, diagnostics) = parse(
-            "b(1, -2.5). !start.\n+!start : b(X, _) & not(c) & f(X) <- a(X, \"t\"); Y = g(X); +c(Y); -c(_); !h; !!h; ?b(X, Z).",
+            "b(1, -2.5). !start.\n@go[req(\"HLR-1\"), req(\"HLR-2\")] +!start : b(X, _) & not(c) & (f(X) | X + 1 < 3)\n\
+             <- a(X, \"t\"); Y = g(X) * 2; +c(Y); -c(_); !h; !!h; ?b(X, Z).",
         );
         assert_eq!(diagnostics, []);
         assert_eq!(agent.beliefs.len(), 1);
         assert!(agent.goal.is_some());
         let plan = &agent.plans[0];
-        assert_eq!(plan.context.len(), 3);
-        assert!(plan.context[1].negated);
+        assert!(matches!(&plan.context, Some(Expression::And(parts)) if parts.len() == 3));
         assert_eq!(plan.body.len(), 7);
+        assert_eq!(plan.requirements, ["HLR-1", "HLR-2"]);
     }
 
     #[test]
@@ -315,11 +309,12 @@ mod tests {
     #[test]
     fn all_errors_of_a_file_are_reported_in_one_run() {
         assert_eq!(
-            messages("+!a <- ; b. +!c : <- d. +!e <- f(,1). +!!g <- h. +!ok <- i."),
+            messages("+!a <- ; b. +!c : <- d. +!e <- f(,1). +!!g <- h. +!x : ~b <- c. +!ok <- i."),
             [
-                "expected an action, `X = f(..)`, `+b`, `-b`, `!g`, `!!g` or `?b`, found `;`",
+                "unexpected character `~`",
+                "expected an action, `X = value`, `+b`, `-b`, `!g`, `!!g` or `?b`, found `;`",
                 "expected a belief or a function of type bool, found `<-`",
-                "expected a variable, a number, a string or a function call, found `,`",
+                "expected a value, found `,`",
                 "`!!` cannot be a trigger",
             ]
         );
@@ -327,10 +322,43 @@ mod tests {
 
     #[test]
     fn malformed_input_of_any_kind_gives_an_error() {
-        for text in ["", " ", "+", "+!", "+!a", "!a", "b", ".", "+!a <- X = 3.", "!a. !b. +!a."] {
+        for text in [
+            "",
+            " ",
+            "+",
+            "+!",
+            "+!a",
+            "!a",
+            "b",
+            ".",
+            "+!a <- X = .",
+            "!a. !b. +!a.",
+            "@",
+            "@l",
+            "@l[",
+            "@l[req] +!a.",
+            "@l[req(3)] +!a.",
+            "+!a : (b <- c.",
+            "+!a : b | <- c.",
+            "+!a : 1 < 2 < 3 <- c.",
+            "+!a : not <- c.",
+        ] {
             assert!(!messages(text).is_empty(), "{text:?}");
         }
-        let deep = format!("+!a <- f({}1{}).", "g(".repeat(100_000), ")".repeat(100_000));
-        assert_eq!(messages(&deep), ["terms are nested too deeply"]);
+    }
+
+    #[test]
+    fn nesting_is_bounded() {
+        for (open, close) in [("g(", ")"), ("(", ")"), ("-", ""), ("1+(", ")")] {
+            let text = format!("+!a <- f({}1{}).", open.repeat(100_000), close.repeat(100_000));
+            assert_eq!(messages(&text), ["nested too deeply"], "{open}");
+        }
+        let text = format!("+!a : {}b{} <- c.", "not (".repeat(100_000), ")".repeat(100_000));
+        assert_eq!(messages(&text), ["nested too deeply"]);
+        let text = format!("+!a <- f(1{}).", "+1".repeat(100_000));
+        assert_eq!(messages(&text), ["the expression is too long"]);
+        // Conjunctions have no such limit.
+        let text = format!("+!a : b{} <- c.", " & b".repeat(100_000));
+        assert_eq!(messages(&text), [""; 0]);
     }
 }

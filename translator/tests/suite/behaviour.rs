@@ -188,3 +188,83 @@ fn init_starts_anew() {
     let agent = "!g. +!g : not b(_) <- act(1); +b(1); !!h. +!g <- act(2). +!h <- a.";
     check("", agent, "next_step(); init(); next_step(); next_step();", "act(1) act(1) a()");
 }
+
+#[test]
+fn comparisons_and_arithmetic_decide_and_calculate() {
+    let agent = "b(20). d(1.5). !g.\n\
+        +!g : b(X) & X < 20 <- act(1).\n\
+        +!g : b(X) & X / 3 * 3 + X mod 3 == X & d(Y) & Y * 2.0 >= 3.0 & Z = X - 25 & Z \\== 5\n\
+            <- act(-Z); W = (X + 1) * 2; act(W); act(-X).";
+    check("", agent, STEP, "act(5) act(42) act(-20)");
+}
+
+#[test]
+fn what_has_no_result_fails() {
+    let agent = "b(0). !g. +!g : b(X) & 1 / X > 0 <- act(1). +!g <- act(2); !h; act(9).\n\
+        +!h : b(X) <- act(3); act(2147483647 + 1); act(4). -!h <- act(5).";
+    check("", agent, STEP, "act(2) act(3) act(5) act(9)");
+    let agent = "b(-2147483648). d(0.0). !g. +!g : b(X) & -X > 0 <- act(1).\n\
+        +!g : b(X) & not (X - 1 < 0) & d(Y) & not (1.0 / Y > 0.0) <- act(2).";
+    check("", agent, STEP, "act(2)");
+}
+
+#[test]
+fn alternatives_and_negations_nest() {
+    let agent = "b(1). p(2, 3). !g.\n\
+        +!g : b(2) | p(3, _) <- act(1).\n\
+        +!g : not (b(1) & (p(9, _) | p(_, 3))) <- act(2).\n\
+        +!g : (c & b(X) | p(X, Y) & Y > X | b(X)) & not not b(1) <- act(X).";
+    check("", agent, STEP, "act(2)");
+}
+
+#[test]
+fn a_variable_that_every_alternative_binds_is_seen_afterwards() {
+    let agent = "b(7). !g. +!g : p(X, _) | b(X) | p(_, X) <- act(X).";
+    check("", agent, STEP, "act(7)");
+    let agent = "p(4, 5). !g. +!g : b(X) & X > 3 | p(_, X) <- act(X).";
+    check("", agent, STEP, "act(5)");
+}
+
+#[test]
+fn booleans_are_values_and_conditions() {
+    let case = Case {
+        basics: "void act(int); bool flip(bool);",
+        types: "g(void); on(bool);",
+        sections: "",
+        agent: "on(true). !g.\n+!g : on(X) & X & not flip(X) & Y = flip(false) & Y == true <- act(1); +on(false); !h.\n\
+                +!h : on(false) & on(X) & not X <- act(2).",
+    };
+    let case = Case { types: "g(void); h(void); on(bool);", ..case };
+    assert_eq!(case.run("bool flip(bool x) { return !x; }\n", STEP), "act(1) act(2)");
+}
+
+#[test]
+fn a_test_goal_asks_the_beliefs_then_the_plans() {
+    let agent = "p(1, 2). !g.\n\
+        +!g <- ?p(1, X); act(X); ?p(5, Y); act(Y); ?b(Z); act(Z); ?go2(A, B); pair(A, B).\n\
+        +?p(X, Y) : X > 3 <- Y = X * 10.\n\
+        +?b(X) <- act(0); ?p(7, X).\n\
+        +?go2(X, Y) : p(X, Y).";
+    check("", agent, STEP, "act(2) act(50) act(0) act(70) pair(1,2)");
+}
+
+#[test]
+fn a_test_goal_without_answer_fails_and_its_failure_plan_can_answer() {
+    let agent = "!g. +!g <- ?b(X); act(X). +?b(X) : c & b(X). -!g <- act(8).";
+    check("", agent, STEP, "act(8)");
+    let agent =
+        "p(6, 1). !g. +!g <- ?b(X); act(X). +?b(X) <- act(1); ?c; ?p(X, _). -?b(X) : p(X, _).";
+    check("", agent, STEP, "act(1) act(6)");
+}
+
+#[test]
+fn labels_and_requirements_are_carried_to_the_comment() {
+    let case = Case {
+        basics: "void a(void);",
+        types: "g(void);",
+        sections: "",
+        agent: "!g.\n@first[req(\"HLR-1\")]\n+!g <- a.",
+    };
+    let text = case.translate("").unwrap().files[0].text.clone();
+    assert!(text.contains(" * @first[req(\"HLR-1\")]\n * +!g <- a."), "{text}");
+}

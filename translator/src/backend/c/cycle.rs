@@ -246,11 +246,26 @@ fn external_case(writer: &mut Writer, program: &Program, names: &Names, external
         let fields: Vec<String> = (0..belief.types.len())
             .map(|number| names.field(&belief_value(&belief.name, number)))
             .collect();
-        let believed = external.operator == Operator::Add;
+        let held = names.field(&held(&belief.name));
+        if external.operator == Operator::Delete {
+            // What is not believed cannot be taken back: a mere update.
+            writer.open(format!("if ({held})"));
+            writer.line(format!("{held} = false;"));
+            match external.handler {
+                Some(handler) => run(writer, program, names, handler, &fields),
+                None => writer.line("handled = false;"),
+            }
+            writer.close("}");
+            writer.open("else");
+            writer.line("handled = false;");
+            writer.close("}");
+            close_case(writer);
+            return;
+        }
         for (field, value) in fields.iter().zip(&values) {
             writer.line(format!("{field} = {value};"));
         }
-        writer.line(format!("{} = {believed};", names.field(&held(&belief.name))));
+        writer.line(format!("{held} = true;"));
         values = fields;
     }
     match external.handler {
@@ -268,7 +283,8 @@ fn next_step(writer: &mut Writer, program: &Program, names: &Names) {
     let no_arguments = || names.arguments(std::iter::empty());
     let handle =
         format!("handle_event({})", names.arguments([format!("take_event({})", no_arguments())]));
-    let updates = queued(program).any(|external| external.handler.is_none());
+    let updates = queued(program)
+        .any(|external| external.handler.is_none() || external.operator == Operator::Delete);
     if updates {
         writer.line("bool handled = false;");
         writer.line("");

@@ -93,7 +93,7 @@ fn init(writer: &mut Writer, program: &Program, names: &Names) {
 fn constant_text(value: &Value) -> &str {
     match value {
         Value::Constant(text, _) => text,
-        Value::Variable(_) | Value::Field(..) | Value::Call(_) => {
+        Value::Variable(_) | Value::Call(_) | Value::Negate(_) | Value::Arithmetic(_) => {
             unreachable!("analysis lets only constants into initial beliefs and goals")
         }
     }

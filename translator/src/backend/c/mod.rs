@@ -5,7 +5,9 @@
 //! file, or passed in, as the configuration's `instance` says.
 
 mod cycle;
+mod expression;
 mod header;
+mod helpers;
 mod interface;
 mod names;
 mod plan;

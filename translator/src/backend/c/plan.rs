@@ -1,37 +1,14 @@
 //! One C function for each plan, and one for each trigger that tries its plans in order.
 
-use super::names::{
-    Names, argument, argument_names, comment_safe, constant, typed, typed_arguments,
-};
+use super::expression::{conjunction, variable_name};
+use super::helpers::Helpers;
+use super::names::{Names, argument, argument_names, comment_safe, constant, typed};
 use super::state::{belief_value, handler_name, held};
 use crate::backend::writer::Writer;
 use crate::program::{
-    BeliefId, Call, Condition, Handler, HandlerId, Pattern, Plan, Program, Raise, Step, Value,
+    BeliefId, Handler, HandlerId, Pattern, Plan, Program, Raise, Step, Value, VariableId,
     trigger_text,
 };
-use crate::types::CType;
-
-/// Helper functions that the plans turned out to need.
-#[derive(Debug, Default)]
-pub(super) struct Helpers {
-    /// Floating-point types that are compared.
-    equal: Vec<CType>,
-}
-
-impl Helpers {
-    pub(super) fn emit(&self, writer: &mut Writer) {
-        for ctype in &self.equal {
-            writer.line("/* Exact equality; a NaN equals nothing. */");
-            writer.open(format!(
-                "static bool equal_{0}({0} left, {0} right)",
-                ctype.name.replace(' ', "_")
-            ));
-            writer.line("return (left <= right) && (left >= right);");
-            writer.close("}");
-            writer.line("");
-        }
-    }
-}
 
 /// Prototypes of the handlers, which may call each other in any order.
 pub(super) fn prototypes(writer: &mut Writer, program: &Program, names: &Names) {
@@ -66,7 +43,21 @@ fn plan_name(number: usize, trigger: &str) -> String {
 
 fn handler_head(program: &Program, names: &Names, id: HandlerId, handler: &Handler) -> String {
     let trigger = handler_name(program, id);
-    format!("static outcome_t run_{trigger}({})", names.parameters(&handler.types))
+    format!("static outcome_t run_{trigger}({})", parameters(names, handler).join(", "))
+}
+
+/// The parameters of a handler and its plans: what is asked for is passed as a pointer.
+fn parameters(names: &Names, handler: &Handler) -> Vec<String> {
+    let mut parameters = names.state_parameter();
+    for (index, ctype) in handler.types.iter().enumerate() {
+        let hole = handler.holes.get(index).copied().unwrap_or(false);
+        let name = if hole { format!("*{}", argument(index)) } else { argument(index) };
+        parameters.push(typed(ctype, &name));
+    }
+    if parameters.is_empty() {
+        parameters.push("void".to_owned());
+    }
+    parameters
 }
 
 fn emit_handler(
@@ -125,18 +116,14 @@ fn emit_plan(
         temporaries: 0,
     };
     emitter.writer.indent();
-    let parameters = emitter.trigger(&handler.types);
-    emitter.context();
+    let mut parameters = parameters(names, handler);
+    emitter.trigger(handler, &mut parameters);
+    emitter.conditions(&plan.context);
     emitter.body();
     emitter.close_blocks();
     let text = emitter.writer.finish();
 
-    let mut all_parameters = names.state_parameter();
-    all_parameters.extend(parameters);
-    if all_parameters.is_empty() {
-        all_parameters.push("void".to_owned());
-    }
-    writer.open(format!("static outcome_t {name}({})", all_parameters.join(", ")));
+    writer.open(format!("static outcome_t {name}({})", parameters.join(", ")));
     writer.line("outcome_t outcome = OUTCOME_NOT_APPLICABLE;");
     writer.line("");
     if names.is_context() && !text.contains("self") {
@@ -152,69 +139,57 @@ fn emit_plan(
 
 /// Writes one plan. Each condition and each formula that can fail opens a block that stays open to
 /// the end of the plan, so that every variable is a constant initialised where it is bound.
-struct PlanEmitter<'a> {
-    program: &'a Program,
-    names: &'a Names,
-    helpers: &'a mut Helpers,
-    plan: &'a Plan,
-    writer: Writer,
-    blocks: usize,
+pub(super) struct PlanEmitter<'a> {
+    pub(super) program: &'a Program,
+    pub(super) names: &'a Names,
+    pub(super) helpers: &'a mut Helpers,
+    pub(super) plan: &'a Plan,
+    pub(super) writer: Writer,
+    pub(super) blocks: usize,
     temporaries: usize,
 }
 
 impl PlanEmitter<'_> {
-    fn open(&mut self, condition: &str) {
+    pub(super) fn open(&mut self, condition: &str) {
         self.writer.open(format!("if ({condition})"));
         self.blocks += 1;
     }
 
-    fn close_blocks(&mut self) {
-        for _ in 0..self.blocks {
+    pub(super) fn close_blocks(&mut self) {
+        for _ in 0..std::mem::take(&mut self.blocks) {
             self.writer.close("}");
         }
     }
 
-    /// Matches the trigger's arguments and returns the plan's parameters: a variable's parameter
-    /// carries its name.
-    fn trigger(&mut self, types: &[CType]) -> Vec<String> {
+    pub(super) fn temporary(&mut self, stem: &str) -> String {
+        self.temporaries += 1;
+        format!("{stem}{}", self.temporaries)
+    }
+
+    /// Matches the trigger's arguments; a variable's parameter carries its name.
+    fn trigger(&mut self, handler: &Handler, parameters: &mut [String]) {
         let plan = self.plan;
-        let mut parameters: Vec<String> = typed_arguments(types).collect();
-        let mut conditions = Vec::new();
+        let first = parameters.len() - handler.types.len().min(parameters.len());
+        let mut equals = Vec::new();
         for (index, pattern) in plan.patterns.iter().enumerate() {
+            let ctype = &handler.types[index];
             match pattern {
                 Pattern::Bind(id) if plan.variables[id.0].used => {
                     let variable = variable_name(&plan.variables[id.0].name);
-                    parameters[index] = typed(&types[index], &variable);
+                    parameters[first + index] = typed(ctype, &variable);
                 }
+                // The answer to what is asked for is stored at the end.
+                Pattern::Any if plan.outputs.iter().any(|(output, _)| *output == index) => {}
                 Pattern::Bind(_) | Pattern::Any => {
                     self.writer.line(format!("(void){};", argument(index)));
                 }
-                Pattern::Equal(value) => {
-                    let value = self.value(value);
-                    conditions.push(self.equal(&types[index], &argument(index), &value));
-                }
+                Pattern::Equal(value) => equals.push((index, value)),
             }
         }
-        if !conditions.is_empty() {
-            self.open(&conjunction(&conditions));
-        }
-        parameters
-    }
-
-    fn context(&mut self) {
-        let plan = self.plan;
-        for condition in &plan.context {
-            match condition {
-                Condition::Holds { belief, patterns } => self.holds(*belief, patterns),
-                Condition::HoldsNot { belief, patterns } => {
-                    let conditions = self.matches(*belief, patterns);
-                    self.open(&format!("!({})", conjunction(&conditions)));
-                }
-                Condition::Test { call, negated } => {
-                    let call = self.call(call);
-                    self.open(&if *negated { format!("!{call}") } else { call });
-                }
-            }
+        for (index, value) in equals {
+            let value = self.value(value);
+            let equal = self.equal(&handler.types[index], &argument(index), &value);
+            self.open(&equal);
         }
     }
 
@@ -226,22 +201,17 @@ impl PlanEmitter<'_> {
         for step in &plan.body {
             self.step(step);
         }
+        for (index, id) in &plan.outputs {
+            let variable = variable_name(&plan.variables[id.0].name);
+            self.writer.line(format!("*{} = {variable};", argument(*index)));
+        }
         self.writer.line("outcome = OUTCOME_ACHIEVED;");
     }
 
     fn step(&mut self, step: &Step) {
         match step {
             Step::Action(call) => self.discard(call),
-            Step::Assign { variable, call } => {
-                let variable = &self.plan.variables[variable.0];
-                if variable.used {
-                    let call = self.call(call);
-                    let declaration = constant(&variable.ctype, &variable_name(&variable.name));
-                    self.writer.line(format!("{declaration} = {call};"));
-                } else {
-                    self.discard(call);
-                }
-            }
+            Step::Assign { variable, value } => self.assign(*variable, value),
             Step::Add { belief, values, raise } => self.add(*belief, values, *raise),
             Step::Delete { belief, patterns, raise } => self.delete(*belief, patterns, *raise),
             Step::Achieve { handler, values } => {
@@ -260,59 +230,76 @@ impl PlanEmitter<'_> {
                 let trigger = handler_name(self.program, *handler);
                 self.writer.line(format!("defer_{trigger}({arguments});"));
             }
-            Step::Ask { belief, patterns } => self.holds(*belief, patterns),
-        }
-    }
-
-    /// Opens blocks in which the belief matches and its variables are bound.
-    fn holds(&mut self, belief: BeliefId, patterns: &[Pattern]) {
-        let program = self.program;
-        let declared = program.belief(belief);
-        let mut conditions = vec![self.names.field(&held(&declared.name))];
-        for (index, pattern) in patterns.iter().enumerate() {
-            let field = self.names.field(&belief_value(&declared.name, index));
-            match pattern {
-                Pattern::Any => {}
-                Pattern::Bind(id) => {
-                    let variable = &self.plan.variables[id.0];
-                    if variable.used {
-                        self.flush(&mut conditions);
-                        let declaration = constant(&variable.ctype, &variable_name(&variable.name));
-                        self.writer.line(format!("{declaration} = {field};"));
-                    }
-                }
-                Pattern::Equal(value) => {
-                    if matches!(value, Value::Call(_)) {
-                        self.flush(&mut conditions);
-                    }
-                    let value = self.value(value);
-                    conditions.push(self.equal(&declared.types[index], &field, &value));
-                }
+            Step::Ask { belief, patterns, plans: None } => self.ask_beliefs(*belief, patterns),
+            Step::Ask { belief, patterns, plans: Some(plans) } => {
+                self.ask(*belief, patterns, *plans);
             }
         }
-        self.flush(&mut conditions);
     }
 
-    fn flush(&mut self, conditions: &mut Vec<String>) {
-        if !conditions.is_empty() {
-            self.open(&conjunction(conditions));
-            conditions.clear();
+    /// Asks the beliefs alone. In a body all arguments are evaluated first.
+    fn ask_beliefs(&mut self, belief: BeliefId, patterns: &[Pattern]) {
+        let conditions = self.matches(belief, patterns);
+        self.open(&conjunction(&conditions));
+        let program = self.program;
+        for (index, pattern) in patterns.iter().enumerate() {
+            if let Pattern::Bind(id) = pattern {
+                let field = self.names.field(&belief_value(&program.belief(belief).name, index));
+                self.bind(*id, &field);
+            }
         }
     }
 
-    /// The conditions under which the belief matches patterns that bind nothing.
-    fn matches(&mut self, belief: BeliefId, patterns: &[Pattern]) -> Vec<String> {
+    fn bind(&mut self, id: VariableId, text: &str) {
+        let variable = &self.plan.variables[id.0];
+        if variable.used {
+            let declaration = constant(&variable.ctype, &variable_name(&variable.name));
+            self.writer.line(format!("{declaration} = {text};"));
+        }
+    }
+
+    /// Asks the beliefs, then the plans; goes on with the answers.
+    fn ask(&mut self, belief: BeliefId, patterns: &[Pattern], plans: HandlerId) {
         let program = self.program;
         let declared = program.belief(belief);
-        let mut conditions = vec![self.names.field(&held(&declared.name))];
+        let answered = self.temporary("answered");
+        let mut arguments = Vec::new();
+        let mut matching = vec![self.names.field(&held(&declared.name))];
+        let mut answers = Vec::new();
         for (index, pattern) in patterns.iter().enumerate() {
+            let ctype = &declared.types[index];
+            let field = self.names.field(&belief_value(&declared.name, index));
             if let Pattern::Equal(value) = pattern {
                 let value = self.value(value);
-                let field = self.names.field(&belief_value(&declared.name, index));
-                conditions.push(self.equal(&declared.types[index], &field, &value));
+                matching.push(self.equal(ctype, &field, &value));
+                arguments.push(value);
+            } else {
+                let answer = self.temporary("answer");
+                let zero = ctype.zero().unwrap_or("0");
+                self.writer.line(format!("{} = {zero};", typed(ctype, &answer)));
+                arguments.push(format!("&{answer}"));
+                answers.push((index, answer, field));
             }
         }
-        conditions
+        self.writer.line(format!("bool {answered} = false;"));
+        self.writer.line("");
+        self.writer.open(format!("if ({})", conjunction(&matching)));
+        for (_, answer, field) in &answers {
+            self.writer.line(format!("{answer} = {field};"));
+        }
+        self.writer.line(format!("{answered} = true;"));
+        self.writer.close("}");
+        self.writer.open("else");
+        let arguments = self.names.arguments(arguments);
+        let trigger = handler_name(program, plans);
+        self.writer.line(format!("{answered} = (run_{trigger}({arguments}) == OUTCOME_ACHIEVED);"));
+        self.writer.close("}");
+        self.open(&answered);
+        for (index, answer, _) in answers {
+            if let Pattern::Bind(id) = &patterns[index] {
+                self.bind(*id, &answer);
+            }
+        }
     }
 
     fn add(&mut self, belief: BeliefId, values: &[Value], raise: Raise) {
@@ -403,79 +390,19 @@ impl PlanEmitter<'_> {
         let trigger = handler_name(self.program, handler);
         self.writer.line(format!("post_{trigger}({arguments});"));
     }
-
-    /// Calls for the effect alone.
-    fn discard(&mut self, call: &Call) {
-        let void = self.program.basic(call.basic).result.name == "void";
-        let call = self.call(call);
-        self.writer.line(if void { format!("{call};") } else { format!("(void){call};") });
-    }
-
-    fn call(&mut self, call: &Call) -> String {
-        let arguments = self.values(&call.arguments);
-        let basic = self.program.basic(call.basic);
-        format!("{}({})", self.names.action(basic), self.names.action_arguments(&arguments))
-    }
-
-    fn values(&mut self, values: &[Value]) -> Vec<String> {
-        values.iter().map(|value| self.value(value)).collect()
-    }
-
-    /// A value as an expression without side effects: calls are made before, in order.
-    fn value(&mut self, value: &Value) -> String {
-        match value {
-            Value::Variable(id) => variable_name(&self.plan.variables[id.0].name),
-            Value::Field(belief, index) => {
-                let name = &self.program.belief(*belief).name;
-                self.names.field(&belief_value(name, *index))
-            }
-            Value::Constant(text, _) => text.clone(),
-            Value::Call(call) => {
-                let result = self.program.basic(call.basic).result.clone();
-                let text = self.call(call);
-                let name = self.temporary("value");
-                self.writer.line(format!("{} = {text};", constant(&result, &name)));
-                name
-            }
-        }
-    }
-
-    fn equal(&mut self, ctype: &CType, left: &str, right: &str) -> String {
-        if !ctype.is_float() {
-            return format!("({left} == {right})");
-        }
-        if !self.helpers.equal.contains(ctype) {
-            self.helpers.equal.push(ctype.clone());
-        }
-        format!("equal_{}({left}, {right})", ctype.name.replace(' ', "_"))
-    }
-
-    fn temporary(&mut self, stem: &str) -> String {
-        self.temporaries += 1;
-        format!("{stem}{}", self.temporaries)
-    }
 }
 
+/// Whether the body can end before the formulae behind this one.
 fn can_fail(step: &Step) -> bool {
+    let values_fail = |values: &[Value]| values.iter().any(Value::can_fail);
     match step {
         Step::Achieve { .. } | Step::Ask { .. } => true,
-        Step::Add { raise, .. } | Step::Delete { raise, .. } => matches!(raise, Raise::Call(_)),
-        Step::Action(_) | Step::Assign { .. } | Step::Post { .. } | Step::Defer { .. } => false,
+        Step::Action(call) => values_fail(&call.arguments),
+        Step::Assign { value, .. } => value.can_fail(),
+        Step::Add { raise, values, .. } => matches!(raise, Raise::Call(_)) || values_fail(values),
+        Step::Delete { raise, patterns, .. } => {
+            matches!(raise, Raise::Call(_)) || patterns.iter().any(Pattern::can_fail)
+        }
+        Step::Post { values, .. } | Step::Defer { values, .. } => values_fail(values),
     }
-}
-
-/// AgentSpeak variables get a prefix: `X` may be a macro of some included header.
-fn variable_name(name: &str) -> String {
-    format!("var_{name}")
-}
-
-fn conjunction(conditions: &[String]) -> String {
-    match conditions {
-        [only] => only.clone(),
-        several => several.iter().map(|c| parenthesised(c)).collect::<Vec<_>>().join(" && "),
-    }
-}
-
-fn parenthesised(condition: &str) -> String {
-    if condition.starts_with('(') { condition.to_owned() } else { format!("({condition})") }
 }

@@ -170,10 +170,15 @@ pub(super) fn event(slot: Slot, trigger: &str) -> String {
     format!("EVENT_{}_{trigger}", slot.name().to_uppercase())
 }
 
-/// `achieve_goto`
+/// `achieve_goto`; for test goals with a letter for each argument, `i` given and `o` asked for.
 pub(super) fn handler_name(program: &Program, id: HandlerId) -> String {
     let handler = program.handler(id);
-    trigger_name(handler.operator, handler.kind, &handler.name)
+    let name = trigger_name(handler.operator, handler.kind, &handler.name);
+    if handler.holes.is_empty() {
+        return name;
+    }
+    let mode: String = handler.holes.iter().map(|hole| if *hole { 'o' } else { 'i' }).collect();
+    format!("{name}_{mode}")
 }
 
 /// `achieve_goto`

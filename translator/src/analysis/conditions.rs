@@ -1,0 +1,178 @@
+//! Resolves contexts.
+
+use diagnostic::{Diagnostic, Span};
+
+use super::Analysis;
+use super::constants::integer;
+use super::scope::{Mark, Scope};
+use super::values::{Resolved, check_equality, check_numeric};
+use crate::program::{Alternatives, Condition, Value, VariableId};
+use crate::syntax::ast::{Atom, Expression, Name, Relation};
+use crate::types::{CType, TypeKind};
+
+impl Analysis<'_> {
+    /// Adds what `expression` demands to a conjunction, left to right.
+    pub(super) fn conditions(
+        &mut self,
+        expression: &Expression,
+        scope: &mut Scope,
+        conjunction: &mut Vec<Condition>,
+    ) -> Resolved<()> {
+        match expression {
+            Expression::And(parts) => {
+                for part in parts {
+                    let resolved = self.conditions(part, scope, conjunction);
+                    self.report(resolved);
+                }
+                return Ok(());
+            }
+            // `true` demands nothing.
+            Expression::Boolean { value: true, .. } => return Ok(()),
+            _ => {}
+        }
+        conjunction.push(self.condition(expression, scope)?);
+        Ok(())
+    }
+
+    fn condition(&mut self, expression: &Expression, scope: &mut Scope) -> Resolved<Condition> {
+        match expression {
+            Expression::Atom(atom) => self.atom_condition(atom, scope),
+            Expression::Not { operand, .. } => {
+                let mark = scope.mark();
+                let mut inner = Vec::new();
+                self.conditions(operand, scope, &mut inner)?;
+                scope.leave(mark);
+                Ok(Condition::Not(inner))
+            }
+            Expression::Or(parts) => self.alternatives(parts, scope),
+            Expression::Compare { operator, left, right, span } => {
+                let inferred = self.infer(left, scope).or_else(|| self.infer(right, scope));
+                let Some(ctype) = inferred else {
+                    // An unbound variable is the likelier mistake.
+                    for side in [left, right] {
+                        if let Expression::Variable(name) = side.as_ref() {
+                            scope.bound(name)?;
+                        }
+                    }
+                    return Err(Diagnostic::error("both sides are constants", span.clone())
+                        .help("compare a variable or the result of a function"));
+                };
+                let left = self.value(left, &ctype, scope)?;
+                let right = self.value(right, &ctype, scope)?;
+                match operator {
+                    Relation::Equal | Relation::NotEqual => check_equality(&ctype, span)?,
+                    _ => check_numeric(&ctype, span)?,
+                }
+                check_informative(*operator, &left, &right, &ctype, span)?;
+                Ok(Condition::Compare { relation: *operator, left, right, ctype })
+            }
+            Expression::Bind { variable, value, .. } => {
+                let (value, ctype) = self.typed_value(value, scope)?;
+                check_fresh(variable, scope)?;
+                Ok(Condition::Bind { variable: scope.bind(variable, &ctype), value })
+            }
+            Expression::Variable(_) | Expression::Boolean { .. } => {
+                let bool_type = CType::named("bool");
+                Ok(Condition::Truth(self.value(expression, &bool_type, scope)?))
+            }
+            _ => Err(Diagnostic::error("not a condition", expression.span())
+                .help("a context is made of beliefs, functions of type bool and comparisons")),
+        }
+    }
+
+    fn atom_condition(&mut self, atom: &Atom, scope: &mut Scope) -> Resolved<Condition> {
+        if !self.declarations.is_basic(&atom.name.text) {
+            let types = self.declarations.predicate(atom)?;
+            let belief = self.belief_id(&atom.name.text, &types);
+            let patterns = self.patterns(atom, &types, scope)?;
+            return Ok(Condition::Holds { belief, patterns });
+        }
+        let call = self.call(atom, scope)?;
+        let (_, basic) = self.declarations.basic(atom)?;
+        if basic.result.kind != TypeKind::Bool {
+            return Err(Diagnostic::error(
+                format!("`{}` does not return `bool`", atom.name.text),
+                atom.span.clone(),
+            )
+            .label(format!("declared `{}`", basic.result.name))
+            .help("a context is made of beliefs, functions of type bool and comparisons"));
+        }
+        Ok(Condition::Truth(Value::Call(call)))
+    }
+
+    fn alternatives(&mut self, parts: &[Expression], scope: &mut Scope) -> Resolved<Condition> {
+        let mut branches = Vec::new();
+        let mut bound: Vec<Vec<(String, VariableId)>> = Vec::new();
+        for part in parts {
+            let mark: Mark = scope.mark();
+            let mut branch = Vec::new();
+            self.conditions(part, scope, &mut branch)?;
+            bound.push(scope.bound_since(mark));
+            scope.leave(mark);
+            branches.push(branch);
+        }
+        let exports = exports(&bound, scope);
+        Ok(Condition::Any(Alternatives { branches, exports }))
+    }
+}
+
+/// Variables that every branch binds, to values of one type, can be seen afterwards.
+fn exports(
+    bound: &[Vec<(String, VariableId)>],
+    scope: &mut Scope,
+) -> Vec<(VariableId, Vec<VariableId>)> {
+    let Some((first, others)) = bound.split_first() else { return Vec::new() };
+    let mut exports = Vec::new();
+    for (name, id) in first {
+        let ctype = scope.variables[id.0].ctype.clone();
+        let same = |(other, other_id): &&(String, VariableId)| {
+            other == name && scope.variables[other_id.0].ctype == ctype
+        };
+        let inner: Option<Vec<VariableId>> =
+            others.iter().map(|branch| branch.iter().find(same).map(|(_, id)| *id)).collect();
+        // A variable that is assigned in branches needs a value to start with.
+        if let Some(inner) = inner.filter(|_| ctype.zero().is_some()) {
+            let inner: Vec<VariableId> = std::iter::once(*id).chain(inner).collect();
+            exports.push((scope.export(inner.clone()), inner));
+        }
+    }
+    exports
+}
+
+/// Refuses comparisons whose outcome does not depend on anything.
+fn check_informative(
+    relation: Relation,
+    left: &Value,
+    right: &Value,
+    ctype: &CType,
+    span: &Span,
+) -> Resolved<()> {
+    if left == right && matches!(left, Value::Variable(_)) {
+        return Err(Diagnostic::error("a value is compared with itself", span.clone()));
+    }
+    let Some((low, high)) = ctype.integer_range() else { return Ok(()) };
+    // Read as `variable relation constant`, whichever side the constant is on.
+    let limits_decide = match relation {
+        Relation::Less | Relation::GreaterOrEqual => (Some(low), Some(high)),
+        Relation::Greater | Relation::LessOrEqual => (Some(high), Some(low)),
+        Relation::Equal | Relation::NotEqual => (None, None),
+    };
+    let is = |value: &Value, limit: Option<i128>| limit.is_some() && integer(value) == limit;
+    if is(right, limits_decide.0) || is(left, limits_decide.1) {
+        let message = format!("every value of type `{}` compares so, or none does", ctype.name);
+        return Err(Diagnostic::error(message, span.clone()));
+    }
+    Ok(())
+}
+
+/// `=` binds new variables only.
+pub(super) fn check_fresh(variable: &Name, scope: &Scope) -> Resolved<()> {
+    if scope.lookup(&variable.text).is_none() {
+        return Ok(());
+    }
+    Err(Diagnostic::error(
+        format!("`{}` already has a value", variable.text),
+        variable.span.clone(),
+    )
+    .help("`=` binds a new variable; `==` in a context compares"))
+}

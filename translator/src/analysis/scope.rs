@@ -1,0 +1,118 @@
+//! The variables of the plan that is being resolved.
+
+use diagnostic::{Diagnostic, Span};
+
+use crate::program::{Variable, VariableId};
+use crate::syntax::ast::Name;
+use crate::types::CType;
+
+/// Which variables there are, and which can be seen.
+#[derive(Default)]
+pub(super) struct Scope {
+    pub(super) variables: Vec<Variable>,
+    /// Where each variable is bound.
+    bound_at: Vec<Span>,
+    /// The variables that can be seen, innermost last.
+    visible: Vec<(String, VariableId)>,
+    /// Names that were bound inside a negation or an alternative and can't be seen any more.
+    hidden: Vec<String>,
+    /// Variables that every branch of an alternative binds: the one seen afterwards, and theirs.
+    exports: Vec<(VariableId, Vec<VariableId>)>,
+}
+
+/// How much was visible when a negation or an alternative began.
+#[derive(Clone, Copy)]
+pub(super) struct Mark(usize);
+
+impl Scope {
+    pub(super) fn lookup(&self, name: &str) -> Option<VariableId> {
+        self.visible.iter().find(|(visible, _)| visible == name).map(|(_, id)| *id)
+    }
+
+    pub(super) fn bind(&mut self, name: &Name, ctype: &CType) -> VariableId {
+        let earlier = self.variables.iter().filter(|other| other.source == name.text).count();
+        // In C every variable of a plan has a name of its own.
+        let unique =
+            if earlier == 0 { name.text.clone() } else { format!("{}_{}", name.text, earlier + 1) };
+        let id = VariableId(self.variables.len());
+        self.variables.push(Variable {
+            source: name.text.clone(),
+            name: unique,
+            ctype: ctype.clone(),
+            used: false,
+        });
+        self.bound_at.push(name.span.clone());
+        self.visible.push((name.text.clone(), id));
+        id
+    }
+
+    /// The variable `name`, which must have a value.
+    pub(super) fn bound(&mut self, name: &Name) -> Result<VariableId, Diagnostic> {
+        if let Some(id) = self.lookup(&name.text) {
+            return Ok(id);
+        }
+        // Somebody wanted to use it: it is no idle variable.
+        for variable in self.variables.iter_mut().filter(|other| other.source == name.text) {
+            variable.used = true;
+        }
+        let message = format!("`{}` has no value here", name.text);
+        let error = Diagnostic::error(message, name.span.clone());
+        Err(if self.hidden.contains(&name.text) {
+            error.help("it is bound only inside `not`, or not in every branch of `|`")
+        } else {
+            error.help("bind it in the trigger, in the context, by `?b(X)` or by `X = value`")
+        })
+    }
+
+    pub(super) fn mark(&self) -> Mark {
+        Mark(self.visible.len())
+    }
+
+    /// What was bound since the mark.
+    pub(super) fn bound_since(&self, mark: Mark) -> Vec<(String, VariableId)> {
+        self.visible[mark.0..].to_vec()
+    }
+
+    /// Hides what was bound since the mark.
+    pub(super) fn leave(&mut self, mark: Mark) {
+        let hidden = self.visible.drain(mark.0..).map(|(name, _)| name);
+        self.hidden.extend(hidden);
+    }
+
+    /// A variable that stands for those of the branches of an alternative.
+    pub(super) fn export(&mut self, inner: Vec<VariableId>) -> VariableId {
+        let first = inner[0];
+        let ctype = self.variables[first.0].ctype.clone();
+        let name = Name {
+            text: self.variables[first.0].source.clone(),
+            span: self.bound_at[first.0].clone(),
+        };
+        let outer = self.bind(&name, &ctype);
+        self.exports.push((outer, inner));
+        outer
+    }
+
+    /// Who uses a variable uses those that it stands for. To be called at the end of the plan.
+    pub(super) fn settle(&mut self) {
+        // A variable is always made after those that it stands for.
+        for (outer, inner) in self.exports.iter().rev() {
+            if self.variables[outer.0].used {
+                for id in inner {
+                    self.variables[id.0].used = true;
+                }
+            }
+        }
+    }
+
+    /// Variables that were bound and never used.
+    pub(super) fn unused(&self) -> impl Iterator<Item = (&str, &Span)> {
+        let exported = |index| self.exports.iter().any(|(outer, _)| outer.0 == index);
+        self.variables
+            .iter()
+            .zip(&self.bound_at)
+            .enumerate()
+            .filter(move |(index, (variable, _))| !variable.used && !exported(*index))
+            .map(|(_, pair)| pair)
+            .map(|(variable, span)| (variable.source.as_str(), span))
+    }
+}

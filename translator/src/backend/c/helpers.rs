@@ -1,0 +1,136 @@
+//! Small functions that the plans turn out to need: exact comparison, arithmetic that cannot
+//! overflow.
+
+use crate::backend::writer::Writer;
+use crate::syntax::ast::Arithmetic;
+use crate::types::CType;
+
+/// The helpers that are needed, each once.
+#[derive(Debug, Default)]
+pub(super) struct Helpers {
+    equal: Vec<CType>,
+    checked: Vec<(Arithmetic, CType)>,
+}
+
+impl Helpers {
+    /// The name of the function that compares values of a floating-point type.
+    pub(super) fn equal(&mut self, ctype: &CType) -> String {
+        if !self.equal.contains(ctype) {
+            self.equal.push(ctype.clone());
+        }
+        format!("equal_{}", identifier(ctype))
+    }
+
+    /// The name of the function that calculates if there is a result.
+    pub(super) fn checked(&mut self, operator: Arithmetic, ctype: &CType) -> String {
+        if !self.checked.iter().any(|(other, other_type)| *other == operator && other_type == ctype)
+        {
+            self.checked.push((operator, ctype.clone()));
+        }
+        checked_name(operator, ctype)
+    }
+
+    pub(super) fn emit(&self, writer: &mut Writer) {
+        for ctype in &self.equal {
+            let (name, stem) = (&ctype.name, identifier(ctype));
+            writer.line("/* Exact equality; a NaN equals nothing. */");
+            writer.open(format!("static bool equal_{stem}({name} left, {name} right)"));
+            writer.line("return (left <= right) && (left >= right);");
+            writer.close("}");
+            writer.line("");
+        }
+        for (operator, ctype) in &self.checked {
+            emit_checked(writer, *operator, ctype);
+        }
+    }
+}
+
+fn checked_name(operator: Arithmetic, ctype: &CType) -> String {
+    let verb = match operator {
+        Arithmetic::Add => "add",
+        Arithmetic::Subtract => "subtract",
+        Arithmetic::Multiply => "multiply",
+        Arithmetic::Divide => "divide",
+        Arithmetic::Remainder => "remainder",
+    };
+    format!("checked_{verb}_{}", identifier(ctype))
+}
+
+fn emit_checked(writer: &mut Writer, operator: Arithmetic, ctype: &CType) {
+    let name = &ctype.name;
+    let function = checked_name(operator, ctype);
+    writer.line("/* Stores the result and returns true, or returns false if there is none. */");
+    writer.open(format!("static bool {function}({name} left, {name} right, {name} *result)"));
+    writer.line(format!("const bool valid = {};", valid(operator, ctype)));
+    writer.line("");
+    writer.open("if (valid)");
+    let symbol = symbol(operator);
+    writer.line(format!("*result = ({name})(left {symbol} right);"));
+    writer.close("}");
+    writer.line("return valid;");
+    writer.close("}");
+    writer.line("");
+}
+
+/// The C operator.
+pub(super) fn symbol(operator: Arithmetic) -> &'static str {
+    match operator {
+        Arithmetic::Add => "+",
+        Arithmetic::Subtract => "-",
+        Arithmetic::Multiply => "*",
+        Arithmetic::Divide => "/",
+        Arithmetic::Remainder => "%",
+    }
+}
+
+/// The condition under which the operation has a result of its type.
+fn valid(operator: Arithmetic, ctype: &CType) -> String {
+    let Some((bits, signed)) = ctype.integer_bits() else {
+        // Of floating-point operations only division is checked.
+        return "(right < 0) || (right > 0)".replace('0', ctype.zero().unwrap_or("0"));
+    };
+    if !signed {
+        let max = unsigned_max(bits);
+        return match operator {
+            Arithmetic::Add => format!("left <= ({max} - right)"),
+            Arithmetic::Subtract => "left >= right".to_owned(),
+            Arithmetic::Multiply => format!("(right == 0U) || (left <= ({max} / right))"),
+            Arithmetic::Divide | Arithmetic::Remainder => "right != 0U".to_owned(),
+        };
+    }
+    let (min, max) = signed_limits(bits);
+    match operator {
+        Arithmetic::Add => format!(
+            "((right >= 0) && (left <= ({max} - right))) || ((right < 0) && (left >= ({min} - right)))"
+        ),
+        Arithmetic::Subtract => format!(
+            "((right >= 0) && (left >= ({min} + right))) || ((right < 0) && (left <= ({max} + right)))"
+        ),
+        Arithmetic::Multiply => format!(
+            "(left == 0) || (right == 0) \
+             || ((left > 0) && (right > 0) && (left <= ({max} / right))) \
+             || ((left < 0) && (right < 0) && (left >= ({max} / right))) \
+             || ((left > 0) && (right < 0) && (right >= ({min} / left))) \
+             || ((left < 0) && (right > 0) && (left >= ({min} / right)))"
+        ),
+        Arithmetic::Divide | Arithmetic::Remainder => {
+            format!("(right != 0) && ((left != {min}) || (right != -1))")
+        }
+    }
+}
+
+fn unsigned_max(bits: u32) -> String {
+    match bits {
+        64 => "UINT64_MAX".to_owned(),
+        bits => format!("UINT{bits}_MAX"),
+    }
+}
+
+fn signed_limits(bits: u32) -> (String, String) {
+    (format!("INT{bits}_MIN"), format!("INT{bits}_MAX"))
+}
+
+/// A type's name as part of an identifier.
+fn identifier(ctype: &CType) -> String {
+    ctype.name.replace([' ', '*'], "_")
+}

@@ -1,0 +1,249 @@
+//! Expressions under a substitution.
+
+use super::{Environment, Interpreter, Value};
+use crate::syntax::ast::{Atom, Expression, Relation};
+use crate::types::CType;
+
+/// Variables and their values.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Substitution(Vec<(String, CType, Value)>);
+
+impl Substitution {
+    pub(super) fn get(&self, name: &str) -> Option<&Value> {
+        self.0.iter().find(|(other, ..)| other == name).map(|(.., value)| value)
+    }
+
+    fn types(&self) -> Vec<(String, CType)> {
+        self.0.iter().map(|(name, ctype, _)| (name.clone(), ctype.clone())).collect()
+    }
+
+    fn keep(&mut self, variables: &[(String, CType)]) {
+        self.0.retain(|(name, ..)| variables.iter().any(|(kept, _)| kept == name));
+    }
+
+    pub(super) fn bind(&mut self, name: &str, ctype: &CType, value: Value) {
+        self.0.push((name.to_owned(), ctype.clone(), value));
+    }
+}
+
+/// Whatever knows the types of variables.
+pub(super) trait Types {
+    fn type_of(&self, variable: &str) -> Option<CType>;
+}
+
+impl Types for Substitution {
+    fn type_of(&self, variable: &str) -> Option<CType> {
+        self.types().type_of(variable)
+    }
+}
+
+impl Types for Vec<(String, CType)> {
+    fn type_of(&self, variable: &str) -> Option<CType> {
+        self.iter().find(|(name, _)| name == variable).map(|(_, ctype)| ctype.clone())
+    }
+}
+
+impl Interpreter {
+    /// The value of an expression; nothing if it has none.
+    pub(super) fn evaluate(
+        &self,
+        expression: &Expression,
+        ctype: &CType,
+        theta: &Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<Value> {
+        match expression {
+            Expression::Variable(name) => theta.get(&name.text).cloned(),
+            Expression::Atom(atom) => self.call(atom, theta, environment)?,
+            Expression::Negate { operand, .. } => {
+                self.evaluate(operand, ctype, theta, environment)?.negate(ctype)
+            }
+            Expression::Arithmetic { operator, left, right, .. } => {
+                let left = self.evaluate(left, ctype, theta, environment)?;
+                let right = self.evaluate(right, ctype, theta, environment)?;
+                Value::calculate(*operator, &left, &right, ctype)
+            }
+            constant => Value::constant(constant, ctype),
+        }
+    }
+
+    /// Calls a basic action or function; nothing if one of its arguments has no value, and inside
+    /// that nothing if it returns none.
+    #[allow(clippy::option_option, reason = "having no result is not having failed")]
+    pub(super) fn call(
+        &self,
+        atom: &Atom,
+        theta: &Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<Option<Value>> {
+        let basic =
+            self.configuration.basics.iter().find(|basic| basic.name.text == atom.name.text)?;
+        let arguments =
+            self.evaluate_all(&atom.arguments, &basic.parameters, theta, environment)?;
+        Some(environment.call(&atom.name.text, &arguments, &basic.result))
+    }
+
+    pub(super) fn evaluate_all(
+        &self,
+        expressions: &[Expression],
+        types: &[CType],
+        theta: &Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<Vec<Value>> {
+        let pairs = expressions.iter().zip(types);
+        pairs.map(|(e, ctype)| self.evaluate(e, ctype, theta, environment)).collect()
+    }
+
+    /// The type that follows from what stands in an expression.
+    pub(super) fn type_of(&self, expression: &Expression, types: &dyn Types) -> Option<CType> {
+        match expression {
+            Expression::Variable(name) => types.type_of(&name.text),
+            Expression::Atom(atom) => {
+                let mut basics = self.configuration.basics.iter();
+                let basic = basics.find(|basic| basic.name.text == atom.name.text)?;
+                Some(basic.result.clone())
+            }
+            Expression::Boolean { .. } => Some(CType::named("bool")),
+            Expression::Negate { operand, .. } => self.type_of(operand, types),
+            Expression::Arithmetic { left, right, .. } => {
+                self.type_of(left, types).or_else(|| self.type_of(right, types))
+            }
+            _ => None,
+        }
+    }
+
+    /// Adds the variables that a context binds whenever it holds.
+    fn bound_by(&self, expression: &Expression, bound: &mut Vec<(String, CType)>) {
+        match expression {
+            Expression::And(parts) => {
+                for part in parts {
+                    self.bound_by(part, bound);
+                }
+            }
+            Expression::Or(parts) => {
+                let branches = parts.iter().map(|part| {
+                    let mut branch = bound.clone();
+                    self.bound_by(part, &mut branch);
+                    branch
+                });
+                let common = branches.reduce(|common, branch| {
+                    common.into_iter().filter(|variable| branch.contains(variable)).collect()
+                });
+                let known = |ctype: &CType| Value::zero(ctype).is_some();
+                let common = common.unwrap_or_default();
+                let new = common.into_iter().filter(|(name, ctype)| {
+                    known(ctype) && bound.iter().all(|(other, _)| other != name)
+                });
+                let new: Vec<_> = new.collect();
+                bound.extend(new);
+            }
+            Expression::Bind { variable, value, .. } => {
+                if let Some(ctype) = self.type_of(value, bound) {
+                    bound.push((variable.text.clone(), ctype));
+                }
+            }
+            Expression::Atom(atom) if !self.is_basic(&atom.name.text) => {
+                for (argument, ctype) in atom.arguments.iter().zip(self.types(&atom.name.text)) {
+                    if let Expression::Variable(name) = argument
+                        && bound.iter().all(|(other, _)| *other != name.text)
+                    {
+                        bound.push((name.text.clone(), ctype));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Extends the substitution so that the context holds, if it can be.
+    pub(super) fn context(
+        &self,
+        expression: &Expression,
+        theta: &Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<Substitution> {
+        match expression {
+            Expression::And(parts) => parts
+                .iter()
+                .try_fold(theta.clone(), |theta, part| self.context(part, &theta, environment)),
+            Expression::Or(parts) => {
+                let mut extended =
+                    parts.iter().find_map(|part| self.context(part, theta, environment))?;
+                // What is not bound by every alternative is forgotten.
+                let mut bound = theta.types();
+                self.bound_by(expression, &mut bound);
+                extended.keep(&bound);
+                Some(extended)
+            }
+            Expression::Not { operand, .. } => {
+                let holds = self.context(operand, theta, environment).is_some();
+                (!holds).then(|| theta.clone())
+            }
+            Expression::Compare { operator, left, right, .. } => {
+                let ctype = self.type_of(left, theta).or_else(|| self.type_of(right, theta))?;
+                let left = self.evaluate(left, &ctype, theta, environment)?;
+                let right = self.evaluate(right, &ctype, theta, environment)?;
+                Value::compare(*operator, &left, &right).then(|| theta.clone())
+            }
+            Expression::Bind { variable, value, .. } => {
+                let ctype = self.type_of(value, theta)?;
+                let value = self.evaluate(value, &ctype, theta, environment)?;
+                let mut theta = theta.clone();
+                theta.bind(&variable.text, &ctype, value);
+                Some(theta)
+            }
+            Expression::Atom(atom) if self.is_basic(&atom.name.text) => {
+                let holds = self.call(atom, theta, environment)? == Some(Value::Bool(true));
+                holds.then(|| theta.clone())
+            }
+            Expression::Atom(atom) => self.believed(atom, theta, environment),
+            value => {
+                let bool_type = CType::named("bool");
+                let value = self.evaluate(value, &bool_type, theta, environment);
+                (value == Some(Value::Bool(true))).then(|| theta.clone())
+            }
+        }
+    }
+
+    /// Matches a belief.
+    pub(super) fn believed(
+        &self,
+        atom: &Atom,
+        theta: &Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<Substitution> {
+        let values = self.beliefs.get(&atom.name.text)?;
+        let types = self.types(&atom.name.text);
+        let mut theta = theta.clone();
+        for ((pattern, value), ctype) in atom.arguments.iter().zip(values).zip(&types) {
+            self.match_pattern(pattern, value, ctype, &mut theta, environment)?;
+        }
+        Some(theta)
+    }
+
+    /// Matches one argument; binds a new variable.
+    pub(super) fn match_pattern(
+        &self,
+        pattern: &Expression,
+        value: &Value,
+        ctype: &CType,
+        theta: &mut Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<()> {
+        match pattern {
+            Expression::Unnamed(_) => Some(()),
+            Expression::Variable(name) if theta.get(&name.text).is_none() => {
+                theta.bind(&name.text, ctype, value.clone());
+                Some(())
+            }
+            _ => {
+                let wanted = self.evaluate(pattern, ctype, theta, environment)?;
+                Value::compare(Relation::Equal, value, &wanted).then_some(())
+            }
+        }
+    }
+
+    pub(super) fn is_basic(&self, name: &str) -> bool {
+        self.configuration.basics.iter().any(|basic| basic.name.text == name)
+    }
+}

@@ -1,0 +1,284 @@
+//! The reference interpreter: executes a syntax tree directly, by the rules of the language.
+//!
+//! It shares nothing with the C back end but the tree: it resolves names as it goes, matches at run
+//! time and finds recursion by itself. So where both leave the same trace, the translation means
+//! what the agent says. It expects an agent that [`crate::translate`] accepts.
+
+mod evaluate;
+mod plans;
+mod value;
+
+use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
+
+pub use self::value::Value;
+use crate::ParsedConfiguration;
+use crate::configuration::Configuration;
+use crate::syntax::ast::{Agent, Formula, Operator, Trigger, TriggerKind};
+use crate::syntax::parse;
+use crate::types::CType;
+
+/// What surrounds an interpreted agent.
+pub trait Environment {
+    /// Called at the start of each step: the beliefs that are set now, with their values.
+    fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)>;
+    /// A basic action or function is called; functions return a value of `result`.
+    fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value>;
+}
+
+/// An external event that was refused because the inbox is full.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the inbox is full")]
+pub struct Refused;
+
+/// A trigger: operator, kind and name.
+type Key = (Operator, TriggerKind, String);
+
+#[derive(Debug, Clone, PartialEq)]
+struct Event {
+    key: Key,
+    arguments: Vec<Value>,
+}
+
+/// How the plans of one trigger ended.
+#[derive(Debug, Clone, PartialEq)]
+enum Outcome {
+    /// No plan is applicable.
+    NoPlan,
+    /// The plan that was chosen failed.
+    Failed,
+    /// The plan succeeded, with its answers to what was asked for.
+    Achieved(Vec<Value>),
+}
+
+/// An agent that is executed without being translated.
+#[derive(Debug)]
+pub struct Interpreter {
+    configuration: Configuration,
+    agent: Agent,
+    recursive: HashSet<Key>,
+    beliefs: BTreeMap<String, Vec<Value>>,
+    posted: Option<Event>,
+    inbox: VecDeque<Event>,
+    preemptive: Vec<Event>,
+    deferred: VecDeque<Event>,
+    unhandled: u32,
+}
+
+impl Interpreter {
+    /// An agent that has not run yet.
+    ///
+    /// # Errors
+    /// The rendered errors of an agent that cannot be translated.
+    pub fn new(
+        configuration: &ParsedConfiguration,
+        agent_text: &str,
+    ) -> Result<Self, crate::TranslateError> {
+        crate::translate(configuration.clone(), agent_text)?;
+        let (agent, _) = parse(agent_text);
+        let mut interpreter = Self {
+            configuration: configuration.configuration.clone(),
+            recursive: recursive_triggers(&agent),
+            agent,
+            beliefs: BTreeMap::new(),
+            posted: None,
+            inbox: VecDeque::new(),
+            preemptive: Vec::new(),
+            deferred: VecDeque::new(),
+            unhandled: 0,
+        };
+        interpreter.init();
+        Ok(interpreter)
+    }
+
+    /// Starts anew: initial beliefs only, the initial goal in the first step.
+    pub fn init(&mut self) {
+        let constants = |interpreter: &Self, atom: &crate::syntax::ast::Atom| {
+            let types = interpreter.types(&atom.name.text);
+            atom.arguments
+                .iter()
+                .zip(&types)
+                .filter_map(|(expression, ctype)| Value::constant(expression, ctype))
+                .collect::<Vec<_>>()
+        };
+        self.beliefs = self
+            .agent
+            .beliefs
+            .iter()
+            .map(|belief| (belief.name.text.clone(), constants(self, belief)))
+            .collect();
+        self.posted = self.agent.goal.as_ref().map(|goal| Event {
+            key: (Operator::Add, TriggerKind::Achieve, goal.name.text.clone()),
+            arguments: constants(self, goal),
+        });
+        self.inbox.clear();
+        self.preemptive.clear();
+        self.deferred.clear();
+        self.unhandled = 0;
+    }
+
+    /// Whether the next external event will be accepted.
+    pub fn can_add_event(&self) -> bool {
+        self.inbox.len() < self.configuration.settings.inbox as usize
+    }
+
+    /// Events since the start that no plan handled to its end.
+    pub fn unhandled_events(&self) -> u32 {
+        self.unhandled
+    }
+
+    /// Raises `+!name`, `+name` or `-name`.
+    ///
+    /// # Errors
+    /// [`Refused`] if the inbox is full; pre-empting events are always accepted.
+    pub fn raise(
+        &mut self,
+        operator: Operator,
+        kind: TriggerKind,
+        name: &str,
+        arguments: Vec<Value>,
+    ) -> Result<(), Refused> {
+        let event = Event { key: (operator, kind, name.to_owned()), arguments };
+        let preempts = self.configuration.preemptive.iter().any(|trigger| {
+            (trigger.operator, trigger.kind, trigger.name.text.as_str()) == (operator, kind, name)
+        });
+        if preempts {
+            self.preemptive.retain(|waiting| waiting.key != event.key);
+            self.preemptive.push(event);
+        } else if self.can_add_event() {
+            self.inbox.push_back(event);
+        } else {
+            return Err(Refused);
+        }
+        Ok(())
+    }
+
+    /// One deliberation cycle.
+    pub fn next_step(&mut self, environment: &mut dyn Environment) {
+        for (belief, values) in environment.update_beliefs() {
+            self.beliefs.insert(belief, values);
+        }
+        while let Some((event, external)) = self.take_event() {
+            let (operator, kind, name) = event.key.clone();
+            let mut arguments = event.arguments;
+            if external && kind == TriggerKind::Belief {
+                if operator == Operator::Add {
+                    self.beliefs.insert(name.clone(), arguments.clone());
+                } else if let Some(old) = self.beliefs.remove(&name) {
+                    // The event carries no arguments: its plans see what was believed.
+                    arguments = old;
+                } else {
+                    continue;
+                }
+                if !self.has_plans(&(operator, kind, name.clone())) {
+                    continue;
+                }
+            }
+            self.handle(&(operator, kind, name), arguments, environment);
+            return;
+        }
+    }
+
+    fn handle(&mut self, key: &Key, arguments: Vec<Value>, environment: &mut dyn Environment) {
+        let given: Vec<Option<Value>> = arguments.into_iter().map(Some).collect();
+        let outcome = self.run_with_failure(key, &given, environment);
+        let fine = match outcome {
+            Outcome::Achieved(_) => true,
+            // A percept that no plan cares for is no failure.
+            Outcome::NoPlan => key.1 == TriggerKind::Belief,
+            Outcome::Failed => false,
+        };
+        if !fine {
+            self.unhandled = self.unhandled.saturating_add(1);
+        }
+    }
+
+    /// The next event, and whether it comes from outside.
+    fn take_event(&mut self) -> Option<(Event, bool)> {
+        let priority = |event: &Event| {
+            self.configuration.preemptive.iter().position(|trigger| {
+                (trigger.operator, trigger.kind, &trigger.name.text)
+                    == (event.key.0, event.key.1, &event.key.2)
+            })
+        };
+        let first = (0..self.preemptive.len()).min_by_key(|i| priority(&self.preemptive[*i]));
+        if let Some(first) = first {
+            self.posted = None;
+            return Some((self.preemptive.remove(first), true));
+        }
+        if let Some(event) = self.posted.take() {
+            return Some((event, false));
+        }
+        if let Some(event) = self.inbox.pop_front() {
+            return Some((event, true));
+        }
+        self.deferred.pop_front().map(|event| (event, false))
+    }
+
+    fn defer(&mut self, key: Key, arguments: Vec<Value>) {
+        match self.deferred.iter_mut().find(|event| event.key == key) {
+            Some(waiting) => waiting.arguments = arguments,
+            None => self.deferred.push_back(Event { key, arguments }),
+        }
+    }
+
+    fn types(&self, predicate: &str) -> Vec<CType> {
+        let declared =
+            self.configuration.predicates.iter().find(|other| other.name.text == predicate);
+        declared.map_or(Vec::new(), |declared| declared.parameters.clone())
+    }
+
+    fn has_plans(&self, key: &Key) -> bool {
+        self.agent.plans.iter().any(|plan| key_of(&plan.trigger) == *key)
+    }
+}
+
+fn key_of(trigger: &Trigger) -> Key {
+    (trigger.operator, trigger.kind, trigger.atom.name.text.clone())
+}
+
+/// Triggers from which a call can come back to itself, found by following every call.
+fn recursive_triggers(agent: &Agent) -> HashSet<Key> {
+    let plans: BTreeSet<Key> = agent.plans.iter().map(|plan| key_of(&plan.trigger)).collect();
+    let mut calls: BTreeMap<&Key, BTreeSet<Key>> = BTreeMap::new();
+    for plan in &agent.plans {
+        let key = key_of(&plan.trigger);
+        let Some(key) = plans.get(&key) else { continue };
+        let targets = calls.entry(key).or_default();
+        let (operator, kind, name) = key;
+        if *operator == Operator::Add && *kind != TriggerKind::Belief {
+            targets.insert((Operator::Delete, *kind, name.clone()));
+        }
+        for formula in &plan.body {
+            let target = match formula {
+                Formula::Achieve(atom) => (Operator::Add, TriggerKind::Achieve, atom),
+                Formula::Add(atom) => (Operator::Add, TriggerKind::Belief, atom),
+                Formula::Delete(atom) => (Operator::Delete, TriggerKind::Belief, atom),
+                Formula::Test(atom) => (Operator::Add, TriggerKind::Test, atom),
+                Formula::Action(_) | Formula::Assign { .. } | Formula::Defer(_) => continue,
+            };
+            targets.insert((target.0, target.1, target.2.name.text.clone()));
+        }
+        targets.retain(|target| plans.contains(target));
+    }
+    let reaches = |start: &Key, goal: Option<&Key>| {
+        let mut seen: BTreeSet<&Key> = BTreeSet::new();
+        let mut open: Vec<&Key> = calls.get(start).into_iter().flatten().collect();
+        while let Some(key) = open.pop() {
+            if Some(key) == goal {
+                return (true, seen);
+            }
+            if seen.insert(key) {
+                open.extend(calls.get(key).into_iter().flatten());
+            }
+        }
+        (false, seen)
+    };
+    let on_cycle: BTreeSet<&Key> = plans.iter().filter(|key| reaches(key, Some(key)).0).collect();
+    plans
+        .iter()
+        .filter(|key| {
+            on_cycle.contains(key) || reaches(key, None).1.iter().any(|k| on_cycle.contains(k))
+        })
+        .cloned()
+        .collect()
+}

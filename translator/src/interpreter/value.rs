@@ -1,0 +1,134 @@
+//! Values with their C type's range.
+
+use std::cmp::Ordering::{Equal, Greater, Less};
+
+use crate::syntax::ast::{Arithmetic, Expression, Relation};
+use crate::types::{CType, TypeKind};
+
+/// A value of a C type.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// `bool`
+    Bool(bool),
+    /// Any integer type; the type that it belongs to bounds it.
+    Integer(i128),
+    /// `double` and, rounded to single precision, `float`.
+    Float(f64),
+    /// A string constant.
+    Text(String),
+}
+
+impl Value {
+    /// The value that a C variable of the type starts with.
+    pub(super) fn zero(ctype: &CType) -> Option<Self> {
+        match ctype.kind {
+            TypeKind::Bool => Some(Self::Bool(false)),
+            TypeKind::Signed { .. } | TypeKind::Unsigned { .. } => Some(Self::Integer(0)),
+            TypeKind::Float32 | TypeKind::Float64 => Some(Self::Float(0.0)),
+            TypeKind::Text => Some(Self::Text(String::new())),
+            TypeKind::Void | TypeKind::Opaque => None,
+        }
+    }
+
+    /// A constant of the tree.
+    pub(super) fn constant(expression: &Expression, ctype: &CType) -> Option<Self> {
+        match expression {
+            Expression::Number(number) => {
+                let sign = if number.negative { "-" } else { "" };
+                let text = format!("{sign}{}", number.digits);
+                match ctype.kind {
+                    TypeKind::Float64 => text.parse().ok().map(Self::Float),
+                    TypeKind::Float32 => {
+                        text.parse::<f32>().ok().map(|value| Self::Float(value.into()))
+                    }
+                    _ => text.parse().ok().map(Self::Integer),
+                }
+            }
+            Expression::Boolean { value, .. } => Some(Self::Bool(*value)),
+            Expression::Text { text, .. } => Some(Self::Text(text.clone())),
+            _ => None,
+        }
+    }
+
+    /// The result of an operation, if there is one: integers must not leave their type's range,
+    /// and nothing is divided by zero.
+    pub(super) fn calculate(
+        operator: Arithmetic,
+        left: &Self,
+        right: &Self,
+        ctype: &CType,
+    ) -> Option<Self> {
+        match (left, right) {
+            (Self::Integer(left), Self::Integer(right)) => {
+                let result = match operator {
+                    Arithmetic::Add => left.checked_add(*right),
+                    Arithmetic::Subtract => left.checked_sub(*right),
+                    Arithmetic::Multiply => left.checked_mul(*right),
+                    Arithmetic::Divide => left.checked_div(*right),
+                    Arithmetic::Remainder => {
+                        // C has no remainder where it has no quotient.
+                        in_range(left.checked_div(*right)?, ctype)?;
+                        left.checked_rem(*right)
+                    }
+                };
+                in_range(result?, ctype).map(Self::Integer)
+            }
+            (Self::Float(left), Self::Float(right)) => {
+                let result = match operator {
+                    Arithmetic::Add => left + right,
+                    Arithmetic::Subtract => left - right,
+                    Arithmetic::Multiply => left * right,
+                    Arithmetic::Divide => {
+                        // Neither zero nor NaN.
+                        matches!(right.partial_cmp(&0.0), Some(Less | Greater)).then_some(())?;
+                        left / right
+                    }
+                    Arithmetic::Remainder => return None,
+                };
+                Some(Self::Float(rounded(result, ctype)))
+            }
+            _ => None,
+        }
+    }
+
+    /// The value with its sign turned.
+    pub(super) fn negate(&self, ctype: &CType) -> Option<Self> {
+        match self {
+            Self::Float(value) => Some(Self::Float(-value)),
+            _ => Self::calculate(Arithmetic::Subtract, &Self::Integer(0), self, ctype),
+        }
+    }
+
+    /// Whether two values stand in a relation.
+    pub(super) fn compare(relation: Relation, left: &Self, right: &Self) -> bool {
+        let order = match (left, right) {
+            (Self::Bool(left), Self::Bool(right)) => left.partial_cmp(right),
+            (Self::Integer(left), Self::Integer(right)) => left.partial_cmp(right),
+            (Self::Float(left), Self::Float(right)) => left.partial_cmp(right),
+            _ => None,
+        };
+        match relation {
+            Relation::Less => order == Some(Less),
+            Relation::LessOrEqual => matches!(order, Some(Less | Equal)),
+            Relation::Greater => order == Some(Greater),
+            Relation::GreaterOrEqual => matches!(order, Some(Greater | Equal)),
+            Relation::Equal => order == Some(Equal),
+            Relation::NotEqual => order != Some(Equal),
+        }
+    }
+}
+
+fn in_range(value: i128, ctype: &CType) -> Option<i128> {
+    let (bits, signed) = ctype.integer_bits()?;
+    let (low, high) = if signed {
+        (-(1_i128 << (bits - 1)), (1_i128 << (bits - 1)) - 1)
+    } else {
+        (0, (1_i128 << bits) - 1)
+    };
+    (low..=high).contains(&value).then_some(value)
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "rounding to single precision is the point")]
+fn rounded(value: f64, ctype: &CType) -> f64 {
+    if ctype.kind == TypeKind::Float32 { f64::from(value as f32) } else { value }
+}
