@@ -66,7 +66,8 @@ pub(super) const BELIEFS: [(&str, &[Type]); 7] = [
     ("bs", &[Small]),
     ("bu", &[Unsigned, Int]),
 ];
-/// Goals; a goal's plans call later ones only, except as their last formula.
+/// Goals; a goal's plans call later ones only, except that the first may be recursive.
+const RECURSIVE_GOALS: usize = 2;
 pub(super) const GOALS: [(&str, &[Type]); 6] = [
     ("g0", &[]),
     ("g1", &[Int]),
@@ -343,7 +344,10 @@ fn literal(choices: &mut Choices<'_>, scope: &mut Scope, depth: usize) -> String
             let (variable, ctype) = scope.variables[choices.pick(scope.variables.len())].clone();
             let operators: &[&str] =
                 if ctype == Bool { &["==", "\\=="] } else { &["<", "<=", ">", ">=", "==", "\\=="] };
-            let right = value(choices, scope, ctype, 1);
+            let mut right = value(choices, scope, ctype, 1);
+            if right == variable {
+                right = constant(choices, ctype);
+            }
             format!("{variable} {} {right}", choices.of(operators))
         }
         5 if !scope.variables.is_empty() => {
@@ -390,11 +394,11 @@ fn literal(choices: &mut Choices<'_>, scope: &mut Scope, depth: usize) -> String
 fn body(choices: &mut Choices<'_>, scope: &mut Scope, place: Place) -> String {
     let length = choices.pick(5);
     let mut formulae: Vec<String> = (0..length).map(|_| formula(choices, scope, place)).collect();
-    // The last formula may lead anywhere.
-    if let Place::Goal(_) = place
-        && choices.chance(50)
+    // The first goals may lead back to each other, as the last formula.
+    if let Place::Goal(level @ 0..RECURSIVE_GOALS) = place
+        && choices.chance(50 + level)
     {
-        let (name, types) = GOALS[choices.pick(GOALS.len())];
+        let (name, types) = GOALS[choices.pick(RECURSIVE_GOALS)];
         let arguments: Vec<String> =
             types.iter().map(|ctype| value(choices, scope, *ctype, 1)).collect();
         formulae.push(format!("!{}", call(name, &arguments)));
@@ -450,7 +454,8 @@ fn formula(choices: &mut Choices<'_>, scope: &mut Scope, place: Place) -> String
             format!("?{}", call(name, &patterns(choices, types, scope)))
         }
         (7 | 8, Place::Goal(level)) => {
-            let Some((name, types)) = GOALS.get(level + 1 + choices.pick(3)) else {
+            let first = (level + 1).max(RECURSIVE_GOALS);
+            let Some((name, types)) = GOALS.get(first + choices.pick(3)) else {
                 return "a0".to_owned();
             };
             format!("!{}", call(name, &values(choices, scope, types)))

@@ -68,5 +68,5 @@ fn validation_of_random_agents() {
         .collect();
     let translated: u32 = threads.into_iter().map(|thread| thread.join().unwrap()).sum();
     println!("{translated} of {cases} agents translated, {SEQUENCES} sequences each: all agree");
-    assert!(translated * 3 > cases, "most agents should translate, {translated} of {cases} did");
+    assert!(translated * 2 > cases, "most agents should translate, {translated} of {cases} did");
 }
