@@ -44,6 +44,79 @@ fn the_autopilot_passes_strict_compilation() {
     assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
 }
 
+/// Every construct of the language in one agent.
+const EVERYTHING: Case = Case {
+    basics: "void act(int32_t); void say(const char *); bool dark(void); int32_t level(void); double gauge(double);",
+    types: "g(void); h(int32_t); k(void); b(int32_t); p(int32_t, int32_t); d(double); c(bool); u(uint16_t); q(int32_t, double);",
+    sections: "settables { b; }; triggerables { +!g; +!h; +b; -b; +!k; }; preemptive { +!k; };",
+    agent: "b(3). d(0.5). c(true). u(7).\n!g.\n\
+        +!g : b(X) & X < 10 & not (c(Y) & Y | p(X, _)) <- act(X * 2); !h(X); say(\"x\"); +p(X, X + 1); !g.\n\
+        +!g : (b(X) | p(_, X)) & d(Z) & Z / 2.0 > 0.1 & u(W) & W mod 2 == 1 & dark\n\
+          <- act(level); ?q(X, V); +d(gauge(V)); !!k.\n\
+        +!g <- -b(_); !!g.\n\
+        +!h(3) <- act(3).\n+!h(X) : X >= 5 <- ?p(X, Y); act(-Y).\n-!h(_) <- +c(false).\n\
+        +p(X, Y) : X == Y <- act(0).\n+p(_, _) <- act(1).\n-b(X) <- act(X).\n\
+        +?q(X, V) : d(V) & b(X).\n+!k <- act(9).\n",
+};
+
+/// cppcheck's checks and its MISRA addon find nothing but that nobody calls the interface.
+#[test]
+fn generated_c_passes_the_misra_addon() {
+    let autopilot = parse_configuration(
+        "autopilot.conf",
+        include_str!("../../../autopilot/agent/autopilot.conf"),
+    )
+    .unwrap();
+    let autopilot =
+        translate(autopilot, include_str!("../../../autopilot/agent/autopilot.asl")).unwrap();
+    let others = [LAMP, EVERYTHING].into_iter().flat_map(|case| {
+        ["", "instance = context;", "inbox = 3;"].map(|settings| case.translate(settings).unwrap())
+    });
+    for translation in std::iter::once(autopilot).chain(others) {
+        let folder = tempfile::tempdir().unwrap();
+        for file in &translation.files {
+            std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+        }
+        let result = std::process::Command::new("cppcheck")
+            .current_dir(folder.path())
+            .args(["--addon=misra", "--enable=all", "--std=c99", "--quiet"])
+            .args(["--suppress=missingIncludeSystem", "--suppress=unusedFunction"])
+            .arg(&translation.files[0].name)
+            .output();
+        let Ok(result) = result else {
+            println!("skipped: cppcheck is not installed");
+            return;
+        };
+        let findings = String::from_utf8_lossy(&result.stderr);
+        assert_eq!(findings, "", "{}", translation.files[0].text);
+    }
+}
+
+/// The addon does find what is wrong.
+#[test]
+fn the_misra_addon_is_awake() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("bad.c"),
+        "int f(int x);\nint f(int x)\n{\n  if (x)\n    return 1;\n  return 0;\n}\n",
+    )
+    .unwrap();
+    let result = std::process::Command::new("cppcheck")
+        .current_dir(folder.path())
+        .args(["--addon=misra", "--enable=all", "bad.c"])
+        .output();
+    if let Ok(result) = result {
+        assert!(String::from_utf8_lossy(&result.stderr).contains("misra-c2012-15.5"));
+    }
+}
+
+#[test]
+fn both_compilers_accept_everything() {
+    for case in [LAMP, EVERYTHING] {
+        case.compile();
+    }
+}
+
 proptest! {
     #[test]
     fn any_text_is_translated_or_refused(agent in "\\PC{0,200}", configuration in "\\PC{0,200}") {

@@ -49,9 +49,17 @@ impl Case {
         for settings in ["", "instance = context;"] {
             let folder = tempfile::tempdir().unwrap();
             self.write(settings, folder.path());
-            let result = compiler(folder.path()).args(["-c", "agent.c"]).output().unwrap();
-            let message = String::from_utf8_lossy(&result.stderr);
-            assert!(result.status.success(), "{settings}\n{message}");
+            for compiler in ["gcc", "clang"] {
+                let mut compile = Command::new(compiler);
+                compile.current_dir(folder.path()).args(STRICT).args(["-c", "agent.c"]);
+                // clang may not be there; the other compiler must be.
+                let result = match compile.output() {
+                    Err(_) if compiler == "clang" => continue,
+                    result => result.unwrap(),
+                };
+                let message = String::from_utf8_lossy(&result.stderr);
+                assert!(result.status.success(), "{compiler} {settings}\n{message}");
+            }
         }
     }
 

@@ -51,7 +51,8 @@ fn deferring(writer: &mut Writer, program: &Program, names: &Names, id: HandlerI
     writer.open(format!("if (!{flag})"));
     let first = names.field("deferred_first");
     let count = names.field("deferred_count");
-    writer.line(format!("const uint32_t slot = ({first} + {count}) % {slots}U;"));
+    let slot = wrapped(&format!("{first} + {count}"), slots);
+    writer.line(format!("const uint32_t slot = {slot};"));
     writer.line(format!("{flag} = true;"));
     writer.line(format!(
         "{}[slot] = {};",
@@ -62,6 +63,11 @@ fn deferring(writer: &mut Writer, program: &Program, names: &Names, id: HandlerI
     writer.close("}");
     writer.close("}");
     writer.line("");
+}
+
+/// An index into a ring of `length` slots.
+pub(super) fn wrapped(index: &str, length: usize) -> String {
+    if length == 1 { "0U".to_owned() } else { format!("({index}) % {length}U") }
 }
 
 /// Stores a function's arguments in the slot of an event.
@@ -111,7 +117,7 @@ fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
         let (first, count) = (field("first"), field("count"));
         let taken = vec![
             format!("event = {}[{first}];", field("queue")),
-            format!("{first} = ({first} + 1U) % {length}U;"),
+            format!("{first} = {};", wrapped(&format!("{first} + 1U"), length)),
             format!("{count} = {count} - 1U;"),
         ];
         (format!("{count} > 0U"), taken)

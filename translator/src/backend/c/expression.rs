@@ -299,7 +299,7 @@ pub(super) fn conjunction(conditions: &[String]) -> String {
 }
 
 /// In parentheses, unless it already is as a whole.
-fn parenthesised(condition: &str) -> String {
+pub(super) fn parenthesised(condition: &str) -> String {
     let mut depth = 0_u32;
     let closed_early = condition.char_indices().any(|(index, character)| {
         match character {

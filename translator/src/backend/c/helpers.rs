@@ -65,7 +65,18 @@ fn emit_checked(writer: &mut Writer, operator: Arithmetic, ctype: &CType) {
     writer.line("");
     writer.open("if (valid)");
     let symbol = symbol(operator);
-    writer.line(format!("*result = ({name})(left {symbol} right);"));
+    // Narrow types are promoted; said aloud, so that the only cast narrows a plain value.
+    let wide = match ctype.integer_bits() {
+        Some((8 | 16, true)) => Some("int32_t"),
+        Some((8 | 16, false)) => Some("uint32_t"),
+        _ => None,
+    };
+    if let Some(wide) = wide {
+        writer.line(format!("const {wide} value = ({wide})left {symbol} ({wide})right;"));
+        writer.line(format!("*result = ({name})value;"));
+    } else {
+        writer.line(format!("*result = left {symbol} right;"));
+    }
     writer.close("}");
     writer.line("return valid;");
     writer.close("}");

@@ -1,6 +1,6 @@
 //! The functions that the environment calls.
 
-use super::cycle::{event_name, interface_arguments, no_event, store};
+use super::cycle::{event_name, interface_arguments, no_event, store, wrapped};
 use super::header::init_prototype;
 use super::names::Names;
 use super::state::{
@@ -114,7 +114,8 @@ fn raise(writer: &mut Writer, program: &Program, names: &Names, external: &Exter
         writer.line(format!("const bool accepted = {count} < {inbox}U;"));
         writer.line("");
         writer.open("if (accepted)");
-        writer.line(format!("const uint32_t slot = ({first} + {count}) % {inbox}U;"));
+        let slot = wrapped(&format!("{first} + {count}"), inbox as usize);
+        writer.line(format!("const uint32_t slot = {slot};"));
         store(writer, names, Slot::Inbox, &trigger, &external.types, "[slot]");
         let event = event_name(names, Slot::Inbox, &trigger);
         writer.line(format!("{}[slot] = {event};", names.field("inbox_queue")));

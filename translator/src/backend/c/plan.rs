@@ -1,6 +1,6 @@
 //! One C function for each plan, and one for each trigger that tries its plans in order.
 
-use super::expression::{conjunction, variable_name};
+use super::expression::{conjunction, parenthesised, variable_name};
 use super::helpers::Helpers;
 use super::names::{Names, argument, argument_names, comment_safe, constant, typed};
 use super::state::{belief_value, handler_name, held};
@@ -151,7 +151,7 @@ pub(super) struct PlanEmitter<'a> {
 
 impl PlanEmitter<'_> {
     pub(super) fn open(&mut self, condition: &str) {
-        self.writer.open(format!("if ({condition})"));
+        self.writer.open(format!("if {}", parenthesised(condition)));
         self.blocks += 1;
     }
 
@@ -283,7 +283,7 @@ impl PlanEmitter<'_> {
         }
         self.writer.line(format!("bool {answered} = false;"));
         self.writer.line("");
-        self.writer.open(format!("if ({})", conjunction(&matching)));
+        self.writer.open(format!("if {}", parenthesised(&conjunction(&matching))));
         for (_, answer, field) in &answers {
             self.writer.line(format!("{answer} = {field};"));
         }
@@ -346,7 +346,7 @@ impl PlanEmitter<'_> {
             if conditions.len() == 1 {
                 self.writer.line(format!("{held} = false;"));
             } else {
-                self.writer.open(format!("if ({})", conjunction(&conditions)));
+                self.writer.open(format!("if {}", parenthesised(&conjunction(&conditions))));
                 self.writer.line(format!("{held} = false;"));
                 self.writer.close("}");
             }
