@@ -49,7 +49,8 @@ impl ParsedConfiguration {
 /// A finished translation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Translation {
-    /// The C file, its header, the header of the basic actions, and the Rust bindings if asked for.
+    /// The C file, its header, the header of the basic actions, and if asked for the Rust bindings
+    /// and the trace matrix.
     pub files: Vec<GeneratedFile>,
     /// Warnings, rendered.
     pub warnings: String,
@@ -78,6 +79,12 @@ pub enum TranslateError {
     Agent {
         /// All errors with line, column and caret.
         rendered: String,
+    },
+    /// The trace matrix could not be written as CSV.
+    #[error("cannot write the trace matrix: {problem}")]
+    Matrix {
+        /// What went wrong.
+        problem: String,
     },
 }
 
@@ -135,6 +142,12 @@ pub fn translate(
     if let Some(rust) = &settings.rust {
         let text = backend::rust::emit(&program, &input);
         files.push(GeneratedFile { name: rust.text.clone(), text });
+    }
+    if let Some(name) = &settings.matrix {
+        let matrix = backend::matrix::emit(&program, &input, &files[0].text)
+            .map_err(|source| TranslateError::Matrix { problem: source.to_string() })?;
+        files.push(GeneratedFile { name: format!("{name}.csv"), text: matrix.csv });
+        files.push(GeneratedFile { name: format!("{name}.json"), text: matrix.json });
     }
     Ok(Translation { files, warnings: rendered })
 }

@@ -90,8 +90,8 @@ pub(crate) struct External {
 /// One plan.
 #[derive(Debug)]
 pub(crate) struct Plan {
-    /// Line of the trigger in the source.
-    pub(crate) line: usize,
+    /// First and last line in the source.
+    pub(crate) lines: (usize, usize),
     /// The plan as it stands in the source.
     pub(crate) source: String,
     pub(crate) variables: Vec<Variable>,

@@ -131,9 +131,9 @@ impl Analysis<'_> {
                     .help("write `_` if any value will do");
             self.findings.agent.push(warning);
         }
-        let line = self.line(plan.span.start);
+        let lines = (self.line(plan.span.start), self.line(plan.span.end));
         self.handlers[handler.0].plans.push(Plan {
-            line,
+            lines,
             source: self.text[plan.span.clone()].to_owned(),
             variables: scope.variables,
             patterns,

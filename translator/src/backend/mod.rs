@@ -1,5 +1,6 @@
 //! Checked programs to text in other languages.
 
 pub(crate) mod c;
+pub(crate) mod matrix;
 pub(crate) mod rust;
 mod writer;

@@ -55,6 +55,8 @@ pub struct Settings {
     pub basics: String,
     /// The Rust side of the boundary, if wanted.
     pub rust: Option<Name>,
+    /// The trace matrix, written as this name with `.csv` and `.json`, if wanted.
+    pub matrix: Option<String>,
     /// Whether the agent's state is static or passed in.
     pub instance: Instance,
     /// External events that can wait at the same time.
@@ -69,6 +71,7 @@ impl Default for Settings {
             header: String::new(),
             basics: String::new(),
             rust: None,
+            matrix: None,
             instance: Instance::Static,
             inbox: 1,
         }

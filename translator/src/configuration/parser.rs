@@ -8,7 +8,8 @@ use crate::types::CType;
 
 const SECTIONS: [&str; 7] =
     ["settings", "includes", "basics", "types", "settables", "triggerables", "preemptive"];
-const SETTINGS: [&str; 7] = ["input", "output", "header", "basics", "rust", "instance", "inbox"];
+const SETTINGS: [&str; 8] =
+    ["input", "output", "header", "basics", "rust", "matrix", "instance", "inbox"];
 /// More waiting events than this is a mistake: each costs memory and makes commands stale.
 const MAX_INBOX: u32 = 64;
 
@@ -129,6 +130,7 @@ impl<'a> Parser<'a> {
             "header" => settings.header = value.text,
             "basics" => settings.basics = value.text,
             "rust" => settings.rust = Some(value),
+            "matrix" => settings.matrix = Some(value.text),
             "instance" => {
                 settings.instance = match value.text.as_str() {
                     "static" => Instance::Static,

@@ -44,6 +44,28 @@ fn the_autopilot_passes_strict_compilation() {
     assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
 }
 
+#[test]
+fn the_trace_matrix_leads_from_requirement_to_c_lines() {
+    let case = Case {
+        basics: "void a(void); void b(void);",
+        types: "g(void); h(void);",
+        sections: "",
+        agent: "!g.\n@first[req(\"HLR-1\"), req(\"HLR,2\")]\n+!g : true\n  <- a; !h.\n+!h <- b.\n",
+    };
+    let translation = case.translate("matrix = trace;").unwrap();
+    let [source, .., csv, json] = &translation.files[..] else { panic!("files are missing") };
+    assert_eq!((csv.name.as_str(), json.name.as_str()), ("trace.csv", "trace.json"));
+    insta::assert_snapshot!("trace_csv", csv.text);
+    insta::assert_snapshot!("trace_json", json.text);
+    // The lines are the function's: its head and its closing brace.
+    let last = csv.text.lines().last().unwrap();
+    let fields: Vec<&str> = last.split(',').collect();
+    let lines: Vec<&str> = source.text.lines().collect();
+    let line = |field: &str| lines[field.parse::<usize>().unwrap() - 1];
+    assert_eq!(line(fields[8]), "static outcome_t plan1_achieve_h(void)");
+    assert_eq!(line(fields[9]), "}");
+}
+
 /// Every construct of the language in one agent.
 const EVERYTHING: Case = Case {
     basics: "void act(int32_t); void say(const char *); bool dark(void); int32_t level(void); double gauge(double);",

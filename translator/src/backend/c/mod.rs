@@ -19,7 +19,8 @@ use super::writer::Writer;
 use crate::program::Program;
 
 pub(crate) use self::names::{action_symbol, symbol_prefix};
-pub(crate) use self::state::{Field, FieldType, layout};
+pub(crate) use self::plan::plan_name;
+pub(crate) use self::state::{Field, FieldType, handler_name, layout};
 
 /// The generated C texts.
 #[derive(Debug, Clone, PartialEq, Eq)]

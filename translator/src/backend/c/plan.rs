@@ -37,7 +37,7 @@ pub(super) fn handlers(
     helpers
 }
 
-fn plan_name(number: usize, trigger: &str) -> String {
+pub(crate) fn plan_name(number: usize, trigger: &str) -> String {
     format!("plan{}_{trigger}", number + 1)
 }
 
@@ -100,7 +100,7 @@ fn emit_plan(
     name: &str,
     input: &str,
 ) {
-    writer.line(format!("/* {}:{}", comment_safe(input), plan.line));
+    writer.line(format!("/* {}:{}", comment_safe(input), plan.lines.0));
     for line in comment_safe(&plan.source).lines() {
         writer.line(format!(" * {}", line.trim_end()).trim_end());
     }

@@ -171,7 +171,7 @@ pub(super) fn event(slot: Slot, trigger: &str) -> String {
 }
 
 /// `achieve_goto`; for test goals with a letter for each argument, `i` given and `o` asked for.
-pub(super) fn handler_name(program: &Program, id: HandlerId) -> String {
+pub(crate) fn handler_name(program: &Program, id: HandlerId) -> String {
     let handler = program.handler(id);
     let name = trigger_name(handler.operator, handler.kind, &handler.name);
     if handler.holes.is_empty() {

@@ -156,7 +156,7 @@ pub(super) fn agent(choices: &mut Choices<'_>) -> RandomAgent {
     }
     text.push_str("!g0.\n");
     for (level, (name, types)) in GOALS.iter().enumerate() {
-        for _ in 0..1 + choices.pick(2) {
+        for _ in 0..=choices.pick(2) {
             text.push_str(&plan(choices, &format!("+!{name}"), types, Place::Goal(level)));
         }
         if choices.chance(30) {

@@ -121,7 +121,7 @@ impl Hash {
     fn result(&self, ctype: &CType) -> Option<Value> {
         let hash = self.0;
         let choice = hash >> 5;
-        let extreme = hash & 0x1F == 0;
+        let extreme = hash.trailing_zeros() >= 5;
         Some(match ctype.kind {
             TypeKind::Void | TypeKind::Text | TypeKind::Opaque => return None,
             TypeKind::Bool => Value::Bool(choice & 4 != 0),

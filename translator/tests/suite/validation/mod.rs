@@ -41,7 +41,8 @@ fn validate(choices: &[u8]) -> Result<bool, TestCaseError> {
 fn validation_of_random_agents() {
     let cases = from_environment("ASL2C_VALIDATION", USUAL_AGENTS);
     let seed = from_environment("ASL2C_VALIDATION_SEED", 1);
-    let workers = std::thread::available_parallelism().map_or(1, usize::from) as u32;
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let workers = u32::try_from(processors).unwrap();
     let threads: Vec<_> = (0..workers)
         .map(|worker| {
             std::thread::spawn(move || {

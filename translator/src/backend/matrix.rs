@@ -1,0 +1,122 @@
+//! The trace matrix: from requirement to plan, source lines, C function and its lines.
+
+use std::collections::HashMap;
+
+use serde_json::{Value, json};
+
+use super::c::{handler_name, plan_name};
+use crate::program::{Program, trigger_text};
+
+/// One line of the matrix.
+struct Row {
+    requirement: String,
+    label: String,
+    trigger: String,
+    source_lines: (usize, usize),
+    function: String,
+    c_lines: (usize, usize),
+}
+
+/// The matrix as CSV and as JSON.
+pub(crate) struct Matrix {
+    pub(crate) csv: String,
+    pub(crate) json: String,
+}
+
+/// Traces the plans of `program` to their functions in `source`, the generated C.
+pub(crate) fn emit(program: &Program, input: &str, source: &str) -> Result<Matrix, csv::Error> {
+    let rows = rows(program, source);
+    let output = &program.configuration.settings.output;
+    Ok(Matrix { csv: csv(&rows, input, output)?, json: json(&rows, input, output) })
+}
+
+fn rows(program: &Program, source: &str) -> Vec<Row> {
+    let functions = function_lines(source);
+    let mut rows = Vec::new();
+    for (id, handler) in program.reachable_handlers() {
+        for (number, plan) in handler.plans.iter().enumerate() {
+            let function = plan_name(number, &handler_name(program, id));
+            let c_lines = functions.get(function.as_str()).copied().unwrap_or_default();
+            let untagged = [String::new()];
+            let requirements =
+                if plan.requirements.is_empty() { &untagged[..] } else { &plan.requirements };
+            rows.extend(requirements.iter().map(|requirement| Row {
+                requirement: requirement.clone(),
+                label: plan.label.clone().unwrap_or_default(),
+                trigger: trigger_text(handler.operator, handler.kind, &handler.name),
+                source_lines: plan.lines,
+                function: function.clone(),
+                c_lines,
+            }));
+        }
+    }
+    rows
+}
+
+/// First and last line of each plan's function.
+fn function_lines(source: &str) -> HashMap<&str, (usize, usize)> {
+    let mut functions = HashMap::new();
+    let mut open: Option<(&str, usize)> = None;
+    for (number, line) in (1..).zip(source.lines()) {
+        let definition = line.strip_prefix("static outcome_t ").filter(|l| l.starts_with("plan"));
+        if let Some(definition) = definition {
+            open = definition.split('(').next().map(|name| (name, number));
+        } else if line == "}"
+            && let Some((name, first)) = open.take()
+        {
+            functions.insert(name, (first, number));
+        }
+    }
+    functions
+}
+
+fn csv(rows: &[Row], input: &str, output: &str) -> Result<String, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record([
+        "requirement",
+        "label",
+        "trigger",
+        "source",
+        "source_first_line",
+        "source_last_line",
+        "function",
+        "c_file",
+        "c_first_line",
+        "c_last_line",
+    ])?;
+    for row in rows {
+        let lines = [row.source_lines.0, row.source_lines.1, row.c_lines.0, row.c_lines.1];
+        let [source_first, source_last, c_first, c_last] = lines.map(|line| line.to_string());
+        writer.write_record([
+            &row.requirement,
+            &row.label,
+            &row.trigger,
+            input,
+            &source_first,
+            &source_last,
+            &row.function,
+            output,
+            &c_first,
+            &c_last,
+        ])?;
+    }
+    let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+fn json(rows: &[Row], input: &str, output: &str) -> String {
+    let rows: Vec<Value> = rows
+        .iter()
+        .map(|row| {
+            json!({
+                "requirement": row.requirement,
+                "label": row.label,
+                "trigger": row.trigger,
+                "source": { "file": input, "lines": [row.source_lines.0, row.source_lines.1] },
+                "function": row.function,
+                "c": { "file": output, "lines": [row.c_lines.0, row.c_lines.1] },
+            })
+        })
+        .collect();
+    format!("{:#}\n", Value::Array(rows))
+}
