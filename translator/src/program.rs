@@ -52,6 +52,8 @@ pub(crate) struct Belief {
     /// Values believed from the start.
     pub(crate) initial: Option<Vec<Value>>,
     pub(crate) settable: bool,
+    /// Who handles a change by `set_b`, if it raises an event.
+    pub(crate) perceived: Option<HandlerId>,
 }
 
 /// All plans of one trigger.

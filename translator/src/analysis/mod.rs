@@ -83,6 +83,7 @@ pub(crate) fn analyse(
     let roots = external
         .iter()
         .filter_map(|event| event.handler)
+        .chain(beliefs.iter().filter_map(|belief| belief.perceived))
         .chain(initial_goal.as_ref().map(|(handler, _)| *handler));
     let Reached { mut posted, deferred } = reach(&mut handlers, roots);
     let posted_by_plans = posted.iter().copied().collect();
@@ -262,6 +263,27 @@ impl Analysis<'_> {
             let id = self.belief_id(&name.text, &types);
             self.beliefs[id.0].settable = true;
         }
+        for name in &configuration.perceived {
+            let settable = configuration.settables.iter().any(|other| other.text == name.text);
+            let handler = self.handler_id(Operator::Add, TriggerKind::Belief, &name.text);
+            match handler {
+                Some(handler) if settable => {
+                    if let Some(id) = self.belief_ids.get(&name.text) {
+                        self.beliefs[id.0].perceived = Some(handler);
+                    }
+                }
+                _ => self.findings.configuration.push(if settable {
+                    Diagnostic::error(format!("no plan for `+{}`", name.text), name.span.clone())
+                        .help("a change would raise an event that nobody handles")
+                } else {
+                    Diagnostic::error(
+                        format!("`{}` is perceived but not settable", name.text),
+                        name.span.clone(),
+                    )
+                    .help("list it in `settables` too")
+                }),
+            }
+        }
     }
 
     fn external(&mut self, configuration: &Configuration) -> Vec<External> {
@@ -367,6 +389,7 @@ impl Analysis<'_> {
             types: types.to_vec(),
             initial: None,
             settable: false,
+            perceived: None,
         });
         id
     }

@@ -8,6 +8,7 @@
 //! basics { void sendLand(void); bool closeEnough(double, double); };
 //! types { position(double, double); land(void); };
 //! settables { position; };
+//! perceived { position; };
 //! triggerables { +!land; };
 //! preemptive { +!land; };
 //! ```
@@ -36,6 +37,8 @@ pub struct Configuration {
     pub predicates: Vec<Predicate>,
     /// Beliefs with a `set_b` function.
     pub settables: Vec<Name>,
+    /// Settables whose change raises `+b`.
+    pub perceived: Vec<Name>,
     /// Events that the environment can raise.
     pub triggerables: Vec<ExternalTrigger>,
     /// External events that abort what runs, in order of priority.

@@ -6,8 +6,16 @@ use super::{Basic, Configuration, ExternalTrigger, Instance, Predicate};
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 use crate::types::CType;
 
-const SECTIONS: [&str; 7] =
-    ["settings", "includes", "basics", "types", "settables", "triggerables", "preemptive"];
+const SECTIONS: [&str; 8] = [
+    "settings",
+    "includes",
+    "basics",
+    "types",
+    "settables",
+    "perceived",
+    "triggerables",
+    "preemptive",
+];
 const SETTINGS: [&str; 8] =
     ["input", "output", "header", "basics", "rust", "matrix", "instance", "inbox"];
 /// More waiting events than this is a mistake: each costs memory and makes commands stale.
@@ -103,6 +111,12 @@ impl<'a> Parser<'a> {
                 let name = self.word("a belief")?;
                 self.expect(";")?;
                 self.configuration.settables.push(name);
+                Ok(())
+            }
+            "perceived" => {
+                let name = self.word("a belief")?;
+                self.expect(";")?;
+                self.configuration.perceived.push(name);
                 Ok(())
             }
             "triggerables" => {

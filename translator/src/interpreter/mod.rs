@@ -60,6 +60,8 @@ pub struct Interpreter {
     posted: Option<Event>,
     inbox: VecDeque<Event>,
     preemptive: Vec<Event>,
+    /// Beliefs that were set to something else.
+    perceived: BTreeSet<String>,
     deferred: VecDeque<Event>,
     unhandled: u32,
 }
@@ -83,6 +85,7 @@ impl Interpreter {
             posted: None,
             inbox: VecDeque::new(),
             preemptive: Vec::new(),
+            perceived: BTreeSet::new(),
             deferred: VecDeque::new(),
             unhandled: 0,
         };
@@ -112,6 +115,7 @@ impl Interpreter {
         });
         self.inbox.clear();
         self.preemptive.clear();
+        self.perceived.clear();
         self.deferred.clear();
         self.unhandled = 0;
     }
@@ -155,7 +159,11 @@ impl Interpreter {
     /// One deliberation cycle.
     pub fn next_step(&mut self, environment: &mut dyn Environment) {
         for (belief, values) in environment.update_beliefs() {
-            self.beliefs.insert(belief, values);
+            let old = self.beliefs.insert(belief.clone(), values.clone());
+            let watched = self.configuration.perceived.iter().any(|name| name.text == belief);
+            if watched && !old.is_some_and(|old| Value::all_equal(&old, &values)) {
+                self.perceived.insert(belief);
+            }
         }
         while let Some((event, external)) = self.take_event() {
             let (operator, kind, name) = event.key.clone();
@@ -207,6 +215,15 @@ impl Interpreter {
         }
         if let Some(event) = self.posted.take() {
             return Some((event, false));
+        }
+        for name in &self.configuration.perceived {
+            // What is no longer believed by now raises nothing.
+            if self.perceived.remove(&name.text)
+                && let Some(arguments) = self.beliefs.get(&name.text).cloned()
+            {
+                let key = (Operator::Add, TriggerKind::Belief, name.text.clone());
+                return Some((Event { key, arguments }, false));
+            }
         }
         if let Some(event) = self.inbox.pop_front() {
             return Some((event, true));

@@ -102,11 +102,7 @@ impl Interpreter {
                 let values = self.arguments(atom, theta, environment)?;
                 let name = &atom.name.text;
                 let old = self.beliefs.insert(name.clone(), values.clone());
-                let same = old.is_some_and(|old| {
-                    old.iter()
-                        .zip(&values)
-                        .all(|(old, new)| Value::compare(Relation::Equal, old, new))
-                });
+                let same = old.is_some_and(|old| Value::all_equal(&old, &values));
                 if !same {
                     self.percept(Operator::Add, name, values, environment)?;
                 }

@@ -99,6 +99,11 @@ impl Value {
         }
     }
 
+    /// Whether each value equals its counterpart.
+    pub(super) fn all_equal(left: &[Self], right: &[Self]) -> bool {
+        left.iter().zip(right).all(|(left, right)| Self::compare(Relation::Equal, left, right))
+    }
+
     /// Whether two values stand in a relation.
     pub(super) fn compare(relation: Relation, left: &Self, right: &Self) -> bool {
         let order = match (left, right) {

@@ -268,3 +268,19 @@ fn labels_and_requirements_are_carried_to_the_comment() {
     let text = case.translate("").unwrap().files[0].text.clone();
     assert!(text.contains(" * @first[req(\"HLR-1\")]\n * +!g <- a."), "{text}");
 }
+
+#[test]
+fn a_perceived_belief_raises_its_event_when_it_changes() {
+    let case = Case {
+        basics: "void act(int); int reading(void);",
+        types: "b(int); g(int);",
+        sections: "settables { b; }; perceived { b; }; triggerables { +!g; };",
+        agent: "+b(X) <- act(X). +!g(X) <- act(-X).",
+    };
+    let functions = "static int now = 1;\nint reading(void) { return now; }\n\
+        void updateBeliefs(void) { set_b(now); }\n";
+    // Once, not again while it stays; before the inbox; only the newest value.
+    let script = "next_step(); next_step(); now = 2; (void)achieve_g(7); next_step(); set_b(5); \
+                  now = 6; next_step(); next_step();";
+    assert_eq!(case.run(functions, script), "act(1) act(2) act(6) act(-7)");
+}

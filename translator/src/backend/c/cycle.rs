@@ -1,8 +1,9 @@
 //! The deliberation cycle: posting events, taking the next one, handling it.
 
-use super::names::{Names, argument, argument_names};
+use super::names::{Names, argument};
 use super::state::{
-    Slot, belief_value, event, external_name, handler_name, held, pending, queued, slot_value,
+    Slot, belief_value, event, external_name, handler_name, held, pending, perceived, queued,
+    slot_value,
 };
 use crate::backend::writer::Writer;
 use crate::program::{External, HandlerId, Program};
@@ -112,6 +113,15 @@ fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
         format!("{posted} != {none}"),
         vec![format!("event = {posted};"), format!("{posted} = {none};")],
     ));
+    for (_, handler) in perceived(program) {
+        let trigger = handler_name(program, handler);
+        let flag = names.field(&pending(Slot::Perceived, &trigger));
+        let taken = vec![
+            format!("event = {};", event_name(names, Slot::Perceived, &trigger)),
+            format!("{flag} = false;"),
+        ];
+        branches.push((flag, taken));
+    }
     let queue = |name: &str, length: usize| {
         let field = |part: &str| names.field(&format!("{name}_{part}"));
         let (first, count) = (field("first"), field("count"));
@@ -133,8 +143,8 @@ fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
     }
 
     let none_types: [CType; 0] = [];
-    writer.line("/* Pre-empting events first, then the posted one, then those of the environment,");
-    writer.line(" * then deferred goals.");
+    writer.line("/* Pre-empting events first, then the posted one, then what was perceived, then those of the");
+    writer.line(" * environment, then deferred goals.");
     writer.line(" */");
     writer.open(format!(
         "static {} take_event({})",
@@ -177,6 +187,20 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
         let trigger = handler_name(program, *id);
         open_case(writer, names, Slot::Posted, &trigger);
         run(writer, program, names, *id, &slot_values(program, names, Slot::Posted, *id));
+        close_case(writer);
+    }
+    for (belief, handler) in perceived(program) {
+        open_case(writer, names, Slot::Perceived, &handler_name(program, handler));
+        let values: Vec<String> = (0..belief.types.len())
+            .map(|number| names.field(&belief_value(&belief.name, number)))
+            .collect();
+        // What is no longer believed by now raises nothing.
+        writer.open(format!("if ({})", names.field(&held(&belief.name))));
+        run(writer, program, names, handler, &values);
+        writer.close("}");
+        writer.open("else");
+        writer.line("handled = false;");
+        writer.close("}");
         close_case(writer);
     }
     for external in &program.external {
@@ -289,16 +313,18 @@ fn next_step(writer: &mut Writer, program: &Program, names: &Names) {
     let no_arguments = || names.arguments(std::iter::empty());
     let handle =
         format!("handle_event({})", names.arguments([format!("take_event({})", no_arguments())]));
-    let updates = queued(program)
-        .any(|external| external.handler.is_none() || external.operator == Operator::Delete);
+    let watched = perceived(program).count();
+    let updates = watched > 0
+        || queued(program)
+            .any(|external| external.handler.is_none() || external.operator == Operator::Delete);
     if updates {
         writer.line("bool handled = false;");
         writer.line("");
     }
     writer.line(format!("{update}({update_arguments});"));
     if updates {
-        // Each round that handles nothing takes one event out of the inbox.
-        let rounds = program.configuration.settings.inbox;
+        // Each round that handles nothing takes one event away.
+        let rounds = program.configuration.settings.inbox as usize + watched;
         writer.open(format!(
             "for (uint32_t round = 0U; (round <= {rounds}U) && (!handled); round++)"
         ));
@@ -309,9 +335,4 @@ fn next_step(writer: &mut Writer, program: &Program, names: &Names) {
     }
     writer.close("}");
     writer.line("");
-}
-
-/// The arguments of an interface function as they are stored.
-pub(super) fn interface_arguments(types: &[CType]) -> Vec<String> {
-    argument_names(types).collect()
 }

@@ -273,11 +273,7 @@ impl PlanEmitter<'_> {
     }
 
     pub(super) fn equal(&mut self, ctype: &CType, left: &str, right: &str) -> String {
-        if !ctype.is_float() {
-            return format!("({left} == {right})");
-        }
-        let function = self.helpers.equal(ctype);
-        format!("{function}({left}, {right})")
+        self.helpers.equality(ctype, left, right)
     }
 }
 

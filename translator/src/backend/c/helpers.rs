@@ -13,12 +13,15 @@ pub(super) struct Helpers {
 }
 
 impl Helpers {
-    /// The name of the function that compares values of a floating-point type.
-    pub(super) fn equal(&mut self, ctype: &CType) -> String {
+    /// The expression that is true if two values are equal.
+    pub(super) fn equality(&mut self, ctype: &CType, left: &str, right: &str) -> String {
+        if !ctype.is_float() {
+            return format!("({left} == {right})");
+        }
         if !self.equal.contains(ctype) {
             self.equal.push(ctype.clone());
         }
-        format!("equal_{}", identifier(ctype))
+        format!("equal_{}({left}, {right})", identifier(ctype))
     }
 
     /// The name of the function that calculates if there is a result.

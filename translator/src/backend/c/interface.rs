@@ -1,16 +1,23 @@
 //! The functions that the environment calls.
 
-use super::cycle::{event_name, interface_arguments, no_event, store, wrapped};
+use super::cycle::{event_name, no_event, store, wrapped};
+use super::expression::conjunction;
 use super::header::init_prototype;
-use super::names::Names;
+use super::helpers::Helpers;
+use super::names::{Names, argument, argument_names};
 use super::state::{
-    Slot, belief_value, external_name, handler_name, held, pending, queued, slot_value,
+    Slot, belief_value, external_name, handler_name, held, pending, perceived, queued, slot_value,
 };
 use crate::backend::writer::Writer;
 use crate::program::{Belief, External, Program, Value};
 use crate::types::CType;
 
-pub(super) fn interface(writer: &mut Writer, program: &Program, names: &Names) {
+pub(super) fn interface(
+    writer: &mut Writer,
+    program: &Program,
+    names: &Names,
+    helpers: &mut Helpers,
+) {
     init(writer, program, names);
     let none: [CType; 0] = [];
     let no_parameters = names.parameters(&none);
@@ -35,7 +42,7 @@ pub(super) fn interface(writer: &mut Writer, program: &Program, names: &Names) {
     }
     for belief in program.beliefs.iter().filter(|belief| belief.settable) {
         writer.line("");
-        set(writer, names, belief);
+        set(writer, program, names, helpers, belief);
     }
 }
 
@@ -73,6 +80,10 @@ fn init(writer: &mut Writer, program: &Program, names: &Names) {
     }
     for external in program.external.iter().filter(|external| external.preemptive) {
         let flag = pending(Slot::Preemptive, &external_name(external));
+        writer.line(format!("{} = false;", names.field(&flag)));
+    }
+    for (_, handler) in perceived(program) {
+        let flag = pending(Slot::Perceived, &handler_name(program, handler));
         writer.line(format!("{} = false;", names.field(&flag)));
     }
     if !program.deferred.is_empty() {
@@ -126,13 +137,40 @@ fn raise(writer: &mut Writer, program: &Program, names: &Names, external: &Exter
     writer.close("}");
 }
 
-fn set(writer: &mut Writer, names: &Names, belief: &Belief) {
+fn set(
+    writer: &mut Writer,
+    program: &Program,
+    names: &Names,
+    helpers: &mut Helpers,
+    belief: &Belief,
+) {
     let name = names.interface(&format!("set_{}", belief.name));
+    let held = names.field(&held(&belief.name));
+    let field = |index| names.field(&belief_value(&belief.name, index));
     writer.open(format!("void {name}({})", names.parameters(&belief.types)));
-    for (index, argument) in interface_arguments(&belief.types).into_iter().enumerate() {
-        let field = names.field(&belief_value(&belief.name, index));
-        writer.line(format!("{field} = {argument};"));
+    let flag = belief
+        .perceived
+        .map(|handler| names.field(&pending(Slot::Perceived, &handler_name(program, handler))));
+    if flag.is_some() {
+        let mut unchanged = vec![held.clone()];
+        for (index, ctype) in belief.types.iter().enumerate() {
+            unchanged.push(helpers.equality(ctype, &field(index), &argument(index)));
+        }
+        // What cannot be compared always counts as changed.
+        let comparable = belief.types.iter().all(CType::has_equality);
+        let condition =
+            if comparable { format!("!({})", conjunction(&unchanged)) } else { "true".to_owned() };
+        writer.line(format!("const bool changed = {condition};"));
+        writer.line("");
     }
-    writer.line(format!("{} = true;", names.field(&held(&belief.name))));
+    for (index, argument) in argument_names(&belief.types).enumerate() {
+        writer.line(format!("{} = {argument};", field(index)));
+    }
+    writer.line(format!("{held} = true;"));
+    if let Some(flag) = flag {
+        writer.open("if (changed)");
+        writer.line(format!("{flag} = true;"));
+        writer.close("}");
+    }
     writer.close("}");
 }

@@ -42,9 +42,12 @@ pub(crate) fn emit(program: &Program, input: &str) -> Files {
 }
 
 fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -> String {
-    // Plans first: what they use decides which helpers are needed.
+    // What plans and interface use decides which helpers are needed before them.
     let mut plans = Writer::default();
-    let helpers = plan::handlers(&mut plans, program, names, input);
+    let mut helpers = plan::handlers(&mut plans, program, names, input);
+    let mut rest = Writer::default();
+    cycle::cycle(&mut rest, program, names);
+    interface::interface(&mut rest, program, names, &mut helpers);
 
     let mut writer = Writer::default();
     header::banner(&mut writer, program, input);
@@ -58,9 +61,6 @@ fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -
     cycle::posting(&mut writer, program, names);
     let mut text = writer.finish();
     text.push_str(&plans.finish());
-    let mut writer = Writer::default();
-    cycle::cycle(&mut writer, program, names);
-    interface::interface(&mut writer, program, names);
-    text.push_str(&writer.finish());
+    text.push_str(&rest.finish());
     text
 }

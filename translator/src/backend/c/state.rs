@@ -1,7 +1,7 @@
 //! The layout of the agent's state, one list for the C struct and its Rust mirror.
 
 use crate::configuration::Instance;
-use crate::program::{External, HandlerId, Program, trigger_name};
+use crate::program::{Belief, External, HandlerId, Program, trigger_name};
 use crate::types::CType;
 
 /// All fields of the agent's state, in order, and the events that it can hold.
@@ -46,6 +46,11 @@ pub(crate) fn layout(program: &Program) -> StateLayout {
     for id in &program.posted {
         layout.events.push(event(Slot::Posted, &handler_name(program, *id)));
         layout.values(program, Slot::Posted, *id);
+    }
+    for (_, handler) in perceived(program) {
+        let trigger = handler_name(program, handler);
+        layout.events.push(event(Slot::Perceived, &trigger));
+        layout.field(pending(Slot::Perceived, &trigger), FieldType::Flag, None);
     }
     layout.inbox(program);
     layout.preemptive(program);
@@ -125,6 +130,8 @@ pub(super) enum Slot {
     Inbox,
     /// Raised by the environment, aborting what runs.
     Preemptive,
+    /// A belief that was set to something else.
+    Perceived,
     /// Posted with `!!`.
     Deferred,
 }
@@ -135,6 +142,7 @@ impl Slot {
             Self::Posted => "posted",
             Self::Inbox => "inbox",
             Self::Preemptive => "preemptive",
+            Self::Perceived => "perceived",
             Self::Deferred => "deferred",
         }
     }
@@ -143,6 +151,16 @@ impl Slot {
 /// External events that wait in the inbox.
 pub(super) fn queued(program: &Program) -> impl Iterator<Item = &External> {
     program.external.iter().filter(|external| !external.preemptive)
+}
+
+/// Beliefs whose change raises an event, and who handles it.
+pub(super) fn perceived(program: &Program) -> impl Iterator<Item = (&Belief, HandlerId)> {
+    let find = |name: &str| program.beliefs.iter().find(|belief| belief.name == name);
+    let names = program.configuration.perceived.iter();
+    names.filter_map(move |name| {
+        let belief = find(&name.text)?;
+        Some((belief, belief.perceived?))
+    })
 }
 
 /// The flag that tells whether a belief is held.

@@ -107,7 +107,7 @@ pub(super) enum Command {
 }
 
 /// What the environment can raise.
-pub(super) const EXTERNAL: [(&str, &str, &[Type]); 7] = [
+pub(super) const EXTERNAL: [(&str, &str, &[Type]); 8] = [
     ("achieve", "g0", &[]),
     ("achieve", "g1", &[Int]),
     ("achieve", "gb", &[Bool]),
@@ -115,6 +115,7 @@ pub(super) const EXTERNAL: [(&str, &str, &[Type]); 7] = [
     ("add", "b1", &[Int]),
     ("del", "b1", &[]),
     ("add", "bd", &[Double]),
+    ("del", "b2", &[]),
 ];
 
 pub(super) fn sequence(choices: &mut Choices<'_>) -> Vec<Command> {
@@ -177,10 +178,11 @@ pub(super) fn agent(choices: &mut Choices<'_>) -> RandomAgent {
             }
         }
     }
-    RandomAgent { text, configuration: configuration(choices) }
+    let configuration = configuration(choices, &text);
+    RandomAgent { text, configuration }
 }
 
-fn configuration(choices: &mut Choices<'_>) -> String {
+fn configuration(choices: &mut Choices<'_>, agent: &str) -> String {
     let signature = |name: &str, types: &[Type]| {
         let types: Vec<_> = types.iter().map(|ctype| ctype.c_name()).collect();
         format!("{name}({})", if types.is_empty() { "void".to_owned() } else { types.join(", ") })
@@ -206,11 +208,12 @@ fn configuration(choices: &mut Choices<'_>) -> String {
         })
         .collect();
     let inbox = 1 + choices.pick(3);
+    let perceived = if agent.contains("\n+b2") && choices.chance(70) { "b2;" } else { "" };
     let preemptive = if choices.chance(50) { "+!gb; +!g1;" } else { "" };
     format!(
         "settings {{ input = agent.asl; output = agent.c; header = agent.h; basics = actions.h; \
          inbox = {inbox}; }};\nbasics {{ {basics} }};\ntypes {{ {predicates} }};\n\
-         settables {{ b2; }};\ntriggerables {{ {external} }};\npreemptive {{ {preemptive} }};\n"
+         settables {{ b2; }};\nperceived {{ {perceived} }};\ntriggerables {{ {external} }};\npreemptive {{ {preemptive} }};\n"
     )
 }
 
