@@ -56,13 +56,16 @@ const C_WORDS: [&str; 42] = [
 ];
 
 /// Names that the generated interface uses itself.
-const INTERFACE: [&str; 8] = [
+const INTERFACE: [&str; 11] = [
     "init",
     "next_step",
     "can_add_event",
     "take_event",
     "handle_event",
     "unhandled_events",
+    "refused_events",
+    "clear",
+    "forget_events",
     "updateBeliefs",
     "agent",
 ];

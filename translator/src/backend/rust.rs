@@ -56,6 +56,8 @@ fn external_functions(writer: &mut Writer, program: &Program) {
     writer.line(format!("fn {prefix}next_step(agent: *mut State);"));
     writer.line(format!("fn {prefix}can_add_event(agent: *mut State) -> bool;"));
     writer.line(format!("fn {prefix}unhandled_events(agent: *mut State) -> u32;"));
+    writer.line(format!("fn {prefix}refused_events(agent: *mut State) -> u32;"));
+    writer.line(format!("fn {prefix}clear(agent: *mut State);"));
     for external in &program.external {
         let name = trigger_name(external.operator, external.kind, &external.name);
         let parameters = raw_parameters(&external.types);
@@ -214,6 +216,12 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("");
     let doc = "Events since the start that no plan handled to its end.";
     query(writer, doc, "unhandled_events", "u32");
+    writer.line("");
+    let doc = "External events since the start that were refused because the inbox was full.";
+    query(writer, doc, "refused_events", "u32");
+    writer.line("");
+    let doc = "Forgets all events and keeps the beliefs; the initial goal runs in the next step.";
+    query(writer, doc, "clear", "()");
     for external in &program.external {
         let name = trigger_name(external.operator, external.kind, &external.name);
         let text = trigger_text(external.operator, external.kind, &external.name);

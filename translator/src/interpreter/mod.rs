@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 pub use self::value::Value;
 use crate::ParsedConfiguration;
 use crate::configuration::Configuration;
-use crate::syntax::ast::{Agent, Formula, Operator, Trigger, TriggerKind};
+use crate::syntax::ast::{Agent, Atom, Formula, Operator, Trigger, TriggerKind};
 use crate::syntax::parse;
 use crate::types::CType;
 
@@ -64,6 +64,7 @@ pub struct Interpreter {
     perceived: BTreeSet<String>,
     deferred: VecDeque<Event>,
     unhandled: u32,
+    refused: u32,
 }
 
 impl Interpreter {
@@ -88,6 +89,7 @@ impl Interpreter {
             perceived: BTreeSet::new(),
             deferred: VecDeque::new(),
             unhandled: 0,
+            refused: 0,
         };
         interpreter.init();
         Ok(interpreter)
@@ -95,29 +97,27 @@ impl Interpreter {
 
     /// Starts anew: initial beliefs only, the initial goal in the first step.
     pub fn init(&mut self) {
-        let constants = |interpreter: &Self, atom: &crate::syntax::ast::Atom| {
-            let types = interpreter.types(&atom.name.text);
-            atom.arguments
-                .iter()
-                .zip(&types)
-                .filter_map(|(expression, ctype)| Value::constant(expression, ctype))
-                .collect::<Vec<_>>()
-        };
         self.beliefs = self
             .agent
             .beliefs
             .iter()
-            .map(|belief| (belief.name.text.clone(), constants(self, belief)))
+            .map(|belief| (belief.name.text.clone(), self.constants(belief)))
             .collect();
+        self.unhandled = 0;
+        self.refused = 0;
+        self.clear();
+    }
+
+    /// Forgets all events and keeps the beliefs; the initial goal runs in the next step.
+    pub fn clear(&mut self) {
         self.posted = self.agent.goal.as_ref().map(|goal| Event {
             key: (Operator::Add, TriggerKind::Achieve, goal.name.text.clone()),
-            arguments: constants(self, goal),
+            arguments: self.constants(goal),
         });
         self.inbox.clear();
         self.preemptive.clear();
         self.perceived.clear();
         self.deferred.clear();
-        self.unhandled = 0;
     }
 
     /// Whether the next external event will be accepted.
@@ -128,6 +128,11 @@ impl Interpreter {
     /// Events since the start that no plan handled to its end.
     pub fn unhandled_events(&self) -> u32 {
         self.unhandled
+    }
+
+    /// External events since the start that were refused because the inbox was full.
+    pub fn refused_events(&self) -> u32 {
+        self.refused
     }
 
     /// Raises `+!name`, `+name` or `-name`.
@@ -151,6 +156,7 @@ impl Interpreter {
         } else if self.can_add_event() {
             self.inbox.push_back(event);
         } else {
+            self.refused = self.refused.saturating_add(1);
             return Err(Refused);
         }
         Ok(())
@@ -236,6 +242,11 @@ impl Interpreter {
             Some(waiting) => waiting.arguments = arguments,
             None => self.deferred.push_back(Event { key, arguments }),
         }
+    }
+
+    fn constants(&self, atom: &Atom) -> Vec<Value> {
+        let pairs = atom.arguments.iter().zip(self.types(&atom.name.text));
+        pairs.filter_map(|(expression, ctype)| Value::constant(expression, &ctype)).collect()
     }
 
     fn types(&self, predicate: &str) -> Vec<CType> {

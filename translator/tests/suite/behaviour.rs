@@ -284,3 +284,18 @@ fn a_perceived_belief_raises_its_event_when_it_changes() {
                   now = 6; next_step(); next_step();";
     assert_eq!(case.run(functions, script), "act(1) act(2) act(6) act(-7)");
 }
+
+#[test]
+fn clear_forgets_events_and_keeps_beliefs() {
+    let agent = "!g. +!g : b(X) <- act(X). +!g <- +b(4); !!h. +!h <- a. +!k <- act(9).";
+    let script = "next_step(); (void)achieve_k(); clear(); next_step(); next_step();";
+    check("triggerables { +!k; };", agent, script, "act(4)");
+}
+
+#[test]
+fn refused_events_are_counted() {
+    let sections = "triggerables { +!gi; };";
+    let script = "(void)achieve_gi(1); (void)achieve_gi(2); (void)achieve_gi(3); \
+                  printf(\"%u\\n\", refused_events()); next_step();";
+    check(sections, "+!gi(X) <- act(X).", script, "2 act(1)");
+}

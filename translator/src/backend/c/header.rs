@@ -55,6 +55,16 @@ pub(super) fn agent_header(
         "Events since init() that no plan handled to its end.",
         format!("uint32_t {}({empty})", names.interface("unhandled_events")),
     );
+    declare(
+        &mut writer,
+        "External events since init() that were refused because the inbox was full.",
+        format!("uint32_t {}({empty})", names.interface("refused_events")),
+    );
+    declare(
+        &mut writer,
+        "Forgets all events, keeps the beliefs; the initial goal runs in the next step.",
+        format!("void {}({empty})", names.interface("clear")),
+    );
     for external in &program.external {
         let comment = if external.preemptive {
             "Always accepted; handled in the next step, whatever runs."

@@ -18,6 +18,7 @@ pub(super) fn interface(
     names: &Names,
     helpers: &mut Helpers,
 ) {
+    forget_events(writer, program, names);
     init(writer, program, names);
     let none: [CType; 0] = [];
     let no_parameters = names.parameters(&none);
@@ -33,9 +34,13 @@ pub(super) fn interface(
     }
     writer.close("}");
     writer.line("");
-    writer.open(format!("uint32_t {}({no_parameters})", names.interface("unhandled_events")));
-    writer.line(format!("return {};", names.field("unhandled")));
-    writer.close("}");
+    for counter in ["unhandled", "refused"] {
+        let name = names.interface(&format!("{counter}_events"));
+        writer.open(format!("uint32_t {name}({no_parameters})"));
+        writer.line(format!("return {};", names.field(counter)));
+        writer.close("}");
+        writer.line("");
+    }
     for external in &program.external {
         writer.line("");
         raise(writer, program, names, external);
@@ -46,21 +51,10 @@ pub(super) fn interface(
     }
 }
 
-fn init(writer: &mut Writer, program: &Program, names: &Names) {
-    writer.open(init_prototype(names));
-    if names.is_context() {
-        writer.line("self->environment = environment;");
-    }
-    for belief in &program.beliefs {
-        let held = names.field(&held(&belief.name));
-        if let Some(initial) = &belief.initial {
-            for (index, value) in initial.iter().enumerate() {
-                let field = names.field(&belief_value(&belief.name, index));
-                writer.line(format!("{field} = {};", constant_text(value)));
-            }
-        }
-        writer.line(format!("{held} = {};", belief.initial.is_some()));
-    }
+/// Drops every event; the initial goal is posted.
+fn forget_events(writer: &mut Writer, program: &Program, names: &Names) {
+    let none: [CType; 0] = [];
+    writer.open(format!("static void forget_events({})", names.parameters(&none)));
     match &program.initial_goal {
         Some((handler, values)) => {
             let trigger = handler_name(program, *handler);
@@ -95,7 +89,34 @@ fn init(writer: &mut Writer, program: &Program, names: &Names) {
         let flag = pending(Slot::Deferred, &handler_name(program, *id));
         writer.line(format!("{} = false;", names.field(&flag)));
     }
+    writer.close("}");
+    writer.line("");
+}
+
+fn init(writer: &mut Writer, program: &Program, names: &Names) {
+    writer.open(init_prototype(names));
+    if names.is_context() {
+        writer.line("self->environment = environment;");
+    }
+    for belief in &program.beliefs {
+        let held = names.field(&held(&belief.name));
+        if let Some(initial) = &belief.initial {
+            for (index, value) in initial.iter().enumerate() {
+                let field = names.field(&belief_value(&belief.name, index));
+                writer.line(format!("{field} = {};", constant_text(value)));
+            }
+        }
+        writer.line(format!("{held} = {};", belief.initial.is_some()));
+    }
     writer.line(format!("{} = 0U;", names.field("unhandled")));
+    writer.line(format!("{} = 0U;", names.field("refused")));
+    let forget = format!("forget_events({});", names.arguments(std::iter::empty()));
+    writer.line(&forget);
+    writer.close("}");
+    writer.line("");
+    let none: [CType; 0] = [];
+    writer.open(format!("void {}({})", names.interface("clear"), names.parameters(&none)));
+    writer.line(&forget);
     writer.close("}");
     writer.line("");
 }
@@ -131,6 +152,13 @@ fn raise(writer: &mut Writer, program: &Program, names: &Names, external: &Exter
         let event = event_name(names, Slot::Inbox, &trigger);
         writer.line(format!("{}[slot] = {event};", names.field("inbox_queue")));
         writer.line(format!("{count} = {count} + 1U;"));
+        writer.close("}");
+        let refused = names.field("refused");
+        writer.open(format!("else if ({refused} < UINT32_MAX)"));
+        writer.line(format!("{refused} = {refused} + 1U;"));
+        writer.close("}");
+        writer.open("else");
+        writer.line("/* The count stays at its highest value. */");
         writer.close("}");
         writer.line("return accepted;");
     }

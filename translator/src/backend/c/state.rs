@@ -56,6 +56,7 @@ pub(crate) fn layout(program: &Program) -> StateLayout {
     layout.preemptive(program);
     layout.deferred(program);
     layout.field("unhandled".to_owned(), FieldType::Count, None);
+    layout.field("refused".to_owned(), FieldType::Count, None);
     layout
 }
 

@@ -117,7 +117,9 @@ fn main_function(sequences: &[Vec<Command>]) -> String {
         for command in sequence {
             match command {
                 Command::Step => {
-                    text.push_str("next_step(); printf(\"step %u\\n\", unhandled_events());\n");
+                    text.push_str(
+                        "next_step(); printf(\"step %u %u\\n\", unhandled_events(), refused_events());\n",
+                    );
                 }
                 Command::Raise(verb, name, arguments) => {
                     let arguments: Vec<String> = arguments.iter().map(c_constant).collect();
@@ -129,6 +131,7 @@ fn main_function(sequences: &[Vec<Command>]) -> String {
                     _ = writeln!(text, "pending = true; pending1 = {first}; pending2 = {second};");
                 }
                 Command::Init => text.push_str("init();\n"),
+                Command::Clear => text.push_str("clear();\n"),
             }
         }
     }

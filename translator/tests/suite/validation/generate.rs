@@ -104,6 +104,7 @@ pub(super) enum Command {
     /// Before the next step, `b2` is set.
     Set(String, String),
     Init,
+    Clear,
 }
 
 /// What the environment can raise.
@@ -130,6 +131,7 @@ pub(super) fn sequence(choices: &mut Choices<'_>) -> Vec<Command> {
             }
             8 => Command::Set(constant(choices, Int), constant(choices, Int)),
             _ if choices.chance(30) => Command::Init,
+            _ if choices.chance(30) => Command::Clear,
             _ => Command::Step,
         })
         .collect()

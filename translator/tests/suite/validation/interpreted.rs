@@ -31,7 +31,8 @@ fn execute(interpreter: &mut Interpreter, world: &mut World, command: &Command) 
     match command {
         Command::Step => {
             interpreter.next_step(world);
-            _ = writeln!(world.trace, "step {}", interpreter.unhandled_events());
+            let counts = (interpreter.unhandled_events(), interpreter.refused_events());
+            _ = writeln!(world.trace, "step {} {}", counts.0, counts.1);
         }
         Command::Raise(verb, name, arguments) => {
             let (operator, kind) = match *verb {
@@ -48,6 +49,7 @@ fn execute(interpreter: &mut Interpreter, world: &mut World, command: &Command) 
             world.pending = Some(vec![parse(first, Type::Int), parse(second, Type::Int)]);
         }
         Command::Init => interpreter.init(),
+        Command::Clear => interpreter.clear(),
     }
 }
 
