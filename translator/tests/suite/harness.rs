@@ -99,6 +99,36 @@ impl Case {
     }
 }
 
+/// Translates, compiles and runs a program whose basic actions print themselves; a function
+/// `f` of type bool returns the variable `f_result`, which the script may set. Lines are kept.
+pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> String {
+    let parsed = parse_configuration("a.conf", configuration).unwrap_or_else(|e| panic!("{e}"));
+    let translation = translate(parsed, agent).unwrap_or_else(|error| panic!("{error}"));
+    let folder = tempfile::tempdir().unwrap();
+    for file in &translation.files {
+        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+    }
+    let mut main = format!("#include <stdio.h>\n#include \"{}\"\n", translation.files[0].name);
+    main.push_str("void updateBeliefs(void) {}\n");
+    let (_, basics) = configuration.split_once("basics {").unwrap();
+    for declaration in basics.split('}').next().unwrap().split(';').map(str::trim) {
+        if let Some(action) = declaration.strip_prefix("void ") {
+            main.push_str(&printing_action(action));
+        } else if let Some(function) = declaration.strip_prefix("bool ") {
+            let name = function.split('(').next().unwrap();
+            main.push_str(&format!(
+                "static bool {name}_result = false;\nbool {name}(void) {{ return {name}_result; }}\n"
+            ));
+        }
+    }
+    main.push_str(&format!("int main(void) {{ init();\n{script}\nreturn 0; }}\n"));
+    std::fs::write(folder.path().join("main.c"), main).unwrap();
+    let result = compiler(folder.path()).args(["-o", "agent", "main.c"]).output().unwrap();
+    assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+    let result = Command::new(folder.path().join("agent")).output().unwrap();
+    String::from_utf8(result.stdout).unwrap().trim_end().to_owned()
+}
+
 fn compiler(folder: &Path) -> Command {
     let mut compiler = Command::new("gcc");
     compiler.current_dir(folder).args(STRICT);

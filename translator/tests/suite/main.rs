@@ -9,6 +9,7 @@
 
 mod behaviour;
 mod generated;
+mod guide;
 mod harness;
 mod refused;
 mod validation;

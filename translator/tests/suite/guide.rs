@@ -1,0 +1,57 @@
+//! The language guide's examples do what the guide says.
+
+use translator::{parse_configuration, translate};
+
+use crate::harness::run_program;
+
+const GUIDE: &str = include_str!("../../../docs/agentspeak.md");
+
+/// The fenced blocks of the guide: language and content.
+fn blocks() -> Vec<(&'static str, String)> {
+    let mut blocks = Vec::new();
+    let mut open: Option<(&str, String)> = None;
+    for line in GUIDE.lines() {
+        match (&mut open, line.strip_prefix("```")) {
+            (None, Some(language)) => open = Some((language, String::new())),
+            (Some(_), Some(_)) => blocks.extend(open.take()),
+            (Some((_, content)), None) => {
+                content.push_str(line);
+                content.push('\n');
+            }
+            (None, None) => {}
+        }
+    }
+    blocks
+}
+
+#[test]
+fn every_example_of_the_guide_does_what_it_says() {
+    let mut configuration = String::new();
+    let mut agent = String::new();
+    let mut checked = 0;
+    for (language, content) in blocks() {
+        match language {
+            "configuration" => configuration = content,
+            "agentspeak" => agent = content,
+            "transcript" => {
+                let (script, expected): (Vec<&str>, Vec<&str>) =
+                    content.lines().partition(|line| line.starts_with('>'));
+                let script: String = script
+                    .iter()
+                    .map(|line| format!("{}\n", line.trim_start_matches('>')))
+                    .collect();
+                let trace = run_program(&configuration, &agent, &script);
+                assert_eq!(trace, expected.join("\n"), "{agent}");
+                checked += 1;
+            }
+            "refused" => {
+                let parsed = parse_configuration("a.conf", &configuration).unwrap();
+                let error = translate(parsed, &agent).unwrap_err().to_string();
+                assert_eq!(error.trim_end(), content.trim_end());
+                checked += 1;
+            }
+            other => panic!("what is ```{other} for?"),
+        }
+    }
+    assert!(checked >= 6, "{checked}");
+}
