@@ -32,6 +32,8 @@ pub enum TypeKind {
     Float64,
     /// `const char *`
     Text,
+    /// A struct that the configuration declares: it can be compared, field by field.
+    Struct,
     /// Anything else: it can be passed on, but neither written down nor compared.
     Opaque,
 }
@@ -96,6 +98,7 @@ impl CType {
             TypeKind::Float32 => Some("0.0F"),
             TypeKind::Float64 => Some("0.0"),
             TypeKind::Text => Some("\"\""),
+            TypeKind::Struct => Some("{ 0 }"),
             TypeKind::Void | TypeKind::Opaque => None,
         }
     }
@@ -119,7 +122,7 @@ impl CType {
             TypeKind::Unsigned { .. } => Some("u64"),
             TypeKind::Float32 => Some("f32"),
             TypeKind::Float64 => Some("f64"),
-            TypeKind::Void | TypeKind::Text | TypeKind::Opaque => None,
+            TypeKind::Void | TypeKind::Text | TypeKind::Struct | TypeKind::Opaque => None,
         }
     }
 }

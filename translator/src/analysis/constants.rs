@@ -66,7 +66,7 @@ fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnostic> {
                 None => error(format!("number out of the range of `{}`", ctype.name)),
             }
         }
-        TypeKind::Bool | TypeKind::Void | TypeKind::Text | TypeKind::Opaque => {
+        TypeKind::Bool | TypeKind::Void | TypeKind::Text | TypeKind::Struct | TypeKind::Opaque => {
             error(format!("a number where a value of type `{}` is expected", ctype.name))
         }
     }

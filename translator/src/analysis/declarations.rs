@@ -115,6 +115,26 @@ impl Declarations {
             }
             declarations.declare(&basic.name, Declared::Basic(BasicId(index)), findings);
         }
+        for (index, declared) in configuration.structs.iter().enumerate() {
+            let name = &declared.name.text;
+            let known = CType::named(name).kind != TypeKind::Opaque;
+            let twice = configuration.structs[..index].iter().any(|s| s.name.text == *name);
+            if known || twice || C_WORDS.contains(&name.as_str()) || name.starts_with('_') {
+                findings.push(
+                    Diagnostic::error(
+                        format!("`{name}` cannot be the name of a struct"),
+                        declared.name.span.clone(),
+                    )
+                    .help("another type has this name, or C reserves it"),
+                );
+            }
+            for (field, _) in &declared.fields {
+                if C_WORDS.contains(&field.text.as_str()) || field.text.starts_with('_') {
+                    let message = format!("`{}` cannot be the name of a field", field.text);
+                    findings.push(Diagnostic::error(message, field.span.clone()));
+                }
+            }
+        }
         for predicate in &configuration.predicates {
             let declared = Declared::Predicate(predicate.parameters.clone());
             declarations.declare(&predicate.name, declared, findings);

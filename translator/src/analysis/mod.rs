@@ -14,7 +14,7 @@ mod values;
 
 use std::collections::{HashMap, HashSet};
 
-use diagnostic::{Diagnostic, Severity, line_column};
+use diagnostic::{Diagnostic, Severity};
 
 use self::constants::constant;
 use self::declarations::Declarations;
@@ -54,6 +54,9 @@ pub(crate) fn analyse(
     let declarations = Declarations::new(&configuration, &mut findings.configuration);
     let mut analysis = Analysis {
         text,
+        line_starts: std::iter::once(0)
+            .chain(text.match_indices('\n').map(|(newline, _)| newline + 1))
+            .collect(),
         declarations,
         findings,
         beliefs: Vec::new(),
@@ -104,6 +107,8 @@ pub(crate) fn analyse(
 
 struct Analysis<'a> {
     text: &'a str,
+    /// Where each line begins.
+    line_starts: Vec<usize>,
     declarations: Declarations,
     findings: Findings,
     beliefs: Vec<Belief>,
@@ -121,8 +126,9 @@ impl Analysis<'_> {
         self.findings.agent.push(diagnostic);
     }
 
+    /// The line that a byte of the source stands in, from 1.
     fn line(&self, offset: usize) -> usize {
-        line_column(self.text, offset).0
+        self.line_starts.partition_point(|start| *start <= offset)
     }
 
     fn handler_id(&self, operator: Operator, kind: TriggerKind, name: &str) -> Option<HandlerId> {
@@ -288,19 +294,16 @@ impl Analysis<'_> {
 
     fn external(&mut self, configuration: &Configuration) -> Vec<External> {
         let mut external: Vec<External> = Vec::new();
+        let mut known: HashSet<TriggerKey> = HashSet::new();
         for trigger in &configuration.triggerables {
             if let Some(event) = self.external_event(trigger, configuration) {
-                let known = external.iter().any(|other| {
-                    (other.operator, other.kind, &other.name)
-                        == (event.operator, event.kind, &event.name)
-                });
-                if known {
+                if known.insert((event.operator, event.kind, event.name.clone())) {
+                    external.push(event);
+                } else {
                     self.findings.configuration.push(Diagnostic::error(
                         "this trigger is listed twice",
                         trigger.span.clone(),
                     ));
-                } else {
-                    external.push(event);
                 }
             }
         }

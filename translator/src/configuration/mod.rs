@@ -5,6 +5,7 @@
 //! ```text
 //! settings { input = pilot.asl; output = pilot.c; header = pilot.h; basics = actions.h; };
 //! includes { #include <stdbool.h> };
+//! structs { place_t { double x; double y; }; };
 //! basics { void sendLand(void); bool closeEnough(double, double); };
 //! types { position(double, double); land(void); };
 //! settables { position; };
@@ -31,6 +32,8 @@ pub struct Configuration {
     pub settings: Settings,
     /// Preprocessor lines, copied to the generated headers.
     pub includes: Vec<String>,
+    /// Struct types.
+    pub structs: Vec<Struct>,
     /// Basic actions and functions.
     pub basics: Vec<Basic>,
     /// Beliefs and goals with the types of their arguments.
@@ -88,6 +91,15 @@ pub enum Instance {
     Static,
     /// In a struct that the caller owns and passes to each function.
     Context,
+}
+
+/// A struct type.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Struct {
+    /// The type's name.
+    pub name: Name,
+    /// Names and types of its fields: numbers and bool.
+    pub fields: Vec<(Name, CType)>,
 }
 
 /// A function that the environment provides.

@@ -2,13 +2,14 @@
 
 use diagnostic::{Diagnostic, Span};
 
-use super::{Basic, Configuration, ExternalTrigger, Instance, Predicate};
+use super::{Basic, Configuration, ExternalTrigger, Instance, Predicate, Struct};
 use crate::syntax::ast::{Name, Operator, TriggerKind};
-use crate::types::CType;
+use crate::types::{CType, TypeKind};
 
-const SECTIONS: [&str; 8] = [
+const SECTIONS: [&str; 9] = [
     "settings",
     "includes",
+    "structs",
     "basics",
     "types",
     "settables",
@@ -60,6 +61,7 @@ impl<'a> Parser<'a> {
                 }
             }
         }
+        self.resolve_structs();
         if self.diagnostics.is_empty() {
             self.check_settings();
         }
@@ -105,6 +107,7 @@ impl<'a> Parser<'a> {
     fn entry(&mut self, section: &str) -> Parsed<()> {
         match section {
             "settings" => self.setting(),
+            "structs" => self.structure(),
             "basics" => self.basic(),
             "types" => self.predicate(),
             "settables" => {
@@ -210,6 +213,50 @@ impl<'a> Parser<'a> {
                 .help("it is always declared, as `void updateBeliefs(void)`"));
         }
         Ok(())
+    }
+
+    /// `name { type field; .. };`
+    fn structure(&mut self) -> Parsed<()> {
+        let name = self.word("a struct type")?;
+        self.expect("{")?;
+        let mut fields: Vec<(Name, CType)> = Vec::new();
+        self.skip_blanks()?;
+        while !self.take("}") {
+            let (ctype, field) = self.typed_name()?;
+            self.expect(";")?;
+            if !ctype.is_numeric() && ctype.kind != TypeKind::Bool {
+                return Err(Diagnostic::error("a field must be a number or bool", field.span)
+                    .help("structs of structs and pointers are not translated"));
+            }
+            if fields.iter().any(|(other, _)| other.text == field.text) {
+                return Err(Diagnostic::error("a second field of this name", field.span));
+            }
+            fields.push((field, ctype));
+            self.skip_blanks()?;
+        }
+        self.expect(";")?;
+        if fields.is_empty() {
+            return Err(Diagnostic::error("a struct without fields", name.span));
+        }
+        self.configuration.structs.push(Struct { name, fields });
+        Ok(())
+    }
+
+    /// Types that the section `structs` declares are known wherever they are named.
+    fn resolve_structs(&mut self) {
+        let Configuration { structs, basics, predicates, .. } = &mut self.configuration;
+        let resolve = |ctype: &mut CType| {
+            if structs.iter().any(|declared| declared.name.text == ctype.name) {
+                ctype.kind = TypeKind::Struct;
+            }
+        };
+        for basic in basics {
+            resolve(&mut basic.result);
+            basic.parameters.iter_mut().for_each(resolve);
+        }
+        for predicate in predicates {
+            predicate.parameters.iter_mut().for_each(resolve);
+        }
     }
 
     fn predicate(&mut self) -> Parsed<()> {
@@ -449,7 +496,6 @@ fn advice(word: &str, known: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::types::TypeKind;
 
     const MINIMAL: &str =
         "settings { input = a.asl; output = my-a.c; header = a.h; basics = b.h; };";

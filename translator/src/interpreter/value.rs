@@ -16,6 +16,8 @@ pub enum Value {
     Float(f64),
     /// A string constant.
     Text(String),
+    /// The fields of a struct.
+    Struct(Vec<Self>),
 }
 
 impl Value {
@@ -26,6 +28,7 @@ impl Value {
             TypeKind::Signed { .. } | TypeKind::Unsigned { .. } => Some(Self::Integer(0)),
             TypeKind::Float32 | TypeKind::Float64 => Some(Self::Float(0.0)),
             TypeKind::Text => Some(Self::Text(String::new())),
+            TypeKind::Struct => Some(Self::Struct(Vec::new())),
             TypeKind::Void | TypeKind::Opaque => None,
         }
     }
@@ -110,6 +113,9 @@ impl Value {
             (Self::Bool(left), Self::Bool(right)) => left.partial_cmp(right),
             (Self::Integer(left), Self::Integer(right)) => left.partial_cmp(right),
             (Self::Float(left), Self::Float(right)) => left.partial_cmp(right),
+            (Self::Struct(left), Self::Struct(right)) if Self::all_equal(left, right) => {
+                Some(Equal)
+            }
             _ => None,
         };
         match relation {

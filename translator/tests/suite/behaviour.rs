@@ -299,3 +299,25 @@ fn refused_events_are_counted() {
                   printf(\"%u\\n\", refused_events()); next_step();";
     check(sections, "+!gi(X) <- act(X).", script, "2 act(1)");
 }
+
+#[test]
+fn structs_are_passed_kept_and_compared() {
+    let case = Case {
+        basics: "void act(int); place_t here(int); double far(place_t, place_t);",
+        types: "g(void); at(place_t); to(place_t); ask(place_t);",
+        sections: "structs { place_t { double x; double y; bool valid; }; }; settables { at; };\n\
+                   perceived { at; }; triggerables { +!g; };",
+        agent: "+at(P) : to(P) <- act(1).\n\
+                +at(P) <- +to(P); ?ask(Q); !g.\n\
+                +?ask(P) : at(P).\n\
+                +!g : at(P) & to(Q) & P == Q & far(P, here(3)) > 1.0 <- act(2).\n\
+                +!g : at(P) & not to(P) <- act(3).",
+    };
+    let functions = "static int place = 1;\n\
+        place_t here(int n) { place_t p = { 0 }; p.x = n; p.valid = true; return p; }\n\
+        double far(place_t a, place_t b) { return (b.x - a.x) + (b.y - a.y); }\n\
+        void updateBeliefs(void) { set_at(here(place)); }\n";
+    let script = "next_step(); next_step(); place = 9; next_step(); place = 1; next_step();";
+    assert_eq!(case.run(functions, script), "act(2) act(2)");
+    case.compile();
+}

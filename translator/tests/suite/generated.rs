@@ -68,9 +68,9 @@ fn the_trace_matrix_leads_from_requirement_to_c_lines() {
 
 /// Every construct of the language in one agent.
 const EVERYTHING: Case = Case {
-    basics: "void act(int32_t); void say(const char *); bool dark(void); int32_t level(void); double gauge(double);",
-    types: "g(void); h(int32_t); k(void); b(int32_t); p(int32_t, int32_t); d(double); c(bool); u(uint16_t); q(int32_t, double);",
-    sections: "settables { b; }; triggerables { +!g; +!h; +b; -b; +!k; }; preemptive { +!k; };",
+    basics: "void go(place_t); void act(int32_t); void say(const char *); bool dark(void); int32_t level(void); double gauge(double);",
+    types: "at(place_t); to(place_t); g(void); h(int32_t); k(void); b(int32_t); p(int32_t, int32_t); d(double); c(bool); u(uint16_t); q(int32_t, double);",
+    sections: "structs { place_t { double x; float y; bool ok; }; }; settables { b; at; }; perceived { at; }; triggerables { +!g; +!h; +b; -b; +!k; }; preemptive { +!k; };",
     agent: "b(3). d(0.5). c(true). u(7).\n!g.\n\
         +!g : b(X) & X < 10 & not (c(Y) & Y | p(X, _)) <- act(X * 2); !h(X); say(\"x\"); +p(X, X + 1); !g.\n\
         +!g : (b(X) | p(_, X)) & d(Z) & Z / 2.0 > 0.1 & u(W) & W mod 2 == 1 & dark\n\
@@ -78,7 +78,7 @@ const EVERYTHING: Case = Case {
         +!g <- -b(_); !!g.\n\
         +!h(3) <- act(3).\n+!h(X) : X >= 5 <- ?p(X, Y); act(-Y).\n-!h(_) <- +c(false).\n\
         +p(X, Y) : X == Y <- act(0).\n+p(_, _) <- act(1).\n-b(X) <- act(X).\n\
-        +?q(X, V) : d(V) & b(X).\n+!k <- act(9).\n",
+        +?q(X, V) : d(V) & b(X).\n+!k <- act(9).\n+at(P) : not to(P) <- +to(P); go(P); ?to(Q); go(Q).\n+?to(P) : at(P).\n",
 };
 
 /// cppcheck's checks and its MISRA addon find nothing but that nobody calls the interface.

@@ -239,3 +239,25 @@ fn what_nothing_triggers_is_left_out_with_a_warning() {
     assert!(!translation.files[0].text.contains("act(2)"));
     case.compile();
 }
+
+#[test]
+fn structs_are_checked() {
+    for (structs, expected) in [
+        ("p_t { };", "a struct without fields"),
+        ("p_t { double x; int x; };", "a second field of this name"),
+        ("p_t { other_t x; };", "a field must be a number or bool"),
+        ("double { int x; };", "`double` cannot be the name of a struct"),
+        ("p_t { int x; }; p_t { int y; };", "`p_t` cannot be the name of a struct"),
+        ("p_t { int while; };", "`while` cannot be the name of a field"),
+        ("p_t { int x };", "expected `;`, found `}`"),
+    ] {
+        let configuration = format!(
+            "settings {{ input = a; output = b; header = c; basics = d; }}; structs {{ {structs} }}; \
+             types {{ g(void); }};"
+        );
+        let parsed = translator::parse_configuration("c", &configuration);
+        let error = parsed.and_then(|parsed| translator::translate(parsed, "!g. +!g."));
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains(expected), "{structs}: {error}");
+    }
+}

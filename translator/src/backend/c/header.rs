@@ -29,6 +29,7 @@ pub(super) fn agent_header(
     banner(&mut writer, program, input);
     let guard = open_guard(&mut writer, &settings.header);
     includes(&mut writer, program);
+    structs(&mut writer, program);
     if names.is_context() {
         state_types(&mut writer, names, layout);
     }
@@ -90,7 +91,7 @@ pub(super) fn basics_header(program: &Program, names: &Names, input: &str) -> St
     let mut writer = Writer::default();
     banner(&mut writer, program, input);
     let guard = open_guard(&mut writer, &settings.basics);
-    if names.is_context() {
+    if names.is_context() || !program.configuration.structs.is_empty() {
         writer.line(format!("#include \"{}\"", settings.header));
         writer.line("");
     } else {
@@ -187,6 +188,20 @@ fn action_prototype(names: &Names, basic: &Basic) -> String {
     parameters.extend(super::names::typed_arguments(&basic.parameters));
     let parameters = if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
     typed(&basic.result, &format!("{}({parameters})", names.action(basic)))
+}
+
+fn structs(writer: &mut Writer, program: &Program) {
+    for declared in &program.configuration.structs {
+        writer.line("typedef struct");
+        writer.line("{");
+        writer.indent();
+        for (field, ctype) in &declared.fields {
+            writer.line(format!("{};", typed(ctype, &field.text)));
+        }
+        writer.dedent();
+        writer.line(format!("}} {};", declared.name.text));
+        writer.line("");
+    }
 }
 
 fn includes(writer: &mut Writer, program: &Program) {

@@ -1,27 +1,33 @@
 //! Small functions that the plans turn out to need: exact comparison, arithmetic that cannot
 //! overflow.
 
+use super::expression::conjunction;
 use crate::backend::writer::Writer;
+use crate::configuration::Struct;
 use crate::syntax::ast::Arithmetic;
-use crate::types::CType;
+use crate::types::{CType, TypeKind};
 
 /// The helpers that are needed, each once.
 #[derive(Debug, Default)]
 pub(super) struct Helpers {
     equal: Vec<CType>,
+    /// Comparisons of structs: the type's name and the condition on `left` and `right`.
+    structs: Vec<(String, String)>,
     checked: Vec<(Arithmetic, CType)>,
 }
 
 impl Helpers {
     /// The expression that is true if two values are equal.
     pub(super) fn equality(&mut self, ctype: &CType, left: &str, right: &str) -> String {
-        if !ctype.is_float() {
+        if !ctype.is_float() && ctype.kind != TypeKind::Struct {
             return format!("({left} == {right})");
         }
         if !self.equal.contains(ctype) {
             self.equal.push(ctype.clone());
         }
-        format!("equal_{}({left}, {right})", identifier(ctype))
+        // Structs are passed by reference.
+        let reference = if ctype.kind == TypeKind::Struct { "&" } else { "" };
+        format!("equal_{}({reference}{left}, {reference}{right})", identifier(ctype))
     }
 
     /// The name of the function that calculates if there is a result.
@@ -33,12 +39,36 @@ impl Helpers {
         checked_name(operator, ctype)
     }
 
-    pub(super) fn emit(&self, writer: &mut Writer) {
-        for ctype in &self.equal {
+    pub(super) fn emit(&mut self, writer: &mut Writer, structs: &[Struct]) {
+        for declared in structs {
+            let needed = |ctype: &CType| ctype.name == declared.name.text;
+            if !self.equal.iter().any(needed) {
+                continue;
+            }
+            // Its fields are compared before it.
+            let fields: Vec<String> = declared
+                .fields
+                .iter()
+                .map(|(field, ctype)| {
+                    let name = &field.text;
+                    self.equality(ctype, &format!("left->{name}"), &format!("right->{name}"))
+                })
+                .collect();
+            self.structs.push((declared.name.text.clone(), conjunction(&fields)));
+        }
+        for ctype in self.equal.iter().filter(|ctype| ctype.is_float()) {
             let (name, stem) = (&ctype.name, identifier(ctype));
             writer.line("/* Exact equality; a NaN equals nothing. */");
             writer.open(format!("static bool equal_{stem}({name} left, {name} right)"));
             writer.line("return (left <= right) && (left >= right);");
+            writer.close("}");
+            writer.line("");
+        }
+        for (name, condition) in &self.structs {
+            writer.line("/* Equal in every field. */");
+            writer
+                .open(format!("static bool equal_{name}(const {name} *left, const {name} *right)"));
+            writer.line(format!("return {condition};"));
             writer.close("}");
             writer.line("");
         }

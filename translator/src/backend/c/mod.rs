@@ -57,7 +57,7 @@ fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -
     writer.line("");
     header::private_types(&mut writer, names, layout);
     plan::prototypes(&mut writer, program, names);
-    helpers.emit(&mut writer);
+    helpers.emit(&mut writer, &program.configuration.structs);
     cycle::posting(&mut writer, program, names);
     let mut text = writer.finish();
     text.push_str(&plans.finish());

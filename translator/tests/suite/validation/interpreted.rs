@@ -94,7 +94,7 @@ impl Environment for World {
                     hash.mix(bits as u32);
                     hash.mix((bits >> 32) as u32);
                 }
-                Value::Text(_) => unreachable!("no strings are generated"),
+                Value::Text(_) | Value::Struct(_) => unreachable!("none are generated"),
             }
         }
         self.trace.push('\n');
@@ -125,7 +125,7 @@ impl Hash {
         let choice = hash >> 5;
         let extreme = hash.trailing_zeros() >= 5;
         Some(match ctype.kind {
-            TypeKind::Void | TypeKind::Text | TypeKind::Opaque => return None,
+            TypeKind::Void | TypeKind::Text | TypeKind::Struct | TypeKind::Opaque => return None,
             TypeKind::Bool => Value::Bool(choice & 4 != 0),
             TypeKind::Float32 | TypeKind::Float64 => {
                 Value::Float([0.0, 1.5, -2.0, 0.1, 1e300, -0.0][choice as usize % 6])
