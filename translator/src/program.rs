@@ -281,6 +281,13 @@ impl Program {
             .map(|(index, handler)| (HandlerId(index), handler))
     }
 
+    /// The plans that are generated, with their handlers, numbered from 0.
+    pub(crate) fn reachable_plans(&self) -> impl Iterator<Item = (HandlerId, usize, &Plan)> {
+        self.reachable_handlers().flat_map(|(id, handler)| {
+            handler.plans.iter().enumerate().map(move |(number, plan)| (id, number, plan))
+        })
+    }
+
     pub(crate) fn basic(&self, id: BasicId) -> &Basic {
         &self.configuration.basics[id.0]
     }

@@ -10,6 +10,8 @@ use crate::program::{Program, trigger_text};
 /// One line of the matrix.
 struct Row {
     requirement: String,
+    /// The number that the trace function gets.
+    plan: usize,
     label: String,
     trigger: String,
     source_lines: (usize, usize),
@@ -33,22 +35,22 @@ pub(crate) fn emit(program: &Program, input: &str, source: &str) -> Result<Matri
 fn rows(program: &Program, source: &str) -> Vec<Row> {
     let functions = function_lines(source);
     let mut rows = Vec::new();
-    for (id, handler) in program.reachable_handlers() {
-        for (number, plan) in handler.plans.iter().enumerate() {
-            let function = plan_name(number, &handler_name(program, id));
-            let c_lines = functions.get(function.as_str()).copied().unwrap_or_default();
-            let untagged = [String::new()];
-            let requirements =
-                if plan.requirements.is_empty() { &untagged[..] } else { &plan.requirements };
-            rows.extend(requirements.iter().map(|requirement| Row {
-                requirement: requirement.clone(),
-                label: plan.label.clone().unwrap_or_default(),
-                trigger: trigger_text(handler.operator, handler.kind, &handler.name),
-                source_lines: plan.lines,
-                function: function.clone(),
-                c_lines,
-            }));
-        }
+    for (plan_number, (id, number, plan)) in program.reachable_plans().enumerate() {
+        let handler = program.handler(id);
+        let function = plan_name(number, &handler_name(program, id));
+        let c_lines = functions.get(function.as_str()).copied().unwrap_or_default();
+        let untagged = [String::new()];
+        let requirements =
+            if plan.requirements.is_empty() { &untagged[..] } else { &plan.requirements };
+        rows.extend(requirements.iter().map(|requirement| Row {
+            requirement: requirement.clone(),
+            plan: plan_number,
+            label: plan.label.clone().unwrap_or_default(),
+            trigger: trigger_text(handler.operator, handler.kind, &handler.name),
+            source_lines: plan.lines,
+            function: function.clone(),
+            c_lines,
+        }));
     }
     rows
 }
@@ -74,6 +76,7 @@ fn csv(rows: &[Row], input: &str, output: &str) -> Result<String, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record([
         "requirement",
+        "plan",
         "label",
         "trigger",
         "source",
@@ -89,6 +92,7 @@ fn csv(rows: &[Row], input: &str, output: &str) -> Result<String, csv::Error> {
         let [source_first, source_last, c_first, c_last] = lines.map(|line| line.to_string());
         writer.write_record([
             &row.requirement,
+            &row.plan.to_string(),
             &row.label,
             &row.trigger,
             input,
@@ -110,6 +114,7 @@ fn json(rows: &[Row], input: &str, output: &str) -> String {
         .map(|row| {
             json!({
                 "requirement": row.requirement,
+                "plan": row.plan,
                 "label": row.label,
                 "trigger": row.trigger,
                 "source": { "file": input, "lines": [row.source_lines.0, row.source_lines.1] },

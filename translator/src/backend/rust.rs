@@ -24,6 +24,9 @@ pub(crate) fn emit(program: &Program, input: &str) -> String {
     beliefs(&mut writer, program);
     shims(&mut writer, program);
     agent(&mut writer, program);
+    if program.configuration.settings.trace.is_some() {
+        plans(&mut writer, program);
+    }
     writer.finish()
 }
 
@@ -259,6 +262,20 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("");
     writer.line("/// The size of the agent's state in bytes, all the memory that it uses.");
     writer.line("pub const STATE_BYTES: usize = size_of::<State>();");
+}
+
+/// What the numbers that the trace function gets mean.
+fn plans(writer: &mut Writer, program: &Program) {
+    let count = program.reachable_plans().count();
+    writer.line("");
+    writer.line("/// The plans by number: first line in the source, and trigger.");
+    writer.open_array(format!("pub const PLANS: [(u32, &str); {count}] ="));
+    for (id, _, plan) in program.reachable_plans() {
+        let handler = program.handler(id);
+        let trigger = trigger_text(handler.operator, handler.kind, &handler.name);
+        writer.line(format!("({}, \"{trigger}\"),", plan.lines.0));
+    }
+    writer.close("];");
 }
 
 fn method_signature(basic: &Basic) -> String {

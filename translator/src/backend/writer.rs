@@ -37,6 +37,12 @@ impl Writer {
         self.depth += 1;
     }
 
+    /// `head [` on one line.
+    pub(super) fn open_array(&mut self, head: impl AsRef<str>) {
+        self.line(format!("{} [", head.as_ref()));
+        self.depth += 1;
+    }
+
     /// One level back and the closing line.
     pub(super) fn close(&mut self, closing: &str) {
         self.depth -= 1;

@@ -63,6 +63,8 @@ pub struct Settings {
     pub rust: Option<Name>,
     /// The trace matrix, written as this name with `.csv` and `.json`, if wanted.
     pub matrix: Option<String>,
+    /// The function that is told which plan was chosen, if wanted.
+    pub trace: Option<Name>,
     /// Whether the agent's state is static or passed in.
     pub instance: Instance,
     /// External events that can wait at the same time.
@@ -78,6 +80,7 @@ impl Default for Settings {
             basics: String::new(),
             rust: None,
             matrix: None,
+            trace: None,
             instance: Instance::Static,
             inbox: 1,
         }

@@ -17,8 +17,8 @@ const SECTIONS: [&str; 9] = [
     "triggerables",
     "preemptive",
 ];
-const SETTINGS: [&str; 8] =
-    ["input", "output", "header", "basics", "rust", "matrix", "instance", "inbox"];
+const SETTINGS: [&str; 9] =
+    ["trace", "input", "output", "header", "basics", "rust", "matrix", "instance", "inbox"];
 /// More waiting events than this is a mistake: each costs memory and makes commands stale.
 const MAX_INBOX: u32 = 64;
 
@@ -61,6 +61,7 @@ impl<'a> Parser<'a> {
                 }
             }
         }
+        self.declare_trace();
         self.resolve_structs();
         if self.diagnostics.is_empty() {
             self.check_settings();
@@ -148,6 +149,7 @@ impl<'a> Parser<'a> {
             "basics" => settings.basics = value.text,
             "rust" => settings.rust = Some(value),
             "matrix" => settings.matrix = Some(value.text),
+            "trace" => settings.trace = Some(value),
             "instance" => {
                 settings.instance = match value.text.as_str() {
                     "static" => Instance::Static,
@@ -240,6 +242,24 @@ impl<'a> Parser<'a> {
         }
         self.configuration.structs.push(Struct { name, fields });
         Ok(())
+    }
+
+    /// The function that is told of plans is a basic action like any other.
+    fn declare_trace(&mut self) {
+        let Some(name) = self.configuration.settings.trace.clone() else { return };
+        if !name.text.starts_with(is_word_start) || !name.text.chars().all(is_word) {
+            self.diagnostics.push(
+                Diagnostic::error("not the name of a function", name.span)
+                    .help("write `trace = tracePlan;` and provide `void tracePlan(uint32_t)`"),
+            );
+            return;
+        }
+        self.configuration.basics.push(Basic {
+            span: name.span.clone(),
+            name,
+            result: CType::named("void"),
+            parameters: vec![CType::named("uint32_t")],
+        });
     }
 
     /// Types that the section `structs` declares are known wherever they are named.

@@ -321,3 +321,12 @@ fn structs_are_passed_kept_and_compared() {
     assert_eq!(case.run(functions, script), "act(2) act(2)");
     case.compile();
 }
+
+#[test]
+fn the_trace_function_is_told_which_plan_was_chosen() {
+    let configuration = "settings { input = a; output = a.c; header = a.h; basics = b.h; \
+        trace = chosen; };\nbasics { void act(int); };\ntypes { g(void); h(void); b(int); };";
+    let agent = "!g. +!g : b(1) <- act(1). +!g <- !h; act(2). +!h <- act(3).";
+    let trace = crate::harness::run_program(configuration, agent, "next_step();");
+    assert_eq!(trace, "chosen(1)\nchosen(2)\nact(3)\nact(2)");
+}

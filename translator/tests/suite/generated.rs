@@ -62,8 +62,8 @@ fn the_trace_matrix_leads_from_requirement_to_c_lines() {
     let fields: Vec<&str> = last.split(',').collect();
     let lines: Vec<&str> = source.text.lines().collect();
     let line = |field: &str| lines[field.parse::<usize>().unwrap() - 1];
-    assert_eq!(line(fields[8]), "static outcome_t plan1_achieve_h(void)");
-    assert_eq!(line(fields[9]), "}");
+    assert_eq!(line(fields[9]), "static outcome_t plan1_achieve_h(void)");
+    assert_eq!(line(fields[10]), "}");
 }
 
 /// Every construct of the language in one agent.

@@ -110,6 +110,9 @@ pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> Str
     }
     let mut main = format!("#include <stdio.h>\n#include \"{}\"\n", translation.files[0].name);
     main.push_str("void updateBeliefs(void) {}\n");
+    if configuration.contains("trace = chosen;") {
+        main.push_str(&printing_action("chosen(uint32_t)"));
+    }
     let (_, basics) = configuration.split_once("basics {").unwrap();
     for declaration in basics.split('}').next().unwrap().split(';').map(str::trim) {
         if let Some(action) = declaration.strip_prefix("void ") {
@@ -147,7 +150,7 @@ fn printing_action(declaration: &str) -> String {
         .map(|ctype| match *ctype {
             "double" => "%g",
             "const char *" => "%s",
-            "unsigned int" => "%u",
+            "unsigned int" | "uint32_t" => "%u",
             _ => "%d",
         })
         .collect();

@@ -26,11 +26,14 @@ pub(super) fn handlers(
     input: &str,
 ) -> Helpers {
     let mut helpers = Helpers::default();
+    let mut plans = 0;
     for (index, handler) in program.reachable_handlers() {
         let trigger = handler_name(program, index);
         for (number, plan) in handler.plans.iter().enumerate() {
             let head = plan_name(number, &trigger);
-            emit_plan(writer, program, names, &mut helpers, handler, plan, &head, input);
+            let number = plans;
+            plans += 1;
+            emit_plan(writer, program, names, &mut helpers, handler, plan, number, &head, input);
         }
         emit_handler(writer, program, names, index, handler);
     }
@@ -97,6 +100,7 @@ fn emit_plan(
     helpers: &mut Helpers,
     handler: &Handler,
     plan: &Plan,
+    number: usize,
     name: &str,
     input: &str,
 ) {
@@ -119,6 +123,7 @@ fn emit_plan(
     let mut parameters = parameters(names, handler);
     emitter.trigger(handler, &mut parameters);
     emitter.conditions(&plan.context);
+    emitter.trace(number);
     emitter.body();
     emitter.close_blocks();
     let text = emitter.writer.finish();
@@ -190,6 +195,15 @@ impl PlanEmitter<'_> {
             let value = self.value(value);
             let equal = self.equal(&handler.types[index], &argument(index), &value);
             self.open(&equal);
+        }
+    }
+
+    /// Tells which plan was chosen, if somebody wants to know.
+    fn trace(&mut self, number: usize) {
+        if let Some(name) = &self.program.configuration.settings.trace {
+            let function = self.names.interface(&name.text);
+            let arguments = self.names.action_arguments(&[format!("{number}U")]);
+            self.writer.line(format!("{function}({arguments});"));
         }
     }
 
