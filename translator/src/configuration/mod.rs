@@ -17,6 +17,7 @@
 //! Sections may stand in any order and may be left out or empty, except `settings`.
 
 mod parser;
+mod scanner;
 
 use diagnostic::Span;
 

@@ -1,7 +1,8 @@
 //! Reads a configuration.
 
-use diagnostic::{Diagnostic, Span};
+use diagnostic::Diagnostic;
 
+use super::scanner::{Parsed, Scanner, is_word, is_word_start};
 use super::{Basic, Configuration, ExternalTrigger, Instance, Predicate, Struct};
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 use crate::types::{CType, TypeKind};
@@ -22,13 +23,10 @@ const SETTINGS: [&str; 9] =
 /// More waiting events than this is a mistake: each costs memory and makes commands stale.
 const MAX_INBOX: u32 = 64;
 
-type Parsed<T> = Result<T, Diagnostic>;
-
 /// The configuration in `text` and everything that is wrong with it.
 pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
     let mut parser = Parser {
-        text,
-        position: 0,
+        scanner: Scanner { text, position: 0 },
         configuration: Configuration::default(),
         seen: Vec::new(),
         diagnostics: Vec::new(),
@@ -38,8 +36,7 @@ pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
 }
 
 struct Parser<'a> {
-    text: &'a str,
-    position: usize,
+    scanner: Scanner<'a>,
     configuration: Configuration,
     seen: Vec<&'a str>,
     diagnostics: Vec<Diagnostic>,
@@ -54,8 +51,8 @@ impl<'a> Parser<'a> {
                 Err(diagnostic) => {
                     self.diagnostics.push(diagnostic);
                     // Go on behind the section, or stop where no section ends.
-                    match self.rest().find('}') {
-                        Some(offset) => self.position += offset + 1,
+                    match self.scanner.rest().find('}') {
+                        Some(offset) => self.scanner.position += offset + 1,
                         None => break,
                     }
                 }
@@ -69,15 +66,15 @@ impl<'a> Parser<'a> {
     }
 
     fn section(&mut self) -> Parsed<bool> {
-        self.skip_blanks()?;
-        while self.take(";") {
-            self.skip_blanks()?;
+        self.scanner.skip_blanks()?;
+        while self.scanner.take(";") {
+            self.scanner.skip_blanks()?;
         }
-        if self.rest().is_empty() {
+        if self.scanner.rest().is_empty() {
             return Ok(false);
         }
-        let name = self.word("a section name")?;
-        let section: &'a str = &self.text[name.span.clone()];
+        let name = self.scanner.word("a section name")?;
+        let section: &'a str = &self.scanner.text[name.span.clone()];
         if !SECTIONS.contains(&section) {
             return Err(Diagnostic::error(format!("unknown section `{section}`"), name.span)
                 .help(advice(section, &SECTIONS)));
@@ -87,20 +84,20 @@ impl<'a> Parser<'a> {
                 .help("put its entries into the first one"));
         }
         self.seen.push(section);
-        self.expect("{")?;
+        self.scanner.expect("{")?;
         if section == "includes" {
             return self.includes().map(|()| true);
         }
-        self.skip_blanks()?;
-        while !self.take("}") {
-            if self.rest().is_empty() {
-                return Err(self.unexpected("`}`"));
+        self.scanner.skip_blanks()?;
+        while !self.scanner.take("}") {
+            if self.scanner.rest().is_empty() {
+                return Err(self.scanner.unexpected("`}`"));
             }
             if let Err(diagnostic) = self.entry(section) {
                 self.diagnostics.push(diagnostic);
-                self.skip_entry();
+                self.scanner.skip_entry();
             }
-            self.skip_blanks()?;
+            self.scanner.skip_blanks()?;
         }
         Ok(true)
     }
@@ -112,14 +109,14 @@ impl<'a> Parser<'a> {
             "basics" => self.basic(),
             "types" => self.predicate(),
             "settables" => {
-                let name = self.word("a belief")?;
-                self.expect(";")?;
+                let name = self.scanner.word("a belief")?;
+                self.scanner.expect(";")?;
                 self.configuration.settables.push(name);
                 Ok(())
             }
             "perceived" => {
-                let name = self.word("a belief")?;
-                self.expect(";")?;
+                let name = self.scanner.word("a belief")?;
+                self.scanner.expect(";")?;
                 self.configuration.perceived.push(name);
                 Ok(())
             }
@@ -137,10 +134,10 @@ impl<'a> Parser<'a> {
     }
 
     fn setting(&mut self) -> Parsed<()> {
-        let key = self.word("a setting")?;
-        self.expect("=")?;
+        let key = self.scanner.word("a setting")?;
+        self.scanner.expect("=")?;
         let value = self.setting_value()?;
-        self.expect(";")?;
+        self.scanner.expect(";")?;
         let settings = &mut self.configuration.settings;
         match key.text.as_str() {
             "input" => settings.input = value.text,
@@ -180,12 +177,13 @@ impl<'a> Parser<'a> {
     }
 
     fn setting_value(&mut self) -> Parsed<Name> {
-        self.skip_blanks()?;
-        let length = self.rest().find([';', '\n', '}']).unwrap_or(self.rest().len());
-        let raw = &self.rest()[..length];
+        self.scanner.skip_blanks()?;
+        let length =
+            self.scanner.rest().find([';', '\n', '}']).unwrap_or(self.scanner.rest().len());
+        let raw = &self.scanner.rest()[..length];
         let trimmed = raw.trim_end();
-        let start = self.position;
-        self.position += length;
+        let start = self.scanner.position;
+        self.scanner.position += length;
         let span = start..start + trimmed.len();
         let unquoted = trimmed
             .strip_prefix('"')
@@ -203,11 +201,11 @@ impl<'a> Parser<'a> {
     }
 
     fn basic(&mut self) -> Parsed<()> {
-        let start = self.position;
+        let start = self.scanner.position;
         let (result, name) = self.typed_name()?;
         let parameters = self.parameters()?;
-        let span = start..self.position;
-        self.expect(";")?;
+        let span = start..self.scanner.position;
+        self.scanner.expect(";")?;
         if name.text != "updateBeliefs" {
             self.configuration.basics.push(Basic { name, result, parameters, span });
         } else if result.name != "void" || !parameters.is_empty() {
@@ -219,13 +217,13 @@ impl<'a> Parser<'a> {
 
     /// `name { type field; .. };`
     fn structure(&mut self) -> Parsed<()> {
-        let name = self.word("a struct type")?;
-        self.expect("{")?;
+        let name = self.scanner.word("a struct type")?;
+        self.scanner.expect("{")?;
         let mut fields: Vec<(Name, CType)> = Vec::new();
-        self.skip_blanks()?;
-        while !self.take("}") {
+        self.scanner.skip_blanks()?;
+        while !self.scanner.take("}") {
             let (ctype, field) = self.typed_name()?;
-            self.expect(";")?;
+            self.scanner.expect(";")?;
             if !ctype.is_numeric() && ctype.kind != TypeKind::Bool {
                 return Err(Diagnostic::error("a field must be a number or bool", field.span)
                     .help("structs of structs and pointers are not translated"));
@@ -234,9 +232,9 @@ impl<'a> Parser<'a> {
                 return Err(Diagnostic::error("a second field of this name", field.span));
             }
             fields.push((field, ctype));
-            self.skip_blanks()?;
+            self.scanner.skip_blanks()?;
         }
-        self.expect(";")?;
+        self.scanner.expect(";")?;
         if fields.is_empty() {
             return Err(Diagnostic::error("a struct without fields", name.span));
         }
@@ -280,11 +278,11 @@ impl<'a> Parser<'a> {
     }
 
     fn predicate(&mut self) -> Parsed<()> {
-        let start = self.position;
-        let name = self.word("a belief or a goal")?;
+        let start = self.scanner.position;
+        let name = self.scanner.word("a belief or a goal")?;
         let parameters = self.parameters()?;
-        let span = start..self.position;
-        self.expect(";")?;
+        let span = start..self.scanner.position;
+        self.scanner.expect(";")?;
         self.configuration.predicates.push(Predicate { name, parameters, span });
         Ok(())
     }
@@ -294,52 +292,55 @@ impl<'a> Parser<'a> {
         let mut words = self.type_words()?;
         let name = match words.pop() {
             Some(name) if !words.is_empty() && name.text != "*" => name,
-            _ => return Err(self.unexpected("a result type and a function name")),
+            _ => return Err(self.scanner.unexpected("a result type and a function name")),
         };
         Ok((c_type(&words), name))
     }
 
     fn parameters(&mut self) -> Parsed<Vec<CType>> {
-        self.expect("(")?;
+        self.scanner.expect("(")?;
         let mut parameters = Vec::new();
-        self.skip_blanks()?;
-        if self.take(")") {
+        self.scanner.skip_blanks()?;
+        if self.scanner.take(")") {
             return Ok(parameters);
         }
         loop {
-            let start = self.position;
+            let start = self.scanner.position;
             let words = self.type_words()?;
             if words.is_empty() {
-                return Err(self.unexpected("a type"));
+                return Err(self.scanner.unexpected("a type"));
             }
             let parameter = c_type(&words);
             if parameter.name == "void" {
-                self.skip_blanks()?;
-                if parameters.is_empty() && self.take(")") {
+                self.scanner.skip_blanks()?;
+                if parameters.is_empty() && self.scanner.take(")") {
                     return Ok(parameters);
                 }
-                return Err(Diagnostic::error("`void` is no parameter", start..self.position)
-                    .help("`(void)` alone says that there is none"));
+                return Err(Diagnostic::error(
+                    "`void` is no parameter",
+                    start..self.scanner.position,
+                )
+                .help("`(void)` alone says that there is none"));
             }
             parameters.push(parameter);
-            self.skip_blanks()?;
-            if self.take(")") {
+            self.scanner.skip_blanks()?;
+            if self.scanner.take(")") {
                 return Ok(parameters);
             }
-            self.expect(",")?;
+            self.scanner.expect(",")?;
         }
     }
 
     fn type_words(&mut self) -> Parsed<Vec<Name>> {
         let mut words = Vec::new();
         loop {
-            self.skip_blanks()?;
-            if self.rest().starts_with('*') {
-                let span = self.position..self.position + 1;
-                self.position += 1;
+            self.scanner.skip_blanks()?;
+            if self.scanner.rest().starts_with('*') {
+                let span = self.scanner.position..self.scanner.position + 1;
+                self.scanner.position += 1;
                 words.push(Name { text: "*".to_owned(), span });
-            } else if self.rest().starts_with(is_word_start) {
-                words.push(self.word("a type")?);
+            } else if self.scanner.rest().starts_with(is_word_start) {
+                words.push(self.scanner.word("a type")?);
             } else {
                 return Ok(words);
             }
@@ -347,24 +348,24 @@ impl<'a> Parser<'a> {
     }
 
     fn external_trigger(&mut self) -> Parsed<ExternalTrigger> {
-        let start = self.position;
-        let operator = if self.take("+") {
+        let start = self.scanner.position;
+        let operator = if self.scanner.take("+") {
             Operator::Add
-        } else if self.take("-") {
+        } else if self.scanner.take("-") {
             Operator::Delete
         } else {
-            return Err(self.unexpected("`+!goal`, `+belief` or `-belief`"));
+            return Err(self.scanner.unexpected("`+!goal`, `+belief` or `-belief`"));
         };
-        let kind = if self.take("!") {
+        let kind = if self.scanner.take("!") {
             TriggerKind::Achieve
-        } else if self.rest().starts_with('?') {
-            return Err(self.unexpected("`+!goal`, `+belief` or `-belief`"));
+        } else if self.scanner.rest().starts_with('?') {
+            return Err(self.scanner.unexpected("`+!goal`, `+belief` or `-belief`"));
         } else {
             TriggerKind::Belief
         };
-        let name = self.word("a name")?;
-        let span = start..self.position;
-        self.expect(";")?;
+        let name = self.scanner.word("a name")?;
+        let span = start..self.scanner.position;
+        self.scanner.expect(";")?;
         if operator == Operator::Delete && kind == TriggerKind::Achieve {
             return Err(Diagnostic::error("`-!goal` cannot be raised from outside", span)
                 .help("failure plans run when their goal fails"));
@@ -375,27 +376,30 @@ impl<'a> Parser<'a> {
     /// `#include <file>` or `#include "file"`, one after the other.
     fn includes(&mut self) -> Parsed<()> {
         loop {
-            self.skip_blanks()?;
-            if self.take("}") {
+            self.scanner.skip_blanks()?;
+            if self.scanner.take("}") {
                 return Ok(());
             }
-            let start = self.position;
-            if !self.take("#include") {
-                return Err(self.unexpected("`#include` or `}`"));
+            let start = self.scanner.position;
+            if !self.scanner.take("#include") {
+                return Err(self.scanner.unexpected("`#include` or `}`"));
             }
-            self.skip_blanks()?;
-            let close = match self.rest().as_bytes().first() {
+            self.scanner.skip_blanks()?;
+            let close = match self.scanner.rest().as_bytes().first() {
                 Some(b'<') => '>',
                 Some(b'"') => '"',
-                _ => return Err(self.unexpected("`<file>` or `\"file\"`")),
+                _ => return Err(self.scanner.unexpected("`<file>` or `\"file\"`")),
             };
-            let Some(length) = self.rest()[1..].find([close, '\n']) else {
-                return Err(self.unexpected("a file name that ends on its line"));
+            let Some(length) = self.scanner.rest()[1..].find([close, '\n']) else {
+                return Err(self.scanner.unexpected("a file name that ends on its line"));
             };
-            let file = &self.rest()[..length + 2];
-            self.position += file.len();
+            let file = &self.scanner.rest()[..length + 2];
+            self.scanner.position += file.len();
             if file.ends_with('\n') {
-                return Err(Diagnostic::error("include is never closed", start..self.position - 1));
+                return Err(Diagnostic::error(
+                    "include is never closed",
+                    start..self.scanner.position - 1,
+                ));
             }
             self.configuration.includes.push(format!("#include {file}"));
         }
@@ -417,88 +421,6 @@ impl<'a> Parser<'a> {
             }
         }
     }
-
-    fn rest(&self) -> &'a str {
-        &self.text[self.position..]
-    }
-
-    fn take(&mut self, symbol: &str) -> bool {
-        let found = self.rest().starts_with(symbol);
-        if found {
-            self.position += symbol.len();
-        }
-        found
-    }
-
-    fn expect(&mut self, symbol: &str) -> Parsed<()> {
-        self.skip_blanks()?;
-        if self.take(symbol) { Ok(()) } else { Err(self.unexpected(&format!("`{symbol}`"))) }
-    }
-
-    fn word(&mut self, expected: &str) -> Parsed<Name> {
-        self.skip_blanks()?;
-        if !self.rest().starts_with(is_word_start) {
-            return Err(self.unexpected(expected));
-        }
-        let length = self.rest().find(|c| !is_word(c)).unwrap_or(self.rest().len());
-        let span = self.position..self.position + length;
-        self.position = span.end;
-        Ok(Name { text: self.text[span.clone()].to_owned(), span })
-    }
-
-    fn skip_blanks(&mut self) -> Parsed<()> {
-        loop {
-            let trimmed = self.rest().trim_start();
-            self.position = self.text.len() - trimmed.len();
-            if trimmed.starts_with("//") {
-                self.position += trimmed.find('\n').unwrap_or(trimmed.len());
-            } else if trimmed.starts_with("/*") {
-                let start = self.position;
-                let Some(length) = trimmed.find("*/") else {
-                    self.position = self.text.len();
-                    return Err(Diagnostic::error("comment is never closed", start..start + 2)
-                        .help("close it with `*/`"));
-                };
-                self.position += length + 2;
-            } else {
-                return Ok(());
-            }
-        }
-    }
-
-    /// Goes on behind the next `;`, or before the `}` that ends the section.
-    fn skip_entry(&mut self) {
-        match self.rest().find([';', '}']) {
-            Some(offset) if self.rest()[offset..].starts_with(';') => self.position += offset + 1,
-            Some(offset) => self.position += offset,
-            None => self.position = self.text.len(),
-        }
-    }
-
-    fn unexpected(&self, expected: &str) -> Diagnostic {
-        match self.rest().chars().next() {
-            Some(found) => Diagnostic::error(
-                format!("expected {expected}, found `{}`", found.escape_debug()),
-                span_of(self.position, found),
-            ),
-            None => Diagnostic::error(
-                format!("expected {expected}, found the end of the file"),
-                self.position..self.position,
-            ),
-        }
-    }
-}
-
-fn span_of(position: usize, character: char) -> Span {
-    position..position + character.len_utf8()
-}
-
-fn is_word_start(character: char) -> bool {
-    character.is_ascii_alphabetic() || character == '_'
-}
-
-fn is_word(character: char) -> bool {
-    character.is_ascii_alphanumeric() || character == '_'
 }
 
 fn c_type(words: &[Name]) -> CType {

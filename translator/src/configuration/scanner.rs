@@ -1,0 +1,97 @@
+//! Reads words and symbols of a configuration.
+
+use diagnostic::{Diagnostic, Span};
+
+use crate::syntax::ast::Name;
+
+pub(super) type Parsed<T> = Result<T, Diagnostic>;
+
+/// A place in a text.
+pub(super) struct Scanner<'a> {
+    pub(super) text: &'a str,
+    pub(super) position: usize,
+}
+
+impl<'a> Scanner<'a> {
+    pub(super) fn rest(&self) -> &'a str {
+        &self.text[self.position..]
+    }
+
+    pub(super) fn take(&mut self, symbol: &str) -> bool {
+        let found = self.rest().starts_with(symbol);
+        if found {
+            self.position += symbol.len();
+        }
+        found
+    }
+
+    pub(super) fn expect(&mut self, symbol: &str) -> Parsed<()> {
+        self.skip_blanks()?;
+        if self.take(symbol) { Ok(()) } else { Err(self.unexpected(&format!("`{symbol}`"))) }
+    }
+
+    pub(super) fn word(&mut self, expected: &str) -> Parsed<Name> {
+        self.skip_blanks()?;
+        if !self.rest().starts_with(is_word_start) {
+            return Err(self.unexpected(expected));
+        }
+        let length = self.rest().find(|c| !is_word(c)).unwrap_or(self.rest().len());
+        let span = self.position..self.position + length;
+        self.position = span.end;
+        Ok(Name { text: self.text[span.clone()].to_owned(), span })
+    }
+
+    pub(super) fn skip_blanks(&mut self) -> Parsed<()> {
+        loop {
+            let trimmed = self.rest().trim_start();
+            self.position = self.text.len() - trimmed.len();
+            if trimmed.starts_with("//") {
+                self.position += trimmed.find('\n').unwrap_or(trimmed.len());
+            } else if trimmed.starts_with("/*") {
+                let start = self.position;
+                let Some(length) = trimmed.find("*/") else {
+                    self.position = self.text.len();
+                    return Err(Diagnostic::error("comment is never closed", start..start + 2)
+                        .help("close it with `*/`"));
+                };
+                self.position += length + 2;
+            } else {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Goes on behind the next `;`, or before the `}` that ends the section.
+    pub(super) fn skip_entry(&mut self) {
+        match self.rest().find([';', '}']) {
+            Some(offset) if self.rest()[offset..].starts_with(';') => self.position += offset + 1,
+            Some(offset) => self.position += offset,
+            None => self.position = self.text.len(),
+        }
+    }
+
+    pub(super) fn unexpected(&self, expected: &str) -> Diagnostic {
+        match self.rest().chars().next() {
+            Some(found) => Diagnostic::error(
+                format!("expected {expected}, found `{}`", found.escape_debug()),
+                span_of(self.position, found),
+            ),
+            None => Diagnostic::error(
+                format!("expected {expected}, found the end of the file"),
+                self.position..self.position,
+            ),
+        }
+    }
+}
+
+fn span_of(position: usize, character: char) -> Span {
+    position..position + character.len_utf8()
+}
+
+pub(super) fn is_word_start(character: char) -> bool {
+    character.is_ascii_alphabetic() || character == '_'
+}
+
+pub(super) fn is_word(character: char) -> bool {
+    character.is_ascii_alphanumeric() || character == '_'
+}
