@@ -54,6 +54,8 @@ pub(crate) struct Belief {
     pub(crate) settable: bool,
     /// Who handles a change by `set_b`, if it raises an event.
     pub(crate) perceived: Option<HandlerId>,
+    /// Where a context first asks for it.
+    pub(crate) asked_at: Option<Span>,
 }
 
 /// All plans of one trigger.
@@ -232,6 +234,14 @@ impl Operation {
     /// be divided by zero. What has no result fails.
     pub(crate) fn can_fail(&self) -> bool {
         !self.ctype.is_float() || self.operator == Arithmetic::Divide
+    }
+}
+
+impl Plan {
+    /// Whether the plan fits every event of its trigger.
+    pub(crate) fn always_applies(&self) -> bool {
+        self.context.is_empty()
+            && !self.patterns.iter().any(|pattern| matches!(pattern, Pattern::Equal(_)))
     }
 }
 

@@ -84,6 +84,7 @@ impl Analysis<'_> {
         if !self.declarations.is_basic(&atom.name.text) {
             let types = self.declarations.predicate(atom)?;
             let belief = self.belief_id(&atom.name.text, &types);
+            self.beliefs[belief.0].asked_at.get_or_insert(atom.span.clone());
             let patterns = self.patterns(atom, &types, scope)?;
             return Ok(Condition::Holds { belief, patterns });
         }

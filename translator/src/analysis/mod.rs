@@ -19,7 +19,7 @@ use diagnostic::{Diagnostic, Severity};
 use self::constants::constant;
 use self::declarations::Declarations;
 use self::graph::TriggerGraph;
-use self::reach::{Reached, reach, warn_unreachable};
+use self::reach::{Reached, reach, warn_never_believed, warn_unreachable};
 use crate::configuration::{Configuration, ExternalTrigger};
 use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Program, Value};
 use crate::syntax::ast::{Agent, Atom, Operator, TriggerKind};
@@ -92,6 +92,7 @@ pub(crate) fn analyse(
     let posted_by_plans = posted.iter().copied().collect();
     posted.extend(initial_goal.as_ref().map(|(handler, _)| *handler));
     warn_unreachable(&handlers, &mut findings.agent);
+    warn_never_believed(&beliefs, &handlers, &external, &mut findings.agent);
     let program = Program {
         configuration,
         beliefs,
@@ -393,6 +394,7 @@ impl Analysis<'_> {
             initial: None,
             settable: false,
             perceived: None,
+            asked_at: None,
         });
         id
     }

@@ -131,6 +131,11 @@ impl Analysis<'_> {
                     .help("write `_` if any value will do");
             self.findings.agent.push(warning);
         }
+        if self.handlers[handler.0].plans.iter().any(Plan::always_applies) {
+            let warning = Diagnostic::warning("this plan is never tried", trigger.span.clone())
+                .help("an earlier plan of the same trigger fits every event");
+            self.findings.agent.push(warning);
+        }
         let lines = (self.line(plan.span.start), self.line(plan.span.end));
         self.handlers[handler.0].plans.push(Plan {
             lines,

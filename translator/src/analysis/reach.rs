@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use diagnostic::Diagnostic;
 
-use crate::program::{Handler, HandlerId, Raise, Step, trigger_text};
+use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Raise, Step, trigger_text};
+use crate::syntax::ast::Operator;
 
 /// What the reachable plans do besides calling each other.
 pub(super) struct Reached {
@@ -57,5 +58,35 @@ pub(super) fn warn_unreachable(handlers: &[Handler], findings: &mut Vec<Diagnost
             Diagnostic::warning(format!("nothing ever triggers `{text}`"), handler.span.clone())
                 .help("its plans are left out; list it in `triggerables` or let a plan post it"),
         );
+    }
+}
+
+/// Warns of beliefs that a context asks for and that nothing can make true.
+pub(super) fn warn_never_believed(
+    beliefs: &[Belief],
+    handlers: &[Handler],
+    external: &[External],
+    findings: &mut Vec<Diagnostic>,
+) {
+    let mut believed: Vec<bool> =
+        beliefs.iter().map(|belief| belief.settable || belief.initial.is_some()).collect();
+    let raised = external.iter().filter(|event| event.operator == Operator::Add);
+    let steps = handlers.iter().flat_map(|handler| &handler.plans).flat_map(|plan| &plan.body);
+    let added = steps.filter_map(|step| match step {
+        Step::Add { belief, .. } => Some(*belief),
+        _ => None,
+    });
+    for BeliefId(index) in raised.filter_map(|event| event.belief).chain(added) {
+        believed[index] = true;
+    }
+    for (belief, _) in beliefs.iter().zip(believed).filter(|(_, believed)| !believed) {
+        if let Some(span) = &belief.asked_at {
+            let message = format!("`{}` is never believed", belief.name);
+            findings.push(
+                Diagnostic::warning(message, span.clone()).help(
+                    "no initial belief, no plan, no event and no `set_` function makes it true",
+                ),
+            );
+        }
     }
 }

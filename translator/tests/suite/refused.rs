@@ -261,3 +261,30 @@ fn structs_are_checked() {
         assert!(error.contains(expected), "{structs}: {error}");
     }
 }
+
+#[test]
+fn what_cannot_happen_is_warned_of() {
+    let case = Case {
+        basics: "void act(int);",
+        types: "g(int); b(int); c(void); d(void);",
+        sections: "settables { c; };",
+        agent: "!g(1).\n+!g(1) : b(X) & not c <- act(X).\n+!g(X) <- act(X).\n+!g(2) : c <- act(2).\n",
+    };
+    insta::assert_snapshot!(case.translate("").unwrap().warnings, @r"
+    warning: `b` is never believed
+     --> agent.asl:2:10
+      |
+    2 | +!g(1) : b(X) & not c <- act(X).
+      |          ^^^^
+      |
+      = help: no initial belief, no plan, no event and no `set_` function makes it true
+
+    warning: this plan is never tried
+     --> agent.asl:4:1
+      |
+    4 | +!g(2) : c <- act(2).
+      | ^^^^^^
+      |
+      = help: an earlier plan of the same trigger fits every event
+    ");
+}
