@@ -14,7 +14,11 @@ use translator::{TranslateError, parse_configuration, translate};
 /// of the basic actions and, with `rust = FILE`, the Rust side of the boundary. Nothing is written
 /// if anything is wrong.
 #[derive(Debug, Parser)]
-#[command(name = "asl2c", version, after_help = "Exit status: 0 translated, 1 refused or unreadable, 2 usage.")]
+#[command(
+    name = "asl2c",
+    version,
+    after_help = "Exit status: 0 translated, 1 refused or unreadable, 2 usage."
+)]
 struct Arguments {
     /// The agent's configuration
     #[arg(value_name = "AGENT.CONF")]

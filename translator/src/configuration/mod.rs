@@ -70,6 +70,8 @@ pub struct Settings {
     pub instance: Instance,
     /// External events that can wait at the same time.
     pub inbox: u32,
+    /// Whether deferred goals wait in the same queue as external events, the paper's `max_events`.
+    pub queue: bool,
 }
 
 impl Default for Settings {
@@ -84,6 +86,7 @@ impl Default for Settings {
             trace: None,
             instance: Instance::Static,
             inbox: 1,
+            queue: false,
         }
     }
 }

@@ -18,8 +18,18 @@ const SECTIONS: [&str; 9] = [
     "triggerables",
     "preemptive",
 ];
-const SETTINGS: [&str; 9] =
-    ["trace", "input", "output", "header", "basics", "rust", "matrix", "instance", "inbox"];
+const SETTINGS: [&str; 10] = [
+    "trace",
+    "input",
+    "output",
+    "header",
+    "basics",
+    "rust",
+    "matrix",
+    "instance",
+    "inbox",
+    "max_events",
+];
 /// More waiting events than this is a mistake: each costs memory and makes commands stale.
 const MAX_INBOX: u32 = 64;
 
@@ -157,17 +167,19 @@ impl<'a> Parser<'a> {
                     }
                 };
             }
-            "inbox" => match value.text.parse() {
-                Ok(inbox @ 1..=MAX_INBOX) => settings.inbox = inbox,
+            "inbox" | "max_events" => match value.text.parse() {
+                Ok(inbox @ 1..=MAX_INBOX) => {
+                    settings.inbox = inbox;
+                    settings.queue |= key.text == "max_events";
+                }
                 _ => {
-                    return Err(Diagnostic::error("inbox out of range", value.span)
-                        .help(format!("a whole number from 1 to {MAX_INBOX}")));
+                    return Err(Diagnostic::error(
+                        format!("`{}` out of range", key.text),
+                        value.span,
+                    )
+                    .help(format!("a whole number from 1 to {MAX_INBOX}")));
                 }
             },
-            "max_events" => {
-                return Err(Diagnostic::error("queue mode is not translated yet", key.span)
-                    .help("leave `max_events` out; `inbox = N` lets N external events wait"));
-            }
             other => {
                 return Err(Diagnostic::error(format!("unknown setting `{other}`"), key.span)
                     .help(advice(other, &SETTINGS)));
@@ -499,7 +511,7 @@ mod tests {
             "settings { input",
             "settings { input = ; };",
             "settings { colour = red; };",
-            "settings { max_events = 3; };",
+            "settings { max_events = 0; };",
             "settings { inbox = 0; };",
             "settings { instance = both; };",
             "includes { int x; };",

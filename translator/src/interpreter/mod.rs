@@ -37,6 +37,8 @@ type Key = (Operator, TriggerKind, String);
 struct Event {
     key: Key,
     arguments: Vec<Value>,
+    /// Whether the environment raised it.
+    external: bool,
 }
 
 /// How the plans of one trigger ended.
@@ -113,6 +115,7 @@ impl Interpreter {
         self.posted = self.agent.goal.as_ref().map(|goal| Event {
             key: (Operator::Add, TriggerKind::Achieve, goal.name.text.clone()),
             arguments: self.constants(goal),
+            external: false,
         });
         self.inbox.clear();
         self.preemptive.clear();
@@ -122,7 +125,8 @@ impl Interpreter {
 
     /// Whether the next external event will be accepted.
     pub fn can_add_event(&self) -> bool {
-        self.inbox.len() < self.configuration.settings.inbox as usize
+        self.inbox.iter().filter(|event| event.external).count()
+            < self.configuration.settings.inbox as usize
     }
 
     /// Events since the start that no plan handled to its end.
@@ -146,7 +150,8 @@ impl Interpreter {
         name: &str,
         arguments: Vec<Value>,
     ) -> Result<(), Refused> {
-        let event = Event { key: (operator, kind, name.to_owned()), arguments };
+        let key = (operator, kind, name.to_owned());
+        let event = Event { key, arguments, external: true };
         let preempts = self.configuration.preemptive.iter().any(|trigger| {
             (trigger.operator, trigger.kind, trigger.name.text.as_str()) == (operator, kind, name)
         });
@@ -171,7 +176,8 @@ impl Interpreter {
                 self.perceived.insert(belief);
             }
         }
-        while let Some((event, external)) = self.take_event() {
+        while let Some(event) = self.take_event() {
+            let external = event.external;
             let (operator, kind, name) = event.key.clone();
             let mut arguments = event.arguments;
             if external && kind == TriggerKind::Belief {
@@ -206,8 +212,8 @@ impl Interpreter {
         }
     }
 
-    /// The next event, and whether it comes from outside.
-    fn take_event(&mut self) -> Option<(Event, bool)> {
+    /// The next event.
+    fn take_event(&mut self) -> Option<Event> {
         let priority = |event: &Event| {
             self.configuration.preemptive.iter().position(|trigger| {
                 (trigger.operator, trigger.kind, &trigger.name.text)
@@ -217,10 +223,10 @@ impl Interpreter {
         let first = (0..self.preemptive.len()).min_by_key(|i| priority(&self.preemptive[*i]));
         if let Some(first) = first {
             self.posted = None;
-            return Some((self.preemptive.remove(first), true));
+            return Some(self.preemptive.remove(first));
         }
         if let Some(event) = self.posted.take() {
-            return Some((event, false));
+            return Some(event);
         }
         for name in &self.configuration.perceived {
             // What is no longer believed by now raises nothing.
@@ -228,20 +234,24 @@ impl Interpreter {
                 && let Some(arguments) = self.beliefs.get(&name.text).cloned()
             {
                 let key = (Operator::Add, TriggerKind::Belief, name.text.clone());
-                return Some((Event { key, arguments }, false));
+                return Some(Event { key, arguments, external: false });
             }
         }
-        if let Some(event) = self.inbox.pop_front() {
-            return Some((event, true));
-        }
-        self.deferred.pop_front().map(|event| (event, false))
+        self.inbox.pop_front().or_else(|| self.deferred.pop_front())
     }
 
     fn defer(&mut self, key: Key, arguments: Vec<Value>) {
-        match self.deferred.iter_mut().find(|event| event.key == key) {
+        // In queue mode deferred goals wait among the external events.
+        let queue = self.configuration.settings.queue && self.has_inbox();
+        let waiting = if queue { &mut self.inbox } else { &mut self.deferred };
+        match waiting.iter_mut().find(|event| event.key == key && !event.external) {
             Some(waiting) => waiting.arguments = arguments,
-            None => self.deferred.push_back(Event { key, arguments }),
+            None => waiting.push_back(Event { key, arguments, external: false }),
         }
+    }
+
+    fn has_inbox(&self) -> bool {
+        self.configuration.triggerables.len() > self.configuration.preemptive.len()
     }
 
     fn constants(&self, atom: &Atom) -> Vec<Value> {

@@ -121,7 +121,7 @@ impl Interpreter {
                 let arguments = self.arguments(atom, theta, environment)?;
                 let key = (Operator::Add, TriggerKind::Achieve, atom.name.text.clone());
                 if self.recursive.contains(&key) {
-                    self.posted = Some(Event { key, arguments });
+                    self.posted = Some(Event { key, arguments, external: false });
                 } else {
                     let given: Vec<_> = arguments.into_iter().map(Some).collect();
                     let outcome = self.run_with_failure(&key, &given, environment);
@@ -157,7 +157,7 @@ impl Interpreter {
     ) -> Option<()> {
         let key = (operator, TriggerKind::Belief, name.to_owned());
         if self.recursive.contains(&key) {
-            self.posted = Some(Event { key, arguments });
+            self.posted = Some(Event { key, arguments, external: false });
             return Some(());
         }
         let given: Vec<_> = arguments.into_iter().map(Some).collect();

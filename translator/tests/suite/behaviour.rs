@@ -330,3 +330,14 @@ fn the_trace_function_is_told_which_plan_was_chosen() {
     let trace = crate::harness::run_program(configuration, agent, "next_step();");
     assert_eq!(trace, "chosen(1)\nchosen(2)\nact(3)\nact(2)");
 }
+
+#[test]
+fn in_queue_mode_deferred_goals_wait_among_external_events() {
+    let agent = "!g. +!g <- !!h; !!gi(7); act(0). +!gi(X) <- act(X). +!h <- a. +!k <- act(9).";
+    let case = Case { basics: BASICS, types: TYPES, sections: "triggerables { +!k; };", agent };
+    let script = "(void)achieve_k(); next_step(); (void)achieve_k(); for (int i = 0; i < 5; i++) \
+                  { next_step(); }";
+    // Queue: first in, first out; the initial goal is still the first event.
+    assert_eq!(case.run_with("max_events = 2;", "", script), "act(0) act(9) a() act(7) act(9)");
+    assert_eq!(case.run_with("inbox = 2;", "", script), "act(0) act(9) act(9) a() act(7)");
+}

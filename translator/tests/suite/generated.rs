@@ -92,7 +92,8 @@ fn generated_c_passes_the_misra_addon() {
     let autopilot =
         translate(autopilot, include_str!("../../../autopilot/agent/autopilot.asl")).unwrap();
     let others = [LAMP, EVERYTHING].into_iter().flat_map(|case| {
-        ["", "instance = context;", "inbox = 3;"].map(|settings| case.translate(settings).unwrap())
+        ["", "instance = context;", "inbox = 3;", "max_events = 2;"]
+            .map(|settings| case.translate(settings).unwrap())
     });
     for translation in std::iter::once(autopilot).chain(others) {
         let folder = tempfile::tempdir().unwrap();

@@ -66,8 +66,13 @@ impl Case {
     /// Runs `script`, C statements that call the agent's interface, and returns what was printed.
     /// `functions` are C definitions of the basic functions that return something.
     pub(crate) fn run(&self, functions: &str, script: &str) -> String {
+        self.run_with("", functions, script)
+    }
+
+    /// As [`Self::run`], with further settings.
+    pub(crate) fn run_with(&self, settings: &str, functions: &str, script: &str) -> String {
         let folder = tempfile::tempdir().unwrap();
-        self.write("", folder.path());
+        self.write(settings, folder.path());
         let mut main =
             String::from("#include <stdio.h>\n#include \"agent.h\"\n#include \"actions.h\"\n");
         for declaration in self.basics.split(';').map(str::trim).filter(|text| !text.is_empty()) {

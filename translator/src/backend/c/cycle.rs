@@ -2,8 +2,8 @@
 
 use super::names::{Names, argument};
 use super::state::{
-    Slot, belief_value, event, external_name, handler_name, held, pending, perceived, queued,
-    slot_value,
+    Slot, belief_value, deferred_ring, event, external_count, external_name, handler_name, held,
+    inbox_ring, pending, perceived, queued, rings, slot_value,
 };
 use crate::backend::writer::Writer;
 use crate::program::{External, HandlerId, Program};
@@ -44,20 +44,20 @@ pub(super) fn posting(writer: &mut Writer, program: &Program, names: &Names) {
 fn deferring(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId) {
     let trigger = handler_name(program, id);
     let types = &program.handler(id).types;
-    let slots = program.deferred.len();
+    let Some(ring) = deferred_ring(program) else { return };
     let flag = names.field(&pending(Slot::Deferred, &trigger));
     writer.line("/* One slot for this goal: posted again, it keeps its place. */");
     writer.open(format!("static void defer_{trigger}({})", names.parameters(types)));
     store(writer, names, Slot::Deferred, &trigger, types, "");
     writer.open(format!("if (!{flag})"));
-    let first = names.field("deferred_first");
-    let count = names.field("deferred_count");
-    let slot = wrapped(&format!("{first} + {count}"), slots);
+    let first = names.field(&ring.field("first"));
+    let count = names.field(&ring.field("count"));
+    let slot = wrapped(&format!("{first} + {count}"), ring.length);
     writer.line(format!("const uint32_t slot = {slot};"));
     writer.line(format!("{flag} = true;"));
     writer.line(format!(
         "{}[slot] = {};",
-        names.field("deferred_queue"),
+        names.field(&ring.field("queue")),
         event_name(names, Slot::Deferred, &trigger)
     ));
     writer.line(format!("{count} = {count} + 1U;"));
@@ -122,24 +122,19 @@ fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
         ];
         branches.push((flag, taken));
     }
-    let queue = |name: &str, length: usize| {
-        let field = |part: &str| names.field(&format!("{name}_{part}"));
+    let inbox = inbox_ring(program).map(|ring| ring.field("queue"));
+    for ring in rings(program) {
+        let field = |part: &str| names.field(&ring.field(part));
         let (first, count) = (field("first"), field("count"));
-        let taken = vec![
+        let mut taken = vec![
             format!("event = {}[{first}];", field("queue")),
-            format!("{first} = {};", wrapped(&format!("{first} + 1U"), length)),
+            format!("{first} = {};", wrapped(&format!("{first} + 1U"), ring.length)),
             format!("{count} = {count} - 1U;"),
         ];
-        (format!("{count} > 0U"), taken)
-    };
-    if queued(program).next().is_some() {
-        let (condition, mut taken) = queue("inbox", program.configuration.settings.inbox as usize);
-        let remember = format!("{} = {};", names.field("inbox_taken"), names.field("inbox_first"));
-        taken.insert(0, remember);
-        branches.push((condition, taken));
-    }
-    if !program.deferred.is_empty() {
-        branches.push(queue("deferred", program.deferred.len()));
+        if inbox.as_ref() == Some(&ring.field("queue")) {
+            taken.insert(0, format!("{} = {first};", names.field("inbox_taken")));
+        }
+        branches.push((format!("{count} > 0U"), taken));
     }
 
     let none_types: [CType; 0] = [];
@@ -271,6 +266,10 @@ fn external_case(writer: &mut Writer, program: &Program, names: &Names, external
         .map(|number| format!("{}{index}", names.field(&slot_value(slot, &trigger, number))))
         .collect();
     open_case(writer, names, slot, &trigger);
+    if slot == Slot::Inbox && program.configuration.settings.queue {
+        let waiting = names.field(external_count(program));
+        writer.line(format!("{waiting} = {waiting} - 1U;"));
+    }
     if let Some(belief) = external.belief {
         let belief = program.belief(belief);
         let fields: Vec<String> = (0..belief.types.len())

@@ -6,7 +6,8 @@ use super::header::init_prototype;
 use super::helpers::Helpers;
 use super::names::{Names, argument, argument_names};
 use super::state::{
-    Slot, belief_value, external_name, handler_name, held, pending, perceived, queued, slot_value,
+    Slot, belief_value, external_count, external_name, handler_name, held, inbox_ring, pending,
+    perceived, queued, rings, slot_value,
 };
 use crate::backend::writer::Writer;
 use crate::program::{Belief, External, Program, Value};
@@ -25,7 +26,7 @@ pub(super) fn interface(
     writer.open(format!("bool {}({no_parameters})", names.interface("can_add_event")));
     if queued(program).next().is_some() {
         let inbox = program.configuration.settings.inbox;
-        writer.line(format!("return {} < {inbox}U;", names.field("inbox_count")));
+        writer.line(format!("return {} < {inbox}U;", names.field(external_count(program))));
     } else {
         if names.is_context() {
             writer.line("(void)self;");
@@ -67,9 +68,15 @@ fn forget_events(writer: &mut Writer, program: &Program, names: &Names) {
         }
         None => writer.line(format!("{} = {};", names.field("posted"), no_event(names))),
     }
-    if queued(program).next().is_some() {
-        for field in ["inbox_count", "inbox_first", "inbox_taken"] {
-            writer.line(format!("{} = 0U;", names.field(field)));
+    for ring in rings(program) {
+        for part in ["count", "first"] {
+            writer.line(format!("{} = 0U;", names.field(&ring.field(part))));
+        }
+    }
+    if inbox_ring(program).is_some() {
+        writer.line(format!("{} = 0U;", names.field("inbox_taken")));
+        if program.configuration.settings.queue {
+            writer.line(format!("{} = 0U;", names.field(external_count(program))));
         }
     }
     for external in program.external.iter().filter(|external| external.preemptive) {
@@ -79,11 +86,6 @@ fn forget_events(writer: &mut Writer, program: &Program, names: &Names) {
     for (_, handler) in perceived(program) {
         let flag = pending(Slot::Perceived, &handler_name(program, handler));
         writer.line(format!("{} = false;", names.field(&flag)));
-    }
-    if !program.deferred.is_empty() {
-        for field in ["deferred_count", "deferred_first"] {
-            writer.line(format!("{} = 0U;", names.field(field)));
-        }
     }
     for id in &program.deferred {
         let flag = pending(Slot::Deferred, &handler_name(program, *id));
@@ -140,18 +142,23 @@ fn raise(writer: &mut Writer, program: &Program, names: &Names, external: &Exter
         let flag = names.field(&pending(Slot::Preemptive, &trigger));
         writer.line(format!("{flag} = true;"));
         writer.line("return true;");
-    } else {
+    } else if let Some(ring) = inbox_ring(program) {
         let inbox = program.configuration.settings.inbox;
-        let (first, count) = (names.field("inbox_first"), names.field("inbox_count"));
-        writer.line(format!("const bool accepted = {count} < {inbox}U;"));
+        let field = |part: &str| names.field(&ring.field(part));
+        let (first, count) = (field("first"), field("count"));
+        let waiting = names.field(external_count(program));
+        writer.line(format!("const bool accepted = {waiting} < {inbox}U;"));
         writer.line("");
         writer.open("if (accepted)");
-        let slot = wrapped(&format!("{first} + {count}"), inbox as usize);
+        let slot = wrapped(&format!("{first} + {count}"), ring.length);
         writer.line(format!("const uint32_t slot = {slot};"));
         store(writer, names, Slot::Inbox, &trigger, &external.types, "[slot]");
         let event = event_name(names, Slot::Inbox, &trigger);
-        writer.line(format!("{}[slot] = {event};", names.field("inbox_queue")));
+        writer.line(format!("{}[slot] = {event};", field("queue")));
         writer.line(format!("{count} = {count} + 1U;"));
+        if waiting != count {
+            writer.line(format!("{waiting} = {waiting} + 1U;"));
+        }
         writer.close("}");
         let refused = names.field("refused");
         writer.open(format!("else if ({refused} < UINT32_MAX)"));

@@ -52,6 +52,7 @@ pub(crate) fn layout(program: &Program) -> StateLayout {
         layout.events.push(event(Slot::Perceived, &trigger));
         layout.field(pending(Slot::Perceived, &trigger), FieldType::Flag, None);
     }
+    layout.rings(program);
     layout.inbox(program);
     layout.preemptive(program);
     layout.deferred(program);
@@ -73,22 +74,27 @@ impl StateLayout {
         }
     }
 
-    fn inbox(&mut self, program: &Program) {
-        let inbox: Vec<&External> = queued(program).collect();
-        if inbox.is_empty() {
-            return;
+    fn rings(&mut self, program: &Program) {
+        for ring in rings(program) {
+            for part in ["count", "first"] {
+                self.field(ring.field(part), FieldType::Count, None);
+            }
+            self.field(ring.field("queue"), FieldType::Event, Some(ring.length));
         }
-        let length = Some(program.configuration.settings.inbox as usize);
-        self.field("inbox_count".to_owned(), FieldType::Count, None);
-        self.field("inbox_first".to_owned(), FieldType::Count, None);
+    }
+
+    fn inbox(&mut self, program: &Program) {
+        let Some(ring) = inbox_ring(program) else { return };
         self.field("inbox_taken".to_owned(), FieldType::Count, None);
-        self.field("inbox_queue".to_owned(), FieldType::Event, length);
-        for external in inbox {
+        if program.configuration.settings.queue {
+            self.field("inbox_external".to_owned(), FieldType::Count, None);
+        }
+        for external in queued(program) {
             let trigger = external_name(external);
             self.events.push(event(Slot::Inbox, &trigger));
             for (index, ctype) in external.types.iter().enumerate() {
                 let name = slot_value(Slot::Inbox, &trigger, index);
-                self.field(name, FieldType::Value(ctype.clone()), length);
+                self.field(name, FieldType::Value(ctype.clone()), Some(ring.length));
             }
         }
     }
@@ -106,13 +112,6 @@ impl StateLayout {
     }
 
     fn deferred(&mut self, program: &Program) {
-        if program.deferred.is_empty() {
-            return;
-        }
-        self.field("deferred_count".to_owned(), FieldType::Count, None);
-        self.field("deferred_first".to_owned(), FieldType::Count, None);
-        let length = Some(program.deferred.len());
-        self.field("deferred_queue".to_owned(), FieldType::Event, length);
         for id in &program.deferred {
             let trigger = handler_name(program, *id);
             self.events.push(event(Slot::Deferred, &trigger));
@@ -152,6 +151,45 @@ impl Slot {
 /// External events that wait in the inbox.
 pub(super) fn queued(program: &Program) -> impl Iterator<Item = &External> {
     program.external.iter().filter(|external| !external.preemptive)
+}
+
+/// Events that wait in the order in which they came.
+pub(super) struct Ring {
+    name: &'static str,
+    pub(super) length: usize,
+}
+
+impl Ring {
+    /// The name of its field `queue`, `first` or `count`.
+    pub(super) fn field(&self, part: &str) -> String {
+        format!("{}_{part}", self.name)
+    }
+}
+
+/// Where external events wait. In queue mode there is room for every deferred goal besides.
+pub(super) fn inbox_ring(program: &Program) -> Option<Ring> {
+    let settings = &program.configuration.settings;
+    queued(program).next()?;
+    let shared = if settings.queue { program.deferred.len() } else { 0 };
+    Some(Ring { name: "inbox", length: settings.inbox as usize + shared })
+}
+
+/// Where deferred goals wait: by themselves, or in queue mode among the external events.
+pub(super) fn deferred_ring(program: &Program) -> Option<Ring> {
+    let inbox = inbox_ring(program).filter(|_| program.configuration.settings.queue);
+    let own = || Ring { name: "deferred", length: program.deferred.len() };
+    (!program.deferred.is_empty()).then(|| inbox.unwrap_or_else(own))
+}
+
+/// All rings, in the order in which they are served.
+pub(super) fn rings(program: &Program) -> impl Iterator<Item = Ring> {
+    let own = deferred_ring(program).filter(|ring| ring.name == "deferred");
+    inbox_ring(program).into_iter().chain(own)
+}
+
+/// The field that counts the external events that wait.
+pub(super) fn external_count(program: &Program) -> &'static str {
+    if program.configuration.settings.queue { "inbox_external" } else { "inbox_count" }
 }
 
 /// Beliefs whose change raises an event, and who handles it.

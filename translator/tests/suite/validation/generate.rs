@@ -210,11 +210,12 @@ fn configuration(choices: &mut Choices<'_>, agent: &str) -> String {
         })
         .collect();
     let inbox = 1 + choices.pick(3);
+    let queue = choices.of(&["inbox", "max_events"]);
     let perceived = if agent.contains("\n+b2") && choices.chance(70) { "b2;" } else { "" };
     let preemptive = if choices.chance(50) { "+!gb; +!g1;" } else { "" };
     format!(
         "settings {{ input = agent.asl; output = agent.c; header = agent.h; basics = actions.h; \
-         inbox = {inbox}; }};\nbasics {{ {basics} }};\ntypes {{ {predicates} }};\n\
+         {queue} = {inbox}; }};\nbasics {{ {basics} }};\ntypes {{ {predicates} }};\n\
          settables {{ b2; }};\nperceived {{ {perceived} }};\ntriggerables {{ {external} }};\npreemptive {{ {preemptive} }};\n"
     )
 }
