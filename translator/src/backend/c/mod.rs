@@ -6,6 +6,7 @@
 
 mod cycle;
 mod expression;
+mod handlers;
 mod header;
 mod helpers;
 mod interface;
@@ -18,8 +19,8 @@ use self::state::StateLayout;
 use super::writer::Writer;
 use crate::program::Program;
 
+pub(crate) use self::handlers::plan_name;
 pub(crate) use self::names::{action_symbol, symbol_prefix};
-pub(crate) use self::plan::plan_name;
 pub(crate) use self::state::{Field, FieldType, handler_name, layout};
 
 /// The generated C texts.
@@ -44,7 +45,7 @@ pub(crate) fn emit(program: &Program, input: &str) -> Files {
 fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -> String {
     // What plans and interface use decides which helpers are needed before them.
     let mut plans = Writer::default();
-    let mut helpers = plan::handlers(&mut plans, program, names, input);
+    let mut helpers = handlers::handlers(&mut plans, program, names, input);
     let mut rest = Writer::default();
     cycle::cycle(&mut rest, program, names);
     interface::interface(&mut rest, program, names, &mut helpers);
@@ -56,7 +57,7 @@ fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -
     writer.line(format!("#include \"{}\"", program.configuration.settings.basics));
     writer.line("");
     header::private_types(&mut writer, names, layout);
-    plan::prototypes(&mut writer, program, names);
+    handlers::prototypes(&mut writer, program, names);
     helpers.emit(&mut writer, &program.configuration.structs);
     cycle::posting(&mut writer, program, names);
     let mut text = writer.finish();

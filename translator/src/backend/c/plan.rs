@@ -1,146 +1,13 @@
-//! One C function for each plan, and one for each trigger that tries its plans in order.
+//! What one plan does, as the body of its C function.
 
 use super::expression::{conjunction, parenthesised, variable_name};
 use super::helpers::Helpers;
-use super::names::{Names, argument, argument_names, comment_safe, constant, typed};
+use super::names::{Names, argument, constant, typed};
 use super::state::{belief_value, handler_name, held};
 use crate::backend::writer::Writer;
 use crate::program::{
     BeliefId, Handler, HandlerId, Pattern, Plan, Program, Raise, Step, Value, VariableId,
-    trigger_text,
 };
-
-/// Prototypes of the handlers, which may call each other in any order.
-pub(super) fn prototypes(writer: &mut Writer, program: &Program, names: &Names) {
-    for (index, handler) in program.reachable_handlers() {
-        writer.line(format!("{};", handler_head(program, names, index, handler)));
-    }
-    writer.line("");
-}
-
-/// All plans and handlers, in the order of the source.
-pub(super) fn handlers(
-    writer: &mut Writer,
-    program: &Program,
-    names: &Names,
-    input: &str,
-) -> Helpers {
-    let mut helpers = Helpers::default();
-    let mut plans = 0;
-    for (index, handler) in program.reachable_handlers() {
-        let trigger = handler_name(program, index);
-        for (number, plan) in handler.plans.iter().enumerate() {
-            let head = plan_name(number, &trigger);
-            let number = plans;
-            plans += 1;
-            emit_plan(writer, program, names, &mut helpers, handler, plan, number, &head, input);
-        }
-        emit_handler(writer, program, names, index, handler);
-    }
-    helpers
-}
-
-pub(crate) fn plan_name(number: usize, trigger: &str) -> String {
-    format!("plan{}_{trigger}", number + 1)
-}
-
-fn handler_head(program: &Program, names: &Names, id: HandlerId, handler: &Handler) -> String {
-    let trigger = handler_name(program, id);
-    format!("static outcome_t run_{trigger}({})", parameters(names, handler).join(", "))
-}
-
-/// The parameters of a handler and its plans: what is asked for is passed as a pointer.
-fn parameters(names: &Names, handler: &Handler) -> Vec<String> {
-    let mut parameters = names.state_parameter();
-    for (index, ctype) in handler.types.iter().enumerate() {
-        let hole = handler.holes.get(index).copied().unwrap_or(false);
-        let name = if hole { format!("*{}", argument(index)) } else { argument(index) };
-        parameters.push(typed(ctype, &name));
-    }
-    if parameters.is_empty() {
-        parameters.push("void".to_owned());
-    }
-    parameters
-}
-
-fn emit_handler(
-    writer: &mut Writer,
-    program: &Program,
-    names: &Names,
-    id: HandlerId,
-    handler: &Handler,
-) {
-    let trigger = handler_name(program, id);
-    let arguments = names.arguments(argument_names(&handler.types));
-    let text = trigger_text(handler.operator, handler.kind, &handler.name);
-    writer.line(format!("/* Plans of {text}, in order. */"));
-    writer.open(handler_head(program, names, id, handler));
-    writer.line(format!("outcome_t outcome = {}({arguments});", plan_name(0, &trigger)));
-    writer.line("");
-    for number in 1..handler.plans.len() {
-        writer.open("if (outcome == OUTCOME_NOT_APPLICABLE)");
-        writer.line(format!("outcome = {}({arguments});", plan_name(number, &trigger)));
-        writer.close("}");
-    }
-    if let Some(failure) = handler.failure {
-        writer.open("if (outcome != OUTCOME_ACHIEVED)");
-        writer.line(format!("outcome = run_{}({arguments});", handler_name(program, failure)));
-        writer.close("}");
-    }
-    writer.line("return outcome;");
-    writer.close("}");
-    writer.line("");
-}
-
-#[allow(clippy::too_many_arguments, reason = "one call; a struct would only rename them")]
-fn emit_plan(
-    writer: &mut Writer,
-    program: &Program,
-    names: &Names,
-    helpers: &mut Helpers,
-    handler: &Handler,
-    plan: &Plan,
-    number: usize,
-    name: &str,
-    input: &str,
-) {
-    writer.line(format!("/* {}:{}", comment_safe(input), plan.lines.0));
-    for line in comment_safe(&plan.source).lines() {
-        writer.line(format!(" * {}", line.trim_end()).trim_end());
-    }
-    writer.line(" */");
-
-    let mut emitter = PlanEmitter {
-        program,
-        names,
-        helpers,
-        plan,
-        writer: Writer::default(),
-        blocks: 0,
-        temporaries: 0,
-    };
-    emitter.writer.indent();
-    let mut parameters = parameters(names, handler);
-    emitter.trigger(handler, &mut parameters);
-    emitter.conditions(&plan.context);
-    emitter.trace(number);
-    emitter.body();
-    emitter.close_blocks();
-    let text = emitter.writer.finish();
-
-    writer.open(format!("static outcome_t {name}({})", parameters.join(", ")));
-    writer.line("outcome_t outcome = OUTCOME_NOT_APPLICABLE;");
-    writer.line("");
-    if names.is_context() && !text.contains("self") {
-        writer.line("(void)self;");
-    }
-    for line in text.lines() {
-        writer.line(line.strip_prefix("    ").unwrap_or(line));
-    }
-    writer.line("return outcome;");
-    writer.close("}");
-    writer.line("");
-}
 
 /// Writes one plan. Each condition and each formula that can fail opens a block that stays open to
 /// the end of the plan, so that every variable is a constant initialised where it is bound.
@@ -154,7 +21,35 @@ pub(super) struct PlanEmitter<'a> {
     temporaries: usize,
 }
 
-impl PlanEmitter<'_> {
+impl<'a> PlanEmitter<'a> {
+    pub(super) fn new(
+        program: &'a Program,
+        names: &'a Names,
+        helpers: &'a mut Helpers,
+        plan: &'a Plan,
+    ) -> Self {
+        let mut writer = Writer::default();
+        writer.indent();
+        Self { program, names, helpers, plan, writer, blocks: 0, temporaries: 0 }
+    }
+
+    /// The text of the function's body between its first and last line. A parameter that binds a
+    /// variable gets its name. `number` is what the trace function is told.
+    pub(super) fn emit(
+        mut self,
+        handler: &Handler,
+        number: usize,
+        parameters: &mut [String],
+    ) -> String {
+        let plan = self.plan;
+        self.trigger(handler, parameters);
+        self.conditions(&plan.context);
+        self.trace(number);
+        self.body();
+        self.close_blocks();
+        self.writer.finish()
+    }
+
     pub(super) fn open(&mut self, condition: &str) {
         self.writer.open(format!("if {}", parenthesised(condition)));
         self.blocks += 1;
