@@ -24,6 +24,7 @@ mod backend;
 pub mod configuration;
 pub mod interpreter;
 mod program;
+mod report;
 pub mod syntax;
 pub mod types;
 
@@ -54,6 +55,8 @@ pub struct Translation {
     pub files: Vec<GeneratedFile>,
     /// Warnings, rendered.
     pub warnings: String,
+    /// What the agent costs: memory, call depth, calls of each action in a step.
+    pub report: String,
 }
 
 /// One generated file.
@@ -149,7 +152,7 @@ pub fn translate(
         files.push(GeneratedFile { name: format!("{name}.csv"), text: matrix.csv });
         files.push(GeneratedFile { name: format!("{name}.json"), text: matrix.json });
     }
-    Ok(Translation { files, warnings: rendered })
+    Ok(Translation { files, warnings: rendered, report: report::report(&program) })
 }
 
 /// The Rust side needs the state passed in, and types that it knows.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use translator::{TranslateError, parse_configuration, translate};
+use translator::{TranslateError, Translation, parse_configuration, translate};
 
 /// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
 ///
@@ -26,6 +26,9 @@ struct Arguments {
     /// Where the generated files go [default: the configuration's folder]
     #[arg(short, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// Print what the agent costs: memory, call depth, calls of each action in a step
+    #[arg(long)]
+    report: bool,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -41,9 +44,12 @@ fn main() -> ExitCode {
     let mut stderr = std::io::stderr().lock();
     // A message that cannot be printed has nowhere else to go.
     match run(&arguments) {
-        Ok(warnings) => {
-            if !warnings.is_empty() {
-                _ = writeln!(stderr, "{warnings}");
+        Ok(translation) => {
+            if !translation.warnings.is_empty() {
+                _ = writeln!(stderr, "{}", translation.warnings);
+            }
+            if arguments.report {
+                _ = write!(std::io::stdout(), "{}", translation.report);
             }
             ExitCode::SUCCESS
         }
@@ -55,7 +61,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(arguments: &Arguments) -> Result<String, CommandError> {
+fn run(arguments: &Arguments) -> Result<Translation, CommandError> {
     let path = &arguments.configuration;
     let folder = path.parent().unwrap_or(Path::new(""));
     let configuration = parse_configuration(&path.display().to_string(), &read(path)?)?;
@@ -70,7 +76,7 @@ fn run(arguments: &Arguments) -> Result<String, CommandError> {
             source,
         })?;
     }
-    Ok(translation.warnings)
+    Ok(translation)
 }
 
 fn read(path: &Path) -> Result<String, CommandError> {

@@ -259,6 +259,25 @@ impl Value {
     }
 }
 
+impl Step {
+    /// Whether the body can end here, before the formulae behind this one.
+    pub(crate) fn can_fail(&self) -> bool {
+        let values_fail = |values: &[Value]| values.iter().any(Value::can_fail);
+        match self {
+            Self::Achieve { .. } | Self::Ask { .. } => true,
+            Self::Action(call) => values_fail(&call.arguments),
+            Self::Assign { value, .. } => value.can_fail(),
+            Self::Add { raise, values, .. } => {
+                matches!(raise, Raise::Call(_)) || values_fail(values)
+            }
+            Self::Delete { raise, patterns, .. } => {
+                matches!(raise, Raise::Call(_)) || patterns.iter().any(Pattern::can_fail)
+            }
+            Self::Post { values, .. } | Self::Defer { values, .. } => values_fail(values),
+        }
+    }
+}
+
 impl Pattern {
     /// Whether evaluating it can fail.
     pub(crate) fn can_fail(&self) -> bool {

@@ -45,6 +45,25 @@ fn the_autopilot_passes_strict_compilation() {
 }
 
 #[test]
+fn the_report_says_what_the_autopilot_costs() {
+    let configuration = include_str!("../../../autopilot/agent/autopilot.conf");
+    let agent = include_str!("../../../autopilot/agent/autopilot.asl");
+    let parsed = parse_configuration("autopilot.conf", configuration).unwrap();
+    insta::assert_snapshot!("autopilot_report", translate(parsed, agent).unwrap().report);
+}
+
+#[test]
+fn the_report_bounds_calls_over_all_paths() {
+    let case = Case {
+        basics: "void a(void); void b(void); void act(int);",
+        types: "g(void); h(void); k(void); x(int);",
+        sections: "settables { x; };",
+        agent: "!g. +!g <- a; !h; a; b. +!h : x(X) <- b; act(X + 1); b; +x(3). +x(_) <- b; b. -!h <- act(0).",
+    };
+    insta::assert_snapshot!("bounded_report", case.translate("").unwrap().report);
+}
+
+#[test]
 fn the_trace_matrix_leads_from_requirement_to_c_lines() {
     let case = Case {
         basics: "void a(void); void b(void);",

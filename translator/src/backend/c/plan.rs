@@ -104,7 +104,7 @@ impl<'a> PlanEmitter<'a> {
 
     fn body(&mut self) {
         let plan = self.plan;
-        if plan.body.iter().any(can_fail) {
+        if plan.body.iter().any(Step::can_fail) {
             self.writer.line("outcome = OUTCOME_FAILED;");
         }
         for step in &plan.body {
@@ -298,20 +298,5 @@ impl<'a> PlanEmitter<'a> {
         let arguments = self.names.arguments(values);
         let trigger = handler_name(self.program, handler);
         self.writer.line(format!("post_{trigger}({arguments});"));
-    }
-}
-
-/// Whether the body can end before the formulae behind this one.
-fn can_fail(step: &Step) -> bool {
-    let values_fail = |values: &[Value]| values.iter().any(Value::can_fail);
-    match step {
-        Step::Achieve { .. } | Step::Ask { .. } => true,
-        Step::Action(call) => values_fail(&call.arguments),
-        Step::Assign { value, .. } => value.can_fail(),
-        Step::Add { raise, values, .. } => matches!(raise, Raise::Call(_)) || values_fail(values),
-        Step::Delete { raise, patterns, .. } => {
-            matches!(raise, Raise::Call(_)) || patterns.iter().any(Pattern::can_fail)
-        }
-        Step::Post { values, .. } | Step::Defer { values, .. } => values_fail(values),
     }
 }
