@@ -109,12 +109,25 @@ impl Diagnostic {
     }
 }
 
-/// Renders all of `diagnostics` in the order of the text, an empty line between two.
+/// More messages than this are counted, not shown: nobody reads them, and each costs a look at the
+/// whole text.
+const MAX_RENDERED: usize = 50;
+
+/// Renders `diagnostics` in the order of the text, an empty line between two. Of very many the
+/// first are shown and the others counted; errors come before warnings then.
 pub fn render_all(diagnostics: &[Diagnostic], source: &Source<'_>) -> String {
-    let mut sorted: Vec<&Diagnostic> = diagnostics.iter().collect();
-    sorted.sort_by_key(|diagnostic| diagnostic.span.start);
-    let rendered: Vec<String> =
-        sorted.into_iter().map(|diagnostic| diagnostic.render(source)).collect();
+    let mut shown: Vec<&Diagnostic> = diagnostics.iter().collect();
+    shown.sort_by_key(|diagnostic| diagnostic.span.start);
+    if shown.len() > MAX_RENDERED {
+        shown.sort_by_key(|diagnostic| std::cmp::Reverse(diagnostic.severity));
+        shown.truncate(MAX_RENDERED);
+    }
+    let mut rendered: Vec<String> =
+        shown.iter().map(|diagnostic| diagnostic.render(source)).collect();
+    let more = diagnostics.len() - shown.len();
+    if more > 0 {
+        rendered.push(format!("... and {more} more"));
+    }
     rendered.join("\n\n")
 }
 
@@ -200,6 +213,17 @@ mod tests {
         assert_eq!(closest("takeof", commands), Some("takeoff"));
         assert_eq!(closest("GOTO", commands), Some("goto"));
         assert_eq!(closest("hover", commands), None);
+    }
+
+    #[test]
+    fn of_very_many_messages_the_first_errors_are_shown() {
+        let source = Source { name: "x", text: "abc" };
+        let mut many = vec![Diagnostic::warning("odd", 0..1); 100];
+        many.push(Diagnostic::error("wrong", 2..3));
+        let text = render_all(&many, &source);
+        assert!(text.starts_with("error: wrong"), "{text}");
+        assert!(text.ends_with("... and 51 more"), "{text}");
+        assert_eq!(render_all(&many[..3], &source).matches("warning").count(), 3);
     }
 
     #[test]
