@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use super::{
     BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration, DroneState, FlightEvent,
-    LANDING_BATTERY_PERCENT, LANDING_TIMEOUT, MIN_TAKE_OFF_BATTERY_PERCENT, Pilot, SETTLE_TIME,
-    STEP_TIMEOUT, session,
+    LANDING_BATTERY_PERCENT, LANDING_TIMEOUT, MIN_TAKE_OFF_BATTERY_PERCENT, NAVDATA_OPTIONS_KEY,
+    Pilot, SETTLE_TIME, STEP_TIMEOUT, session,
 };
 use crate::outcome::Outcome;
 
@@ -186,9 +186,7 @@ impl Pilot {
                         self.events.push_back(FlightEvent::Connected);
                     }
                 }
-                session::Event::ConfigurationTimedOut { key } => {
-                    self.report.unconfirmed_settings.push(key);
-                }
+                session::Event::ConfigurationTimedOut { key } => self.setting_unconfirmed(&key),
                 session::Event::ConfigurationRead(configuration) => {
                     self.compare_configuration(&configuration);
                 }
@@ -234,13 +232,27 @@ impl Pilot {
         }
     }
 
-    fn compare_configuration(&mut self, configuration: &Configuration) {
+    pub(super) fn compare_configuration(&mut self, configuration: &Configuration) {
         let version = configuration.get("general:num_version_soft").map(str::to_owned);
         self.events.push_back(FlightEvent::ConfigurationRead { version });
-        for setting in &self.settings {
-            if !configuration.has(setting.key(), setting.value()) {
-                self.report.unconfirmed_settings.push(setting.key().to_owned());
-            }
+        let differing: Vec<String> = self
+            .settings
+            .iter()
+            .filter(|setting| !configuration.has(setting.key(), setting.value()))
+            .map(|setting| setting.key().to_owned())
+            .collect();
+        for key in differing {
+            self.setting_unconfirmed(&key);
+        }
+    }
+
+    /// Limits that the drone has not taken forbid the flight; without the further navdata options
+    /// it only flies by arrival times.
+    fn setting_unconfirmed(&mut self, key: &str) {
+        if key == NAVDATA_OPTIONS_KEY {
+            self.events.push_back(FlightEvent::NoDroneClock);
+        } else {
+            self.report.unconfirmed_settings.push(key.to_owned());
         }
     }
 

@@ -61,6 +61,10 @@ const MIN_TAKE_OFF_BATTERY_PERCENT: u32 = 20;
 /// In flight, the drone lands before it has to.
 const LANDING_BATTERY_PERCENT: u32 = 12;
 
+/// Asks for the drone's clock in demo mode. The key belongs to a category that firmware may only
+/// let a custom configuration change, so the flight does not depend on it.
+const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
+
 /// Flies one plan.
 #[derive(Debug)]
 pub struct Pilot {
@@ -379,7 +383,7 @@ fn drone_settings(limits: &FlightLimits) -> Result<Vec<Config>, ConfigError> {
     let ceiling_mm = (limits.ceiling_m * 1000.0).round();
     Ok(vec![
         Config::new("general:navdata_demo", "TRUE")?,
-        Config::new("general:navdata_options", NAVDATA_OPTIONS)?,
+        Config::new(NAVDATA_OPTIONS_KEY, NAVDATA_OPTIONS)?,
         Config::new("control:outdoor", "FALSE")?,
         Config::new("control:altitude_max", ceiling_mm)?,
         Config::new("control:euler_angle_max", 0.209_44)?,

@@ -21,6 +21,8 @@ pub enum FlightEvent {
     },
     /// The drone's configuration could not be read back.
     ConfigurationNotRead,
+    /// The drone does not send its clock: time is taken from the arrival of packets.
+    NoDroneClock,
     /// All settings are made.
     Configured,
     /// A step of the plan began.
@@ -59,6 +61,9 @@ impl fmt::Display for FlightEvent {
             Self::ConfigurationNotRead => f.write_str(
                 "configuration could not be read back: the settings are acknowledged, not verified",
             ),
+            Self::NoDroneClock => {
+                f.write_str("the drone does not send its clock: taking the arrival of packets")
+            }
             Self::Configured => f.write_str("drone configured, level reference set"),
             Self::StepStarted { step } => write!(f, "step {}", step + 1),
             Self::StepDone { step } => write!(f, "step {} done", step + 1),

@@ -41,3 +41,18 @@ fn random_navdata_is_ignored() {
     }
     assert_eq!(pilot.status(Duration::ZERO).battery_percent, None);
 }
+
+#[test]
+fn limits_that_the_drone_has_not_taken_forbid_the_flight_and_a_missing_clock_does_not() {
+    let mut pilot = pilot("takeoff\nland");
+    let taken = |pilot: &Pilot, without: &str| {
+        let kept = pilot.settings.iter().filter(|setting| setting.key() != without);
+        let lines = kept.map(|setting| format!("{} = {}\n", setting.key(), setting.value()));
+        Configuration::parse(&lines.collect::<Vec<_>>().concat())
+    };
+    pilot.compare_configuration(&taken(&pilot, NAVDATA_OPTIONS_KEY));
+    assert!(pilot.events.contains(&FlightEvent::NoDroneClock));
+    assert!(pilot.report.unconfirmed_settings.is_empty());
+    pilot.compare_configuration(&taken(&pilot, "control:altitude_max"));
+    assert_eq!(pilot.report.unconfirmed_settings, ["control:altitude_max"]);
+}
