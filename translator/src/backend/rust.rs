@@ -227,7 +227,8 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("");
     let query = |writer: &mut Writer, doc: &str, name: &str, result: &str| {
         writer.line(format!("/// {doc}"));
-        writer.open_here(format!("pub fn {name}(&mut self) -> {result}"));
+        let arrow = if result.is_empty() { "" } else { " -> " };
+        writer.open_here(format!("pub fn {name}(&mut self){arrow}{result}"));
         writer.line("// SAFETY: the state is initialised and exclusively borrowed.");
         writer.line(format!("unsafe {{ {prefix}{name}(&raw mut self.state) }}"));
         writer.close("}");
@@ -241,7 +242,7 @@ fn agent(writer: &mut Writer, program: &Program) {
     query(writer, doc, "refused_events", "u32");
     writer.line("");
     let doc = "Forgets all events and keeps the beliefs; the initial goal runs in the next step.";
-    query(writer, doc, "clear", "()");
+    query(writer, doc, "clear", "");
     for external in &program.external {
         let name = trigger_name(external.operator, external.kind, &external.name);
         let text = trigger_text(external.operator, external.kind, &external.name);
