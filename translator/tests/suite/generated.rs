@@ -35,7 +35,7 @@ fn the_autopilot_passes_strict_compilation() {
     for file in &translation.files {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
     }
-    let result = std::process::Command::new("gcc")
+    let result = std::process::Command::new("cc")
         .current_dir(folder.path())
         .args(crate::harness::STRICT)
         .args(["-c", "autopilot.c"])

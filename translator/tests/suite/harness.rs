@@ -49,7 +49,7 @@ impl Case {
         for settings in ["", "instance = context;"] {
             let folder = tempfile::tempdir().unwrap();
             self.write(settings, folder.path());
-            for compiler in ["gcc", "clang"] {
+            for compiler in ["cc", "clang"] {
                 let mut compile = Command::new(compiler);
                 compile.current_dir(folder.path()).args(STRICT).args(["-c", "agent.c"]);
                 // clang may not be there; the other compiler must be.
@@ -138,7 +138,7 @@ pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> Str
 }
 
 fn compiler(folder: &Path) -> Command {
-    let mut compiler = Command::new("gcc");
+    let mut compiler = Command::new("cc");
     compiler.current_dir(folder).args(STRICT);
     compiler
 }

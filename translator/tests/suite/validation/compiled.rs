@@ -50,7 +50,7 @@ pub(super) fn run(agent: &RandomAgent, sequences: &[Vec<Command>]) -> Result<Str
     // One compilation unit: compiling is what takes the time.
     let main = format!("#include \"agent.c\"\n{PRELUDE}{}{}", basics(), main_function(sequences));
     std::fs::write(folder.path().join("main.c"), main).map_err(|error| error.to_string())?;
-    let compiled = Process::new("gcc")
+    let compiled = Process::new("cc")
         .current_dir(folder.path())
         .args(STRICT)
         .args(["-O1", "-pipe", "-o", "agent", "main.c"])
