@@ -70,9 +70,24 @@ const INTERFACE: [&str; 11] = [
     "agent",
 ];
 
-/// Prefixes of generated functions.
-const PREFIXES: [&str; 9] =
-    ["achieve_", "add_", "del_", "set_", "run_", "plan", "equal_", "post_", "defer_"];
+/// Prefixes of generated functions and variables.
+const PREFIXES: [&str; 11] = [
+    "achieve_", "add_", "del_", "set_", "run_", "plan", "equal_", "checked_", "post_", "defer_",
+    "var_",
+];
+
+/// Generated local variables; most of them are numbered.
+const LOCALS: [&str; 12] = [
+    "accepted", "answer", "answered", "argument", "changed", "event", "handled", "holds",
+    "outcome", "round", "slot", "value",
+];
+
+/// Whether generated C may use the name for something of its own.
+fn is_generated(name: &str) -> bool {
+    INTERFACE.contains(&name)
+        || PREFIXES.iter().any(|prefix| name.starts_with(prefix))
+        || LOCALS.contains(&name.trim_end_matches(|c: char| c.is_ascii_digit()))
+}
 
 #[derive(Debug, Clone)]
 enum Declared {
@@ -91,7 +106,6 @@ impl Declarations {
         let mut declarations = Self { names: HashMap::new(), basics: configuration.basics.clone() };
         for (index, basic) in configuration.basics.iter().enumerate() {
             let name = &basic.name.text;
-            let generated = PREFIXES.iter().any(|prefix| name.starts_with(prefix));
             if C_WORDS.contains(&name.as_str()) || name.starts_with('_') {
                 findings.push(
                     Diagnostic::error(
@@ -100,15 +114,16 @@ impl Declarations {
                     )
                     .help("C reserves this word; rename the basic action"),
                 );
-            } else if INTERFACE.contains(&name.as_str()) || generated {
+            } else if is_generated(name) {
                 findings.push(
                     Diagnostic::error(
                         format!("`{name}` may clash with a generated function"),
                         basic.name.span.clone(),
                     )
                     .help(format!(
-                        "generated names are {} and those that start with {}",
+                        "generated names are {}, {} and those that start with {}",
                         INTERFACE.join(", "),
+                        LOCALS.join(", "),
                         PREFIXES.join(", ")
                     )),
                 );

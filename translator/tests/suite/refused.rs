@@ -211,6 +211,9 @@ fn names_that_c_could_not_take_are_refused() {
         "void _x(void);",
         "void achieve_g(void);",
         "void a(void); void a(int);",
+        "void outcome(void);",
+        "int value1(void);",
+        "int checked_add_int(int);",
     ] {
         let case = Case { basics, types: "g(void);", sections: "", agent: "!g. +!g." };
         assert!(case.translate("").is_err(), "{basics}");
