@@ -327,13 +327,27 @@ mod tests {
         assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Refused)));
     }
 
+    /// Every order, given on the ground and in the air, while the drone then stays or changes over.
     #[test]
     fn every_event_finds_a_plan() {
-        let mut bench = Bench::new(HOVERING);
-        assert!(bench.agent.achieve_take_off());
-        for _ in 0..10 {
-            bench.step();
+        for order in 0..3 {
+            for (first, then) in
+                [(GROUND, GROUND), (GROUND, HOVERING), (HOVERING, GROUND), (HOVERING, HOVERING)]
+            {
+                let mut bench = Bench::new(first);
+                assert!(match order {
+                    0 => bench.agent.achieve_take_off(),
+                    1 => bench.agent.achieve_go_to(1.0, 0.0, 0.0, 0.0),
+                    _ => bench.agent.achieve_land(),
+                });
+                bench.step();
+                bench.senses = Senses { now_ms: bench.senses.now_ms, ..then };
+                // Long enough for a take-off to be given up.
+                for _ in 0..400 {
+                    bench.step();
+                }
+                assert_eq!(bench.agent.unhandled_events(), 0, "{order} {first:?} {then:?}");
+            }
         }
-        assert_eq!(bench.agent.unhandled_events(), 0);
     }
 }

@@ -6,7 +6,7 @@
 use pid::Pose;
 
 use crate::agent::ApproachSettings;
-use crate::plan::{Command, FlightLimits, Plan, Step};
+use crate::plan::{Command, FlightLimits, Plan};
 
 /// What the agent is to be told next.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,11 +117,6 @@ impl Mission {
         let height_corrected = (z_m - target.z_m).abs() > 0.0;
         self.target = Pose { z_m, ..target };
         Due { step, order: AgentOrder::GoTo(self.target), height_corrected }
-    }
-
-    /// The steps of the plan.
-    pub fn steps(&self) -> &[Step] {
-        self.plan.steps()
     }
 
     /// How orders are to be flown now.

@@ -225,11 +225,6 @@ impl Pilot {
         }
     }
 
-    /// The text of a step, for messages.
-    pub fn step_text(&self, step: usize) -> &str {
-        self.mission.steps().get(step).map_or("", |step| step.text.as_str())
-    }
-
     fn demo(&self) -> Option<&Demo> {
         self.navdata.as_ref().and_then(|navdata| navdata.demo.as_ref())
     }
