@@ -55,7 +55,19 @@ impl Configuration {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+
+    proptest! {
+        #[test]
+        fn any_text_is_read(text in "\\PC*", lines in "([a-z:]{0,4} ?=? ?[a-z{}.]{0,4}\n){0,20}") {
+            for dump in [text, lines] {
+                let configuration = Configuration::parse(&dump);
+                prop_assert!(configuration.len() <= dump.lines().count());
+            }
+        }
+    }
 
     #[test]
     fn a_dump_is_read_with_its_odd_lines() {

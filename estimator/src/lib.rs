@@ -7,7 +7,7 @@
 //!
 //! Frame: x right, y forward, z up, metres; the origin is where the estimator started, the floor
 //! below the drone is z = 0; yaw in degrees, clockwise from above, zero where the drone pointed at
-//! the start. Velocity integrated is position that drifts: some 0.4 m a minute indoors.
+//! the start. Velocity integrated is position that drifts.
 //!
 //! ```
 //! use std::time::Duration;

@@ -7,7 +7,7 @@
 //! - when [`Session::wake_up_due`] says so, [`crate::WAKE_UP`] goes to the navdata port;
 //! - [`Session::poll_event`] tells what happened.
 //!
-//! Rules of the drone that are kept here (see the fact sheet in `ARCHITECTURE.md`):
+//! Rules of the drone that are kept here (Parrot's developer guide, and what other clients found out):
 //! - REF and PCMD are levels and stand in every datagram; sequence numbers start at 1 and rise.
 //! - A drone that has restarted or was lost must never take off because of an old order: the
 //!   take-off bit is withheld until take-off is ordered anew.
