@@ -4,8 +4,8 @@
 use libfuzzer_sys::fuzz_target;
 use translator::{parse_configuration, translate};
 
-const CONFIGURATION: &str = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
-basics { void act(int); int f(int); bool q(double); double g(void); void say(const char *); };
+const CONFIGURATION: &str = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; clock = f0; };
+basics { void act(int); int f0(void); int f(int); bool q(double); double g(void); void say(const char *); };
 types { a(void); b(int); c(int, double); d(bool); };
 settables { b; }; triggerables { +!a; +b; -b; };";
 

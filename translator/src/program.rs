@@ -23,6 +23,10 @@ pub(crate) struct Program {
     pub(crate) posted_by_plans: Vec<HandlerId>,
     /// Handlers whose goals a plan can post with `!!`: each has one slot.
     pub(crate) deferred: Vec<HandlerId>,
+    /// Handlers whose goals a plan gives a deadline.
+    pub(crate) limited: Vec<HandlerId>,
+    /// The function that tells the time, and the type of its times.
+    pub(crate) clock: Option<(BasicId, CType)>,
     /// What the environment can raise.
     pub(crate) external: Vec<External>,
     pub(crate) initial_goal: Option<(HandlerId, Vec<Value>)>,
@@ -74,6 +78,9 @@ pub(crate) struct Handler {
     pub(crate) span: Span,
     /// For plans of test goals: which arguments are asked for rather than given.
     pub(crate) holes: Vec<bool>,
+    /// Whether this is what is left of a plan that waits. Where the goal has failure plans, its
+    /// arguments come first.
+    pub(crate) resumed: bool,
 }
 
 /// An event that the environment can raise.
@@ -184,6 +191,8 @@ pub(crate) enum Step {
     Post {
         handler: HandlerId,
         values: Vec<Value>,
+        /// The time by which the goal must be achieved.
+        deadline: Option<Value>,
     },
     /// `!!g`
     Defer {
@@ -237,6 +246,13 @@ impl Operation {
     }
 }
 
+impl Handler {
+    /// How the trigger is written in AgentSpeak: for what is left of a plan that waits, `+!g_wait1`.
+    pub(crate) fn text(&self) -> String {
+        trigger_text(self.operator, self.kind, &self.name)
+    }
+}
+
 impl Plan {
     /// Whether the plan fits every event of its trigger.
     pub(crate) fn always_applies(&self) -> bool {
@@ -273,7 +289,10 @@ impl Step {
             Self::Delete { raise, patterns, .. } => {
                 matches!(raise, Raise::Call(_)) || patterns.iter().any(Pattern::can_fail)
             }
-            Self::Post { values, .. } | Self::Defer { values, .. } => values_fail(values),
+            Self::Post { values, deadline, .. } => {
+                values_fail(values) || deadline.as_ref().is_some_and(Value::can_fail)
+            }
+            Self::Defer { values, .. } => values_fail(values),
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::backend::c::{FieldType, layout};
-use crate::program::{Call, HandlerId, Plan, Program, Raise, Step, trigger_text};
+use crate::program::{Call, HandlerId, Plan, Program, Raise, Step};
 use crate::types::{CType, TypeKind};
 
 /// Bounds of what one step can do.
@@ -32,7 +32,7 @@ pub(crate) fn report(program: &Program) -> String {
     let deepest = events.iter().max_by_key(|id| costs[id.0].depth);
     if let Some(id) = deepest {
         let handler = program.handler(*id);
-        let name = trigger_text(handler.operator, handler.kind, &handler.name);
+        let name = handler.text();
         // next_step, handle_event, then a trigger's function and a plan's for each level.
         let frames = 2 + 2 * costs[id.0].depth;
         line("deepest chain of calls", format!("{frames} functions, from `{name}`"));

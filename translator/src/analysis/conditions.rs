@@ -67,7 +67,7 @@ impl Analysis<'_> {
                 Ok(Condition::Compare { relation: *operator, left, right, ctype })
             }
             Expression::Bind { variable, value, .. } => {
-                let (value, ctype) = self.typed_value(value, scope)?;
+                let (value, ctype) = self.typed_value(value, None, scope)?;
                 check_fresh(variable, scope)?;
                 Ok(Condition::Bind { variable: scope.bind(variable, &ctype), value })
             }

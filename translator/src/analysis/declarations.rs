@@ -56,7 +56,7 @@ const C_WORDS: [&str; 42] = [
 ];
 
 /// Names that the generated interface uses itself.
-const INTERFACE: [&str; 11] = [
+const INTERFACE: [&str; 12] = [
     "init",
     "next_step",
     "can_add_event",
@@ -64,6 +64,7 @@ const INTERFACE: [&str; 11] = [
     "handle_event",
     "unhandled_events",
     "refused_events",
+    "aborted_events",
     "clear",
     "forget_events",
     "updateBeliefs",
@@ -71,15 +72,26 @@ const INTERFACE: [&str; 11] = [
 ];
 
 /// Prefixes of generated functions and variables.
-const PREFIXES: [&str; 11] = [
+const PREFIXES: [&str; 12] = [
     "achieve_", "add_", "del_", "set_", "run_", "plan", "equal_", "checked_", "post_", "defer_",
-    "var_",
+    "limit_", "var_",
 ];
 
 /// Generated local variables; most of them are numbered.
-const LOCALS: [&str; 12] = [
-    "accepted", "answer", "answered", "argument", "changed", "event", "handled", "holds",
-    "outcome", "round", "slot", "value",
+const LOCALS: [&str; 13] = [
+    "accepted",
+    "answer",
+    "answered",
+    "argument",
+    "changed",
+    "current_time",
+    "event",
+    "handled",
+    "holds",
+    "outcome",
+    "round",
+    "slot",
+    "value",
 ];
 
 /// Whether generated C may use the name for something of its own.
@@ -214,6 +226,10 @@ impl Declarations {
 
     pub(super) fn is_basic(&self, name: &str) -> bool {
         matches!(self.names.get(name), Some(Declared::Basic(_)))
+    }
+
+    pub(super) fn is_predicate(&self, name: &str) -> bool {
+        matches!(self.names.get(name), Some(Declared::Predicate(_)))
     }
 
     fn undeclared(&self, name: &Name, section: &str) -> Diagnostic {

@@ -29,7 +29,7 @@ impl TriggerGraph {
             let from = nodes[&trigger_key(&plan.trigger)];
             for formula in &plan.body {
                 let target = match formula {
-                    Formula::Achieve(goal) => {
+                    Formula::Achieve { goal, .. } => {
                         node(Operator::Add, TriggerKind::Achieve, &goal.name.text)
                     }
                     Formula::Add(belief) => {
@@ -41,6 +41,8 @@ impl TriggerGraph {
                     Formula::Test(belief) => {
                         node(Operator::Add, TriggerKind::Test, &belief.name.text)
                     }
+                    // What is left of a plan that waits is the event of a later step.
+                    Formula::Wait { .. } => Some(&from),
                     // A deferred goal is never called; actions call no plan.
                     Formula::Defer(_) | Formula::Action(_) | Formula::Assign { .. } => None,
                 };

@@ -10,6 +10,7 @@ mod graph;
 mod plans;
 mod reach;
 mod scope;
+mod time;
 mod values;
 
 use std::collections::{HashMap, HashSet};
@@ -20,6 +21,7 @@ use self::constants::constant;
 use self::declarations::Declarations;
 use self::graph::TriggerGraph;
 use self::reach::{Reached, reach, warn_never_believed, warn_unreachable};
+use self::time::{Clock, find_clock};
 use crate::configuration::{Configuration, ExternalTrigger};
 use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Program, Value};
 use crate::syntax::ast::{Agent, Atom, Operator, TriggerKind};
@@ -52,8 +54,10 @@ pub(crate) fn analyse(
 ) -> (Option<Program>, Findings) {
     let mut findings = Findings::default();
     let declarations = Declarations::new(&configuration, &mut findings.configuration);
+    let clock = find_clock(&configuration, &mut findings.configuration);
     let mut analysis = Analysis {
         text,
+        clock,
         line_starts: std::iter::once(0)
             .chain(text.match_indices('\n').map(|(newline, _)| newline + 1))
             .collect(),
@@ -65,6 +69,7 @@ pub(crate) fn analyse(
         handlers: Vec::new(),
         test_handlers: HashMap::new(),
         test_triggers: HashSet::new(),
+        waits: HashMap::new(),
     };
     analysis.collect_triggers(agent);
     let graph = TriggerGraph::new(agent);
@@ -76,7 +81,8 @@ pub(crate) fn analyse(
     let initial_goal = agent.goal.as_ref().and_then(|goal| analysis.initial_goal(goal));
     analysis.settables(&configuration);
     let external = analysis.external(&configuration);
-    let Analysis { mut findings, beliefs, mut handlers, .. } = analysis;
+    let Analysis { mut findings, beliefs, mut handlers, clock, .. } = analysis;
+    let clock = clock.map(Clock::into_parts);
     // A plan of a test goal is looked at once for each way it is asked.
     let mut seen = HashSet::new();
     findings.agent.retain(|found| seen.insert((found.span.clone(), found.message.clone())));
@@ -88,7 +94,7 @@ pub(crate) fn analyse(
         .filter_map(|event| event.handler)
         .chain(beliefs.iter().filter_map(|belief| belief.perceived))
         .chain(initial_goal.as_ref().map(|(handler, _)| *handler));
-    let Reached { mut posted, deferred } = reach(&mut handlers, roots);
+    let Reached { mut posted, deferred, limited } = reach(&mut handlers, roots);
     let posted_by_plans = posted.iter().copied().collect();
     posted.extend(initial_goal.as_ref().map(|(handler, _)| *handler));
     warn_unreachable(&handlers, &mut findings.agent);
@@ -100,6 +106,8 @@ pub(crate) fn analyse(
         posted: posted.into_iter().collect(),
         posted_by_plans,
         deferred: deferred.into_iter().collect(),
+        limited: limited.into_iter().collect(),
+        clock,
         external,
         initial_goal,
     };
@@ -108,6 +116,7 @@ pub(crate) fn analyse(
 
 struct Analysis<'a> {
     text: &'a str,
+    clock: Option<Clock>,
     /// Where each line begins.
     line_starts: Vec<usize>,
     declarations: Declarations,
@@ -120,6 +129,8 @@ struct Analysis<'a> {
     test_handlers: HashMap<(TriggerKey, Vec<bool>), HandlerId>,
     /// Test goals that have plans.
     test_triggers: HashSet<TriggerKey>,
+    /// How many waits of each goal or belief have a name.
+    waits: HashMap<String, usize>,
 }
 
 impl Analysis<'_> {
@@ -166,6 +177,7 @@ impl Analysis<'_> {
                 reachable: false,
                 span: trigger.span.clone(),
                 holes: Vec::new(),
+                resumed: false,
             });
         }
         for index in 0..self.handlers.len() {
@@ -323,11 +335,8 @@ impl Analysis<'_> {
                 );
             } else if trigger.kind != TriggerKind::Achieve {
                 self.findings.configuration.push(
-                    Diagnostic::error(
-                        "pre-emptive percepts are not translated yet",
-                        trigger.span.clone(),
-                    )
-                    .help("only goals, `+!goal`, can pre-empt"),
+                    Diagnostic::error("only goals can pre-empt", trigger.span.clone())
+                        .help("raise a goal, `+!goal`, where the belief matters that much"),
                 );
             }
         }

@@ -5,6 +5,7 @@ use diagnostic::Diagnostic;
 use super::conditions::check_fresh;
 use super::graph::TriggerGraph;
 use super::scope::Scope;
+use super::time::Place;
 use super::values::Resolved;
 use super::{Analysis, TriggerKey};
 use crate::program::{Handler, HandlerId, Pattern, Plan, Raise, Step, Value, VariableId};
@@ -92,6 +93,7 @@ impl Analysis<'_> {
             reachable: false,
             span: atom.span.clone(),
             holes: holes.to_vec(),
+            resumed: false,
         });
         if operator == Operator::Add {
             let failure = self.test_handler(Operator::Delete, atom, types, holes);
@@ -111,18 +113,19 @@ impl Analysis<'_> {
         // The arity may be wrong in a later plan of a declared trigger.
         let Some(types) = self.predicate_types(&trigger.atom) else { return };
         let mut scope = Scope::default();
-        let (patterns, answers) = self.trigger_patterns(trigger, &types, holes, &mut scope);
+        let (mut patterns, answers) = self.trigger_patterns(trigger, &types, holes, &mut scope);
         let mut context = Vec::new();
         if let Some(expression) = &plan.context {
             let resolved = self.conditions(expression, &mut scope, &mut context);
             self.report(resolved);
         }
-        let mut body = Vec::new();
-        for (index, formula) in plan.body.iter().enumerate() {
-            let last = index + 1 == plan.body.len();
-            let step = self.step(formula, last, graph, &mut scope);
-            body.extend(self.report(step));
-        }
+        let arguments = if plan.body.iter().any(|f| matches!(f, Formula::Wait { .. })) {
+            self.kept_arguments(handler, trigger, &mut patterns, &mut context, &mut scope)
+        } else {
+            Vec::new()
+        };
+        let place = Place { handler, plan, graph, arguments };
+        let body = self.body(&place, &plan.body, &mut scope);
         let outputs = self.outputs(&answers, &types, &mut scope);
         scope.settle();
         for (name, span) in scope.unused() {
@@ -168,6 +171,7 @@ impl Analysis<'_> {
                             && answers.iter().all(|(_, other)| other.text != name.text) =>
                     {
                         answers.push((index, name));
+                        scope.asked.push((name.text.clone(), ctype.clone()));
                     }
                     _ => self.error(
                         Diagnostic::error("this argument is asked for", expression.span())
@@ -208,6 +212,27 @@ impl Analysis<'_> {
         outputs
     }
 
+    /// The formulae of a body up to the first that waits; it takes along those behind it.
+    pub(super) fn body(
+        &mut self,
+        place: &Place<'_>,
+        formulae: &[Formula],
+        scope: &mut Scope,
+    ) -> Vec<Step> {
+        let mut body = Vec::new();
+        for (index, formula) in formulae.iter().enumerate() {
+            let rest = &formulae[index + 1..];
+            if let Formula::Wait { duration, span } = formula {
+                let step = self.wait(place, duration, span, rest, scope);
+                body.extend(self.report(step));
+                break;
+            }
+            let step = self.step(formula, rest.is_empty(), place.graph, scope);
+            body.extend(self.report(step));
+        }
+        body
+    }
+
     pub(super) fn report<T>(&mut self, resolved: Resolved<T>) -> Option<T> {
         resolved.map_err(|diagnostic| self.error(diagnostic)).ok()
     }
@@ -222,7 +247,9 @@ impl Analysis<'_> {
         match formula {
             Formula::Action(atom) => Ok(Step::Action(self.call(atom, scope)?)),
             Formula::Assign { variable, value } => {
-                let (value, ctype) = self.typed_value(value, scope)?;
+                let mut asked = scope.asked.iter().filter(|(name, _)| *name == variable.text);
+                let expected = asked.next().map(|(_, ctype)| ctype.clone());
+                let (value, ctype) = self.typed_value(value, expected, scope)?;
                 check_fresh(variable, scope)?;
                 Ok(Step::Assign { variable: scope.bind(variable, &ctype), value })
             }
@@ -245,11 +272,17 @@ impl Analysis<'_> {
                 let raise = self.raise(Operator::Delete, atom, last, graph)?;
                 Ok(Step::Delete { belief, patterns, raise })
             }
-            Formula::Achieve(atom) => {
-                let (handler, values) = self.goal(atom, scope)?;
-                if graph.is_recursive(Operator::Add, TriggerKind::Achieve, &atom.name.text) {
-                    check_last(atom, last)?;
-                    Ok(Step::Post { handler, values })
+            Formula::Achieve { goal, deadline } => {
+                let (handler, values) = self.goal(goal, scope)?;
+                if graph.is_recursive(Operator::Add, TriggerKind::Achieve, &goal.name.text) {
+                    check_last(goal, last)?;
+                    let due = deadline.as_ref().map(|ms| self.due(ms, &ms.span(), scope));
+                    Ok(Step::Post { handler, values, deadline: due.transpose()? })
+                } else if let Some(deadline) = deadline {
+                    let message = format!("`!{}` never takes more than a step", goal.name.text);
+                    Err(Diagnostic::error(message, deadline.span())
+                        .label("a deadline that is always met")
+                        .help("it is for goals that wait or post themselves again"))
                 } else {
                     Ok(Step::Achieve { handler, values })
                 }
@@ -259,6 +292,9 @@ impl Analysis<'_> {
                 Ok(Step::Defer { handler, values })
             }
             Formula::Test(atom) => self.ask(atom, graph, scope),
+            Formula::Wait { span, .. } => {
+                unreachable!("`body` takes what waits, at {span:?}")
+            }
         }
     }
 

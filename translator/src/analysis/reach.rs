@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use diagnostic::Diagnostic;
 
-use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Raise, Step, trigger_text};
+use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Raise, Step};
 use crate::syntax::ast::Operator;
 
 /// What the reachable plans do besides calling each other.
@@ -13,11 +13,14 @@ pub(super) struct Reached {
     pub(super) posted: BTreeSet<HandlerId>,
     /// Handlers whose goals they defer.
     pub(super) deferred: BTreeSet<HandlerId>,
+    /// Handlers whose goals they give a deadline.
+    pub(super) limited: BTreeSet<HandlerId>,
 }
 
 /// Marks the handlers that can be reached from `roots`.
 pub(super) fn reach(handlers: &mut [Handler], roots: impl Iterator<Item = HandlerId>) -> Reached {
-    let mut reached = Reached { posted: BTreeSet::new(), deferred: BTreeSet::new() };
+    let mut reached =
+        Reached { posted: BTreeSet::new(), deferred: BTreeSet::new(), limited: BTreeSet::new() };
     let mut open: Vec<HandlerId> = roots.collect();
     while let Some(HandlerId(index)) = open.pop() {
         if std::mem::replace(&mut handlers[index].reachable, true) {
@@ -27,8 +30,9 @@ pub(super) fn reach(handlers: &mut [Handler], roots: impl Iterator<Item = Handle
         for step in handlers[index].plans.iter().flat_map(|plan| &plan.body) {
             match step {
                 Step::Achieve { handler, .. } => open.push(*handler),
-                Step::Post { handler, .. } => {
+                Step::Post { handler, deadline, .. } => {
                     reached.posted.insert(*handler);
+                    reached.limited.extend(deadline.as_ref().map(|_| *handler));
                     open.push(*handler);
                 }
                 Step::Defer { handler, .. } => {
@@ -52,8 +56,8 @@ pub(super) fn reach(handlers: &mut [Handler], roots: impl Iterator<Item = Handle
 }
 
 pub(super) fn warn_unreachable(handlers: &[Handler], findings: &mut Vec<Diagnostic>) {
-    for handler in handlers.iter().filter(|handler| !handler.reachable) {
-        let text = trigger_text(handler.operator, handler.kind, &handler.name);
+    for handler in handlers.iter().filter(|handler| !handler.reachable && !handler.resumed) {
+        let text = handler.text();
         findings.push(
             Diagnostic::warning(format!("nothing ever triggers `{text}`"), handler.span.clone())
                 .help("its plans are left out; list it in `triggerables` or let a plan post it"),

@@ -14,6 +14,8 @@ pub(super) struct Scope {
     bound_at: Vec<Span>,
     /// The variables that can be seen, innermost last.
     visible: Vec<(String, VariableId)>,
+    /// Types of variables that the plan of a test goal must give a value.
+    pub(super) asked: Vec<(String, CType)>,
     /// Names that were bound inside a negation or an alternative and can't be seen any more.
     hidden: Vec<String>,
     /// Variables that every branch of an alternative binds: the one seen afterwards, and theirs.
@@ -44,6 +46,26 @@ impl Scope {
         self.bound_at.push(name.span.clone());
         self.visible.push((name.text.clone(), id));
         id
+    }
+
+    /// A variable that no formula can name: those of the agent begin with an upper-case letter.
+    pub(super) fn bind_unnamed(&mut self, ctype: &CType) -> VariableId {
+        let id = VariableId(self.variables.len());
+        self.variables.push(Variable {
+            source: String::new(),
+            name: format!("unnamed{}", id.0 + 1),
+            ctype: ctype.clone(),
+            used: false,
+        });
+        self.bound_at.push(0..0);
+        id
+    }
+
+    /// All variables that have a value here.
+    pub(super) fn visible(&self) -> impl Iterator<Item = (Name, VariableId)> {
+        self.visible
+            .iter()
+            .map(|(text, id)| (Name { text: text.clone(), span: self.bound_at[id.0].clone() }, *id))
     }
 
     /// The variable `name`, which must have a value.
@@ -111,7 +133,9 @@ impl Scope {
             .iter()
             .zip(&self.bound_at)
             .enumerate()
-            .filter(move |(index, (variable, _))| !variable.used && !exported(*index))
+            .filter(move |(index, (variable, _))| {
+                !variable.used && !variable.source.is_empty() && !exported(*index)
+            })
             .map(|(_, pair)| pair)
             .map(|(variable, span)| (variable.source.as_str(), span))
     }

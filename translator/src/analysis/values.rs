@@ -100,10 +100,12 @@ impl Analysis<'_> {
         }
     }
 
-    /// An expression with the type that follows from it, for `X = ..`.
+    /// An expression with the type that follows from it, for `X = ..`; `expected` is that of `X`
+    /// where it is known beforehand.
     pub(super) fn typed_value(
         &self,
         expression: &Expression,
+        expected: Option<CType>,
         scope: &mut Scope,
     ) -> Resolved<(Value, CType)> {
         if let Expression::Atom(atom) = expression {
@@ -113,7 +115,7 @@ impl Analysis<'_> {
         if let Expression::Variable(name) = expression {
             scope.bound(name)?;
         }
-        let Some(ctype) = self.infer(expression, scope) else {
+        let Some(ctype) = self.infer(expression, scope).or(expected) else {
             return Err(Diagnostic::error("the type of this value is unknown", expression.span())
                 .help("write the constant where it is used, or calculate with a variable"));
         };

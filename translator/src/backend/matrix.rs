@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use serde_json::{Value, json};
 
 use super::c::{handler_name, plan_name};
-use crate::program::{Program, trigger_text};
+use crate::program::Program;
 
 /// One line of the matrix.
 struct Row {
@@ -46,7 +46,7 @@ fn rows(program: &Program, source: &str) -> Vec<Row> {
             requirement: requirement.clone(),
             plan: plan_number,
             label: plan.label.clone().unwrap_or_default(),
-            trigger: trigger_text(handler.operator, handler.kind, &handler.name),
+            trigger: handler.text(),
             source_lines: plan.lines,
             function: function.clone(),
             c_lines,

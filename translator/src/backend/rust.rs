@@ -6,7 +6,7 @@
 
 use std::fmt::Write as _;
 
-use super::c::{Field, FieldType, action_symbol, layout, symbol_prefix};
+use super::c::{Counter, Field, FieldType, action_symbol, counters, layout, symbol_prefix};
 use super::writer::Writer;
 use crate::configuration::Basic;
 use crate::program::{Program, trigger_name, trigger_text};
@@ -75,8 +75,9 @@ fn external_functions(writer: &mut Writer, program: &Program) {
         .line(format!("fn {prefix}init(agent: *mut State, environment: *mut core::ffi::c_void);"));
     writer.line(format!("fn {prefix}next_step(agent: *mut State);"));
     writer.line(format!("fn {prefix}can_add_event(agent: *mut State) -> bool;"));
-    writer.line(format!("fn {prefix}unhandled_events(agent: *mut State) -> u32;"));
-    writer.line(format!("fn {prefix}refused_events(agent: *mut State) -> u32;"));
+    for Counter { name, .. } in counters(program) {
+        writer.line(format!("fn {prefix}{name}_events(agent: *mut State) -> u32;"));
+    }
     writer.line(format!("fn {prefix}clear(agent: *mut State);"));
     for external in &program.external {
         let name = trigger_name(external.operator, external.kind, &external.name);
@@ -235,12 +236,10 @@ fn agent(writer: &mut Writer, program: &Program) {
     };
     query(writer, "Whether the next external event will be accepted.", "can_add_event", "bool");
     writer.line("");
-    let doc = "Events since the start that no plan handled to its end.";
-    query(writer, doc, "unhandled_events", "u32");
-    writer.line("");
-    let doc = "External events since the start that were refused because the inbox was full.";
-    query(writer, doc, "refused_events", "u32");
-    writer.line("");
+    for Counter { name, meaning } in counters(program) {
+        query(writer, meaning, &format!("{name}_events"), "u32");
+        writer.line("");
+    }
     let doc = "Forgets all events and keeps the beliefs; the initial goal runs in the next step.";
     query(writer, doc, "clear", "");
     for external in &program.external {
@@ -273,7 +272,7 @@ fn plans(writer: &mut Writer, program: &Program) {
     writer.open_array(format!("pub const PLANS: [(u32, &str); {count}] ="));
     for (id, _, plan) in program.reachable_plans() {
         let handler = program.handler(id);
-        let trigger = trigger_text(handler.operator, handler.kind, &handler.name);
+        let trigger = handler.text();
         writer.line(format!("({}, \"{trigger}\"),", plan.lines.0));
     }
     writer.close("];");

@@ -66,6 +66,8 @@ pub struct Settings {
     pub matrix: Option<String>,
     /// The function that is told which plan was chosen, if wanted.
     pub trace: Option<Name>,
+    /// The function that tells the time in milliseconds, for agents that wait.
+    pub clock: Option<Name>,
     /// Whether the agent's state is static or passed in.
     pub instance: Instance,
     /// External events that can wait at the same time.
@@ -84,6 +86,7 @@ impl Default for Settings {
             rust: None,
             matrix: None,
             trace: None,
+            clock: None,
             instance: Instance::Static,
             inbox: 1,
             queue: false,

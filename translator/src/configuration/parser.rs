@@ -18,8 +18,9 @@ const SECTIONS: [&str; 9] = [
     "triggerables",
     "preemptive",
 ];
-const SETTINGS: [&str; 10] = [
+const SETTINGS: [&str; 11] = [
     "trace",
+    "clock",
     "input",
     "output",
     "header",
@@ -157,6 +158,7 @@ impl<'a> Parser<'a> {
             "rust" => settings.rust = Some(value),
             "matrix" => settings.matrix = Some(value.text),
             "trace" => settings.trace = Some(value),
+            "clock" => settings.clock = Some(value),
             "instance" => {
                 settings.instance = match value.text.as_str() {
                     "static" => Instance::Static,

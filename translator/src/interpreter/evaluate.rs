@@ -6,23 +6,39 @@ use crate::types::CType;
 
 /// Variables and their values.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Substitution(Vec<(String, CType, Value)>);
+pub(super) struct Substitution {
+    bound: Vec<(String, CType, Value)>,
+    /// Types of variables that are asked for and have no value yet.
+    asked: Vec<(String, CType)>,
+}
 
 impl Substitution {
     pub(super) fn get(&self, name: &str) -> Option<&Value> {
-        self.0.iter().find(|(other, ..)| other == name).map(|(.., value)| value)
+        self.bound.iter().find(|(other, ..)| other == name).map(|(.., value)| value)
     }
 
     fn types(&self) -> Vec<(String, CType)> {
-        self.0.iter().map(|(name, ctype, _)| (name.clone(), ctype.clone())).collect()
+        self.bound.iter().map(|(name, ctype, _)| (name.clone(), ctype.clone())).collect()
     }
 
     fn keep(&mut self, variables: &[(String, CType)]) {
-        self.0.retain(|(name, ..)| variables.iter().any(|(kept, _)| kept == name));
+        self.bound.retain(|(name, ..)| variables.iter().any(|(kept, _)| kept == name));
     }
 
     pub(super) fn bind(&mut self, name: &str, ctype: &CType, value: Value) {
-        self.0.push((name.to_owned(), ctype.clone(), value));
+        self.bound.push((name.to_owned(), ctype.clone(), value));
+    }
+}
+
+impl Substitution {
+    /// Notes that the plan must give the variable a value.
+    pub(super) fn ask(&mut self, name: &str, ctype: &CType) {
+        self.asked.push((name.to_owned(), ctype.clone()));
+    }
+
+    /// The type that the answer must have.
+    pub(super) fn asked(&self, name: &str) -> Option<CType> {
+        self.asked.type_of(name)
     }
 }
 

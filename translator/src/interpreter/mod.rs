@@ -10,10 +10,11 @@ mod value;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 
+use self::evaluate::Substitution;
 pub use self::value::Value;
 use crate::ParsedConfiguration;
 use crate::configuration::Configuration;
-use crate::syntax::ast::{Agent, Atom, Formula, Operator, Trigger, TriggerKind};
+use crate::syntax::ast::{Agent, Atom, Formula, Operator, Plan, Relation, Trigger, TriggerKind};
 use crate::syntax::parse;
 use crate::types::CType;
 
@@ -33,12 +34,41 @@ pub struct Refused;
 /// A trigger: operator, kind and name.
 type Key = (Operator, TriggerKind, String);
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 struct Event {
     key: Key,
     arguments: Vec<Value>,
-    /// Whether the environment raised it.
-    external: bool,
+    origin: Origin,
+}
+
+/// Where an event comes from.
+#[derive(Debug, Clone)]
+enum Origin {
+    /// A plan, or a belief that was set.
+    Agent,
+    Environment,
+    /// A plan that waits and has not come to its end.
+    Wait(Box<Waiting>),
+    /// A goal that was not achieved in time.
+    Overdue,
+}
+
+/// A plan that waits.
+#[derive(Debug, Clone)]
+struct Waiting {
+    due: Value,
+    plan: Plan,
+    /// The formula that comes next.
+    next: usize,
+    theta: Substitution,
+}
+
+/// What runs must end by this time.
+#[derive(Debug, Clone)]
+struct Deadline {
+    goal: Key,
+    arguments: Vec<Value>,
+    due: Value,
 }
 
 /// How the plans of one trigger ended.
@@ -60,6 +90,7 @@ pub struct Interpreter {
     recursive: HashSet<Key>,
     beliefs: BTreeMap<String, Vec<Value>>,
     posted: Option<Event>,
+    deadline: Option<Deadline>,
     inbox: VecDeque<Event>,
     preemptive: Vec<Event>,
     /// Beliefs that were set to something else.
@@ -67,6 +98,7 @@ pub struct Interpreter {
     deferred: VecDeque<Event>,
     unhandled: u32,
     refused: u32,
+    aborted: u32,
 }
 
 impl Interpreter {
@@ -86,12 +118,14 @@ impl Interpreter {
             agent,
             beliefs: BTreeMap::new(),
             posted: None,
+            deadline: None,
             inbox: VecDeque::new(),
             preemptive: Vec::new(),
             perceived: BTreeSet::new(),
             deferred: VecDeque::new(),
             unhandled: 0,
             refused: 0,
+            aborted: 0,
         };
         interpreter.init();
         Ok(interpreter)
@@ -107,6 +141,7 @@ impl Interpreter {
             .collect();
         self.unhandled = 0;
         self.refused = 0;
+        self.aborted = 0;
         self.clear();
     }
 
@@ -115,8 +150,9 @@ impl Interpreter {
         self.posted = self.agent.goal.as_ref().map(|goal| Event {
             key: (Operator::Add, TriggerKind::Achieve, goal.name.text.clone()),
             arguments: self.constants(goal),
-            external: false,
+            origin: Origin::Agent,
         });
+        self.deadline = None;
         self.inbox.clear();
         self.preemptive.clear();
         self.perceived.clear();
@@ -125,7 +161,7 @@ impl Interpreter {
 
     /// Whether the next external event will be accepted.
     pub fn can_add_event(&self) -> bool {
-        self.inbox.iter().filter(|event| event.external).count()
+        self.inbox.iter().filter(|event| event.is_external()).count()
             < self.configuration.settings.inbox as usize
     }
 
@@ -137,6 +173,11 @@ impl Interpreter {
     /// External events since the start that were refused because the inbox was full.
     pub fn refused_events(&self) -> u32 {
         self.refused
+    }
+
+    /// Posted events since the start that a pre-empting one took the place of.
+    pub fn aborted_events(&self) -> u32 {
+        self.aborted
     }
 
     /// Raises `+!name`, `+name` or `-name`.
@@ -151,7 +192,7 @@ impl Interpreter {
         arguments: Vec<Value>,
     ) -> Result<(), Refused> {
         let key = (operator, kind, name.to_owned());
-        let event = Event { key, arguments, external: true };
+        let event = Event { key, arguments, origin: Origin::Environment };
         let preempts = self.configuration.preemptive.iter().any(|trigger| {
             (trigger.operator, trigger.kind, trigger.name.text.as_str()) == (operator, kind, name)
         });
@@ -176,31 +217,37 @@ impl Interpreter {
                 self.perceived.insert(belief);
             }
         }
-        while let Some(event) = self.take_event() {
-            let external = event.external;
+        while let Some(mut event) = self.take_event(environment) {
             let (operator, kind, name) = event.key.clone();
-            let mut arguments = event.arguments;
-            if external && kind == TriggerKind::Belief {
+            if event.is_external() && kind == TriggerKind::Belief {
                 if operator == Operator::Add {
-                    self.beliefs.insert(name.clone(), arguments.clone());
+                    self.beliefs.insert(name, event.arguments.clone());
                 } else if let Some(old) = self.beliefs.remove(&name) {
                     // The event carries no arguments: its plans see what was believed.
-                    arguments = old;
+                    event.arguments = old;
                 } else {
                     continue;
                 }
-                if !self.has_plans(&(operator, kind, name.clone())) {
+                if !self.has_plans(&event.key) {
                     continue;
                 }
             }
-            self.handle(&(operator, kind, name), arguments, environment);
+            self.handle(event, environment);
+            if self.posted.is_none() {
+                self.deadline = None;
+            }
             return;
         }
     }
 
-    fn handle(&mut self, key: &Key, arguments: Vec<Value>, environment: &mut dyn Environment) {
+    fn handle(&mut self, event: Event, environment: &mut dyn Environment) {
+        let Event { key, arguments, origin } = event;
         let given: Vec<Option<Value>> = arguments.into_iter().map(Some).collect();
-        let outcome = self.run_with_failure(key, &given, environment);
+        let outcome = match origin {
+            Origin::Agent | Origin::Environment => self.run_with_failure(&key, &given, environment),
+            Origin::Wait(waiting) => self.resume(&key, *waiting, &given, environment),
+            Origin::Overdue => self.mend(&key, Outcome::Failed, &given, environment),
+        };
         let fine = match outcome {
             Outcome::Achieved(_) => true,
             // A percept that no plan cares for is no failure.
@@ -213,7 +260,7 @@ impl Interpreter {
     }
 
     /// The next event.
-    fn take_event(&mut self) -> Option<Event> {
+    fn take_event(&mut self, environment: &mut dyn Environment) -> Option<Event> {
         let priority = |event: &Event| {
             self.configuration.preemptive.iter().position(|trigger| {
                 (trigger.operator, trigger.kind, &trigger.name.text)
@@ -222,11 +269,20 @@ impl Interpreter {
         };
         let first = (0..self.preemptive.len()).min_by_key(|i| priority(&self.preemptive[*i]));
         if let Some(first) = first {
+            self.aborted = self.aborted.saturating_add(u32::from(self.posted.is_some()));
             self.posted = None;
+            self.deadline = None;
             return Some(self.preemptive.remove(first));
         }
         if let Some(event) = self.posted.take() {
-            return Some(event);
+            let overdue = self
+                .deadline
+                .take_if(|deadline| Self::is_due(&self.configuration, &deadline.due, environment));
+            return Some(overdue.map_or(event, |Deadline { goal, arguments, .. }| Event {
+                key: goal,
+                arguments,
+                origin: Origin::Overdue,
+            }));
         }
         for name in &self.configuration.perceived {
             // What is no longer believed by now raises nothing.
@@ -234,19 +290,32 @@ impl Interpreter {
                 && let Some(arguments) = self.beliefs.get(&name.text).cloned()
             {
                 let key = (Operator::Add, TriggerKind::Belief, name.text.clone());
-                return Some(Event { key, arguments, external: false });
+                return Some(Event { key, arguments, origin: Origin::Agent });
             }
         }
         self.inbox.pop_front().or_else(|| self.deferred.pop_front())
+    }
+
+    /// Whether the clock says so much or more.
+    fn is_due(
+        configuration: &Configuration,
+        due: &Value,
+        environment: &mut dyn Environment,
+    ) -> bool {
+        let clock = configuration.settings.clock.as_ref();
+        let basics = &configuration.basics;
+        let clock = clock.and_then(|name| basics.iter().find(|b| b.name.text == name.text));
+        let now = clock.and_then(|clock| environment.call(&clock.name.text, &[], &clock.result));
+        now.is_some_and(|now| !Value::compare(Relation::Less, &now, due))
     }
 
     fn defer(&mut self, key: Key, arguments: Vec<Value>) {
         // In queue mode deferred goals wait among the external events.
         let queue = self.configuration.settings.queue && self.has_inbox();
         let waiting = if queue { &mut self.inbox } else { &mut self.deferred };
-        match waiting.iter_mut().find(|event| event.key == key && !event.external) {
+        match waiting.iter_mut().find(|event| event.key == key && !event.is_external()) {
             Some(waiting) => waiting.arguments = arguments,
-            None => waiting.push_back(Event { key, arguments, external: false }),
+            None => waiting.push_back(Event { key, arguments, origin: Origin::Agent }),
         }
     }
 
@@ -270,6 +339,12 @@ impl Interpreter {
     }
 }
 
+impl Event {
+    fn is_external(&self) -> bool {
+        matches!(self.origin, Origin::Environment)
+    }
+}
+
 fn key_of(trigger: &Trigger) -> Key {
     (trigger.operator, trigger.kind, trigger.atom.name.text.clone())
 }
@@ -288,7 +363,12 @@ fn recursive_triggers(agent: &Agent) -> HashSet<Key> {
         }
         for formula in &plan.body {
             let target = match formula {
-                Formula::Achieve(atom) => (Operator::Add, TriggerKind::Achieve, atom),
+                // What is left of a plan that waits is the event of a later step.
+                Formula::Wait { .. } => {
+                    targets.insert(key.clone());
+                    continue;
+                }
+                Formula::Achieve { goal: atom, .. } => (Operator::Add, TriggerKind::Achieve, atom),
                 Formula::Add(atom) => (Operator::Add, TriggerKind::Belief, atom),
                 Formula::Delete(atom) => (Operator::Delete, TriggerKind::Belief, atom),
                 Formula::Test(atom) => (Operator::Add, TriggerKind::Test, atom),

@@ -1,8 +1,12 @@
 //! Plans and their formulae.
 
 use super::evaluate::Substitution;
-use super::{Environment, Event, Interpreter, Key, Outcome, Value, key_of};
-use crate::syntax::ast::{Atom, Expression, Formula, Operator, Plan, Relation, TriggerKind};
+use super::{
+    Deadline, Environment, Event, Interpreter, Key, Origin, Outcome, Value, Waiting, key_of,
+};
+use crate::syntax::ast::{
+    Arithmetic, Atom, Expression, Formula, Operator, Plan, Relation, TriggerKind,
+};
 use crate::types::CType;
 
 impl Interpreter {
@@ -15,6 +19,17 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Outcome {
         let outcome = self.run(key, arguments, environment);
+        self.mend(key, outcome, arguments, environment)
+    }
+
+    /// Where a goal was not achieved, the plans of its failure trigger have their say.
+    pub(super) fn mend(
+        &mut self,
+        key: &Key,
+        outcome: Outcome,
+        arguments: &[Option<Value>],
+        environment: &mut dyn Environment,
+    ) -> Outcome {
         let (operator, kind, name) = key;
         let failure = (Operator::Delete, *kind, name.clone());
         let mendable = *operator == Operator::Add && *kind != TriggerKind::Belief;
@@ -22,6 +37,27 @@ impl Interpreter {
             return outcome;
         }
         self.run(&failure, arguments, environment)
+    }
+
+    /// Goes on with a plan that waits, if its time has come.
+    pub(super) fn resume(
+        &mut self,
+        key: &Key,
+        waiting: Waiting,
+        arguments: &[Option<Value>],
+        environment: &mut dyn Environment,
+    ) -> Outcome {
+        if !Self::is_due(&self.configuration, &waiting.due, environment) {
+            self.posted = Some(Event {
+                key: key.clone(),
+                arguments: arguments.iter().flatten().cloned().collect(),
+                origin: Origin::Wait(Box::new(waiting)),
+            });
+            return Outcome::Achieved(Vec::new());
+        }
+        let Waiting { plan, next, theta, .. } = waiting;
+        let outcome = self.body(&plan, next, theta, arguments, environment);
+        self.mend(key, outcome, arguments, environment)
     }
 
     fn run(
@@ -37,7 +73,7 @@ impl Interpreter {
             let Some(theta) = self.applicable(&plan, arguments, &types, environment) else {
                 continue;
             };
-            return self.body(&plan, theta, arguments, environment);
+            return self.body(&plan, 0, theta, arguments, environment);
         }
         Outcome::NoPlan
     }
@@ -54,6 +90,8 @@ impl Interpreter {
         for ((pattern, value), ctype) in patterns.iter().zip(arguments).zip(types) {
             if let Some(value) = value {
                 self.match_pattern(pattern, value, ctype, &mut theta, environment)?;
+            } else if let Expression::Variable(name) = pattern {
+                theta.ask(&name.text, ctype);
             }
         }
         match &plan.context {
@@ -62,14 +100,28 @@ impl Interpreter {
         }
     }
 
+    /// The formulae from the one with the index `first`.
     fn body(
         &mut self,
         plan: &Plan,
+        first: usize,
         mut theta: Substitution,
         arguments: &[Option<Value>],
         environment: &mut dyn Environment,
     ) -> Outcome {
-        for formula in &plan.body {
+        for (index, formula) in plan.body.iter().enumerate().skip(first) {
+            if let Formula::Wait { duration, .. } = formula {
+                let Some(due) = self.due(duration, &theta, environment) else {
+                    return Outcome::Failed;
+                };
+                let waiting = Waiting { due, plan: plan.clone(), next: index + 1, theta };
+                self.posted = Some(Event {
+                    key: key_of(&plan.trigger),
+                    arguments: arguments.iter().flatten().cloned().collect(),
+                    origin: Origin::Wait(Box::new(waiting)),
+                });
+                return Outcome::Achieved(Vec::new());
+            }
             if self.formula(formula, &mut theta, environment).is_none() {
                 return Outcome::Failed;
             }
@@ -94,7 +146,8 @@ impl Interpreter {
                 self.call(atom, theta, environment)?;
             }
             Formula::Assign { variable, value } => {
-                let ctype = self.type_of(value, theta)?;
+                let asked = || theta.asked(&variable.text);
+                let ctype = self.type_of(value, theta).or_else(asked)?;
                 let value = self.evaluate(value, &ctype, theta, environment)?;
                 theta.bind(&variable.text, &ctype, value);
             }
@@ -117,11 +170,18 @@ impl Interpreter {
                     self.percept(Operator::Delete, name, old, environment)?;
                 }
             }
-            Formula::Achieve(atom) => {
-                let arguments = self.arguments(atom, theta, environment)?;
-                let key = (Operator::Add, TriggerKind::Achieve, atom.name.text.clone());
+            Formula::Achieve { goal, deadline } => {
+                let arguments = self.arguments(goal, theta, environment)?;
+                let key = (Operator::Add, TriggerKind::Achieve, goal.name.text.clone());
                 if self.recursive.contains(&key) {
-                    self.posted = Some(Event { key, arguments, external: false });
+                    if let Some(deadline) = deadline {
+                        let due = self.due(deadline, theta, environment)?;
+                        if self.deadline.as_ref().is_none_or(|running| running.goal != key) {
+                            let arguments = arguments.clone();
+                            self.deadline = Some(Deadline { goal: key.clone(), arguments, due });
+                        }
+                    }
+                    self.posted = Some(Event { key, arguments, origin: Origin::Agent });
                 } else {
                     let given: Vec<_> = arguments.into_iter().map(Some).collect();
                     let outcome = self.run_with_failure(&key, &given, environment);
@@ -134,8 +194,25 @@ impl Interpreter {
                 self.defer(key, arguments);
             }
             Formula::Test(atom) => self.test(atom, theta, environment)?,
+            // The body has waited already.
+            Formula::Wait { .. } => {}
         }
         Some(())
+    }
+
+    /// The time at which `duration` will have passed.
+    fn due(
+        &self,
+        duration: &Expression,
+        theta: &Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<Value> {
+        let clock = self.configuration.settings.clock.as_ref()?;
+        let basics = &self.configuration.basics;
+        let clock = basics.iter().find(|basic| basic.name.text == clock.text)?;
+        let now = environment.call(&clock.name.text, &[], &clock.result)?;
+        let duration = self.evaluate(duration, &clock.result, theta, environment)?;
+        Value::calculate(Arithmetic::Add, &now, &duration, &clock.result)
     }
 
     fn arguments(
@@ -157,7 +234,7 @@ impl Interpreter {
     ) -> Option<()> {
         let key = (operator, TriggerKind::Belief, name.to_owned());
         if self.recursive.contains(&key) {
-            self.posted = Some(Event { key, arguments, external: false });
+            self.posted = Some(Event { key, arguments, origin: Origin::Agent });
             return Some(());
         }
         let given: Vec<_> = arguments.into_iter().map(Some).collect();

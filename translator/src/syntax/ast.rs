@@ -133,6 +133,33 @@ impl Expression {
     }
 }
 
+impl Expression {
+    /// Every variable that stands in the expression; its depth is bounded by the parser.
+    fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
+        match self {
+            Self::Variable(name) => visit(name),
+            Self::Atom(atom) => atom.arguments.iter().for_each(|a| a.for_each_variable(visit)),
+            Self::Negate { operand, .. } | Self::Not { operand, .. } => {
+                operand.for_each_variable(visit);
+            }
+            Self::Arithmetic { left, right, .. } | Self::Compare { left, right, .. } => {
+                left.for_each_variable(visit);
+                right.for_each_variable(visit);
+            }
+            Self::Bind { variable, value, .. } => {
+                visit(variable);
+                value.for_each_variable(visit);
+            }
+            Self::And(parts) | Self::Or(parts) => {
+                for part in parts {
+                    part.for_each_variable(visit);
+                }
+            }
+            Self::Unnamed(_) | Self::Number(_) | Self::Boolean { .. } | Self::Text { .. } => {}
+        }
+    }
+}
+
 /// An arithmetic operation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Arithmetic {
@@ -242,10 +269,43 @@ pub enum Formula {
     Add(Atom),
     /// `-b(t)`
     Delete(Atom),
-    /// `!g(t)`
-    Achieve(Atom),
+    /// `!g(t)`, `!g(t)[deadline(ms)]`
+    Achieve {
+        /// The goal.
+        goal: Atom,
+        /// How long it may take, in milliseconds.
+        deadline: Option<Expression>,
+    },
     /// `!!g(t)`
     Defer(Atom),
     /// `?b(t)`
     Test(Atom),
+    /// `.wait(ms)`
+    Wait {
+        /// How long, in milliseconds.
+        duration: Expression,
+        /// From the full stop to the closing parenthesis.
+        span: Span,
+    },
+}
+
+impl Formula {
+    /// Every variable that stands in the formula.
+    pub(crate) fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
+        match self {
+            Self::Action(atom)
+            | Self::Add(atom)
+            | Self::Delete(atom)
+            | Self::Defer(atom)
+            | Self::Test(atom) => atom.arguments.iter().for_each(|a| a.for_each_variable(visit)),
+            Self::Assign { variable, value } => {
+                visit(variable);
+                value.for_each_variable(visit);
+            }
+            Self::Achieve { goal, deadline } => {
+                goal.arguments.iter().chain(deadline).for_each(|a| a.for_each_variable(visit));
+            }
+            Self::Wait { duration, .. } => duration.for_each_variable(visit),
+        }
+    }
 }

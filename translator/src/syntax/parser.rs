@@ -126,11 +126,9 @@ impl Parser<'_> {
     }
 
     fn requirement(&mut self) -> Parsed<String> {
-        let name = self.span();
-        if self.peek() != &TokenKind::Atom || &self.text[name] != "req" {
+        if !self.take_word("req") {
             return Err(self.unexpected("`req(\"tag\")`"));
         }
-        self.next();
         self.expect(&TokenKind::LeftParenthesis, "`(`")?;
         let TokenKind::Text(tag) = self.peek().clone() else {
             return Err(self.unexpected("a requirement's tag in quotes"));
@@ -179,7 +177,8 @@ impl Parser<'_> {
 
     fn formula(&mut self) -> Parsed<Formula> {
         let build = match self.peek() {
-            TokenKind::Bang => Formula::Achieve,
+            TokenKind::Bang => return self.achieve(),
+            TokenKind::Dot if self.following() == &TokenKind::Atom => return self.wait(),
             TokenKind::BangBang => Formula::Defer,
             TokenKind::Question => Formula::Test,
             TokenKind::Plus => Formula::Add,
@@ -199,6 +198,51 @@ impl Parser<'_> {
         };
         self.next();
         Ok(build(self.atom(0)?))
+    }
+
+    /// `!goal`, `!goal[deadline(ms)]`
+    fn achieve(&mut self) -> Parsed<Formula> {
+        self.next();
+        let goal = self.atom(0)?;
+        let mut deadline = None;
+        if self.take(&TokenKind::LeftBracket) {
+            if !self.take_word("deadline") {
+                return Err(self.unexpected("`deadline(milliseconds)`"));
+            }
+            self.expect(&TokenKind::LeftParenthesis, "`(`")?;
+            deadline = Some(self.expression("a time in milliseconds")?);
+            self.expect(&TokenKind::RightParenthesis, "`)`")?;
+            self.expect(&TokenKind::RightBracket, "`]`")?;
+        }
+        Ok(Formula::Achieve { goal, deadline })
+    }
+
+    /// `.wait(ms)`, the one internal action. Nowhere else can a full stop stand before a name
+    /// where a formula is expected.
+    fn wait(&mut self) -> Parsed<Formula> {
+        let start = self.next().span.start;
+        let name = self.span();
+        if !self.take_word("wait") {
+            let found = &self.text[name.clone()];
+            return Err(Diagnostic::error(
+                format!("unknown internal action `.{found}`"),
+                start..name.end,
+            )
+            .help("the only one is `.wait(milliseconds)`; others are basic actions"));
+        }
+        self.expect(&TokenKind::LeftParenthesis, "`(` and a time in milliseconds")?;
+        let duration = self.expression("a time in milliseconds")?;
+        let end = self.expect(&TokenKind::RightParenthesis, "`)`")?.end;
+        Ok(Formula::Wait { duration, span: start..end })
+    }
+
+    /// Takes the name under the cursor if it is `word`.
+    fn take_word(&mut self, word: &str) -> bool {
+        let found = self.peek() == &TokenKind::Atom && &self.text[self.span()] == word;
+        if found {
+            self.next();
+        }
+        found
     }
 
     /// A name with arguments; `depth` counts what it stands inside of.
@@ -235,6 +279,11 @@ impl Parser<'_> {
 
     pub(super) fn peek(&self) -> &TokenKind {
         &self.token().kind
+    }
+
+    /// What stands behind the token under the cursor.
+    fn following(&self) -> &TokenKind {
+        &self.tokens[(self.position + 1).min(self.tokens.len() - 1)].kind
     }
 
     pub(super) fn span(&self) -> Span {
@@ -288,14 +337,14 @@ mod tests {
     fn a_whole_plan_is_parsed() {
         let (agent, diagnostics) = parse(
             "b(1, -2.5). !start.\n@go[req(\"HLR-1\"), req(\"HLR-2\")] +!start : b(X, _) & not(c) & (f(X) | X + 1 < 3)\n\
-             <- a(X, \"t\"); Y = g(X) * 2; +c(Y); -c(_); !h; !!h; ?b(X, Z).",
+             <- a(X, \"t\"); Y = g(X) * 2; +c(Y); -c(_); !h; !!h; ?b(X, Z); .wait(2 * X); !h[deadline(500)].",
         );
         assert_eq!(diagnostics, []);
         assert_eq!(agent.beliefs.len(), 1);
         assert!(agent.goal.is_some());
         let plan = &agent.plans[0];
         assert!(matches!(&plan.context, Some(Expression::And(parts)) if parts.len() == 3));
-        assert_eq!(plan.body.len(), 7);
+        assert_eq!(plan.body.len(), 9);
         assert_eq!(plan.requirements, ["HLR-1", "HLR-2"]);
     }
 
@@ -342,6 +391,15 @@ mod tests {
             "+!a : b | <- c.",
             "+!a : 1 < 2 < 3 <- c.",
             "+!a : not <- c.",
+            "+!a <- .",
+            "+!a <- .wait.",
+            "+!a <- .wait().",
+            "+!a <- .print(1).",
+            "+!a <- b; .",
+            "+!a <- !b[.",
+            "+!a <- !b[deadline].",
+            "+!a <- !b[deadline(1].",
+            "+!a <- !!b[deadline(1)].",
         ] {
             assert!(!messages(text).is_empty(), "{text:?}");
         }

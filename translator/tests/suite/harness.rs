@@ -46,7 +46,13 @@ impl Case {
 
     /// Compiles the C for both kinds of instance with every warning an error.
     pub(crate) fn compile(&self) {
-        for settings in ["", "instance = context;"] {
+        self.compile_with("");
+    }
+
+    /// As [`Self::compile`], with further settings.
+    pub(crate) fn compile_with(&self, further: &str) {
+        for instance in ["", "instance = context;"] {
+            let settings = &format!("{instance} {further}");
             let folder = tempfile::tempdir().unwrap();
             self.write(settings, folder.path());
             for compiler in ["cc", "clang"] {
@@ -105,7 +111,7 @@ impl Case {
 }
 
 /// Translates, compiles and runs a program whose basic actions print themselves; a function
-/// `f` of type bool returns the variable `f_result`, which the script may set. Lines are kept.
+/// `f` returns the variable `f_result`, which the script may set. Lines are kept.
 pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> String {
     let parsed = parse_configuration("a.conf", configuration).unwrap_or_else(|e| panic!("{e}"));
     let translation = translate(parsed, agent).unwrap_or_else(|error| panic!("{error}"));
@@ -113,7 +119,10 @@ pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> Str
     for file in &translation.files {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
     }
-    let mut main = format!("#include <stdio.h>\n#include \"{}\"\n", translation.files[0].name);
+    let mut main = format!(
+        "#include <stdint.h>\n#include <stdio.h>\n#include \"{}\"\n",
+        translation.files[0].name
+    );
     main.push_str("void updateBeliefs(void) {}\n");
     if configuration.contains("trace = chosen;") {
         main.push_str(&printing_action("chosen(uint32_t)"));
@@ -122,10 +131,10 @@ pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> Str
     for declaration in basics.split('}').next().unwrap().split(';').map(str::trim) {
         if let Some(action) = declaration.strip_prefix("void ") {
             main.push_str(&printing_action(action));
-        } else if let Some(function) = declaration.strip_prefix("bool ") {
+        } else if let Some((result, function)) = declaration.split_once(' ') {
             let name = function.split('(').next().unwrap();
             main.push_str(&format!(
-                "static bool {name}_result = false;\nbool {name}(void) {{ return {name}_result; }}\n"
+                "static {result} {name}_result = 0;\n{result} {name}(void) {{ return {name}_result; }}\n"
             ));
         }
     }
@@ -135,6 +144,26 @@ pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> Str
     assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
     let result = Command::new(folder.path().join("agent")).output().unwrap();
     String::from_utf8(result.stdout).unwrap().trim_end().to_owned()
+}
+
+/// Compiles the agent and `environment` as one unit and returns what the program printed.
+pub(crate) fn compile_and_run(translation: &Translation, environment: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    for file in &translation.files {
+        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+    }
+    let main = format!("#include \"{}\"\n{environment}", translation.files[0].name);
+    std::fs::write(folder.path().join("main.c"), main).unwrap();
+    let result = compiler(folder.path()).args(["-o", "agent", "main.c"]).output().unwrap();
+    assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+    let result = Command::new(folder.path().join("agent")).output().unwrap();
+    assert!(result.status.success());
+    trimmed_lines(&String::from_utf8_lossy(&result.stdout))
+}
+
+/// The lines of a trace, side by side.
+pub(crate) fn trimmed_lines(trace: &str) -> String {
+    trace.lines().collect::<Vec<_>>().join(" ").trim().to_owned()
 }
 
 fn compiler(folder: &Path) -> Command {

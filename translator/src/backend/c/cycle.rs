@@ -3,7 +3,7 @@
 use super::names::{Names, argument};
 use super::state::{
     Slot, belief_value, deferred_ring, event, external_count, external_name, handler_name, held,
-    inbox_ring, pending, perceived, queued, rings, slot_value,
+    inbox_ring, limited_types, limits, pending, perceived, queued, rings, slot_value,
 };
 use crate::backend::writer::Writer;
 use crate::program::{External, HandlerId, Program};
@@ -36,9 +36,34 @@ pub(super) fn posting(writer: &mut Writer, program: &Program, names: &Names) {
         writer.close("}");
         writer.line("");
     }
+    for id in &program.limited {
+        limiting(writer, program, names, *id);
+    }
     for id in &program.deferred {
         deferring(writer, program, names, *id);
     }
+}
+
+/// The function that gives a goal its deadline.
+fn limiting(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId) {
+    let Some((_, time)) = limits(program) else { return };
+    let trigger = handler_name(program, id);
+    let kept = limited_types(program, id);
+    let mut types = kept.to_vec();
+    types.push(time.clone());
+    let limited = names.field("limited");
+    let event = event_name(names, Slot::Deadline, &trigger);
+    writer.line(
+        "/* What runs must end by then. A goal that posts itself again keeps its deadline. */",
+    );
+    writer.open(format!("static void limit_{trigger}({})", names.parameters(&types)));
+    writer.open(format!("if ({limited} != {event})"));
+    store(writer, names, Slot::Deadline, &trigger, kept, "");
+    writer.line(format!("{} = {};", names.field("deadline"), argument(kept.len())));
+    writer.line(format!("{limited} = {event};"));
+    writer.close("}");
+    writer.close("}");
+    writer.line("");
 }
 
 fn deferring(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId) {
@@ -94,25 +119,44 @@ pub(super) fn cycle(writer: &mut Writer, program: &Program, names: &Names) {
 }
 
 fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
-    let posted = names.field("posted");
+    let (posted, aborted) = (names.field("posted"), names.field("aborted"));
     let none = no_event(names);
     let mut branches: Vec<(String, Vec<String>)> = Vec::new();
     for external in program.external.iter().filter(|external| external.preemptive) {
         let trigger = external_name(external);
         let flag = names.field(&pending(Slot::Preemptive, &trigger));
-        branches.push((
-            flag.clone(),
-            vec![
-                format!("event = {};", event_name(names, Slot::Preemptive, &trigger)),
-                format!("{flag} = false;"),
-                format!("{posted} = {none};"),
-            ],
-        ));
+        let mut taken = vec![
+            format!("event = {};", event_name(names, Slot::Preemptive, &trigger)),
+            format!("{flag} = false;"),
+            format!("if (({posted} != {none}) && ({aborted} < UINT32_MAX))"),
+            "{".to_owned(),
+            format!("    {aborted} = {aborted} + 1U;"),
+            "}".to_owned(),
+            format!("{posted} = {none};"),
+        ];
+        taken.extend(limits(program).map(|_| format!("{} = {none};", names.field("limited"))));
+        branches.push((flag, taken));
     }
-    branches.push((
-        format!("{posted} != {none}"),
-        vec![format!("event = {posted};"), format!("{posted} = {none};")],
-    ));
+    let mut taken = vec![format!("event = {posted};"), format!("{posted} = {none};")];
+    if let Some((clock, ctype)) = limits(program) {
+        let (limited, deadline) = (names.field("limited"), names.field("deadline"));
+        let function = names.action(program.basic(*clock));
+        let now = format!("{function}({})", names.action_arguments(&[]));
+        taken.extend([
+            format!("if ({limited} != {none})"),
+            "{".to_owned(),
+            format!("    const {} current_time = {now};", ctype.name),
+            String::new(),
+            format!("    if (current_time >= {deadline})"),
+            "    {".to_owned(),
+            "        /* The time of what runs is over. */".to_owned(),
+            format!("        event = {limited};"),
+            format!("        {limited} = {none};"),
+            "    }".to_owned(),
+            "}".to_owned(),
+        ]);
+    }
+    branches.push((format!("{posted} != {none}"), taken));
     for (_, handler) in perceived(program) {
         let trigger = handler_name(program, handler);
         let flag = names.field(&pending(Slot::Perceived, &trigger));
@@ -184,6 +228,17 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
         run(writer, program, names, *id, &slot_values(program, names, Slot::Posted, *id));
         close_case(writer);
     }
+    for id in &program.limited {
+        open_case(writer, names, Slot::Deadline, &handler_name(program, *id));
+        match program.handler(*id).failure {
+            Some(failure) => {
+                let values = slot_values(program, names, Slot::Deadline, *id);
+                run(writer, program, names, failure, &values);
+            }
+            None => writer.line("outcome = OUTCOME_FAILED;"),
+        }
+        close_case(writer);
+    }
     for (belief, handler) in perceived(program) {
         open_case(writer, names, Slot::Perceived, &handler_name(program, handler));
         let values: Vec<String> = (0..belief.types.len())
@@ -216,6 +271,14 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
     writer.dedent();
     writer.dedent();
     writer.line("}");
+    if limits(program).is_some() {
+        let (posted, limited) = (names.field("posted"), names.field("limited"));
+        let none = no_event(names);
+        writer.open(format!("if ({posted} == {none})"));
+        writer.line("/* Nothing runs any more. */");
+        writer.line(format!("{limited} = {none};"));
+        writer.close("}");
+    }
     let unhandled = names.field("unhandled");
     writer.open(format!("if ((outcome != OUTCOME_ACHIEVED) && ({unhandled} < UINT32_MAX))"));
     writer.line(format!("{unhandled} = {unhandled} + 1U;"));

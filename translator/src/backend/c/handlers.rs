@@ -5,7 +5,7 @@ use super::names::{Names, argument, argument_names, comment_safe, typed};
 use super::plan::PlanEmitter;
 use super::state::handler_name;
 use crate::backend::writer::Writer;
-use crate::program::{Handler, HandlerId, Plan, Program, trigger_text};
+use crate::program::{Handler, HandlerId, Plan, Program};
 
 /// Prototypes of the handlers, which may call each other in any order.
 pub(super) fn prototypes(writer: &mut Writer, program: &Program, names: &Names) {
@@ -73,8 +73,12 @@ impl Emission<'_> {
         let Self { writer, program, names, .. } = self;
         let trigger = handler_name(program, id);
         let arguments = names.arguments(argument_names(&handler.types));
-        let text = trigger_text(handler.operator, handler.kind, &handler.name);
-        writer.line(format!("/* Plans of {text}, in order. */"));
+        let text = handler.text();
+        writer.line(if handler.resumed {
+            format!("/* {text}: what is left of a plan that waits. It goes on when the time has come. */")
+        } else {
+            format!("/* Plans of {text}, in order. */")
+        });
         writer.open(handler_head(program, names, id, handler));
         writer.line(format!("outcome_t outcome = {}({arguments});", plan_name(0, &trigger)));
         writer.line("");
@@ -85,6 +89,9 @@ impl Emission<'_> {
         }
         if let Some(failure) = handler.failure {
             writer.open("if (outcome != OUTCOME_ACHIEVED)");
+            // What is left of a plan that waits starts with the arguments of its goal.
+            let types = &program.handler(failure).types;
+            let arguments = names.arguments(argument_names(types));
             writer.line(format!("outcome = run_{}({arguments});", handler_name(program, failure)));
             writer.close("}");
         }

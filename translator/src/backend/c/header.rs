@@ -1,7 +1,7 @@
 //! The generated headers and the types at the head of the C file.
 
 use super::names::{Names, comment_safe, typed};
-use super::state::{FieldType, StateLayout, external_name};
+use super::state::{Counter, FieldType, StateLayout, counters, external_name};
 use crate::backend::writer::Writer;
 use crate::configuration::Basic;
 use crate::program::Program;
@@ -51,16 +51,10 @@ pub(super) fn agent_header(
         "Whether the next external event will be accepted.",
         format!("bool {}({empty})", names.interface("can_add_event")),
     );
-    declare(
-        &mut writer,
-        "Events since init() that no plan handled to its end.",
-        format!("uint32_t {}({empty})", names.interface("unhandled_events")),
-    );
-    declare(
-        &mut writer,
-        "External events since init() that were refused because the inbox was full.",
-        format!("uint32_t {}({empty})", names.interface("refused_events")),
-    );
+    for Counter { name, meaning } in counters(program) {
+        let function = names.interface(&format!("{name}_events"));
+        declare(&mut writer, meaning, format!("uint32_t {function}({empty})"));
+    }
     declare(
         &mut writer,
         "Forgets all events, keeps the beliefs; the initial goal runs in the next step.",

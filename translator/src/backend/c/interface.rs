@@ -6,8 +6,8 @@ use super::header::init_prototype;
 use super::helpers::Helpers;
 use super::names::{Names, argument, argument_names};
 use super::state::{
-    Slot, belief_value, external_count, external_name, handler_name, held, inbox_ring, pending,
-    perceived, queued, rings, slot_value,
+    Counter, Slot, belief_value, counters, external_count, external_name, handler_name, held,
+    inbox_ring, limits, pending, perceived, queued, rings, slot_value,
 };
 use crate::backend::writer::Writer;
 use crate::program::{Belief, External, Program, Value};
@@ -35,10 +35,10 @@ pub(super) fn interface(
     }
     writer.close("}");
     writer.line("");
-    for counter in ["unhandled", "refused"] {
-        let name = names.interface(&format!("{counter}_events"));
-        writer.open(format!("uint32_t {name}({no_parameters})"));
-        writer.line(format!("return {};", names.field(counter)));
+    for Counter { name, .. } in counters(program) {
+        let function = names.interface(&format!("{name}_events"));
+        writer.open(format!("uint32_t {function}({no_parameters})"));
+        writer.line(format!("return {};", names.field(name)));
         writer.close("}");
         writer.line("");
     }
@@ -67,6 +67,9 @@ fn forget_events(writer: &mut Writer, program: &Program, names: &Names) {
             writer.line(format!("{} = {event};", names.field("posted")));
         }
         None => writer.line(format!("{} = {};", names.field("posted"), no_event(names))),
+    }
+    if limits(program).is_some() {
+        writer.line(format!("{} = {};", names.field("limited"), no_event(names)));
     }
     for ring in rings(program) {
         for part in ["count", "first"] {
@@ -110,8 +113,9 @@ fn init(writer: &mut Writer, program: &Program, names: &Names) {
         }
         writer.line(format!("{held} = {};", belief.initial.is_some()));
     }
-    writer.line(format!("{} = 0U;", names.field("unhandled")));
-    writer.line(format!("{} = 0U;", names.field("refused")));
+    for counter in counters(program) {
+        writer.line(format!("{} = 0U;", names.field(counter.name)));
+    }
     let forget = format!("forget_events({});", names.arguments(std::iter::empty()));
     writer.line(&forget);
     writer.close("}");

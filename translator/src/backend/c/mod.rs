@@ -21,7 +21,7 @@ use crate::program::Program;
 
 pub(crate) use self::handlers::plan_name;
 pub(crate) use self::names::{action_symbol, symbol_prefix};
-pub(crate) use self::state::{Field, FieldType, handler_name, layout};
+pub(crate) use self::state::{Counter, Field, FieldType, counters, handler_name, layout};
 
 /// The generated C texts.
 #[derive(Debug, Clone, PartialEq, Eq)]

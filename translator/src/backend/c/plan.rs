@@ -3,7 +3,7 @@
 use super::expression::{conjunction, parenthesised, variable_name};
 use super::helpers::Helpers;
 use super::names::{Names, argument, constant, typed};
-use super::state::{belief_value, handler_name, held};
+use super::state::{belief_value, handler_name, held, limited_types};
 use crate::backend::writer::Writer;
 use crate::program::{
     BeliefId, Handler, HandlerId, Pattern, Plan, Program, Raise, Step, Value, VariableId,
@@ -129,8 +129,12 @@ impl<'a> PlanEmitter<'a> {
                 let trigger = handler_name(self.program, *handler);
                 self.open(&format!("run_{trigger}({arguments}) == OUTCOME_ACHIEVED"));
             }
-            Step::Post { handler, values } => {
+            Step::Post { handler, values, deadline } => {
                 let values = self.values(values);
+                let due = deadline.as_ref().map(|deadline| self.value(deadline));
+                if let Some(due) = due {
+                    self.limit(*handler, &values, due);
+                }
                 self.post(*handler, values);
             }
             Step::Defer { handler, values } => {
@@ -292,6 +296,15 @@ impl<'a> PlanEmitter<'a> {
                 self.open(&format!("{outcome} != OUTCOME_FAILED"));
             }
         }
+    }
+
+    /// Gives a goal its deadline; a failure plan will need the arguments.
+    fn limit(&mut self, handler: HandlerId, values: &[String], due: String) {
+        let kept = limited_types(self.program, handler).len();
+        let arguments = values[..kept].iter().cloned().chain([due]);
+        let arguments = self.names.arguments(arguments);
+        let trigger = handler_name(self.program, handler);
+        self.writer.line(format!("limit_{trigger}({arguments});"));
     }
 
     fn post(&mut self, handler: HandlerId, values: Vec<String>) {

@@ -1,7 +1,7 @@
 //! The layout of the agent's state, one list for the C struct and its Rust mirror.
 
 use crate::configuration::Instance;
-use crate::program::{Belief, External, HandlerId, Program, trigger_name};
+use crate::program::{BasicId, Belief, External, HandlerId, Program, trigger_name};
 use crate::types::CType;
 
 /// All fields of the agent's state, in order, and the events that it can hold.
@@ -47,6 +47,7 @@ pub(crate) fn layout(program: &Program) -> StateLayout {
         layout.events.push(event(Slot::Posted, &handler_name(program, *id)));
         layout.values(program, Slot::Posted, *id);
     }
+    layout.deadline(program);
     for (_, handler) in perceived(program) {
         let trigger = handler_name(program, handler);
         layout.events.push(event(Slot::Perceived, &trigger));
@@ -56,8 +57,9 @@ pub(crate) fn layout(program: &Program) -> StateLayout {
     layout.inbox(program);
     layout.preemptive(program);
     layout.deferred(program);
-    layout.field("unhandled".to_owned(), FieldType::Count, None);
-    layout.field("refused".to_owned(), FieldType::Count, None);
+    for counter in counters(program) {
+        layout.field(counter.name.to_owned(), FieldType::Count, None);
+    }
     layout
 }
 
@@ -71,6 +73,20 @@ impl StateLayout {
         for (index, ctype) in program.handler(id).types.iter().enumerate() {
             let name = slot_value(slot, &trigger, index);
             self.field(name, FieldType::Value(ctype.clone()), None);
+        }
+    }
+
+    fn deadline(&mut self, program: &Program) {
+        let Some((_, time)) = limits(program) else { return };
+        self.field("deadline".to_owned(), FieldType::Value(time.clone()), None);
+        self.field("limited".to_owned(), FieldType::Event, None);
+        for id in &program.limited {
+            let trigger = handler_name(program, *id);
+            self.events.push(event(Slot::Deadline, &trigger));
+            for (index, ctype) in limited_types(program, *id).iter().enumerate() {
+                let name = slot_value(Slot::Deadline, &trigger, index);
+                self.field(name, FieldType::Value(ctype.clone()), None);
+            }
         }
     }
 
@@ -121,11 +137,41 @@ impl StateLayout {
     }
 }
 
+/// Events that came to nothing are counted, so that none is lost in silence.
+pub(crate) struct Counter {
+    /// The field; the interface has `NAME_events()`.
+    pub(crate) name: &'static str,
+    /// What it counts.
+    pub(crate) meaning: &'static str,
+}
+
+/// All counters of the agent.
+pub(crate) fn counters(program: &Program) -> impl Iterator<Item = Counter> {
+    let preempted = program.external.iter().any(|external| external.preemptive);
+    let always = [
+        Counter {
+            name: "unhandled",
+            meaning: "Events since the start that no plan handled to its end.",
+        },
+        Counter {
+            name: "refused",
+            meaning: "External events since the start that were refused because the inbox was full.",
+        },
+    ];
+    let aborted = Counter {
+        name: "aborted",
+        meaning: "Posted events since the start that a pre-empting one took the place of.",
+    };
+    always.into_iter().chain(preempted.then_some(aborted))
+}
+
 /// Where an event waits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Slot {
     /// The event of the next step, posted by a plan.
     Posted,
+    /// A posted goal whose time is over.
+    Deadline,
     /// Raised by the environment.
     Inbox,
     /// Raised by the environment, aborting what runs.
@@ -140,12 +186,24 @@ impl Slot {
     fn name(self) -> &'static str {
         match self {
             Self::Posted => "posted",
+            Self::Deadline => "deadline",
             Self::Inbox => "inbox",
             Self::Preemptive => "preemptive",
             Self::Perceived => "perceived",
             Self::Deferred => "deferred",
         }
     }
+}
+
+/// The clock, if any goal has a deadline.
+pub(super) fn limits(program: &Program) -> Option<&(BasicId, CType)> {
+    program.clock.as_ref().filter(|_| !program.limited.is_empty())
+}
+
+/// The arguments of a goal with a deadline that its failure plans get, if it has any.
+pub(super) fn limited_types(program: &Program, id: HandlerId) -> &[CType] {
+    let handler = program.handler(id);
+    if handler.failure.is_some() { &handler.types } else { &[] }
 }
 
 /// External events that wait in the inbox.

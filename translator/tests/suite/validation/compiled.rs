@@ -47,8 +47,10 @@ pub(super) fn run(agent: &RandomAgent, sequences: &[Vec<Command>]) -> Result<Str
         std::fs::write(folder.path().join(&file.name), &file.text)
             .map_err(|error| error.to_string())?;
     }
+    let preempts = translation.files.iter().any(|file| file.text.contains("aborted_events"));
+    let main = main_function(sequences, if preempts { "aborted_events()" } else { "0U" });
     // One compilation unit: compiling is what takes the time.
-    let main = format!("#include \"agent.c\"\n{PRELUDE}{}{}", basics(), main_function(sequences));
+    let main = format!("#include \"agent.c\"\n{PRELUDE}{}{main}", basics());
     std::fs::write(folder.path().join("main.c"), main).map_err(|error| error.to_string())?;
     let compiled = Process::new("cc")
         .current_dir(folder.path())
@@ -106,7 +108,7 @@ fn result_expression(result: Type) -> &'static str {
     }
 }
 
-fn main_function(sequences: &[Vec<Command>]) -> String {
+fn main_function(sequences: &[Vec<Command>], aborted: &str) -> String {
     let mut text = String::from("int main(void)\n{\n");
     let c_constant = |constant: &String| match constant.as_str() {
         "-2147483648" => "(-2147483647 - 1)".to_owned(),
@@ -117,8 +119,9 @@ fn main_function(sequences: &[Vec<Command>]) -> String {
         for command in sequence {
             match command {
                 Command::Step => {
-                    text.push_str(
-                        "next_step(); printf(\"step %u %u\\n\", unhandled_events(), refused_events());\n",
+                    _ = writeln!(
+                        text,
+                        "next_step(); printf(\"step %u %u %u\\n\", unhandled_events(), refused_events(), {aborted});",
                     );
                 }
                 Command::Raise(verb, name, arguments) => {

@@ -180,6 +180,10 @@ pub(super) fn agent(choices: &mut Choices<'_>) -> RandomAgent {
             }
         }
     }
+    if text.contains("[deadline(") {
+        // A goal with a deadline must be one that can take several steps.
+        text.push_str("+!g0 <- .wait(1); a0.\n+!g1(N) <- .wait(N); a1(N).\n");
+    }
     let configuration = configuration(choices, &text);
     RandomAgent { text, configuration }
 }
@@ -215,7 +219,7 @@ fn configuration(choices: &mut Choices<'_>, agent: &str) -> String {
     let preemptive = if choices.chance(50) { "+!gb; +!g1;" } else { "" };
     format!(
         "settings {{ input = agent.asl; output = agent.c; header = agent.h; basics = actions.h; \
-         {queue} = {inbox}; }};\nbasics {{ {basics} }};\ntypes {{ {predicates} }};\n\
+         clock = f0; {queue} = {inbox}; }};\nbasics {{ {basics} }};\ntypes {{ {predicates} }};\n\
          settables {{ b2; }};\nperceived {{ {perceived} }};\ntriggerables {{ {external} }};\npreemptive {{ {preemptive} }};\n"
     )
 }
@@ -400,14 +404,23 @@ fn literal(choices: &mut Choices<'_>, scope: &mut Scope, depth: usize) -> String
 fn body(choices: &mut Choices<'_>, scope: &mut Scope, place: Place) -> String {
     let length = choices.pick(5);
     let mut formulae: Vec<String> = (0..length).map(|_| formula(choices, scope, place)).collect();
-    // The first goals may lead back to each other, as the last formula.
-    if let Place::Goal(level @ 0..RECURSIVE_GOALS) = place
-        && choices.chance(50 + level)
-    {
-        let (name, types) = GOALS[choices.pick(RECURSIVE_GOALS)];
-        let arguments: Vec<String> =
-            types.iter().map(|ctype| value(choices, scope, *ctype, 1)).collect();
-        formulae.push(format!("!{}", call(name, &arguments)));
+    // The first goals may wait, and lead back to each other as the last formula.
+    if let Place::Goal(level @ 0..RECURSIVE_GOALS) = place {
+        if choices.chance(30) {
+            formulae.push(format!(".wait({})", value(choices, scope, Int, 1)));
+            formulae.extend((0..choices.pick(4)).map(|_| formula(choices, scope, place)));
+        }
+        if choices.chance(50 + level) {
+            let (name, types) = GOALS[choices.pick(RECURSIVE_GOALS)];
+            let arguments: Vec<String> =
+                types.iter().map(|ctype| value(choices, scope, *ctype, 1)).collect();
+            let deadline = if choices.chance(30) {
+                format!("[deadline({})]", value(choices, scope, Int, 1))
+            } else {
+                String::new()
+            };
+            formulae.push(format!("!{}{deadline}", call(name, &arguments)));
+        }
     }
     if formulae.is_empty() { "true".to_owned() } else { formulae.join("; ") }
 }

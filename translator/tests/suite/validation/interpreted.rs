@@ -32,7 +32,8 @@ fn execute(interpreter: &mut Interpreter, world: &mut World, command: &Command) 
         Command::Step => {
             interpreter.next_step(world);
             let counts = (interpreter.unhandled_events(), interpreter.refused_events());
-            _ = writeln!(world.trace, "step {} {}", counts.0, counts.1);
+            let aborted = interpreter.aborted_events();
+            _ = writeln!(world.trace, "step {} {} {aborted}", counts.0, counts.1);
         }
         Command::Raise(verb, name, arguments) => {
             let (operator, kind) = match *verb {
