@@ -8,6 +8,7 @@
 )]
 
 mod behaviour;
+mod conformance;
 mod generated;
 mod guide;
 mod harness;

@@ -1,0 +1,460 @@
+//! The conformance suite: programs with the traces that they must leave, and programs that must be
+//! refused, in `tests/conformance/*.txt`.
+//!
+//! Each program is run twice, by the reference interpreter and as compiled C, and both must leave
+//! the trace that the file gives. A case is a title, `== title`, then
+//!
+//! - `rule:` what of the language it is about; all rules together are in `RULES`;
+//! - `with:` sections of the configuration, `settings:` settings instead of the clock, both
+//!   optional;
+//! - the agent, indented;
+//! - `run:` commands, separated by `;`, and `trace:` what they print; or `refused:` where the first
+//!   error of the agent is and what it says.
+//!
+//! Commands: `step`; `at 50` sets the clock and takes a step; `set b(3)`; `+!g(1)`, `+b(1)`, `-b`
+//! raise an event and print whether it was accepted; `room` prints whether the next one will be;
+//! `init`; `clear`; `counts` prints the counters. A step ends with `|`.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use translator::interpreter::{Environment, Interpreter, Value};
+use translator::syntax::ast::{Operator, TriggerKind};
+use translator::types::{CType, TypeKind};
+use translator::{ParsedConfiguration, parse_configuration, translate};
+
+use crate::harness::{compile_and_run, trimmed_lines};
+
+/// Every part of the language that the suite must touch.
+const RULES: [&str; 121] = [
+    "program comments",
+    "program left out",
+    "program empty parentheses",
+    "program not",
+    "program numbers",
+    "program strings",
+    "program booleans",
+    "program belief and goal",
+    "program triggers",
+    "plans order",
+    "plans failed body",
+    "match unnamed",
+    "match binds",
+    "match bound",
+    "match repeated",
+    "match constant",
+    "match value",
+    "match doubles",
+    "context belief",
+    "context not belief",
+    "context not local",
+    "context not bound",
+    "context function",
+    "context short",
+    "context comparison",
+    "context arithmetic",
+    "context no result",
+    "context or",
+    "context nested",
+    "context no backtracking",
+    "body action",
+    "body action fails",
+    "body assign",
+    "body add",
+    "body add percept",
+    "body add fails",
+    "body add unequal",
+    "body add recursive",
+    "body delete",
+    "body delete percept",
+    "body delete nothing",
+    "body delete fails",
+    "body delete recursive",
+    "body achieve now",
+    "body achieve posted",
+    "body achieve fails",
+    "body defer",
+    "body test",
+    "body test fails",
+    "test beliefs first",
+    "test answers",
+    "test given",
+    "test modes",
+    "test holes",
+    "test not again",
+    "test fails",
+    "test failure plan",
+    "failure mends",
+    "failure outward",
+    "failure not applicable",
+    "failure of failure",
+    "failure arguments",
+    "failure no plan",
+    "failure posted",
+    "failure retry",
+    "failure counted",
+    "failure leaves events",
+    "cycle initial goal",
+    "cycle update first",
+    "cycle initial beliefs",
+    "cycle none",
+    "state one instance",
+    "state set silent",
+    "cycle order",
+    "cycle arrival",
+    "cycle external add",
+    "cycle external delete",
+    "cycle mere update",
+    "cycle unhandled",
+    "state inbox",
+    "state own inbox",
+    "cycle init",
+    "cycle clear",
+    "cycle perceived",
+    "cycle queue",
+    "preempt aborts",
+    "preempt always accepted",
+    "preempt keeps the rest",
+    "preempt priority",
+    "preempt no failure",
+    "time wait",
+    "time variables",
+    "time failure",
+    "time percept",
+    "time failure plan",
+    "time events",
+    "time clear",
+    "time no result",
+    "time deadline",
+    "time deadline again",
+    "time deadline next",
+    "time deadline passes on",
+    "time deadline wait",
+    "time deadline pre-empted",
+    "time deadline retry",
+    "refused undeclared",
+    "refused arity",
+    "refused type",
+    "refused unbound",
+    "refused rebinding",
+    "refused action in context",
+    "refused no plan",
+    "refused recursion",
+    "refused trigger",
+    "refused equality",
+    "refused answers",
+    "refused condition",
+    "refused kind",
+    "refused twice",
+    "refused syntax",
+    "refused time",
+];
+
+/// What every agent of the suite can use. Actions and functions print their call.
+const BASICS: &str = "void a(void); void act(int); void pair(int, int); void real(double); \
+    void say(const char *); bool yes(int); bool no(int); bool flip(bool); int twice(int); \
+    int count(void); int now(void);";
+const TYPES: &str = "g(void); h(void); k(void); land(void); c(void); gi(int); h2(int); b(int); \
+    gd(double); d(double); go2(int, int); p(int, int); s(const char *); on(bool);";
+
+/// The same in C.
+const PRELUDE: &str = r#"
+#include <stdio.h>
+static int clock_ms = 0;
+void updateBeliefs(void) { }
+void a(void) { printf("a\n"); }
+void act(int x) { printf("act(%d)\n", x); }
+void pair(int x, int y) { printf("pair(%d,%d)\n", x, y); }
+void real(double x) { printf("real(%.15f)\n", x); }
+void say(const char *x) { printf("say(%s)\n", x); }
+bool yes(int x) { printf("yes(%d)\n", x); return true; }
+bool no(int x) { printf("no(%d)\n", x); return false; }
+bool flip(bool x) { printf("flip(%d)\n", (int)x); return !x; }
+int twice(int x) { printf("twice(%d)\n", x); return 2 * x; }
+int count(void) { return 3; }
+int now(void) { return clock_ms; }
+"#;
+
+/// One case of a file.
+struct Case {
+    title: String,
+    rule: String,
+    sections: String,
+    settings: String,
+    agent: String,
+    expected: Expected,
+}
+
+enum Expected {
+    /// The commands and what they print.
+    Trace { run: String, trace: String },
+    /// Place and message of the first error.
+    Refused(String),
+}
+
+impl Case {
+    fn configuration(&self) -> ParsedConfiguration {
+        let text = format!(
+            "settings {{ input = agent.asl; output = agent.c; header = agent.h; \
+             basics = actions.h; {} }};\nbasics {{ {BASICS} }};\n\
+             types {{ {TYPES} }};\n{}\n",
+            self.settings, self.sections
+        );
+        parse_configuration("agent.conf", &text).unwrap_or_else(|e| panic!("{}: {e}", self.title))
+    }
+
+    /// Nothing if the case holds.
+    fn check(&self) -> Option<String> {
+        let complaint = |found: &str, by: &str, expected: &str| {
+            Some(format!("{}\n  expected: {expected}\n  {by}: {found}\n{}", self.title, self.agent))
+        };
+        match &self.expected {
+            Expected::Refused(expected) => {
+                let found = match translate(self.configuration(), &self.agent) {
+                    Ok(_) => "it is accepted".to_owned(),
+                    Err(error) => first_error(&error.to_string()),
+                };
+                (found != *expected).then(|| complaint(&found, "found", expected))?
+            }
+            Expected::Trace { run, trace } => {
+                let interpreted = self.interpreted(run);
+                if interpreted != *trace {
+                    return complaint(&interpreted, "interpreted", trace);
+                }
+                let compiled = self.compiled(run);
+                (compiled != *trace).then(|| complaint(&compiled, "compiled", trace))?
+            }
+        }
+    }
+
+    fn interpreted(&self, run: &str) -> String {
+        let configuration = self.configuration();
+        let mut agent = Interpreter::new(&configuration, &self.agent)
+            .unwrap_or_else(|error| panic!("{}\n{error}", self.title));
+        let preempts = self.sections.contains("preemptive");
+        let mut world = World::default();
+        for command in run.split(';').map(str::trim) {
+            let answer = |yes: bool| if yes { "yes\n" } else { "no\n" };
+            match command.split_once(' ') {
+                None if command == "step" => world.step(&mut agent),
+                Some(("at", time)) => {
+                    world.clock_ms = time.parse().unwrap();
+                    world.step(&mut agent);
+                }
+                Some(("set", belief)) => world.pending.push(atom(belief)),
+                None if command == "init" => agent.init(),
+                None if command == "clear" => agent.clear(),
+                None if command == "room" => world.trace.push_str(answer(agent.can_add_event())),
+                None if command == "counts" => {
+                    let (unhandled, refused) = (agent.unhandled_events(), agent.refused_events());
+                    _ = writeln!(world.trace, "unhandled {unhandled} refused {refused}");
+                    if preempts {
+                        _ = writeln!(world.trace, "aborted {}", agent.aborted_events());
+                    }
+                }
+                _ => {
+                    let (operator, kind, event) = event(command);
+                    let (name, arguments) = atom(event);
+                    let accepted = agent.raise(operator, kind, &name, arguments).is_ok();
+                    world.trace.push_str(answer(accepted));
+                }
+            }
+        }
+        trimmed_lines(&world.trace)
+    }
+
+    fn compiled(&self, run: &str) -> String {
+        let translation = translate(self.configuration(), &self.agent)
+            .unwrap_or_else(|error| panic!("{}\n{error}", self.title));
+        let mut script = String::from("#define STEP next_step(); printf(\"|\\n\");\n");
+        script.push_str("int main(void)\n{\ninit();\n");
+        for command in run.split(';').map(str::trim) {
+            let call = |name: &str, rest: &str| {
+                let rest = if rest.contains('(') { rest.to_owned() } else { format!("{rest}()") };
+                format!("{name}_{rest}")
+            };
+            match command.split_once(' ') {
+                None if command == "step" => script.push_str("STEP\n"),
+                Some(("at", time)) => _ = writeln!(script, "clock_ms = {time}; STEP"),
+                Some(("set", belief)) => _ = writeln!(script, "{};", call("set", belief)),
+                None if matches!(command, "init" | "clear") => _ = writeln!(script, "{command}();"),
+                None if command == "room" => {
+                    script.push_str("puts(can_add_event() ? \"yes\" : \"no\");\n");
+                }
+                None if command == "counts" => {
+                    script.push_str("printf(\"unhandled %u\\n\", unhandled_events());\n");
+                    script.push_str("printf(\"refused %u\\n\", refused_events());\n");
+                    if self.sections.contains("preemptive") {
+                        script.push_str("printf(\"aborted %u\\n\", aborted_events());\n");
+                    }
+                }
+                _ => {
+                    let verb = match event(command) {
+                        (_, TriggerKind::Achieve, _) => "achieve",
+                        (Operator::Add, ..) => "add",
+                        (Operator::Delete, ..) => "del",
+                    };
+                    let raised = call(verb, event(command).2);
+                    _ = writeln!(script, "puts({raised} ? \"yes\" : \"no\");");
+                }
+            }
+        }
+        script.push_str("return 0;\n}\n");
+        compile_and_run(&translation, &format!("{PRELUDE}{script}"))
+    }
+}
+
+/// `LINE:COLUMN: message` of the first error.
+fn first_error(rendered: &str) -> String {
+    let lines: Vec<&str> = rendered.lines().collect();
+    let index = lines.iter().position(|line| line.starts_with("error: ")).unwrap();
+    let place = lines[index + 1].split("agent.asl:").nth(1).unwrap_or("not in the agent");
+    format!("{place}: {}", lines[index].trim_start_matches("error: "))
+}
+
+/// `+!g(1)`: operator, kind and `g(1)`.
+fn event(command: &str) -> (Operator, TriggerKind, &str) {
+    if let Some(goal) = command.strip_prefix("+!") {
+        (Operator::Add, TriggerKind::Achieve, goal)
+    } else if let Some(belief) = command.strip_prefix('+') {
+        (Operator::Add, TriggerKind::Belief, belief)
+    } else if let Some(belief) = command.strip_prefix('-') {
+        (Operator::Delete, TriggerKind::Belief, belief)
+    } else {
+        panic!("unknown command `{command}`")
+    }
+}
+
+/// `b(3)`: name and arguments, which are integers.
+fn atom(text: &str) -> (String, Vec<Value>) {
+    let (name, arguments) = text.trim_end_matches(')').split_once('(').unwrap_or((text, ""));
+    let arguments = arguments.split(',').filter(|argument| !argument.is_empty());
+    (name.to_owned(), arguments.map(|a| Value::Integer(a.trim().parse().unwrap())).collect())
+}
+
+#[derive(Default)]
+struct World {
+    trace: String,
+    clock_ms: i128,
+    pending: Vec<(String, Vec<Value>)>,
+}
+
+impl World {
+    fn step(&mut self, agent: &mut Interpreter) {
+        agent.next_step(self);
+        self.trace.push_str("|\n");
+    }
+}
+
+impl Environment for World {
+    fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)> {
+        std::mem::take(&mut self.pending)
+    }
+
+    fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value> {
+        if name == "now" {
+            return Some(Value::Integer(self.clock_ms));
+        }
+        let texts: Vec<String> = arguments
+            .iter()
+            .map(|argument| match argument {
+                Value::Bool(value) => u8::from(*value).to_string(),
+                Value::Integer(value) => value.to_string(),
+                Value::Float(value) => format!("{value:.15}"),
+                Value::Text(value) => value.clone(),
+                Value::Struct(_) => unreachable!("the suite has none"),
+            })
+            .collect();
+        match (name, texts.as_slice()) {
+            ("count", _) => {}
+            (_, []) => _ = writeln!(self.trace, "{name}"),
+            _ => _ = writeln!(self.trace, "{name}({})", texts.join(",")),
+        }
+        match (name, arguments) {
+            _ if result.kind == TypeKind::Void => None,
+            ("yes", _) => Some(Value::Bool(true)),
+            ("no", _) => Some(Value::Bool(false)),
+            ("flip", [Value::Bool(value)]) => Some(Value::Bool(!value)),
+            ("twice", [Value::Integer(value)]) => Some(Value::Integer(2 * value)),
+            ("count", _) => Some(Value::Integer(3)),
+            _ => unreachable!("the suite has no function `{name}`"),
+        }
+    }
+}
+
+/// All cases of all files.
+fn cases() -> Vec<Case> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/conformance");
+    let mut files: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    files
+        .iter()
+        .flat_map(|file| {
+            let text = std::fs::read_to_string(file).unwrap();
+            text.split("\n== ").skip(1).map(case).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+fn case(text: &str) -> Case {
+    let mut lines = text.lines();
+    let title = lines.next().unwrap().to_owned();
+    let (mut agent, mut trace, mut refused) = (String::new(), None, None);
+    let mut settings = "clock = now;".to_owned();
+    let (mut rule, mut sections, mut run) = (String::new(), String::new(), String::new());
+    for line in lines.filter(|line| !line.is_empty()) {
+        match (line.strip_prefix("    "), line.split_once(": ")) {
+            (Some(source), _) => {
+                agent.push_str(source);
+                agent.push('\n');
+            }
+            (None, Some(("rule", value))) => value.clone_into(&mut rule),
+            (None, Some(("with", value))) => value.clone_into(&mut sections),
+            (None, Some(("settings", value))) => value.clone_into(&mut settings),
+            (None, Some(("run", value))) => value.clone_into(&mut run),
+            (None, Some(("trace", value))) => trace = Some(value.trim().to_owned()),
+            (None, Some(("refused", value))) => refused = Some(value.to_owned()),
+            _ => panic!("{title}: what is `{line}`?"),
+        }
+    }
+    let expected = match (trace, refused) {
+        (Some(trace), None) => Expected::Trace { run, trace },
+        (None, Some(refused)) => Expected::Refused(refused),
+        _ => panic!("{title}: either a trace or a refusal"),
+    };
+    Case { title, rule, sections, settings, agent, expected }
+}
+
+#[test]
+fn every_program_means_what_the_suite_says() {
+    let cases = cases();
+    let next = AtomicUsize::new(0);
+    let complaints = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let complaint = case.check();
+                    complaints.lock().unwrap().extend(complaint);
+                }
+            });
+        }
+    });
+    let complaints = complaints.into_inner().unwrap();
+    assert!(complaints.is_empty(), "{} cases\n\n{}", complaints.len(), complaints.join("\n"));
+    let refused = cases.iter().filter(|case| matches!(case.expected, Expected::Refused(_))).count();
+    println!("{} programs with a trace, {refused} refused", cases.len() - refused);
+}
+
+#[test]
+fn every_rule_has_a_case_and_every_case_a_rule() {
+    let rules: BTreeSet<&str> = RULES.into();
+    let cases = cases();
+    let covered: BTreeSet<&str> = cases.iter().map(|case| case.rule.as_str()).collect();
+    assert_eq!(rules.difference(&covered).collect::<Vec<_>>(), [&""; 0], "no case");
+    assert_eq!(covered.difference(&rules).collect::<Vec<_>>(), [&""; 0], "no such rule");
+}
