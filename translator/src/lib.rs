@@ -22,6 +22,7 @@
 mod analysis;
 mod backend;
 pub mod configuration;
+mod coverage;
 pub mod interpreter;
 mod program;
 mod report;
@@ -30,6 +31,7 @@ pub mod types;
 
 use configuration::{Configuration, Instance};
 use diagnostic::{Diagnostic, Severity, Source, render_all};
+pub use report::Report;
 use types::TypeKind;
 
 /// A configuration that was read without errors.
@@ -56,7 +58,7 @@ pub struct Translation {
     /// Warnings, rendered.
     pub warnings: String,
     /// What the agent costs: memory, call depth, calls of each action in a step.
-    pub report: String,
+    pub report: Report,
 }
 
 /// One generated file.
@@ -152,7 +154,7 @@ pub fn translate(
         files.push(GeneratedFile { name: format!("{name}.csv"), text: matrix.csv });
         files.push(GeneratedFile { name: format!("{name}.json"), text: matrix.json });
     }
-    Ok(Translation { files, warnings: rendered, report: report::report(&program) })
+    Ok(Translation { files, warnings: rendered, report: Report::new(&program) })
 }
 
 /// The Rust side needs the state passed in, and types that it knows.

@@ -1,6 +1,8 @@
 //! `asl2c`: translates an AgentSpeak agent to C.
 #![forbid(unsafe_code)]
 
+mod stack;
+
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -26,7 +28,8 @@ struct Arguments {
     /// Where the generated files go [default: the configuration's folder]
     #[arg(short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Print what the agent costs: memory, call depth, calls of each action in a step
+    /// Print what the agent costs: memory, call depth, calls of each action in a step. The stack is
+    /// measured with gcc, if it is there
     #[arg(long)]
     report: bool,
 }
@@ -44,11 +47,15 @@ fn main() -> ExitCode {
     let mut stderr = std::io::stderr().lock();
     // A message that cannot be printed has nowhere else to go.
     match run(&arguments) {
-        Ok(translation) => {
+        Ok(mut translation) => {
             if !translation.warnings.is_empty() {
                 _ = writeln!(stderr, "{}", translation.warnings);
             }
             if arguments.report {
+                match stack::frame_bytes(&translation) {
+                    Ok(frames) => translation.report.add_stack(stack::COMPILER, &frames),
+                    Err(reason) => _ = writeln!(stderr, "the stack is not measured: {reason}"),
+                }
                 _ = write!(std::io::stdout(), "{}", translation.report);
             }
             ExitCode::SUCCESS

@@ -58,6 +58,8 @@ pub(crate) struct Belief {
     pub(crate) settable: bool,
     /// Who handles a change by `set_b`, if it raises an event.
     pub(crate) perceived: Option<HandlerId>,
+    /// Whether anything can make it true.
+    pub(crate) believable: bool,
     /// Where a context first asks for it.
     pub(crate) asked_at: Option<Span>,
 }

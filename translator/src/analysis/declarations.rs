@@ -1,8 +1,9 @@
 //! What the configuration declares, by name.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 
-use diagnostic::{Diagnostic, closest};
+use diagnostic::{Diagnostic, Span, closest};
 
 use crate::configuration::{Basic, Configuration};
 use crate::program::BasicId;
@@ -109,8 +110,16 @@ enum Declared {
 
 #[derive(Debug)]
 pub(super) struct Declarations {
-    names: HashMap<String, Declared>,
+    names: HashMap<String, Declaration>,
     basics: Vec<Basic>,
+}
+
+#[derive(Debug)]
+struct Declaration {
+    declared: Declared,
+    span: Span,
+    /// Whether anybody has asked for it.
+    used: Cell<bool>,
 }
 
 impl Declarations {
@@ -162,6 +171,16 @@ impl Declarations {
                 }
             }
         }
+        for (index, class) in configuration.classes.iter().enumerate() {
+            if configuration.classes[..index].iter().any(|c| c.name.text == class.name.text) {
+                let message = format!("a second class `{}`", class.name.text);
+                findings.push(Diagnostic::error(message, class.name.span.clone()));
+            }
+            for action in class.actions.iter().filter(|action| !declarations.is_basic(&action.text))
+            {
+                findings.push(declarations.undeclared(action, "basics"));
+            }
+        }
         for predicate in &configuration.predicates {
             let declared = Declared::Predicate(predicate.parameters.clone());
             declarations.declare(&predicate.name, declared, findings);
@@ -170,7 +189,8 @@ impl Declarations {
     }
 
     fn declare(&mut self, name: &Name, declared: Declared, findings: &mut Vec<Diagnostic>) {
-        if self.names.insert(name.text.clone(), declared).is_some() {
+        let declaration = Declaration { declared, span: name.span.clone(), used: Cell::new(false) };
+        if self.names.insert(name.text.clone(), declaration).is_some() {
             findings.push(
                 Diagnostic::error(format!("`{}` is declared twice", name.text), name.span.clone())
                     .help("a name is one basic action or one predicate"),
@@ -180,7 +200,7 @@ impl Declarations {
 
     /// The types of a belief or goal as used in the agent.
     pub(super) fn predicate(&self, atom: &Atom) -> Result<Vec<CType>, Diagnostic> {
-        match self.names.get(&atom.name.text) {
+        match self.find(&atom.name.text) {
             Some(Declared::Predicate(types)) => {
                 check_arity(atom, types.len())?;
                 Ok(types.clone())
@@ -200,7 +220,7 @@ impl Declarations {
         name: &Name,
         findings: &mut Vec<Diagnostic>,
     ) -> Option<Vec<CType>> {
-        if let Some(Declared::Predicate(types)) = self.names.get(&name.text) {
+        if let Some(Declared::Predicate(types)) = self.find(&name.text) {
             return Some(types.clone());
         }
         findings.push(self.undeclared(name, "types"));
@@ -209,7 +229,7 @@ impl Declarations {
 
     /// The basic action or function that `atom` calls.
     pub(super) fn basic(&self, atom: &Atom) -> Result<(BasicId, &Basic), Diagnostic> {
-        match self.names.get(&atom.name.text) {
+        match self.find(&atom.name.text) {
             Some(Declared::Basic(id)) => {
                 let basic = &self.basics[id.0];
                 check_arity(atom, basic.parameters.len())?;
@@ -224,12 +244,40 @@ impl Declarations {
         }
     }
 
+    fn known(&self, name: &str) -> Option<&Declared> {
+        self.names.get(name).map(|declaration| &declaration.declared)
+    }
+
+    /// What is declared by this name, from now on in use.
+    fn find(&self, name: &str) -> Option<&Declared> {
+        let declaration = self.names.get(name)?;
+        declaration.used.set(true);
+        Some(&declaration.declared)
+    }
+
+    /// Warns of what neither the agent nor the configuration uses; the settings name `functions`.
+    pub(super) fn warn_unused(&self, functions: &[&str], findings: &mut Vec<Diagnostic>) {
+        let mut unused: Vec<(&String, &Declaration)> = self
+            .names
+            .iter()
+            .filter(|(name, declaration)| {
+                !declaration.used.get() && !functions.contains(&name.as_str())
+            })
+            .collect();
+        unused.sort_by_key(|(_, declaration)| declaration.span.start);
+        findings.extend(unused.into_iter().map(|(name, declaration)| {
+            let message = format!("`{name}` is declared and never used");
+            Diagnostic::warning(message, declaration.span.clone())
+                .help("take it out, or use it in the agent")
+        }));
+    }
+
     pub(super) fn is_basic(&self, name: &str) -> bool {
-        matches!(self.names.get(name), Some(Declared::Basic(_)))
+        matches!(self.known(name), Some(Declared::Basic(_)))
     }
 
     pub(super) fn is_predicate(&self, name: &str) -> bool {
-        matches!(self.names.get(name), Some(Declared::Predicate(_)))
+        matches!(self.known(name), Some(Declared::Predicate(_)))
     }
 
     fn undeclared(&self, name: &Name, section: &str) -> Diagnostic {

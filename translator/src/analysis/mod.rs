@@ -20,7 +20,9 @@ use diagnostic::{Diagnostic, Severity};
 use self::constants::constant;
 use self::declarations::Declarations;
 use self::graph::TriggerGraph;
-use self::reach::{Reached, reach, warn_never_believed, warn_unreachable};
+use self::reach::{
+    Reached, mark_believable, reach, warn_never_believed, warn_unreachable, warn_without_plan,
+};
 use self::time::{Clock, find_clock};
 use crate::configuration::{Configuration, ExternalTrigger};
 use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Program, Value};
@@ -81,7 +83,13 @@ pub(crate) fn analyse(
     let initial_goal = agent.goal.as_ref().and_then(|goal| analysis.initial_goal(goal));
     analysis.settables(&configuration);
     let external = analysis.external(&configuration);
-    let Analysis { mut findings, beliefs, mut handlers, clock, .. } = analysis;
+    let settings = &configuration.settings;
+    let named = settings.trace.iter().chain(&settings.clock);
+    let named: Vec<&str> = named.map(|name| name.text.as_str()).collect();
+    if !analysis.findings.has_errors() {
+        analysis.declarations.warn_unused(&named, &mut analysis.findings.configuration);
+    }
+    let Analysis { mut findings, mut beliefs, mut handlers, clock, .. } = analysis;
     let clock = clock.map(Clock::into_parts);
     // A plan of a test goal is looked at once for each way it is asked.
     let mut seen = HashSet::new();
@@ -89,16 +97,20 @@ pub(crate) fn analyse(
     if findings.has_errors() {
         return (None, findings);
     }
-    let roots = external
+    let roots: Vec<HandlerId> = external
         .iter()
         .filter_map(|event| event.handler)
         .chain(beliefs.iter().filter_map(|belief| belief.perceived))
-        .chain(initial_goal.as_ref().map(|(handler, _)| *handler));
-    let Reached { mut posted, deferred, limited } = reach(&mut handlers, roots);
+        .chain(initial_goal.as_ref().map(|(handler, _)| *handler))
+        .collect();
+    let Reached { mut posted, deferred, limited } = reach(&mut handlers, &roots);
     let posted_by_plans = posted.iter().copied().collect();
     posted.extend(initial_goal.as_ref().map(|(handler, _)| *handler));
+    let events: Vec<HandlerId> = roots.iter().chain(&posted).chain(&deferred).copied().collect();
     warn_unreachable(&handlers, &mut findings.agent);
-    warn_never_believed(&beliefs, &handlers, &external, &mut findings.agent);
+    mark_believable(&mut beliefs, &handlers, &external);
+    warn_never_believed(&beliefs, &mut findings.agent);
+    warn_without_plan(&handlers, &events, &mut findings.agent);
     let program = Program {
         configuration,
         beliefs,
@@ -403,6 +415,7 @@ impl Analysis<'_> {
             initial: None,
             settable: false,
             perceived: None,
+            believable: false,
             asked_at: None,
         });
         id

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use diagnostic::Diagnostic;
 
+use crate::coverage::always_finds_a_plan;
 use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Raise, Step};
-use crate::syntax::ast::Operator;
+use crate::syntax::ast::{Operator, TriggerKind};
 
 /// What the reachable plans do besides calling each other.
 pub(super) struct Reached {
@@ -18,10 +19,10 @@ pub(super) struct Reached {
 }
 
 /// Marks the handlers that can be reached from `roots`.
-pub(super) fn reach(handlers: &mut [Handler], roots: impl Iterator<Item = HandlerId>) -> Reached {
+pub(super) fn reach(handlers: &mut [Handler], roots: &[HandlerId]) -> Reached {
     let mut reached =
         Reached { posted: BTreeSet::new(), deferred: BTreeSet::new(), limited: BTreeSet::new() };
-    let mut open: Vec<HandlerId> = roots.collect();
+    let mut open: Vec<HandlerId> = roots.to_vec();
     while let Some(HandlerId(index)) = open.pop() {
         if std::mem::replace(&mut handlers[index].reachable, true) {
             continue;
@@ -65,15 +66,11 @@ pub(super) fn warn_unreachable(handlers: &[Handler], findings: &mut Vec<Diagnost
     }
 }
 
-/// Warns of beliefs that a context asks for and that nothing can make true.
-pub(super) fn warn_never_believed(
-    beliefs: &[Belief],
-    handlers: &[Handler],
-    external: &[External],
-    findings: &mut Vec<Diagnostic>,
-) {
-    let mut believed: Vec<bool> =
-        beliefs.iter().map(|belief| belief.settable || belief.initial.is_some()).collect();
+/// Marks what something can make true: an initial belief, a plan, an event, a `set_` function.
+pub(super) fn mark_believable(beliefs: &mut [Belief], handlers: &[Handler], external: &[External]) {
+    for belief in beliefs.iter_mut() {
+        belief.believable = belief.settable || belief.initial.is_some();
+    }
     let raised = external.iter().filter(|event| event.operator == Operator::Add);
     let steps = handlers.iter().flat_map(|handler| &handler.plans).flat_map(|plan| &plan.body);
     let added = steps.filter_map(|step| match step {
@@ -81,9 +78,13 @@ pub(super) fn warn_never_believed(
         _ => None,
     });
     for BeliefId(index) in raised.filter_map(|event| event.belief).chain(added) {
-        believed[index] = true;
+        beliefs[index].believable = true;
     }
-    for (belief, _) in beliefs.iter().zip(believed).filter(|(_, believed)| !believed) {
+}
+
+/// Warns of beliefs that a context asks for and that nothing can make true.
+pub(super) fn warn_never_believed(beliefs: &[Belief], findings: &mut Vec<Diagnostic>) {
+    for belief in beliefs.iter().filter(|belief| !belief.believable) {
         if let Some(span) = &belief.asked_at {
             let message = format!("`{}` is never believed", belief.name);
             findings.push(
@@ -92,5 +93,40 @@ pub(super) fn warn_never_believed(
                 ),
             );
         }
+    }
+}
+
+/// Warns of goals that may find no plan while no failure plan is there to mend it.
+pub(super) fn warn_without_plan(
+    handlers: &[Handler],
+    events: &[HandlerId],
+    findings: &mut Vec<Diagnostic>,
+) {
+    let mut unguarded = vec![false; handlers.len()];
+    let mut open = events.to_vec();
+    while let Some(HandlerId(index)) = open.pop() {
+        let handler = &handlers[index];
+        if handler.failure.is_some() || std::mem::replace(&mut unguarded[index], true) {
+            continue;
+        }
+        let steps = handler.plans.iter().flat_map(|plan| &plan.body);
+        open.extend(steps.filter_map(|step| match step {
+            Step::Achieve { handler, .. } => Some(*handler),
+            _ => None,
+        }));
+    }
+    let goals = handlers.iter().zip(unguarded).filter(|(handler, unguarded)| {
+        *unguarded && (handler.operator, handler.kind) == (Operator::Add, TriggerKind::Achieve)
+    });
+    for (handler, _) in goals.filter(|(handler, _)| !always_finds_a_plan(handler)) {
+        let text = handler.text();
+        let failure = text.replacen('+', "-", 1);
+        findings.push(
+            Diagnostic::warning(format!("`{text}` may find no plan"), handler.span.clone())
+                .label("then it fails, and nothing mends that")
+                .help(format!(
+                    "add a plan without context behind its others, or one for `{failure}`"
+                )),
+        );
     }
 }

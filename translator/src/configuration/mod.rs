@@ -7,6 +7,7 @@
 //! includes { #include <stdbool.h> };
 //! structs { place_t { double x; double y; }; };
 //! basics { void sendLand(void); bool closeEnough(double, double); };
+//! classes { at_command: sendLand; };
 //! types { position(double, double); land(void); };
 //! settables { position; };
 //! perceived { position; };
@@ -37,6 +38,8 @@ pub struct Configuration {
     pub structs: Vec<Struct>,
     /// Basic actions and functions.
     pub basics: Vec<Basic>,
+    /// Actions that are counted together, such as those that send a command.
+    pub classes: Vec<ActionClass>,
     /// Beliefs and goals with the types of their arguments.
     pub predicates: Vec<Predicate>,
     /// Beliefs with a `set_b` function.
@@ -123,6 +126,15 @@ pub struct Basic {
     pub parameters: Vec<CType>,
     /// The whole declaration.
     pub span: Span,
+}
+
+/// Actions that are counted together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ActionClass {
+    /// What they are called together.
+    pub name: Name,
+    /// The basic actions.
+    pub actions: Vec<Name>,
 }
 
 /// A belief or goal declaration.

@@ -3,15 +3,16 @@
 use diagnostic::Diagnostic;
 
 use super::scanner::{Parsed, Scanner, is_word, is_word_start};
-use super::{Basic, Configuration, ExternalTrigger, Instance, Predicate, Struct};
+use super::{ActionClass, Basic, Configuration, ExternalTrigger, Instance, Predicate, Struct};
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 use crate::types::{CType, TypeKind};
 
-const SECTIONS: [&str; 9] = [
+const SECTIONS: [&str; 10] = [
     "settings",
     "includes",
     "structs",
     "basics",
+    "classes",
     "types",
     "settables",
     "perceived",
@@ -118,6 +119,7 @@ impl<'a> Parser<'a> {
             "settings" => self.setting(),
             "structs" => self.structure(),
             "basics" => self.basic(),
+            "classes" => self.class(),
             "types" => self.predicate(),
             "settables" => {
                 let name = self.scanner.word("a belief")?;
@@ -253,6 +255,19 @@ impl<'a> Parser<'a> {
             return Err(Diagnostic::error("a struct without fields", name.span));
         }
         self.configuration.structs.push(Struct { name, fields });
+        Ok(())
+    }
+
+    /// `name: action, action;`
+    fn class(&mut self) -> Parsed<()> {
+        let name = self.scanner.word("a class of actions")?;
+        self.scanner.expect(":")?;
+        let mut actions = vec![self.scanner.word("a basic action")?];
+        while self.scanner.take(",") {
+            actions.push(self.scanner.word("a basic action")?);
+        }
+        self.scanner.expect(";")?;
+        self.configuration.classes.push(ActionClass { name, actions });
         Ok(())
     }
 

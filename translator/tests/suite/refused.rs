@@ -177,7 +177,7 @@ fn structs_are_checked() {
 fn what_cannot_happen_is_warned_of() {
     let case = Case {
         basics: "void act(int);",
-        types: "g(int); b(int); c(void); d(void);",
+        types: "g(int); b(int); c(void);",
         sections: "settables { c; };",
         agent: "!g(1).\n+!g(1) : b(X) & not c <- act(X).\n+!g(X) <- act(X).\n+!g(2) : c <- act(2).\n",
     };
@@ -198,4 +198,87 @@ fn what_cannot_happen_is_warned_of() {
       |
       = help: an earlier plan of the same trigger fits every event
     ");
+}
+
+/// The first lines of all warnings about the agent.
+fn warnings(agent: &'static str) -> Vec<String> {
+    let case = Case {
+        basics: "void act(int); bool flag(void);",
+        types: "g(void); h(int); k(void); b(int); c(void); d(double);",
+        sections: "settables { b; c; d; };",
+        agent,
+    };
+    let warnings = case.translate("").unwrap().warnings;
+    let about_agent = warnings.lines().filter_map(|line| line.strip_prefix("warning: "));
+    about_agent.filter(|line| !line.contains("declared and never")).map(str::to_owned).collect()
+}
+
+#[test]
+fn a_goal_that_may_find_no_plan_is_warned_of_unless_every_case_is_covered() {
+    let may = |trigger: &str| vec![format!("`{trigger}` may find no plan")];
+    assert_eq!(warnings("!g. +!g : c <- act(1)."), may("+!g"));
+    assert_eq!(warnings("!g. +!g : c <- act(1). +!g : not c <- act(2)."), [""; 0]);
+    assert_eq!(warnings("!g. +!g : c <- act(1). +!g : b(_) <- act(2)."), may("+!g"));
+    // A failure plan mends it, its own or that of whoever calls.
+    assert_eq!(warnings("!g. +!g : c <- act(1). -!g <- act(2)."), [""; 0]);
+    assert_eq!(warnings("!g. +!g <- !k. +!k : c <- act(1). -!g <- act(2)."), [""; 0]);
+    assert_eq!(warnings("!g. +!g <- !k. +!k : c <- act(1)."), may("+!k"));
+    // Comparisons of whole numbers leave no third way; with doubles there is NaN.
+    let compared = "!g. +!g : b(X) & X < 3 <- act(1). +!g : b(X) & X >= 3 <- act(2). +!g : not b(_) <- act(3).";
+    assert_eq!(warnings(compared), [""; 0]);
+    let compared = "!g. +!g : d(X) & X < 3.0 <- act(1). +!g : d(X) & X >= 3.0 <- act(2). +!g : not d(_) <- act(3).";
+    assert_eq!(warnings(compared), may("+!g"));
+    assert_eq!(
+        warnings("!g. +!g <- !h(1). +!h(1) <- act(1). +!h(X) : X \\== 1 <- act(X)."),
+        [""; 0]
+    );
+    assert_eq!(warnings("!g. +!g : c | b(_) <- act(1). +!g : not (b(_) | c) <- act(2)."), [""; 0]);
+    // A function may answer differently the next time.
+    assert_eq!(warnings("!g. +!g : flag <- act(1). +!g : not flag <- act(2)."), may("+!g"));
+}
+
+#[test]
+fn what_is_declared_and_never_used_is_warned_of() {
+    let case = Case {
+        basics: "void act(int); bool flag(void); int now(void);",
+        types: "g(void); b(int);",
+        sections: "classes { all: act, flag; };",
+        agent: "!g. +!g <- act(1).",
+    };
+    insta::assert_snapshot!(case.translate("clock = now;").unwrap().warnings, @r"
+    warning: `flag` is declared and never used
+     --> agent.conf:2:30
+      |
+    2 | basics { void act(int); bool flag(void); int now(void); };
+      |                              ^^^^
+      |
+      = help: take it out, or use it in the agent
+
+    warning: `b` is declared and never used
+     --> agent.conf:3:18
+      |
+    3 | types { g(void); b(int); };
+      |                  ^
+      |
+      = help: take it out, or use it in the agent
+    ");
+}
+
+#[test]
+fn classes_are_checked() {
+    for (classes, expected) in [
+        ("all: act, fly;", "`fly` is not declared"),
+        ("all: act; all: act;", "a second class `all`"),
+        ("all act;", "expected `:`, found `a`"),
+        ("all: b;", "`b` is not declared"),
+    ] {
+        let configuration = format!(
+            "settings {{ input = a; output = b; header = c; basics = d; }}; \
+             basics {{ void act(int); }}; classes {{ {classes} }}; types {{ g(void); }};"
+        );
+        let parsed = translator::parse_configuration("c", &configuration);
+        let error = parsed.and_then(|parsed| translator::translate(parsed, "!g. +!g."));
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains(expected), "{classes}: {error}");
+    }
 }

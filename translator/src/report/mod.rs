@@ -1,0 +1,118 @@
+//! What an agent costs: memory, call depth, and how often a step calls each action.
+
+mod calls;
+mod memory;
+
+use std::collections::HashMap;
+use std::fmt;
+
+use self::calls::{Cost, costs, events};
+use self::memory::{Frames, state_bytes};
+use crate::backend::c::symbol_prefix;
+use crate::coverage::never_applicable;
+use crate::program::{HandlerId, Program};
+use crate::types::TypeKind;
+
+/// What an agent costs. It is written out by its `Display`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Report {
+    figures: Vec<(&'static str, String)>,
+    /// Name, fewest and most calls in a step that handles an event.
+    actions: Vec<(String, u32, u32)>,
+    classes: Vec<(String, u32, u32)>,
+    frames: Frames,
+    /// The deepest stack, if a compiler has said how large each frame is.
+    stack: Option<(String, u64)>,
+}
+
+impl Report {
+    pub(crate) fn new(program: &Program) -> Self {
+        let costs = costs(program);
+        let events = events(program);
+        let configuration = &program.configuration;
+        let bounds = |counter: usize| {
+            let bounds = events.iter().map(|id| costs[id.0].calls[counter]);
+            bounds.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1))).unwrap_or((0, 0))
+        };
+        let actions = configuration.basics.iter().enumerate();
+        let actions = actions.filter(|(_, basic)| basic.result.kind == TypeKind::Void);
+        let count = configuration.basics.len();
+        let with_bounds = |name: &str, counter: usize| {
+            let (fewest, most) = bounds(counter);
+            (name.to_owned(), fewest, most)
+        };
+        let next_step = format!("{}next_step", symbol_prefix(program));
+        Self {
+            figures: figures(program, &costs, &events),
+            actions: actions.map(|(index, basic)| with_bounds(&basic.name.text, index)).collect(),
+            classes: configuration
+                .classes
+                .iter()
+                .enumerate()
+                .map(|(index, class)| with_bounds(&class.name.text, count + index))
+                .collect(),
+            frames: Frames::new(program, next_step),
+            stack: None,
+        }
+    }
+
+    /// Adds the deepest stack of `next_step()`. `frame_bytes` are the sizes of the functions'
+    /// frames in the generated C file, as `compiler` gives them; functions that it has put into
+    /// others are not among them.
+    pub fn add_stack(&mut self, compiler: &str, frame_bytes: &HashMap<String, u64>) {
+        self.stack = Some((compiler.to_owned(), self.frames.deepest(frame_bytes)));
+    }
+}
+
+fn figures(program: &Program, costs: &[Cost], events: &[HandlerId]) -> Vec<(&'static str, String)> {
+    let at_most = |count: usize| format!("at most {count}");
+    let settings = &program.configuration.settings;
+    let mut figures = vec![
+        ("plans", program.reachable_plans().count().to_string()),
+        ("triggers", program.reachable_handlers().count().to_string()),
+    ];
+    let left_out: usize =
+        program.handlers.iter().filter(|h| !h.reachable).map(|h| h.plans.len()).sum();
+    figures.push(("plans that nothing triggers", left_out.to_string()));
+    let lines: Vec<String> =
+        never_applicable(program).map(|plan| format!("line {}", plan.lines.0)).collect();
+    let never = if lines.is_empty() { "0".to_owned() } else { lines.join(", ") };
+    figures.push(("plans never applicable", never));
+    if let Some(id) = events.iter().max_by_key(|id| costs[id.0].depth) {
+        // next_step, handle_event, then a trigger's function and a plan's for each level.
+        let frames = 2 + 2 * costs[id.0].depth;
+        let trigger = program.handler(*id).text();
+        figures.push(("deepest chain of calls", format!("{frames} functions, from `{trigger}`")));
+    }
+    figures.push(("state", format!("{} bytes on a 64-bit machine", state_bytes(program))));
+    figures.push(("posted events", at_most(1)));
+    figures.push(("external events waiting", at_most(settings.inbox as usize)));
+    figures.push(("deferred goals waiting", at_most(program.deferred.len())));
+    let preemptive = program.external.iter().filter(|external| external.preemptive).count();
+    figures.push(("pre-empting events", preemptive.to_string()));
+    figures
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (label, value) in &self.figures {
+            writeln!(formatter, "{label:<28}{value}")?;
+        }
+        if let Some((compiler, bytes)) = &self.stack {
+            let label = "stack of next_step()";
+            writeln!(formatter, "{label:<28}{bytes} bytes and what the actions take ({compiler})")?;
+        }
+        for (title, rows) in [
+            ("calls in a step that handles an event", &self.actions),
+            ("calls of any action of a class", &self.classes),
+        ] {
+            if !rows.is_empty() {
+                writeln!(formatter, "\n{title}")?;
+            }
+            for (name, fewest, most) in rows {
+                writeln!(formatter, "  {name:<26}{fewest} to {most}")?;
+            }
+        }
+        Ok(())
+    }
+}
