@@ -42,6 +42,12 @@ takeOffTime(10000).
      reportDone;
      !!wait.
 
+// In the air and no idea where: hold still.
++!takeOff
+  <- sendHover;
+     reportFailed;
+     !!wait.
+
 +!completeTakeOff(_) : hovering & position(X, Y, Z, Yaw)
   <- +target(X, Y, Z, Yaw);
      sendGoto(X, Y, Z, Yaw);
@@ -83,6 +89,12 @@ takeOffTime(10000).
   <- sendGoto(X, Y, Z, Yaw);
      !approach.
 
+// Nowhere to go: hold still.
++!approach
+  <- sendHover;
+     reportFailed;
+     !!wait.
+
 // Drifted off: approach again, and the stay begins anew.
 +!stay(_) : target(X, Y, Z, Yaw) & stayDistance(Distance) & not closeEnough(X, Y, Z, Yaw, Distance)
   <- sendGoto(X, Y, Z, Yaw);
@@ -96,6 +108,11 @@ takeOffTime(10000).
 +!stay(Arrival) : target(X, Y, Z, Yaw)
   <- sendGoto(X, Y, Z, Yaw);
      !stay(Arrival).
+
++!stay(_)
+  <- sendHover;
+     reportFailed;
+     !!wait.
 
 // ---- Landing. The order is repeated until the drone says that it has landed.
 
