@@ -32,5 +32,9 @@ pub const AT_PORT: u16 = 5556;
 pub const NAVDATA_PORT: u16 = 5554;
 /// TCP: the configuration dump.
 pub const CONTROL_PORT: u16 = 5559;
+/// TCP: live video.
+pub const VIDEO_PORT: u16 = 5555;
+/// TCP: FTP with the firmware's version.
+pub const FTP_PORT: u16 = 5551;
 /// The datagram that makes the drone send navdata to its sender.
 pub const WAKE_UP: [u8; 4] = [1, 0, 0, 0];

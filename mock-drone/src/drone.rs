@@ -4,20 +4,24 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use ardrone_link::at::DecodeError;
-use ardrone_link::navdata::{Demo, Navdata, OPTION_TIME, OPTION_VISION_DETECT};
+use ardrone_link::navdata::{NavdataError, PacketWriter};
 use bytes::{Bytes, BytesMut};
 use nalgebra::{Vector2, Vector3};
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, Uniform};
 
-use crate::airframe::{Airframe, STEP_S};
+use crate::airframe::{Airframe, Profile, STEP_S};
 use crate::firmware::{Firmware, Phase};
-use crate::sensors::{SensorModel, Sensors};
+use crate::sensors::{Reading, SensorModel, Sensors};
+use crate::telemetry::{Tag27, Telemetry};
+use crate::wind::Wind;
 
 /// What kind of drone it is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DroneConfig {
+    /// How it moves.
+    pub profile: Profile,
     /// Noise and delays of its sensors.
     pub sensors: SensorModel,
     /// Everything random follows from it.
@@ -26,6 +30,10 @@ pub struct DroneConfig {
     pub battery_percent: f64,
     /// Blows towards (right, forward).
     pub wind_m_s: Vector2<f64>,
+    /// Standard deviation of the gusts.
+    pub gusts_m_s: f64,
+    /// What it sends as option 27.
+    pub tag_27: Tag27,
     /// Largest error of the level reference, which no pilot knows.
     pub trim_error_deg: f64,
 }
@@ -33,10 +41,13 @@ pub struct DroneConfig {
 impl Default for DroneConfig {
     fn default() -> Self {
         Self {
+            profile: Profile::rec(),
             sensors: SensorModel::nominal(),
             seed: 1,
             battery_percent: 90.0,
             wind_m_s: Vector2::zeros(),
+            gusts_m_s: 0.0,
+            tag_27: Tag27::Absent,
             trim_error_deg: 0.3,
         }
     }
@@ -67,6 +78,17 @@ impl Truth {
     }
 }
 
+/// What a drone with broken sensors adds to what it reads.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Lie {
+    /// Added to the altitude.
+    pub altitude_m: f64,
+    /// Added to the velocity (right, forward).
+    pub velocity_m_s: Vector2<f64>,
+    /// Added to the heading.
+    pub yaw_deg: f64,
+}
+
 /// A simulated drone.
 ///
 /// The shell advances it with [`Drone::advance`], hands it datagrams with [`Drone::handle_at`] and
@@ -74,6 +96,13 @@ impl Truth {
 /// [`Drone::poll_control`] return.
 #[derive(Debug, Clone)]
 pub struct Drone {
+    config: DroneConfig,
+    wind: Wind,
+    /// When it was switched on.
+    booted: Duration,
+    lie: Lie,
+    /// What it reads for as long as its sensors are frozen.
+    frozen: Option<Reading>,
     firmware: Firmware,
     airframe: Airframe,
     sensors: Sensors,
@@ -87,6 +116,8 @@ pub struct Drone {
 const STEP: Duration = Duration::from_micros(2500);
 const DEMO_PERIOD: Duration = Duration::from_micros(66_667);
 const FULL_PERIOD: Duration = Duration::from_millis(5);
+/// A full packet fits.
+const PACKET_BYTES: usize = 2304;
 /// The drone's clock has run this long when the simulation starts.
 const CLOCK_AT_START: Duration = Duration::from_millis(31_400);
 
@@ -100,8 +131,13 @@ impl Drone {
         });
         debug_assert!((STEP.as_secs_f64() - STEP_S).abs() < 1e-12);
         Self {
-            firmware: Firmware::new(config.battery_percent),
-            airframe: Airframe::new(trim_rad, config.wind_m_s),
+            config: config.clone(),
+            wind: Wind::new(config.wind_m_s, config.gusts_m_s, config.seed),
+            booted: Duration::ZERO,
+            lie: Lie::default(),
+            frozen: None,
+            firmware: Firmware::new(config.profile, config.battery_percent),
+            airframe: Airframe::new(config.profile, trim_rad),
             sensors: Sensors::new(config.sensors, config.seed),
             steps: 0,
             sequence: 0,
@@ -117,7 +153,7 @@ impl Drone {
             self.steps += 1;
             let time = self.time();
             let thrust = self.firmware.step(time, &self.airframe);
-            self.airframe.step(thrust);
+            self.airframe.step(thrust, self.wind.step());
             self.sensors.step(self.steps, time, &self.airframe);
             if self.listener && time >= self.next_navdata {
                 self.send_navdata(time);
@@ -160,6 +196,40 @@ impl Drone {
         self.firmware.block_propeller();
     }
 
+    /// Switches the drone off and on again, wherever it is: it forgets everything, and falls.
+    pub fn restart(&mut self, now: Duration) {
+        self.advance(now);
+        let battery_percent = self.firmware.battery_percent();
+        self.firmware = Firmware::new(self.config.profile, battery_percent);
+        self.sensors = Sensors::new(self.config.sensors, self.config.seed);
+        self.booted = now;
+        self.sequence = 0;
+        self.listener = false;
+        self.outgoing.clear();
+    }
+
+    /// Freezes what the sensors read, or lets them go on; packets keep coming.
+    pub fn set_frozen(&mut self, frozen: bool) {
+        let time = self.time();
+        self.frozen = frozen.then(|| self.sensors.read(time));
+    }
+
+    /// Adds something to what the sensors read from now on.
+    pub fn set_lie(&mut self, lie: Lie) {
+        self.lie = lie;
+    }
+
+    /// Changes the steady wind, which blows towards (right, forward), and its gusts.
+    pub fn set_wind(&mut self, steady_m_s: Vector2<f64>, gusts_m_s: f64) {
+        self.wind.steady_m_s = steady_m_s;
+        self.wind.gust_deviation_m_s = gusts_m_s;
+    }
+
+    /// Changes the charge.
+    pub fn set_battery_percent(&mut self, percent: f64) {
+        self.firmware.set_battery_percent(percent);
+    }
+
     /// What really happens.
     pub fn truth(&self) -> Truth {
         Truth {
@@ -187,42 +257,46 @@ impl Drone {
         let demo_only = self.firmware.is_demo() || self.firmware.is_bootstrapping();
         self.next_navdata = now + if demo_only { DEMO_PERIOD } else { FULL_PERIOD };
         self.sequence += 1;
-        let mut navdata = Navdata {
-            state: self.firmware.state(now),
-            sequence: self.sequence,
-            vision: 1,
-            demo: None,
-            time: None,
-        };
-        let mut with_vision_detect = false;
-        if !self.firmware.is_bootstrapping() {
-            let wants = |tag| !demo_only || self.firmware.wants_option(tag);
-            navdata.time = wants(OPTION_TIME).then_some(now + CLOCK_AT_START);
-            with_vision_detect = wants(OPTION_VISION_DETECT);
-            navdata.demo = Some(self.demo(now));
+        let mut bytes = BytesMut::with_capacity(PACKET_BYTES);
+        // All options together are shorter than a packet may be.
+        if self.write_packet(now, demo_only, &mut bytes).is_ok() {
+            self.outgoing.push_back(bytes.freeze());
         }
-        let mut packet = BytesMut::with_capacity(512);
-        navdata.encode(with_vision_detect, &mut packet);
-        self.outgoing.push_back(packet.freeze());
     }
 
-    fn demo(&mut self, now: Duration) -> Demo {
-        let reading = self.sensors.read(now);
-        // A percentage: it fits.
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let battery_percent = self.firmware.battery_percent().round() as u32;
-        Demo {
-            control_state: self.firmware.control_state(),
-            control_state_minor: 0,
-            battery_percent,
-            pitch_deg: reading.pitch_deg,
-            roll_deg: reading.roll_deg,
-            yaw_deg: reading.yaw_deg,
-            altitude_m: reading.altitude_m,
-            velocity_forward_m_s: reading.velocity_m_s.y,
-            velocity_right_m_s: reading.velocity_m_s.x,
-            velocity_down_m_s: 0.0,
+    fn write_packet(
+        &mut self,
+        now: Duration,
+        demo_only: bool,
+        bytes: &mut BytesMut,
+    ) -> Result<(), NavdataError> {
+        let state = self.firmware.state(now);
+        let mut packet = PacketWriter::new(bytes, state, self.sequence, 1);
+        if !self.firmware.is_bootstrapping() {
+            let telemetry = Telemetry {
+                reading: self.reading(now),
+                firmware: &self.firmware,
+                airframe: &self.airframe,
+                wind_m_s: self.wind.steady_m_s,
+                clock: now.saturating_sub(self.booted) + CLOCK_AT_START,
+                tag_27: self.config.tag_27,
+            };
+            let firmware = &self.firmware;
+            // The demo option is sent in any case.
+            let wanted = |tag| !demo_only || tag == 0 || firmware.wants_option(tag);
+            telemetry.write(wanted, &mut packet)?;
         }
+        packet.finish();
+        Ok(())
+    }
+
+    /// What the sensors say, be it true or not.
+    fn reading(&mut self, now: Duration) -> Reading {
+        let mut reading = self.frozen.unwrap_or_else(|| self.sensors.read(now));
+        reading.altitude_m += self.lie.altitude_m;
+        reading.velocity_m_s += self.lie.velocity_m_s;
+        reading.yaw_deg = (reading.yaw_deg + self.lie.yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
+        reading
     }
 }
 

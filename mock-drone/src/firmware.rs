@@ -7,7 +7,7 @@ use ardrone_link::at::{Command, ControlMode, Motion, Ref, decode};
 use ardrone_link::navdata::{ControlState, DroneState};
 use nalgebra::Vector2;
 
-use crate::airframe::{Airframe, Attitude, STEP_S, Thrust, body_from_world};
+use crate::airframe::{Airframe, Attitude, Profile, STEP_S, Scaling, Thrust, body_from_world};
 
 /// Motors turn this long before the drone climbs.
 const SPIN_UP: Duration = Duration::from_millis(900);
@@ -32,8 +32,6 @@ const BATTERY_LIFE_S: f64 = 720.0;
 const BATTERY_REFUSES_TAKE_OFF_PERCENT: f64 = 20.0;
 const BATTERY_LOW_PERCENT: f64 = 10.0;
 const BATTERY_LANDS_PERCENT: f64 = 8.0;
-/// Uplink and actuator delay of PCMD.
-const COMMAND_DELAY: Duration = Duration::from_millis(60);
 
 /// What the drone is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,6 +55,7 @@ pub enum Phase {
 #[derive(Debug, Clone)]
 #[expect(clippy::struct_excessive_bools, reason = "they are bits of the drone's state word")]
 pub struct Firmware {
+    profile: Profile,
     phase: Phase,
     configuration: BTreeMap<String, String>,
     bootstrapping: bool,
@@ -128,11 +127,12 @@ const DEFAULTS: [(&str, &str); 20] = [
 ];
 
 impl Firmware {
-    /// A drone that has just started, with this much charge.
-    pub fn new(battery_percent: f64) -> Self {
+    /// A drone of this kind that has just started, with this much charge.
+    pub fn new(profile: Profile, battery_percent: f64) -> Self {
         let configuration =
             DEFAULTS.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
         Self {
+            profile,
             phase: Phase::Landed,
             configuration,
             bootstrapping: true,
@@ -180,7 +180,7 @@ impl Firmware {
         match command {
             Command::Ref(reference) => self.reference(now, reference),
             Command::Pcmd(motion) => {
-                self.motion.waiting.push_back((now + COMMAND_DELAY, motion));
+                self.motion.waiting.push_back((now + self.profile.dead_time, motion));
             }
             Command::Config(config) => {
                 self.acknowledge = true;
@@ -301,23 +301,24 @@ impl Firmware {
         };
         self.hold.place_m = None;
         let [roll, pitch, gaz, yaw] = [roll, pitch, gaz, yaw].map(|value| f64::from(value.get()));
-        let tilt_rad = self.number("control:euler_angle_max");
+        let Scaling { tilt, tilt_limit_rad, climb, drop, turn } = self.profile.scaling;
+        let tilt_rad = self.number("control:euler_angle_max") * tilt;
         let climb_max_m_s = self.number("control:control_vz_max") / 1000.0;
         let ceiling_m = self.number("control:altitude_max") / 1000.0;
         let mut climb_m_s = if gaz.abs() < GAZ_DEAD_ZONE {
             self.hold_height(airframe)
         } else {
             self.hold.height_m = None;
-            gaz * climb_max_m_s
+            gaz * climb_max_m_s * if gaz > 0.0 { climb } else { drop }
         };
         if airframe.position_m().z >= ceiling_m {
             climb_m_s = climb_m_s.min(0.0);
         }
         Attitude {
-            pitch_rad: pitch * tilt_rad,
-            roll_rad: roll * tilt_rad,
+            pitch_rad: (pitch * tilt_rad).clamp(-tilt_limit_rad, tilt_limit_rad),
+            roll_rad: (roll * tilt_rad).clamp(-tilt_limit_rad, tilt_limit_rad),
             climb_m_s,
-            turn_rad_s: yaw * self.number("control:control_yaw"),
+            turn_rad_s: yaw * self.number("control:control_yaw") * turn,
         }
     }
 
@@ -371,6 +372,11 @@ impl Firmware {
         self.phase = Phase::Emergency;
     }
 
+    /// What the drone does with its motion commands now.
+    pub fn motion(&self) -> Motion {
+        self.motion.active
+    }
+
     /// What the drone is doing.
     pub fn phase(&self) -> Phase {
         self.phase
@@ -400,6 +406,11 @@ impl Firmware {
     pub fn wants_option(&self, tag: u16) -> bool {
         let mask = self.configuration.get("general:navdata_options");
         mask.and_then(|mask| mask.parse::<u32>().ok()).is_some_and(|mask| mask >> tag & 1 == 1)
+    }
+
+    /// Sets the charge.
+    pub fn set_battery_percent(&mut self, percent: f64) {
+        self.battery_percent = percent.clamp(0.0, 100.0);
     }
 
     /// Remaining charge.

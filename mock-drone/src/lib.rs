@@ -14,7 +14,17 @@
 pub mod airframe;
 mod drone;
 pub mod firmware;
+mod link;
+pub mod scenario;
 pub mod sensors;
 pub mod server;
+mod telemetry;
+mod truth_log;
+mod wind;
+mod world;
 
-pub use drone::{Drone, DroneConfig, Truth};
+pub use drone::{Drone, DroneConfig, Lie, Truth};
+pub use link::LinkFaults;
+pub use telemetry::Tag27;
+pub use truth_log::TruthLog;
+pub use world::{Message, World, WorldConfig};

@@ -1,23 +1,58 @@
 //! `mock-drone`: a simulated AR.Drone 2.0 on the drone's own ports.
 #![forbid(unsafe_code)]
 
+use std::fs::File;
 use std::io::{IsTerminal as _, Write as _};
 use std::net::{IpAddr, Ipv4Addr};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
-use ardrone_link::{AT_PORT, CONTROL_PORT, NAVDATA_PORT};
-use clap::{Parser, ValueEnum};
-use mock_drone::DroneConfig;
+use ardrone_link::{AT_PORT, CONTROL_PORT, FTP_PORT, NAVDATA_PORT, VIDEO_PORT};
+use clap::{Args, Parser, ValueEnum};
+use mock_drone::airframe::Profile;
+use mock_drone::scenario::{Scenario, ScenarioError};
 use mock_drone::sensors::SensorModel;
 use mock_drone::server::{Ports, Server, ServerError};
+use mock_drone::{DroneConfig, LinkFaults, Tag27, TruthLog, WorldConfig};
+use nalgebra::Vector2;
 
 /// A simulated AR.Drone 2.0: any client of the real drone can fly it.
 ///
 /// It boots, waits to be configured, takes off, flies, lands and runs out of battery like the real
 /// one, and loses patience with a silent pilot like the real one. It runs until it is killed.
 #[derive(Debug, Parser)]
-#[command(version, after_help = "Exit status: 1 a port is taken or a socket failed, 2 usage.")]
+#[command(version, after_help = AFTER_HELP)]
 struct Arguments {
+    #[command(flatten)]
+    ports: PortArguments,
+    #[command(flatten)]
+    drone: DroneArguments,
+    #[command(flatten)]
+    faults: FaultArguments,
+    /// Write what really happens to this CSV file
+    #[arg(long, value_name = "FILE")]
+    truth: Option<PathBuf>,
+}
+
+const AFTER_HELP: &str = "\
+Scenario files have one fault a line: a time, then what happens. A time is in seconds since the
+start, or with a plus since the first take-off; # starts a comment.
+
+  0     delay 20 jitter 15       milliseconds
+  +2    loss 30                  percent; likewise duplicate, reorder, corrupt
+  +5    outage 1.2               seconds without any datagram
+  +8    freeze 2                 seconds of sensors that read the same
+  +12   lie altitude 0.5 for 3   metres; or velocity RIGHT FORWARD, or yaw DEGREES
+  +16   wind 1.5 -0.5 gusts 0.4  metres a second towards right and forward
+  +20   battery 15               percent
+  +25   restart                  or propeller, which cuts the motors
+
+Exit status: 1 a port is taken, a file is wrong or a socket failed; 2 usage.";
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Ports")]
+struct PortArguments {
     /// Address to listen on
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     bind: IpAddr,
@@ -30,23 +65,120 @@ struct Arguments {
     /// TCP port for the configuration
     #[arg(long, value_name = "PORT", default_value_t = CONTROL_PORT)]
     control_port: u16,
+    /// TCP port for FTP, which knows the firmware's version
+    #[arg(long, value_name = "PORT", default_value_t = FTP_PORT)]
+    ftp_port: u16,
+    /// TCP port for video; connections are kept, no picture is sent
+    #[arg(long, value_name = "PORT", default_value_t = VIDEO_PORT)]
+    video_port: u16,
+    /// TCP port that some clients knock at to see if the drone is there; the real one has 21
+    #[arg(long, value_name = "PORT")]
+    presence_port: Option<u16>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Drone")]
+struct DroneArguments {
     /// Everything random follows from this number
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Charge at the start, in percent
     #[arg(long, value_name = "PERCENT", default_value_t = 90, value_parser = clap::value_parser!(u8).range(0..=100))]
     battery: u8,
+    /// Which published model it flies by
+    #[arg(long, value_enum, default_value_t = Airframe::Rec)]
+    airframe: Airframe,
     /// How good the drone's sensors are
     #[arg(long, value_enum, default_value_t = Sensors::Nominal)]
     sensors: Sensors,
+    /// What is sent as navdata option 27, in which firmware versions differ
+    #[arg(long, value_enum, default_value_t = Option27::Absent)]
+    option_27: Option27,
+    /// Wind towards right and forward, in metres a second
+    #[arg(long, num_args = 2, value_names = ["RIGHT", "FORWARD"], allow_negative_numbers = true)]
+    wind: Option<Vec<f64>>,
+    /// Standard deviation of the gusts, in metres a second
+    #[arg(long, value_name = "M/S", default_value_t = 0.0, value_parser = not_negative)]
+    gusts: f64,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Faults")]
+struct FaultArguments {
+    /// Share of datagrams that are lost, in percent; likewise the next three
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, value_parser = percentage)]
+    loss: f64,
+    /// Datagrams that arrive twice
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, value_parser = percentage)]
+    duplicate: f64,
+    /// Datagrams that arrive behind the next one
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, value_parser = percentage)]
+    reorder: f64,
+    /// Datagrams that are spoiled: navdata with a changed byte, lost AT commands
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, value_parser = percentage)]
+    corrupt: f64,
+    /// Time that each datagram takes, in milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 0)]
+    delay: u16,
+    /// Up to so much more, at random, in milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 0)]
+    jitter: u16,
+    /// Faults over time, see below
+    #[arg(long, value_name = "FILE")]
+    scenario: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Airframe {
+    /// Inside the spread of the others
+    Rec,
+    /// That of the filter in TUM's packages: strong tilt, slow climb, fast drop
+    Tum,
+    /// Fitted transfer functions: weak tilt, brisk climb, long dead time
+    Tf,
+    /// Identified for a thesis: strong drag, slow climb and turn
+    Leo,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Sensors {
-    /// A good room: some noise, delay and drift
-    Nominal,
     /// No noise, no delay, no drift
     Perfect,
+    /// A good room: some noise, delay and drift
+    Nominal,
+    /// A bad room: twice the noise, wrong echoes
+    Hard,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Option27 {
+    /// Nothing, which every client understands
+    Absent,
+    /// 12 bytes, as older firmware; node-ar-drone loses every full packet then
+    Zimmu,
+    /// 216 bytes of GPS, as firmware 2.4; pyardrone loses every full packet then
+    Gps,
+}
+
+fn percentage(text: &str) -> Result<f64, String> {
+    let number = not_negative(text)?;
+    if number <= 100.0 { Ok(number) } else { Err("more than 100 percent".to_owned()) }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if number.is_finite() && number >= 0.0 { Ok(number) } else { Err("not a size".to_owned()) }
+}
+
+/// Why the mock drone could not be started or has ended.
+#[derive(Debug, thiserror::Error)]
+enum CommandError {
+    #[error("cannot {action} {}: {source}", path.display())]
+    File { action: &'static str, path: PathBuf, source: std::io::Error },
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    #[error(transparent)]
+    Server(#[from] ServerError),
 }
 
 fn main() -> ExitCode {
@@ -60,33 +192,39 @@ fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
+            // The mistakes of a scenario stand by themselves.
+            let scenario = matches!(error, CommandError::Scenario(_));
+            let prefix = if scenario { "" } else { "error: " };
             // A message that cannot be printed has nowhere else to go.
-            _ = writeln!(std::io::stderr(), "error: {error}");
+            _ = writeln!(std::io::stderr(), "{prefix}{error}");
             ExitCode::FAILURE
         }
     }
 }
 
-fn run(arguments: &Arguments) -> Result<(), ServerError> {
-    let config = DroneConfig {
-        seed: arguments.seed,
-        battery_percent: f64::from(arguments.battery),
-        sensors: match arguments.sensors {
-            Sensors::Nominal => SensorModel::nominal(),
-            Sensors::Perfect => SensorModel::perfect(),
-        },
-        ..DroneConfig::default()
-    };
+fn run(arguments: &Arguments) -> Result<(), CommandError> {
+    let config = world(arguments)?;
+    let log = arguments.truth.as_ref().map(|path| truth_log(path)).transpose()?;
+    let PortArguments { bind, at_port, navdata_port, control_port, .. } = arguments.ports;
     let ports = Ports {
-        host: arguments.bind,
-        at: arguments.at_port,
-        navdata: arguments.navdata_port,
-        control: arguments.control_port,
+        host: bind,
+        at: at_port,
+        navdata: navdata_port,
+        control: control_port,
+        ftp: Some(arguments.ports.ftp_port),
+        video: Some(arguments.ports.video_port),
+        presence: arguments.ports.presence_port,
     };
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_all()
+        .build()
+        .map_err(ServerError::Start)?;
     runtime.block_on(async {
-        let server = Server::bind(&config, ports).await?;
-        let bound = server.ports()?;
+        let mut server = Server::bind(&config, ports).await?;
+        if let Some(log) = log {
+            server.log_truth(log);
+        }
+        let bound = server.ports().map_err(ServerError::Start)?;
         tracing::info!(
             "mock drone on {}: AT {}/udp, navdata {}/udp, configuration {}/tcp",
             bound.host,
@@ -94,7 +232,67 @@ fn run(arguments: &Arguments) -> Result<(), ServerError> {
             bound.navdata,
             bound.control
         );
-        server.run().await?;
+        server.run().await.map_err(ServerError::Start)?;
         Ok(())
+    })
+}
+
+fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
+    let DroneArguments { seed, battery, airframe, sensors, option_27, ref wind, gusts } =
+        arguments.drone;
+    let drone = DroneConfig {
+        seed,
+        battery_percent: f64::from(battery),
+        profile: match airframe {
+            Airframe::Rec => Profile::rec(),
+            Airframe::Tum => Profile::tum(),
+            Airframe::Tf => Profile::tf(),
+            Airframe::Leo => Profile::leo(),
+        },
+        sensors: match sensors {
+            Sensors::Perfect => SensorModel::perfect(),
+            Sensors::Nominal => SensorModel::nominal(),
+            Sensors::Hard => SensorModel::hard(),
+        },
+        tag_27: match option_27 {
+            Option27::Absent => Tag27::Absent,
+            Option27::Zimmu => Tag27::Zimmu,
+            Option27::Gps => Tag27::Gps,
+        },
+        wind_m_s: match wind.as_deref() {
+            Some([right, forward]) => Vector2::new(*right, *forward),
+            _ => Vector2::zeros(),
+        },
+        gusts_m_s: gusts,
+        ..DroneConfig::default()
+    };
+    let faults = &arguments.faults;
+    let link = LinkFaults {
+        loss: faults.loss / 100.0,
+        duplication: faults.duplicate / 100.0,
+        reordering: faults.reorder / 100.0,
+        corruption: faults.corrupt / 100.0,
+        delay: Duration::from_millis(faults.delay.into()),
+        jitter: Duration::from_millis(faults.jitter.into()),
+    };
+    let scenario = match &faults.scenario {
+        Some(path) => {
+            let text = std::fs::read_to_string(path).map_err(|source| CommandError::File {
+                action: "read",
+                path: path.clone(),
+                source,
+            })?;
+            Scenario::parse(&path.display().to_string(), &text)?
+        }
+        None => Scenario::default(),
+    };
+    Ok(WorldConfig { drone, link, scenario })
+}
+
+fn truth_log(path: &Path) -> Result<TruthLog<File>, CommandError> {
+    File::create(path).and_then(TruthLog::new).map_err(|source| CommandError::File {
+        action: "write",
+        path: path.to_owned(),
+        source,
     })
 }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use nalgebra::Vector2;
-use rand::SeedableRng as _;
+use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, StandardNormal};
 
@@ -27,6 +27,8 @@ pub struct SensorModel {
     pub flow_scale_error: f64,
     /// White noise of the altitude, a sample.
     pub altitude_noise_m: f64,
+    /// Share of ultrasound echoes that are wrong.
+    pub bad_echoes: f64,
     /// White noise of pitch and roll.
     pub attitude_noise_deg: f64,
     /// Delay of attitude, heading and altitude.
@@ -50,6 +52,7 @@ impl SensorModel {
             flow_bias_walk_m_s: 0.0,
             flow_scale_error: 0.0,
             altitude_noise_m: 0.0,
+            bad_echoes: 0.0,
             attitude_noise_deg: 0.0,
             attitude_delay: Duration::ZERO,
             yaw_noise_deg: 0.0,
@@ -68,11 +71,33 @@ impl SensorModel {
             flow_bias_walk_m_s: 0.001,
             flow_scale_error: 0.03,
             altitude_noise_m: 0.008,
+            bad_echoes: 0.0,
             attitude_noise_deg: 0.1,
             attitude_delay: Duration::from_millis(20),
             yaw_noise_deg: 0.1,
             yaw_drift_deg_s: 0.01,
             initial_heading_deg: 37.0,
+        }
+    }
+}
+
+impl SensorModel {
+    /// A bad room: dim, smooth floor, things in the way of the ultrasound.
+    pub fn hard() -> Self {
+        Self {
+            flow_noise_m_s: 0.08,
+            flow_filter: Duration::from_millis(60),
+            flow_delay: Duration::from_millis(70),
+            flow_bias_m_s: 0.012,
+            flow_bias_walk_m_s: 0.003,
+            flow_scale_error: 0.06,
+            altitude_noise_m: 0.015,
+            bad_echoes: 0.003,
+            attitude_noise_deg: 0.25,
+            attitude_delay: Duration::from_millis(30),
+            yaw_noise_deg: 0.2,
+            yaw_drift_deg_s: 0.03,
+            initial_heading_deg: 171.0,
         }
     }
 }
@@ -147,7 +172,9 @@ impl Sensors {
         if step.is_multiple_of(ALTITUDE_STEPS) {
             let noise_m = self.gaussian() * self.model.altitude_noise_m;
             let altitude_m = (airframe.position_m().z + noise_m).max(0.0);
-            self.altitude.push(now, altitude_m);
+            let bad = self.model.bad_echoes > 0.0 && self.random.random_bool(self.model.bad_echoes);
+            let echo_m = if bad { self.random.random_range(0.3..1.2) } else { altitude_m };
+            self.altitude.push(now, echo_m);
         }
         if step.is_multiple_of(ATTITUDE_STEPS) {
             self.sample_attitude(now, airframe);
@@ -254,6 +281,7 @@ impl<T: Copy + Default> DelayLine<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::airframe::Profile;
 
     #[test]
     fn a_delay_line_shows_values_late_and_in_order() {
@@ -269,7 +297,7 @@ mod tests {
     #[test]
     fn the_same_seed_reads_the_same() {
         let read = |seed| {
-            let airframe = Airframe::new(Vector2::zeros(), Vector2::zeros());
+            let airframe = Airframe::new(Profile::rec(), Vector2::zeros());
             let mut sensors = Sensors::new(SensorModel::nominal(), seed);
             for step in 0..1000 {
                 sensors.step(step, Duration::from_secs_f64(step as f64 * STEP_S), &airframe);

@@ -14,7 +14,7 @@ fn main() -> Result<(), SimulationError> {
     let mut flown = Duration::ZERO;
     for seed in 0..FLIGHTS {
         let mut simulation = Simulation::default();
-        simulation.drone.seed = u64::from(seed);
+        simulation.world.drone.seed = u64::from(seed);
         flown += simulation.fly(plan(SQUARE))?.duration;
     }
     let took = start.elapsed();

@@ -9,7 +9,7 @@ const MAY_USE: [(&str, &[&str]); 8] = [
     ("ardrone-link", &[]),
     ("estimator", &[]),
     ("pid", &[]),
-    ("mock-drone", &["ardrone-link"]),
+    ("mock-drone", &["ardrone-link", "diagnostic"]),
     ("autopilot", &["ardrone-link", "diagnostic", "estimator", "mock-drone", "pid", "translator"]),
     ("system-tests", &["ardrone-link", "autopilot", "mock-drone"]),
 ];

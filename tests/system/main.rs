@@ -5,6 +5,7 @@
 
 mod architecture;
 mod command_line;
+mod faults;
 mod processes;
 mod simulated;
 mod udp;

@@ -36,6 +36,7 @@ impl MockProcess {
     fn start() -> Self {
         let mut child = program("mock-drone")
             .args(["--at-port", "0", "--navdata-port", "0", "--control-port", "0"])
+            .args(["--ftp-port", "0", "--video-port", "0"])
             .env("NO_COLOR", "1")
             .stderr(Stdio::piped())
             .spawn()

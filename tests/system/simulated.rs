@@ -5,12 +5,13 @@ use std::time::Duration;
 use autopilot::outcome::Outcome;
 use autopilot::pilot::{FlightEvent, LandingReason};
 use autopilot::sim::{SimulatedFlight, Simulation};
-use mock_drone::DroneConfig;
 use mock_drone::firmware::Phase;
+use mock_drone::scenario::{Action, Scenario, When};
 use mock_drone::sensors::SensorModel;
+use mock_drone::{DroneConfig, WorldConfig};
 use system_tests::{SQUARE, plan, true_error_m};
 
-fn fly(simulation: &Simulation, text: &str) -> SimulatedFlight {
+pub(crate) fn fly(simulation: &Simulation, text: &str) -> SimulatedFlight {
     simulation.fly(plan(text)).unwrap()
 }
 
@@ -21,11 +22,23 @@ fn largest_true_error_m(flight: &SimulatedFlight) -> f64 {
 
 const SECOND: Duration = Duration::from_secs(1);
 
+fn with_drone(drone: DroneConfig) -> Simulation {
+    let world = WorldConfig { drone, ..WorldConfig::default() };
+    Simulation { world, ..Simulation::default() }
+}
+
+/// A world in which one thing goes wrong.
+fn happens(at: Duration, action: Action) -> Simulation {
+    let scenario = Scenario::default().and(When::SinceStart(at), action);
+    let world = WorldConfig { scenario, ..WorldConfig::default() };
+    Simulation { world, ..Simulation::default() }
+}
+
 #[test]
 fn the_square_is_flown_and_the_drone_is_at_each_waypoint() {
     for seed in 1..=20 {
         let drone = DroneConfig { seed, ..DroneConfig::default() };
-        let flight = fly(&Simulation { drone, ..Simulation::default() }, SQUARE);
+        let flight = fly(&with_drone(drone), SQUARE);
         assert_eq!(flight.outcome, Outcome::Completed, "seed {seed}");
         assert_eq!(flight.report.waypoints.len(), 4);
         assert_eq!(flight.final_truth.phase, Phase::Landed);
@@ -54,14 +67,14 @@ fn the_same_flight_twice_is_the_same_bit_for_bit() {
     let simulation = Simulation::default();
     assert_eq!(fly(&simulation, SQUARE), fly(&simulation, SQUARE));
     let drone = DroneConfig { seed: 2, ..DroneConfig::default() };
-    let other = Simulation { drone, ..Simulation::default() };
+    let other = with_drone(drone);
     assert_ne!(fly(&simulation, SQUARE).final_truth, fly(&other, SQUARE).final_truth);
 }
 
 #[test]
 fn perfect_sensors_make_the_estimate_the_truth() {
     let drone = DroneConfig { sensors: SensorModel::perfect(), ..DroneConfig::default() };
-    let flight = fly(&Simulation { drone, ..Simulation::default() }, SQUARE);
+    let flight = fly(&with_drone(drone), SQUARE);
     assert_eq!(flight.outcome, Outcome::Completed);
     for (waypoint, truth) in flight.report.waypoints.iter().zip(&flight.truth_at_waypoints) {
         let pose = &waypoint.pose;
@@ -105,10 +118,8 @@ fn the_pilots_order_is_obeyed_at_every_moment() {
 
 #[test]
 fn a_short_outage_is_survived_and_a_long_one_lands() {
-    let outage = |from: u32, to: u32| Simulation {
-        outages: vec![SECOND * from / 10..SECOND * to / 10],
-        ..Simulation::default()
-    };
+    let outage =
+        |from: u32, to: u32| happens(SECOND * from / 10, Action::Outage(SECOND * (to - from) / 10));
     let flight = fly(&outage(80, 90), SQUARE);
     assert_eq!(flight.outcome, Outcome::Completed);
     let stale = |(_, event): &(Duration, FlightEvent)| matches!(event, FlightEvent::Veto(_));
@@ -125,18 +136,14 @@ fn a_short_outage_is_survived_and_a_long_one_lands() {
 
 #[test]
 fn a_drone_that_never_answers_is_reported_soon() {
-    let flight = fly(
-        &Simulation { outages: vec![Duration::ZERO..100 * SECOND], ..Simulation::default() },
-        SQUARE,
-    );
+    let flight = fly(&happens(Duration::ZERO, Action::Outage(100 * SECOND)), SQUARE);
     assert_eq!(flight.outcome, Outcome::NoDrone);
     assert!(flight.duration <= 6 * SECOND);
 }
 
 #[test]
 fn a_drone_that_restarts_in_flight_stays_on_the_ground() {
-    let simulation = Simulation { restart_at: Some(9 * SECOND), ..Simulation::default() };
-    let flight = fly(&simulation, SQUARE);
+    let flight = fly(&happens(9 * SECOND, Action::Restart), SQUARE);
     let reason = "the drone has restarted".to_owned();
     assert_eq!(flight.outcome, Outcome::Failsafe { reason });
     assert_eq!(flight.final_truth.phase, Phase::Landed);
@@ -147,10 +154,7 @@ fn a_drone_that_restarts_in_flight_stays_on_the_ground() {
 
 #[test]
 fn a_drone_that_cuts_its_motors_ends_the_flight_and_is_not_flown_again() {
-    let blocked = |seconds| Simulation {
-        propeller_blocked_at: Some(SECOND * seconds),
-        ..Simulation::default()
-    };
+    let blocked = |seconds| happens(SECOND * seconds, Action::Propeller);
     let flight = fly(&blocked(9), SQUARE);
     assert_eq!(flight.outcome, Outcome::Emergency);
     assert_eq!(flight.outcome.exit_status(), 50);
@@ -162,10 +166,8 @@ fn a_drone_that_cuts_its_motors_ends_the_flight_and_is_not_flown_again() {
 
 #[test]
 fn an_empty_battery_is_refused_before_take_off_and_lands_in_flight() {
-    let battery = |battery_percent| Simulation {
-        drone: DroneConfig { battery_percent, ..DroneConfig::default() },
-        ..Simulation::default()
-    };
+    let battery =
+        |battery_percent| with_drone(DroneConfig { battery_percent, ..DroneConfig::default() });
     let flight = fly(&battery(15.0), SQUARE);
     assert!(matches!(&flight.outcome, Outcome::PreflightRefused { reasons }
         if reasons.len() == 1 && reasons[0].contains("battery at 15 %")));
@@ -189,8 +191,8 @@ fn a_step_that_makes_no_progress_is_given_up() {
 
 #[test]
 fn a_slow_link_is_flown_all_the_same() {
-    let simulation = Simulation { delay: Duration::from_millis(40), ..Simulation::default() };
-    let flight = fly(&simulation, SQUARE);
+    let delay = Action::Delay(Duration::from_millis(40), Duration::ZERO);
+    let flight = fly(&happens(Duration::ZERO, delay), SQUARE);
     assert_eq!(flight.outcome, Outcome::Completed);
     assert!(largest_true_error_m(&flight) < 0.3);
 }

@@ -4,7 +4,7 @@ use autopilot::PilotConfig;
 use autopilot::flight::{DroneAddress, Flight, Message};
 use autopilot::outcome::Outcome;
 use autopilot::sim::Simulation;
-use mock_drone::DroneConfig;
+use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports};
 use system_tests::{SQUARE, place_in_navdata_frame, plan, true_error_m};
 
@@ -23,7 +23,7 @@ fn address(mock: &MockDrone) -> DroneAddress {
 fn a_flight_over_udp_is_the_simulated_one() {
     let simulated = Simulation::default().fly(plan(SQUARE)).unwrap();
 
-    let mock = MockDrone::start(&DroneConfig::default(), Ports::LOOPBACK).unwrap();
+    let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
     let flight = Flight::start(plan(SQUARE), &PilotConfig::default(), &address(&mock)).unwrap();
     let mut truths = Vec::new();
     for message in flight.messages() {

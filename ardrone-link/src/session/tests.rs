@@ -2,7 +2,7 @@ use bytes::BytesMut;
 
 use super::*;
 use crate::at::{ControlMode, decode};
-use crate::navdata::Demo;
+use crate::navdata::{Demo, NavdataOption, PacketWriter};
 
 const TICK: Duration = Duration::from_millis(30);
 
@@ -25,9 +25,11 @@ impl Bench {
         } else {
             ControlState::Landed
         };
-        let demo = Some(Demo { control_state, ..Demo::default() });
+        let demo = Demo { control_state, ..Demo::default() };
         let mut bytes = BytesMut::new();
-        Navdata { state, sequence, demo, ..Navdata::default() }.encode(false, &mut bytes);
+        let mut packet = PacketWriter::new(&mut bytes, state, sequence, 0);
+        packet.option(&NavdataOption::Demo(demo)).unwrap();
+        packet.finish();
         self.session.handle_navdata(self.now, &bytes)
     }
 

@@ -8,7 +8,7 @@ use std::io::{IsTerminal as _, Write as _};
 use std::process::ExitCode;
 
 use clap::Parser as _;
-use mock_drone::DroneConfig;
+use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports, ServerError};
 
 use self::arguments::Arguments;
@@ -67,7 +67,7 @@ fn run(arguments: &Arguments) -> Result<u8, CommandError> {
     let plain = arguments.plain || !std::io::stderr().is_terminal();
     let mut progress = Progress::new(&plan, plain);
     let mock = if arguments.mock {
-        Some(MockDrone::start(&DroneConfig::default(), Ports::LOOPBACK)?)
+        Some(MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK)?)
     } else {
         None
     };

@@ -1,5 +1,5 @@
 use ardrone_link::at::{Command, Config, ControlMode, Datagram, Fraction, Motion, Ref};
-use ardrone_link::navdata::{ControlState, DroneState};
+use ardrone_link::navdata::{ControlState, DroneState, Navdata};
 
 use super::*;
 

@@ -1,9 +1,13 @@
-//! How the drone moves: the `rec` model, chosen inside the spread of the published ones.
+//! How the drone moves: tilt, thrust, drag, turn, as one of the published models has it.
 //!
 //! World frame: x right, y forward, z up, metres; yaw in radians, clockwise from above.
 //! Angles: pitch nose up, roll right side down.
 
+mod profile;
+
 use nalgebra::{Vector2, Vector3};
+
+pub use profile::{AttitudeLoop, Profile, Scaling, ThrustLaw};
 
 /// Gravity.
 pub const GRAVITY_M_S2: f64 = 9.81;
@@ -35,6 +39,7 @@ pub struct Attitude {
 /// A drone's body in the air.
 #[derive(Debug, Clone)]
 pub struct Airframe {
+    profile: Profile,
     position_m: Vector3<f64>,
     velocity_m_s: Vector3<f64>,
     pitch: Tilt,
@@ -42,7 +47,6 @@ pub struct Airframe {
     yaw_rad: f64,
     turn_rad_s: f64,
     trim_rad: Vector2<f64>,
-    wind_m_s: Vector2<f64>,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -52,28 +56,20 @@ struct Tilt {
 }
 
 impl Tilt {
-    const FREQUENCY_RAD_S: f64 = 12.0;
-    const DAMPING: f64 = 0.8;
-
-    fn step(&mut self, demand_rad: f64) {
-        let acceleration = Self::FREQUENCY_RAD_S.powi(2) * (demand_rad - self.angle_rad)
-            - 2.0 * Self::DAMPING * Self::FREQUENCY_RAD_S * self.rate_rad_s;
-        self.rate_rad_s += acceleration * STEP_S;
-        self.angle_rad += self.rate_rad_s * STEP_S;
+    fn step(&mut self, attitude: AttitudeLoop, demand_rad: f64) {
+        (self.angle_rad, self.rate_rad_s) =
+            attitude.step(self.angle_rad, self.rate_rad_s, demand_rad);
     }
 }
 
 impl Airframe {
-    const CLIMB_TIME_CONSTANT_S: f64 = 0.5;
     const MAX_CLIMB_ACCELERATION_M_S2: f64 = 4.0;
-    const TURN_TIME_CONSTANT_S: f64 = 0.2;
-    const LINEAR_DRAG_1_S: f64 = 0.45;
-    const QUADRATIC_DRAG_1_M: f64 = 0.08;
 
     /// A drone on the ground at the origin. `trim_rad` is the error of its level reference,
-    /// (roll, pitch), that it does not know of; `wind_m_s` blows towards (right, forward).
-    pub fn new(trim_rad: Vector2<f64>, wind_m_s: Vector2<f64>) -> Self {
+    /// (roll, pitch), that it does not know of.
+    pub fn new(profile: Profile, trim_rad: Vector2<f64>) -> Self {
         Self {
+            profile,
             position_m: Vector3::zeros(),
             velocity_m_s: Vector3::zeros(),
             pitch: Tilt::default(),
@@ -81,15 +77,14 @@ impl Airframe {
             yaw_rad: 0.0,
             turn_rad_s: 0.0,
             trim_rad,
-            wind_m_s,
         }
     }
 
-    /// One step of [`STEP_S`] seconds.
-    pub fn step(&mut self, thrust: Thrust) {
+    /// One step of [`STEP_S`] seconds, in a wind that blows towards (right, forward).
+    pub fn step(&mut self, thrust: Thrust, wind_m_s: Vector2<f64>) {
         match thrust {
-            Thrust::On(demand) => self.fly(&demand),
-            Thrust::Off => self.fall(),
+            Thrust::On(demand) => self.fly(&demand, wind_m_s),
+            Thrust::Off => self.fall(wind_m_s),
         }
         if self.position_m.z <= 0.0 {
             self.position_m.z = 0.0;
@@ -104,29 +99,34 @@ impl Airframe {
         }
     }
 
-    fn fly(&mut self, demand: &Attitude) {
-        self.roll.step(demand.roll_rad + self.trim_rad.x);
-        self.pitch.step(demand.pitch_rad + self.trim_rad.y);
+    fn fly(&mut self, demand: &Attitude, wind_m_s: Vector2<f64>) {
+        let profile = self.profile;
+        self.roll.step(profile.roll, demand.roll_rad + self.trim_rad.x);
+        self.pitch.step(profile.pitch, demand.pitch_rad + self.trim_rad.y);
         self.turn_rad_s +=
-            (demand.turn_rad_s - self.turn_rad_s) / Self::TURN_TIME_CONSTANT_S * STEP_S;
+            (demand.turn_rad_s - self.turn_rad_s) / profile.turn_time_constant_s * STEP_S;
         self.yaw_rad += self.turn_rad_s * STEP_S;
 
-        // Thrust is raised to carry the weight at any tilt.
-        let forward = -GRAVITY_M_S2 * self.pitch.angle_rad.tan();
-        let right = GRAVITY_M_S2 * self.roll.angle_rad.tan();
-        let thrust = world_from_body(right, forward, self.yaw_rad);
-        let air = self.velocity_m_s.xy() - self.wind_m_s;
-        let drag = air * (Self::LINEAR_DRAG_1_S + Self::QUADRATIC_DRAG_1_M * air.norm());
-        let climb = ((demand.climb_m_s - self.velocity_m_s.z) / Self::CLIMB_TIME_CONSTANT_S)
+        let thrust = profile.thrust.acceleration_m_s2(self.roll.angle_rad, self.pitch.angle_rad);
+        let body = thrust - self.drag_m_s2(wind_m_s);
+        let climb = ((demand.climb_m_s - self.velocity_m_s.z) / profile.climb_time_constant_s)
             .clamp(-Self::MAX_CLIMB_ACCELERATION_M_S2, Self::MAX_CLIMB_ACCELERATION_M_S2);
-        self.accelerate((thrust - drag).push(climb));
+        self.accelerate(world_from_body(body.x, body.y, self.yaw_rad).push(climb));
     }
 
-    fn fall(&mut self) {
-        let air = self.velocity_m_s.xy() - self.wind_m_s;
-        let drag =
-            if self.position_m.z > 0.0 { air * Self::LINEAR_DRAG_1_S } else { Vector2::zeros() };
+    /// (right, forward) in the levelled body frame.
+    fn drag_m_s2(&self, wind_m_s: Vector2<f64>) -> Vector2<f64> {
+        let air = self.velocity_m_s.xy() - wind_m_s;
+        let air = body_from_world(air.x, air.y, self.yaw_rad);
+        let quadratic = self.profile.quadratic_drag_1_m * air.norm();
+        air.component_mul(&self.profile.linear_drag_1_s.add_scalar(quadratic))
+    }
+
+    fn fall(&mut self, wind_m_s: Vector2<f64>) {
+        let flying = self.position_m.z > 0.0;
+        let drag = if flying { self.drag_m_s2(wind_m_s) } else { Vector2::zeros() };
         self.turn_rad_s = 0.0;
+        let drag = world_from_body(drag.x, drag.y, self.yaw_rad);
         self.accelerate((-drag).push(-GRAVITY_M_S2));
     }
 
@@ -140,6 +140,16 @@ impl Airframe {
         self.pitch = Tilt::default();
         self.roll = Tilt::default();
         self.turn_rad_s = 0.0;
+    }
+
+    /// The model that it follows.
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// How fast it rolls, pitches and turns.
+    pub fn angular_rate_rad_s(&self) -> Vector3<f64> {
+        Vector3::new(self.roll.rate_rad_s, self.pitch.rate_rad_s, self.turn_rad_s)
     }
 
     /// Right, forward, up.
@@ -190,11 +200,15 @@ mod tests {
     use super::*;
 
     fn fly(demand: Attitude, seconds: f64) -> Airframe {
-        let mut airframe = Airframe::new(Vector2::zeros(), Vector2::zeros());
+        fly_as(Profile::rec(), demand, seconds)
+    }
+
+    fn fly_as(profile: Profile, demand: Attitude, seconds: f64) -> Airframe {
+        let mut airframe = Airframe::new(profile, Vector2::zeros());
         airframe.position_m.z = 1.0;
         let mut time_s = 0.0;
         while time_s < seconds {
-            airframe.step(Thrust::On(demand));
+            airframe.step(Thrust::On(demand), Vector2::zeros());
             time_s += STEP_S;
         }
         airframe
@@ -220,10 +234,38 @@ mod tests {
     fn motors_off_means_falling_and_then_rest() {
         let mut airframe = fly(Attitude { pitch_rad: -0.2, ..Attitude::default() }, 1.0);
         for _ in 0..400 {
-            airframe.step(Thrust::Off);
+            airframe.step(Thrust::Off, Vector2::zeros());
         }
         assert!(airframe.position_m().z.abs() < 1e-9);
         assert!(airframe.velocity_m_s().norm() < 1e-9);
+    }
+
+    /// The top speeds that the models' authors give for full stick, 12 degrees.
+    #[test]
+    fn each_profile_ends_at_its_own_top_speed() {
+        let pitch_rad = -12_f64.to_radians();
+        let roll_rad = 12_f64.to_radians();
+        for (profile, forward, right) in [
+            (Profile::rec(), 3.0, 3.0),
+            (Profile::tum(), 3.64, 3.64),
+            (Profile::tf(), 1.94, 2.18),
+            (Profile::leo(), 1.49, 1.01),
+        ] {
+            let ahead = fly_as(profile, Attitude { pitch_rad, ..Attitude::default() }, 30.0);
+            assert!((ahead.velocity_m_s().y - forward).abs() < 0.1, "{profile:?}");
+            let aside = fly_as(profile, Attitude { roll_rad, ..Attitude::default() }, 30.0);
+            assert!((aside.velocity_m_s().x - right).abs() < 0.1, "{profile:?}");
+        }
+    }
+
+    #[test]
+    fn wind_carries_the_drone_away_at_its_own_speed() {
+        let mut airframe = fly(Attitude::default(), 0.1);
+        for _ in 0..20_000 {
+            airframe.step(Thrust::On(Attitude::default()), Vector2::new(2.0, 0.0));
+        }
+        let velocity = airframe.velocity_m_s();
+        assert!((velocity.x - 2.0).abs() < 0.05 && velocity.y.abs() < 1e-9, "{velocity}");
     }
 
     #[test]

@@ -1,19 +1,25 @@
-//! The drone on real sockets: UDP for AT commands and navdata, TCP for the configuration.
+//! The drone on real sockets: UDP for AT commands and navdata, TCP for the configuration, and as
+//! much of its other ports as clients need to get going.
 
+mod ftp;
+
+use std::collections::VecDeque;
+use std::fs::File;
 use std::io;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use ardrone_link::{AT_PORT, CONTROL_PORT, NAVDATA_PORT};
+use ardrone_link::{AT_PORT, CONTROL_PORT, FTP_PORT, NAVDATA_PORT, VIDEO_PORT};
 use tokio::io::AsyncWriteExt as _;
 use tokio::net::{TcpListener, TcpStream, UdpSocket};
 use tokio::sync::oneshot;
 use tokio::time::Instant;
 use tracing::{debug, info};
 
-use crate::{Drone, DroneConfig, Truth};
+use crate::truth_log::TruthLog;
+use crate::{Message, Truth, World, WorldConfig};
 
 /// Where the drone listens. Port 0 takes any free port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,16 +32,37 @@ pub struct Ports {
     pub navdata: u16,
     /// TCP, configuration.
     pub control: u16,
+    /// TCP, FTP with the firmware's version, if it is wanted.
+    pub ftp: Option<u16>,
+    /// TCP, video: connections are kept and never hear anything.
+    pub video: Option<u16>,
+    /// TCP, a port that some clients knock at to see if the drone is there. The real one has 21.
+    pub presence: Option<u16>,
 }
 
 impl Ports {
     /// Free ports on the loopback interface.
-    pub const LOOPBACK: Self =
-        Self { host: IpAddr::V4(Ipv4Addr::LOCALHOST), at: 0, navdata: 0, control: 0 };
+    pub const LOOPBACK: Self = Self {
+        host: IpAddr::V4(Ipv4Addr::LOCALHOST),
+        at: 0,
+        navdata: 0,
+        control: 0,
+        ftp: None,
+        video: None,
+        presence: None,
+    };
 
     /// The drone's own ports.
     pub fn standard(host: IpAddr) -> Self {
-        Self { host, at: AT_PORT, navdata: NAVDATA_PORT, control: CONTROL_PORT }
+        Self {
+            host,
+            at: AT_PORT,
+            navdata: NAVDATA_PORT,
+            control: CONTROL_PORT,
+            ftp: Some(FTP_PORT),
+            video: Some(VIDEO_PORT),
+            presence: None,
+        }
     }
 }
 
@@ -63,12 +90,19 @@ pub struct Server {
     at: UdpSocket,
     navdata: UdpSocket,
     control: TcpListener,
-    drone: Drone,
+    ftp: Option<TcpListener>,
+    video: Option<TcpListener>,
+    presence: Option<TcpListener>,
+    world: World,
     truth: Arc<Mutex<Truth>>,
+    log: Option<TruthLog<File>>,
+    next_flush: Duration,
 }
 
 /// How long the drone lives between two looks at the clock.
 const PERIOD: Duration = Duration::from_millis(5);
+/// How often the truth log is written out, so that a kill loses little.
+const FLUSH_PERIOD: Duration = Duration::from_millis(500);
 /// Longer than any datagram that means something.
 const BUFFER_BYTES: usize = 2048;
 
@@ -77,7 +111,7 @@ impl Server {
     ///
     /// # Errors
     /// [`ServerError::Bind`] naming the port that is taken.
-    pub async fn bind(config: &DroneConfig, ports: Ports) -> Result<Self, ServerError> {
+    pub async fn bind(config: &WorldConfig, ports: Ports) -> Result<Self, ServerError> {
         let address = |port| SocketAddr::new(ports.host, port);
         let udp = async |port, purpose| {
             let address = address(port);
@@ -87,17 +121,37 @@ impl Server {
                 source,
             })
         };
-        let at = udp(ports.at, "AT commands (UDP)").await?;
-        let navdata = udp(ports.navdata, "navdata (UDP)").await?;
-        let address = address(ports.control);
-        let control = TcpListener::bind(address).await.map_err(|source| ServerError::Bind {
-            address,
-            purpose: "configuration (TCP)",
-            source,
-        })?;
-        let drone = Drone::new(config);
-        let truth = Arc::new(Mutex::new(drone.truth()));
-        Ok(Self { at, navdata, control, drone, truth })
+        let tcp = async |port, purpose| {
+            let address = address(port);
+            TcpListener::bind(address).await.map_err(|source| ServerError::Bind {
+                address,
+                purpose,
+                source,
+            })
+        };
+        let optional = async |port: Option<u16>, purpose| match port {
+            Some(port) => tcp(port, purpose).await.map(Some),
+            None => Ok(None),
+        };
+        let world = World::new(config);
+        let truth = Arc::new(Mutex::new(world.truth()));
+        Ok(Self {
+            at: udp(ports.at, "AT commands (UDP)").await?,
+            navdata: udp(ports.navdata, "navdata (UDP)").await?,
+            control: tcp(ports.control, "configuration (TCP)").await?,
+            ftp: optional(ports.ftp, "the version (FTP)").await?,
+            video: optional(ports.video, "video (TCP)").await?,
+            presence: optional(ports.presence, "presence (TCP)").await?,
+            world,
+            truth,
+            log: None,
+            next_flush: Duration::ZERO,
+        })
+    }
+
+    /// Records what really happens.
+    pub fn log_truth(&mut self, log: TruthLog<File>) {
+        self.log = Some(log);
     }
 
     /// The ports that were bound.
@@ -105,12 +159,18 @@ impl Server {
     /// # Errors
     /// What the system says if a socket has no address.
     pub fn ports(&self) -> io::Result<Ports> {
+        let port = |listener: Option<&TcpListener>| {
+            listener.map(|listener| listener.local_addr().map(|address| address.port())).transpose()
+        };
         let at = self.at.local_addr()?;
         Ok(Ports {
             host: at.ip(),
             at: at.port(),
             navdata: self.navdata.local_addr()?.port(),
             control: self.control.local_addr()?.port(),
+            ftp: port(self.ftp.as_ref())?,
+            video: port(self.video.as_ref())?,
+            presence: port(self.presence.as_ref())?,
         })
     }
 
@@ -124,24 +184,24 @@ impl Server {
         let mut navdata_buffer = [0_u8; BUFFER_BYTES];
         let mut listener: Option<SocketAddr> = None;
         let mut reader: Option<TcpStream> = None;
+        let mut visitors = Visitors::default();
         let mut clock = tokio::time::interval(PERIOD);
         loop {
             tokio::select! {
                 received = self.at.recv_from(&mut at_buffer) => {
                     if let Some((length, _)) = tolerate(received)? {
                         let datagram = at_buffer.get(..length).unwrap_or_default();
-                        for error in self.drone.handle_at(start.elapsed(), datagram) {
-                            debug!("{error}");
-                        }
+                        self.world.send_at(start.elapsed(), datagram);
                     }
                 }
                 received = self.navdata.recv_from(&mut navdata_buffer) => {
-                    if let Some((_, from)) = tolerate(received)? {
+                    if let Some((length, from)) = tolerate(received)? {
                         if listener != Some(from) {
                             info!("navdata goes to {from}");
                         }
                         listener = Some(from);
-                        self.drone.handle_wake_up(start.elapsed());
+                        let datagram = navdata_buffer.get(..length).unwrap_or_default();
+                        self.world.send_wake_up(start.elapsed(), datagram);
                     }
                 }
                 accepted = self.control.accept() => {
@@ -150,22 +210,68 @@ impl Server {
                         reader = Some(stream);
                     }
                 }
-                _ = clock.tick() => self.drone.advance(start.elapsed()),
+                Some(stream) = accept(self.ftp.as_ref()) => {
+                    tokio::spawn(async move {
+                        if let Err(error) = ftp::serve(stream).await {
+                            debug!("the FTP client has gone: {error}");
+                        }
+                    });
+                }
+                Some(stream) = accept(self.video.as_ref()) => visitors.keep(stream),
+                Some(stream) = accept(self.presence.as_ref()) => visitors.keep(stream),
+                _ = clock.tick() => {}
             }
-            while let Some(packet) = self.drone.poll_navdata() {
-                if let Some(to) = listener {
-                    tolerate(self.navdata.send_to(&packet, to).await)?;
+            let now = start.elapsed();
+            self.world.advance(now);
+            while let Some(message) = self.world.receive(now) {
+                match message {
+                    Message::Navdata(packet) => {
+                        if let Some(to) = listener {
+                            tolerate(self.navdata.send_to(&packet, to).await)?;
+                        }
+                    }
+                    Message::Control(dump) => {
+                        if let Some(stream) = &mut reader
+                            && let Err(error) = stream.write_all(dump.as_bytes()).await
+                        {
+                            debug!("the reader of the configuration has gone: {error}");
+                            reader = None;
+                        }
+                    }
                 }
             }
-            if let Some(dump) = self.drone.poll_control()
-                && let Some(stream) = &mut reader
-                && let Err(error) = stream.write_all(dump.as_bytes()).await
-            {
-                debug!("the reader of the configuration has gone: {error}");
-                reader = None;
+            if let Some(log) = &mut self.log {
+                log.record(&self.world)?;
+                if now >= self.next_flush {
+                    self.next_flush = now + FLUSH_PERIOD;
+                    log.flush()?;
+                }
             }
-            *self.truth.lock().unwrap_or_else(PoisonError::into_inner) = self.drone.truth();
+            *self.truth.lock().unwrap_or_else(PoisonError::into_inner) = self.world.truth();
         }
+    }
+}
+
+/// The next connection; never anything without a listener.
+async fn accept(listener: Option<&TcpListener>) -> Option<TcpStream> {
+    match listener {
+        Some(listener) => listener.accept().await.ok().map(|(stream, _)| stream),
+        None => std::future::pending().await,
+    }
+}
+
+/// Connections that are kept open and never hear anything, the newest of them.
+#[derive(Default)]
+struct Visitors(VecDeque<TcpStream>);
+
+impl Visitors {
+    const MAX: usize = 16;
+
+    fn keep(&mut self, stream: TcpStream) {
+        if self.0.len() == Self::MAX {
+            self.0.pop_front();
+        }
+        self.0.push_back(stream);
     }
 }
 
@@ -202,7 +308,7 @@ impl MockDrone {
     ///
     /// # Errors
     /// [`ServerError`] if a port is taken or no thread can be had.
-    pub fn start(config: &DroneConfig, ports: Ports) -> Result<Self, ServerError> {
+    pub fn start(config: &WorldConfig, ports: Ports) -> Result<Self, ServerError> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let server = runtime.block_on(Server::bind(config, ports))?;
         let ports = server.ports()?;
