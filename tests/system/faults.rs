@@ -52,9 +52,9 @@ fn completes_within(scenario: &str, distance_m: f64) {
 }
 
 /// Faults that end a flight.
-fn lands(scenario: &str, because: &LandingReason) {
+fn lands(scenario: &str, because: LandingReason) {
     for flight in flights(scenario) {
-        let ordered = FlightEvent::LandingOrdered(because.clone());
+        let ordered = FlightEvent::LandingOrdered(because);
         let landed = flight.events.iter().any(|(_, event)| *event == ordered);
         assert!(landed, "{scenario}: {:?} {:?}", flight.outcome, flight.events);
     }
@@ -134,7 +134,7 @@ fn navdata_are_back_within_a_second_of_the_links_return() {
 
 #[test]
 fn a_restart_in_flight_is_noticed_and_the_drone_never_takes_off_again() {
-    lands("+5 restart", &LandingReason::DroneRestarted);
+    lands("+5 restart", LandingReason::DroneRestarted);
 }
 
 #[test]

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Clients that others wrote fly the mock drone, unmodified: node-ar-drone and ardrone-autonomy from
+# npm, pyardrone from PyPI. Where they can't be had, that is said and nothing is tested.
+set -uo pipefail
+mock=$(realpath "${1:?usage: run.sh PATH-OF-MOCK-DRONE}")
+[ -x "$mock" ] || { echo "there is no $mock"; exit 1; }
+cd "$(dirname "$0")"
+work=$(mktemp -d)
+trap 'kill "${drone:-}" 2>/dev/null; rm -rf "$work"' EXIT
+passed=0 failed=0 skipped=0
+
+# Clients use the drone's own ports, so one flies after the other.
+flies() {
+    local name=$1 options=$2
+    shift 2
+    # shellcheck disable=SC2086
+    "$mock" $options 2>"$work/mock.log" &
+    drone=$!
+    sleep 0.5
+    if timeout 70 "$@" >"$work/client.log" 2>&1; then
+        echo "client $name ... ok: $(tail -n 1 "$work/client.log")"
+        passed=$((passed + 1))
+    else
+        echo "client $name ... FAILED"
+        tail -n 20 "$work/client.log" "$work/mock.log"
+        failed=$((failed + 1))
+    fi
+    kill "$drone"
+    wait "$drone" 2>/dev/null
+}
+
+cp fly_node.js fly_mission.js "$work"
+if command -v npm >/dev/null && (cd "$work" && npm install --no-audit --no-fund ar-drone@0.3.3 ardrone-autonomy@0.1.2) >"$work/npm.log" 2>&1; then
+    flies "node-ar-drone, demo navdata" "" node "$work/fly_node.js" demo
+    flies "node-ar-drone, full navdata" "" node "$work/fly_node.js" full
+    flies "node-ar-drone, full navdata with GPS" "--option-27 gps" node "$work/fly_node.js" full
+    flies "ardrone-autonomy, a mission" "" node "$work/fly_mission.js"
+else
+    echo "skipped: npm or its registry is not there"
+    skipped=$((skipped + 4))
+fi
+if command -v python3 >/dev/null && python3 -m venv "$work/python" >"$work/pip.log" 2>&1 &&
+    "$work/python/bin/pip" install pyardrone==0.6.1 >>"$work/pip.log" 2>&1; then
+    flies "pyardrone, demo navdata" "" "$work/python/bin/python" fly_pyardrone.py demo
+    flies "pyardrone, full navdata" "" "$work/python/bin/python" fly_pyardrone.py full
+    flies "pyardrone, full navdata with option 27" "--option-27 zimmu" "$work/python/bin/python" fly_pyardrone.py full
+else
+    echo "skipped: python3 or its registry is not there"
+    skipped=$((skipped + 3))
+fi
+echo "clients: $passed passed, $failed failed, $skipped skipped"
+[ "$failed" -eq 0 ]
