@@ -147,18 +147,23 @@ impl Wire for ControlMajor {
 /// The drone's clock: the top 11 bits are seconds, the low 21 bits microseconds.
 pub(super) struct ClockWord;
 
+impl ClockWord {
+    const WRAP_S: u64 = 2048;
+}
+
 impl Wire for ClockWord {
     type Value = Duration;
     const BYTES: usize = 4;
 
     fn read(bytes: &mut &[u8]) -> Duration {
         let word = bytes.get_u32_le();
-        Duration::from_secs(u64::from(word >> 21))
-            + Duration::from_micros(u64::from(word & 0x1F_FFFF))
+        let micros = u64::from(word >> 21) * 1_000_000 + u64::from(word & 0x1F_FFFF);
+        // More than a million microseconds make no time, but they must not make one beyond the wrap.
+        Duration::from_micros(micros % (Self::WRAP_S * 1_000_000))
     }
 
     fn write(value: Duration, out: &mut impl BufMut) {
-        let seconds = u32::try_from(value.as_secs() % 2048).unwrap_or(0);
+        let seconds = u32::try_from(value.as_secs() % Self::WRAP_S).unwrap_or(0);
         out.put_u32_le(seconds << 21 | value.subsec_micros());
     }
 }
