@@ -3,6 +3,7 @@
 //! - [`at`]: AT commands (UDP 5556), typed, encoded and decoded.
 //! - [`navdata`]: what the drone says (UDP 5554), decoded to SI values and encoded again.
 //! - [`configuration`]: the text that the drone sends on its control port (TCP 5559).
+//! - [`settings`]: the configuration's keys with their types, units and ranges.
 //! - [`session`]: the client's side of the conversation as a pure state machine: wake-up,
 //!   configuration with acknowledge, sequence rules, watchdogs, loss and restart.
 //!
@@ -23,6 +24,7 @@ pub mod at;
 pub mod configuration;
 pub mod navdata;
 pub mod session;
+pub mod settings;
 
 /// The drone's address on its own network.
 pub const DRONE_HOST: &str = "192.168.1.1";

@@ -12,7 +12,8 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use ardrone_link::WAKE_UP;
-use ardrone_link::at::{ConfigError, Datagram, EncodeError};
+use ardrone_link::at::{Datagram, EncodeError};
+use ardrone_link::settings::SettingError;
 use crossbeam_channel::{Receiver, Sender, bounded};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use tokio::io::AsyncReadExt as _;
@@ -79,7 +80,7 @@ pub enum FlightError {
     Thread(#[source] io::Error),
     /// The limits cannot be sent to a drone.
     #[error(transparent)]
-    Config(#[from] ConfigError),
+    Config(#[from] SettingError),
     /// See [`Pilot::tick`].
     #[error(transparent)]
     Encode(#[from] EncodeError),

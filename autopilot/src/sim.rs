@@ -5,7 +5,8 @@
 use std::time::Duration;
 
 use ardrone_link::WAKE_UP;
-use ardrone_link::at::{ConfigError, Datagram, EncodeError};
+use ardrone_link::at::{Datagram, EncodeError};
+use ardrone_link::settings::SettingError;
 use mock_drone::{Message, Truth, World, WorldConfig};
 
 use crate::outcome::Outcome;
@@ -45,7 +46,7 @@ pub struct SimulatedFlight {
 pub enum SimulationError {
     /// The limits cannot be sent to a drone.
     #[error(transparent)]
-    Config(#[from] ConfigError),
+    Config(#[from] SettingError),
     /// See [`Pilot::tick`].
     #[error(transparent)]
     Encode(#[from] EncodeError),

@@ -179,7 +179,8 @@ impl Firmware {
         self.last_command = Some(now);
         match command {
             Command::Ref(reference) => self.reference(now, reference),
-            Command::Pcmd(motion) => {
+            // The pilot's own compass is not modelled.
+            Command::Pcmd(motion) | Command::PcmdMagneto { motion, .. } => {
                 self.motion.waiting.push_back((now + self.profile.dead_time, motion));
             }
             Command::Config(config) => {
@@ -194,10 +195,16 @@ impl Firmware {
             Command::Control(ControlMode::ClearAcknowledge) => self.acknowledge = false,
             Command::Control(ControlMode::SendConfiguration) => self.dump_requested = true,
             Command::CommunicationWatchdog => self.watchdog = false,
-            // Level reference and custom ids need no model; the rest has no effect on flight.
+            // Level reference and identities need no model; the rest has no effect on flight.
             Command::FlatTrim
-            | Command::ConfigIds { .. }
+            | Command::CalibrateMagneto
+            | Command::ConfigIds(_)
             | Command::Control(_)
+            | Command::Led { .. }
+            | Command::Animation { .. }
+            | Command::Pmode(_)
+            | Command::Misc(_)
+            | Command::ManualTrim { .. }
             | Command::Other { .. } => {}
         }
     }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::animation::{FlightAnimation, LedAnimation};
+
 /// A command to the drone. The sequence number is added when it is encoded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Command {
@@ -9,19 +11,54 @@ pub enum Command {
     Ref(Ref),
     /// How to move, or to hold still.
     Pcmd(Motion),
+    /// As [`Command::Pcmd`], and where the pilot's own compass points: the drone then takes roll and
+    /// pitch as the pilot sees them.
+    PcmdMagneto {
+        /// The motion.
+        motion: Motion,
+        /// The pilot's heading as a fraction of 180°, east positive.
+        heading: Fraction,
+        /// Its error, or less than zero if it is not known.
+        accuracy: Fraction,
+    },
     /// Level reference. Only on flat ground, landed.
     FlatTrim,
+    /// Calibrates the compass. Only in flight: the drone turns on itself.
+    CalibrateMagneto,
+    /// Plays an LED animation; the drone's second generation prefers [`Config::led_animation`].
+    Led {
+        /// The animation.
+        animation: LedAnimation,
+        /// Its frequency in hertz, 0 to 60.
+        frequency: Hertz,
+        /// How long, in seconds.
+        seconds: u32,
+    },
+    /// Starts a flight animation; the drone's second generation prefers
+    /// [`Config::flight_animation`].
+    Animation {
+        /// The animation.
+        animation: FlightAnimation,
+        /// How long, in milliseconds.
+        milliseconds: u32,
+    },
+    /// What Parrot's clients send once at the start; its meaning is not documented.
+    Pmode(i32),
+    /// Likewise.
+    Misc([i32; 4]),
+    /// Trims of the first generation.
+    ManualTrim {
+        /// Pitch.
+        pitch: Fraction,
+        /// Roll.
+        roll: Fraction,
+        /// Yaw.
+        yaw: Fraction,
+    },
     /// Sets one configuration key; the drone acknowledges with a state bit.
     Config(Config),
     /// Selects the custom configuration of the CONFIG that follows in the same datagram.
-    ConfigIds {
-        /// Session id, eight lower-case hexadecimal digits.
-        session: String,
-        /// User id, likewise.
-        user: String,
-        /// Application id, likewise.
-        application: String,
-    },
+    ConfigIds(Identity),
     /// Requests about configuration and acknowledge.
     Control(ControlMode),
     /// Resets the drone's communication watchdog.
@@ -106,6 +143,44 @@ impl Fraction {
     }
 }
 
+/// A frequency from 0 to 60 Hz.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hertz(f32);
+
+// A frequency is never NaN.
+impl Eq for Hertz {}
+
+impl Hertz {
+    /// The value if it is in range.
+    pub fn new(value: f32) -> Option<Self> {
+        (0.0..=60.0).contains(&value).then_some(Self(value + 0.0))
+    }
+
+    /// The value.
+    pub fn get(self) -> f32 {
+        self.0
+    }
+}
+
+/// Whose configuration is meant. Parrot's clients take the session at random, the others from the
+/// CRC-32 of a name. Zeros are the default configuration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Identity {
+    /// This session.
+    pub session: u32,
+    /// The person who flies.
+    pub user: u32,
+    /// The program that flies.
+    pub application: u32,
+}
+
+impl Identity {
+    /// An id as the drone wants it: eight lower-case hexadecimal digits.
+    pub fn text(id: u32) -> String {
+        format!("{id:08x}")
+    }
+}
+
 /// The PCMD command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Motion {
@@ -184,6 +259,11 @@ impl Config {
             }
         }
         Ok(Self { key, value })
+    }
+
+    /// A setting whose text is known to be short and plain.
+    pub(crate) fn plain(key: &'static str, value: String) -> Self {
+        Self { key: key.to_owned(), value }
     }
 
     /// `section:name`

@@ -8,7 +8,8 @@ use nom::multi::many0;
 use nom::sequence::{delimited, preceded};
 use nom::{IResult, Parser};
 
-use super::command::{Command, Config, ControlMode, Fraction, Motion, Ref};
+use super::animation::{FlightAnimation, LedAnimation};
+use super::command::{Command, Config, ControlMode, Fraction, Hertz, Identity, Motion, Ref};
 
 /// What is wrong with one command of a datagram.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -57,6 +58,10 @@ impl Argument<'_> {
         Fraction::new(f32::from_bits(self.bits()?))
     }
 
+    fn identity(&self) -> Option<u32> {
+        u32::from_str_radix(&self.text()?, 16).ok()
+    }
+
     fn text(&self) -> Option<String> {
         match self {
             Self::Text(text) => String::from_utf8(text.to_vec()).ok(),
@@ -95,34 +100,76 @@ fn typed(name: &str, arguments: &[Argument<'_>]) -> Option<Command> {
     let command = match (name, arguments) {
         ("REF", [bits, ..]) => Command::Ref(Ref::from_bits(bits.bits()?)),
         ("PCMD", [flag, roll, pitch, gaz, yaw, ..]) => {
-            if flag.bits()? & 1 == 0 {
-                Command::Pcmd(Motion::Hover)
-            } else {
-                Command::Pcmd(Motion::Progressive {
-                    roll: roll.fraction()?,
-                    pitch: pitch.fraction()?,
-                    gaz: gaz.fraction()?,
-                    yaw: yaw.fraction()?,
-                })
+            Command::Pcmd(motion_of(flag, roll, pitch, gaz, yaw)?)
+        }
+        ("PCMD_MAG", [flag, roll, pitch, gaz, yaw, heading, accuracy, ..]) => {
+            Command::PcmdMagneto {
+                motion: motion_of(flag, roll, pitch, gaz, yaw)?,
+                heading: heading.fraction()?,
+                accuracy: accuracy.fraction()?,
             }
         }
         ("FTRIM", _) => Command::FlatTrim,
+        ("CALIB", [device, ..]) if device.bits()? == 0 => Command::CalibrateMagneto,
+        ("LED", [animation, frequency, seconds, ..]) => Command::Led {
+            animation: LedAnimation::from_number(animation.bits()?)?,
+            frequency: Hertz::new(f32::from_bits(frequency.bits()?))?,
+            seconds: seconds.bits()?,
+        },
+        ("ANIM", [animation, milliseconds, ..]) => Command::Animation {
+            animation: FlightAnimation::from_number(animation.bits()?)?,
+            milliseconds: milliseconds.bits()?,
+        },
+        ("PMODE", [mode, ..]) => Command::Pmode(mode.bits()?.cast_signed()),
+        ("MISC", [a, b, c, d, ..]) => Command::Misc([
+            a.bits()?.cast_signed(),
+            b.bits()?.cast_signed(),
+            c.bits()?.cast_signed(),
+            d.bits()?.cast_signed(),
+        ]),
+        ("MTRIM", [pitch, roll, yaw, ..]) => Command::ManualTrim {
+            pitch: pitch.fraction()?,
+            roll: roll.fraction()?,
+            yaw: yaw.fraction()?,
+        },
         ("CONFIG", [key, value, ..]) => {
             Command::Config(Config::new(key.text()?, value.text()?).ok()?)
         }
-        ("CONFIG_IDS", [session, user, application, ..]) => Command::ConfigIds {
-            session: session.text()?,
-            user: user.text()?,
-            application: application.text()?,
-        },
+        ("CONFIG_IDS", [session, user, application, ..]) => Command::ConfigIds(Identity {
+            session: session.identity()?,
+            user: user.identity()?,
+            application: application.identity()?,
+        }),
         ("CTRL", [mode, ..]) => {
             Command::Control(ControlMode::from_number(mode.bits()?.cast_signed()))
         }
         ("COMWDG", _) => Command::CommunicationWatchdog,
-        ("REF" | "PCMD" | "CONFIG" | "CONFIG_IDS" | "CTRL", _) => return None,
+        (
+            "REF" | "PCMD" | "PCMD_MAG" | "CONFIG" | "CONFIG_IDS" | "CTRL" | "CALIB" | "LED"
+            | "ANIM" | "PMODE" | "MISC" | "MTRIM",
+            _,
+        ) => return None,
         _ => Command::Other { name: name.to_owned() },
     };
     Some(command)
+}
+
+fn motion_of(
+    flag: &Argument<'_>,
+    roll: &Argument<'_>,
+    pitch: &Argument<'_>,
+    gaz: &Argument<'_>,
+    yaw: &Argument<'_>,
+) -> Option<Motion> {
+    if flag.bits()? & 1 == 0 {
+        return Some(Motion::Hover);
+    }
+    Some(Motion::Progressive {
+        roll: roll.fraction()?,
+        pitch: pitch.fraction()?,
+        gaz: gaz.fraction()?,
+        yaw: yaw.fraction()?,
+    })
 }
 
 fn printable(byte: u8) -> char {
@@ -147,8 +194,8 @@ mod tests {
         assert_eq!(
             commands(datagram),
             [
-                Ok((1, Command::Other { name: "PMODE".to_owned() })),
-                Ok((2, Command::Other { name: "MISC".to_owned() })),
+                Ok((1, Command::Pmode(2))),
+                Ok((2, Command::Misc([2, 20, 2000, 3000]))),
                 Ok((3, Command::Ref(Ref::TakeOff))),
             ]
         );
@@ -177,19 +224,39 @@ mod tests {
     }
 
     fn command() -> impl Strategy<Value = Command> {
-        let hex = || "[0-9a-f]{8}";
+        let motion = || {
+            (fraction(), fraction(), fraction(), fraction())
+                .prop_map(|(roll, pitch, gaz, yaw)| Motion::Progressive { roll, pitch, gaz, yaw })
+        };
         prop_oneof![
             prop_oneof![Just(Ref::Land), Just(Ref::TakeOff), Just(Ref::ToggleEmergency)]
                 .prop_map(Command::Ref),
             Just(Command::Pcmd(Motion::Hover)),
-            (fraction(), fraction(), fraction(), fraction()).prop_map(|(roll, pitch, gaz, yaw)| {
-                Command::Pcmd(Motion::Progressive { roll, pitch, gaz, yaw })
+            motion().prop_map(Command::Pcmd),
+            (motion(), fraction(), fraction()).prop_map(|(motion, heading, accuracy)| {
+                Command::PcmdMagneto { motion, heading, accuracy }
             }),
             Just(Command::FlatTrim),
+            Just(Command::CalibrateMagneto),
+            (0_u32..21, 0.0_f32..60.0, any::<u32>()).prop_map(|(number, frequency, seconds)| {
+                Command::Led {
+                    animation: LedAnimation::from_number(number).unwrap(),
+                    frequency: Hertz::new(frequency).unwrap(),
+                    seconds,
+                }
+            }),
+            (0_u32..20, any::<u32>()).prop_map(|(number, milliseconds)| Command::Animation {
+                animation: FlightAnimation::from_number(number).unwrap(),
+                milliseconds,
+            }),
+            any::<i32>().prop_map(Command::Pmode),
+            any::<[i32; 4]>().prop_map(Command::Misc),
+            (fraction(), fraction(), fraction())
+                .prop_map(|(pitch, roll, yaw)| Command::ManualTrim { pitch, roll, yaw }),
             ("[a-z]{1,8}:[a-z_]{1,12}", "[ !#-~]{0,40}")
                 .prop_map(|(key, value)| Command::Config(Config::new(key, value).unwrap())),
-            (hex(), hex(), hex()).prop_map(|(session, user, application)| {
-                Command::ConfigIds { session, user, application }
+            any::<(u32, u32, u32)>().prop_map(|(session, user, application)| {
+                Command::ConfigIds(Identity { session, user, application })
             }),
             any::<i32>().prop_map(|mode| Command::Control(ControlMode::from_number(mode))),
             Just(Command::CommunicationWatchdog),

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use bytes::BytesMut;
 
-use super::command::{Command, Motion};
+use super::command::{Command, Identity, Motion};
 
 /// The drone takes at most this many bytes in one datagram.
 pub const MAX_DATAGRAM_BYTES: usize = 1024;
@@ -72,19 +72,44 @@ impl Datagram {
         let out = &mut self.buffer;
         let written = match command {
             Command::Ref(reference) => write!(out, "AT*REF={sequence},{}\r", reference.bits()),
-            Command::Pcmd(Motion::Hover) => write!(out, "AT*PCMD={sequence},0,0,0,0,0\r"),
-            Command::Pcmd(Motion::Progressive { roll, pitch, gaz, yaw }) => {
-                let [roll, pitch, gaz, yaw] =
-                    [roll, pitch, gaz, yaw].map(|value| float_argument(value.get()));
-                write!(out, "AT*PCMD={sequence},1,{roll},{pitch},{gaz},{yaw}\r")
+            Command::Pcmd(motion) => {
+                let [flag, roll, pitch, gaz, yaw] = motion_arguments(*motion);
+                write!(out, "AT*PCMD={sequence},{flag},{roll},{pitch},{gaz},{yaw}\r")
+            }
+            Command::PcmdMagneto { motion, heading, accuracy } => {
+                let [flag, roll, pitch, gaz, yaw] = motion_arguments(*motion);
+                // The absolute mode, unless the drone is to hover.
+                let flag = if flag == 0 { 0 } else { flag | ABSOLUTE };
+                let heading = float_argument(heading.get());
+                let accuracy = float_argument(accuracy.get());
+                write!(
+                    out,
+                    "AT*PCMD_MAG={sequence},{flag},{roll},{pitch},{gaz},{yaw},{heading},{accuracy}\r"
+                )
+            }
+            Command::CalibrateMagneto => write!(out, "AT*CALIB={sequence},0\r"),
+            Command::Led { animation, frequency, seconds } => {
+                let (number, frequency) = (animation.number(), float_argument(frequency.get()));
+                write!(out, "AT*LED={sequence},{number},{frequency},{seconds}\r")
+            }
+            Command::Animation { animation, milliseconds } => {
+                write!(out, "AT*ANIM={sequence},{},{milliseconds}\r", animation.number())
+            }
+            Command::Pmode(mode) => write!(out, "AT*PMODE={sequence},{mode}\r"),
+            Command::Misc([a, b, c, d]) => write!(out, "AT*MISC={sequence},{a},{b},{c},{d}\r"),
+            Command::ManualTrim { pitch, roll, yaw } => {
+                let [pitch, roll, yaw] =
+                    [pitch, roll, yaw].map(|value| float_argument(value.get()));
+                write!(out, "AT*MTRIM={sequence},{pitch},{roll},{yaw}\r")
             }
             Command::FlatTrim => write!(out, "AT*FTRIM={sequence}\r"),
             Command::Config(config) => {
                 write!(out, "AT*CONFIG={sequence},\"{}\",\"{}\"\r", config.key(), config.value())
             }
-            Command::ConfigIds { session, user, application } => {
-                write!(out, "AT*CONFIG_IDS={sequence},\"{session}\",\"{user}\",\"{application}\"\r")
-            }
+            Command::ConfigIds(Identity { session, user, application }) => write!(
+                out,
+                "AT*CONFIG_IDS={sequence},\"{session:08x}\",\"{user:08x}\",\"{application:08x}\"\r"
+            ),
             Command::Control(mode) => write!(out, "AT*CTRL={sequence},{},0\r", mode.number()),
             Command::CommunicationWatchdog => write!(out, "AT*COMWDG={sequence}\r"),
             Command::Other { name } => {
@@ -99,6 +124,21 @@ impl Datagram {
     }
 }
 
+/// Bit 2 of a motion's flag: roll and pitch are as the pilot sees them.
+const ABSOLUTE: i32 = 4;
+
+/// Flag, roll, pitch, gaz, yaw.
+fn motion_arguments(motion: Motion) -> [i32; 5] {
+    match motion {
+        Motion::Hover => [0; 5],
+        Motion::Progressive { roll, pitch, gaz, yaw } => {
+            let [roll, pitch, gaz, yaw] =
+                [roll, pitch, gaz, yaw].map(|value| float_argument(value.get()));
+            [1, roll, pitch, gaz, yaw]
+        }
+    }
+}
+
 /// A float's IEEE-754 bits, printed as a signed integer.
 fn float_argument(value: f32) -> i32 {
     value.to_bits().cast_signed()
@@ -107,7 +147,7 @@ fn float_argument(value: f32) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::at::{Config, ControlMode, Fraction, Ref};
+    use crate::at::{Config, ControlMode, FlightAnimation, Fraction, Hertz, LedAnimation, Ref};
 
     fn text(sequence: u32, command: &Command) -> String {
         let mut datagram = Datagram::new();
@@ -141,6 +181,28 @@ mod tests {
             ),
             (10, Command::Control(ControlMode::ClearAcknowledge), "AT*CTRL=10,5,0\r"),
             (11, Command::FlatTrim, "AT*FTRIM=11\r"),
+            (13, Command::CalibrateMagneto, "AT*CALIB=13,0\r"),
+            (14, Command::Pmode(2), "AT*PMODE=14,2\r"),
+            (15, Command::Misc([2, 20, 2000, 3000]), "AT*MISC=15,2,20,2000,3000\r"),
+            (
+                16,
+                Command::Led {
+                    animation: LedAnimation::RedSnake,
+                    frequency: Hertz::new(5.0).unwrap(),
+                    seconds: 2,
+                },
+                "AT*LED=16,9,1084227584,2\r",
+            ),
+            (
+                17,
+                Command::Animation { animation: FlightAnimation::FlipLeft, milliseconds: 15 },
+                "AT*ANIM=17,18,15\r",
+            ),
+            (
+                18,
+                Command::ConfigIds(Identity { session: 0xAB, user: 1, application: u32::MAX }),
+                "AT*CONFIG_IDS=18,\"000000ab\",\"00000001\",\"ffffffff\"\r",
+            ),
             (12, Command::CommunicationWatchdog, "AT*COMWDG=12\r"),
         ] {
             assert_eq!(text(sequence, &command), expected);

@@ -14,13 +14,15 @@
 //! - Navdata whose sequence number is not higher than the last is dropped, unless the drone has
 //!   visibly started again.
 
+mod emergency;
 mod handshake;
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use self::emergency::{EmergencySwitch, EmergencyWish};
 use self::handshake::Handshake;
-use crate::at::{Command, Config, Datagram, EncodeError, Motion, Ref};
+use crate::at::{Command, Config, Datagram, EncodeError, Identity, Motion, Ref};
 use crate::configuration::Configuration;
 use crate::navdata::{ControlState, DroneState, Navdata, NavdataError};
 
@@ -30,21 +32,28 @@ pub struct SessionConfig {
     /// Keys set one after the other when the drone is found, each acknowledged. The first must
     /// be `general:navdata_demo`: it ends the bootstrap.
     pub settings: Vec<Config>,
+    /// Whose configuration is meant. Keys that are not common to all need it, except the limits
+    /// and the cameras, which the default configuration takes too.
+    pub identity: Option<Identity>,
     /// Whether the configuration is read back over the control port before the session is ready.
     pub read_back: bool,
     /// Silence after which the drone is asked for navdata again.
     pub wake_up_interval: Duration,
     /// Silence after which the link counts as lost. The drone itself uses 2 s.
     pub loss_timeout: Duration,
+    /// A take-off that takes longer has failed: its order is withdrawn.
+    pub take_off_timeout: Duration,
 }
 
 impl Default for SessionConfig {
     fn default() -> Self {
         Self {
             settings: Vec::new(),
+            identity: None,
             read_back: false,
             wake_up_interval: Duration::from_millis(200),
             loss_timeout: Duration::from_secs(2),
+            take_off_timeout: Duration::from_secs(8),
         }
     }
 }
@@ -96,6 +105,12 @@ pub enum Event {
     LinkLost,
     /// The drone has started again: its state is forgotten, take-off orders are withdrawn.
     DroneRestarted,
+    /// The drone has left the ground.
+    Airborne,
+    /// The drone stands on the ground again.
+    Landed,
+    /// The drone has not left the ground within the take-off timeout.
+    TakeOffTimedOut,
     /// The emergency bit rose: the motors are cut.
     Emergency,
     /// The emergency bit fell.
@@ -136,6 +151,9 @@ pub struct Session {
     last_wake_up: Option<Duration>,
     flat_trim_due: bool,
     take_off: TakeOffLatch,
+    /// Since when take-off is ordered of a drone that stands.
+    taking_off_since: Option<Duration>,
+    emergency: EmergencySwitch,
     events: VecDeque<Event>,
     statistics: Statistics,
 }
@@ -165,7 +183,12 @@ enum TakeOffLatch {
 
 impl Session {
     /// A session that has heard nothing yet.
-    pub fn new(config: SessionConfig) -> Self {
+    pub fn new(mut config: SessionConfig) -> Self {
+        if let Some(identity) = config.identity {
+            // The first key ends the bootstrap; those that follow belong to the identity.
+            let place = config.settings.len().min(1);
+            config.settings.splice(place..place, custom_settings(identity));
+        }
         let handshake = Handshake::new(config.settings.len());
         Self {
             config,
@@ -177,6 +200,8 @@ impl Session {
             last_wake_up: None,
             flat_trim_due: false,
             take_off: TakeOffLatch::Follow { airborne: false },
+            taking_off_since: None,
+            emergency: EmergencySwitch::default(),
             events: VecDeque::new(),
             statistics: Statistics::default(),
         }
@@ -231,7 +256,14 @@ impl Session {
     ) -> Result<(), EncodeError> {
         self.watch_silence(now);
         datagram.clear();
-        let reference = if self.take_off_bit(order.flight) { Ref::TakeOff } else { Ref::Land };
+        let take_off = self.take_off_bit(order.flight);
+        self.watch_take_off(now, take_off);
+        let emergency = self.state.contains(DroneState::EMERGENCY);
+        let reference = match self.emergency.level(now, emergency) {
+            true => Ref::ToggleEmergency,
+            false if take_off => Ref::TakeOff,
+            false => Ref::Land,
+        };
         self.push(datagram, &Command::Ref(reference))?;
         self.push(datagram, &Command::Pcmd(order.motion))?;
         if self.state.contains(DroneState::COMMUNICATION_WATCHDOG) {
@@ -244,6 +276,10 @@ impl Session {
             && let Some(command) =
                 self.handshake.command(now, self.state, &self.config, &mut self.events)
         {
+            // The identity holds for the command behind it.
+            if let (Command::Config(_), Some(identity)) = (&command, self.config.identity) {
+                self.push(datagram, &Command::ConfigIds(identity))?;
+            }
             self.push(datagram, &command)?;
         }
         Ok(())
@@ -265,6 +301,19 @@ impl Session {
     /// Sends one level reference with the next tick. The drone must stand level on the ground.
     pub fn request_flat_trim(&mut self) {
         self.flat_trim_due = true;
+    }
+
+    /// Cuts the motors at once, wherever the drone is: **it falls**. Repeated until the drone says
+    /// that it has done so.
+    pub fn request_emergency_stop(&mut self) {
+        self.withhold_take_off();
+        self.emergency.request(EmergencyWish::Stop);
+    }
+
+    /// Clears an emergency, so that the drone can fly again. Only on the ground, and only when a
+    /// person has looked at the drone.
+    pub fn request_emergency_reset(&mut self) {
+        self.emergency.request(EmergencyWish::Reset);
     }
 
     /// What happened, oldest first.
@@ -313,6 +362,12 @@ impl Session {
             (true, false) => self.events.push_back(Event::EmergencyCleared),
             _ => {}
         }
+        let flying = |state: DroneState| state.contains(DroneState::FLYING);
+        match (flying(self.state), flying(navdata.state)) {
+            (false, true) => self.events.push_back(Event::Airborne),
+            (true, false) => self.events.push_back(Event::Landed),
+            _ => {}
+        }
         self.state = navdata.state;
         if let TakeOffLatch::Follow { airborne } = self.take_off {
             let landed =
@@ -339,6 +394,20 @@ impl Session {
         }
     }
 
+    /// Gives up a take-off that does not come.
+    fn watch_take_off(&mut self, now: Duration, ordered: bool) {
+        if !ordered || self.state.contains(DroneState::FLYING) {
+            self.taking_off_since = None;
+            return;
+        }
+        let since = *self.taking_off_since.get_or_insert(now);
+        if now.saturating_sub(since) >= self.config.take_off_timeout {
+            self.taking_off_since = None;
+            self.events.push_back(Event::TakeOffTimedOut);
+            self.withhold_take_off();
+        }
+    }
+
     fn withhold_take_off(&mut self) {
         self.take_off = TakeOffLatch::Withheld { landing_ordered: false };
     }
@@ -360,6 +429,16 @@ impl Session {
             }
         }
     }
+}
+
+/// The keys that select an identity's configurations, or make them.
+fn custom_settings(identity: Identity) -> [Config; 3] {
+    [
+        ("custom:session_id", identity.session),
+        ("custom:profile_id", identity.user),
+        ("custom:application_id", identity.application),
+    ]
+    .map(|(key, id)| Config::plain(key, Identity::text(id)))
 }
 
 /// A sequence number that does not rise means a late or repeated packet, unless the drone says

@@ -168,7 +168,15 @@ fn silence_wakes_the_drone_again_and_becomes_a_loss() {
     assert!(matches!(bench.hear(1, DroneState::empty()), Received::Navdata(_)));
     assert_eq!(
         bench.events(),
-        [Event::Connected, Event::Ready, Event::LinkLost, Event::Connected, Event::Ready]
+        [
+            Event::Connected,
+            Event::Airborne,
+            Event::Ready,
+            Event::LinkLost,
+            Event::Connected,
+            Event::Landed,
+            Event::Ready
+        ]
     );
 }
 
@@ -207,4 +215,85 @@ fn staying_airborne_never_takes_off() {
     let mut bench = Bench::new(&[]);
     bench.hear(1, DroneState::empty());
     assert!(!bench.takes_off(FlightOrder::StayAirborne));
+}
+
+#[test]
+fn identities_are_selected_first_and_stand_before_each_key() {
+    let identity = Identity { session: 0xABCD, user: 2, application: 3 };
+    let settings = ["general:navdata_demo", "control:control_yaw"]
+        .map(|key| Config::new(key, "1").unwrap())
+        .to_vec();
+    let config = SessionConfig { settings, identity: Some(identity), ..SessionConfig::default() };
+    let mut bench = Bench { session: Session::new(config), now: Duration::ZERO };
+    let mut sent = Vec::new();
+    let mut acknowledged = false;
+    for sequence in 1..60 {
+        let state =
+            if acknowledged { DroneState::COMMAND_ACKNOWLEDGE } else { DroneState::empty() };
+        bench.hear(sequence, state);
+        let commands = bench.tick(FlightOrder::Land);
+        for pair in commands.windows(2) {
+            if let Command::Config(config) = &pair[1] {
+                assert_eq!(pair[0], Command::ConfigIds(identity));
+                sent.push((config.key().to_owned(), config.value().to_owned()));
+                acknowledged = true;
+            }
+        }
+        if commands.contains(&Command::Control(ControlMode::ClearAcknowledge)) {
+            acknowledged = false;
+        }
+    }
+    let keys: Vec<&str> = sent.iter().map(|(key, _)| key.as_str()).collect();
+    assert_eq!(
+        keys,
+        [
+            "general:navdata_demo",
+            "custom:session_id",
+            "custom:profile_id",
+            "custom:application_id",
+            "control:control_yaw",
+        ]
+    );
+    assert_eq!(sent[1].1, "0000abcd");
+}
+
+#[test]
+fn flying_and_landing_are_told_and_a_take_off_that_does_not_come_is_given_up() {
+    let mut bench = Bench::new(&[]);
+    let mut events = Vec::new();
+    let take_off = |commands: &[Command]| commands.contains(&Command::Ref(Ref::TakeOff));
+    let mut ordered = 0;
+    for sequence in 1..400 {
+        bench.hear(sequence, DroneState::empty());
+        ordered += usize::from(take_off(&bench.tick(FlightOrder::TakeOff)));
+        events.extend(std::iter::from_fn(|| bench.session.poll_event()));
+    }
+    assert!(events.contains(&Event::TakeOffTimedOut));
+    assert!((260..275).contains(&ordered), "eight seconds, then never again: {ordered}");
+    bench.tick(FlightOrder::Land);
+    assert!(take_off(&bench.tick(FlightOrder::TakeOff)), "until it is ordered anew");
+    bench.hear(400, DroneState::FLYING);
+    assert_eq!(bench.session.poll_event(), Some(Event::Airborne));
+    bench.hear(401, DroneState::empty());
+    assert_eq!(bench.session.poll_event(), Some(Event::Landed));
+}
+
+#[test]
+fn an_emergency_stop_beats_every_order_and_is_never_left_on() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(1, DroneState::FLYING);
+    bench.session.request_emergency_stop();
+    let reference = |commands: &[Command]| match commands[0] {
+        Command::Ref(reference) => reference,
+        _ => panic!("REF comes first"),
+    };
+    assert_eq!(reference(&bench.tick(FlightOrder::TakeOff)), Ref::ToggleEmergency);
+    bench.hear(2, DroneState::EMERGENCY);
+    for _ in 0..10 {
+        assert_eq!(reference(&bench.tick(FlightOrder::TakeOff)), Ref::Land);
+    }
+    bench.session.request_emergency_reset();
+    assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::ToggleEmergency);
+    bench.hear(3, DroneState::empty());
+    assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::Land);
 }

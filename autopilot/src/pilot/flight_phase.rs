@@ -218,7 +218,12 @@ impl Pilot {
                         self.end(Outcome::Emergency);
                     }
                 }
-                session::Event::Configured { .. } | session::Event::EmergencyCleared => {}
+                // The agent watches take-off and landing itself.
+                session::Event::Configured { .. }
+                | session::Event::EmergencyCleared
+                | session::Event::Airborne
+                | session::Event::Landed
+                | session::Event::TakeOffTimedOut => {}
             }
         }
     }

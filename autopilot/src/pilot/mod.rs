@@ -11,10 +11,11 @@ mod report;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use ardrone_link::at::{Config, ConfigError, Datagram, EncodeError, Fraction, Motion};
+use ardrone_link::at::{Config, Datagram, EncodeError, Fraction, Motion};
 use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use ardrone_link::session::{self, FlightOrder, Order, Received, Session, SessionConfig};
+use ardrone_link::settings::{Setting, SettingError};
 use estimator::{Estimator, Sample};
 use pid::{Pose, PositionController};
 
@@ -97,8 +98,8 @@ impl Pilot {
     /// A pilot with a plan, on the ground.
     ///
     /// # Errors
-    /// [`ConfigError`] if the limits cannot be sent to a drone.
-    pub fn new(plan: Plan, config: &PilotConfig) -> Result<Self, ConfigError> {
+    /// [`SettingError`] if the limits cannot be sent to a drone.
+    pub fn new(plan: Plan, config: &PilotConfig) -> Result<Self, SettingError> {
         let settings = drone_settings(&config.limits)?;
         let session_config = SessionConfig {
             settings: settings.clone(),
@@ -372,19 +373,20 @@ fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
 
 /// What is set on the drone before each flight: other clients may have left anything there.
 /// The controller's gains are meant for these limits.
-fn drone_settings(limits: &FlightLimits) -> Result<Vec<Config>, ConfigError> {
-    // Demo, time and vision_detect.
-    const NAVDATA_OPTIONS: u32 = 1 | 1 << 1 | 1 << 16;
-    let ceiling_mm = (limits.ceiling_m * 1000.0).round();
-    Ok(vec![
-        Config::new("general:navdata_demo", "TRUE")?,
-        Config::new(NAVDATA_OPTIONS_KEY, NAVDATA_OPTIONS)?,
-        Config::new("control:outdoor", "FALSE")?,
-        Config::new("control:altitude_max", ceiling_mm)?,
-        Config::new("control:euler_angle_max", 0.209_44)?,
-        Config::new("control:control_vz_max", 700)?,
-        Config::new("control:control_yaw", 1.745)?,
-    ])
+fn drone_settings(limits: &FlightLimits) -> Result<Vec<Config>, SettingError> {
+    [
+        Setting::NavdataDemo(true),
+        // Demo, time and vision_detect.
+        Setting::NavdataOptions(vec![0, 1, 16]),
+        Setting::Outdoor(false),
+        Setting::AltitudeMaxM(limits.ceiling_m),
+        Setting::EulerAngleMaxDeg(12.0),
+        Setting::ClimbMaxMS(0.7),
+        Setting::YawRateMaxDegS(100.0),
+    ]
+    .iter()
+    .map(Setting::config)
+    .collect()
 }
 
 #[cfg(test)]
