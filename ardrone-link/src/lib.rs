@@ -7,6 +7,8 @@
 //! - [`session`]: the client's side of the conversation as a pure state machine: wake-up,
 //!   configuration with acknowledge, sequence rules, watchdogs, loss and restart.
 //!
+//! - `net`, with the feature of that name: a client on real sockets, by tokio.
+//!
 //! Both directions are coded here, so that a pilot and a simulated drone share one definition of
 //! the wire. Wire units end at this crate's edge: everything inside is metres, seconds and degrees.
 //!
@@ -23,6 +25,8 @@
 pub mod at;
 pub mod configuration;
 pub mod navdata;
+#[cfg(feature = "net")]
+pub mod net;
 pub mod session;
 pub mod settings;
 

@@ -1,6 +1,5 @@
 //! The drone's firmware as the network sees it: what state it is in, and what AT commands do.
 
-use std::collections::BTreeMap;
 use std::time::Duration;
 
 use ardrone_link::at::{Command, ControlMode, Motion, Ref, decode};
@@ -8,6 +7,7 @@ use ardrone_link::navdata::{ControlState, DroneState};
 use nalgebra::Vector2;
 
 use crate::airframe::{Airframe, Attitude, Profile, STEP_S, Scaling, Thrust, body_from_world};
+use crate::configuration::ConfigurationStore;
 
 /// Motors turn this long before the drone climbs.
 const SPIN_UP: Duration = Duration::from_millis(900);
@@ -23,7 +23,7 @@ const ALTITUDE_GAIN_1_S: f64 = 1.2;
 const GAZ_DEAD_ZONE: f64 = 0.005;
 /// Silence that raises the watchdog bit.
 const WATCHDOG: Duration = Duration::from_millis(50);
-/// Silence that counts as a lost link.
+/// Silence that counts as a lost link, and after which the counting of commands starts anew.
 const LINK_LOSS: Duration = Duration::from_secs(2);
 /// The drone hovers this long after a lost link before it lands.
 const LINK_LOSS_HOVER: Duration = Duration::from_secs(2);
@@ -57,7 +57,7 @@ pub enum Phase {
 pub struct Firmware {
     profile: Profile,
     phase: Phase,
-    configuration: BTreeMap<String, String>,
+    configuration: ConfigurationStore,
     bootstrapping: bool,
     acknowledge: bool,
     watchdog: bool,
@@ -69,7 +69,7 @@ pub struct Firmware {
     motion: DelayedMotion,
     hold: Hold,
     battery_percent: f64,
-    dump_requested: bool,
+    dump_requested: Option<Dump>,
 }
 
 /// PCMD on its way to the motors.
@@ -95,6 +95,13 @@ impl DelayedMotion {
     }
 }
 
+/// What is asked for on the control port.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Dump {
+    Configuration,
+    Identities,
+}
+
 /// The place and height that the drone holds by itself.
 #[derive(Debug, Clone, Copy, Default)]
 struct Hold {
@@ -102,39 +109,13 @@ struct Hold {
     height_m: Option<f64>,
 }
 
-/// Keys that clients rely on, with the values of a factory-fresh drone.
-const DEFAULTS: [(&str, &str); 20] = [
-    ("general:num_version_soft", "2.4.8"),
-    ("general:num_version_mb", "2.0"),
-    ("general:ardrone_name", "Mock AR.Drone"),
-    ("general:navdata_demo", "FALSE"),
-    ("general:navdata_options", "65537"),
-    ("general:com_watchdog", "2"),
-    ("general:video_enable", "TRUE"),
-    ("general:vision_enable", "TRUE"),
-    ("general:vbat_min", "9000"),
-    ("control:altitude_max", "3000"),
-    ("control:altitude_min", "50"),
-    ("control:euler_angle_max", "2.0943999e-01"),
-    ("control:control_vz_max", "7.0000000e+02"),
-    ("control:control_yaw", "1.7453293e+00"),
-    ("control:outdoor", "FALSE"),
-    ("control:flight_without_shell", "FALSE"),
-    ("control:flying_mode", "0"),
-    ("network:ssid_single_player", "ardrone2_mock"),
-    ("video:video_channel", "0"),
-    ("detect:detect_type", "3"),
-];
-
 impl Firmware {
     /// A drone of this kind that has just started, with this much charge.
     pub fn new(profile: Profile, battery_percent: f64) -> Self {
-        let configuration =
-            DEFAULTS.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
         Self {
             profile,
             phase: Phase::Landed,
-            configuration,
+            configuration: ConfigurationStore::default(),
             bootstrapping: true,
             acknowledge: false,
             watchdog: false,
@@ -146,7 +127,7 @@ impl Firmware {
             motion: DelayedMotion::default(),
             hold: Hold::default(),
             battery_percent,
-            dump_requested: false,
+            dump_requested: None,
         }
     }
 
@@ -188,18 +169,21 @@ impl Firmware {
                 if config.key() == "general:navdata_demo" {
                     self.bootstrapping = false;
                 }
-                if let Some(value) = self.configuration.get_mut(config.key()) {
-                    config.value().clone_into(value);
-                }
+                self.configuration.set(config.key(), config.value());
             }
             Command::Control(ControlMode::ClearAcknowledge) => self.acknowledge = false,
-            Command::Control(ControlMode::SendConfiguration) => self.dump_requested = true,
+            Command::Control(ControlMode::SendConfiguration) => {
+                self.dump_requested = Some(Dump::Configuration);
+            }
+            Command::Control(ControlMode::SendCustomConfigurations) => {
+                self.dump_requested = Some(Dump::Identities);
+            }
             Command::CommunicationWatchdog => self.watchdog = false,
             // Level reference and identities need no model; the rest has no effect on flight.
             Command::FlatTrim
             | Command::CalibrateMagneto
             | Command::ConfigIds(_)
-            | Command::Control(_)
+            | Command::Control(ControlMode::Other(_))
             | Command::Led { .. }
             | Command::Animation { .. }
             | Command::Pmode(_)
@@ -309,9 +293,9 @@ impl Firmware {
         self.hold.place_m = None;
         let [roll, pitch, gaz, yaw] = [roll, pitch, gaz, yaw].map(|value| f64::from(value.get()));
         let Scaling { tilt, tilt_limit_rad, climb, drop, turn } = self.profile.scaling;
-        let tilt_rad = self.number("control:euler_angle_max") * tilt;
-        let climb_max_m_s = self.number("control:control_vz_max") / 1000.0;
-        let ceiling_m = self.number("control:altitude_max") / 1000.0;
+        let tilt_rad = self.configuration.number("control:euler_angle_max") * tilt;
+        let climb_max_m_s = self.configuration.number("control:control_vz_max") / 1000.0;
+        let ceiling_m = self.configuration.number("control:altitude_max") / 1000.0;
         let mut climb_m_s = if gaz.abs() < GAZ_DEAD_ZONE {
             self.hold_height(airframe)
         } else {
@@ -325,7 +309,7 @@ impl Firmware {
             pitch_rad: (pitch * tilt_rad).clamp(-tilt_limit_rad, tilt_limit_rad),
             roll_rad: (roll * tilt_rad).clamp(-tilt_limit_rad, tilt_limit_rad),
             climb_m_s,
-            turn_rad_s: yaw * self.number("control:control_yaw") * turn,
+            turn_rad_s: yaw * self.configuration.number("control:control_yaw") * turn,
         }
     }
 
@@ -354,22 +338,12 @@ impl Firmware {
     fn hold_height(&mut self, airframe: &Airframe) -> f64 {
         let height_m = airframe.position_m().z;
         let held_m = *self.hold.height_m.get_or_insert(height_m);
-        let limit_m_s = self.number("control:control_vz_max") / 1000.0;
+        let limit_m_s = self.configuration.number("control:control_vz_max") / 1000.0;
         (ALTITUDE_GAIN_1_S * (held_m - height_m)).clamp(-limit_m_s, limit_m_s)
     }
 
     fn silence(&self, now: Duration) -> Option<Duration> {
         self.last_command.map(|last| now.saturating_sub(last))
-    }
-
-    /// A number of the configuration; a client may have stored text that is none.
-    fn number(&self, key: &str) -> f64 {
-        let default = || DEFAULTS.iter().find(|(name, _)| *name == key).map(|(_, value)| *value);
-        [self.configuration.get(key).map(String::as_str), default()]
-            .into_iter()
-            .flatten()
-            .find_map(|value| value.parse().ok().filter(|number: &f64| number.is_finite()))
-            .unwrap_or(0.0)
     }
 
     /// Something stops a propeller: the firmware cuts all motors.
@@ -406,12 +380,12 @@ impl Firmware {
 
     /// Whether only the demo set of options is sent.
     pub fn is_demo(&self) -> bool {
-        self.configuration.get("general:navdata_demo").is_some_and(|value| value == "TRUE")
+        self.configuration.is_set("general:navdata_demo")
     }
 
     /// Whether option `tag` is asked for in demo mode.
     pub fn wants_option(&self, tag: u16) -> bool {
-        let mask = self.configuration.get("general:navdata_options");
+        let mask = self.configuration.text("general:navdata_options");
         mask.and_then(|mask| mask.parse::<u32>().ok()).is_some_and(|mask| mask >> tag & 1 == 1)
     }
 
@@ -465,15 +439,11 @@ impl Firmware {
         }
     }
 
-    /// The configuration as the control port sends it, if it was asked for since the last call.
+    /// What the control port sends, if it was asked for since the last call.
     pub fn take_dump(&mut self) -> Option<String> {
-        std::mem::take(&mut self.dump_requested).then(|| {
-            let mut dump = String::new();
-            for (key, value) in &self.configuration {
-                dump.extend([key, " = ", value, "\n"]);
-            }
-            dump.push('\0');
-            dump
+        self.dump_requested.take().map(|requested| match requested {
+            Dump::Configuration => self.configuration.dump(),
+            Dump::Identities => self.configuration.identities(),
         })
     }
 }

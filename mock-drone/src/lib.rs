@@ -12,6 +12,7 @@
 #![forbid(unsafe_code)]
 
 pub mod airframe;
+mod configuration;
 mod drone;
 pub mod firmware;
 mod link;

@@ -217,7 +217,10 @@ impl Telemetry<'_> {
     }
 
     fn wind(&self) -> WindSpeed {
+        // Where it blows from; without wind, from nowhere.
+        let still = self.wind_m_s == Vector2::zeros();
         let from_deg = (-self.wind_m_s.x).atan2(-self.wind_m_s.y).to_degrees();
+        let from_deg = if still { 0.0 } else { from_deg };
         WindSpeed {
             speed_m_s: single(self.wind_m_s.norm()),
             direction_deg: single(from_deg),

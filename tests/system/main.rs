@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "these tests run real processes in real time")]
 
 mod architecture;
+mod client;
 mod command_line;
 mod faults;
 mod processes;

@@ -7,6 +7,7 @@ use std::collections::VecDeque;
 use std::fs::File;
 use std::io;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::sync::mpsc::SyncSender;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -309,25 +310,16 @@ impl MockDrone {
     /// # Errors
     /// [`ServerError`] if a port is taken or no thread can be had.
     pub fn start(config: &WorldConfig, ports: Ports) -> Result<Self, ServerError> {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-        let server = runtime.block_on(Server::bind(config, ports))?;
-        let ports = server.ports()?;
-        let truth = Arc::clone(&server.truth);
+        let config = config.clone();
         let (stop, stopped) = oneshot::channel();
+        let (started, starting) = std::sync::mpsc::sync_channel(1);
+        // All of it happens on the drone's own thread, so that a caller may have a runtime too.
         let thread =
             std::thread::Builder::new().name("mock-drone".to_owned()).spawn(move || {
-                runtime.block_on(async {
-                    tokio::select! {
-                        result = server.run() => {
-                            if let Err(error) = result {
-                                tracing::error!("the mock drone's sockets failed: {error}");
-                            }
-                        }
-                        // Stopped, or its owner has gone.
-                        _ = stopped => {}
-                    }
-                });
+                live(&config, ports, &started, stopped);
             })?;
+        let ended = || io::Error::other("the mock drone's thread ended at once");
+        let (ports, truth) = starting.recv().map_err(|_| ended())??;
         Ok(Self { ports, truth, stop: Some(stop), thread: Some(thread) })
     }
 
@@ -340,6 +332,41 @@ impl MockDrone {
     pub fn truth(&self) -> Truth {
         *self.truth.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// What is known of a drone once it lives.
+type Started = Result<(Ports, Arc<Mutex<Truth>>), ServerError>;
+
+/// The life of a drone on its thread: tells how it started, then runs until it is stopped.
+fn live(
+    config: &WorldConfig,
+    ports: Ports,
+    started: &SyncSender<Started>,
+    stopped: oneshot::Receiver<()>,
+) {
+    // Whoever wanted to know may have gone; then the drone ends, since nobody can stop it.
+    let tell = |result| _ = started.send(result);
+    let runtime = match tokio::runtime::Builder::new_current_thread().enable_all().build() {
+        Ok(runtime) => runtime,
+        Err(error) => return tell(Err(error.into())),
+    };
+    runtime.block_on(async {
+        let server = match Server::bind(config, ports).await {
+            Ok(server) => server,
+            Err(error) => return tell(Err(error)),
+        };
+        let truth = Arc::clone(&server.truth);
+        tell(server.ports().map(|ports| (ports, truth)).map_err(ServerError::from));
+        tokio::select! {
+            result = server.run() => {
+                if let Err(error) = result {
+                    tracing::error!("the mock drone's sockets failed: {error}");
+                }
+            }
+            // Stopped, or its owner has gone.
+            _ = stopped => {}
+        }
+    });
 }
 
 impl Drop for MockDrone {

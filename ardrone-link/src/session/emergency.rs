@@ -1,0 +1,86 @@
+//! The emergency bit, whose rising edge cuts the motors or clears an emergency.
+
+use std::time::Duration;
+
+/// The bit stays up this long. A drone that has not answered by then has missed the edge.
+const UP: Duration = Duration::from_millis(500);
+/// The bit stays down this long before it rises again.
+const DOWN: Duration = Duration::from_millis(120);
+/// Nothing is wished any longer after this time.
+const TIMEOUT: Duration = Duration::from_secs(5);
+
+/// What is wished of the drone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum EmergencyWish {
+    /// That it cuts its motors.
+    Stop,
+    /// That it can fly again.
+    Reset,
+}
+
+/// Raises and lowers the bit until the wish has come true.
+#[derive(Debug, Default)]
+pub(super) struct EmergencySwitch {
+    wish: Option<EmergencyWish>,
+    /// When the wish was first acted on.
+    since: Option<Duration>,
+}
+
+impl EmergencySwitch {
+    pub(super) fn request(&mut self, wish: EmergencyWish) {
+        self.wish = Some(wish);
+        self.since = None;
+    }
+
+    /// Whether the bit is up now; `emergency` is what the drone says of itself.
+    pub(super) fn level(&mut self, now: Duration, emergency: bool) -> bool {
+        let Some(wish) = self.wish else { return false };
+        let since = *self.since.get_or_insert(now);
+        let elapsed = now.saturating_sub(since);
+        let come_true = emergency == (wish == EmergencyWish::Stop);
+        if come_true || elapsed >= TIMEOUT {
+            // The bit is never left up.
+            self.wish = None;
+            return false;
+        }
+        elapsed.as_millis() % (UP + DOWN).as_millis() < UP.as_millis()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MS: fn(u64) -> Duration = Duration::from_millis;
+
+    #[test]
+    fn the_bit_is_up_until_the_drone_says_so_and_never_longer() {
+        let mut switch = EmergencySwitch::default();
+        assert!(!switch.level(MS(0), false));
+        switch.request(EmergencyWish::Stop);
+        assert!(switch.level(MS(30), false));
+        assert!(switch.level(MS(60), false));
+        assert!(!switch.level(MS(90), true));
+        // It does not come back when the emergency ends.
+        assert!(!switch.level(MS(120), false));
+    }
+
+    #[test]
+    fn an_edge_that_was_missed_is_made_again_but_not_for_ever() {
+        let mut switch = EmergencySwitch::default();
+        switch.request(EmergencyWish::Reset);
+        let levels: Vec<bool> = (0..300).map(|tick| switch.level(MS(30) * tick, true)).collect();
+        let edges = levels.windows(2).filter(|pair| pair == &[false, true]).count();
+        assert!((5..10).contains(&edges), "{edges}");
+        assert!(levels[170..].iter().all(|level| !level));
+    }
+
+    #[test]
+    fn a_wish_that_is_true_already_raises_nothing() {
+        let mut switch = EmergencySwitch::default();
+        switch.request(EmergencyWish::Reset);
+        assert!(!switch.level(MS(0), false));
+        switch.request(EmergencyWish::Stop);
+        assert!(!switch.level(MS(0), true));
+    }
+}
