@@ -5,8 +5,9 @@
 
 use std::error::Error;
 
+use ardrone_link::DroneAddress;
 use ardrone_link::at::Identity;
-use ardrone_link::net::{Client, DroneAddress};
+use ardrone_link::net::Client;
 use ardrone_link::session::{Event, SessionConfig};
 use ardrone_link::settings::Setting;
 

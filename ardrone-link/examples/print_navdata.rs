@@ -6,8 +6,9 @@
 use std::error::Error;
 use std::time::Duration;
 
+use ardrone_link::DroneAddress;
 use ardrone_link::navdata::Packet;
-use ardrone_link::net::{Client, DroneAddress};
+use ardrone_link::net::Client;
 use ardrone_link::session::SessionConfig;
 use ardrone_link::settings::Setting;
 use tokio::time::{Instant, timeout_at};

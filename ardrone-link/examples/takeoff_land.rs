@@ -7,7 +7,8 @@
 use std::error::Error;
 use std::time::Duration;
 
-use ardrone_link::net::{Client, DroneAddress};
+use ardrone_link::DroneAddress;
+use ardrone_link::net::Client;
 use ardrone_link::session::{Event, FlightOrder, Order, SessionConfig};
 use ardrone_link::settings::Setting;
 

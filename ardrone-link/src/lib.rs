@@ -44,3 +44,27 @@ pub const VIDEO_PORT: u16 = 5555;
 pub const FTP_PORT: u16 = 5551;
 /// The datagram that makes the drone send navdata to its sender.
 pub const WAKE_UP: [u8; 4] = [1, 0, 0, 0];
+
+/// Where a drone is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DroneAddress {
+    /// Name or address.
+    pub host: String,
+    /// UDP, AT commands.
+    pub at_port: u16,
+    /// UDP, navdata.
+    pub navdata_port: u16,
+    /// TCP, configuration.
+    pub control_port: u16,
+}
+
+impl Default for DroneAddress {
+    fn default() -> Self {
+        Self {
+            host: DRONE_HOST.to_owned(),
+            at_port: AT_PORT,
+            navdata_port: NAVDATA_PORT,
+            control_port: CONTROL_PORT,
+        }
+    }
+}

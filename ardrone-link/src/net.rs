@@ -1,7 +1,8 @@
 //! A client on real sockets: a [`Session`] driven by tokio.
 //!
 //! ```no_run
-//! use ardrone_link::net::{Client, DroneAddress};
+//! use ardrone_link::DroneAddress;
+//! use ardrone_link::net::Client;
 //! use ardrone_link::session::{Event, FlightOrder, Order, SessionConfig};
 //! use ardrone_link::settings::Setting;
 //!
@@ -32,7 +33,7 @@ use tokio::time::{Instant, MissedTickBehavior, interval, sleep};
 use crate::at::{Datagram, EncodeError};
 use crate::navdata::Navdata;
 use crate::session::{Event, Order, Received, Session, SessionConfig};
-use crate::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT, WAKE_UP};
+use crate::{DroneAddress, WAKE_UP};
 
 /// The period of AT commands that Parrot recommends.
 const TICK: Duration = Duration::from_millis(30);
@@ -46,30 +47,6 @@ const MAX_EVENTS: usize = 256;
 const MAX_CONTROL_BLOCKS: usize = 16;
 /// Time between two attempts to reach the control port.
 const CONTROL_RETRY: Duration = Duration::from_millis(500);
-
-/// Where a drone is.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct DroneAddress {
-    /// Name or address.
-    pub host: String,
-    /// UDP, AT commands.
-    pub at_port: u16,
-    /// UDP, navdata.
-    pub navdata_port: u16,
-    /// TCP, configuration.
-    pub control_port: u16,
-}
-
-impl Default for DroneAddress {
-    fn default() -> Self {
-        Self {
-            host: DRONE_HOST.to_owned(),
-            at_port: AT_PORT,
-            navdata_port: NAVDATA_PORT,
-            control_port: CONTROL_PORT,
-        }
-    }
-}
 
 /// Why a client has ended.
 #[derive(Debug, thiserror::Error)]

@@ -11,6 +11,7 @@ use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _, UdpSocket};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use ardrone_link::DroneAddress;
 use ardrone_link::WAKE_UP;
 use ardrone_link::at::{Datagram, EncodeError};
 use ardrone_link::settings::SettingError;
@@ -23,19 +24,6 @@ use crate::outcome::Outcome;
 use crate::pilot::{FlightEvent, FlightReport, Pilot, PilotConfig, Status, TICK, Waypoint};
 use crate::plan::Plan;
 use crate::statistics::{TickRecorder, TickSummary};
-
-/// Where the drone is.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct DroneAddress {
-    /// Name or address.
-    pub host: String,
-    /// UDP, AT commands.
-    pub at_port: u16,
-    /// UDP, navdata.
-    pub navdata_port: u16,
-    /// TCP, configuration.
-    pub control_port: u16,
-}
 
 /// What the flight tells while it lasts.
 #[derive(Debug, Clone, PartialEq)]

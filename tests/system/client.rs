@@ -2,9 +2,10 @@
 
 use std::time::Duration;
 
+use ardrone_link::DroneAddress;
 use ardrone_link::at::Identity;
 use ardrone_link::navdata::{NavdataOption, Packet};
-use ardrone_link::net::{Client, DroneAddress};
+use ardrone_link::net::Client;
 use ardrone_link::session::{Event, FlightOrder, Order, SessionConfig};
 use ardrone_link::settings::Setting;
 use mock_drone::firmware::Phase;

@@ -7,6 +7,7 @@ mod architecture;
 mod client;
 mod command_line;
 mod faults;
+mod ports;
 mod processes;
 mod simulated;
 mod udp;

@@ -1,7 +1,8 @@
 //! The same flight over real sockets.
 
+use ardrone_link::DroneAddress;
 use autopilot::PilotConfig;
-use autopilot::flight::{DroneAddress, Flight, Message};
+use autopilot::flight::{Flight, Message};
 use autopilot::outcome::Outcome;
 use autopilot::sim::Simulation;
 use mock_drone::WorldConfig;

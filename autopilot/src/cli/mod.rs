@@ -7,6 +7,7 @@ mod summary;
 use std::io::{IsTerminal as _, Write as _};
 use std::process::ExitCode;
 
+use ardrone_link::DroneAddress;
 use clap::Parser as _;
 use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports, ServerError};
@@ -14,7 +15,7 @@ use mock_drone::server::{MockDrone, Ports, ServerError};
 use self::arguments::Arguments;
 use self::progress::Progress;
 use self::summary::{Summary, TrueWaypoint};
-use crate::flight::{DroneAddress, Flight, FlightError, Message};
+use crate::flight::{Flight, FlightError, Message};
 use crate::pilot::PilotConfig;
 use crate::plan::{FlightLimits, Plan, PlanError};
 
