@@ -16,11 +16,12 @@ use mock_drone::sensors::SensorModel;
 use mock_drone::server::{Ports, Server, ServerError};
 use mock_drone::{DroneConfig, LinkFaults, Tag27, TruthLog, WorldConfig};
 use nalgebra::Vector2;
+use tokio::signal::unix::{SignalKind, signal};
 
 /// A simulated AR.Drone 2.0: any client of the real drone can fly it.
 ///
 /// It boots, waits to be configured, takes off, flies, lands and runs out of battery like the real
-/// one, and loses patience with a silent pilot like the real one. It runs until it is killed.
+/// one, and loses patience with a silent pilot like the real one. It runs until it is stopped.
 #[derive(Debug, Parser)]
 #[command(version, after_help = AFTER_HELP)]
 struct Arguments {
@@ -48,7 +49,7 @@ start, or with a plus since the first take-off; # starts a comment.
   +20   battery 15               percent
   +25   restart                  or propeller, which cuts the motors
 
-Exit status: 1 a port is taken, a file is wrong or a socket failed; 2 usage.";
+Exit status: 0 stopped by Ctrl-C; 1 a port is taken, a file is wrong or a socket failed; 2 usage.";
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Ports")]
@@ -232,9 +233,28 @@ fn run(arguments: &Arguments) -> Result<(), CommandError> {
             bound.navdata,
             bound.control
         );
-        server.run().await.map_err(ServerError::Start)?;
+        tokio::select! {
+            ended = server.run() => ended.map_err(ServerError::Start)?,
+            // The truth log is written out when the server is dropped.
+            () = stopped() => tracing::info!("stopped"),
+        }
         Ok(())
     })
+}
+
+/// Waits until somebody stops the program.
+async fn stopped() {
+    let terminated = async {
+        match signal(SignalKind::terminate()) {
+            Ok(mut signal) => _ = signal.recv().await,
+            // It will end the program by itself.
+            Err(_) => std::future::pending().await,
+        }
+    };
+    tokio::select! {
+        _ = tokio::signal::ctrl_c() => {}
+        () = terminated => {}
+    }
 }
 
 fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
