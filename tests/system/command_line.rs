@@ -136,3 +136,39 @@ fn asl2c_writes_its_files_beside_the_configuration_or_where_it_is_told() {
     assert_eq!(result.status.code(), Some(1));
     assert!(stderr(&result).contains("cannot read no-such.conf"));
 }
+
+#[test]
+fn the_mock_drone_says_what_is_wrong_with_its_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("faults.txt");
+    std::fs::write(&path, "+2 loss 300\nsoon restart\n").unwrap();
+    let output = program("mock-drone").args(["--scenario", path.to_str().unwrap()]).output();
+    let output = output.unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    insta::assert_snapshot!(stderr(&output).replace(folder.path().to_str().unwrap(), ""), @r"
+    error: expected a percentage, found `300`
+     --> /faults.txt:1:9
+      |
+    1 | +2 loss 300
+      |         ^^^
+      |
+      = help: a number from 0 to 100
+
+    error: `soon` is no time
+     --> /faults.txt:2:1
+      |
+    2 | soon restart
+      | ^^^^
+      |
+      = help: seconds since the start, or with a plus since the first take-off
+    ");
+    for (option, value) in [("--scenario", "/no/file"), ("--truth", "/no/folder/truth.csv")] {
+        let output = program("mock-drone").args([option, value]).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        assert!(stderr(&output).contains(value), "{}", stderr(&output));
+    }
+    for value in ["-1", "101", "many"] {
+        let output = program("mock-drone").args(["--loss", value]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{value}");
+    }
+}
