@@ -10,7 +10,7 @@ use ardrone_link::settings::SettingError;
 use mock_drone::{Message, Truth, World, WorldConfig};
 
 use crate::outcome::Outcome;
-use crate::pilot::{FlightEvent, FlightReport, Pilot, PilotConfig, TICK};
+use crate::pilot::{FlightEvent, FlightReport, Pilot, PilotConfig, Status, TICK};
 use crate::plan::Plan;
 
 /// A world to fly in.
@@ -41,6 +41,17 @@ pub struct SimulatedFlight {
     pub duration: Duration,
 }
 
+/// A tick of a simulated flight.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moment {
+    /// Since the start.
+    pub now: Duration,
+    /// What really happens.
+    pub truth: Truth,
+    /// What the pilot knows.
+    pub status: Status,
+}
+
 /// Why a flight could not be simulated.
 #[derive(Debug, thiserror::Error)]
 pub enum SimulationError {
@@ -69,6 +80,18 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError`]; a flight that goes wrong is no error but an [`Outcome`].
     pub fn fly(&self, plan: Plan) -> Result<SimulatedFlight, SimulationError> {
+        self.fly_watched(plan, |_| {})
+    }
+
+    /// As [`Simulation::fly`]; `watch` sees every tick.
+    ///
+    /// # Errors
+    /// As [`Simulation::fly`].
+    pub fn fly_watched(
+        &self,
+        plan: Plan,
+        mut watch: impl FnMut(&Moment),
+    ) -> Result<SimulatedFlight, SimulationError> {
         let mut pilot = Pilot::new(plan, &self.pilot)?;
         let mut world = World::new(&self.world);
         let mut datagram = Datagram::new();
@@ -100,6 +123,7 @@ impl Simulation {
                 while let Some(event) = pilot.poll_event() {
                     events.push((now, event));
                 }
+                watch(&Moment { now, truth: world.truth(), status: pilot.status(now) });
                 let reached = pilot.report().waypoints.len();
                 if reached > truth_at_waypoints.len() {
                     truth_at_waypoints.push(world.truth());

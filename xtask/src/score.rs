@@ -1,0 +1,116 @@
+//! How well a flight was flown, in the frame that navdata spans: drift is nobody's fault.
+
+use std::time::Duration;
+
+use autopilot::outcome::Outcome;
+use autopilot::pilot::FlightEvent;
+use autopilot::sim::{Moment, SimulatedFlight};
+use nalgebra::Vector3;
+
+/// The time that a plan stays at each of its targets.
+const STAY: Duration = Duration::from_secs(2);
+
+/// The figures of one flight.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Score {
+    /// Whether the plan was flown to its end.
+    pub(crate) completed: bool,
+    /// Targets that were reached and stayed at.
+    pub(crate) waypoints: usize,
+    /// From the start of the first target to the end of the last stay, without the stays.
+    pub(crate) transit_s: f64,
+    /// How far each leg went beyond its target, along its direction.
+    pub(crate) overshoots_m: Vec<f64>,
+    /// Mean squared distance from the target in the second half of each stay.
+    pub(crate) late_square_m2: Vec<f64>,
+}
+
+/// A leg: its step and how it was flown.
+struct Leg {
+    step: usize,
+    target: Vector3<f64>,
+    places: Vec<(Duration, Vector3<f64>)>,
+}
+
+/// Watches a flight.
+#[derive(Default)]
+pub(crate) struct Scorer {
+    legs: Vec<Leg>,
+}
+
+impl Scorer {
+    pub(crate) fn watch(&mut self, moment: &Moment) {
+        let (Some(step), Some(target)) = (moment.status.step, moment.status.target) else { return };
+        let target = Vector3::new(target.x_m, target.y_m, target.z_m);
+        let place = moment.truth.odometry_m.push(moment.truth.position_m.z);
+        let leg = match self.legs.last_mut() {
+            Some(leg) if leg.step == step => leg,
+            _ => {
+                self.legs.push(Leg { step, target, places: Vec::new() });
+                return;
+            }
+        };
+        // The agent holds the last target for a tick before it takes the next.
+        leg.target = target;
+        leg.places.push((moment.now, place));
+    }
+
+    /// The figures, once the flight is over.
+    pub(crate) fn score(&self, flight: &SimulatedFlight) -> Score {
+        let when = |wanted: fn(&FlightEvent) -> Option<usize>, step: usize| {
+            let mut events = flight.events.iter();
+            events.find(|(_, event)| wanted(event) == Some(step)).map(|(at, _)| *at)
+        };
+        let started = |event: &FlightEvent| match event {
+            FlightEvent::StepStarted { step } => Some(*step),
+            _ => None,
+        };
+        let done = |event: &FlightEvent| match event {
+            FlightEvent::StepDone { step } => Some(*step),
+            _ => None,
+        };
+        let waypoints = flight.report.waypoints.len();
+        let reached: Vec<&Leg> = self
+            .legs
+            .iter()
+            .filter(|leg| flight.report.waypoints.iter().any(|waypoint| waypoint.step == leg.step))
+            .collect();
+        let first = reached.first().and_then(|leg| when(started, leg.step));
+        let last = reached.last().and_then(|leg| when(done, leg.step));
+        let whole =
+            first.zip(last).map_or(Duration::ZERO, |(first, last)| last.saturating_sub(first));
+        let stays = STAY * u32::try_from(waypoints).unwrap_or(u32::MAX);
+        let mut score = Score {
+            completed: flight.outcome == Outcome::Completed,
+            waypoints,
+            transit_s: whole.saturating_sub(stays).as_secs_f64(),
+            ..Score::default()
+        };
+        for (index, leg) in reached.iter().enumerate() {
+            let Some(end) = when(done, leg.step) else { continue };
+            let from = match index.checked_sub(1).and_then(|before| reached.get(before)) {
+                Some(before) => before.target,
+                None => leg.places.first().map_or(leg.target, |(_, place)| *place),
+            };
+            let way = leg.target - from;
+            if way.norm() > 0.05 {
+                let direction = way.normalize();
+                let beyond = leg.places.iter().map(|(_, p)| (p - leg.target).dot(&direction));
+                score.overshoots_m.push(beyond.fold(0.0, f64::max));
+            }
+            let late: Vec<f64> = leg
+                .places
+                .iter()
+                .filter(|(at, _)| *at <= end && *at + STAY / 2 > end)
+                .map(|(_, place)| (place - leg.target).norm_squared())
+                .collect();
+            score.late_square_m2.push(mean(&late));
+        }
+        score
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "counts are small")]
+pub(crate) fn mean(values: &[f64]) -> f64 {
+    if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
+}
