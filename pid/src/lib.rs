@@ -1,13 +1,17 @@
 //! From where the drone is and should be to what the sticks do.
 //!
-//! [`Pid`] is one axis: derivative on the measured rate, so that a new target causes no kick;
-//! output limits; an integral that stops where it could only wind up. [`PositionController`] is
-//! four of them: x, y and z in the world, so that wind and trim are remembered in the frame they
-//! act in, and yaw the short way round.
+//! [`PositionController`] flies by one of two laws. [`Law::Cascade`] is ours: a jerk-limited
+//! reference, feed-forward, feedback on the state predicted over the commands already sent, and an
+//! integral that learns wind and trim. [`Law::Tum`] is that of `tum_ardrone`, to compare with.
 #![forbid(unsafe_code)]
 
-mod axis;
+mod cascade;
+mod model;
 mod position;
+mod trajectory;
+mod tum;
 
-pub use axis::{Gains, Pid};
-pub use position::{ControllerGains, Demand, Motion, Pose, PositionController};
+pub use cascade::CascadeConfig;
+pub use model::ModelConstants;
+pub use position::{Demand, Inputs, Law, Motion, Pose, PositionController};
+pub use trajectory::MotionLimits;

@@ -8,6 +8,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use autopilot::Plan;
+use autopilot::pilot::{Law, PilotConfig};
 use autopilot::sim::{Simulation, SimulationError};
 use mock_drone::airframe::Profile;
 use mock_drone::sensors::SensorModel;
@@ -54,6 +55,8 @@ const CASES: [Case; 5] = [
     Case { sensors: "hard", model: SensorModel::hard, bad_day: true, ..REC },
 ];
 
+const LAWS: [(&str, Law); 2] = [("tum", Law::Tum), ("cascade", Law::Cascade)];
+
 /// What went wrong with the measurement, not with a flight.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum FlyError {
@@ -67,6 +70,7 @@ pub(crate) enum FlyError {
 
 /// One flight and its figures.
 struct Flown {
+    law: usize,
     case: usize,
     plan: usize,
     seed: u64,
@@ -74,21 +78,26 @@ struct Flown {
 }
 
 pub(crate) fn run(seeds: u64, csv_path: Option<&Path>) -> Result<String, FlyError> {
-    let jobs: Vec<(usize, usize, u64)> = (0..CASES.len())
-        .flat_map(|case| {
-            (0..PLANS.len()).flat_map(move |plan| (1..=seeds).map(move |seed| (case, plan, seed)))
-        })
-        .collect();
+    let mut jobs = Vec::new();
+    for case in 0..CASES.len() {
+        for law in 0..LAWS.len() {
+            for plan in 0..PLANS.len() {
+                jobs.extend((1..=seeds).map(|seed| (law, case, plan, seed)));
+            }
+        }
+    }
     let next = AtomicUsize::new(0);
     let flown = Mutex::new(Vec::new());
     let failed = Mutex::new(None);
     std::thread::scope(|scope| {
         for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
             scope.spawn(|| {
-                while let Some((case, plan, seed)) = jobs.get(next.fetch_add(1, Ordering::Relaxed))
+                while let Some((law, case, plan, seed)) =
+                    jobs.get(next.fetch_add(1, Ordering::Relaxed))
                 {
-                    match fly(*case, *plan, *seed) {
+                    match fly(*law, *case, *plan, *seed) {
                         Ok(score) => lock(&flown).push(Flown {
+                            law: *law,
                             case: *case,
                             plan: *plan,
                             seed: *seed,
@@ -104,7 +113,7 @@ pub(crate) fn run(seeds: u64, csv_path: Option<&Path>) -> Result<String, FlyErro
         return Err(error);
     }
     let mut flown = std::mem::take(&mut *lock(&flown));
-    flown.sort_by_key(|flight| (flight.case, flight.plan, flight.seed));
+    flown.sort_by_key(|flight| (flight.case, flight.law, flight.plan, flight.seed));
     if let Some(path) = csv_path {
         write_csv(path, &flown)
             .map_err(|source| FlyError::Write { path: path.to_owned(), source })?;
@@ -117,7 +126,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-fn fly(case: usize, plan: usize, seed: u64) -> Result<Score, FlyError> {
+fn fly(law: usize, case: usize, plan: usize, seed: u64) -> Result<Score, FlyError> {
     let (name, text) = PLANS[plan];
     let plan = Plan::parse(name, text).map_err(|error| FlyError::Plan(error.to_string()))?;
     let Case { profile, model, bad_day, .. } = CASES[case];
@@ -131,7 +140,8 @@ fn fly(case: usize, plan: usize, seed: u64) -> Result<Score, FlyError> {
         link.loss = 0.03;
     }
     let world = WorldConfig { drone, link, ..WorldConfig::default() };
-    let simulation = Simulation { world, ..Simulation::default() };
+    let pilot = PilotConfig { law: LAWS[law].1, ..PilotConfig::default() };
+    let simulation = Simulation { world, pilot, ..Simulation::default() };
     let mut scorer = Scorer::default();
     let flight = simulation.fly_watched(plan, |moment| scorer.watch(moment))?;
     Ok(scorer.score(&flight))
@@ -149,11 +159,11 @@ fn table(flown: &[Flown]) -> String {
         "overshoot mean/worst",
         "late RMSE m"
     );
-    let mut by_case: BTreeMap<usize, Vec<&Flown>> = BTreeMap::new();
+    let mut by_case: BTreeMap<(usize, usize), Vec<&Flown>> = BTreeMap::new();
     for flight in flown {
-        by_case.entry(flight.case).or_default().push(flight);
+        by_case.entry((flight.case, flight.law)).or_default().push(flight);
     }
-    for (case, flights) in by_case {
+    for ((case, law), flights) in by_case {
         let completed = flights.iter().filter(|flight| flight.score.completed).count();
         let transit: f64 = (0..PLANS.len())
             .map(|plan| {
@@ -167,9 +177,10 @@ fn table(flown: &[Flown]) -> String {
             flights.iter().flat_map(|flight| flight.score.late_square_m2.clone()).collect();
         _ = writeln!(
             text,
-            "{:<6}{:<9}{:>10}{:>10.1}{:>9.2}{:>22}{:>12.3}",
+            "{:<6}{:<9}{:<9}{:>10}{:>10.1}{:>9.2}{:>22}{:>12.3}",
             CASES[case].airframe,
             CASES[case].sensors,
+            LAWS[law].0,
             format!("{completed}/{}", flights.len()),
             transit,
             transit / CASES[case].bound_s,
@@ -189,6 +200,7 @@ fn write_csv(path: &Path, flown: &[Flown]) -> io::Result<()> {
     writer.write_record([
         "airframe",
         "sensors",
+        "law",
         "plan",
         "seed",
         "completed",
@@ -198,11 +210,12 @@ fn write_csv(path: &Path, flown: &[Flown]) -> io::Result<()> {
         "overshoot_worst_m",
         "late_rmse_m",
     ])?;
-    for Flown { case, plan, seed, score } in flown {
+    for Flown { law, case, plan, seed, score } in flown {
         let worst = score.overshoots_m.iter().copied().fold(0.0, f64::max);
         writer.write_record([
             CASES[*case].airframe.to_owned(),
             CASES[*case].sensors.to_owned(),
+            LAWS[*law].0.to_owned(),
             PLANS[*plan].0.to_owned(),
             seed.to_string(),
             score.completed.to_string(),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
 use clap::{Parser, ValueEnum};
 
+use crate::pilot::Law;
 use crate::plan;
 
 const EXIT_STATUS: &str = "\
@@ -49,9 +50,20 @@ pub(super) struct Arguments {
     /// Where z = 0 of the plan is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,
+    /// How targets are approached and held
+    #[arg(long, value_enum, value_name = "LAW", default_value_t = LawName::Cascade)]
+    law: LawName,
     /// Plain lines, no terminal tricks
     #[arg(long)]
     pub(super) plain: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LawName {
+    /// Reference, feed-forward, and feedback on the predicted state
+    Cascade,
+    /// That of TUM's autopilot, for comparison
+    Tum,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -63,6 +75,13 @@ enum ZOrigin {
 }
 
 impl Arguments {
+    pub(super) fn law(&self) -> Law {
+        match self.law {
+            LawName::Cascade => Law::Cascade,
+            LawName::Tum => Law::Tum,
+        }
+    }
+
     pub(super) fn z_origin(&self) -> plan::ZOrigin {
         match self.z_origin {
             ZOrigin::Hover => plan::ZOrigin::Hover,

@@ -82,7 +82,7 @@ fn run(arguments: &Arguments) -> Result<u8, CommandError> {
             format!("the drone at {}", drone.host)
         }
     ));
-    let config = PilotConfig { limits, ..PilotConfig::default() };
+    let config = PilotConfig { limits, law: arguments.law(), ..PilotConfig::default() };
     let flight = Flight::start(plan, &config, &drone)?;
     let mut truths = Vec::new();
     for message in flight.messages() {

@@ -17,7 +17,8 @@ use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use ardrone_link::session::{self, FlightOrder, Order, Received, Session, SessionConfig};
 use ardrone_link::settings::{Setting, SettingError};
 use estimator::{Estimator, Sample};
-use pid::{Pose, PositionController};
+pub use pid::Law;
+use pid::{Inputs, Pose, PositionController};
 
 pub use self::flight_phase::{FlightPhase, LandingReason};
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
@@ -37,11 +38,13 @@ pub struct PilotConfig {
     pub limits: FlightLimits,
     /// Whether the configuration is read back over the control port before take-off.
     pub read_back: bool,
+    /// How poses are approached and held.
+    pub law: Law,
 }
 
 impl Default for PilotConfig {
     fn default() -> Self {
-        Self { limits: FlightLimits::default(), read_back: true }
+        Self { limits: FlightLimits::default(), read_back: true, law: Law::default() }
     }
 }
 
@@ -61,6 +64,9 @@ const BLIND_LANDING_TIME: Duration = Duration::from_secs(4);
 const MIN_TAKE_OFF_BATTERY_PERCENT: u32 = 20;
 /// In flight, the drone lands before it has to.
 const LANDING_BATTERY_PERCENT: u32 = 12;
+
+/// The drone's own velocity is so old when it is sent.
+const SENSOR_DELAY: Duration = Duration::from_millis(60);
 
 /// Asks for the drone's clock in demo mode. The key belongs to a category that firmware may only
 /// let a custom configuration change, so the flight does not depend on it.
@@ -110,7 +116,7 @@ impl Pilot {
         Ok(Self {
             session: Session::new(session_config),
             estimator: Estimator::new(),
-            controller: PositionController::default(),
+            controller: PositionController::new(config.law),
             agent: Agent::new(),
             mission: Mission::new(plan, config.limits),
             settings,
@@ -187,7 +193,7 @@ impl Pilot {
             self.events.push_back(FlightEvent::Veto(veto));
         }
         self.veto = veto;
-        let order = self.order(command, step_s);
+        let order = self.order(now, command, step_s);
         self.session.tick(now, order, datagram)?;
         self.session_events(now);
         Ok(())
@@ -271,7 +277,7 @@ impl Pilot {
     }
 
     /// The agent's command as levels and sticks.
-    fn order(&mut self, command: AgentCommand, step_s: f64) -> Order {
+    fn order(&mut self, now: Duration, command: AgentCommand, step_s: f64) -> Order {
         self.target = None;
         match command {
             AgentCommand::Standby | AgentCommand::Land => {
@@ -287,8 +293,15 @@ impl Pilot {
                 let velocity = self.estimator.estimate().velocity_m_s;
                 let motion =
                     pid::Motion { x_m_s: velocity.x, y_m_s: velocity.y, z_m_s: velocity.z };
-                let limit = self.mission.max_control();
-                let demand = self.controller.step(&self.pose(), &motion, &target, step_s, limit);
+                let since = now.saturating_sub(self.estimator.estimate().at);
+                let demand = self.controller.step(&Inputs {
+                    pose: &self.pose(),
+                    motion: &motion,
+                    target: &target,
+                    age_s: (since + SENSOR_DELAY).as_secs_f64(),
+                    step_s,
+                    limit: self.mission.max_control(),
+                });
                 let motion = Motion::Progressive {
                     roll: Fraction::saturating(demand.roll),
                     pitch: Fraction::saturating(demand.pitch),

@@ -1,0 +1,60 @@
+//! The control law of `tum_ardrone`, from its published formulas, for comparison.
+//!
+//! Proportional and derivative on each axis, an integral on the height alone, the drop limited to a
+//! quarter of the stick, and a climb that is amplified by 2.5 (J. Engel, J. Sturm, D. Cremers,
+//! "Camera-based navigation of a low-cost quadrocopter", IROS 2012, with the gains of its package).
+
+use crate::position::{Demand, Inputs, Pose, body_from_world, wrap_deg};
+
+const PROPORTIONAL: f64 = 0.5;
+const DERIVATIVE: f64 = 0.35;
+const YAW: f64 = 0.05;
+const GAZ_PROPORTIONAL: f64 = 0.6;
+const GAZ_DERIVATIVE: f64 = 0.1;
+const GAZ_INTEGRAL: f64 = 0.001;
+const RISE_FACTOR: f64 = 2.5;
+const MAX_RISE: f64 = 0.8;
+const MAX_DROP: f64 = -0.25;
+/// The integral's share of gaz.
+const MAX_INTEGRAL_SHARE: f64 = 0.2;
+/// An error that opposes the integral takes it down so much faster.
+const UNWIND_FACTOR: f64 = 2.5;
+
+#[derive(Debug, Clone, Default)]
+pub(crate) struct TumLaw {
+    target: Option<Pose>,
+    height_integral: f64,
+}
+
+impl TumLaw {
+    pub(crate) fn step(&mut self, inputs: &Inputs<'_>) -> Demand {
+        let Inputs { pose, motion, target, step_s, limit, .. } = *inputs;
+        if self.target != Some(*target) {
+            self.target = Some(*target);
+            self.height_integral = 0.0;
+        }
+        let (right, forward) =
+            body_from_world(target.x_m - pose.x_m, target.y_m - pose.y_m, pose.yaw_deg);
+        let (rightward, ahead) = body_from_world(motion.x_m_s, motion.y_m_s, pose.yaw_deg);
+        let roll = PROPORTIONAL * right - DERIVATIVE * rightward;
+        let pitch = -(PROPORTIONAL * forward - DERIVATIVE * ahead);
+        let yaw = YAW * wrap_deg(target.yaw_deg - pose.yaw_deg);
+        let gaz = self.gaz(target.z_m - pose.z_m, motion.z_m_s, step_s);
+        let [roll, pitch, gaz, yaw] =
+            [roll, pitch, gaz, yaw].map(|stick| stick.clamp(-limit, limit));
+        Demand { roll, pitch, gaz, yaw }
+    }
+
+    fn gaz(&mut self, error_m: f64, climb_m_s: f64, step_s: f64) -> f64 {
+        let opposes = error_m * self.height_integral < 0.0;
+        let factor = if opposes { UNWIND_FACTOR } else { 1.0 };
+        let integral = self.height_integral + factor * error_m * step_s;
+        let crossed = opposes && integral * self.height_integral < 0.0;
+        let most = MAX_INTEGRAL_SHARE / GAZ_INTEGRAL;
+        self.height_integral = if crossed { 0.0 } else { integral.clamp(-most, most) };
+        let gaz = GAZ_PROPORTIONAL * error_m - GAZ_DERIVATIVE * climb_m_s
+            + GAZ_INTEGRAL * self.height_integral;
+        let gaz = gaz.clamp(MAX_DROP, MAX_RISE / RISE_FACTOR);
+        if gaz > 0.0 { gaz * RISE_FACTOR } else { gaz }
+    }
+}
