@@ -57,15 +57,15 @@ impl Default for CascadeConfig {
                 drag_1_s: 0.5,
             },
             dead_time_s: 0.06,
-            horizontal: MotionLimits { velocity_m_s: 2.2, acceleration_m_s2: 1.6, jerk_m_s3: 14.0 },
-            vertical: MotionLimits { velocity_m_s: 0.63, acceleration_m_s2: 1.0, jerk_m_s3: 10.0 },
-            position_gain_1_s2: 2.2,
-            velocity_gain_1_s: 2.2,
+            horizontal: MotionLimits { velocity_m_s: 2.2, acceleration_m_s2: 1.5, jerk_m_s3: 14.0 },
+            vertical: MotionLimits { velocity_m_s: 0.68, acceleration_m_s2: 1.3, jerk_m_s3: 10.0 },
+            position_gain_1_s2: 3.2,
+            velocity_gain_1_s: 3.0,
             integral_gain_1_s3: 0.35,
             integral_velocity_s: 0.4,
             disturbance_max_m_s2: 0.6,
-            height_gain_1_s: 1.6,
-            climb_gain: 0.3,
+            height_gain_1_s: 2.2,
+            climb_gain: 0.4,
             yaw_gain_1_deg: 0.025,
         }
     }
@@ -92,6 +92,13 @@ impl Cascade {
     /// Forgets where the drone was going, and what was learnt of disturbances.
     pub(crate) fn reset(&mut self) {
         *self = Self::new(self.config);
+    }
+
+    /// How the place has changed in the last `age_s`, as far as the commands tell.
+    pub(crate) fn change_since(&self, age_s: f64) -> Vector3<f64> {
+        // The model is where the drone will be when the newest command acts.
+        let ahead_s = self.config.dead_time_s;
+        self.model.change_since(age_s + ahead_s).0 - self.model.change_since(ahead_s).0
     }
 
     pub(crate) fn step(&mut self, inputs: &Inputs<'_>) -> Demand {

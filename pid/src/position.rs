@@ -132,6 +132,22 @@ impl PositionController {
         }
     }
 
+    /// Where the drone is now, if it was at `pose` so long ago and has done since what it was told.
+    pub fn predicted(&self, pose: &Pose, age_s: f64) -> Pose {
+        match &self.law {
+            Flying::Cascade(law) => {
+                let change = law.change_since(age_s);
+                Pose {
+                    x_m: pose.x_m + change.x,
+                    y_m: pose.y_m + change.y,
+                    z_m: pose.z_m + change.z,
+                    ..*pose
+                }
+            }
+            Flying::Tum(_) => *pose,
+        }
+    }
+
     /// Forgets where the drone was going, and what was learnt of disturbances.
     pub fn reset(&mut self) {
         match &mut self.law {

@@ -5,6 +5,7 @@ use std::time::Duration;
 use autopilot::outcome::Outcome;
 use autopilot::pilot::{FlightEvent, LandingReason};
 use autopilot::sim::{SimulatedFlight, Simulation};
+use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
 use mock_drone::sensors::SensorModel;
@@ -214,4 +215,25 @@ fn a_second_flight_in_one_plan_takes_off_again() {
     assert_eq!(flight.report.waypoints.len(), 2);
     // The second reference is where the second take-off ended: it flew no way back.
     assert!(flight.final_truth.position_m.y > 0.7, "{}", flight.final_truth.position_m);
+}
+
+#[test]
+fn every_airframe_is_flown_without_going_far_beyond_a_target() {
+    for (profile, beyond_m) in
+        [(Profile::rec(), 0.2), (Profile::tum(), 0.5), (Profile::tf(), 0.3), (Profile::leo(), 0.2)]
+    {
+        for seed in 1..=3 {
+            let simulation = with_drone(DroneConfig { profile, seed, ..DroneConfig::default() });
+            let mut farthest_m: f64 = 0.0;
+            let plan = plan("takeoff\ngoto 0 2 0 0\ngoto 0 2 1 0\ngoto 0 2 0 0\nland");
+            let flight = simulation
+                .fly_watched(plan, |moment| {
+                    let beyond_m = moment.truth.odometry_m.y - 2.0;
+                    farthest_m = farthest_m.max(beyond_m);
+                })
+                .unwrap();
+            assert_eq!(flight.outcome, Outcome::Completed, "{profile:?}");
+            assert!(farthest_m < beyond_m, "{profile:?}: {farthest_m:.2} m");
+        }
+    }
 }

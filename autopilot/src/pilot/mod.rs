@@ -256,13 +256,21 @@ impl Pilot {
         }
     }
 
+    /// How old the estimate is, the drone's own delay included.
+    fn estimate_age(&self, now: Duration) -> Duration {
+        now.saturating_sub(self.estimator.estimate().at) + SENSOR_DELAY
+    }
+
     fn senses(&self, now: Duration) -> Senses {
         let hovering = self.demo().is_some_and(|demo| {
             matches!(demo.control_state, ControlState::Hovering | ControlState::Flying)
         });
         Senses {
             now_ms: i64::try_from(now.as_millis()).unwrap_or(i64::MAX),
-            pose: self.demo().map(|_| self.pose()),
+            pose: self.demo().map(|_| {
+                let age_s = self.estimate_age(now).as_secs_f64();
+                self.controller.predicted(&self.pose(), age_s)
+            }),
             on_ground: self.on_ground(),
             hovering: hovering && self.drone_state().contains(DroneState::FLYING),
             settings: self.mission.settings(),
@@ -293,12 +301,11 @@ impl Pilot {
                 let velocity = self.estimator.estimate().velocity_m_s;
                 let motion =
                     pid::Motion { x_m_s: velocity.x, y_m_s: velocity.y, z_m_s: velocity.z };
-                let since = now.saturating_sub(self.estimator.estimate().at);
                 let demand = self.controller.step(&Inputs {
                     pose: &self.pose(),
                     motion: &motion,
                     target: &target,
-                    age_s: (since + SENSOR_DELAY).as_secs_f64(),
+                    age_s: self.estimate_age(now).as_secs_f64(),
                     step_s,
                     limit: self.mission.max_control(),
                 });
