@@ -70,6 +70,7 @@ fn lost_datagrams_are_survived() {
 fn late_and_overtaking_datagrams_are_survived() {
     completes("0 delay 20 jitter 20");
     completes("0 delay 10 jitter 80\n0 loss 30");
+    completes("0 delay 50\n0 loss 10");
     completes("0 reorder 20");
 }
 
