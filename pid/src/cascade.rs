@@ -130,9 +130,9 @@ impl Cascade {
         let (right, forward) = body_from_world(wanted.x, wanted.y, pose.yaw_deg);
         let sticks = Vector2::new(right, forward).map(|m_s2| self.tilt_stick(m_s2));
         // Keep the direction where one axis asks for more than there is.
-        let scale = (limit / sticks.amax()).min(1.0);
-        let sticks = if scale.is_finite() { sticks * scale } else { Vector2::zeros() };
-        let acceleration = wanted * if scale.is_finite() { scale } else { 0.0 };
+        let largest = sticks.amax();
+        let scale = if largest > limit { limit / largest } else { 1.0 };
+        let sticks = sticks * scale;
         let learning = (error.xy() + error_rate.xy() * config.integral_velocity_s)
             * (config.integral_gain_1_s3 * step_s);
         // What cannot be carried out must not be learnt from.
@@ -151,9 +151,9 @@ impl Cascade {
 
         let turn_deg = wrap_deg(target.yaw_deg - pose.yaw_deg);
         let yaw = (turn_deg * config.yaw_gain_1_deg).clamp(-limit, limit);
-        let sent = (acceleration - self.disturbance_m_s2 * scale.clamp(0.0, 1.0))
-            .push(gaz * config.climb_max_m_s);
-        self.model.send(sent, step_s);
+        // What is spent on wind and trim does not move the drone.
+        let moving = (wanted - self.disturbance_m_s2) * scale;
+        self.model.send(moving.push(gaz * config.climb_max_m_s), step_s);
         Demand { roll: sticks.x, pitch: -sticks.y, gaz, yaw }
     }
 
