@@ -94,6 +94,12 @@ impl Cascade {
         *self = Self::new(self.config);
     }
 
+    /// Forgets where the drone was going and what it was told.
+    pub(crate) fn rest(&mut self) {
+        let disturbance_m_s2 = self.disturbance_m_s2;
+        *self = Self { disturbance_m_s2, ..Self::new(self.config) };
+    }
+
     /// How the place has changed in the last `age_s`, as far as the commands tell.
     pub(crate) fn change_since(&self, age_s: f64) -> Vector3<f64> {
         // The model is where the drone will be when the newest command acts.

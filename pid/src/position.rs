@@ -148,6 +148,15 @@ impl PositionController {
         }
     }
 
+    /// The drone holds still by itself: forgets where it was going and what it was told, and keeps
+    /// what was learnt of disturbances.
+    pub fn rest(&mut self) {
+        match &mut self.law {
+            Flying::Cascade(law) => law.rest(),
+            Flying::Tum(_) => {}
+        }
+    }
+
     /// Forgets where the drone was going, and what was learnt of disturbances.
     pub fn reset(&mut self) {
         match &mut self.law {
@@ -236,6 +245,27 @@ mod tests {
                 assert!(stick.abs() <= 0.3 + 1e-12, "{demand:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_drone_that_holds_by_itself_is_predicted_to_be_where_it_is() {
+        let mut controller = PositionController::default();
+        let (pose, motion) = (Pose::default(), Motion { y_m_s: 1.0, ..Motion::default() });
+        let target = Pose { y_m: 3.0, ..pose };
+        for _ in 0..30 {
+            let inputs = Inputs {
+                pose: &pose,
+                motion: &motion,
+                target: &target,
+                age_s: 0.1,
+                step_s: 0.03,
+                limit: 1.0,
+            };
+            controller.step(&inputs);
+        }
+        assert!(controller.predicted(&pose, 0.2).y_m > 0.01, "it was told to go");
+        controller.rest();
+        assert_eq!(controller.predicted(&pose, 0.2), pose);
     }
 
     #[test]

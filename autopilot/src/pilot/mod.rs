@@ -110,6 +110,8 @@ impl Pilot {
         let session_config = SessionConfig {
             settings: settings.clone(),
             read_back: config.read_back,
+            // The agent gives a take-off up, by its own time.
+            take_off_timeout: Duration::MAX,
             ..SessionConfig::default()
         };
         let report = FlightReport { steps: plan.steps().len(), ..FlightReport::default() };
@@ -294,6 +296,7 @@ impl Pilot {
             }
             AgentCommand::TakeOff => Order { flight: FlightOrder::TakeOff, motion: Motion::Hover },
             AgentCommand::Hover => {
+                self.controller.rest();
                 Order { flight: FlightOrder::StayAirborne, motion: Motion::Hover }
             }
             AgentCommand::GoTo(target) => {
