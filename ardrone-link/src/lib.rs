@@ -68,3 +68,22 @@ impl Default for DroneAddress {
         }
     }
 }
+
+/// Whether a datagram socket's error is only of the moment: there is nothing to read, or the other
+/// side is not there now. Silence is judged by the session.
+pub fn is_passing(error: &std::io::Error) -> bool {
+    use std::io::ErrorKind::{
+        ConnectionRefused, ConnectionReset, HostUnreachable, Interrupted, NetworkDown,
+        NetworkUnreachable, WouldBlock,
+    };
+    matches!(
+        error.kind(),
+        WouldBlock
+            | Interrupted
+            | ConnectionRefused
+            | ConnectionReset
+            | HostUnreachable
+            | NetworkUnreachable
+            | NetworkDown
+    )
+}

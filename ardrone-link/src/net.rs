@@ -33,7 +33,7 @@ use tokio::time::{Instant, MissedTickBehavior, interval, sleep};
 use crate::at::{Datagram, EncodeError};
 use crate::navdata::Navdata;
 use crate::session::{Event, Order, Received, Session, SessionConfig};
-use crate::{DroneAddress, WAKE_UP};
+use crate::{DroneAddress, WAKE_UP, is_passing};
 
 /// The period of AT commands that Parrot recommends.
 const TICK: Duration = Duration::from_millis(30);
@@ -71,7 +71,8 @@ enum Request {
 }
 
 /// A drone that is talked to every 30 ms by a task of its own. Only datagrams from the drone's
-/// address are taken. When the client is dropped the landing is ordered, several times.
+/// address are taken. When the client is dropped its task orders the landing, several times, for as
+/// long as the runtime lives: [`Client::close`] waits for that.
 #[derive(Debug)]
 pub struct Client {
     orders: watch::Sender<Order>,
@@ -294,23 +295,8 @@ async fn connected(host: (&str, u16)) -> io::Result<UdpSocket> {
 
 /// A drone that is not there yet, or gone for a moment, is no reason to end.
 fn tolerate(result: io::Result<usize>) -> io::Result<Option<usize>> {
-    use io::ErrorKind::{
-        ConnectionRefused, ConnectionReset, HostUnreachable, NetworkDown, NetworkUnreachable,
-    };
     match result {
-        Ok(length) => Ok(Some(length)),
-        Err(error)
-            if matches!(
-                error.kind(),
-                ConnectionRefused
-                    | ConnectionReset
-                    | HostUnreachable
-                    | NetworkDown
-                    | NetworkUnreachable
-            ) =>
-        {
-            Ok(None)
-        }
-        Err(error) => Err(error),
+        Err(error) if is_passing(&error) => Ok(None),
+        result => result.map(Some),
     }
 }

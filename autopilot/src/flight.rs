@@ -11,10 +11,9 @@ use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _, UdpSocket};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use ardrone_link::DroneAddress;
-use ardrone_link::WAKE_UP;
 use ardrone_link::at::{Datagram, EncodeError};
 use ardrone_link::settings::SettingError;
+use ardrone_link::{DroneAddress, WAKE_UP, is_passing};
 use crossbeam_channel::{Receiver, Sender, bounded};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use tokio::io::AsyncReadExt as _;
@@ -303,26 +302,11 @@ fn skip_missed(deadline: &mut Duration, now: Duration) -> u64 {
     skipped
 }
 
-/// What a datagram socket may say without the flight being over: there is nothing to read, or the
-/// drone is not there now. Silence is judged by the session.
+/// A drone that is not there now does not end the flight.
 fn tolerate(result: io::Result<usize>) -> Result<Option<usize>, FlightError> {
     match result {
-        Ok(length) => Ok(Some(length)),
-        Err(error)
-            if matches!(
-                error.kind(),
-                io::ErrorKind::WouldBlock
-                    | io::ErrorKind::Interrupted
-                    | io::ErrorKind::ConnectionRefused
-                    | io::ErrorKind::ConnectionReset
-                    | io::ErrorKind::HostUnreachable
-                    | io::ErrorKind::NetworkUnreachable
-                    | io::ErrorKind::NetworkDown
-            ) =>
-        {
-            Ok(None)
-        }
-        Err(error) => Err(FlightError::Socket(error)),
+        Err(error) if is_passing(&error) => Ok(None),
+        result => result.map(Some).map_err(FlightError::Socket),
     }
 }
 

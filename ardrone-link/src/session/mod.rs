@@ -224,6 +224,7 @@ impl Session {
                 return Received::Stale;
             }
             self.events.push_back(Event::DroneRestarted);
+            self.state = DroneState::empty();
             self.withhold_take_off();
             self.handshake = Handshake::new(self.config.settings.len());
         }
@@ -259,10 +260,12 @@ impl Session {
         let take_off = self.take_off_bit(order.flight);
         self.watch_take_off(now, take_off);
         let emergency = self.state.contains(DroneState::EMERGENCY);
-        let reference = match self.emergency.level(now, emergency) {
-            true => Ref::ToggleEmergency,
-            false if take_off => Ref::TakeOff,
-            false => Ref::Land,
+        let reference = if self.emergency.level(now, emergency) {
+            Ref::ToggleEmergency
+        } else if take_off {
+            Ref::TakeOff
+        } else {
+            Ref::Land
         };
         self.push(datagram, &Command::Ref(reference))?;
         self.push(datagram, &Command::Pcmd(order.motion))?;
@@ -365,7 +368,8 @@ impl Session {
         let flying = |state: DroneState| state.contains(DroneState::FLYING);
         match (flying(self.state), flying(navdata.state)) {
             (false, true) => self.events.push_back(Event::Airborne),
-            (true, false) => self.events.push_back(Event::Landed),
+            // With its motors cut it falls.
+            (true, false) if !emergency(navdata.state) => self.events.push_back(Event::Landed),
             _ => {}
         }
         self.state = navdata.state;

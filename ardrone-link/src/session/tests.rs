@@ -297,3 +297,18 @@ fn an_emergency_stop_beats_every_order_and_is_never_left_on() {
     bench.hear(3, DroneState::empty());
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::Land);
 }
+
+#[test]
+fn a_drone_that_falls_or_has_restarted_has_not_landed() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(500, DroneState::FLYING);
+    bench.hear(501, DroneState::EMERGENCY);
+    let events = bench.events();
+    assert!(events.contains(&Event::Emergency) && !events.contains(&Event::Landed), "{events:?}");
+    let mut bench = Bench::new(&[]);
+    bench.hear(500, DroneState::FLYING);
+    bench.hear(1, DroneState::NAVDATA_BOOTSTRAP);
+    let events = bench.events();
+    assert!(events.contains(&Event::DroneRestarted), "{events:?}");
+    assert!(!events.contains(&Event::Landed), "{events:?}");
+}

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use ardrone_link::{AT_PORT, CONTROL_PORT, FTP_PORT, NAVDATA_PORT, VIDEO_PORT};
+use ardrone_link::{AT_PORT, CONTROL_PORT, FTP_PORT, NAVDATA_PORT, VIDEO_PORT, is_passing};
 use tokio::io::AsyncWriteExt as _;
 use tokio::net::{TcpListener, TcpStream, UdpSocket};
 use tokio::sync::oneshot;
@@ -279,19 +279,8 @@ impl Visitors {
 /// A datagram to somebody who has gone comes back as an error of the next call: no reason to die.
 fn tolerate<T>(result: io::Result<T>) -> io::Result<Option<T>> {
     match result {
-        Ok(value) => Ok(Some(value)),
-        Err(error)
-            if matches!(
-                error.kind(),
-                io::ErrorKind::ConnectionRefused
-                    | io::ErrorKind::ConnectionReset
-                    | io::ErrorKind::HostUnreachable
-                    | io::ErrorKind::NetworkUnreachable
-            ) =>
-        {
-            Ok(None)
-        }
-        Err(error) => Err(error),
+        Err(error) if is_passing(&error) => Ok(None),
+        result => result.map(Some),
     }
 }
 

@@ -11,7 +11,7 @@ use crate::types::{CType, TypeKind};
 /// Functions of the C file that the others call without calling anything themselves.
 const LEAVES: [&str; 5] = ["checked_", "equal_", "post_", "defer_", "limit_"];
 
-/// Which function calls which, each only those after it in `order`.
+/// Which function calls which; calls never lead back.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Frames {
     /// For each trigger its function, those of its plans, and the triggers that these call.

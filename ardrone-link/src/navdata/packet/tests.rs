@@ -183,13 +183,31 @@ proptest! {
     #[test]
     fn any_bytes_are_decoded_or_refused(
         mut bytes in proptest::collection::vec(any::<u8>(), 0..300),
-        with_magic in any::<bool>(),
+        (tag, size) in (0_u16..32, 4_u16..40),
+        fitting in any::<bool>(),
     ) {
-        if with_magic && bytes.len() >= 4 {
+        if fitting && bytes.len() >= 20 {
+            // Without these hardly any bytes are a packet.
             bytes[..4].copy_from_slice(&MAGIC.to_le_bytes());
+            bytes[16..18].copy_from_slice(&tag.to_le_bytes());
+            bytes[18..20].copy_from_slice(&size.to_le_bytes());
+            bytes.resize(16 + usize::from(size), 0xA5);
+            let sum = checksum(&bytes);
+            bytes.extend([0xFF, 0xFF, 8, 0]);
+            bytes.extend(sum.to_le_bytes());
+            prop_assert!(Packet::decode(&bytes).is_ok());
         }
         if let Ok(packet) = Packet::decode(&bytes) {
-            prop_assert!(packet.options().count() < 100);
+            let mut written = BytesMut::new();
+            let mut writer =
+                PacketWriter::new(&mut written, packet.state, packet.sequence, packet.vision);
+            for option in packet.options() {
+                writer.option(&option).unwrap();
+            }
+            writer.finish();
+            let again = Packet::decode(&written).unwrap();
+            let debug = |packet: &Packet<'_>| format!("{:?}", packet.options().collect::<Vec<_>>());
+            prop_assert_eq!(debug(&packet), debug(&again));
         }
     }
 }
