@@ -1,9 +1,18 @@
-//! Where the drone is, from what it says of its own motion.
+//! Where the drone is, from what it says of its own motion and what it was told.
 //!
-//! The AR.Drone reports velocity in its own frame, heading, and height above the ground. The
-//! [`Estimator`] rotates each velocity by the heading of the same instant and integrates over the
-//! drone's own clock, so that late, lost or bunched packets don't change the distance. It is pure:
-//! samples in, [`Estimate`] out.
+//! The AR.Drone reports velocity in its own frame, attitude, heading, and height above the ground,
+//! each late by a known time. The [`Estimator`] takes in these [`Sample`]s and every [`Order`] that
+//! was sent. It
+//!
+//! - integrates the velocity to a place, each one rotated by the heading of the same instant, over
+//!   the time at which it was measured, so that late, lost or bunched packets don't change the way;
+//! - flies a model of the drone along with the orders, which fills the time between and after the
+//!   measurements ([`Estimator::predicted`]), and learns from the difference what pushes the drone;
+//! - learns how this airframe answers its sticks ([`Estimator::airframe`]);
+//! - tells how uncertain it is ([`Estimate::horizontal_deviation_m`]) and whether navdata can be
+//!   believed ([`Estimator::trust`]).
+//!
+//! It is pure: samples and orders in, [`Estimate`]s out.
 //!
 //! Frame: x right, y forward, z up, metres; the origin is where the estimator started, the floor
 //! below the drone is z = 0; yaw in degrees, clockwise from above, zero where the drone pointed at
@@ -13,7 +22,7 @@
 //! use std::time::Duration;
 //! use estimator::{Estimator, Sample};
 //!
-//! let mut estimator = Estimator::new();
+//! let mut estimator = Estimator::default();
 //! for tick in 0..=10 {
 //!     estimator.update(&Sample {
 //!         arrival: Duration::from_millis(100 * tick),
@@ -28,18 +37,35 @@
 //! ```
 #![forbid(unsafe_code)]
 
-mod altitude;
+mod airframe;
 mod angle;
+mod bank;
 mod clock;
+mod heading;
+mod horizontal;
+mod identification;
+mod orders;
+mod plausibility;
+mod uncertainty;
+mod vertical;
 
 use std::time::Duration;
 
-use nalgebra::{Rotation2, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
+pub use airframe::{Airframe, DroneLimits};
 pub use angle::wrap_deg;
+pub use orders::{Order, Sticks};
+pub use plausibility::Trust;
 
-use crate::altitude::AltitudeFilter;
 use crate::clock::SampleClock;
+use crate::heading::Heading;
+use crate::horizontal::{Horizontal, ObserverGains, world_from_body};
+use crate::identification::Identification;
+use crate::orders::Orders;
+use crate::plausibility::Plausibility;
+use crate::uncertainty::Uncertainty;
+use crate::vertical::{AltitudeFilter, Echo, Vertical};
 
 /// What one navdata packet says of the drone's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -50,6 +76,10 @@ pub struct Sample {
     pub drone_time: Option<Duration>,
     /// Heading, clockwise positive, with an arbitrary zero; jumps at ±180.
     pub yaw_deg: f64,
+    /// Right side down.
+    pub roll_deg: f64,
+    /// Nose up.
+    pub pitch_deg: f64,
     /// Forward velocity, levelled body frame.
     pub velocity_forward_m_s: f64,
     /// Rightward velocity, levelled body frame.
@@ -60,7 +90,49 @@ pub struct Sample {
     pub airborne: bool,
 }
 
-/// Where the drone is and how it moves.
+/// How late the drone tells and obeys, and what it is set to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EstimatorConfig {
+    /// What full sticks ask for.
+    pub limits: DroneLimits,
+    /// What is assumed of the airframe until it is known better.
+    pub airframe: Airframe,
+    /// From an order to the motors.
+    pub dead_time: Duration,
+    /// Age of a velocity when its packet is sent: the optical flow and its filter.
+    pub velocity_delay: Duration,
+    /// Likewise of the altitude: the ultrasound's own interval.
+    pub altitude_delay: Duration,
+    /// Likewise of attitude and heading.
+    pub attitude_delay: Duration,
+    /// How fast a velocity that was not foreseen is followed.
+    pub velocity_gain_1_s: f64,
+    /// How fast a disturbance is learnt from it.
+    pub disturbance_gain_1_s2: f64,
+    /// No disturbance is taken as larger.
+    pub disturbance_max_m_s2: f64,
+    /// Whether the airframe is learnt in flight.
+    pub identify: bool,
+}
+
+impl Default for EstimatorConfig {
+    fn default() -> Self {
+        Self {
+            limits: DroneLimits::default(),
+            airframe: Airframe::default(),
+            dead_time: Duration::from_millis(70),
+            velocity_delay: Duration::from_millis(60),
+            altitude_delay: Duration::from_millis(40),
+            attitude_delay: Duration::from_millis(20),
+            velocity_gain_1_s: 10.0,
+            disturbance_gain_1_s2: 5.0,
+            disturbance_max_m_s2: 1.0,
+            identify: true,
+        }
+    }
+}
+
+/// Where the drone was and how it moved when the newest sample was made, as it was measured.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Estimate {
     /// When the sample behind it arrived.
@@ -71,137 +143,271 @@ pub struct Estimate {
     pub velocity_m_s: Vector3<f64>,
     /// In [-180, 180), zero where the drone pointed at the start.
     pub yaw_deg: f64,
+    /// Height above the floor below, which may not be the floor at the start.
+    pub above_floor_m: f64,
+    /// Standard deviation of the place on each horizontal axis: grows with time and way.
+    pub horizontal_deviation_m: f64,
+    /// Standard deviation of the height.
+    pub vertical_deviation_m: f64,
 }
 
-/// Integrates samples to a position.
-#[derive(Debug, Clone, Default)]
+/// Where the drone is, or will be, as far as its orders tell.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Prediction {
+    /// Right, forward, up.
+    pub position_m: Vector3<f64>,
+    /// Right, forward, up.
+    pub velocity_m_s: Vector3<f64>,
+    /// In [-180, 180), zero where the drone pointed at the start.
+    pub yaw_deg: f64,
+    /// What pushes the drone besides its sticks: wind, a wrong level reference. Right, forward.
+    pub disturbance_m_s2: Vector2<f64>,
+}
+
+/// From samples and orders to the place of the drone.
+#[derive(Debug, Clone)]
 pub struct Estimator {
+    config: EstimatorConfig,
     clock: SampleClock,
+    orders: Orders,
+    heading: Heading,
+    horizontal: Horizontal,
+    /// The moment that `horizontal` is of.
+    velocity_at_s: Option<f64>,
     altitude: AltitudeFilter,
-    yaw_baseline_deg: Option<f64>,
+    /// The moment of the last altitude, and the altitude.
+    altitude_at: Option<(f64, f64)>,
+    identification: Identification,
+    plausibility: Plausibility,
+    uncertainty: Uncertainty,
+    airborne: bool,
     estimate: Estimate,
 }
 
-impl Estimator {
-    /// A gap longer than this is not bridged by the mean of the velocities around it.
-    const MAX_STEP: Duration = Duration::from_millis(300);
+impl Default for Estimator {
+    fn default() -> Self {
+        Self::new(EstimatorConfig::default())
+    }
+}
 
+/// A gap longer than this is not bridged by the mean of the velocities around it.
+const MAX_STEP_S: f64 = 0.3;
+/// Navdata that are further apart than this leave something unseen.
+const USUAL_STEP_S: f64 = 0.1;
+/// An altitude that is the same after this time is a new one that happens to be the same: the
+/// ultrasound measures 22 or 25 times a second.
+const ALTITUDE_INTERVAL_S: f64 = 0.05;
+/// Below this a drone that takes off or lands does not hold its place yet.
+const CLEAR_OF_GROUND_M: f64 = 0.4;
+/// Nothing is predicted further than this beyond the newest sample.
+const MAX_PREDICTION_S: f64 = 0.6;
+
+impl Estimator {
     /// An estimator that has seen nothing.
-    pub fn new() -> Self {
-        Self::default()
+    pub fn new(config: EstimatorConfig) -> Self {
+        Self {
+            clock: SampleClock::default(),
+            orders: Orders::new(config.dead_time),
+            heading: Heading::new(),
+            horizontal: Horizontal::default(),
+            velocity_at_s: None,
+            altitude: AltitudeFilter::default(),
+            altitude_at: None,
+            identification: Identification::new(config.airframe, config.limits),
+            plausibility: Plausibility::default(),
+            uncertainty: Uncertainty::default(),
+            airborne: false,
+            estimate: Estimate::default(),
+            config,
+        }
     }
 
-    /// Takes in the next sample; samples come in the order of the drone's packets.
+    /// The drone was told something.
+    pub fn told(&mut self, sent_at: Duration, order: Order) {
+        self.orders.push(sent_at, order);
+    }
+
+    /// Takes in the next sample; samples come in the order of the drone's packets. Values that are
+    /// impossible are not used.
     pub fn update(&mut self, sample: &Sample) {
-        let baseline_deg = *self.yaw_baseline_deg.get_or_insert(sample.yaw_deg);
-        let yaw_deg = wrap_deg(sample.yaw_deg - baseline_deg);
-        let step = self.clock.step(sample.drone_time, sample.arrival);
-        let step_s = step.min(Self::MAX_STEP).as_secs_f64();
+        let made_s = self.clock.made_s(sample.drone_time, sample.arrival);
+        if !plausibility::is_possible(sample) {
+            self.plausibility.watch(made_s, sample, false);
+            return;
+        }
+        self.airborne = sample.airborne;
+        let attitude_s = made_s - self.config.attitude_delay.as_secs_f64();
+        let Self { config, orders, heading, identification, .. } = self;
+        let airframe = *identification.airframe();
+        heading.update(attitude_s, sample.yaw_deg, orders, &airframe, &config.limits);
+        if config.identify {
+            let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
+            identification.tilt(attitude_s, tilt_deg.map(f64::to_radians), orders);
+        }
+        let believed = self.update_horizontal(made_s, sample);
+        self.update_vertical(made_s, sample);
+        self.plausibility.watch(made_s, sample, believed);
 
-        let velocity = if sample.airborne {
-            world_from_body(sample.velocity_forward_m_s, sample.velocity_right_m_s, yaw_deg)
-        } else {
-            Vector2::zeros()
-        };
-        let mean = (self.estimate.velocity_m_s.xy() + velocity) / 2.0;
-        let position = self.estimate.position_m.xy() + mean * step_s;
-        let vertical = self.altitude.update(sample.altitude_m, step_s);
-
+        let vertical = self.altitude.state();
+        let distance_m = self.horizontal.position_m.norm();
         self.estimate = Estimate {
             at: sample.arrival,
-            position_m: position.push(vertical.height_m),
-            velocity_m_s: velocity.push(vertical.climb_m_s),
-            yaw_deg,
+            position_m: self.horizontal.position_m.push(vertical.height_m),
+            velocity_m_s: self.horizontal.measured_m_s().push(vertical.climb_m_s),
+            yaw_deg: wrap_deg(self.heading_at(attitude_s)),
+            above_floor_m: self.altitude.above_floor_m(vertical.height_m),
+            horizontal_deviation_m: self.uncertainty.horizontal_m(distance_m, 0.0),
+            vertical_deviation_m: self.uncertainty.vertical_m(0.0),
         };
     }
 
-    /// The newest estimate.
+    /// Whether the velocity was believed.
+    fn update_horizontal(&mut self, made_s: f64, sample: &Sample) -> bool {
+        let at_s = made_s - self.config.velocity_delay.as_secs_f64();
+        let from_s = self.velocity_at_s.replace(at_s).unwrap_or(at_s);
+        let step_s = (at_s - from_s).max(0.0);
+        let order = self.orders.at(at_s);
+        if !sample.airborne {
+            self.horizontal.correct(
+                Vector2::zeros(),
+                self.horizontal.position_m,
+                step_s,
+                Order::ByItself,
+                &self.observer_gains(),
+            );
+            return true;
+        }
+        let body = Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s);
+        let yaw_deg = self.heading_at(at_s);
+        let measured_m_s = world_from_body(body, yaw_deg);
+        let foreseen = self.horizontal_at(self.horizontal, from_s, at_s);
+        let surprise_m_s = (measured_m_s - foreseen.velocity_m_s).norm();
+        let believed = plausibility::is_foreseeable(surprise_m_s);
+        let velocity_m_s = if believed { measured_m_s } else { foreseen.velocity_m_s };
+        let mean_m_s = (self.horizontal.measured_m_s() + velocity_m_s) / 2.0;
+        let position_m = self.horizontal.position_m + mean_m_s * step_s.min(MAX_STEP_S);
+        self.uncertainty.fly(step_s, (step_s - USUAL_STEP_S).max(0.0));
+        self.horizontal = foreseen;
+        let gains = self.observer_gains();
+        self.horizontal.correct(velocity_m_s, position_m, step_s, order, &gains);
+        if order == Order::ByItself && sample.altitude_m > CLEAR_OF_GROUND_M {
+            let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
+            let tilt_rad = tilt_deg.map(f64::to_radians);
+            let airframe = self.identification.airframe();
+            self.horizontal.learn_from_hold(tilt_rad, yaw_deg, step_s, airframe, &gains);
+        }
+        if believed && self.config.identify {
+            self.identification.velocity(at_s, body, yaw_deg, &self.orders);
+        }
+        believed
+    }
+
+    fn update_vertical(&mut self, made_s: f64, sample: &Sample) {
+        let at_s = made_s - self.config.altitude_delay.as_secs_f64();
+        if !sample.airborne {
+            self.altitude.stand(sample.altitude_m);
+            self.altitude_at = Some((at_s, sample.altitude_m));
+            return;
+        }
+        let (last_s, last_m) = self.altitude_at.unwrap_or((at_s, f64::NAN));
+        #[allow(clippy::float_cmp, reason = "the very same number, not a near one")]
+        let same = sample.altitude_m == last_m && at_s - last_s < ALTITUDE_INTERVAL_S;
+        if same {
+            return;
+        }
+        let expected = self.vertical_at(last_s, at_s);
+        let order = self.orders.at(at_s);
+        let echo = self.altitude.correct(sample.altitude_m, expected, at_s - last_s, order);
+        self.altitude_at = Some((at_s, sample.altitude_m));
+        match echo {
+            Echo::Good | Echo::First if self.config.identify => {
+                let height_m = sample.altitude_m;
+                self.identification.height(at_s, height_m, &self.orders);
+            }
+            Echo::FloorStep => {
+                self.uncertainty.step_of_the_floor();
+                self.identification.forget_heights(at_s);
+            }
+            Echo::Good | Echo::First | Echo::Wrong => {}
+        }
+    }
+
+    fn observer_gains(&self) -> ObserverGains {
+        ObserverGains {
+            velocity_1_s: self.config.velocity_gain_1_s,
+            disturbance_1_s2: self.config.disturbance_gain_1_s2,
+            disturbance_max_m_s2: self.config.disturbance_max_m_s2,
+        }
+    }
+
+    fn heading_at(&self, time_s: f64) -> f64 {
+        self.heading.at(time_s, &self.orders, self.airframe(), &self.config.limits)
+    }
+
+    fn horizontal_at(&self, mut state: Horizontal, from_s: f64, to_s: f64) -> Horizontal {
+        let (airframe, limits) = (self.airframe(), &self.config.limits);
+        self.orders.steps(from_s, to_s, |at_s, step_s, order| {
+            state.advance(step_s, order, self.heading_at(at_s), airframe, limits);
+        });
+        state
+    }
+
+    fn vertical_at(&self, from_s: f64, to_s: f64) -> Vertical {
+        let mut state = self.altitude.state();
+        self.orders.steps(from_s, to_s, |_, step_s, order| {
+            state.advance(step_s, order, self.airframe(), &self.config.limits);
+        });
+        state
+    }
+
+    /// What was measured last.
     pub fn estimate(&self) -> &Estimate {
         &self.estimate
     }
 
-    /// Forgets the clock, not the place: the drone's next packet may count time anew.
+    /// Where the drone is at a time, as far as its orders tell: the newest measurement and what the
+    /// model has done since. The time may lie as far ahead as the orders reach, which is the dead
+    /// time.
+    pub fn predicted(&self, at: Duration) -> Prediction {
+        let at_s = at.as_secs_f64();
+        let until = |from_s: f64| at_s.clamp(from_s, from_s + MAX_PREDICTION_S);
+        let horizontal = match self.velocity_at_s {
+            Some(from_s) if self.airborne => {
+                self.horizontal_at(self.horizontal, from_s, until(from_s))
+            }
+            _ => self.horizontal,
+        };
+        let vertical = match self.altitude_at {
+            Some((from_s, _)) if self.airborne => self.vertical_at(from_s, until(from_s)),
+            _ => self.altitude.state(),
+        };
+        Prediction {
+            position_m: horizontal.position_m.push(vertical.height_m),
+            velocity_m_s: horizontal.velocity_m_s.push(vertical.climb_m_s),
+            yaw_deg: wrap_deg(self.heading_at(at_s)),
+            disturbance_m_s2: horizontal.disturbance_m_s2,
+        }
+    }
+
+    /// How this airframe answers its sticks, as far as that is known.
+    pub fn airframe(&self) -> &Airframe {
+        self.identification.airframe()
+    }
+
+    /// Whether navdata can be believed.
+    pub fn trust(&self) -> Trust {
+        self.plausibility.trust()
+    }
+
+    /// Forgets the clock and the compass, not the place: the drone has started again.
     pub fn handle_restart(&mut self) {
         self.clock = SampleClock::default();
-        self.yaw_baseline_deg = None;
+        self.heading.handle_restart();
+        self.velocity_at_s = None;
+        self.altitude_at = None;
+        self.plausibility = Plausibility::default();
     }
-}
-
-/// Body velocity to world velocity at a heading: forward is +y at heading 0, and a clockwise
-/// heading turns forward towards +x.
-fn world_from_body(forward: f64, right: f64, yaw_deg: f64) -> Vector2<f64> {
-    Rotation2::new(-yaw_deg.to_radians()) * Vector2::new(right, forward)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn fly(samples: impl IntoIterator<Item = Sample>) -> Estimate {
-        let mut estimator = Estimator::new();
-        for sample in samples {
-            estimator.update(&sample);
-        }
-        *estimator.estimate()
-    }
-
-    fn sample(arrival_ms: u64, yaw_deg: f64, forward: f64, right: f64) -> Sample {
-        Sample {
-            arrival: Duration::from_millis(arrival_ms),
-            yaw_deg,
-            velocity_forward_m_s: forward,
-            velocity_right_m_s: right,
-            altitude_m: 1.0,
-            airborne: true,
-            ..Sample::default()
-        }
-    }
-
-    #[test]
-    fn clockwise_heading_turns_forward_to_the_right() {
-        for (turn_deg, x, y) in [(0.0, 0.0, 1.0), (90.0, 1.0, 0.0), (180.0, 0.0, -1.0)] {
-            // The first sample sets the baseline, at a heading close to the jump.
-            let start = sample(0, 171.0, 0.0, 0.0);
-            let turned = wrap_deg(171.0 + turn_deg);
-            let flight = (0..=100).map(|i| sample(1000 + 10 * i, turned, 1.0, 0.0));
-            let estimate = fly([start, sample(999, turned, 0.0, 0.0)].into_iter().chain(flight));
-            let position = estimate.position_m;
-            assert!((position.x - x).abs() < 1e-3, "{turn_deg}: {position}");
-            assert!((position.y - y).abs() < 1e-3, "{turn_deg}: {position}");
-        }
-    }
-
-    #[test]
-    fn lost_packets_do_not_change_the_distance() {
-        let all = (0..=60).map(|i| sample(i * 66, 0.0, 1.0, 0.5));
-        let some = all.clone().enumerate().filter(|(i, _)| i % 4 != 1).map(|(_, sample)| sample);
-        let (all, some) = (fly(all), fly(some));
-        assert!((all.position_m - some.position_m).norm() < 1e-9);
-    }
-
-    #[test]
-    fn the_drones_clock_counts_not_the_arrival() {
-        // Packets held up and delivered in a bunch, while the drone's clock wraps.
-        let samples = (0..30_u64).map(|i| {
-            let drone_ms = (2_047_000 + i * 66) % 2_048_000;
-            Sample {
-                drone_time: Some(Duration::from_millis(drone_ms)),
-                ..sample(i / 10 * 660, 0.0, 1.0, 0.0)
-            }
-        });
-        let estimate = fly(samples);
-        assert!((estimate.position_m.y - 29.0 * 0.066).abs() < 1e-9, "{}", estimate.position_m);
-    }
-
-    #[test]
-    fn on_the_ground_nothing_moves() {
-        let grounded = (0..10).map(|i| Sample { airborne: false, ..sample(i * 66, 0.0, 3.0, 3.0) });
-        assert_eq!(fly(grounded).position_m.xy(), Vector2::zeros());
-    }
-
-    #[test]
-    fn a_long_gap_is_not_filled_with_motion() {
-        let estimate = fly([sample(0, 0.0, 1.0, 0.0), sample(10_000, 0.0, 1.0, 0.0)]);
-        assert!(estimate.position_m.y <= 0.3 + 1e-9);
-    }
-}
+mod tests;

@@ -1,49 +1,47 @@
 //! Reference, feed-forward, feedback: our own law.
 //!
-//! A jerk-limited reference runs to the target; feed-forward is the command with which a drone
-//! without errors would follow it; feedback mends what is left, on the state predicted to the moment
-//! at which the command acts; an integral learns wind and trim and keeps them over targets.
+//! A reference that the airframe can follow runs to the target; feed-forward is the command with
+//! which a drone without errors would follow it; feedback mends what is left, on the state predicted
+//! to the moment at which the command acts. What pushes the drone besides its sticks is known from
+//! the estimate and answered at once; an integral learns what is left, and keeps it over targets.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 
-use crate::model::{ModelConstants, PlantModel};
-use crate::position::{Demand, Inputs, body_from_world, wrap_deg};
+use crate::climb::{ClimbLimits, ClimbReference};
+use crate::pid::{Pid, PidGains, PidInputs};
+use crate::position::{Airframe, Demand, Inputs, body_from_world, world_from_body, wrap_deg};
 use crate::trajectory::{MotionLimits, Trajectory};
 
 const GRAVITY_M_S2: f64 = 9.81;
 
-/// Gains and constants of the law, for the drone's indoor limits: 12 degrees of tilt, 0.7 m/s of
-/// climb, 100 degrees a second of turn.
+/// Gains and limits of the law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CascadeConfig {
     /// Tilt at full stick.
     pub tilt_max_rad: f64,
     /// Climb at full stick.
     pub climb_max_m_s: f64,
-    /// How the drone answers.
-    pub model: ModelConstants,
-    /// From a command to the motors.
-    pub dead_time_s: f64,
-    /// Of the reference, at full stick.
-    pub horizontal: MotionLimits,
-    /// Of the reference, at full stick.
-    pub vertical: MotionLimits,
-    /// Acceleration per metre of error.
-    pub position_gain_1_s2: f64,
-    /// Acceleration per metre a second of error.
-    pub velocity_gain_1_s: f64,
-    /// Acceleration per metre of error and second.
-    pub integral_gain_1_s3: f64,
-    /// The velocity's share of what the integral learns from.
-    pub integral_velocity_s: f64,
-    /// No disturbance is taken as larger.
-    pub disturbance_max_m_s2: f64,
-    /// Climb per metre of error.
-    pub height_gain_1_s: f64,
-    /// Climb per metre a second of error.
-    pub climb_gain: f64,
-    /// Turn, as stick per degree.
-    pub yaw_gain_1_deg: f64,
+    /// The reference is never faster across the ground.
+    pub speed_max_m_s: f64,
+    /// Share of the full tilt's acceleration that the reference uses; the rest is for errors and
+    /// drag.
+    pub acceleration_share: f64,
+    /// Of the reference.
+    pub jerk_max_m_s3: f64,
+    /// The reference never climbs or drops faster.
+    pub climb_speed_max_m_s: f64,
+    /// Share of the climb's limits that the reference uses for braking; the rest is for errors.
+    pub braking_share: f64,
+    /// Acceleration across the ground, per metre, per metre and second, per metre a second.
+    pub horizontal: PidGains,
+    /// Natural frequency of the height's loop.
+    pub vertical_frequency_rad_s: f64,
+    /// Its damping ratio.
+    pub vertical_damping: f64,
+    /// Climb per metre of error and second.
+    pub vertical_integral_1_s2: f64,
+    /// Turn: stick per degree, per degree and second, per degree a second.
+    pub yaw: PidGains,
 }
 
 impl Default for CascadeConfig {
@@ -51,22 +49,21 @@ impl Default for CascadeConfig {
         Self {
             tilt_max_rad: 12_f64.to_radians(),
             climb_max_m_s: 0.7,
-            model: ModelConstants {
-                tilt_time_constant_s: 0.13,
-                climb_time_constant_s: 0.5,
-                drag_1_s: 0.5,
+            speed_max_m_s: 2.2,
+            acceleration_share: 0.72,
+            jerk_max_m_s3: 14.0,
+            climb_speed_max_m_s: 0.75,
+            braking_share: 0.9,
+            horizontal: PidGains {
+                proportional: 4.6,
+                integral: 0.1,
+                derivative: 4.2,
+                tracking_time_s: 46.0,
             },
-            dead_time_s: 0.06,
-            horizontal: MotionLimits { velocity_m_s: 2.2, acceleration_m_s2: 1.5, jerk_m_s3: 14.0 },
-            vertical: MotionLimits { velocity_m_s: 0.68, acceleration_m_s2: 1.3, jerk_m_s3: 10.0 },
-            position_gain_1_s2: 3.2,
-            velocity_gain_1_s: 3.0,
-            integral_gain_1_s3: 0.35,
-            integral_velocity_s: 0.4,
-            disturbance_max_m_s2: 0.6,
-            height_gain_1_s: 2.2,
-            climb_gain: 0.4,
-            yaw_gain_1_deg: 0.025,
+            vertical_frequency_rad_s: 2.1,
+            vertical_damping: 0.8,
+            vertical_integral_1_s2: 0.1,
+            yaw: PidGains { proportional: 0.025, ..PidGains::default() },
         }
     }
 }
@@ -74,106 +71,154 @@ impl Default for CascadeConfig {
 #[derive(Debug, Clone)]
 pub(crate) struct Cascade {
     config: CascadeConfig,
-    trajectory: Option<Trajectory>,
-    model: PlantModel,
-    disturbance_m_s2: Vector2<f64>,
+    way: Option<Way>,
+    right: Pid,
+    forward: Pid,
+    up: Pid,
+    yaw: Pid,
+}
+
+/// The way that is being flown.
+#[derive(Debug, Clone)]
+struct Way {
+    horizontal: Trajectory,
+    vertical: ClimbReference,
 }
 
 impl Cascade {
     pub(crate) fn new(config: CascadeConfig) -> Self {
         Self {
+            way: None,
+            right: Pid::new(config.horizontal),
+            forward: Pid::new(config.horizontal),
+            up: Pid::default(),
+            yaw: Pid::new(config.yaw),
             config,
-            trajectory: None,
-            model: PlantModel::new(config.model),
-            disturbance_m_s2: Vector2::zeros(),
         }
     }
 
-    /// Forgets where the drone was going, and what was learnt of disturbances.
+    /// Forgets where the drone was going, and what was learnt.
     pub(crate) fn reset(&mut self) {
         *self = Self::new(self.config);
     }
 
-    /// Forgets where the drone was going and what it was told.
+    /// Forgets where the drone was going.
     pub(crate) fn rest(&mut self) {
-        let disturbance_m_s2 = self.disturbance_m_s2;
-        *self = Self { disturbance_m_s2, ..Self::new(self.config) };
-    }
-
-    /// How the place has changed in the last `age_s`, as far as the commands tell.
-    pub(crate) fn change_since(&self, age_s: f64) -> Vector3<f64> {
-        // The model is where the drone will be when the newest command acts.
-        let ahead_s = self.config.dead_time_s;
-        self.model.change_since(age_s + ahead_s).0 - self.model.change_since(ahead_s).0
+        self.way = None;
     }
 
     pub(crate) fn step(&mut self, inputs: &Inputs<'_>) -> Demand {
-        let Inputs { pose, motion, target, age_s, step_s, limit } = *inputs;
-        let config = self.config;
-        let (way, change) = self.model.change_since(age_s + config.dead_time_s);
-        let place = Vector3::new(pose.x_m, pose.y_m, pose.z_m) + way;
-        let velocity = Vector3::new(motion.x_m_s, motion.y_m_s, motion.z_m_s) + change;
-        let goal = Vector3::new(target.x_m, target.y_m, target.z_m);
-        let trajectory = self.trajectory.get_or_insert_with(|| Trajectory::new(place));
-        trajectory.set_target(
-            goal,
-            &scaled(&config.horizontal, limit),
-            &scaled(&config.vertical, limit),
-        );
-        let reference = trajectory.at(config.dead_time_s);
-        trajectory.advance(step_s);
-        let error = reference.position_m - place;
-        let error_rate = reference.velocity_m_s - velocity;
-
-        // Across the ground.
-        let feed_forward = reference.acceleration_m_s2
-            + reference.jerk_m_s3 * config.model.tilt_time_constant_s
-            + reference.velocity_m_s * config.model.drag_1_s;
-        let wanted = feed_forward.xy()
-            + error.xy() * config.position_gain_1_s2
-            + error_rate.xy() * config.velocity_gain_1_s
-            + self.disturbance_m_s2;
-        let (right, forward) = body_from_world(wanted.x, wanted.y, pose.yaw_deg);
-        let sticks = Vector2::new(right, forward).map(|m_s2| self.tilt_stick(m_s2));
-        // Keep the direction where one axis asks for more than there is.
-        let largest = sticks.amax();
-        let scale = if largest > limit { limit / largest } else { 1.0 };
-        let sticks = sticks * scale;
-        let learning = (error.xy() + error_rate.xy() * config.integral_velocity_s)
-            * (config.integral_gain_1_s3 * step_s);
-        // What cannot be carried out must not be learnt from.
-        if scale >= 1.0 || learning.dot(&wanted) < 0.0 {
-            let most = config.disturbance_max_m_s2;
-            self.disturbance_m_s2 =
-                (self.disturbance_m_s2 + learning).map(|value| value.clamp(-most, most));
+        let Inputs { pose, target, .. } = *inputs;
+        if self.way.is_none() {
+            self.way = Some(Way {
+                horizontal: Trajectory::new(Vector2::new(pose.x_m, pose.y_m)),
+                vertical: ClimbReference::at_rest(pose.z_m),
+            });
         }
-
-        // Up and down.
-        let climb = reference.velocity_m_s.z
-            + reference.acceleration_m_s2.z * config.model.climb_time_constant_s
-            + error.z * config.height_gain_1_s
-            + error_rate.z * config.climb_gain;
-        let gaz = (climb / config.climb_max_m_s).clamp(-limit, limit);
-
+        let (right, forward) = self.across(inputs);
+        let gaz = self.up(inputs);
         let turn_deg = wrap_deg(target.yaw_deg - pose.yaw_deg);
-        let yaw = (turn_deg * config.yaw_gain_1_deg).clamp(-limit, limit);
-        // What is spent on wind and trim does not move the drone.
-        let moving = (wanted - self.disturbance_m_s2) * scale;
-        self.model.send(moving.push(gaz * config.climb_max_m_s), step_s);
-        Demand { roll: sticks.x, pitch: -sticks.y, gaz, yaw }
+        let yaw = self.yaw.output(&PidInputs {
+            setpoint: turn_deg,
+            measured_rate: inputs.motion.yaw_deg_s,
+            ..PidInputs::default()
+        });
+        Demand { roll: right, pitch: -forward, gaz, yaw: yaw.clamp(-inputs.limit, inputs.limit) }
     }
 
-    /// The stick for an acceleration.
-    fn tilt_stick(&self, acceleration_m_s2: f64) -> f64 {
-        (acceleration_m_s2 / GRAVITY_M_S2).atan() / self.config.tilt_max_rad
+    /// Sticks (right, forward).
+    fn across(&mut self, inputs: &Inputs<'_>) -> (f64, f64) {
+        let Inputs { pose, motion, target, airframe, disturbance_m_s2, step_s, limit } = *inputs;
+        let Some(way) = &mut self.way else { return (0.0, 0.0) };
+        let config = self.config;
+        let thrust = airframe.thrust_gain;
+        let full_m_s2 = GRAVITY_M_S2 * config.tilt_max_rad.tan() * thrust.amin();
+        // What wind and trim need is not there for the way.
+        let free_m_s2 = (full_m_s2 - disturbance_m_s2.norm()).max(full_m_s2 / 3.0);
+        let limits = MotionLimits {
+            velocity_m_s: config.speed_max_m_s * limit,
+            acceleration_m_s2: config.acceleration_share * free_m_s2 * limit,
+            jerk_m_s3: config.jerk_max_m_s3 * limit,
+        };
+        way.horizontal.set_target(Vector2::new(target.x_m, target.y_m), &limits);
+        let reference = way.horizontal.at(0.0);
+        // The command holds for the step: it is that of the step's middle.
+        let ahead = way.horizontal.at(step_s / 2.0);
+        way.horizontal.advance(step_s);
+        let speed = body_from_world(ahead.velocity_m_s.x, ahead.velocity_m_s.y, pose.yaw_deg);
+        let drag = Vector2::new(speed.0, speed.1).component_mul(&airframe.drag_1_s);
+        let feed_forward = ahead.acceleration_m_s2
+            + ahead.jerk_m_s3 * airframe.tilt_lag_s
+            + world_from_body(drag, pose.yaw_deg)
+            - disturbance_m_s2;
+        let axis = |i: usize, measured: f64, measured_rate: f64| PidInputs {
+            setpoint: reference.position_m[i],
+            setpoint_rate: reference.velocity_m_s[i],
+            measured,
+            measured_rate,
+            feed_forward: feed_forward[i],
+        };
+        let (x, y) = (axis(0, pose.x_m, motion.x_m_s), axis(1, pose.y_m, motion.y_m_s));
+        let wanted = Vector2::new(self.right.output(&x), self.forward.output(&y));
+        let (right, forward) = body_from_world(wanted.x, wanted.y, pose.yaw_deg);
+        let pull = Vector2::new(right, forward).component_div(&(thrust * GRAVITY_M_S2));
+        let sticks = pull.map(f64::atan) / (config.tilt_max_rad * airframe.tilt_gain);
+        // Keep the direction where one axis asks for more than there is. The drone tilts no further
+        // than its limit, whatever its gain.
+        let most = limit.min(1.0 / airframe.tilt_gain);
+        let largest = sticks.amax();
+        let scale = if largest > most { most / largest } else { 1.0 };
+        self.right.learn(&x, wanted.x, wanted.x * scale, step_s);
+        self.forward.learn(&y, wanted.y, wanted.y * scale, step_s);
+        let sticks = sticks * scale;
+        (sticks.x, sticks.y)
     }
-}
 
-/// The limits of a drone whose sticks are not moved further.
-fn scaled(limits: &MotionLimits, limit: f64) -> MotionLimits {
-    MotionLimits {
-        velocity_m_s: limits.velocity_m_s * limit,
-        acceleration_m_s2: limits.acceleration_m_s2 * limit,
-        jerk_m_s3: limits.jerk_m_s3 * limit,
+    /// The stick up.
+    fn up(&mut self, inputs: &Inputs<'_>) -> f64 {
+        let Inputs { pose, motion, target, airframe, step_s, limit, .. } = *inputs;
+        let Some(way) = &mut self.way else { return 0.0 };
+        let config = self.config;
+        let rise_m_s = config.climb_max_m_s * airframe.climb_gain * limit;
+        let drop_m_s = config.climb_max_m_s * airframe.drop_gain * limit;
+        let reference = way.vertical;
+        let feed_forward = way.vertical.advance(
+            target.z_m,
+            step_s,
+            &ClimbLimits {
+                rise_m_s,
+                drop_m_s,
+                speed_m_s: config.climb_speed_max_m_s * limit,
+                lag_s: airframe.climb_lag_s,
+                braking: config.braking_share,
+            },
+        );
+        self.up.set_gains(self.climb_gains(&airframe));
+        let z = PidInputs {
+            setpoint: reference.height_m,
+            setpoint_rate: reference.climb_m_s,
+            measured: pose.z_m,
+            measured_rate: motion.z_m_s,
+            feed_forward,
+        };
+        let wanted_m_s = self.up.output(&z);
+        let climb_m_s = wanted_m_s.clamp(-drop_m_s, rise_m_s);
+        self.up.learn(&z, wanted_m_s, climb_m_s, step_s);
+        let gain = if climb_m_s > 0.0 { airframe.climb_gain } else { airframe.drop_gain };
+        climb_m_s / (config.climb_max_m_s * gain)
+    }
+
+    /// A drone that follows its climb with a lag `τ`, under `k_p e + k_d ė`, has the natural frequency
+    /// `√(k_p / τ)` and the damping `(1 + k_d) / (2 √(k_p τ))`.
+    fn climb_gains(&self, airframe: &Airframe) -> PidGains {
+        let CascadeConfig { vertical_frequency_rad_s: frequency, vertical_damping, .. } =
+            self.config;
+        let lag_s = airframe.climb_lag_s;
+        PidGains {
+            proportional: frequency * frequency * lag_s,
+            integral: self.config.vertical_integral_1_s2,
+            derivative: (2.0 * vertical_damping * frequency * lag_s - 1.0).max(0.0),
+            tracking_time_s: 20.0,
+        }
     }
 }

@@ -1,17 +1,17 @@
 //! From where the drone is and should be to what the sticks do.
 //!
-//! [`PositionController`] flies by one of two laws. [`Law::Cascade`] is ours: a jerk-limited
-//! reference, feed-forward, feedback on the state predicted over the commands already sent, and an
-//! integral that learns wind and trim. [`Law::Tum`] is that of `tum_ardrone`, to compare with.
+//! [`Pid`] is a controller of one axis. [`PositionController`] flies to a pose by one of two laws.
+//! [`Law::Cascade`] is ours: a reference that the airframe can follow, feed-forward, and a [`Pid`] for
+//! each axis on the predicted state. [`Law::Tum`] is that of `tum_ardrone`, to compare with.
 #![forbid(unsafe_code)]
 
 mod cascade;
-mod model;
+mod climb;
+mod pid;
 mod position;
 mod trajectory;
 mod tum;
 
 pub use cascade::CascadeConfig;
-pub use model::ModelConstants;
-pub use position::{Demand, Inputs, Law, Motion, Pose, PositionController};
-pub use trajectory::MotionLimits;
+pub use pid::{Pid, PidGains, PidInputs};
+pub use position::{Airframe, Demand, Inputs, Law, Motion, Pose, PositionController};

@@ -1,5 +1,7 @@
 //! Position and heading to stick fractions, by one of two laws.
 
+use nalgebra::Vector2;
+
 use crate::cascade::{Cascade, CascadeConfig};
 use crate::tum::TumLaw;
 
@@ -25,6 +27,42 @@ pub struct Motion {
     pub y_m_s: f64,
     /// Up.
     pub z_m_s: f64,
+    /// Clockwise.
+    pub yaw_deg_s: f64,
+}
+
+/// How the airframe answers its sticks: gains are multiples of what the sticks ask for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Airframe {
+    /// Of tilt.
+    pub tilt_gain: f64,
+    /// Time constant of the tilt.
+    pub tilt_lag_s: f64,
+    /// Of climb, upward.
+    pub climb_gain: f64,
+    /// Of climb, downward.
+    pub drop_gain: f64,
+    /// Time constant of the climb.
+    pub climb_lag_s: f64,
+    /// Of the acceleration that gravity gives at a tilt (right, forward).
+    pub thrust_gain: Vector2<f64>,
+    /// Slows by its speed (right, forward).
+    pub drag_1_s: Vector2<f64>,
+}
+
+impl Default for Airframe {
+    /// In the middle of the published models.
+    fn default() -> Self {
+        Self {
+            tilt_gain: 1.0,
+            tilt_lag_s: 0.13,
+            climb_gain: 1.0,
+            drop_gain: 1.0,
+            climb_lag_s: 0.5,
+            thrust_gain: Vector2::new(1.0, 1.0),
+            drag_1_s: Vector2::new(0.5, 0.5),
+        }
+    }
 }
 
 /// Stick fractions in [-1, 1] with the drone's signs.
@@ -43,14 +81,16 @@ pub struct Demand {
 /// What a law decides by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inputs<'a> {
-    /// Where the drone was, `age_s` ago.
+    /// Where the drone is when the demand begins to act.
     pub pose: &'a Pose,
-    /// How it moved then.
+    /// How it moves then.
     pub motion: &'a Motion,
+    /// What pushes it besides its sticks (right, forward).
+    pub disturbance_m_s2: Vector2<f64>,
+    /// How it answers.
+    pub airframe: Airframe,
     /// Where it is to be.
     pub target: &'a Pose,
-    /// How old pose and motion are.
-    pub age_s: f64,
     /// How long the demand will hold.
     pub step_s: f64,
     /// No stick is moved further, from 0 to 1.
@@ -59,7 +99,7 @@ pub struct Inputs<'a> {
 
 impl Inputs<'_> {
     fn is_finite(&self) -> bool {
-        let Inputs { pose, motion, target, age_s, step_s, limit } = self;
+        let Inputs { pose, motion, disturbance_m_s2, airframe, target, step_s, limit } = self;
         [
             pose.x_m,
             pose.y_m,
@@ -68,16 +108,31 @@ impl Inputs<'_> {
             motion.x_m_s,
             motion.y_m_s,
             motion.z_m_s,
+            motion.yaw_deg_s,
+            disturbance_m_s2.x,
+            disturbance_m_s2.y,
+            airframe.tilt_lag_s,
+            airframe.climb_lag_s,
+            airframe.drag_1_s.x,
+            airframe.drag_1_s.y,
             target.x_m,
             target.y_m,
             target.z_m,
             target.yaw_deg,
-            *age_s,
             *step_s,
             *limit,
         ]
         .iter()
         .all(|value| value.is_finite())
+            && [
+                airframe.tilt_gain,
+                airframe.climb_gain,
+                airframe.drop_gain,
+                airframe.thrust_gain.x,
+                airframe.thrust_gain.y,
+            ]
+            .iter()
+            .all(|gain| gain.is_normal() && *gain > 0.0)
     }
 }
 
@@ -105,15 +160,15 @@ enum Flying {
 
 impl Default for PositionController {
     fn default() -> Self {
-        Self::new(Law::default())
+        Self::new(Law::default(), CascadeConfig::default())
     }
 }
 
 impl PositionController {
-    /// A controller that has learnt nothing yet.
-    pub fn new(law: Law) -> Self {
+    /// A controller that has learnt nothing yet; the configuration is that of [`Law::Cascade`].
+    pub fn new(law: Law, config: CascadeConfig) -> Self {
         let law = match law {
-            Law::Cascade => Flying::Cascade(Box::new(Cascade::new(CascadeConfig::default()))),
+            Law::Cascade => Flying::Cascade(Box::new(Cascade::new(config))),
             Law::Tum => Flying::Tum(TumLaw::default()),
         };
         Self { law }
@@ -132,24 +187,7 @@ impl PositionController {
         }
     }
 
-    /// Where the drone is now, if it was at `pose` so long ago and has done since what it was told.
-    pub fn predicted(&self, pose: &Pose, age_s: f64) -> Pose {
-        match &self.law {
-            Flying::Cascade(law) => {
-                let change = law.change_since(age_s);
-                Pose {
-                    x_m: pose.x_m + change.x,
-                    y_m: pose.y_m + change.y,
-                    z_m: pose.z_m + change.z,
-                    ..*pose
-                }
-            }
-            Flying::Tum(_) => *pose,
-        }
-    }
-
-    /// The drone holds still by itself: forgets where it was going and what it was told, and keeps
-    /// what was learnt of disturbances.
+    /// The drone holds still by itself: forgets where it was going, and keeps what was learnt.
     pub fn rest(&mut self) {
         match &mut self.law {
             Flying::Cascade(law) => law.rest(),
@@ -157,13 +195,19 @@ impl PositionController {
         }
     }
 
-    /// Forgets where the drone was going, and what was learnt of disturbances.
+    /// Forgets where the drone was going, and what was learnt.
     pub fn reset(&mut self) {
         match &mut self.law {
             Flying::Cascade(law) => law.reset(),
             Flying::Tum(law) => *law = TumLaw::default(),
         }
     }
+}
+
+/// (right, forward) of the body to (right, forward) of the world, at a clockwise heading.
+pub(crate) fn world_from_body(body: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
+    let (sin, cos) = yaw_deg.to_radians().sin_cos();
+    Vector2::new(cos * body.x + sin * body.y, cos * body.y - sin * body.x)
 }
 
 /// World to body at a clockwise heading: (right, forward).
@@ -185,14 +229,15 @@ mod tests {
 
     /// What is demanded after a while at one place.
     fn demand(law: Law, pose: Pose, target: Pose, limit: f64) -> Demand {
-        let mut controller = PositionController::new(law);
+        let mut controller = PositionController::new(law, CascadeConfig::default());
         let step = |controller: &mut PositionController, target: &Pose| {
             let motion = &Motion::default();
             controller.step(&Inputs {
                 pose: &pose,
                 motion,
                 target,
-                age_s: 0.1,
+                disturbance_m_s2: Vector2::zeros(),
+                airframe: Airframe::default(),
                 step_s: 0.03,
                 limit,
             })
@@ -248,33 +293,12 @@ mod tests {
     }
 
     #[test]
-    fn a_drone_that_holds_by_itself_is_predicted_to_be_where_it_is() {
-        let mut controller = PositionController::default();
-        let (pose, motion) = (Pose::default(), Motion { y_m_s: 1.0, ..Motion::default() });
-        let target = Pose { y_m: 3.0, ..pose };
-        for _ in 0..30 {
-            let inputs = Inputs {
-                pose: &pose,
-                motion: &motion,
-                target: &target,
-                age_s: 0.1,
-                step_s: 0.03,
-                limit: 1.0,
-            };
-            controller.step(&inputs);
-        }
-        assert!(controller.predicted(&pose, 0.2).y_m > 0.01, "it was told to go");
-        controller.rest();
-        assert_eq!(controller.predicted(&pose, 0.2), pose);
-    }
-
-    #[test]
     fn what_is_no_number_moves_nothing_and_spoils_nothing() {
         for (law, bad) in LAWS
             .into_iter()
             .flat_map(|law| [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(|bad| (law, bad)))
         {
-            let mut controller = PositionController::new(law);
+            let mut controller = PositionController::new(law, CascadeConfig::default());
             let good = Pose::default();
             let target = Pose { y_m: 1.0, ..good };
             for pose in [Pose { x_m: bad, ..good }, Pose { yaw_deg: bad, ..good }] {
@@ -283,7 +307,8 @@ mod tests {
                     pose: &pose,
                     motion,
                     target: &target,
-                    age_s: 0.1,
+                    disturbance_m_s2: Vector2::zeros(),
+                    airframe: Airframe::default(),
                     step_s: 0.03,
                     limit: 1.0,
                 };

@@ -1,28 +1,28 @@
-//! Where the drone should be on its way: jerk-limited, from rest to rest.
+//! Where the drone should be on its way across the ground: jerk-limited, from rest to rest.
 //!
 //! A target that changes on the way adds a second motion to the first, which runs to its end: the sum
 //! is as smooth as its parts and ends at the new target.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 
 /// Limits of a motion along a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MotionLimits {
+pub(crate) struct MotionLimits {
     /// Largest speed.
-    pub velocity_m_s: f64,
+    pub(crate) velocity_m_s: f64,
     /// Largest acceleration.
-    pub acceleration_m_s2: f64,
+    pub(crate) acceleration_m_s2: f64,
     /// Largest change of acceleration.
-    pub jerk_m_s3: f64,
+    pub(crate) jerk_m_s3: f64,
 }
 
 /// Place, velocity, acceleration and jerk at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Reference {
-    pub(crate) position_m: Vector3<f64>,
-    pub(crate) velocity_m_s: Vector3<f64>,
-    pub(crate) acceleration_m_s2: Vector3<f64>,
-    pub(crate) jerk_m_s3: Vector3<f64>,
+    pub(crate) position_m: Vector2<f64>,
+    pub(crate) velocity_m_s: Vector2<f64>,
+    pub(crate) acceleration_m_s2: Vector2<f64>,
+    pub(crate) jerk_m_s3: Vector2<f64>,
 }
 
 /// A motion from rest to rest along a line: seven phases of constant jerk.
@@ -109,19 +109,17 @@ impl Profile {
 #[derive(Debug, Clone, Copy)]
 struct Leg {
     direction: Vector2<f64>,
-    horizontal: Profile,
-    up: f64,
-    vertical: Profile,
+    profile: Profile,
     elapsed_s: f64,
 }
 
 impl Leg {
     fn is_over(&self) -> bool {
-        self.elapsed_s >= self.horizontal.duration_s().max(self.vertical.duration_s())
+        self.elapsed_s >= self.profile.duration_s()
     }
 
-    fn displacement_m(&self) -> Vector3<f64> {
-        (self.direction * self.horizontal.length_m).push(self.up * self.vertical.length_m)
+    fn displacement_m(&self) -> Vector2<f64> {
+        self.direction * self.profile.length_m
     }
 }
 
@@ -129,8 +127,8 @@ impl Leg {
 #[derive(Debug, Clone)]
 pub(crate) struct Trajectory {
     /// Where the motions that are over have led.
-    origin_m: Vector3<f64>,
-    target_m: Vector3<f64>,
+    origin_m: Vector2<f64>,
+    target_m: Vector2<f64>,
     legs: Vec<Leg>,
 }
 
@@ -139,27 +137,19 @@ const MAX_LEGS: usize = 4;
 
 impl Trajectory {
     /// At rest.
-    pub(crate) fn new(place_m: Vector3<f64>) -> Self {
+    pub(crate) fn new(place_m: Vector2<f64>) -> Self {
         Self { origin_m: place_m, target_m: place_m, legs: Vec::with_capacity(MAX_LEGS + 1) }
     }
 
     /// Sets out for a target, unless it is the old one.
-    pub(crate) fn set_target(
-        &mut self,
-        target_m: Vector3<f64>,
-        horizontal: &MotionLimits,
-        vertical: &MotionLimits,
-    ) {
+    pub(crate) fn set_target(&mut self, target_m: Vector2<f64>, limits: &MotionLimits) {
         let way = target_m - self.target_m;
         if way.norm() <= f64::EPSILON {
             return;
         }
-        let flat = way.xy();
         self.legs.push(Leg {
-            direction: flat.try_normalize(f64::EPSILON).unwrap_or_default(),
-            horizontal: Profile::new(flat.norm(), horizontal),
-            up: way.z.signum(),
-            vertical: Profile::new(way.z.abs(), vertical),
+            direction: way.normalize(),
+            profile: Profile::new(way.norm(), limits),
             elapsed_s: 0.0,
         });
         if self.legs.len() > MAX_LEGS {
@@ -183,12 +173,11 @@ impl Trajectory {
 
     /// The reference so long from now.
     pub(crate) fn at(&self, lead_s: f64) -> Reference {
-        let mut sums = [Vector3::zeros(); 4];
+        let mut sums = [Vector2::zeros(); 4];
         for leg in &self.legs {
-            let horizontal = leg.horizontal.at(leg.elapsed_s + lead_s);
-            let vertical = leg.vertical.at(leg.elapsed_s + lead_s);
-            for (sum, (flat, up)) in sums.iter_mut().zip(horizontal.into_iter().zip(vertical)) {
-                *sum += (leg.direction * flat).push(leg.up * up);
+            let along = leg.profile.at(leg.elapsed_s + lead_s);
+            for (sum, value) in sums.iter_mut().zip(along) {
+                *sum += leg.direction * value;
             }
         }
         let [way, velocity_m_s, acceleration_m_s2, jerk_m_s3] = sums;
@@ -229,12 +218,12 @@ mod tests {
 
     #[test]
     fn a_target_that_changes_on_the_way_is_reached_without_a_jump() {
-        let mut trajectory = Trajectory::new(Vector3::zeros());
-        trajectory.set_target(Vector3::new(3.0, 0.0, 1.0), &LIMITS, &LIMITS);
+        let mut trajectory = Trajectory::new(Vector2::zeros());
+        trajectory.set_target(Vector2::new(3.0, 0.0), &LIMITS);
         let mut last = trajectory.at(0.0);
         for step in 0..1000 {
             if step == 30 {
-                trajectory.set_target(Vector3::new(0.0, 2.0, 0.5), &LIMITS, &LIMITS);
+                trajectory.set_target(Vector2::new(0.0, 2.0), &LIMITS);
             }
             trajectory.advance(0.01);
             let reference = trajectory.at(0.0);
@@ -242,7 +231,7 @@ mod tests {
             assert!((reference.velocity_m_s - last.velocity_m_s).norm() < 0.06);
             last = reference;
         }
-        assert!((last.position_m - Vector3::new(0.0, 2.0, 0.5)).norm() < 1e-9);
+        assert!((last.position_m - Vector2::new(0.0, 2.0)).norm() < 1e-9);
         assert!(last.velocity_m_s.norm() < 1e-12);
     }
 

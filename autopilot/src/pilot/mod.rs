@@ -16,9 +16,9 @@ use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use ardrone_link::session::{self, FlightOrder, Order, Received, Session, SessionConfig};
 use ardrone_link::settings::{Setting, SettingError};
-use estimator::{Estimator, Sample};
+use estimator::{Estimator, EstimatorConfig, Prediction, Sample, Sticks};
 pub use pid::Law;
-use pid::{Inputs, Pose, PositionController};
+use pid::{CascadeConfig, Demand, Inputs, Pose, PositionController};
 
 pub use self::flight_phase::{FlightPhase, LandingReason};
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
@@ -40,11 +40,21 @@ pub struct PilotConfig {
     pub read_back: bool,
     /// How poses are approached and held.
     pub law: Law,
+    /// How late the drone tells and obeys, and what is assumed of the airframe.
+    pub estimator: EstimatorConfig,
+    /// Gains and limits of [`Law::Cascade`].
+    pub cascade: CascadeConfig,
 }
 
 impl Default for PilotConfig {
     fn default() -> Self {
-        Self { limits: FlightLimits::default(), read_back: true, law: Law::default() }
+        Self {
+            limits: FlightLimits::default(),
+            read_back: true,
+            law: Law::default(),
+            estimator: EstimatorConfig::default(),
+            cascade: CascadeConfig::default(),
+        }
     }
 }
 
@@ -65,9 +75,6 @@ const MIN_TAKE_OFF_BATTERY_PERCENT: u32 = 20;
 /// In flight, the drone lands before it has to.
 const LANDING_BATTERY_PERCENT: u32 = 12;
 
-/// The drone's own velocity is so old when it is sent.
-const SENSOR_DELAY: Duration = Duration::from_millis(60);
-
 /// Asks for the drone's clock in demo mode. The key belongs to a category that firmware may only
 /// let a custom configuration change, so the flight does not depend on it.
 const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
@@ -78,6 +85,8 @@ pub struct Pilot {
     session: Session,
     estimator: Estimator,
     controller: PositionController,
+    law: Law,
+    dead_time: Duration,
     agent: Agent,
     mission: Mission,
     settings: Vec<Config>,
@@ -117,8 +126,10 @@ impl Pilot {
         let report = FlightReport { steps: plan.steps().len(), ..FlightReport::default() };
         Ok(Self {
             session: Session::new(session_config),
-            estimator: Estimator::new(),
-            controller: PositionController::new(config.law),
+            estimator: Estimator::new(config.estimator),
+            controller: PositionController::new(config.law, config.cascade),
+            law: config.law,
+            dead_time: config.estimator.dead_time,
             agent: Agent::new(),
             mission: Mission::new(plan, config.limits),
             settings,
@@ -221,7 +232,7 @@ impl Pilot {
 
     /// A snapshot for whoever watches.
     pub fn status(&self, now: Duration) -> Status {
-        let pose = self.pose();
+        let pose = self.pose(now);
         Status {
             phase: self.phase.name(),
             step: self.due.as_ref().map(|active| active.due.step),
@@ -248,19 +259,25 @@ impl Pilot {
         !flying && (landed || self.drone_state().contains(DroneState::EMERGENCY))
     }
 
-    fn pose(&self) -> Pose {
-        let estimate = self.estimator.estimate();
-        Pose {
-            x_m: estimate.position_m.x,
-            y_m: estimate.position_m.y,
-            z_m: estimate.position_m.z,
-            yaw_deg: estimate.yaw_deg,
+    /// Where the drone is, and how it moves.
+    fn state(&self, at: Duration) -> Prediction {
+        match self.law {
+            Law::Cascade => self.estimator.predicted(at),
+            // It knows no prediction.
+            Law::Tum => {
+                let estimate = self.estimator.estimate();
+                Prediction {
+                    position_m: estimate.position_m,
+                    velocity_m_s: estimate.velocity_m_s,
+                    yaw_deg: estimate.yaw_deg,
+                    ..Prediction::default()
+                }
+            }
         }
     }
 
-    /// How old the estimate is, the drone's own delay included.
-    fn estimate_age(&self, now: Duration) -> Duration {
-        now.saturating_sub(self.estimator.estimate().at) + SENSOR_DELAY
+    fn pose(&self, now: Duration) -> Pose {
+        pose(&self.state(now))
     }
 
     fn senses(&self, now: Duration) -> Senses {
@@ -269,10 +286,7 @@ impl Pilot {
         });
         Senses {
             now_ms: i64::try_from(now.as_millis()).unwrap_or(i64::MAX),
-            pose: self.demo().map(|_| {
-                let age_s = self.estimate_age(now).as_secs_f64();
-                self.controller.predicted(&self.pose(), age_s)
-            }),
+            pose: self.demo().map(|_| self.pose(now)),
             on_ground: self.on_ground(),
             hovering: hovering && self.drone_state().contains(DroneState::FLYING),
             settings: self.mission.settings(),
@@ -289,7 +303,8 @@ impl Pilot {
     /// The agent's command as levels and sticks.
     fn order(&mut self, now: Duration, command: AgentCommand, step_s: f64) -> Order {
         self.target = None;
-        match command {
+        let mut told = estimator::Order::ByItself;
+        let order = match command {
             AgentCommand::Standby | AgentCommand::Land => {
                 self.controller.reset();
                 Order { flight: FlightOrder::Land, motion: Motion::Hover }
@@ -301,16 +316,12 @@ impl Pilot {
             }
             AgentCommand::GoTo(target) => {
                 self.target = Some(target);
-                let velocity = self.estimator.estimate().velocity_m_s;
-                let motion =
-                    pid::Motion { x_m_s: velocity.x, y_m_s: velocity.y, z_m_s: velocity.z };
-                let demand = self.controller.step(&Inputs {
-                    pose: &self.pose(),
-                    motion: &motion,
-                    target: &target,
-                    age_s: self.estimate_age(now).as_secs_f64(),
-                    step_s,
-                    limit: self.mission.max_control(),
+                let demand = self.demand(now, &target, step_s);
+                told = estimator::Order::Sticks(Sticks {
+                    right: demand.roll,
+                    forward: -demand.pitch,
+                    up: demand.gaz,
+                    clockwise: demand.yaw,
                 });
                 let motion = Motion::Progressive {
                     roll: Fraction::saturating(demand.roll),
@@ -320,7 +331,47 @@ impl Pilot {
                 };
                 Order { flight: FlightOrder::StayAirborne, motion }
             }
-        }
+        };
+        self.estimator.told(now, told);
+        order
+    }
+
+    /// The sticks for the way to a target.
+    fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Demand {
+        // A command acts when the dead time is over: it must suit the drone of that moment.
+        let state = self.state(now + self.dead_time);
+        let estimator::Airframe {
+            tilt_gain,
+            tilt_lag_s,
+            climb_gain,
+            drop_gain,
+            climb_lag_s,
+            thrust_gain,
+            drag_1_s,
+            ..
+        } = *self.estimator.airframe();
+        self.controller.step(&Inputs {
+            pose: &pose(&state),
+            motion: &pid::Motion {
+                x_m_s: state.velocity_m_s.x,
+                y_m_s: state.velocity_m_s.y,
+                z_m_s: state.velocity_m_s.z,
+                yaw_deg_s: 0.0,
+            },
+            disturbance_m_s2: state.disturbance_m_s2,
+            airframe: pid::Airframe {
+                tilt_gain,
+                tilt_lag_s,
+                climb_gain,
+                drop_gain,
+                climb_lag_s,
+                thrust_gain,
+                drag_1_s,
+            },
+            target,
+            step_s,
+            limit: self.mission.max_control(),
+        })
     }
 
     /// Gives the agent the next order when the last one has ended.
@@ -329,7 +380,7 @@ impl Pilot {
             return;
         }
         if self.due.is_none() {
-            match self.mission.advance(&self.pose()) {
+            match self.mission.advance(&self.pose(now)) {
                 Some(due) => {
                     self.due = Some(Active { due, since: now, offered: false });
                     self.events.push_back(FlightEvent::StepStarted { step: due.step });
@@ -364,7 +415,7 @@ impl Pilot {
             self.land(now, LandingReason::StepFailed { step: active.due.step });
             return;
         }
-        let pose = self.pose();
+        let pose = self.pose(now);
         self.report.steps_done = active.due.step + 1;
         match active.due.order {
             AgentOrder::TakeOff => {
@@ -381,12 +432,23 @@ impl Pilot {
     }
 }
 
+fn pose(state: &Prediction) -> Pose {
+    Pose {
+        x_m: state.position_m.x,
+        y_m: state.position_m.y,
+        z_m: state.position_m.z,
+        yaw_deg: state.yaw_deg,
+    }
+}
+
 /// What a navdata packet says of the drone's motion.
 fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
     Sample {
         arrival: now,
         drone_time: navdata.time,
         yaw_deg: demo.yaw_deg,
+        roll_deg: demo.roll_deg,
+        pitch_deg: demo.pitch_deg,
         velocity_forward_m_s: demo.velocity_forward_m_s,
         velocity_right_m_s: demo.velocity_right_m_s,
         altitude_m: demo.altitude_m,

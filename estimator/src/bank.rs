@@ -1,0 +1,161 @@
+//! Learns gains and a lag from what was told and what came of it.
+//!
+//! Given the lag, the answer is linear in the gains. So there is one hypothesis for each of several
+//! lags; each fits its gains by recursive least squares, and what they leave unexplained tells how
+//! probable each lag is (Bayesian model averaging). The estimate is the mean over the hypotheses: it
+//! moves smoothly from what was assumed to what is seen, and no wrong lag is ever believed for long.
+
+use nalgebra::{SMatrix, SVector};
+
+/// A lag, and how well each set of gains explains the answers with it.
+#[derive(Debug, Clone, Copy)]
+struct Hypothesis<const GAINS: usize> {
+    lag_s: f64,
+    /// Logarithm of how probable it is before anything was seen.
+    prior: f64,
+    information: SMatrix<f64, GAINS, GAINS>,
+    moment: SVector<f64, GAINS>,
+    square: f64,
+}
+
+impl<const GAINS: usize> Hypothesis<GAINS> {
+    fn gains(&self) -> SVector<f64, GAINS> {
+        // The prior makes the information positive definite.
+        self.information.cholesky().map_or_else(SVector::zeros, |matrix| matrix.solve(&self.moment))
+    }
+
+    /// Sum of the squared errors that are left, in units of the noise.
+    fn unexplained(&self, gains: &SVector<f64, GAINS>) -> f64 {
+        (self.square - self.moment.dot(gains)).max(0.0)
+    }
+}
+
+/// What is assumed before anything was seen.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Assumption<const GAINS: usize> {
+    pub(crate) gains: [f64; GAINS],
+    /// Standard deviations.
+    pub(crate) spreads: [f64; GAINS],
+    pub(crate) lag_s: f64,
+    /// Standard deviation of the lag's logarithm.
+    pub(crate) lag_spread: f64,
+    /// Standard deviation of one answer, as if all answers were independent.
+    pub(crate) noise: f64,
+}
+
+/// Hypotheses for several lags.
+#[derive(Debug, Clone)]
+pub(crate) struct Bank<const LAGS: usize, const GAINS: usize> {
+    hypotheses: [Hypothesis<GAINS>; LAGS],
+    noise: f64,
+}
+
+/// Share of what is known that is forgotten with an answer as large as the noise allows to be seen:
+/// gains change as the battery empties.
+const FORGETTING: f64 = 0.002;
+
+impl<const LAGS: usize, const GAINS: usize> Bank<LAGS, GAINS> {
+    pub(crate) fn new(lags_s: [f64; LAGS], assumption: &Assumption<GAINS>) -> Self {
+        let Assumption { gains, spreads, lag_s, lag_spread, noise } = *assumption;
+        let gains = SVector::from(gains);
+        let information =
+            SMatrix::from_diagonal(&SVector::from(spreads).map(|spread: f64| spread.powi(-2)));
+        let hypotheses = lags_s.map(|candidate_s| {
+            let moment = information * gains;
+            let off = (candidate_s / lag_s).ln() / lag_spread;
+            Hypothesis {
+                lag_s: candidate_s,
+                prior: -off * off / 2.0,
+                information,
+                moment,
+                square: gains.dot(&moment),
+            }
+        });
+        Self { hypotheses, noise }
+    }
+
+    /// Learns from an answer, and from what each lag makes of the sticks: the answer should be the
+    /// gains times that.
+    pub(crate) fn learn(&mut self, answer: f64, causes: &[SVector<f64, GAINS>; LAGS]) {
+        let answer = answer / self.noise;
+        let seen = causes.iter().map(SVector::norm_squared).sum::<f64>()
+            / (self.noise.powi(2) * causes.len() as f64);
+        let keep = 1.0 - FORGETTING * seen.min(1.0);
+        for (hypothesis, cause) in self.hypotheses.iter_mut().zip(causes) {
+            let cause = cause / self.noise;
+            hypothesis.information = hypothesis.information * keep + cause * cause.transpose();
+            hypothesis.moment = hypothesis.moment * keep + cause * answer;
+            hypothesis.square = hypothesis.square * keep + answer * answer;
+        }
+    }
+
+    /// The lag in seconds and the gains.
+    pub(crate) fn estimate(&self) -> (f64, SVector<f64, GAINS>) {
+        let judged = self.hypotheses.map(|hypothesis| {
+            let gains = hypothesis.gains();
+            (hypothesis, gains, hypothesis.prior - hypothesis.unexplained(&gains) / 2.0)
+        });
+        let best = judged.iter().map(|(.., log)| *log).fold(f64::NEG_INFINITY, f64::max);
+        let (mut sum, mut lag_s, mut gains) = (0.0, 0.0, SVector::zeros());
+        for (hypothesis, its_gains, log) in judged {
+            let weight = (log - best).exp();
+            sum += weight;
+            lag_s += hypothesis.lag_s * weight;
+            gains += its_gains * weight;
+        }
+        (lag_s / sum, gains / sum)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAGS_S: [f64; 4] = [0.2, 0.4, 0.8, 1.6];
+    const ASSUMPTION: Assumption<2> =
+        Assumption { gains: [1.0; 2], spreads: [0.5; 2], lag_s: 0.5, lag_spread: 0.5, noise: 0.02 };
+
+    /// The causes of a lag that is `true_lag` are `shape` times what the others make of it.
+    fn causes(step: u32, true_lag: usize) -> [SVector<f64, 2>; 4] {
+        std::array::from_fn(|i| {
+            let phase = f64::from(step) * 0.1 - (i as f64 - true_lag as f64) * 0.4;
+            SVector::<f64, 2>::new(phase.sin().max(0.0), phase.sin().min(0.0)) * 0.2
+        })
+    }
+
+    #[test]
+    fn what_is_assumed_holds_until_something_is_seen() {
+        let mut bank = Bank::<4, 2>::new(LAGS_S, &ASSUMPTION);
+        let (lag_s, gains) = bank.estimate();
+        assert!((0.4..0.7).contains(&lag_s), "{lag_s}");
+        assert!((gains.x - 1.0).abs() < 1e-9);
+        // Noise without a cause teaches nothing.
+        for i in 0..10_000 {
+            bank.learn(if i % 2 == 0 { 0.03 } else { -0.03 }, &[SVector::zeros(); 4]);
+        }
+        let (after_s, gains) = bank.estimate();
+        assert!((after_s - lag_s).abs() < 1e-9 && (gains.x - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_right_lag_and_gains_are_found_and_followed() {
+        for true_lag in 0..4 {
+            let mut bank = Bank::new(LAGS_S, &ASSUMPTION);
+            let mut fly = |range: std::ops::Range<u32>, up: f64, down: f64| {
+                for step in range {
+                    let causes = causes(step, true_lag);
+                    let noise = if step % 2 == 0 { 0.01 } else { -0.01 };
+                    let answer = causes[true_lag].dot(&SVector::<f64, 2>::new(up, down)) + noise;
+                    bank.learn(answer, &causes);
+                }
+                bank.estimate()
+            };
+            let (lag_s, gains) = fly(0..200, 0.8, 1.7);
+            assert!((lag_s / LAGS_S[true_lag] - 1.0).abs() < 0.1, "{true_lag}: {lag_s}");
+            assert!((gains.x - 0.8).abs() < 0.06 && (gains.y - 1.7).abs() < 0.1, "{gains}");
+            // A gain that sinks is followed.
+            let (_, gains) = fly(200..6000, 0.6, 1.7);
+            assert!((gains.x - 0.6).abs() < 0.03, "{gains}");
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Velocity and place across the ground, and what pushes the drone.
+//!
+//! The place is the integral of the measured velocity and nothing else. The velocity between and
+//! after the measurements is a model's: tilt follows the sticks, gravity makes it acceleration, drag
+//! slows. What the model does not foresee corrects its velocity, and is learnt as a disturbance: an
+//! acceleration by wind or a wrong level reference (a Luenberger observer with a disturbance state).
+
+use nalgebra::{Rotation2, Vector2};
+
+use crate::airframe::{Airframe, DroneLimits};
+use crate::orders::Order;
+
+pub(crate) const GRAVITY_M_S2: f64 = 9.81;
+/// A drone that holds its place by itself brakes about so fast.
+const BRAKING_TIME_S: f64 = 0.5;
+
+/// What pushes a drone that holds its place is averaged over so long: it also leans to come to rest.
+const HOLD_TIME_S: f64 = 1.0;
+
+/// How the drone moves across the ground at one moment.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Horizontal {
+    /// (right, forward) in the world.
+    pub(crate) position_m: Vector2<f64>,
+    pub(crate) velocity_m_s: Vector2<f64>,
+    /// What pushes the drone besides its sticks.
+    pub(crate) disturbance_m_s2: Vector2<f64>,
+    /// (right, forward) of the body.
+    tilt_rad: Vector2<f64>,
+    measured_m_s: Vector2<f64>,
+}
+
+/// How fast the observer follows what it did not foresee.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ObserverGains {
+    /// Of the velocity.
+    pub(crate) velocity_1_s: f64,
+    /// Of the disturbance.
+    pub(crate) disturbance_1_s2: f64,
+    /// No disturbance is taken as larger.
+    pub(crate) disturbance_max_m_s2: f64,
+}
+
+impl Horizontal {
+    /// Flies on under an order at a heading.
+    pub(crate) fn advance(
+        &mut self,
+        step_s: f64,
+        order: Order,
+        yaw_deg: f64,
+        airframe: &Airframe,
+        limits: &DroneLimits,
+    ) {
+        let acceleration = match order {
+            Order::Sticks(sticks) => {
+                let most = limits.tilt_rad;
+                let wanted = Vector2::new(sticks.right, sticks.forward)
+                    .map(|stick| (stick * most * airframe.tilt_gain).clamp(-most, most));
+                let followed = 1.0 - (-step_s / airframe.tilt_lag_s).exp();
+                self.tilt_rad += (wanted - self.tilt_rad) * followed;
+                let pull = self.tilt_rad.map(|angle_rad| GRAVITY_M_S2 * angle_rad.tan());
+                let speed_m_s = body_from_world(self.velocity_m_s, yaw_deg);
+                let body = pull.component_mul(&airframe.thrust_gain)
+                    - speed_m_s.component_mul(&airframe.drag_1_s);
+                world_from_body(body, yaw_deg) + self.disturbance_m_s2
+            }
+            Order::ByItself => {
+                self.tilt_rad = Vector2::zeros();
+                -self.velocity_m_s / BRAKING_TIME_S
+            }
+        };
+        self.position_m += (self.velocity_m_s + acceleration * (step_s / 2.0)) * step_s;
+        self.velocity_m_s += acceleration * step_s;
+    }
+
+    /// Takes in the velocity that was measured at this moment, `step_s` after the one before, and the
+    /// place that it leads to.
+    pub(crate) fn correct(
+        &mut self,
+        measured_m_s: Vector2<f64>,
+        position_m: Vector2<f64>,
+        step_s: f64,
+        order: Order,
+        gains: &ObserverGains,
+    ) {
+        let surprise = measured_m_s - self.velocity_m_s;
+        match order {
+            Order::Sticks(_) => {
+                self.velocity_m_s += surprise * (gains.velocity_1_s * step_s).min(0.7);
+                let most = gains.disturbance_max_m_s2;
+                let learnt = surprise * (gains.disturbance_1_s2 * step_s.min(0.1));
+                self.disturbance_m_s2 =
+                    (self.disturbance_m_s2 + learnt).map(|value| value.clamp(-most, most));
+            }
+            // The model knows nothing of what the drone does by itself.
+            Order::ByItself => self.velocity_m_s = measured_m_s,
+        }
+        self.measured_m_s = measured_m_s;
+        self.position_m = position_m;
+    }
+
+    /// The drone holds its place by itself, tilted so (right, forward) at a heading: it leans against
+    /// what pushes it.
+    pub(crate) fn learn_from_hold(
+        &mut self,
+        tilt_rad: Vector2<f64>,
+        yaw_deg: f64,
+        step_s: f64,
+        airframe: &Airframe,
+        gains: &ObserverGains,
+    ) {
+        let pull = tilt_rad.map(|angle_rad| GRAVITY_M_S2 * angle_rad.tan());
+        let drag = body_from_world(self.measured_m_s, yaw_deg).component_mul(&airframe.drag_1_s);
+        let leaning = world_from_body(pull.component_mul(&airframe.thrust_gain) - drag, yaw_deg);
+        let most = gains.disturbance_max_m_s2;
+        let share = (step_s / HOLD_TIME_S).min(1.0);
+        self.disturbance_m_s2 = (self.disturbance_m_s2 - (self.disturbance_m_s2 + leaning) * share)
+            .map(|value| value.clamp(-most, most));
+    }
+
+    pub(crate) fn measured_m_s(&self) -> Vector2<f64> {
+        self.measured_m_s
+    }
+}
+
+/// (right, forward) of the body to (right, forward) of the world: a clockwise heading turns forward
+/// towards the right.
+pub(crate) fn world_from_body(body: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
+    Rotation2::new(-yaw_deg.to_radians()) * body
+}
+
+/// The inverse of [`world_from_body`].
+pub(crate) fn body_from_world(world: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
+    Rotation2::new(yaw_deg.to_radians()) * world
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orders::Sticks;
+
+    const GAINS: ObserverGains =
+        ObserverGains { velocity_1_s: 4.0, disturbance_1_s2: 4.0, disturbance_max_m_s2: 1.0 };
+
+    fn forward(forward: f64) -> Order {
+        Order::Sticks(Sticks { forward, ..Sticks::default() })
+    }
+
+    #[test]
+    fn a_steady_tilt_ends_at_the_speed_where_drag_holds_it() {
+        let mut motion = Horizontal::default();
+        let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+        for _ in 0..2000 {
+            // Facing right: forward is +x.
+            motion.advance(0.01, forward(0.5), 90.0, &airframe, &limits);
+        }
+        let speed_m_s = GRAVITY_M_S2 * 6_f64.to_radians().tan() / 0.5;
+        let expected = Vector2::new(speed_m_s, 0.0);
+        assert!((motion.velocity_m_s - expected).norm() < 1e-3, "{motion:?}");
+    }
+
+    #[test]
+    fn a_wind_is_learnt_and_then_foreseen() {
+        let disturbance_m_s2 = Vector2::new(0.3, -0.2);
+        let mut truth = Horizontal { disturbance_m_s2, ..Horizontal::default() };
+        let mut motion = Horizontal::default();
+        let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+        for step in 0..400 {
+            let order = forward(0.3 * (f64::from(step) * 0.02).sin());
+            truth.advance(0.015, order, 0.0, &airframe, &limits);
+            motion.advance(0.015, order, 0.0, &airframe, &limits);
+            motion.correct(truth.velocity_m_s, truth.position_m, 0.015, order, &GAINS);
+        }
+        assert!((motion.disturbance_m_s2 - truth.disturbance_m_s2).norm() < 0.01, "{motion:?}");
+        let mut soon = motion;
+        for _ in 0..20 {
+            soon.advance(0.01, forward(0.0), 0.0, &airframe, &limits);
+            truth.advance(0.01, forward(0.0), 0.0, &airframe, &limits);
+        }
+        assert!((soon.position_m - truth.position_m).norm() < 0.002);
+    }
+
+    #[test]
+    fn a_drone_that_holds_by_itself_is_not_pushed() {
+        let mut motion = Horizontal::default();
+        let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+        let place = Vector2::new(1.0, 2.0);
+        for _ in 0..100 {
+            motion.advance(0.05, Order::ByItself, 0.0, &airframe, &limits);
+            motion.correct(Vector2::new(0.1, 0.0), place, 0.05, Order::ByItself, &GAINS);
+        }
+        assert_eq!(motion.disturbance_m_s2, Vector2::zeros());
+        assert_eq!(motion.measured_m_s(), Vector2::new(0.1, 0.0));
+        assert_eq!(motion.position_m, place);
+    }
+}

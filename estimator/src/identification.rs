@@ -1,0 +1,325 @@
+//! Learns in flight how this airframe answers its sticks.
+//!
+//! The published models of the AR.Drone disagree by factors of two, so none is taken for true. What
+//! is measured is compared with what the sticks asked for, as changes over a short window, so that
+//! trim, floor and starting height don't count: tilt by the measured attitude, climb by the measured
+//! height, thrust and drag by the measured velocity.
+
+use std::collections::VecDeque;
+
+use nalgebra::{SVector, Vector2};
+
+use crate::airframe::{Airframe, DroneLimits};
+use crate::bank::{Assumption, Bank};
+use crate::horizontal::GRAVITY_M_S2;
+use crate::orders::{Order, Orders, Sticks};
+
+/// Hypotheses of the climb's time constant.
+const CLIMB_LAGS_S: [f64; 7] = [0.15, 0.25, 0.38, 0.52, 0.72, 0.98, 1.3];
+/// Hypotheses of the tilt's time constant.
+const TILT_LAGS_S: [f64; 4] = [0.04, 0.09, 0.13, 0.19];
+/// Changes over so long are compared.
+const WINDOW_S: f64 = 0.5;
+/// Enough of them at 200 packets a second.
+const MEMORY: usize = 128;
+/// Nothing is learnt from a window in which the drone has turned further: its axes are mixed.
+const MAX_TURN_DEG: f64 = 10.0;
+
+/// A measured value, and what each hypothesis makes of the sticks up to the same time.
+#[derive(Debug, Clone, Copy)]
+struct Answer<const LAGS: usize, const GAINS: usize> {
+    at_s: f64,
+    value: f64,
+    causes: [SVector<f64, GAINS>; LAGS],
+}
+
+impl<const LAGS: usize, const GAINS: usize> Answer<LAGS, GAINS> {
+    /// Whether the sticks asked for so much: what stirs a drone that holds still is noise, and
+    /// noise that goes round the loop teaches nonsense.
+    fn is_caused(&self, least: f64) -> bool {
+        self.causes.iter().any(|cause| cause.amax() >= least)
+    }
+}
+
+/// The answers of the last window.
+#[derive(Debug, Clone)]
+struct Window<const LAGS: usize, const GAINS: usize> {
+    answers: VecDeque<Answer<LAGS, GAINS>>,
+}
+
+impl<const LAGS: usize, const GAINS: usize> Window<LAGS, GAINS> {
+    fn new() -> Self {
+        Self { answers: VecDeque::with_capacity(MEMORY) }
+    }
+
+    /// What has changed since the window's begin, once it is full.
+    fn change(&mut self, answer: Answer<LAGS, GAINS>) -> Option<Answer<LAGS, GAINS>> {
+        if self.answers.len() == MEMORY {
+            self.answers.pop_front();
+        }
+        self.answers.push_back(answer);
+        let begin_s = answer.at_s - WINDOW_S;
+        while self.answers.get(1).is_some_and(|second| second.at_s <= begin_s) {
+            self.answers.pop_front();
+        }
+        let first = self.answers.front().filter(|first| first.at_s <= begin_s)?;
+        let causes = std::array::from_fn(|i| answer.causes[i] - first.causes[i]);
+        Some(Answer { at_s: answer.at_s, value: answer.value - first.value, causes })
+    }
+}
+
+/// What the sticks asked for, followed with each lag of a bank, and the integral of that.
+#[derive(Debug, Clone)]
+struct Followers<const LAGS: usize, const GAINS: usize> {
+    lags_s: [f64; LAGS],
+    value: [SVector<f64, GAINS>; LAGS],
+    way: [SVector<f64, GAINS>; LAGS],
+    at_s: Option<f64>,
+}
+
+impl<const LAGS: usize, const GAINS: usize> Followers<LAGS, GAINS> {
+    fn new(lags_s: [f64; LAGS]) -> Self {
+        let zeros = [SVector::zeros(); LAGS];
+        Self { lags_s, value: zeros, way: zeros, at_s: None }
+    }
+
+    /// Goes on to a time.
+    fn advance(
+        &mut self,
+        to_s: f64,
+        orders: &Orders,
+        asked: impl Fn(Sticks) -> SVector<f64, GAINS>,
+    ) {
+        let from_s = self.at_s.replace(to_s).unwrap_or(to_s);
+        orders.steps(from_s, to_s, |_, step_s, order| {
+            let asked = match order {
+                Order::Sticks(sticks) => asked(sticks),
+                Order::ByItself => SVector::zeros(),
+            };
+            let followers = self.value.iter_mut().zip(&mut self.way);
+            for ((value, way), lag_s) in followers.zip(self.lags_s) {
+                let before = *value;
+                *value += (asked - *value) * (1.0 - (-step_s / lag_s).exp());
+                *way += (before + *value) * (step_s / 2.0);
+            }
+        });
+    }
+
+    /// The drone moves by itself, up to a time.
+    fn rest(&mut self, at_s: f64) {
+        self.at_s = Some(at_s);
+        self.value = [SVector::zeros(); LAGS];
+    }
+}
+
+/// How climb follows gaz: a gain up and a gain down.
+#[derive(Debug, Clone)]
+struct ClimbLearner {
+    bank: Bank<7, 2>,
+    followers: Followers<7, 2>,
+    window: Window<7, 2>,
+}
+
+/// How tilt follows its stick; both axes alike.
+#[derive(Debug, Clone)]
+struct TiltLearner {
+    bank: Bank<4, 1>,
+    axes: [(Followers<4, 1>, Window<4, 1>); 2],
+}
+
+/// How velocity follows tilt: thrust, drag, and something that pushes, on one axis of the body.
+#[derive(Debug, Clone)]
+struct ThrustLearner {
+    bank: Bank<1, 3>,
+    window: Window<1, 3>,
+    /// The tilt's acceleration if gravity alone made it, integrated.
+    pull_m_s: f64,
+    way_m: f64,
+}
+
+/// What is known of the airframe so far.
+#[derive(Debug, Clone)]
+pub(crate) struct Identification {
+    airframe: Airframe,
+    limits: DroneLimits,
+    climb: ClimbLearner,
+    tilt: TiltLearner,
+    thrust: [ThrustLearner; 2],
+    /// The tilt that velocity follows (right, forward), and the moment it is of.
+    tilt_rad: Vector2<f64>,
+    velocity_at_s: Option<f64>,
+    /// Heading at the begin of the window of the velocity.
+    window_yaw_deg: f64,
+}
+
+impl Identification {
+    pub(crate) fn new(airframe: Airframe, limits: DroneLimits) -> Self {
+        let climb = Assumption {
+            gains: [airframe.climb_gain, airframe.drop_gain],
+            spreads: [0.4; 2],
+            lag_s: airframe.climb_lag_s,
+            lag_spread: 0.5,
+            noise: 0.04,
+        };
+        let tilt = Assumption {
+            gains: [airframe.tilt_gain],
+            spreads: [0.5],
+            lag_s: airframe.tilt_lag_s,
+            lag_spread: 0.6,
+            noise: 0.012,
+        };
+        let thrust = |axis: usize| {
+            let assumption = Assumption {
+                gains: [airframe.thrust_gain[axis], airframe.drag_1_s[axis], 0.0],
+                spreads: [0.25, 0.5, 0.2],
+                lag_s: 1.0,
+                lag_spread: 1.0,
+                noise: 0.12,
+            };
+            ThrustLearner {
+                bank: Bank::new([1.0], &assumption),
+                window: Window::new(),
+                pull_m_s: 0.0,
+                way_m: 0.0,
+            }
+        };
+        Self {
+            airframe,
+            limits,
+            climb: ClimbLearner {
+                bank: Bank::new(CLIMB_LAGS_S, &climb),
+                followers: Followers::new(CLIMB_LAGS_S),
+                window: Window::new(),
+            },
+            tilt: TiltLearner {
+                bank: Bank::new(TILT_LAGS_S, &tilt),
+                axes: std::array::from_fn(|_| (Followers::new(TILT_LAGS_S), Window::new())),
+            },
+            thrust: [thrust(0), thrust(1)],
+            tilt_rad: Vector2::zeros(),
+            velocity_at_s: None,
+            window_yaw_deg: 0.0,
+        }
+    }
+
+    pub(crate) fn airframe(&self) -> &Airframe {
+        &self.airframe
+    }
+
+    /// A height was measured at a time; a floor step and a wrong echo are not handed in.
+    pub(crate) fn height(&mut self, at_s: f64, height_m: f64, orders: &Orders) {
+        if orders.at(at_s) == Order::ByItself {
+            self.forget_heights(at_s);
+            return;
+        }
+        let most = self.limits.climb_m_s;
+        let ClimbLearner { bank, followers, window } = &mut self.climb;
+        followers.advance(at_s, orders, |sticks| {
+            SVector::<f64, 2>::new(sticks.up.max(0.0), sticks.up.min(0.0)) * most
+        });
+        let answer = Answer { at_s, value: height_m, causes: followers.way };
+        let change = window.change(answer).filter(|change| change.is_caused(LEAST_CLIMB_M));
+        if let Some(change) = change {
+            bank.learn(change.value, &change.causes);
+            let (lag_s, gains) = bank.estimate();
+            self.airframe.climb_lag_s = lag_s;
+            self.airframe.climb_gain = gains.x.clamp(MIN_GAIN, MAX_GAIN);
+            self.airframe.drop_gain = gains.y.clamp(MIN_GAIN, MAX_GAIN);
+        }
+    }
+
+    /// The height jumped, or the drone moves by itself: nothing can be learnt across that.
+    pub(crate) fn forget_heights(&mut self, at_s: f64) {
+        self.climb.window.answers.clear();
+        self.climb.followers.rest(at_s);
+    }
+
+    /// A tilt (right, forward) was measured at a time.
+    pub(crate) fn tilt(&mut self, at_s: f64, tilt_rad: Vector2<f64>, orders: &Orders) {
+        let TiltLearner { bank, axes } = &mut self.tilt;
+        let Order::Sticks(sticks) = orders.at(at_s) else {
+            for (followers, window) in axes {
+                window.answers.clear();
+                followers.rest(at_s);
+            }
+            return;
+        };
+        // Tilt is limited whatever the gain: nothing is learnt at the limit.
+        let largest = sticks.right.abs().max(sticks.forward.abs());
+        let saturated = largest * self.airframe.tilt_gain > 1.02;
+        let most = self.limits.tilt_rad;
+        for (axis, (followers, window)) in axes.iter_mut().enumerate() {
+            followers.advance(at_s, orders, |sticks| {
+                SVector::<f64, 1>::new([sticks.right, sticks.forward][axis] * most)
+            });
+            let answer = Answer { at_s, value: tilt_rad[axis], causes: followers.value };
+            let change = window.change(answer).filter(|change| change.is_caused(LEAST_TILT_RAD));
+            if let Some(change) = change.filter(|_| !saturated) {
+                bank.learn(change.value, &change.causes);
+            }
+        }
+        let (lag_s, gains) = bank.estimate();
+        self.airframe.tilt_lag_s = lag_s;
+        self.airframe.tilt_gain = gains.x.clamp(MIN_GAIN, MAX_GAIN);
+    }
+
+    /// A velocity (right, forward) of the body was measured at a time, at a heading.
+    pub(crate) fn velocity(
+        &mut self,
+        at_s: f64,
+        body_m_s: Vector2<f64>,
+        yaw_deg: f64,
+        orders: &Orders,
+    ) {
+        let from_s = self.velocity_at_s.replace(at_s).unwrap_or(at_s);
+        let turned = (yaw_deg - self.window_yaw_deg).abs() > MAX_TURN_DEG;
+        if orders.at(at_s) == Order::ByItself || turned {
+            self.window_yaw_deg = yaw_deg;
+            for learner in &mut self.thrust {
+                learner.window.answers.clear();
+            }
+        }
+        let (airframe, most) = (self.airframe, self.limits.tilt_rad);
+        orders.steps(from_s, at_s, |_, step_s, order| {
+            let wanted = match order {
+                Order::Sticks(sticks) => Vector2::new(sticks.right, sticks.forward)
+                    .map(|stick| (stick * most * airframe.tilt_gain).clamp(-most, most)),
+                Order::ByItself => Vector2::zeros(),
+            };
+            let followed = 1.0 - (-step_s / airframe.tilt_lag_s).exp();
+            self.tilt_rad += (wanted - self.tilt_rad) * followed;
+            for (axis, learner) in self.thrust.iter_mut().enumerate() {
+                learner.pull_m_s += GRAVITY_M_S2 * self.tilt_rad[axis].tan() * step_s;
+                learner.way_m += body_m_s[axis] * step_s;
+            }
+        });
+        if orders.at(at_s) == Order::ByItself {
+            return;
+        }
+        for (axis, learner) in self.thrust.iter_mut().enumerate() {
+            let causes = [SVector::<f64, 3>::new(learner.pull_m_s, -learner.way_m, at_s)];
+            let answer = Answer { at_s, value: body_m_s[axis], causes };
+            let change = learner.window.change(answer);
+            let caused = |change: &Answer<1, 3>| {
+                let [pull_m_s, way_m] = [change.causes[0].x, change.causes[0].y];
+                pull_m_s.abs().max(way_m.abs()) >= LEAST_SPEED_CHANGE_M_S
+            };
+            if let Some(change) = change.filter(caused) {
+                learner.bank.learn(change.value, &change.causes);
+                let (_, gains) = learner.bank.estimate();
+                self.airframe.thrust_gain[axis] = gains.x.clamp(MIN_GAIN, MAX_GAIN);
+                self.airframe.drag_1_s[axis] = gains.y.clamp(0.0, MAX_DRAG_1_S);
+            }
+        }
+    }
+}
+
+/// Less asked for within a window teaches nothing.
+const LEAST_CLIMB_M: f64 = 0.04;
+const LEAST_TILT_RAD: f64 = 0.035;
+const LEAST_SPEED_CHANGE_M_S: f64 = 0.25;
+
+/// No airframe is known outside these.
+const MIN_GAIN: f64 = 0.4;
+const MAX_GAIN: f64 = 2.5;
+const MAX_DRAG_1_S: f64 = 3.0;

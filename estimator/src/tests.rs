@@ -1,0 +1,68 @@
+use super::*;
+
+fn fly(samples: impl IntoIterator<Item = Sample>) -> Estimate {
+    let mut estimator = Estimator::default();
+    for sample in samples {
+        estimator.update(&sample);
+    }
+    *estimator.estimate()
+}
+
+fn sample(arrival_ms: u64, yaw_deg: f64, forward: f64, right: f64) -> Sample {
+    Sample {
+        arrival: Duration::from_millis(arrival_ms),
+        yaw_deg,
+        velocity_forward_m_s: forward,
+        velocity_right_m_s: right,
+        altitude_m: 1.0,
+        airborne: true,
+        ..Sample::default()
+    }
+}
+
+#[test]
+fn clockwise_heading_turns_forward_to_the_right() {
+    for (turn_deg, x, y) in [(0.0, 0.0, 1.0), (90.0, 1.0, 0.0), (180.0, 0.0, -1.0)] {
+        // The first sample sets the baseline, at a heading close to the jump.
+        let start = sample(0, 171.0, 0.0, 0.0);
+        let turned = wrap_deg(171.0 + turn_deg);
+        let flight = (0..=100).map(|i| sample(1200 + 10 * i, turned, 1.0, 0.0));
+        let estimate = fly([start, sample(1000, turned, 0.0, 0.0), sample(1199, turned, 0.0, 0.0)]
+            .into_iter()
+            .chain(flight));
+        let position = estimate.position_m;
+        assert!((position.x - x).abs() < 1e-3, "{turn_deg}: {position}");
+        assert!((position.y - y).abs() < 1e-3, "{turn_deg}: {position}");
+    }
+}
+
+#[test]
+fn lost_packets_do_not_change_the_distance() {
+    let all = (0..=60).map(|i| sample(i * 66, 0.0, 1.0, 0.5));
+    let some = all.clone().enumerate().filter(|(i, _)| i % 4 != 1).map(|(_, sample)| sample);
+    let (all, some) = (fly(all), fly(some));
+    assert!((all.position_m - some.position_m).norm() < 1e-9);
+}
+
+#[test]
+fn the_drones_clock_counts_not_the_arrival() {
+    // Packets held up and delivered in bunches of ten, while the drone's clock wraps.
+    let samples = (0..41_u64).map(|i| Sample {
+        drone_time: Some(Duration::from_millis((2_047_000 + i * 66) % 2_048_000)),
+        ..sample(i.div_ceil(10) * 660, 0.0, 1.0, 0.0)
+    });
+    let estimate = fly(samples);
+    assert!((estimate.position_m.y - 40.0 * 0.066).abs() < 0.005, "{}", estimate.position_m);
+}
+
+#[test]
+fn on_the_ground_nothing_moves() {
+    let grounded = (0..10).map(|i| Sample { airborne: false, ..sample(i * 66, 0.0, 3.0, 3.0) });
+    assert_eq!(fly(grounded).position_m.xy(), Vector2::zeros());
+}
+
+#[test]
+fn a_long_gap_is_not_filled_with_motion() {
+    let estimate = fly([sample(0, 0.0, 1.0, 0.0), sample(10_000, 0.0, 1.0, 0.0)]);
+    assert!(estimate.position_m.y <= 0.3 + 1e-9);
+}

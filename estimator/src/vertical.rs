@@ -1,0 +1,201 @@
+//! Height and climb, from a height that is measured with noise, wrong echoes and steps of the floor.
+//!
+//! Between the measurements the climb is a model's: it follows the sticks with a lag. The
+//! measurements correct it as an alpha-beta filter would, so that the estimate does not lag behind
+//! what the drone was told.
+
+use crate::airframe::{Airframe, DroneLimits};
+use crate::orders::Order;
+
+/// Height above the floor at the start, and climb.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Vertical {
+    pub(crate) height_m: f64,
+    pub(crate) climb_m_s: f64,
+}
+
+impl Vertical {
+    /// Flies on under an order.
+    pub(crate) fn advance(
+        &mut self,
+        step_s: f64,
+        order: Order,
+        airframe: &Airframe,
+        limits: &DroneLimits,
+    ) {
+        let before_m_s = self.climb_m_s;
+        if let Order::Sticks(sticks) = order {
+            let gain = if sticks.up > 0.0 { airframe.climb_gain } else { airframe.drop_gain };
+            let wanted_m_s = sticks.up * limits.climb_m_s * gain;
+            let followed = 1.0 - (-step_s / airframe.climb_lag_s).exp();
+            self.climb_m_s += (wanted_m_s - self.climb_m_s) * followed;
+        }
+        self.height_m += f64::midpoint(before_m_s, self.climb_m_s) * step_s;
+    }
+}
+
+/// What a measured height was taken for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Echo {
+    /// A height like the expected one.
+    Good,
+    /// A wrong echo: not believed.
+    Wrong,
+    /// The floor has a step: the height above the start goes on as it was.
+    FloorStep,
+    /// The first one.
+    First,
+}
+
+/// Corrects height and climb by what is measured.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct AltitudeFilter {
+    state: Option<Vertical>,
+    /// What the floor below is higher than the floor at the start.
+    floor_m: f64,
+    /// Heights in a row that were not believed, and the newest of them above the expected one.
+    rejected: u32,
+    rejected_by_m: f64,
+}
+
+impl AltitudeFilter {
+    /// Time constant of the correction while the drone follows sticks.
+    const TIME_CONSTANT_S: f64 = 0.2;
+    /// While it moves by itself, and the model knows nothing.
+    const TIME_CONSTANT_BY_ITSELF_S: f64 = 0.12;
+    /// A height further than this from the expected one is no good echo (`tum_ardrone` takes 0.11 m
+    /// where the climb is known)...
+    const MAX_JUMP_M: f64 = 0.15;
+    /// ...and so much further for every second since the last one: the climb may have changed.
+    const MAX_JUMP_M_S: f64 = 1.0;
+    /// So many that agree are a step of the floor.
+    const AGREEING: u32 = 4;
+    /// They agree within this.
+    const AGREEMENT_M: f64 = 0.1;
+
+    /// The state at the last measurement; at rest on the floor before the first.
+    pub(crate) fn state(&self) -> Vertical {
+        self.state.unwrap_or_default()
+    }
+
+    /// Height above the floor below the drone.
+    pub(crate) fn above_floor_m(&self, height_m: f64) -> f64 {
+        height_m - self.floor_m
+    }
+
+    /// Takes in a height above the floor below, measured `step_s` after the one before, when the
+    /// state is expected to be `expected`.
+    pub(crate) fn correct(
+        &mut self,
+        altitude_m: f64,
+        expected: Vertical,
+        step_s: f64,
+        order: Order,
+    ) -> Echo {
+        if self.state.is_none() {
+            self.state = Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 });
+            return Echo::First;
+        }
+        let surprise_m = altitude_m + self.floor_m - expected.height_m;
+        let allowed_m = Self::MAX_JUMP_M + Self::MAX_JUMP_M_S * step_s;
+        if surprise_m.abs() > allowed_m {
+            let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M;
+            self.rejected = if self.rejected > 0 && agrees { self.rejected + 1 } else { 1 };
+            self.rejected_by_m = surprise_m;
+            self.state = Some(expected);
+            if self.rejected < Self::AGREEING {
+                return Echo::Wrong;
+            }
+            self.rejected = 0;
+            self.floor_m -= surprise_m;
+            return Echo::FloorStep;
+        }
+        self.rejected = 0;
+        if step_s <= 0.0 {
+            return Echo::Good;
+        }
+        let time_constant_s = match order {
+            Order::Sticks(_) => Self::TIME_CONSTANT_S,
+            Order::ByItself => Self::TIME_CONSTANT_BY_ITSELF_S,
+        };
+        // Critically damped: beta follows from alpha (Benedict and Bordner, 1962).
+        let alpha = step_s / (step_s + time_constant_s);
+        let beta = alpha * alpha / (2.0 - alpha);
+        self.state = Some(Vertical {
+            height_m: expected.height_m + alpha * surprise_m,
+            climb_m_s: expected.climb_m_s + beta * surprise_m / step_s,
+        });
+        Echo::Good
+    }
+
+    /// The drone stands on the floor.
+    pub(crate) fn stand(&mut self, altitude_m: f64) {
+        self.floor_m = 0.0;
+        self.rejected = 0;
+        self.state = Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orders::Sticks;
+
+    fn run(filter: &mut AltitudeFilter, altitudes_m: impl IntoIterator<Item = f64>) -> Vec<Echo> {
+        let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+        let step_s = 0.066;
+        let mut echoes = Vec::new();
+        for altitude_m in altitudes_m {
+            let mut expected = filter.state();
+            expected.advance(step_s, Order::ByItself, &airframe, &limits);
+            echoes.push(filter.correct(altitude_m, expected, step_s, Order::ByItself));
+        }
+        echoes
+    }
+
+    #[test]
+    fn a_steady_climb_is_followed_without_lag() {
+        let mut filter = AltitudeFilter::default();
+        run(&mut filter, (0..100).map(|i| 0.5 * 0.066 * f64::from(i)));
+        let state = filter.state();
+        assert!((state.climb_m_s - 0.5).abs() < 0.01, "{state:?}");
+        assert!((state.height_m - 0.5 * 0.066 * 99.0).abs() < 0.01, "{state:?}");
+    }
+
+    #[test]
+    fn what_the_sticks_do_is_known_at_once() {
+        let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+        let order = Order::Sticks(Sticks { up: 1.0, ..Sticks::default() });
+        let (mut truth, mut filter) = (Vertical::default(), AltitudeFilter::default());
+        filter.correct(0.0, truth, 0.0, order);
+        for _ in 0..60 {
+            truth.advance(0.04, order, &airframe, &limits);
+            let mut expected = filter.state();
+            expected.advance(0.04, order, &airframe, &limits);
+            filter.correct(truth.height_m, expected, 0.04, order);
+            assert!((filter.state().climb_m_s - truth.climb_m_s).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn wrong_echoes_are_ignored() {
+        let mut filter = AltitudeFilter::default();
+        run(&mut filter, [1.0; 50]);
+        let echoes = run(&mut filter, [2.5, 1.0, 0.3, 0.7, 1.0]);
+        assert_eq!(echoes, [Echo::Wrong, Echo::Good, Echo::Wrong, Echo::Wrong, Echo::Good]);
+        assert!((filter.state().height_m - 1.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn over_a_table_the_height_above_the_start_goes_on() {
+        let mut filter = AltitudeFilter::default();
+        run(&mut filter, [1.5; 50]);
+        let echoes = run(&mut filter, [0.8; 20]);
+        assert!(echoes.contains(&Echo::FloorStep));
+        let height_m = filter.state().height_m;
+        assert!((height_m - 1.5).abs() < 0.02, "{height_m}");
+        assert!((filter.above_floor_m(height_m) - 0.8).abs() < 0.02);
+        run(&mut filter, [1.5; 20]);
+        assert!((filter.above_floor_m(filter.state().height_m) - 1.5).abs() < 0.02);
+    }
+}

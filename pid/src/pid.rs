@@ -1,0 +1,159 @@
+//! Proportional, integral, derivative: one axis.
+
+/// Gains of one axis, in units of output per unit of error.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PidGains {
+    /// Per error.
+    pub proportional: f64,
+    /// Per error and second.
+    pub integral: f64,
+    /// Per rate of error.
+    pub derivative: f64,
+    /// How fast the integral gives up what could not be carried out: not faster than the integral's
+    /// own time, which is proportional through integral. Zero leaves it alone.
+    pub tracking_time_s: f64,
+}
+
+/// What one axis decides by.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PidInputs {
+    /// Where it is to be.
+    pub setpoint: f64,
+    /// How fast that moves: zero for a step, so that a step kicks nothing.
+    pub setpoint_rate: f64,
+    /// Where it is.
+    pub measured: f64,
+    /// How fast that moves, as measured: no difference of errors is taken.
+    pub measured_rate: f64,
+    /// What would do without errors.
+    pub feed_forward: f64,
+}
+
+/// A controller of one axis, in the parallel form.
+///
+/// The derivative is that of the measurement, the integral gives up what the actuator could not carry
+/// out (back-calculation, K. J. Åström and T. Hägglund, *Advanced PID Control*, 2006, §3.5), and the
+/// controller can take over from another one without a jump. The caller limits: several axes may
+/// share an actuator.
+///
+/// ```
+/// use pid::{Pid, PidGains, PidInputs};
+///
+/// let mut pid = Pid::new(PidGains { proportional: 2.0, integral: 1.0, ..PidGains::default() });
+/// let inputs = PidInputs { setpoint: 1.0, ..PidInputs::default() };
+/// let wanted = pid.output(&inputs);
+/// let applied = wanted.clamp(-1.0, 1.0);
+/// pid.learn(&inputs, wanted, applied, 0.03);
+/// assert_eq!(applied, 1.0);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Pid {
+    gains: PidGains,
+    integral: f64,
+}
+
+impl Pid {
+    /// A controller that has learnt nothing.
+    pub fn new(gains: PidGains) -> Self {
+        Self { gains, integral: 0.0 }
+    }
+
+    /// The output, not limited.
+    pub fn output(&self, inputs: &PidInputs) -> f64 {
+        self.without_integral(inputs) + self.integral
+    }
+
+    /// Learns for the next step of `step_s` seconds: from the error, and from what became of the
+    /// output that was wanted.
+    pub fn learn(&mut self, inputs: &PidInputs, wanted: f64, applied: f64, step_s: f64) {
+        let PidGains { integral, tracking_time_s, .. } = self.gains;
+        let error = inputs.setpoint - inputs.measured;
+        self.integral += integral * error * step_s;
+        if tracking_time_s > 0.0 {
+            self.integral += (applied - wanted) * (step_s / tracking_time_s).min(1.0);
+        }
+    }
+
+    /// Sets the integral so that the next output is this one: for taking over without a jump.
+    pub fn take_over(&mut self, inputs: &PidInputs, output: f64) {
+        self.integral = output - self.without_integral(inputs);
+    }
+
+    /// Changes the gains; what was learnt stays.
+    pub fn set_gains(&mut self, gains: PidGains) {
+        self.gains = gains;
+    }
+
+    /// What was learnt.
+    pub fn integral(&self) -> f64 {
+        self.integral
+    }
+
+    fn without_integral(&self, inputs: &PidInputs) -> f64 {
+        inputs.feed_forward
+            + self.gains.proportional * (inputs.setpoint - inputs.measured)
+            + self.gains.derivative * (inputs.setpoint_rate - inputs.measured_rate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GAINS: PidGains =
+        PidGains { proportional: 2.0, integral: 1.0, derivative: 0.5, tracking_time_s: 0.5 };
+
+    /// A body that is pushed by the output and something else; returns where it is each step.
+    fn push(pid: &mut Pid, setpoint: f64, disturbance: f64, limit: f64, steps: u32) -> Vec<f64> {
+        let (mut place, mut speed) = (0.0, 0.0);
+        (0..steps)
+            .map(|_| {
+                let inputs = PidInputs {
+                    setpoint,
+                    measured: place,
+                    measured_rate: speed,
+                    ..PidInputs::default()
+                };
+                let wanted = pid.output(&inputs);
+                let applied = wanted.clamp(-limit, limit);
+                pid.learn(&inputs, wanted, applied, 0.01);
+                speed += (applied + disturbance - 2.0 * speed) * 0.01;
+                place += speed * 0.01;
+                place
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_step_of_the_setpoint_kicks_nothing_and_the_rate_damps() {
+        let pid = Pid::new(GAINS);
+        let step = PidInputs { setpoint: 1.0, ..PidInputs::default() };
+        assert!((pid.output(&step) - 2.0).abs() < 1e-12);
+        let moving = PidInputs { measured_rate: 1.0, ..step };
+        assert!((pid.output(&moving) - 1.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_pushes_all_the_time_is_learnt() {
+        let places = push(&mut Pid::new(GAINS), 1.0, -0.7, 10.0, 4000);
+        assert!((places[3999] - 1.0).abs() < 1e-3, "{}", places[3999]);
+    }
+
+    #[test]
+    fn an_output_that_cannot_be_carried_out_does_not_wind_up() {
+        let overshoot = |tracking_time_s| {
+            let mut pid = Pid::new(PidGains { tracking_time_s, integral: 2.0, ..GAINS });
+            push(&mut pid, 5.0, 0.0, 1.5, 6000).into_iter().fold(0.0, f64::max) - 5.0
+        };
+        assert!(overshoot(0.5) < 0.2 * overshoot(0.0), "{} {}", overshoot(0.5), overshoot(0.0));
+    }
+
+    #[test]
+    fn it_takes_over_without_a_jump() {
+        let mut pid = Pid::new(GAINS);
+        let inputs = PidInputs { setpoint: 3.0, measured: 1.0, ..PidInputs::default() };
+        pid.take_over(&inputs, -0.4);
+        assert!((pid.output(&inputs) + 0.4).abs() < 1e-12);
+        assert!((pid.integral() + 4.4).abs() < 1e-12);
+    }
+}
