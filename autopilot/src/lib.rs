@@ -22,6 +22,7 @@ pub mod outcome;
 pub mod pilot;
 pub mod plan;
 pub mod safety;
+pub mod settings;
 pub mod sim;
 pub mod statistics;
 

@@ -54,12 +54,7 @@ impl Default for CascadeConfig {
             jerk_max_m_s3: 14.0,
             climb_speed_max_m_s: 0.75,
             braking_share: 0.9,
-            horizontal: PidGains {
-                proportional: 4.6,
-                integral: 0.1,
-                derivative: 4.2,
-                tracking_time_s: 46.0,
-            },
+            horizontal: PidGains { proportional: 4.6, integral: 0.1, derivative: 4.2 },
             vertical_frequency_rad_s: 2.1,
             vertical_damping: 0.8,
             vertical_integral_1_s2: 0.1,
@@ -218,7 +213,6 @@ impl Cascade {
             proportional: frequency * frequency * lag_s,
             integral: self.config.vertical_integral_1_s2,
             derivative: (2.0 * vertical_damping * frequency * lag_s - 1.0).max(0.0),
-            tracking_time_s: 20.0,
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
-use clap::{Parser, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::pilot::Law;
 use crate::plan;
@@ -14,7 +14,7 @@ Exit status:
     1  anything else that went wrong
     2  usage
    10  no drone answered, or the link was lost
-   20  the plan is invalid or cannot be read
+   20  the plan or the settings are invalid or cannot be read
    30  the pre-flight check refused to take off
    40  a failsafe landed the drone
    50  emergency: the drone cut its motors
@@ -27,11 +27,40 @@ landing ordered.";
 ///
 /// Without a drone, add --mock: a simulated one is started and flown over the same protocol.
 #[derive(Debug, Parser)]
-#[command(name = "ardrone-pilot", version, after_help = EXIT_STATUS)]
+#[command(
+    name = "ardrone-pilot",
+    version,
+    after_help = EXIT_STATUS,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
+)]
 pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+    #[command(flatten)]
+    pub(super) fly: Option<Fly>,
+}
+
+/// What else there is to do than to fly.
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Print the settings that hold: the documented defaults, or those of a file
+    Config {
+        /// A `pilot.toml`
+        #[arg(long, value_name = "FILE")]
+        config: Option<PathBuf>,
+    },
+}
+
+/// A flight.
+#[derive(Debug, Args)]
+pub(super) struct Fly {
     /// The flight plan
     #[arg(long, value_name = "FILE")]
     pub(super) plan: PathBuf,
+    /// Settings other than the defaults; `ardrone-pilot config` shows them
+    #[arg(long, value_name = "FILE")]
+    pub(super) config: Option<PathBuf>,
     /// Fly a simulated drone, started on free loopback ports
     #[arg(long, conflicts_with_all = ["drone", "at_port", "navdata_port", "control_port"])]
     pub(super) mock: bool,
@@ -50,9 +79,9 @@ pub(super) struct Arguments {
     /// Where z = 0 of the plan is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,
-    /// How targets are approached and held
-    #[arg(long, value_enum, value_name = "LAW", default_value_t = LawName::Cascade)]
-    law: LawName,
+    /// How targets are approached and held; `cascade` unless the settings say otherwise
+    #[arg(long, value_enum, value_name = "LAW")]
+    law: Option<LawName>,
     /// Plain lines, no terminal tricks
     #[arg(long)]
     pub(super) plain: bool,
@@ -74,12 +103,12 @@ enum ZOrigin {
     Floor,
 }
 
-impl Arguments {
-    pub(super) fn law(&self) -> Law {
-        match self.law {
+impl Fly {
+    pub(super) fn law(&self) -> Option<Law> {
+        self.law.map(|law| match law {
             LawName::Cascade => Law::Cascade,
             LawName::Tum => Law::Tum,
-        }
+        })
     }
 
     pub(super) fn z_origin(&self) -> plan::ZOrigin {

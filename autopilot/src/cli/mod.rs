@@ -5,6 +5,7 @@ mod progress;
 mod summary;
 
 use std::io::{IsTerminal as _, Write as _};
+use std::path::Path;
 use std::process::ExitCode;
 
 use ardrone_link::DroneAddress;
@@ -12,18 +13,20 @@ use clap::Parser as _;
 use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports, ServerError};
 
-use self::arguments::Arguments;
+use self::arguments::{Arguments, Command, Fly};
 use self::progress::Progress;
 use self::summary::{Summary, TrueWaypoint};
 use crate::flight::{Flight, FlightError, Message};
-use crate::pilot::PilotConfig;
 use crate::plan::{FlightLimits, Plan, PlanError};
+use crate::settings::{self, Settings, SettingsError};
 
 /// Why nothing was flown.
 #[derive(Debug, thiserror::Error)]
 enum CommandError {
-    #[error("cannot read the plan {path}: {source}")]
-    ReadPlan { path: String, source: std::io::Error },
+    #[error("cannot read {what} {path}: {source}")]
+    Read { what: &'static str, path: String, source: std::io::Error },
+    #[error("{0}")]
+    Settings(#[from] SettingsError),
     #[error("{0}")]
     Plan(#[from] PlanError),
     #[error("{0}")]
@@ -35,7 +38,7 @@ enum CommandError {
 impl CommandError {
     fn exit_status(&self) -> u8 {
         match self {
-            Self::ReadPlan { .. } | Self::Plan(_) => 20,
+            Self::Read { .. } | Self::Plan(_) | Self::Settings(_) => 20,
             Self::Flight(FlightError::Address { .. }) => 10,
             Self::Mock(_) | Self::Flight(_) => 1,
         }
@@ -53,7 +56,13 @@ pub fn main() -> ExitCode {
         .without_time()
         .log_internal_errors(false)
         .init();
-    let status = run(&arguments).unwrap_or_else(|error| {
+    let done = match (&arguments.command, &arguments.fly) {
+        (Some(Command::Config { config }), _) => print_settings(config.as_deref()),
+        (None, Some(flight)) => fly(flight),
+        // The parser demands a plan where there is no command.
+        (None, None) => Ok(2),
+    };
+    let status = done.unwrap_or_else(|error| {
         let prefix = if matches!(error, CommandError::Plan(_)) { "" } else { "error: " };
         // A message that cannot be printed has nowhere else to go.
         _ = writeln!(std::io::stderr(), "{prefix}{error}");
@@ -62,9 +71,23 @@ pub fn main() -> ExitCode {
     ExitCode::from(status)
 }
 
-fn run(arguments: &Arguments) -> Result<u8, CommandError> {
-    let limits = FlightLimits { z_origin: arguments.z_origin(), ..FlightLimits::default() };
-    let plan = read_plan(arguments, &limits)?;
+fn print_settings(path: Option<&Path>) -> Result<u8, CommandError> {
+    let text = match path {
+        Some(_) => read_settings(path)?.to_toml(),
+        None => settings::DEFAULTS.to_owned(),
+    };
+    // Whoever closed the pipe does not want the settings.
+    _ = write!(std::io::stdout(), "{text}");
+    Ok(0)
+}
+
+fn fly(arguments: &Fly) -> Result<u8, CommandError> {
+    let mut settings = read_settings(arguments.config.as_deref())?;
+    if let Some(law) = arguments.law() {
+        settings.set_law(law);
+    }
+    let config = settings.pilot_config(arguments.z_origin());
+    let plan = read_plan(arguments, &config.limits)?;
     let plain = arguments.plain || !std::io::stderr().is_terminal();
     let mut progress = Progress::new(&plan, plain);
     let mock = if arguments.mock {
@@ -82,7 +105,6 @@ fn run(arguments: &Arguments) -> Result<u8, CommandError> {
             format!("the drone at {}", drone.host)
         }
     ));
-    let config = PilotConfig { limits, law: arguments.law(), ..PilotConfig::default() };
     let flight = Flight::start(plan, &config, &drone)?;
     let mut truths = Vec::new();
     for message in flight.messages() {
@@ -98,16 +120,28 @@ fn run(arguments: &Arguments) -> Result<u8, CommandError> {
     Ok(finished.outcome.exit_status())
 }
 
-fn read_plan(arguments: &Arguments, limits: &FlightLimits) -> Result<Plan, CommandError> {
-    let path = arguments.plan.display().to_string();
-    let bytes = std::fs::read(&arguments.plan)
-        .map_err(|source| CommandError::ReadPlan { path: path.clone(), source })?;
-    // Bytes that are no UTF-8 become characters that no command contains.
-    let text = String::from_utf8_lossy(&bytes);
-    Ok(Plan::parse_within(&path, &text, limits)?)
+fn read_settings(path: Option<&Path>) -> Result<Settings, CommandError> {
+    let Some(path) = path else { return Ok(Settings::default()) };
+    let text = read("the settings", path)?;
+    Ok(Settings::parse(&path.display().to_string(), &text)?)
 }
 
-fn drone_address(arguments: &Arguments, mock: Option<&MockDrone>) -> DroneAddress {
+fn read_plan(arguments: &Fly, limits: &FlightLimits) -> Result<Plan, CommandError> {
+    let text = read("the plan", &arguments.plan)?;
+    Ok(Plan::parse_within(&arguments.plan.display().to_string(), &text, limits)?)
+}
+
+fn read(what: &'static str, path: &Path) -> Result<String, CommandError> {
+    let bytes = std::fs::read(path).map_err(|source| CommandError::Read {
+        what,
+        path: path.display().to_string(),
+        source,
+    })?;
+    // Bytes that are no UTF-8 become characters that nothing of ours contains.
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+fn drone_address(arguments: &Fly, mock: Option<&MockDrone>) -> DroneAddress {
     match mock.map(MockDrone::ports) {
         Some(ports) => DroneAddress {
             host: ports.host.to_string(),

@@ -31,13 +31,25 @@ use crate::safety::{self, Circumstances, Veto};
 /// The time between two ticks.
 pub const TICK: Duration = Duration::from_millis(30);
 
+/// How often and how much the drone tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum NavdataRate {
+    /// 15 packets a second with what a flight needs.
+    #[default]
+    Demo,
+    /// 200 packets a second with everything.
+    Full,
+}
+
 /// How to fly.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct PilotConfig {
     /// Heights between which the drone may fly.
     pub limits: FlightLimits,
     /// Whether the configuration is read back over the control port before take-off.
     pub read_back: bool,
+    /// What the drone is asked to tell.
+    pub navdata: NavdataRate,
     /// How poses are approached and held.
     pub law: Law,
     /// How late the drone tells and obeys, and what is assumed of the airframe.
@@ -51,6 +63,7 @@ impl Default for PilotConfig {
         Self {
             limits: FlightLimits::default(),
             read_back: true,
+            navdata: NavdataRate::default(),
             law: Law::default(),
             estimator: EstimatorConfig::default(),
             cascade: CascadeConfig::default(),
@@ -115,7 +128,7 @@ impl Pilot {
     /// # Errors
     /// [`SettingError`] if the limits cannot be sent to a drone.
     pub fn new(plan: Plan, config: &PilotConfig) -> Result<Self, SettingError> {
-        let settings = drone_settings(&config.limits)?;
+        let settings = drone_settings(config)?;
         let session_config = SessionConfig {
             settings: settings.clone(),
             read_back: config.read_back,
@@ -457,17 +470,17 @@ fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
 }
 
 /// What is set on the drone before each flight: other clients may have left anything there.
-/// The controller's gains are meant for these limits.
-fn drone_settings(limits: &FlightLimits) -> Result<Vec<Config>, SettingError> {
+fn drone_settings(config: &PilotConfig) -> Result<Vec<Config>, SettingError> {
+    let limits = &config.estimator.limits;
     [
-        Setting::NavdataDemo(true),
+        Setting::NavdataDemo(config.navdata == NavdataRate::Demo),
         // Demo, time and vision_detect.
         Setting::NavdataOptions(vec![0, 1, 16]),
         Setting::Outdoor(false),
-        Setting::AltitudeMaxM(limits.ceiling_m),
-        Setting::EulerAngleMaxDeg(12.0),
-        Setting::ClimbMaxMS(0.7),
-        Setting::YawRateMaxDegS(100.0),
+        Setting::AltitudeMaxM(config.limits.ceiling_m),
+        Setting::EulerAngleMaxDeg(limits.tilt_rad.to_degrees()),
+        Setting::ClimbMaxMS(limits.climb_m_s),
+        Setting::YawRateMaxDegS(limits.turn_deg_s),
     ]
     .iter()
     .map(Setting::config)
