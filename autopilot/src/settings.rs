@@ -94,6 +94,7 @@ struct Airframe {
     climb_lag_s: f64,
     thrust_gain: [f64; 2],
     drag_1_s: [f64; 2],
+    turn_gain: f64,
     turn_lag_s: f64,
 }
 
@@ -120,6 +121,7 @@ struct Controller {
     vertical_frequency_rad_s: f64,
     vertical_damping: f64,
     vertical_integral_1_s2: f64,
+    turn_share: f64,
     yaw_1_deg: f64,
 }
 
@@ -175,6 +177,7 @@ impl Default for Airframe {
             climb_lag_s: airframe.climb_lag_s,
             thrust_gain: airframe.thrust_gain.into(),
             drag_1_s: airframe.drag_1_s.into(),
+            turn_gain: airframe.turn_gain,
             turn_lag_s: airframe.turn_lag_s,
         }
     }
@@ -207,6 +210,7 @@ impl Default for Controller {
             vertical_frequency_rad_s: config.vertical_frequency_rad_s,
             vertical_damping: config.vertical_damping,
             vertical_integral_1_s2: config.vertical_integral_1_s2,
+            turn_share: config.turn_share,
             yaw_1_deg: config.yaw.proportional,
         }
     }
@@ -231,8 +235,11 @@ impl Settings {
     }
 
     /// As TOML, without comments.
-    pub fn to_toml(&self) -> String {
-        toml::to_string(self).expect("tables of numbers, words and arrays of numbers are TOML")
+    ///
+    /// # Errors
+    /// Never in fact: tables of numbers, words and arrays of numbers are TOML.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(self)
     }
 
     /// Uses another law.
@@ -272,6 +279,7 @@ impl Settings {
                     climb_lag_s: airframe.climb_lag_s,
                     thrust_gain: Vector2::from(airframe.thrust_gain),
                     drag_1_s: Vector2::from(airframe.drag_1_s),
+                    turn_gain: airframe.turn_gain,
                     turn_lag_s: airframe.turn_lag_s,
                 },
                 dead_time: ms(delays.command_ms),
@@ -310,6 +318,7 @@ impl Settings {
             ("airframe.thrust_gain", airframe.thrust_gain[1], GAIN),
             ("airframe.drag_1_s", airframe.drag_1_s[0], 0.0..=3.0),
             ("airframe.drag_1_s", airframe.drag_1_s[1], 0.0..=3.0),
+            ("airframe.turn_gain", airframe.turn_gain, GAIN),
             ("airframe.turn_lag_s", airframe.turn_lag_s, 0.01..=1.0),
             ("estimator.velocity_gain_1_s", estimator.velocity_gain_1_s, 0.1..=100.0),
             ("estimator.disturbance_gain_1_s2", estimator.disturbance_gain_1_s2, 0.0..=50.0),
@@ -325,6 +334,7 @@ impl Settings {
             ("controller.vertical_frequency_rad_s", c.vertical_frequency_rad_s, 0.1..=10.0),
             ("controller.vertical_damping", c.vertical_damping, 0.1..=3.0),
             ("controller.vertical_integral_1_s2", c.vertical_integral_1_s2, 0.0..=5.0),
+            ("controller.turn_share", c.turn_share, 0.05..=1.0),
             ("controller.yaw_1_deg", c.yaw_1_deg, 0.001..=0.2),
         ] {
             reasons.extend(outside(name, value, &range));
@@ -363,6 +373,7 @@ impl Controller {
             vertical_frequency_rad_s: self.vertical_frequency_rad_s,
             vertical_damping: self.vertical_damping,
             vertical_integral_1_s2: self.vertical_integral_1_s2,
+            turn_share: self.turn_share,
             yaw: PidGains { proportional: self.yaw_1_deg, ..PidGains::default() },
         }
     }
@@ -379,7 +390,7 @@ mod tests {
         let config = settings.pilot_config(ZOrigin::Hover);
         assert_eq!(config, PilotConfig::default());
         // Every setting is documented.
-        for line in settings.to_toml().lines().filter(|line| line.contains('=')) {
+        for line in settings.to_toml().unwrap().lines().filter(|line| line.contains('=')) {
             let name = line.split(' ').next().unwrap();
             assert!(DEFAULTS.lines().any(|line| line.starts_with(name)), "{name}");
         }
@@ -389,7 +400,7 @@ mod tests {
     fn what_is_effective_can_be_read_back() {
         let mut settings = Settings::parse("p", "[drone]\nclimb_max_m_s = 1.0").unwrap();
         settings.set_law(Law::Tum);
-        assert_eq!(Settings::parse("p", &settings.to_toml()).unwrap(), settings);
+        assert_eq!(Settings::parse("p", &settings.to_toml().unwrap()).unwrap(), settings);
         let config = settings.pilot_config(ZOrigin::Floor);
         assert_eq!(config.law, Law::Tum);
         assert!((config.cascade.climb_max_m_s - 1.0).abs() < 1e-12);

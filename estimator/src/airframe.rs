@@ -39,7 +39,9 @@ pub struct Airframe {
     pub thrust_gain: Vector2<f64>,
     /// Slows by its speed (right, forward). The published models have 0.45 to 1.95.
     pub drag_1_s: Vector2<f64>,
-    /// Time constant of the turn.
+    /// Of the turn. The published models have 0.7 to 1.
+    pub turn_gain: f64,
+    /// Time constant of the turn. The published models have 0.02 to 0.5 s.
     pub turn_lag_s: f64,
 }
 
@@ -54,6 +56,7 @@ impl Default for Airframe {
             climb_lag_s: 0.5,
             thrust_gain: Vector2::new(1.0, 1.0),
             drag_1_s: Vector2::new(0.5, 0.5),
+            turn_gain: 1.0,
             turn_lag_s: 0.15,
         }
     }

@@ -71,6 +71,19 @@ impl Heading {
         }
     }
 
+    /// How fast it turns at a time after the newest measurement, as far as the sticks tell.
+    pub(crate) fn turn_deg_s(
+        &self,
+        time_s: f64,
+        orders: &Orders,
+        airframe: &Airframe,
+        limits: &DroneLimits,
+    ) -> f64 {
+        self.measured.back().map_or(0.0, |(from_s, _)| {
+            turned(self.turn_deg_s, *from_s, time_s, orders, airframe, limits).0
+        })
+    }
+
     /// The heading when the drone's compass starts anew: the next one continues the last.
     pub(crate) fn handle_restart(&mut self) {
         self.baseline_deg = None;
@@ -91,7 +104,7 @@ fn turned(
     let (mut rate_deg_s, mut angle_deg) = (rate_deg_s, 0.0);
     orders.steps(from_s, to_s, |_, step_s, order| {
         let wanted_deg_s = match order {
-            Order::Sticks(sticks) => sticks.clockwise * limits.turn_deg_s,
+            Order::Sticks(sticks) => sticks.clockwise * limits.turn_deg_s * airframe.turn_gain,
             Order::ByItself => 0.0,
         };
         rate_deg_s += (wanted_deg_s - rate_deg_s) * (1.0 - (-step_s / airframe.turn_lag_s).exp());

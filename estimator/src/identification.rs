@@ -2,8 +2,8 @@
 //!
 //! The published models of the AR.Drone disagree by factors of two, so none is taken for true. What
 //! is measured is compared with what the sticks asked for, as changes over a short window, so that
-//! trim, floor and starting height don't count: tilt by the measured attitude, climb by the measured
-//! height, thrust and drag by the measured velocity.
+//! trim, floor and starting height don't count: tilt and turn by the measured attitude, climb by the
+//! measured height, thrust and drag by the measured velocity.
 
 use std::collections::VecDeque;
 
@@ -18,6 +18,8 @@ use crate::orders::{Order, Orders, Sticks};
 const CLIMB_LAGS_S: [f64; 7] = [0.15, 0.25, 0.38, 0.52, 0.72, 0.98, 1.3];
 /// Hypotheses of the tilt's time constant.
 const TILT_LAGS_S: [f64; 4] = [0.04, 0.09, 0.13, 0.19];
+/// Hypotheses of the turn's time constant.
+const TURN_LAGS_S: [f64; 5] = [0.03, 0.1, 0.2, 0.35, 0.55];
 /// Changes over so long are compared.
 const WINDOW_S: f64 = 0.5;
 /// Enough of them at 200 packets a second.
@@ -127,6 +129,14 @@ struct TiltLearner {
     axes: [(Followers<4, 1>, Window<4, 1>); 2],
 }
 
+/// How the heading follows its stick.
+#[derive(Debug, Clone)]
+struct TurnLearner {
+    bank: Bank<5, 1>,
+    followers: Followers<5, 1>,
+    window: Window<5, 1>,
+}
+
 /// How velocity follows tilt: thrust, drag, and something that pushes, on one axis of the body.
 #[derive(Debug, Clone)]
 struct ThrustLearner {
@@ -144,6 +154,7 @@ pub(crate) struct Identification {
     limits: DroneLimits,
     climb: ClimbLearner,
     tilt: TiltLearner,
+    turn: TurnLearner,
     thrust: [ThrustLearner; 2],
     /// The tilt that velocity follows (right, forward), and the moment it is of.
     tilt_rad: Vector2<f64>,
@@ -167,6 +178,13 @@ impl Identification {
             lag_s: airframe.tilt_lag_s,
             lag_spread: 0.6,
             noise: 0.012,
+        };
+        let turn = Assumption {
+            gains: [airframe.turn_gain],
+            spreads: [0.3],
+            lag_s: airframe.turn_lag_s,
+            lag_spread: 1.0,
+            noise: 1.0,
         };
         let thrust = |axis: usize| {
             let assumption = Assumption {
@@ -194,6 +212,11 @@ impl Identification {
             tilt: TiltLearner {
                 bank: Bank::new(TILT_LAGS_S, &tilt),
                 axes: std::array::from_fn(|_| (Followers::new(TILT_LAGS_S), Window::new())),
+            },
+            turn: TurnLearner {
+                bank: Bank::new(TURN_LAGS_S, &turn),
+                followers: Followers::new(TURN_LAGS_S),
+                window: Window::new(),
             },
             thrust: [thrust(0), thrust(1)],
             tilt_rad: Vector2::zeros(),
@@ -263,6 +286,26 @@ impl Identification {
         self.airframe.tilt_gain = gains.x.clamp(MIN_GAIN, MAX_GAIN);
     }
 
+    /// A heading, counted on over whole turns, was measured at a time.
+    pub(crate) fn heading(&mut self, at_s: f64, yaw_deg: f64, orders: &Orders) {
+        let TurnLearner { bank, followers, window } = &mut self.turn;
+        if orders.at(at_s) == Order::ByItself {
+            window.answers.clear();
+            followers.rest(at_s);
+            return;
+        }
+        let most = self.limits.turn_deg_s;
+        followers.advance(at_s, orders, |sticks| SVector::<f64, 1>::new(sticks.clockwise * most));
+        let answer = Answer { at_s, value: yaw_deg, causes: followers.way };
+        let change = window.change(answer).filter(|change| change.is_caused(LEAST_TURN_DEG));
+        if let Some(change) = change {
+            bank.learn(change.value, &change.causes);
+            let (lag_s, gains) = bank.estimate();
+            self.airframe.turn_lag_s = lag_s;
+            self.airframe.turn_gain = gains.x.clamp(MIN_GAIN, MAX_GAIN);
+        }
+    }
+
     /// A velocity (right, forward) of the body was measured at a time, at a heading.
     pub(crate) fn velocity(
         &mut self,
@@ -317,6 +360,7 @@ impl Identification {
 /// Less asked for within a window teaches nothing.
 const LEAST_CLIMB_M: f64 = 0.04;
 const LEAST_TILT_RAD: f64 = 0.035;
+const LEAST_TURN_DEG: f64 = 4.0;
 const LEAST_SPEED_CHANGE_M_S: f64 = 0.25;
 
 /// No airframe is known outside these.

@@ -9,7 +9,7 @@
 //! - flies a model of the drone along with the orders, which fills the time between and after the
 //!   measurements ([`Estimator::predicted`]), and learns from the difference what pushes the drone;
 //! - learns how this airframe answers its sticks ([`Estimator::airframe`]);
-//! - tells how uncertain it is ([`Estimate::horizontal_deviation_m`]) and whether navdata can be
+//! - tells how uncertain it is ([`Estimator::horizontal_deviation_m`]) and whether navdata can be
 //!   believed ([`Estimator::trust`]).
 //!
 //! It is pure: samples and orders in, [`Estimate`]s out.
@@ -145,10 +145,6 @@ pub struct Estimate {
     pub yaw_deg: f64,
     /// Height above the floor below, which may not be the floor at the start.
     pub above_floor_m: f64,
-    /// Standard deviation of the place on each horizontal axis: grows with time and way.
-    pub horizontal_deviation_m: f64,
-    /// Standard deviation of the height.
-    pub vertical_deviation_m: f64,
 }
 
 /// Where the drone is, or will be, as far as its orders tell.
@@ -160,6 +156,8 @@ pub struct Prediction {
     pub velocity_m_s: Vector3<f64>,
     /// In [-180, 180), zero where the drone pointed at the start.
     pub yaw_deg: f64,
+    /// Clockwise.
+    pub turn_deg_s: f64,
     /// What pushes the drone besides its sticks: wind, a wrong level reference. Right, forward.
     pub disturbance_m_s2: Vector2<f64>,
 }
@@ -243,21 +241,20 @@ impl Estimator {
         if config.identify {
             let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
             identification.tilt(attitude_s, tilt_deg.map(f64::to_radians), orders);
+            let yaw_deg = heading.at(attitude_s, orders, &airframe, &config.limits);
+            identification.heading(attitude_s, yaw_deg, orders);
         }
         let believed = self.update_horizontal(made_s, sample);
         self.update_vertical(made_s, sample);
         self.plausibility.watch(made_s, sample, believed);
 
         let vertical = self.altitude.state();
-        let distance_m = self.horizontal.position_m.norm();
         self.estimate = Estimate {
             at: sample.arrival,
             position_m: self.horizontal.position_m.push(vertical.height_m),
             velocity_m_s: self.horizontal.measured_m_s().push(vertical.climb_m_s),
             yaw_deg: wrap_deg(self.heading_at(attitude_s)),
             above_floor_m: self.altitude.above_floor_m(vertical.height_m),
-            horizontal_deviation_m: self.uncertainty.horizontal_m(distance_m, 0.0),
-            vertical_deviation_m: self.uncertainty.vertical_m(0.0),
         };
     }
 
@@ -385,8 +382,31 @@ impl Estimator {
             position_m: horizontal.position_m.push(vertical.height_m),
             velocity_m_s: horizontal.velocity_m_s.push(vertical.climb_m_s),
             yaw_deg: wrap_deg(self.heading_at(at_s)),
+            turn_deg_s: self.heading.turn_deg_s(
+                at_s,
+                &self.orders,
+                self.airframe(),
+                &self.config.limits,
+            ),
             disturbance_m_s2: horizontal.disturbance_m_s2,
         }
+    }
+
+    /// Standard deviation of the place on each horizontal axis: grows with time, distance from the
+    /// start, and silence.
+    pub fn horizontal_deviation_m(&self, now: Duration) -> f64 {
+        let distance_m = self.horizontal.position_m.norm();
+        self.uncertainty.horizontal_m(distance_m, self.silence_s(now))
+    }
+
+    /// Standard deviation of the height.
+    pub fn vertical_deviation_m(&self, now: Duration) -> f64 {
+        self.uncertainty.vertical_m(self.silence_s(now))
+    }
+
+    /// On the ground silence changes nothing.
+    fn silence_s(&self, now: Duration) -> f64 {
+        if self.airborne { now.saturating_sub(self.estimate.at).as_secs_f64() } else { 0.0 }
     }
 
     /// How this airframe answers its sticks, as far as that is known.

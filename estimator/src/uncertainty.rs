@@ -5,7 +5,7 @@
 //! side indoors: the flow's bias, its scale, the heading's drift, and what was flown unseen.
 
 /// Standard deviation of the flow's bias.
-const BIAS_M_S: f64 = 0.01;
+const BIAS_M_S: f64 = 0.013;
 /// Of the flow's scale, as a share of the distance from the start.
 const SCALE: f64 = 0.06;
 /// Of the heading's drift.

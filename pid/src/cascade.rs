@@ -40,6 +40,8 @@ pub struct CascadeConfig {
     pub vertical_damping: f64,
     /// Climb per metre of error and second.
     pub vertical_integral_1_s2: f64,
+    /// Share of the yaw stick that is used on the way.
+    pub turn_share: f64,
     /// Turn: stick per degree, per degree and second, per degree a second.
     pub yaw: PidGains,
 }
@@ -58,6 +60,7 @@ impl Default for CascadeConfig {
             vertical_frequency_rad_s: 2.1,
             vertical_damping: 0.8,
             vertical_integral_1_s2: 0.1,
+            turn_share: 0.6,
             yaw: PidGains { proportional: 0.025, ..PidGains::default() },
         }
     }
@@ -118,7 +121,10 @@ impl Cascade {
             measured_rate: inputs.motion.yaw_deg_s,
             ..PidInputs::default()
         });
-        Demand { roll: right, pitch: -forward, gaz, yaw: yaw.clamp(-inputs.limit, inputs.limit) }
+        // A drone that turns slower on its way is flown straighter.
+        let moves = self.way.as_ref().is_some_and(|way| way.horizontal.is_moving());
+        let most = if moves { inputs.limit * self.config.turn_share } else { inputs.limit };
+        Demand { roll: right, pitch: -forward, gaz, yaw: yaw.clamp(-most, most) }
     }
 
     /// Sticks (right, forward).
@@ -155,7 +161,10 @@ impl Cascade {
         };
         let (x, y) = (axis(0, pose.x_m, motion.x_m_s), axis(1, pose.y_m, motion.y_m_s));
         let wanted = Vector2::new(self.right.output(&x), self.forward.output(&y));
-        let (right, forward) = body_from_world(wanted.x, wanted.y, pose.yaw_deg);
+        // The tilt turns with the drone while it follows its stick.
+        let ahead_s = airframe.tilt_lag_s + step_s / 2.0;
+        let yaw_deg = pose.yaw_deg + motion.yaw_deg_s * ahead_s;
+        let (right, forward) = body_from_world(wanted.x, wanted.y, yaw_deg);
         let pull = Vector2::new(right, forward).component_div(&(thrust * GRAVITY_M_S2));
         let sticks = pull.map(f64::atan) / (config.tilt_max_rad * airframe.tilt_gain);
         // Keep the direction where one axis asks for more than there is. The drone tilts no further

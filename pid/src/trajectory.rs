@@ -171,6 +171,10 @@ impl Trajectory {
         });
     }
 
+    pub(crate) fn is_moving(&self) -> bool {
+        !self.legs.is_empty()
+    }
+
     /// The reference so long from now.
     pub(crate) fn at(&self, lead_s: f64) -> Reference {
         let mut sums = [Vector2::zeros(); 4];

@@ -6,6 +6,7 @@
 mod architecture;
 mod client;
 mod command_line;
+mod estimate;
 mod faults;
 mod ports;
 mod processes;

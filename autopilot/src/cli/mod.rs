@@ -27,6 +27,8 @@ enum CommandError {
     Read { what: &'static str, path: String, source: std::io::Error },
     #[error("{0}")]
     Settings(#[from] SettingsError),
+    #[error("cannot print the settings: {0}")]
+    PrintSettings(#[from] toml::ser::Error),
     #[error("{0}")]
     Plan(#[from] PlanError),
     #[error("{0}")]
@@ -40,7 +42,7 @@ impl CommandError {
         match self {
             Self::Read { .. } | Self::Plan(_) | Self::Settings(_) => 20,
             Self::Flight(FlightError::Address { .. }) => 10,
-            Self::Mock(_) | Self::Flight(_) => 1,
+            Self::Mock(_) | Self::Flight(_) | Self::PrintSettings(_) => 1,
         }
     }
 }
@@ -73,7 +75,7 @@ pub fn main() -> ExitCode {
 
 fn print_settings(path: Option<&Path>) -> Result<u8, CommandError> {
     let text = match path {
-        Some(_) => read_settings(path)?.to_toml(),
+        Some(_) => read_settings(path)?.to_toml()?,
         None => settings::DEFAULTS.to_owned(),
     };
     // Whoever closed the pipe does not want the settings.

@@ -140,6 +140,7 @@ mod tests {
     use pid::Pose;
 
     use super::*;
+    use crate::pilot::{Airframe, Trust};
 
     #[test]
     fn a_status_line_does_not_wrap() {
@@ -158,6 +159,10 @@ mod tests {
             target: Some(Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 }),
             distance_m: Some(0.88),
             battery_percent: Some(87),
+            horizontal_deviation_m: 0.1,
+            vertical_deviation_m: 0.02,
+            trust: Trust::Sound,
+            airframe: Airframe::default(),
             navdata_age: Some(Duration::from_millis(40)),
         };
         assert_eq!(

@@ -43,6 +43,13 @@ impl fmt::Display for Summary<'_> {
         if let Some(error_m) = report.final_error_m() {
             writeln!(f, "  final error     {error_m:.2} m (estimate to last target)")?;
         }
+        if let Some(waypoint) = report.waypoints.last() {
+            let deviation_m = waypoint.horizontal_deviation_m;
+            writeln!(
+                f,
+                "  place known to  {deviation_m:.2} m (standard deviation, grows with time)"
+            )?;
+        }
         let largest = |value: fn(&TrueWaypoint) -> f64| {
             self.truths.iter().map(value).fold(None, |largest: Option<f64>, value| {
                 Some(largest.map_or(value, |largest| largest.max(value)))

@@ -16,6 +16,7 @@ use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use ardrone_link::session::{self, FlightOrder, Order, Received, Session, SessionConfig};
 use ardrone_link::settings::{Setting, SettingError};
+pub use estimator::{Airframe, Trust};
 use estimator::{Estimator, EstimatorConfig, Prediction, Sample, Sticks};
 pub use pid::Law;
 use pid::{CascadeConfig, Demand, Inputs, Pose, PositionController};
@@ -254,6 +255,10 @@ impl Pilot {
             target: self.target,
             distance_m: self.target.map(|target| distance(&pose, &target)),
             battery_percent: self.demo().map(|demo| demo.battery_percent),
+            horizontal_deviation_m: self.estimator.horizontal_deviation_m(now),
+            vertical_deviation_m: self.estimator.vertical_deviation_m(now),
+            trust: self.estimator.trust(),
+            airframe: *self.estimator.airframe(),
             navdata_age: self.session.silence(now),
         }
     }
@@ -353,7 +358,7 @@ impl Pilot {
     fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Demand {
         // A command acts when the dead time is over: it must suit the drone of that moment.
         let state = self.state(now + self.dead_time);
-        let estimator::Airframe {
+        let Airframe {
             tilt_gain,
             tilt_lag_s,
             climb_gain,
@@ -369,7 +374,7 @@ impl Pilot {
                 x_m_s: state.velocity_m_s.x,
                 y_m_s: state.velocity_m_s.y,
                 z_m_s: state.velocity_m_s.z,
-                yaw_deg_s: 0.0,
+                yaw_deg_s: state.turn_deg_s,
             },
             disturbance_m_s2: state.disturbance_m_s2,
             airframe: pid::Airframe {
@@ -436,7 +441,13 @@ impl Pilot {
                 self.report.took_off_at.get_or_insert(active.since);
             }
             AgentOrder::GoTo(target) => {
-                let waypoint = Waypoint { step: active.due.step, target, pose, at: now };
+                let waypoint = Waypoint {
+                    step: active.due.step,
+                    target,
+                    pose,
+                    horizontal_deviation_m: self.estimator.horizontal_deviation_m(now),
+                    at: now,
+                };
                 self.report.waypoints.push(waypoint);
             }
             AgentOrder::Land => self.report.landed_at = Some(now),

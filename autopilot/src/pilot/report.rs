@@ -3,6 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
+use estimator::{Airframe, Trust};
 use pid::Pose;
 
 use super::LandingReason;
@@ -88,6 +89,8 @@ pub struct Waypoint {
     pub target: Pose,
     /// Where the estimator saw it at the end of the stay.
     pub pose: Pose,
+    /// Standard deviation of that on each horizontal axis.
+    pub horizontal_deviation_m: f64,
     /// When that was.
     pub at: Duration,
 }
@@ -145,6 +148,14 @@ pub struct Status {
     pub distance_m: Option<f64>,
     /// Remaining charge.
     pub battery_percent: Option<u32>,
+    /// Standard deviation of the place on each horizontal axis: what is integrated drifts.
+    pub horizontal_deviation_m: f64,
+    /// Standard deviation of the height.
+    pub vertical_deviation_m: f64,
+    /// Whether navdata can be believed.
+    pub trust: Trust,
+    /// How this airframe answers its sticks, as far as that is known.
+    pub airframe: Airframe,
     /// Age of the newest navdata.
     pub navdata_age: Option<Duration>,
 }
