@@ -5,10 +5,7 @@ use std::time::Duration;
 use autopilot::outcome::Outcome;
 use autopilot::pilot::FlightEvent;
 use autopilot::sim::{Moment, SimulatedFlight};
-use nalgebra::Vector3;
-
-/// The time that a plan stays at each of its targets.
-const STAY: Duration = Duration::from_secs(2);
+use nalgebra::{Vector2, Vector3};
 
 /// The figures of one flight.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -21,8 +18,13 @@ pub(crate) struct Score {
     pub(crate) transit_s: f64,
     /// How far each leg went beyond its target, along its direction.
     pub(crate) overshoots_m: Vec<f64>,
-    /// Mean squared distance from the target in the second half of each stay.
+    /// Mean squared distance from the target late in each stay.
     pub(crate) late_square_m2: Vec<f64>,
+    /// How far the place had drifted from the truth at the end: the drone's own velocity, integrated
+    /// without delay.
+    pub(crate) odometry_drift_m: f64,
+    /// Likewise the pilot's estimate.
+    pub(crate) estimate_drift_m: f64,
 }
 
 /// A leg: its step and how it was flown.
@@ -32,16 +34,27 @@ struct Leg {
     places: Vec<(Duration, Vector3<f64>)>,
 }
 
-/// Watches a flight.
-#[derive(Default)]
+/// Watches a flight whose plan stays so long at each target.
 pub(crate) struct Scorer {
+    stay: Duration,
     legs: Vec<Leg>,
+    drift_m: (f64, f64),
 }
 
 impl Scorer {
+    pub(crate) fn new(stay: Duration) -> Self {
+        Self { stay, legs: Vec::new(), drift_m: (0.0, 0.0) }
+    }
+
     pub(crate) fn watch(&mut self, moment: &Moment) {
         let (Some(step), Some(target)) = (moment.status.step, moment.status.target) else { return };
         let target = Vector3::new(target.x_m, target.y_m, target.z_m);
+        let truth = moment.truth.position_m.xy();
+        let pose = &moment.status.pose;
+        self.drift_m = (
+            (moment.truth.odometry_m - truth).norm(),
+            (Vector2::new(pose.x_m, pose.y_m) - truth).norm(),
+        );
         let place = moment.truth.odometry_m.push(moment.truth.position_m.z);
         let leg = match self.legs.last_mut() {
             Some(leg) if leg.step == step => leg,
@@ -53,6 +66,12 @@ impl Scorer {
         // The agent holds the last target for a tick before it takes the next.
         leg.target = target;
         leg.places.push((moment.now, place));
+    }
+
+    /// How long before a stay's end the place is judged: the second half of a short one; all but the
+    /// first five seconds of a long one.
+    fn late(&self) -> Duration {
+        (self.stay / 2).max(self.stay.saturating_sub(Duration::from_secs(5)))
     }
 
     /// The figures, once the flight is over.
@@ -79,11 +98,13 @@ impl Scorer {
         let last = reached.last().and_then(|leg| when(done, leg.step));
         let whole =
             first.zip(last).map_or(Duration::ZERO, |(first, last)| last.saturating_sub(first));
-        let stays = STAY * u32::try_from(waypoints).unwrap_or(u32::MAX);
+        let stays = self.stay * u32::try_from(waypoints).unwrap_or(u32::MAX);
         let mut score = Score {
             completed: flight.outcome == Outcome::Completed,
             waypoints,
             transit_s: whole.saturating_sub(stays).as_secs_f64(),
+            odometry_drift_m: self.drift_m.0,
+            estimate_drift_m: self.drift_m.1,
             ..Score::default()
         };
         for (index, leg) in reached.iter().enumerate() {
@@ -101,7 +122,7 @@ impl Scorer {
             let late: Vec<f64> = leg
                 .places
                 .iter()
-                .filter(|(at, _)| *at <= end && *at + STAY / 2 > end)
+                .filter(|(at, _)| *at <= end && *at + self.late() > end)
                 .map(|(_, place)| (place - leg.target).norm_squared())
                 .collect();
             score.late_square_m2.push(mean(&late));
