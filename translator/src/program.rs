@@ -280,21 +280,31 @@ impl Value {
 impl Step {
     /// Whether the body can end here, before the formulae behind this one.
     pub(crate) fn can_fail(&self) -> bool {
+        let calls = match self {
+            Self::Achieve { .. } | Self::Ask { .. } => true,
+            Self::Add { raise, .. } | Self::Delete { raise, .. } => {
+                matches!(raise, Raise::Call(_))
+            }
+            _ => false,
+        };
+        calls || self.values_can_fail()
+    }
+
+    /// Whether a value in it may have no result; then it has no effect.
+    pub(crate) fn values_can_fail(&self) -> bool {
         let values_fail = |values: &[Value]| values.iter().any(Value::can_fail);
         match self {
-            Self::Achieve { .. } | Self::Ask { .. } => true,
+            Self::Achieve { values, .. }
+            | Self::Add { values, .. }
+            | Self::Defer { values, .. } => values_fail(values),
             Self::Action(call) => values_fail(&call.arguments),
             Self::Assign { value, .. } => value.can_fail(),
-            Self::Add { raise, values, .. } => {
-                matches!(raise, Raise::Call(_)) || values_fail(values)
-            }
-            Self::Delete { raise, patterns, .. } => {
-                matches!(raise, Raise::Call(_)) || patterns.iter().any(Pattern::can_fail)
+            Self::Ask { patterns, .. } | Self::Delete { patterns, .. } => {
+                patterns.iter().any(Pattern::can_fail)
             }
             Self::Post { values, deadline, .. } => {
                 values_fail(values) || deadline.as_ref().is_some_and(Value::can_fail)
             }
-            Self::Defer { values, .. } => values_fail(values),
         }
     }
 }

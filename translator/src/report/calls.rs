@@ -3,13 +3,42 @@
 use crate::coverage::always_finds_a_plan;
 use crate::program::{Call, HandlerId, Plan, Program, Raise, Step};
 
+/// Fewest and most calls of each basic action, then of each class of actions.
+type Bounds = Vec<(u32, u32)>;
+
 /// Bounds of what one step can do.
 #[derive(Debug, Clone)]
 pub(super) struct Cost {
     /// Triggers that call each other, itself included.
     pub(super) depth: usize,
-    /// Fewest and most calls of each basic action, then of each class of actions.
-    pub(super) calls: Vec<(u32, u32)>,
+    /// What is called if it succeeds; nothing if it cannot.
+    succeeds: Option<Bounds>,
+    /// What is called if it fails; nothing if it cannot.
+    fails: Option<Bounds>,
+}
+
+impl Cost {
+    /// Fewest and most calls, however it ends.
+    pub(super) fn calls(&self) -> Bounds {
+        either(self.succeeds.clone(), self.fails.clone()).unwrap_or_default()
+    }
+}
+
+/// What is called if one of two things happens.
+fn either(one: Option<Bounds>, other: Option<Bounds>) -> Option<Bounds> {
+    match (one, other) {
+        (Some(one), Some(other)) => {
+            let both = one.into_iter().zip(other);
+            Some(both.map(|(a, b)| (a.0.min(b.0), a.1.max(b.1))).collect())
+        }
+        (one, other) => one.or(other),
+    }
+}
+
+/// What is called if one thing happens and then the other.
+fn then(first: &Bounds, second: Option<&Bounds>) -> Option<Bounds> {
+    let both = first.iter().zip(second?);
+    Some(both.map(|(a, b)| (a.0.saturating_add(b.0), a.1.saturating_add(b.1))).collect())
 }
 
 /// What is counted: each basic action and each class of actions.
@@ -32,6 +61,10 @@ impl Counted {
         });
         Self { counters: counters.collect(), count: basics + configuration.classes.len() }
     }
+
+    fn nothing(&self) -> Bounds {
+        vec![(0, 0); self.count]
+    }
 }
 
 /// Handlers that a step can begin with.
@@ -53,7 +86,7 @@ pub(super) fn events(program: &Program) -> Vec<HandlerId> {
 /// Costs of all handlers, callees before callers; calls never lead back.
 pub(super) fn costs(program: &Program) -> Vec<Cost> {
     let counted = Counted::new(program);
-    let none = || Cost { depth: 0, calls: vec![(0, 0); counted.count] };
+    let none = || Cost { depth: 0, succeeds: Some(counted.nothing()), fails: None };
     let mut costs: Vec<Option<Cost>> = vec![None; program.handlers.len()];
     let mut open: Vec<HandlerId> = program.reachable_handlers().map(|(id, _)| id).collect();
     while let Some(id) = open.last().copied() {
@@ -97,72 +130,58 @@ fn handler_cost(
 ) -> Cost {
     let handler = program.handler(id);
     let known = |id: HandlerId| costs[id.0].as_ref();
-    let plans: Vec<Vec<(u32, u32)>> =
-        handler.plans.iter().map(|plan| plan_calls(plan, counted, &known)).collect();
+    let (mut succeeds, mut fails) = (None, None);
+    for plan in &handler.plans {
+        let outcome = plan_outcome(plan, counted, &known);
+        succeeds = either(succeeds, Some(outcome.0));
+        fails = either(fails, outcome.1);
+    }
     // Without a plan that always applies, nothing may be called at all.
-    let always = always_finds_a_plan(handler);
-    let mut calls = vec![(u32::MAX, 0_u32); counted.count];
-    for plan in &plans {
-        for (bounds, plan_bounds) in calls.iter_mut().zip(plan) {
-            *bounds = (bounds.0.min(plan_bounds.0), bounds.1.max(plan_bounds.1));
-        }
+    if !always_finds_a_plan(handler) {
+        fails = either(fails, Some(counted.nothing()));
     }
-    for bounds in &mut calls {
-        if !always || bounds.0 == u32::MAX {
-            bounds.0 = 0;
-        }
-    }
-    if let Some(failure) = handler.failure.and_then(known) {
-        for (bounds, failure_bounds) in calls.iter_mut().zip(&failure.calls) {
-            bounds.1 = bounds.1.saturating_add(failure_bounds.1);
-        }
+    // A goal that its failure plans mend is achieved after all.
+    if let (Some(failed), Some(failure)) = (&fails, handler.failure.and_then(known)) {
+        succeeds = either(succeeds, then(failed, failure.succeeds.as_ref()));
+        fails = then(failed, failure.fails.as_ref());
     }
     let below = callees(program, id).into_iter().filter_map(known).map(|cost| cost.depth).max();
-    Cost { depth: 1 + below.unwrap_or(0), calls }
+    Cost { depth: 1 + below.unwrap_or(0), succeeds, fails }
 }
 
-fn plan_calls<'a>(
+/// What is called if the body is carried out to its end, and if it is not.
+fn plan_outcome<'a>(
     plan: &Plan,
     counted: &Counted,
     known: &impl Fn(HandlerId) -> Option<&'a Cost>,
-) -> Vec<(u32, u32)> {
-    let mut now = vec![(0_u32, 0_u32); counted.count];
-    // The fewest calls when the body ends early.
-    let mut ended_early: Option<Vec<u32>> = None;
+) -> (Bounds, Option<Bounds>) {
+    let mut now = counted.nothing();
+    let mut fails: Option<Bounds> = None;
     for step in &plan.body {
+        if step.values_can_fail() {
+            fails = either(fails, Some(now.clone()));
+        }
         if let Step::Action(Call { basic, .. }) = step {
-            if step.can_fail() {
-                end_early(&mut ended_early, &now);
-            }
             for counter in &counted.counters[basic.0] {
                 now[*counter] = (now[*counter].0 + 1, now[*counter].1 + 1);
             }
-            continue;
         }
-        if let Some(cost) = callee(step).and_then(known) {
-            for (bounds, called) in now.iter_mut().zip(&cost.calls) {
-                // A belief that has not changed calls nothing, nor does an answered question.
-                let certain = matches!(step, Step::Achieve { .. });
-                bounds.0 = bounds.0.saturating_add(if certain { called.0 } else { 0 });
-                bounds.1 = bounds.1.saturating_add(called.1);
-            }
+        let called = callee(step).and_then(known);
+        if let Some(cost) = called {
+            fails = either(fails, then(&now, cost.fails.as_ref()));
+        } else if matches!(step, Step::Achieve { .. } | Step::Ask { .. }) {
+            fails = either(fails, Some(now.clone()));
         }
-        if step.can_fail() {
-            end_early(&mut ended_early, &now);
+        if let Some(cost) = called {
+            let after = then(&now, cost.succeeds.as_ref());
+            // A belief that has not changed calls nothing, nor does an answered question; a goal
+            // that cannot succeed ends the body, and what follows is never carried out.
+            let certain = matches!(step, Step::Achieve { .. });
+            now = match after {
+                Some(after) if certain => after,
+                after => either(Some(now.clone()), after).unwrap_or(now),
+            };
         }
     }
-    if let Some(fewest) = ended_early {
-        for (bounds, early) in now.iter_mut().zip(fewest) {
-            bounds.0 = bounds.0.min(early);
-        }
-    }
-    now
-}
-
-fn end_early(fewest: &mut Option<Vec<u32>>, now: &[(u32, u32)]) {
-    let here: Vec<u32> = now.iter().map(|(low, _)| *low).collect();
-    *fewest = Some(match fewest.take() {
-        Some(fewest) => fewest.into_iter().zip(here).map(|(a, b)| a.min(b)).collect(),
-        None => here,
-    });
+    (now, fails)
 }

@@ -31,7 +31,7 @@ impl Report {
         let events = events(program);
         let configuration = &program.configuration;
         let bounds = |counter: usize| {
-            let bounds = events.iter().map(|id| costs[id.0].calls[counter]);
+            let bounds = events.iter().map(|id| costs[id.0].calls()[counter]);
             bounds.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1))).unwrap_or((0, 0))
         };
         let actions = configuration.basics.iter().enumerate();
