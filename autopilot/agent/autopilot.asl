@@ -4,13 +4,53 @@
 // holds, and carries the plan out to its end. Every plan issues exactly one AT command, so the
 // drone hears from us in every step.
 //
-// The environment tells where the drone is (`position`) and how orders are to be flown
-// (`reachDistance`, `stayDistance`, `stayTime`); it orders `takeOff`, `goTo` and `land`.
+// The environment tells where the drone is and how it is (`position`, `battery`, `blindFor`,
+// `doubt`, `wind`) and how orders are to be flown (`reachDistance`, `stayDistance`, `stayTime`); it
+// orders `takeOff`, `goTo`, `hold`, `steer` and `land`. The last three pre-empt whatever runs.
 
-// A take-off that takes longer than this has failed. Milliseconds.
+// ---- Limits. Change them with care.
+
+// Charge at which the pilot is warned, and at which the drone lands. Percent.
+warningBattery(20).
+landingBattery(12).
+// Without believable navdata the drone holds still after this, and lands after that. Milliseconds.
+holdWhenBlind(300).
+landWhenBlind(2000).
+// A place that is known no better than this is no place to fly by. Metres.
+largestDoubt(3.0).
+// Wind against which there is no holding: a share of what full tilt gives.
+strongestWind(0.8).
+// A take-off that takes longer than this has failed; a target that is not reached in this time is
+// given up. Milliseconds.
 takeOffTime(10000).
+approachTime(60000).
 
 !wait.
+
+// ---- Watching over the flight. Every plan in the air asks this first. Where flying on is no
+// longer safe, the reason is told and the plan fails: the failure plans land.
+
++!watch : battery(Percent) & landingBattery(Limit) & Percent <= Limit
+  <- tellBatteryEmpty;
+     ?airworthy.
+
++!watch : blindFor(Time) & landWhenBlind(Limit) & Time > Limit
+  <- tellBlind;
+     ?airworthy.
+
++!watch : doubt(Metres) & largestDoubt(Limit) & Metres > Limit
+  <- tellLost;
+     ?airworthy.
+
++!watch : wind(Share) & strongestWind(Limit) & Share > Limit
+  <- tellWind;
+     ?airworthy.
+
++!watch : battery(Percent) & warningBattery(Limit) & Percent <= Limit & not batteryWarned
+  <- +batteryWarned;
+     tellBatteryLow.
+
++!watch.
 
 // ---- Waiting for an order: stay where we are.
 
@@ -18,13 +58,25 @@ takeOffTime(10000).
   <- sendStandby;
      !!wait.
 
++!wait : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
+  <- !watch;
+     sendHover;
+     !!wait.
+
 +!wait : target(X, Y, Z, Yaw)
-  <- sendGoto(X, Y, Z, Yaw);
+  <- !watch;
+     sendGoto(X, Y, Z, Yaw);
      !!wait.
 
 +!wait
-  <- sendHover;
+  <- !watch;
+     sendHover;
      !!wait.
+
+-!wait
+  <- -target(_, _, _, _);
+     sendLand;
+     !completeLand.
 
 // ---- Taking off. The drone climbs by itself; it is done when it says that it hovers.
 // The place where it then is becomes the target to hold.
@@ -60,8 +112,13 @@ takeOffTime(10000).
      !completeLand.
 
 +!completeTakeOff(Start)
-  <- sendTakeOff;
+  <- !watch;
+     sendTakeOff;
      !completeTakeOff(Start).
+
+-!completeTakeOff(_)
+  <- sendLand;
+     !completeLand.
 
 // ---- Going somewhere: approach until close enough, then stay a while.
 
@@ -73,46 +130,127 @@ takeOffTime(10000).
 +!goTo(X, Y, Z, Yaw)
   <- +target(X, Y, Z, Yaw);
      sendGoto(X, Y, Z, Yaw);
-     !approach.
+     Start = getCurrentTimeMS;
+     !approach(Start).
 
-+!approach : onGround
++!approach(_) : onGround
   <- sendStandby;
      reportFailed;
      !!wait.
 
-+!approach : target(X, Y, Z, Yaw) & reachDistance(Distance) & closeEnough(X, Y, Z, Yaw, Distance)
-  <- sendGoto(X, Y, Z, Yaw);
-     Arrival = getCurrentTimeMS;
-     !stay(Arrival).
++!approach(Start) : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
+  <- !watch;
+     sendHover;
+     !approach(Start).
 
-+!approach : target(X, Y, Z, Yaw)
-  <- sendGoto(X, Y, Z, Yaw);
-     !approach.
++!approach(Start) : approachTime(Limit) & longEnough(Start, Limit)
+  <- -target(_, _, _, _);
+     tellNoProgress;
+     sendLand;
+     !completeLand.
+
++!approach(Start) : target(X, Y, Z, Yaw) & reachDistance(Distance) & closeEnough(X, Y, Z, Yaw, Distance)
+  <- !watch;
+     sendGoto(X, Y, Z, Yaw);
+     Arrival = getCurrentTimeMS;
+     !stay(Start, Arrival).
+
++!approach(Start) : target(X, Y, Z, Yaw)
+  <- !watch;
+     sendGoto(X, Y, Z, Yaw);
+     !approach(Start).
 
 // Nowhere to go: hold still.
-+!approach
-  <- sendHover;
++!approach(_)
+  <- !watch;
+     sendHover;
      reportFailed;
      !!wait.
 
-// Drifted off: approach again, and the stay begins anew.
-+!stay(_) : target(X, Y, Z, Yaw) & stayDistance(Distance) & not closeEnough(X, Y, Z, Yaw, Distance)
-  <- sendGoto(X, Y, Z, Yaw);
-     !approach.
+-!approach(_)
+  <- -target(_, _, _, _);
+     sendLand;
+     !completeLand.
 
-+!stay(Arrival) : target(X, Y, Z, Yaw) & stayTime(Time) & longEnough(Arrival, Time)
-  <- sendGoto(X, Y, Z, Yaw);
++!stay(Start, Arrival) : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
+  <- !watch;
+     sendHover;
+     !stay(Start, Arrival).
+
+// Drifted off: approach again, and the stay begins anew.
++!stay(Start, _) : target(X, Y, Z, Yaw) & stayDistance(Distance) & not closeEnough(X, Y, Z, Yaw, Distance)
+  <- !watch;
+     sendGoto(X, Y, Z, Yaw);
+     !approach(Start).
+
++!stay(_, Arrival) : target(X, Y, Z, Yaw) & stayTime(Time) & longEnough(Arrival, Time)
+  <- !watch;
+     sendGoto(X, Y, Z, Yaw);
      reportDone;
      !!wait.
 
-+!stay(Arrival) : target(X, Y, Z, Yaw)
-  <- sendGoto(X, Y, Z, Yaw);
-     !stay(Arrival).
++!stay(Start, Arrival) : target(X, Y, Z, Yaw)
+  <- !watch;
+     sendGoto(X, Y, Z, Yaw);
+     !stay(Start, Arrival).
 
-+!stay(_)
-  <- sendHover;
++!stay(_, _)
+  <- !watch;
+     sendHover;
      reportFailed;
      !!wait.
+
+-!stay(_, _)
+  <- -target(_, _, _, _);
+     sendLand;
+     !completeLand.
+
+// ---- The pilot's hand. Hold where we are, until told otherwise.
+
++!hold : onGround
+  <- sendStandby;
+     !!wait.
+
++!hold : position(X, Y, Z, Yaw)
+  <- +target(X, Y, Z, Yaw);
+     sendGoto(X, Y, Z, Yaw);
+     !!wait.
+
++!hold
+  <- -target(_, _, _, _);
+     sendHover;
+     !!wait.
+
+// As the sticks say, as long as they are moved.
++!steer : onGround
+  <- sendStandby;
+     !!wait.
+
++!steer : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
+  <- !watch;
+     sendHover;
+     !!wait.
+
++!steer : steering
+  <- !watch;
+     sendSticks;
+     !steer.
+
++!steer : position(X, Y, Z, Yaw)
+  <- !watch;
+     +target(X, Y, Z, Yaw);
+     sendGoto(X, Y, Z, Yaw);
+     !!wait.
+
++!steer
+  <- !watch;
+     sendHover;
+     !!wait.
+
+-!steer
+  <- -target(_, _, _, _);
+     sendLand;
+     !completeLand.
 
 // ---- Landing. The order is repeated until the drone says that it has landed.
 

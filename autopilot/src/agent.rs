@@ -51,6 +51,16 @@ pub struct Senses {
     pub on_ground: bool,
     /// The drone says that it hovers or flies.
     pub hovering: bool,
+    /// Charge, once it is known.
+    pub battery_percent: Option<u32>,
+    /// Milliseconds since the newest navdata that could be believed.
+    pub blind_for_ms: i64,
+    /// Standard deviation of the place.
+    pub doubt_m: f64,
+    /// What pushes the drone, as a share of what full tilt gives.
+    pub wind: f64,
+    /// The pilot moves the sticks.
+    pub steering: bool,
     /// How orders are flown.
     pub settings: ApproachSettings,
 }
@@ -66,8 +76,27 @@ pub enum AgentCommand {
     Hover,
     /// Fly towards a pose.
     GoTo(Pose),
+    /// Fly as the pilot moves the sticks.
+    Sticks,
     /// Land.
     Land,
+}
+
+/// Why the agent lands, or warns that it soon will.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Danger {
+    /// The battery will soon be empty: a warning.
+    BatteryLow,
+    /// The battery is nearly empty.
+    BatteryEmpty,
+    /// No navdata that could be believed.
+    Blind,
+    /// The place is not known well enough.
+    Lost,
+    /// The wind is stronger than the drone.
+    Wind,
+    /// A target was not reached in its time.
+    NoProgress,
 }
 
 /// How the agent's last order ended.
@@ -91,12 +120,14 @@ pub struct AgentStep {
     pub commands: u32,
     /// What it said of its last order.
     pub report: Option<Report>,
+    /// What it said of the flight.
+    pub danger: Option<Danger>,
 }
 
 impl AgentStep {
     /// Runs one deliberation cycle of `agent`.
     pub fn run(agent: &mut Agent, senses: Senses) -> Self {
-        let mut step = Self { senses, command: None, commands: 0, report: None };
+        let mut step = Self { senses, command: None, commands: 0, report: None, danger: None };
         agent.next_step(&mut step);
         step
     }
@@ -112,6 +143,12 @@ impl Environment for AgentStep {
         if let Some(pose) = self.senses.pose {
             beliefs.set_position(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg);
         }
+        if let Some(percent) = self.senses.battery_percent {
+            beliefs.set_battery(percent.into());
+        }
+        beliefs.set_blind_for(self.senses.blind_for_ms);
+        beliefs.set_doubt(self.senses.doubt_m);
+        beliefs.set_wind(self.senses.wind);
         let settings = self.senses.settings;
         beliefs.set_reach_distance(settings.reach_distance_m);
         beliefs.set_stay_distance(settings.stay_distance_m);
@@ -134,6 +171,10 @@ impl Environment for AgentStep {
         self.issue(AgentCommand::GoTo(Pose { x_m, y_m, z_m, yaw_deg }));
     }
 
+    fn send_sticks(&mut self) {
+        self.issue(AgentCommand::Sticks);
+    }
+
     fn send_land(&mut self) {
         self.issue(AgentCommand::Land);
     }
@@ -144,6 +185,10 @@ impl Environment for AgentStep {
 
     fn hovering(&mut self) -> bool {
         self.senses.hovering
+    }
+
+    fn steering(&mut self) -> bool {
+        self.senses.steering
     }
 
     fn close_enough(
@@ -180,6 +225,30 @@ impl Environment for AgentStep {
     fn report_failed(&mut self) {
         self.report = Some(Report::Failed);
     }
+
+    fn tell_battery_low(&mut self) {
+        self.danger = Some(Danger::BatteryLow);
+    }
+
+    fn tell_battery_empty(&mut self) {
+        self.danger = Some(Danger::BatteryEmpty);
+    }
+
+    fn tell_blind(&mut self) {
+        self.danger = Some(Danger::Blind);
+    }
+
+    fn tell_lost(&mut self) {
+        self.danger = Some(Danger::Lost);
+    }
+
+    fn tell_wind(&mut self) {
+        self.danger = Some(Danger::Wind);
+    }
+
+    fn tell_no_progress(&mut self) {
+        self.danger = Some(Danger::NoProgress);
+    }
 }
 
 /// The distance between two places; headings don't count.
@@ -196,6 +265,11 @@ mod tests {
         pose: Some(Pose { x_m: 0.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 }),
         on_ground: true,
         hovering: false,
+        battery_percent: Some(80),
+        blind_for_ms: 0,
+        doubt_m: 0.1,
+        wind: 0.0,
+        steering: false,
         settings: ApproachSettings {
             reach_distance_m: 0.2,
             stay_distance_m: 0.5,
@@ -206,7 +280,7 @@ mod tests {
     const TARGET: Pose = Pose { x_m: 1.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 };
 
     /// The state is all the memory that the agent uses; it must not grow unseen.
-    const _: () = assert!(STATE_BYTES <= 320);
+    const _: () = assert!(STATE_BYTES <= 512);
 
     /// An agent and what it senses.
     struct Bench {
@@ -223,10 +297,15 @@ mod tests {
         }
 
         fn step(&mut self) -> (Option<AgentCommand>, Option<Report>) {
-            let step = AgentStep::run(&mut self.agent, self.senses);
+            let step = self.run();
             assert_eq!(step.commands, 1, "exactly one AT command a step");
-            self.senses.now_ms += 30;
             (step.command, step.report)
+        }
+
+        fn run(&mut self) -> AgentStep {
+            let step = AgentStep::run(&mut self.agent, self.senses);
+            self.senses.now_ms += 30;
+            step
         }
 
         fn go_to(&mut self, pose: Pose) {
@@ -327,10 +406,106 @@ mod tests {
         assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Refused)));
     }
 
+    /// Brings a drone into the air by each goal that can run there.
+    fn in_the_air() -> Vec<(&'static str, Bench)> {
+        let mut benches = Vec::new();
+        for name in ["wait", "hold", "approach", "stay", "steer", "take-off"] {
+            let mut bench = Bench::new(if name == "take-off" { GROUND } else { HOVERING });
+            assert!(match name {
+                "take-off" => bench.agent.achieve_take_off(),
+                "hold" => bench.agent.achieve_hold(),
+                "steer" => bench.agent.achieve_steer(),
+                "wait" => true,
+                _ => bench.agent.achieve_go_to(1.0, 0.0, 0.0, 0.0),
+            });
+            bench.senses.steering = name == "steer";
+            if name == "stay" {
+                bench.senses.pose = Some(TARGET);
+            }
+            for _ in 0..5 {
+                bench.step();
+            }
+            bench.senses.on_ground = false;
+            benches.push((name, bench));
+        }
+        benches
+    }
+
+    #[test]
+    fn each_danger_lands_whatever_runs_and_is_told() {
+        for danger in [Danger::BatteryEmpty, Danger::Blind, Danger::Lost, Danger::Wind] {
+            for (name, mut bench) in in_the_air() {
+                let senses = bench.senses;
+                bench.senses = match danger {
+                    Danger::BatteryEmpty => Senses { battery_percent: Some(12), ..senses },
+                    Danger::Blind => Senses { blind_for_ms: 2001, ..senses },
+                    Danger::Lost => Senses { doubt_m: 3.1, ..senses },
+                    _ => Senses { wind: 0.81, ..senses },
+                };
+                let step = bench.run();
+                let said = (step.command, step.danger, step.commands);
+                assert_eq!(said, (Some(AgentCommand::Land), Some(danger), 1), "{name}");
+                assert_eq!(bench.step().0, Some(AgentCommand::Land), "{name}");
+            }
+        }
+        for (name, mut bench) in in_the_air() {
+            assert_ne!(bench.step().0, Some(AgentCommand::Land), "{name}: nothing is wrong");
+        }
+    }
+
+    #[test]
+    fn a_blind_drone_holds_still_and_goes_on_when_it_sees() {
+        let mut bench = Bench::new(HOVERING);
+        bench.go_to(TARGET);
+        bench.step();
+        bench.senses.blind_for_ms = 301;
+        assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
+        bench.senses.blind_for_ms = 30;
+        assert_eq!(bench.step(), (Some(AgentCommand::GoTo(TARGET)), None));
+    }
+
+    #[test]
+    fn a_low_battery_is_told_once() {
+        let mut bench = Bench::new(HOVERING);
+        bench.senses.battery_percent = Some(20);
+        assert_eq!(bench.run().danger, Some(Danger::BatteryLow));
+        assert_eq!(bench.run().danger, None);
+    }
+
+    #[test]
+    fn a_target_that_is_not_reached_in_its_time_is_given_up() {
+        let mut bench = Bench::new(HOVERING);
+        bench.go_to(TARGET);
+        bench.step();
+        bench.senses.now_ms += 60_001;
+        let step = bench.run();
+        assert_eq!(
+            (step.command, step.danger),
+            (Some(AgentCommand::Land), Some(Danger::NoProgress))
+        );
+    }
+
+    #[test]
+    fn the_pilots_hand_comes_first() {
+        let mut bench = Bench::new(HOVERING);
+        bench.go_to(TARGET);
+        bench.step();
+        assert!(bench.agent.achieve_steer());
+        bench.senses.steering = true;
+        assert_eq!(bench.step().0, Some(AgentCommand::Sticks));
+        assert_eq!(bench.step().0, Some(AgentCommand::Sticks));
+        let here = Pose { x_m: 0.3, ..TARGET };
+        bench.senses = Senses { steering: false, pose: Some(here), ..bench.senses };
+        assert_eq!(bench.step().0, Some(AgentCommand::GoTo(here)), "it holds where it is");
+        assert_eq!(bench.step().0, Some(AgentCommand::GoTo(here)));
+        assert!(bench.agent.achieve_hold() && bench.agent.achieve_land());
+        assert_eq!(bench.step().0, Some(AgentCommand::Land), "a landing comes before a hold");
+    }
+
     /// Every order, given on the ground and in the air, while the drone then stays or changes over.
     #[test]
     fn every_event_finds_a_plan() {
-        for order in 0..3 {
+        for order in 0..5 {
             for (first, then) in
                 [(GROUND, GROUND), (GROUND, HOVERING), (HOVERING, GROUND), (HOVERING, HOVERING)]
             {
@@ -338,6 +513,8 @@ mod tests {
                 assert!(match order {
                     0 => bench.agent.achieve_take_off(),
                     1 => bench.agent.achieve_go_to(1.0, 0.0, 0.0, 0.0),
+                    2 => bench.agent.achieve_hold(),
+                    3 => bench.agent.achieve_steer(),
                     _ => bench.agent.achieve_land(),
                 });
                 bench.step();

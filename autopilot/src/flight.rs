@@ -20,7 +20,9 @@ use tokio::io::AsyncReadExt as _;
 use tokio::sync::oneshot;
 
 use crate::outcome::Outcome;
-use crate::pilot::{FlightEvent, FlightReport, Pilot, PilotConfig, Status, TICK, Waypoint};
+use crate::pilot::{
+    FlightEvent, FlightReport, Pilot, PilotConfig, PilotOrder, Status, TICK, Waypoint,
+};
 use crate::plan::Plan;
 use crate::statistics::{TickRecorder, TickSummary};
 
@@ -240,7 +242,7 @@ impl TickLoop {
                 ServiceInput::Stop => {
                     self.services.stops += 1;
                     if self.services.stops == 1 {
-                        self.pilot.order_landing(now);
+                        self.pilot.order(now, PilotOrder::Land);
                     }
                 }
             }

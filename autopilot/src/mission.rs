@@ -26,9 +26,9 @@ pub struct Due {
     pub step: usize,
     /// What the agent is to do.
     pub order: AgentOrder,
-    /// Whether the target was moved into the allowed heights: the drone hovers lower or higher
-    /// than was expected when the plan was checked.
-    pub height_corrected: bool,
+    /// Whether the target was moved into the fence: the drone hovers elsewhere than was expected when
+    /// the plan was checked.
+    pub corrected: bool,
 }
 
 /// Progress through a plan.
@@ -100,7 +100,7 @@ impl Mission {
                     continue;
                 }
             };
-            return Some(Due { step: index, order, height_corrected: false });
+            return Some(Due { step: index, order, corrected: false });
         }
         None
     }
@@ -114,9 +114,11 @@ impl Mission {
 
     fn go_to(&mut self, step: usize, target: Pose) -> Due {
         let z_m = target.z_m.clamp(self.limits.floor_m, self.limits.ceiling_m);
-        let height_corrected = (z_m - target.z_m).abs() > 0.0;
-        self.target = Pose { z_m, ..target };
-        Due { step, order: AgentOrder::GoTo(self.target), height_corrected }
+        let away_m = target.x_m.hypot(target.y_m);
+        let share = if away_m > self.limits.radius_m { self.limits.radius_m / away_m } else { 1.0 };
+        let corrected = (z_m - target.z_m).abs() > 0.0 || share < 1.0;
+        self.target = Pose { x_m: target.x_m * share, y_m: target.y_m * share, z_m, ..target };
+        Due { step, order: AgentOrder::GoTo(self.target), corrected }
     }
 
     /// How orders are to be flown now.
@@ -204,7 +206,7 @@ mod tests {
         mission.advance(&HOVER);
         mission.set_origin(&HOVER);
         let due = mission.advance(&HOVER).unwrap();
-        assert!(due.height_corrected);
+        assert!(due.corrected);
         assert!(matches!(due.order, AgentOrder::GoTo(target) if (target.z_m - 0.3).abs() < 1e-9));
     }
 

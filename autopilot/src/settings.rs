@@ -52,9 +52,11 @@ pub enum SettingsError {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[allow(clippy::struct_field_names, reason = "the unit belongs to the name")]
 struct Fence {
     floor_m: f64,
     ceiling_m: f64,
+    radius_m: f64,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -134,8 +136,8 @@ enum LawName {
 
 impl Default for Fence {
     fn default() -> Self {
-        let FlightLimits { floor_m, ceiling_m, .. } = FlightLimits::default();
-        Self { floor_m, ceiling_m }
+        let FlightLimits { floor_m, ceiling_m, radius_m, .. } = FlightLimits::default();
+        Self { floor_m, ceiling_m, radius_m }
     }
 }
 
@@ -260,7 +262,12 @@ impl Settings {
         };
         let ms = |delay_ms: u32| Duration::from_millis(delay_ms.into());
         PilotConfig {
-            limits: FlightLimits { floor_m: fence.floor_m, ceiling_m: fence.ceiling_m, z_origin },
+            limits: FlightLimits {
+                floor_m: fence.floor_m,
+                ceiling_m: fence.ceiling_m,
+                radius_m: fence.radius_m,
+                z_origin,
+            },
             navdata: match drone.navdata {
                 Navdata::Demo => NavdataRate::Demo,
                 Navdata::Full => NavdataRate::Full,
@@ -302,6 +309,7 @@ impl Settings {
         for (name, value, range) in [
             ("fence.floor_m", fence.floor_m, 0.1..=3.0),
             ("fence.ceiling_m", fence.ceiling_m, 0.5..=100.0),
+            ("fence.radius_m", fence.radius_m, 0.5..=200.0),
             ("drone.tilt_max_deg", drone.tilt_max_deg, 1.0..=25.0),
             ("drone.climb_max_m_s", drone.climb_max_m_s, 0.2..=2.0),
             ("drone.turn_max_deg_s", drone.turn_max_deg_s, 40.0..=350.0),

@@ -10,7 +10,7 @@ use ardrone_link::settings::SettingError;
 use mock_drone::{Message, Truth, World, WorldConfig};
 
 use crate::outcome::Outcome;
-use crate::pilot::{FlightEvent, FlightReport, Pilot, PilotConfig, Status, TICK};
+use crate::pilot::{FlightEvent, FlightReport, Pilot, PilotConfig, PilotOrder, Status, TICK};
 use crate::plan::Plan;
 
 /// A world to fly in.
@@ -102,7 +102,7 @@ impl Simulation {
         let mut landing_ordered_at = self.landing_ordered_at;
         while now < LIMIT {
             if landing_ordered_at.take_if(|at| now >= *at).is_some() {
-                pilot.order_landing(now);
+                pilot.order(now, PilotOrder::Land);
             }
             world.advance(now);
             while let Some(message) = world.receive(now) {

@@ -4,9 +4,9 @@ use std::fmt;
 use std::time::Duration;
 
 use super::{
-    BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration, DroneState, FlightEvent,
-    LANDING_BATTERY_PERCENT, LANDING_TIMEOUT, MIN_TAKE_OFF_BATTERY_PERCENT, NAVDATA_OPTIONS_KEY,
-    Pilot, SETTLE_TIME, STEP_TIMEOUT, session,
+    AgentOrder, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration, Danger,
+    DroneState, FlightEvent, LANDING_TIMEOUT, MIN_TAKE_OFF_BATTERY_PERCENT, NAVDATA_OPTIONS_KEY,
+    Pilot, SETTLE_TIME, Trust, Veto, session,
 };
 use crate::outcome::Outcome;
 
@@ -74,6 +74,14 @@ pub enum LandingReason {
         /// Its index.
         step: usize,
     },
+    /// What the drone says of itself cannot be believed.
+    Distrust(Trust),
+    /// The place is not known well enough any more.
+    PlaceUncertain,
+    /// The wind is stronger than the drone.
+    Wind,
+    /// The safety layer took the drone down.
+    Guard(Veto),
 }
 
 impl fmt::Display for LandingReason {
@@ -84,10 +92,12 @@ impl fmt::Display for LandingReason {
             Self::LinkLost => f.write_str("link lost"),
             Self::DroneRestarted => f.write_str("the drone has restarted"),
             Self::StepFailed { step } => write!(f, "step {} failed", step + 1),
-            Self::StepTimedOut { step } => {
-                let seconds = STEP_TIMEOUT.as_secs();
-                write!(f, "step {} was not done within {seconds} s", step + 1)
-            }
+            Self::StepTimedOut { step } => write!(f, "step {} was not done in its time", step + 1),
+            Self::Distrust(trust) => write!(f, "navdata are {trust}"),
+            Self::PlaceUncertain => f.write_str("the place is too uncertain"),
+            Self::Wind => f.write_str("the wind is too strong to hold the place"),
+            Self::Guard(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
+            Self::Guard(_) => f.write_str("no navdata for too long"),
         }
     }
 }
@@ -115,17 +125,36 @@ impl Pilot {
         }
     }
 
+    /// The agent watches over the flight; it repeats a landing for ever.
     fn watch_flight(&mut self, now: Duration) {
-        let battery_percent = self.demo().map_or(100, |demo| demo.battery_percent);
-        let battery_low = battery_percent <= LANDING_BATTERY_PERCENT
-            || self.drone_state().contains(DroneState::BATTERY_LOW);
-        if battery_low && !self.on_ground() {
-            self.land(now, LandingReason::Battery { percent: battery_percent });
-        } else if let Some(active) = self.due
-            && now.saturating_sub(active.since) >= STEP_TIMEOUT
+        if let Some(active) = self.due
+            && active.due.order == AgentOrder::Land
+            && now.saturating_sub(active.since) >= LANDING_TIMEOUT
         {
             self.land(now, LandingReason::StepTimedOut { step: active.due.step });
         }
+    }
+
+    /// The agent says that flying on is not safe; but for a warning it already lands.
+    pub(super) fn endangered(&mut self, now: Duration, danger: Danger) {
+        let percent = self.demo().map_or(0, |demo| demo.battery_percent);
+        let reason = match danger {
+            Danger::BatteryLow => {
+                self.events.push_back(FlightEvent::BatteryLow { percent });
+                return;
+            }
+            Danger::BatteryEmpty => LandingReason::Battery { percent },
+            Danger::Blind => match self.estimator.trust() {
+                Trust::Sound => LandingReason::LinkLost,
+                trust => LandingReason::Distrust(trust),
+            },
+            Danger::Lost => LandingReason::PlaceUncertain,
+            Danger::Wind => LandingReason::Wind,
+            Danger::NoProgress => {
+                LandingReason::StepTimedOut { step: self.due.map_or(0, |active| active.due.step) }
+            }
+        };
+        self.give_up(now, reason);
     }
 
     fn watch_landing(&mut self, now: Duration, since: Duration) {
@@ -164,12 +193,20 @@ impl Pilot {
             self.end(Outcome::Interrupted);
             return;
         }
-        self.events.push_back(FlightEvent::LandingOrdered(reason));
-        self.landing = Some(reason);
-        self.due = None;
         // Pre-empting: always accepted, obeyed in the next step.
         let accepted = self.agent.achieve_land();
         debug_assert!(accepted);
+        self.give_up(now, reason);
+    }
+
+    /// The plan is given up, and the agent lands. The first reason counts.
+    fn give_up(&mut self, now: Duration, reason: LandingReason) {
+        if self.landing.is_some() {
+            return;
+        }
+        self.events.push_back(FlightEvent::LandingOrdered(reason));
+        self.landing = Some(reason);
+        self.due = None;
         self.phase = FlightPhase::Landing { since: now };
     }
 
@@ -200,7 +237,7 @@ impl Pilot {
                         self.events.push_back(FlightEvent::Configured);
                     }
                 }
-                session::Event::LinkLost => self.link_lost(now),
+                session::Event::LinkLost => self.link_lost(),
                 session::Event::DroneRestarted => {
                     self.estimator.handle_restart();
                     self.navdata = None;
@@ -228,11 +265,13 @@ impl Pilot {
         }
     }
 
-    fn link_lost(&mut self, now: Duration) {
+    fn link_lost(&mut self) {
         self.events.push_back(FlightEvent::LinkLost);
-        if self.phase == FlightPhase::Flying {
-            self.land(now, LandingReason::LinkLost);
-        } else if !matches!(self.phase, FlightPhase::Landing { .. } | FlightPhase::Ended(_)) {
+        // In flight the agent lands when it has been blind for long.
+        if !matches!(
+            self.phase,
+            FlightPhase::Flying | FlightPhase::Landing { .. } | FlightPhase::Ended(_)
+        ) {
             self.end(Outcome::NoDrone);
         }
     }

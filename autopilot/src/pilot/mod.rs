@@ -2,10 +2,11 @@
 //!
 //! A [`Pilot`] is pure. The shell hands it navdata when it arrives ([`Pilot::handle_navdata`]),
 //! what it reads on the control port ([`Pilot::handle_control`]) and the pilot's orders
-//! ([`Pilot::order_landing`]); every 30 ms it calls [`Pilot::tick`] and sends the datagram. It goes
+//! ([`Pilot::order`]); every 30 ms it calls [`Pilot::tick`] and sends the datagram. It goes
 //! on until [`Pilot::outcome`] tells how the flight ended.
 
 mod flight_phase;
+mod hand;
 mod report;
 
 use std::collections::VecDeque;
@@ -18,16 +19,19 @@ use ardrone_link::session::{self, FlightOrder, Order, Received, Session, Session
 use ardrone_link::settings::{Setting, SettingError};
 pub use estimator::{Airframe, Trust};
 use estimator::{Estimator, EstimatorConfig, Prediction, Sample, Sticks};
+use nalgebra::Vector2;
 pub use pid::Law;
 use pid::{CascadeConfig, Demand, Inputs, Pose, PositionController};
 
 pub use self::flight_phase::{FlightPhase, LandingReason};
+use self::hand::Hand;
+pub use self::hand::PilotOrder;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
-use crate::agent::{Agent, AgentCommand, AgentStep, Report, Senses, distance};
+use crate::agent::{Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
 use crate::mission::{AgentOrder, Due, Mission};
 use crate::outcome::Outcome;
 use crate::plan::{FlightLimits, Plan};
-use crate::safety::{self, Circumstances, Veto};
+use crate::safety::{Circumstances, Guard, Veto};
 
 /// The time between two ticks.
 pub const TICK: Duration = Duration::from_millis(30);
@@ -78,16 +82,15 @@ const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 const CONFIGURE_TIMEOUT: Duration = Duration::from_secs(25);
 /// After the level reference the drone gets this time to apply it.
 const SETTLE_TIME: Duration = Duration::from_millis(500);
-/// A step that takes longer than this is given up.
-const STEP_TIMEOUT: Duration = Duration::from_mins(1);
 /// A landing that takes longer than this is not reported as one.
 const LANDING_TIMEOUT: Duration = Duration::from_secs(30);
 /// After a loss of the link, landing is ordered blindly for this time.
 const BLIND_LANDING_TIME: Duration = Duration::from_secs(4);
 /// Below this the drone may refuse to take off.
 const MIN_TAKE_OFF_BATTERY_PERCENT: u32 = 20;
-/// In flight, the drone lands before it has to.
-const LANDING_BATTERY_PERCENT: u32 = 12;
+/// What pushes the drone for less than this is a gust.
+const WIND_TIME_S: f64 = 2.0;
+const GRAVITY_M_S2: f64 = 9.81;
 
 /// Asks for the drone's clock in demo mode. The key belongs to a category that firmware may only
 /// let a custom configuration change, so the flight does not depend on it.
@@ -108,7 +111,15 @@ pub struct Pilot {
     navdata: Option<Navdata>,
     due: Option<Active>,
     landing: Option<LandingReason>,
+    guard: Guard,
     veto: Option<Veto>,
+    hand: Hand,
+    /// When the newest navdata arrived that could be believed.
+    seen_at: Option<Duration>,
+    /// What pushes the drone, gusts apart: right, forward.
+    wind_m_s2: Vector2<f64>,
+    /// What full tilt gives, if gravity alone made it.
+    full_tilt_m_s2: f64,
     target: Option<Pose>,
     last_tick: Option<Duration>,
     events: VecDeque<FlightEvent>,
@@ -151,7 +162,12 @@ impl Pilot {
             navdata: None,
             due: None,
             landing: None,
+            guard: Guard::new(config.limits),
             veto: None,
+            hand: Hand::default(),
+            seen_at: None,
+            wind_m_s2: Vector2::zeros(),
+            full_tilt_m_s2: GRAVITY_M_S2 * config.estimator.limits.tilt_rad.tan(),
             target: None,
             last_tick: None,
             events: VecDeque::new(),
@@ -166,6 +182,9 @@ impl Pilot {
                 self.session_events(now);
                 if let Some(demo) = &navdata.demo {
                     self.estimator.update(&sample(now, &navdata, demo));
+                    if self.estimator.trust() == Trust::Sound {
+                        self.seen_at = Some(now);
+                    }
                 }
                 self.navdata = Some(navdata);
             }
@@ -178,11 +197,6 @@ impl Pilot {
     pub fn handle_control(&mut self, now: Duration, bytes: &[u8]) {
         self.session.handle_control(bytes);
         self.session_events(now);
-    }
-
-    /// The person at the keyboard wants the drone on the ground.
-    pub fn order_landing(&mut self, now: Duration) {
-        self.land(now, LandingReason::Pilot);
     }
 
     /// Whether [`ardrone_link::WAKE_UP`] is to be sent to the navdata port now.
@@ -208,19 +222,27 @@ impl Pilot {
             return Ok(());
         }
         self.offer_order(now);
+        self.feel_wind(now, step_s);
         let senses = self.senses(now);
         let step = AgentStep::run(&mut self.agent, senses);
         if let Some(report) = step.report {
             self.order_ended(now, report);
         }
+        if let Some(danger) = step.danger {
+            self.endangered(now, danger);
+        }
         // An agent that asks for nothing gets a hover.
         let wanted = step.command.unwrap_or(AgentCommand::Hover);
-        let (command, veto) = safety::check(wanted, self.circumstances(now));
+        let circumstances = self.circumstances(now);
+        let (command, veto) = self.guard.check(wanted, &circumstances);
         if let Some(veto) = veto.filter(|_| veto != self.veto) {
             self.events.push_back(FlightEvent::Veto(veto));
+            if veto.lands() {
+                self.land(now, LandingReason::Guard(veto));
+            }
         }
         self.veto = veto;
-        let order = self.order(now, command, step_s);
+        let order = self.carry_out(now, command, step_s);
         self.session.tick(now, order, datagram)?;
         self.session_events(now);
         Ok(())
@@ -307,21 +329,53 @@ impl Pilot {
             pose: self.demo().map(|_| self.pose(now)),
             on_ground: self.on_ground(),
             hovering: hovering && self.drone_state().contains(DroneState::FLYING),
+            battery_percent: self.battery_percent(),
+            blind_for_ms: i64::try_from(self.blind_for(now).as_millis()).unwrap_or(i64::MAX),
+            doubt_m: self.estimator.horizontal_deviation_m(now),
+            wind: self.wind_m_s2.norm() / (self.full_tilt_m_s2 * self.least_thrust()),
+            steering: self.hand.sticks(now).is_some(),
             settings: self.mission.settings(),
         }
     }
 
+    /// What is left; nothing, if the drone itself says that it is too little.
+    fn battery_percent(&self) -> Option<u32> {
+        let empty = self.drone_state().contains(DroneState::BATTERY_LOW);
+        self.demo().map(|demo| if empty { 0 } else { demo.battery_percent })
+    }
+
+    fn blind_for(&self, now: Duration) -> Duration {
+        self.seen_at.map_or(Duration::ZERO, |seen_at| now.saturating_sub(seen_at))
+    }
+
+    fn least_thrust(&self) -> f64 {
+        self.estimator.airframe().thrust_gain.amin()
+    }
+
+    fn feel_wind(&mut self, now: Duration, step_s: f64) {
+        let push_m_s2 = if self.on_ground() {
+            Vector2::zeros()
+        } else {
+            self.estimator.predicted(now).disturbance_m_s2
+        };
+        self.wind_m_s2 += (push_m_s2 - self.wind_m_s2) * (step_s / WIND_TIME_S);
+    }
+
     fn circumstances(&self, now: Duration) -> Circumstances {
+        let state = self.state(now);
         Circumstances {
-            silence: self.session.silence(now).unwrap_or(Duration::MAX),
+            blind_for: self.blind_for(now),
             emergency: self.drone_state().contains(DroneState::EMERGENCY),
+            airborne: !self.on_ground(),
+            pose: pose(&state),
+            velocity_m_s: state.velocity_m_s.into(),
         }
     }
 
     /// The agent's command as levels and sticks.
-    fn order(&mut self, now: Duration, command: AgentCommand, step_s: f64) -> Order {
+    fn carry_out(&mut self, now: Duration, command: AgentCommand, step_s: f64) -> Order {
         self.target = None;
-        let mut told = estimator::Order::ByItself;
+        let mut told: Option<Demand> = None;
         let order = match command {
             AgentCommand::Standby | AgentCommand::Land => {
                 self.controller.reset();
@@ -335,21 +389,29 @@ impl Pilot {
             AgentCommand::GoTo(target) => {
                 self.target = Some(target);
                 let demand = self.demand(now, &target, step_s);
-                told = estimator::Order::Sticks(Sticks {
-                    right: demand.roll,
-                    forward: -demand.pitch,
-                    up: demand.gaz,
-                    clockwise: demand.yaw,
-                });
-                let motion = Motion::Progressive {
-                    roll: Fraction::saturating(demand.roll),
-                    pitch: Fraction::saturating(demand.pitch),
-                    gaz: Fraction::saturating(demand.gaz),
-                    yaw: Fraction::saturating(demand.yaw),
-                };
-                Order { flight: FlightOrder::StayAirborne, motion }
+                let demand = self.guard.limit(&demand, self.mission.max_control());
+                told = Some(demand);
+                Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
+            }
+            AgentCommand::Sticks => {
+                self.controller.rest();
+                let demand = self.hand.sticks(now).unwrap_or_default();
+                let demand = self.guard.limit(&demand, self.mission.max_control());
+                told = Some(demand);
+                Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
         };
+        if told.is_none() {
+            self.guard.let_go();
+        }
+        let told = told.map_or(estimator::Order::ByItself, |demand| {
+            estimator::Order::Sticks(Sticks {
+                right: demand.roll,
+                forward: -demand.pitch,
+                up: demand.gaz,
+                clockwise: demand.yaw,
+            })
+        });
         self.estimator.told(now, told);
         order
     }
@@ -394,7 +456,8 @@ impl Pilot {
 
     /// Gives the agent the next order when the last one has ended.
     fn offer_order(&mut self, now: Duration) {
-        if self.phase != FlightPhase::Flying || self.landing.is_some() {
+        let waits = self.landing.is_some() || self.hand.holds_plan;
+        if self.phase != FlightPhase::Flying || waits {
             return;
         }
         if self.due.is_none() {
@@ -402,8 +465,8 @@ impl Pilot {
                 Some(due) => {
                     self.due = Some(Active { due, since: now, offered: false });
                     self.events.push_back(FlightEvent::StepStarted { step: due.step });
-                    if due.height_corrected {
-                        self.events.push_back(FlightEvent::HeightCorrected { step: due.step });
+                    if due.corrected {
+                        self.events.push_back(FlightEvent::TargetCorrected { step: due.step });
                     }
                 }
                 None => self.end(Outcome::Completed),
@@ -424,8 +487,8 @@ impl Pilot {
 
     /// The agent has reported how its last order ended.
     fn order_ended(&mut self, now: Duration, report: Report) {
-        if self.landing.is_some() {
-            // The end of a landing is judged by the drone's state.
+        if self.landing.is_some() || self.hand.holds_plan {
+            // The end of a landing is judged by the drone's state; a plan that waits has no order.
             return;
         }
         let Some(active) = self.due.take() else { return };
@@ -453,6 +516,15 @@ impl Pilot {
             AgentOrder::Land => self.report.landed_at = Some(now),
         }
         self.events.push_back(FlightEvent::StepDone { step: active.due.step });
+    }
+}
+
+fn motion(demand: &Demand) -> Motion {
+    Motion::Progressive {
+        roll: Fraction::saturating(demand.roll),
+        pitch: Fraction::saturating(demand.pitch),
+        gaz: Fraction::saturating(demand.gaz),
+        yaw: Fraction::saturating(demand.yaw),
     }
 }
 

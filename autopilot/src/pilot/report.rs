@@ -36,8 +36,8 @@ pub enum FlightEvent {
         /// Its index.
         step: usize,
     },
-    /// A target was moved into the allowed heights.
-    HeightCorrected {
+    /// A target was moved into the fence.
+    TargetCorrected {
         /// Its step.
         step: usize,
     },
@@ -47,6 +47,19 @@ pub enum FlightEvent {
     LinkLost,
     /// The drone cut its motors.
     Emergency,
+    /// The battery will soon be empty.
+    BatteryLow {
+        /// What is left.
+        percent: u32,
+    },
+    /// The pilot holds the drone where it is.
+    Held,
+    /// The pilot flies by hand.
+    Steered,
+    /// The plan goes on.
+    Resumed,
+    /// The pilot has the motors cut.
+    CutOrdered,
     /// The safety layer replaced a command.
     Veto(Veto),
 }
@@ -68,14 +81,25 @@ impl fmt::Display for FlightEvent {
             Self::Configured => f.write_str("drone configured, level reference set"),
             Self::StepStarted { step } => write!(f, "step {}", step + 1),
             Self::StepDone { step } => write!(f, "step {} done", step + 1),
-            Self::HeightCorrected { step } => {
-                write!(f, "step {}: target moved into the allowed heights", step + 1)
+            Self::TargetCorrected { step } => {
+                write!(f, "step {}: target moved into the fence", step + 1)
             }
             Self::LandingOrdered(reason) => write!(f, "landing: {reason}"),
             Self::LinkLost => f.write_str("link lost: ordering the landing blindly"),
             Self::Emergency => f.write_str("EMERGENCY: the drone has cut its motors"),
-            Self::Veto(Veto::StaleNavdata) => f.write_str("no fresh navdata: hovering"),
-            Self::Veto(Veto::Emergency) => f.write_str("emergency state: not flying"),
+            Self::BatteryLow { percent } => write!(f, "battery at {percent} %: land soon"),
+            Self::Held => f.write_str("holding"),
+            Self::Steered => f.write_str("flown by hand"),
+            Self::Resumed => f.write_str("going on with the plan"),
+            Self::CutOrdered => f.write_str("EMERGENCY CUT ordered"),
+            Self::Veto(veto) => f.write_str(match veto {
+                Veto::StaleNavdata => "no fresh navdata: hovering",
+                Veto::Blind => "no navdata for too long: landing",
+                Veto::Emergency => "emergency state: not flying",
+                Veto::TargetOutside => "target outside the fence: hovering",
+                Veto::NearFence => "at the fence: hovering",
+                Veto::OutsideFence => "outside the fence: landing",
+            }),
         }
     }
 }

@@ -26,7 +26,7 @@ fn a_drone_that_never_answers_ends_the_flight() {
 #[test]
 fn an_order_to_land_before_the_flight_just_ends_it() {
     let mut pilot = pilot("takeoff\nland");
-    pilot.order_landing(Duration::ZERO);
+    pilot.order(Duration::ZERO, PilotOrder::Land);
     assert_eq!(pilot.outcome(), Some(&Outcome::Interrupted));
 }
 

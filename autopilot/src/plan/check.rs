@@ -23,13 +23,15 @@ pub struct FlightLimits {
     pub floor_m: f64,
     /// Targets above this are refused. Above the floor.
     pub ceiling_m: f64,
+    /// Targets further from the start across the ground are refused.
+    pub radius_m: f64,
     /// What z means in the plan.
     pub z_origin: ZOrigin,
 }
 
 impl Default for FlightLimits {
     fn default() -> Self {
-        Self { floor_m: 0.3, ceiling_m: 3.0, z_origin: ZOrigin::Hover }
+        Self { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover }
     }
 }
 
@@ -50,18 +52,18 @@ impl FlightLimits {
 /// Heights are typed with a few digits; a target on the limit is inside.
 const TOLERANCE_M: f64 = 1e-9;
 
-/// Flies the plan on paper: order of commands, heights of targets.
+/// Flies the plan on paper: order of commands, places of targets.
 pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Diagnostic> {
     let end = text.trim_end().len();
     let mut check = Check {
         limits,
         airborne: false,
         origin_m: limits.origin_height_m(FlightLimits::EXPECTED_HOVER_M),
-        reference_m: 0.0,
-        target_m: 0.0,
+        reference: Pose::default(),
+        target: Pose::default(),
         diagnostics: Vec::new(),
     };
-    check.reference_m = check.origin_m;
+    check.reference.z_m = check.origin_m;
     let mut flies = false;
     for line in lines {
         if let Some(command) = line.command {
@@ -82,8 +84,8 @@ struct Check<'a> {
     limits: &'a FlightLimits,
     airborne: bool,
     origin_m: f64,
-    reference_m: f64,
-    target_m: f64,
+    reference: Pose,
+    target: Pose,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -92,15 +94,17 @@ impl Check<'_> {
         match command {
             Command::TakeOff { .. } => {
                 self.airborne = true;
-                self.target_m = FlightLimits::EXPECTED_HOVER_M;
+                self.target = Pose { z_m: FlightLimits::EXPECTED_HOVER_M, ..self.target };
             }
             Command::Land => self.airborne = false,
-            Command::GoTo(pose) => self.target(self.reference_m, &pose, span),
+            Command::GoTo(pose) => self.target(self.reference, &pose, span),
             Command::MoveBy(pose) | Command::MoveByRelative(pose) => {
-                self.target(self.target_m, &pose, span);
+                self.target(self.target, &pose, span);
             }
-            Command::SetReference(pose) => self.reference_m = self.origin_m + pose.z_m,
-            Command::SetReferenceHere => self.reference_m = self.target_m,
+            Command::SetReference(pose) => {
+                self.reference = Pose { z_m: self.origin_m + pose.z_m, ..pose }
+            }
+            Command::SetReferenceHere => self.reference = self.target,
             Command::SetReachDistance { .. }
             | Command::SetStayDistance { .. }
             | Command::SetStayTime { .. }
@@ -108,15 +112,33 @@ impl Check<'_> {
         }
     }
 
-    fn target(&mut self, from_m: f64, pose: &Pose, span: &Span) {
-        self.target_m = from_m + pose.z_m;
+    fn target(&mut self, from: Pose, pose: &Pose, span: &Span) {
+        self.target = Pose {
+            x_m: from.x_m + pose.x_m,
+            y_m: from.y_m + pose.y_m,
+            z_m: from.z_m + pose.z_m,
+            ..from
+        };
         if !self.airborne {
             self.diagnostics.push(
                 Diagnostic::error("the drone is on the ground here", span.clone())
                     .help("put `takeoff` before it"),
             );
         }
-        let height_m = self.target_m;
+        let away_m = self.target.x_m.hypot(self.target.y_m);
+        if away_m > self.limits.radius_m + TOLERANCE_M {
+            self.diagnostics.push(
+                Diagnostic::error(
+                    format!(
+                        "target {away_m:.2} m away from the start, beyond the fence of {} m",
+                        self.limits.radius_m
+                    ),
+                    span.clone(),
+                )
+                .help("the fence is `fence.radius_m` of the settings"),
+            );
+        }
+        let height_m = self.target.z_m;
         let (low, high) = (self.limits.floor_m, self.limits.ceiling_m);
         let limit = if height_m < low - TOLERANCE_M {
             format!("below the lowest of {low} m")
