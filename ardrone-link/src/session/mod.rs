@@ -58,6 +58,9 @@ impl Default for SessionConfig {
     }
 }
 
+/// A drone that has been silent for so long is not heard.
+const UNHEARD: Duration = Duration::from_millis(300);
+
 /// What the pilot wants in this tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Order {
@@ -244,7 +247,8 @@ impl Session {
         self.handshake.handle_control(bytes, &mut self.events);
     }
 
-    /// Fills `datagram` with this tick's commands: REF, PCMD, and what the conversation needs.
+    /// Fills `datagram` with this tick's commands: REF, PCMD, and what the conversation needs. An REF
+    /// that could lift the drone is left out while the drone is not heard.
     ///
     /// # Errors
     /// Never in practice: the commands of one tick are shorter than a datagram, whatever the
@@ -261,13 +265,15 @@ impl Session {
         self.watch_take_off(now, take_off);
         let emergency = self.state.contains(DroneState::EMERGENCY);
         let reference = if self.emergency.level(now, emergency) {
-            Ref::ToggleEmergency
+            Some(Ref::ToggleEmergency)
         } else if take_off {
-            Ref::TakeOff
+            self.is_heard(now).then_some(Ref::TakeOff)
         } else {
-            Ref::Land
+            Some(Ref::Land)
         };
-        self.push(datagram, &Command::Ref(reference))?;
+        if let Some(reference) = reference {
+            self.push(datagram, &Command::Ref(reference))?;
+        }
         self.push(datagram, &Command::Pcmd(order.motion))?;
         if self.state.contains(DroneState::COMMUNICATION_WATCHDOG) {
             self.push(datagram, &Command::CommunicationWatchdog)?;
@@ -383,6 +389,12 @@ impl Session {
                 self.withhold_take_off();
             }
         }
+    }
+
+    /// A drone that is not heard may have started again, and stand on the ground: nothing that could
+    /// lift it is sent. One that flies goes on as if a datagram had been lost.
+    fn is_heard(&self, now: Duration) -> bool {
+        self.silence(now).is_some_and(|silence| silence < UNHEARD)
     }
 
     fn watch_silence(&mut self, now: Duration) {

@@ -198,6 +198,21 @@ fn a_drone_that_restarts_in_flight_does_not_take_off_again() {
 }
 
 #[test]
+fn nothing_that_could_lift_the_drone_is_said_into_the_silence() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(500, DroneState::empty());
+    assert!(bench.takes_off(FlightOrder::TakeOff));
+    bench.hear(501, DroneState::FLYING);
+    bench.now += Duration::from_millis(280);
+    for order in [FlightOrder::StayAirborne, FlightOrder::TakeOff] {
+        assert_eq!(bench.tick(order)[..], [Command::Pcmd(Motion::Hover)]);
+    }
+    assert_eq!(bench.tick(FlightOrder::Land)[0], Command::Ref(Ref::Land));
+    bench.hear(510, DroneState::FLYING);
+    assert!(bench.takes_off(FlightOrder::StayAirborne));
+}
+
+#[test]
 fn after_an_emergency_or_a_landing_the_order_to_fly_is_spent() {
     for end in [DroneState::EMERGENCY, DroneState::empty()] {
         let mut bench = Bench::new(&[]);
