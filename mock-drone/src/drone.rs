@@ -58,6 +58,8 @@ impl Default for DroneConfig {
 pub struct Truth {
     /// The drone's own time.
     pub time: Duration,
+    /// When it was switched on last.
+    pub switched_on: Duration,
     /// Right, forward, up from the place of the start.
     pub position_m: Vector3<f64>,
     /// Right, forward, up.
@@ -99,7 +101,7 @@ pub struct Drone {
     config: DroneConfig,
     wind: Wind,
     /// When it was switched on.
-    booted: Duration,
+    switched_on: Duration,
     lie: Lie,
     /// What it reads for as long as its sensors are frozen.
     frozen: Option<Reading>,
@@ -120,6 +122,9 @@ const FULL_PERIOD: Duration = Duration::from_millis(5);
 const PACKET_BYTES: usize = 2304;
 /// The drone's clock has run this long when the simulation starts.
 const CLOCK_AT_START: Duration = Duration::from_millis(31_400);
+/// A restarted drone neither hears nor says anything for so long. The real one takes longer: so the
+/// pilot has less time to notice.
+const BOOT_TIME: Duration = Duration::from_secs(1);
 
 impl Drone {
     /// A drone that has just started, on the ground.
@@ -133,7 +138,7 @@ impl Drone {
         Self {
             config: config.clone(),
             wind: Wind::new(config.wind_m_s, config.gusts_m_s, config.seed),
-            booted: Duration::ZERO,
+            switched_on: Duration::ZERO,
             lie: Lie::default(),
             frozen: None,
             firmware: Firmware::new(config.profile, config.battery_percent),
@@ -169,13 +174,13 @@ impl Drone {
     /// Takes in a datagram of the AT port; returns what was not understood.
     pub fn handle_at(&mut self, now: Duration, datagram: &[u8]) -> Vec<DecodeError> {
         self.advance(now);
-        self.firmware.handle_at(now, datagram)
+        if self.is_booting() { Vec::new() } else { self.firmware.handle_at(now, datagram) }
     }
 
     /// Takes in a datagram of the navdata port: somebody wants to listen.
     pub fn handle_wake_up(&mut self, now: Duration) {
         self.advance(now);
-        if !self.listener {
+        if !self.listener && !self.is_booting() {
             self.listener = true;
             self.send_navdata(now);
         }
@@ -202,10 +207,15 @@ impl Drone {
         let battery_percent = self.firmware.battery_percent();
         self.firmware = Firmware::new(self.config.profile, battery_percent);
         self.sensors = Sensors::new(self.config.sensors, self.config.seed);
-        self.booted = now;
+        self.switched_on = now;
         self.sequence = 0;
         self.listener = false;
         self.outgoing.clear();
+    }
+
+    fn is_booting(&self) -> bool {
+        let starts_anew = self.switched_on > Duration::ZERO;
+        starts_anew && self.time() < self.switched_on + BOOT_TIME
     }
 
     /// Freezes what the sensors read, or lets them go on; packets keep coming.
@@ -234,6 +244,7 @@ impl Drone {
     pub fn truth(&self) -> Truth {
         Truth {
             time: self.time(),
+            switched_on: self.switched_on,
             position_m: self.airframe.position_m(),
             velocity_m_s: self.airframe.velocity_m_s(),
             yaw_deg: self.airframe.yaw_rad().to_degrees(),
@@ -278,7 +289,7 @@ impl Drone {
                 firmware: &self.firmware,
                 airframe: &self.airframe,
                 wind_m_s: self.wind.steady_m_s,
-                clock: now.saturating_sub(self.booted) + CLOCK_AT_START,
+                clock: now.saturating_sub(self.switched_on) + CLOCK_AT_START,
                 tag_27: self.config.tag_27,
             };
             let firmware = &self.firmware;
