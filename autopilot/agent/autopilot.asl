@@ -19,7 +19,12 @@ landWhenBlind(2000).
 // A place that is known no better than this is no place to fly by. Metres.
 largestDoubt(3.0).
 // Wind against which there is no holding: a share of what full tilt gives.
-strongestWind(0.8).
+strongestWind(0.7).
+// The drone's own landing drifts with the wind. Where it blows like this, we first come down by
+// ourselves to this height, in metres, but not for longer than this, in milliseconds.
+landingWind(0.1).
+landingHeight(0.35).
+comingDownTime(8000).
 // A take-off that takes longer than this has failed; a target that is not reached in this time is
 // given up. Milliseconds.
 takeOffTime(10000).
@@ -73,10 +78,7 @@ approachTime(60000).
      sendHover;
      !!wait.
 
--!wait
-  <- -target(_, _, _, _);
-     sendLand;
-     !completeLand.
+-!wait <- sendHover; !land.
 
 // ---- Taking off. The drone climbs by itself; it is done when it says that it hovers.
 // The place where it then is becomes the target to hold.
@@ -116,9 +118,7 @@ approachTime(60000).
      sendTakeOff;
      !completeTakeOff(Start).
 
--!completeTakeOff(_)
-  <- sendLand;
-     !completeLand.
+-!completeTakeOff(_) <- sendHover; !land.
 
 // ---- Going somewhere: approach until close enough, then stay a while.
 
@@ -167,10 +167,7 @@ approachTime(60000).
      reportFailed;
      !!wait.
 
--!approach(_)
-  <- -target(_, _, _, _);
-     sendLand;
-     !completeLand.
+-!approach(_) <- sendHover; !land.
 
 +!stay(Start, Arrival) : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
   <- !watch;
@@ -200,10 +197,7 @@ approachTime(60000).
      reportFailed;
      !!wait.
 
--!stay(_, _)
-  <- -target(_, _, _, _);
-     sendLand;
-     !completeLand.
+-!stay(_, _) <- sendHover; !land.
 
 // ---- The pilot's hand. Hold where we are, until told otherwise.
 
@@ -247,23 +241,55 @@ approachTime(60000).
      sendHover;
      !!wait.
 
--!steer
-  <- -target(_, _, _, _);
-     sendLand;
-     !completeLand.
+-!steer <- sendHover; !land.
 
-// ---- Landing. The order is repeated until the drone says that it has landed.
+// ---- Landing: where it blows by ourselves as far as we can, with eyes open; then by the drone.
 
 +!land : onGround
   <- sendStandby;
      reportDone;
      !!wait.
 
++!land : wind(Share) & landingWind(Breeze) & Share > Breeze
+    & blindFor(Time) & holdWhenBlind(Patience) & Time <= Patience
+    & position(X, Y, Z, Yaw) & landingHeight(Low) & Z > Low
+  <- +target(X, Y, Low, Yaw);
+     sendGoto(X, Y, Low, Yaw);
+     Start = getCurrentTimeMS;
+     !descend(Start).
+
 +!land
   <- -target(_, _, _, _);
      sendLand;
      !completeLand.
 
++!descend(_) : onGround
+  <- sendStandby;
+     reportDone;
+     !!wait.
+
++!descend(Start) : comingDownTime(Limit) & longEnough(Start, Limit)
+  <- -target(_, _, _, _);
+     sendLand;
+     !completeLand.
+
+// Blind for a moment.
++!descend(Start) : blindFor(Time) & holdWhenBlind(Patience) & Time > Patience
+    & landWhenBlind(Limit) & Time <= Limit
+  <- sendHover;
+     !descend(Start).
+
++!descend(Start) : blindFor(Time) & landWhenBlind(Limit) & Time <= Limit
+    & target(X, Y, Z, Yaw) & position(_, _, Height, _) & Height > Z + 0.1
+  <- sendGoto(X, Y, Z, Yaw);
+     !descend(Start).
+
++!descend(_)
+  <- -target(_, _, _, _);
+     sendLand;
+     !completeLand.
+
+// The order is repeated until the drone says that it has landed.
 +!completeLand : onGround
   <- sendStandby;
      reportDone;

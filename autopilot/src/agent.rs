@@ -440,16 +440,63 @@ mod tests {
                     Danger::BatteryEmpty => Senses { battery_percent: Some(12), ..senses },
                     Danger::Blind => Senses { blind_for_ms: 2001, ..senses },
                     Danger::Lost => Senses { doubt_m: 3.1, ..senses },
-                    _ => Senses { wind: 0.81, ..senses },
+                    // It comes down by itself first, unless it is low already.
+                    _ => Senses {
+                        wind: 0.81,
+                        pose: senses.pose.map(|pose| Pose { z_m: 0.3, ..pose }),
+                        ..senses
+                    },
                 };
                 let step = bench.run();
                 let said = (step.command, step.danger, step.commands);
-                assert_eq!(said, (Some(AgentCommand::Land), Some(danger), 1), "{name}");
+                assert_eq!(said, (Some(AgentCommand::Hover), Some(danger), 1), "{name}");
+                assert_eq!(bench.step().0, Some(AgentCommand::Land), "{name}");
                 assert_eq!(bench.step().0, Some(AgentCommand::Land), "{name}");
             }
         }
         for (name, mut bench) in in_the_air() {
             assert_ne!(bench.step().0, Some(AgentCommand::Land), "{name}: nothing is wrong");
+        }
+    }
+
+    #[test]
+    fn in_the_wind_it_comes_down_where_it_is_before_it_lands() {
+        let mut bench = Bench::new(HOVERING);
+        bench.go_to(TARGET);
+        bench.step();
+        let here = Pose { x_m: 0.3, z_m: 2.0, ..TARGET };
+        bench.senses = Senses { wind: 0.9, pose: Some(here), ..bench.senses };
+        let down = Some(AgentCommand::GoTo(Pose { z_m: 0.35, ..here }));
+        assert_eq!(bench.step().0, Some(AgentCommand::Hover));
+        assert_eq!(bench.step().0, down);
+        assert_eq!(bench.step().0, down);
+        bench.senses.pose = Some(Pose { z_m: 0.4, ..here });
+        assert_eq!(bench.step().0, Some(AgentCommand::Land));
+        // Not for ever, and not blindly.
+        for (later_ms, blind_for_ms) in [(9000, 0), (30, 2001)] {
+            let mut bench = Bench::new(HOVERING);
+            bench.senses = Senses { wind: 0.9, pose: Some(here), ..bench.senses };
+            bench.step();
+            assert_eq!(bench.step().0, down);
+            bench.senses.blind_for_ms = 400;
+            assert_eq!(bench.step().0, Some(AgentCommand::Hover));
+            bench.senses =
+                Senses { now_ms: bench.senses.now_ms + later_ms, blind_for_ms, ..bench.senses };
+            assert_eq!(bench.step().0, Some(AgentCommand::Land));
+        }
+    }
+
+    #[test]
+    fn an_ordered_landing_comes_down_by_itself_where_it_blows() {
+        let here = Pose { z_m: 1.5, ..TARGET };
+        let down = AgentCommand::GoTo(Pose { z_m: 0.35, ..here });
+        for (wind, blind_for_ms, command) in
+            [(0.1, 0, AgentCommand::Land), (0.3, 0, down), (0.3, 400, AgentCommand::Land)]
+        {
+            let mut bench = Bench::new(HOVERING);
+            bench.senses = Senses { wind, blind_for_ms, pose: Some(here), ..bench.senses };
+            assert!(bench.agent.achieve_land());
+            assert_eq!(bench.step().0, Some(command), "{wind} {blind_for_ms}");
         }
     }
 

@@ -26,5 +26,6 @@ pub mod settings;
 pub mod sim;
 pub mod statistics;
 
+pub use pid::Demand;
 pub use pilot::{Pilot, PilotConfig};
 pub use plan::Plan;

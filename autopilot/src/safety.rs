@@ -17,8 +17,18 @@ const STALE: Duration = Duration::from_millis(300);
 const BLIND: Duration = Duration::from_secs(4);
 /// The drone overshoots a little, and navdata are not exact: this far beyond the fence is too far.
 const MARGIN_M: f64 = 0.35;
-/// What the drone flies on until it has stopped, per metre a second.
-const STOPPING_S: f64 = 0.7;
+/// What the drone flies on before it brakes, per metre a second, and how it brakes then,
+/// against the wind.
+const REACTION_S: f64 = 0.5;
+const BRAKING_M_S2: f64 = 0.8;
+/// By hand the drone is stopped so far inside the fence. One that left it is flown back that far, and
+/// down to so far above its floor, and is landed there.
+const INSIDE_M: f64 = 0.5;
+const LOW_M: f64 = 0.15;
+/// It is landed wherever it is after so long.
+const RETREAT: Duration = Duration::from_secs(10);
+/// And when navdata have been so old on its way.
+const BLIND_RETREAT: Duration = Duration::from_secs(1);
 /// No stick jumps further within one tick.
 const LARGEST_JUMP: f64 = 1.0;
 
@@ -31,30 +41,37 @@ pub enum Veto {
     Blind,
     /// The drone is in its emergency state: it is never asked to fly.
     Emergency,
-    /// The target lies outside the fence: hover.
+    /// The drone lands, by itself or as it was told: it is let land. An order to fly would lift it
+    /// again once it is down.
+    Landing,
+    /// The target lies outside the fence: fly to the nearest place inside.
     TargetOutside,
-    /// The drone itself is about to leave the fence by the pilot's hand: hover.
+    /// The drone comes too near the fence by the pilot's hand: stop inside.
     NearFence,
-    /// The drone has left the fence: land.
+    /// The drone has left the fence: fly it back and down, and land.
     OutsideFence,
 }
 
 impl Veto {
     /// Whether the drone is landed for it.
     pub fn lands(self) -> bool {
-        matches!(self, Self::Blind | Self::OutsideFence)
+        matches!(self, Self::Blind | Self::OutsideFence | Self::Landing)
     }
 }
 
 /// What the safety layer looks at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circumstances {
+    /// Since the flight program started.
+    pub now: Duration,
     /// Since the newest navdata that could be believed.
     pub blind_for: Duration,
     /// The drone's motors are cut.
     pub emergency: bool,
     /// The drone flies.
     pub airborne: bool,
+    /// The drone is landing, whoever ordered it.
+    pub landing: bool,
     /// Where the drone is.
     pub pose: Pose,
     /// How it moves: right, forward, up.
@@ -65,15 +82,25 @@ pub struct Circumstances {
 #[derive(Debug, Clone)]
 pub struct Guard {
     fence: FlightLimits,
-    /// The drone is being landed for this.
-    landing: Option<Veto>,
+    /// The drone is brought down for this.
+    danger: Option<Veto>,
+    /// Until then it may be flown back first.
+    retreats_until: Duration,
+    /// It has been told to land: in the air that is not taken back.
+    lands: bool,
     sticks: Demand,
 }
 
 impl Guard {
     /// A guard of this fence.
     pub fn new(fence: FlightLimits) -> Self {
-        Self { fence, landing: None, sticks: Demand::default() }
+        Self {
+            fence,
+            danger: None,
+            retreats_until: Duration::ZERO,
+            lands: false,
+            sticks: Demand::default(),
+        }
     }
 
     /// The command itself, or a safer one and the reason.
@@ -87,23 +114,48 @@ impl Guard {
             return (AgentCommand::Standby, Some(Veto::Emergency));
         }
         if !now.airborne {
-            self.landing = None;
-        }
-        if !flies || !now.airborne {
+            self.danger = None;
+            self.lands = false;
             return (command, None);
         }
-        self.landing = self.landing.or_else(|| self.reason_to_land(now));
-        if let Some(veto) = self.landing {
-            return (AgentCommand::Land, Some(veto));
+        let (command, veto) = self.check_in_the_air(command, flies, now);
+        self.lands = command == AgentCommand::Land;
+        (command, veto)
+    }
+
+    fn check_in_the_air(
+        &mut self,
+        command: AgentCommand,
+        flies: bool,
+        now: &Circumstances,
+    ) -> (AgentCommand, Option<Veto>) {
+        if self.lands || now.landing {
+            return (AgentCommand::Land, flies.then(|| self.danger.unwrap_or(Veto::Landing)));
+        }
+        if flies && self.danger.is_none() {
+            self.danger = self.reason_to_land(now);
+            self.retreats_until = now.now + RETREAT;
+        }
+        if let Some(danger) = self.danger {
+            return (self.bring_down(danger, now), Some(danger));
         }
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
-        let veto = match command {
-            _ if moves && now.blind_for > STALE => Veto::StaleNavdata,
-            AgentCommand::GoTo(target) if !self.is_inside(&target, 1e-6) => Veto::TargetOutside,
-            AgentCommand::Sticks if !self.stops_inside(now) => Veto::NearFence,
-            _ => return (command, None),
-        };
-        (AgentCommand::Hover, Some(veto))
+        match command {
+            _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
+            AgentCommand::GoTo(target) if !self.is_inside(&target, 1e-6) => {
+                (AgentCommand::GoTo(self.inside(&target, 0.0)), Some(Veto::TargetOutside))
+            }
+            AgentCommand::Sticks if !self.stops_inside(now) => {
+                let stop = self.inside(&stopping_place(now), INSIDE_M);
+                (AgentCommand::GoTo(stop), Some(Veto::NearFence))
+            }
+            _ => (command, None),
+        }
+    }
+
+    /// The drone is to land where it is, not to be flown back first.
+    pub fn land_here(&mut self) {
+        self.lands |= self.danger.is_some();
     }
 
     /// The sticks within their limit, and no further from the last ones than they may jump.
@@ -128,6 +180,18 @@ impl Guard {
         self.sticks = Demand::default();
     }
 
+    /// The drone's own landing drifts: with eyes open it is flown back and down first.
+    fn bring_down(&self, danger: Veto, now: &Circumstances) -> AgentCommand {
+        let retreats = danger == Veto::OutsideFence
+            && now.blind_for <= BLIND_RETREAT
+            && now.now < self.retreats_until;
+        match self.retreat(&now.pose) {
+            Some(target) if retreats && now.blind_for <= STALE => AgentCommand::GoTo(target),
+            Some(_) if retreats => AgentCommand::Hover,
+            _ => AgentCommand::Land,
+        }
+    }
+
     fn reason_to_land(&self, now: &Circumstances) -> Option<Veto> {
         if now.blind_for > BLIND {
             Some(Veto::Blind)
@@ -136,6 +200,15 @@ impl Guard {
         } else {
             None
         }
+    }
+
+    /// A low place inside the fence, unless the drone is near it.
+    fn retreat(&self, pose: &Pose) -> Option<Pose> {
+        let low_m = self.fence.floor_m + LOW_M;
+        let target = Pose { z_m: low_m, ..self.inside(pose, INSIDE_M) };
+        let is_inside = pose.x_m.hypot(pose.y_m) <= self.fence.radius_m;
+        let is_there = is_inside && pose.z_m <= low_m + LOW_M;
+        (!is_there).then_some(target)
     }
 
     fn is_inside(&self, pose: &Pose, margin_m: f64) -> bool {
@@ -148,15 +221,36 @@ impl Guard {
             && pose.z_m <= self.fence.ceiling_m + margin_m
     }
 
-    fn stops_inside(&self, now: &Circumstances) -> bool {
-        let [right, forward, up] = now.velocity_m_s.map(|speed_m_s| speed_m_s * STOPPING_S);
-        let Pose { x_m, y_m, z_m, .. } = now.pose;
-        let (away_m, end_away_m) = (x_m.hypot(y_m), (x_m + right).hypot(y_m + forward));
-        let end_m = z_m + up;
-        (end_away_m <= self.fence.radius_m || end_away_m < away_m)
-            && (end_m <= self.fence.ceiling_m || up < 0.0)
-            && (end_m >= self.fence.floor_m || up > 0.0)
+    /// The nearest place inside the fence, and so far inside across the ground.
+    fn inside(&self, place: &Pose, by_m: f64) -> Pose {
+        let away_m = place.x_m.hypot(place.y_m);
+        let allowed_m = (self.fence.radius_m - by_m).max(0.0);
+        let share = if away_m > allowed_m { allowed_m / away_m } else { 1.0 };
+        Pose {
+            x_m: place.x_m * share,
+            y_m: place.y_m * share,
+            z_m: place.z_m.clamp(self.fence.floor_m, self.fence.ceiling_m),
+            ..*place
+        }
     }
+
+    fn stops_inside(&self, now: &Circumstances) -> bool {
+        let (here, end) = (now.pose, stopping_place(now));
+        let (away_m, end_away_m) = (here.x_m.hypot(here.y_m), end.x_m.hypot(end.y_m));
+        (end_away_m <= self.fence.radius_m - INSIDE_M || end_away_m < away_m)
+            && (end.z_m <= self.fence.ceiling_m || end.z_m < here.z_m)
+            && (end.z_m >= self.fence.floor_m || end.z_m > here.z_m)
+    }
+}
+
+/// Where the drone comes to rest if it begins to brake now.
+fn stopping_place(now: &Circumstances) -> Pose {
+    let way_m = |speed_m_s: f64| {
+        speed_m_s * REACTION_S + speed_m_s * speed_m_s.abs() / (2.0 * BRAKING_M_S2)
+    };
+    let [right, forward, up] = now.velocity_m_s.map(way_m);
+    let Pose { x_m, y_m, z_m, yaw_deg } = now.pose;
+    Pose { x_m: x_m + right, y_m: y_m + forward, z_m: z_m + up, yaw_deg }
 }
 
 #[cfg(test)]
@@ -164,9 +258,11 @@ mod tests {
     use super::*;
 
     const FINE: Circumstances = Circumstances {
+        now: Duration::from_mins(1),
         blind_for: Duration::ZERO,
         emergency: false,
         airborne: true,
+        landing: false,
         pose: Pose { x_m: 0.0, y_m: 0.0, z_m: 1.0, yaw_deg: 0.0 },
         velocity_m_s: [0.0; 3],
     };
@@ -198,6 +294,20 @@ mod tests {
     }
 
     #[test]
+    fn a_drone_that_lands_is_let_land() {
+        let landing = Circumstances { landing: true, ..FINE };
+        for command in [AgentCommand::TakeOff, AgentCommand::Hover, GO_TO, AgentCommand::Sticks] {
+            let vetoed = (AgentCommand::Land, Some(Veto::Landing));
+            assert_eq!(guard().check(command, &landing), vetoed);
+        }
+        let outside = Circumstances { pose: Pose { x_m: 11.0, ..FINE.pose }, ..FINE };
+        let mut guard = guard();
+        assert_ne!(guard.check(GO_TO, &outside).0, AgentCommand::Land);
+        let command = guard.check(AgentCommand::Land, &Circumstances { landing: true, ..outside });
+        assert_eq!(command, (AgentCommand::Land, None), "no retreat any more");
+    }
+
+    #[test]
     fn a_drone_that_is_landed_for_its_safety_is_landed_to_the_end() {
         for bad in [
             Circumstances { blind_for: Duration::from_secs(5), ..FINE },
@@ -205,13 +315,39 @@ mod tests {
             Circumstances { pose: Pose { z_m: 3.4, ..FINE.pose }, ..FINE },
         ] {
             let mut guard = guard();
-            let (command, veto) = guard.check(AgentCommand::Hover, &bad);
-            assert_eq!(command, AgentCommand::Land);
+            let veto = guard.check(AgentCommand::Hover, &bad).1;
             assert!(veto.is_some_and(Veto::lands));
-            assert_eq!(guard.check(GO_TO, &FINE).0, AgentCommand::Land, "it came back");
+            let low = Circumstances { pose: Pose { z_m: 0.5, ..FINE.pose }, ..FINE };
+            assert_eq!(guard.check(GO_TO, &low).0, AgentCommand::Land, "it came back");
             let landed = Circumstances { airborne: false, ..FINE };
             assert_eq!(guard.check(AgentCommand::TakeOff, &landed).0, AgentCommand::TakeOff);
         }
+    }
+
+    #[test]
+    fn a_drone_outside_the_fence_is_flown_back_and_down() {
+        let outside = Circumstances { pose: Pose { y_m: -10.5, z_m: 2.0, ..FINE.pose }, ..FINE };
+        let stale = Circumstances { blind_for: Duration::from_millis(400), ..outside };
+        let blind = Circumstances { blind_for: Duration::from_millis(1001), ..outside };
+        let much_later = Circumstances { now: outside.now + RETREAT, ..outside };
+        let land = AgentCommand::Land;
+        assert_eq!(guard().check(land, &outside), (land, None), "whoever lands, lands");
+        for then in [&blind, &much_later] {
+            let mut guard = guard();
+            let (command, veto) = guard.check(GO_TO, &outside);
+            assert_eq!(veto, Some(Veto::OutsideFence));
+            let AgentCommand::GoTo(target) = command else { panic!("{command:?}") };
+            assert!((target.y_m + 9.5).abs() < 1e-9 && target.z_m < 0.5, "{target:?}");
+            // The landing that is then ordered waits for that, but not for ever, nor blindly.
+            assert_eq!(guard.check(land, &outside).0, command);
+            assert_eq!(guard.check(land, &stale).0, AgentCommand::Hover);
+            assert_eq!(guard.check(land, then).0, land);
+            assert_eq!(guard.check(land, &outside).0, land, "a landing is not taken back");
+        }
+        let mut guard = guard();
+        guard.check(GO_TO, &outside);
+        guard.land_here();
+        assert_eq!(guard.check(land, &outside).0, land, "nor does it wait for the pilot");
     }
 
     #[test]
@@ -222,20 +358,22 @@ mod tests {
             Pose { z_m: 3.1, ..here },
             Pose { z_m: 0.2, ..here },
         ] {
-            let outside = (AgentCommand::Hover, Some(Veto::TargetOutside));
-            assert_eq!(guard().check(AgentCommand::GoTo(target), &FINE), outside);
+            let (command, veto) = guard().check(AgentCommand::GoTo(target), &FINE);
+            assert_eq!(veto, Some(Veto::TargetOutside));
+            let AgentCommand::GoTo(inside) = command else { panic!("{command:?}") };
+            assert!(guard().is_inside(&inside, 1e-6), "{inside:?}");
         }
     }
 
     #[test]
     fn the_pilots_hand_stops_before_the_fence_and_may_fly_back() {
-        let at_the_fence = Pose { x_m: 9.5, ..FINE.pose };
+        let near_the_fence = Pose { x_m: 9.0, ..FINE.pose };
         let moving =
-            |x, up| Circumstances { pose: at_the_fence, velocity_m_s: [x, 0.0, up], ..FINE };
+            |x, up| Circumstances { pose: near_the_fence, velocity_m_s: [x, 0.0, up], ..FINE };
         let check = |now| guard().check(AgentCommand::Sticks, &now).1;
         assert_eq!(check(moving(1.0, 0.0)), Some(Veto::NearFence));
         assert_eq!(check(moving(-1.0, 0.0)), None);
-        assert_eq!(check(moving(0.5, 0.0)), None);
+        assert_eq!(check(moving(0.4, 0.0)), None);
         assert_eq!(check(moving(0.0, 3.0)), Some(Veto::NearFence));
     }
 

@@ -20,8 +20,10 @@ pub struct Simulation {
     pub world: WorldConfig,
     /// The pilot.
     pub pilot: PilotConfig,
-    /// When the person at the keyboard orders the landing.
-    pub landing_ordered_at: Option<Duration>,
+    /// What the person at the controls orders, and when, in the order of time.
+    pub orders: Vec<(Duration, PilotOrder)>,
+    /// How long the drone is watched after the flight, when it hears nothing more.
+    pub aftermath: Duration,
 }
 
 /// A flight that was simulated.
@@ -35,9 +37,9 @@ pub struct SimulatedFlight {
     pub events: Vec<(Duration, FlightEvent)>,
     /// What the simulation knows: the truth at the end of each waypoint's stay.
     pub truth_at_waypoints: Vec<Truth>,
-    /// The truth at the end.
+    /// The truth at the end of the aftermath.
     pub final_truth: Truth,
-    /// Simulated time from the start to the end.
+    /// Simulated time from the start to the flight's end.
     pub duration: Duration,
 }
 
@@ -99,10 +101,10 @@ impl Simulation {
         let mut truth_at_waypoints = Vec::new();
         let mut now = Duration::ZERO;
         let mut next_tick = Duration::ZERO;
-        let mut landing_ordered_at = self.landing_ordered_at;
+        let mut orders = self.orders.iter().peekable();
         while now < LIMIT {
-            if landing_ordered_at.take_if(|at| now >= *at).is_some() {
-                pilot.order(now, PilotOrder::Land);
+            while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
+                pilot.order(now, *order);
             }
             world.advance(now);
             while let Some(message) = world.receive(now) {
@@ -129,6 +131,17 @@ impl Simulation {
                     truth_at_waypoints.push(world.truth());
                 }
                 if let Some(outcome) = pilot.outcome() {
+                    let end = now + self.aftermath;
+                    let mut later = now;
+                    while later < end {
+                        later += TICK;
+                        world.advance(later);
+                        watch(&Moment {
+                            now: later,
+                            truth: world.truth(),
+                            status: pilot.status(now),
+                        });
+                    }
                     return Ok(SimulatedFlight {
                         outcome: outcome.clone(),
                         report: pilot.report().clone(),

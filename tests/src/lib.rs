@@ -1,6 +1,8 @@
 //! What the whole-system tests share: plans, and how a flight is judged.
 #![forbid(unsafe_code)]
 
+pub mod campaign;
+
 use autopilot::Plan;
 use autopilot::pilot::Waypoint;
 use mock_drone::Truth;

@@ -10,5 +10,6 @@ mod estimate;
 mod faults;
 mod ports;
 mod processes;
+mod safety;
 mod simulated;
 mod udp;

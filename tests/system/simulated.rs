@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{FlightEvent, LandingReason};
+use autopilot::pilot::{FlightEvent, LandingReason, PilotOrder};
 use autopilot::sim::{SimulatedFlight, Simulation};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
@@ -136,8 +136,8 @@ fn a_heading_across_the_jump_is_reached() {
 
 #[test]
 fn the_pilots_order_lands_in_the_middle_of_a_step() {
-    let landing_ordered_at = Some(8 * SECOND);
-    let simulation = Simulation { landing_ordered_at, ..Simulation::default() };
+    let orders = vec![(8 * SECOND, PilotOrder::Land)];
+    let simulation = Simulation { orders, ..Simulation::default() };
     let flight = fly(&simulation, SQUARE);
     assert_eq!(flight.outcome, Outcome::Interrupted);
     assert_eq!(flight.final_truth.phase, Phase::Landed);
@@ -147,8 +147,8 @@ fn the_pilots_order_lands_in_the_middle_of_a_step() {
 #[test]
 fn the_pilots_order_is_obeyed_at_every_moment() {
     for tenths in 0..250 {
-        let landing_ordered_at = Some(SECOND / 10 * tenths);
-        let simulation = Simulation { landing_ordered_at, ..Simulation::default() };
+        let orders = vec![(SECOND / 10 * tenths, PilotOrder::Land)];
+        let simulation = Simulation { orders, ..Simulation::default() };
         let flight = fly(&simulation, SQUARE);
         let over = flight.outcome == Outcome::Completed;
         assert!(over || flight.outcome == Outcome::Interrupted, "{tenths}: {:?}", flight.outcome);

@@ -2,13 +2,12 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use autopilot::Plan;
 use autopilot::sim::{Moment, SimulatedFlight, SimulationError};
 
 use crate::cases::{CASES, LAWS};
+use crate::parallel;
 use crate::plot;
 use crate::score::Scorer;
 use crate::table::{self, Flown};
@@ -46,7 +45,7 @@ pub(crate) fn run(
             }
         }
     }
-    let flown = fly_all(&jobs)?;
+    let flown = parallel::map(&jobs, score)?;
     let rows = table::rows(&flown);
     if let Some(folder) = plots {
         plot::write_all(folder, &rows)?;
@@ -56,35 +55,6 @@ pub(crate) fn run(
             .map_err(|source| FlyError::Write { path: path.to_owned(), source })?;
     }
     Ok(table::table(&rows))
-}
-
-fn fly_all(jobs: &[Job]) -> Result<Vec<Flown>, FlyError> {
-    let next = AtomicUsize::new(0);
-    let flown = Mutex::new(Vec::new());
-    let failed = Mutex::new(None);
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(|| {
-                while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    match score(*job) {
-                        Ok(flight) => lock(&flown).push(flight),
-                        Err(error) => *lock(&failed) = Some(error),
-                    }
-                }
-            });
-        }
-    });
-    if let Some(error) = lock(&failed).take() {
-        return Err(error);
-    }
-    let mut flown = std::mem::take(&mut *lock(&flown));
-    flown.sort_by_key(|flight| (flight.case, flight.law, flight.plan, flight.seed));
-    Ok(flown)
-}
-
-/// A poisoned lock holds what was pushed before; nothing of it is half done.
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
 fn score(job: Job) -> Result<Flown, FlyError> {

@@ -1,8 +1,10 @@
 //! `cargo xtask`: measurements of the whole system.
 #![forbid(unsafe_code)]
 
+mod campaign;
 mod cases;
 mod fly;
+mod parallel;
 mod plot;
 mod score;
 mod table;
@@ -35,18 +37,35 @@ enum Command {
         #[arg(long, value_name = "FOLDER")]
         plots: Option<PathBuf>,
     },
+    /// Fly with random faults, and tell how each flight ended; fails if anything happened that must
+    /// not
+    Campaign {
+        /// How many flights
+        #[arg(long, value_name = "N", default_value_t = 10_000)]
+        flights: u64,
+        /// The first seed; flight by flight the next one
+        #[arg(long, value_name = "SEED", default_value_t = 1)]
+        first: u64,
+    },
 }
 
 fn main() -> ExitCode {
-    let Command::Fly { seeds, csv, plots } = Arguments::parse().command;
     #[allow(clippy::disallowed_methods, reason = "how long it takes is what a person sees")]
     let start = std::time::Instant::now();
+    let done = match Arguments::parse().command {
+        Command::Fly { seeds, csv, plots } => fly::run(seeds, csv.as_deref(), plots.as_deref())
+            .map(|table| (table, true))
+            .map_err(|error| error.to_string()),
+        Command::Campaign { flights, first } => {
+            campaign::run(flights, first).map_err(|error| error.to_string())
+        }
+    };
     // What cannot be printed has nowhere else to go.
-    match fly::run(seeds, csv.as_deref(), plots.as_deref()) {
-        Ok(table) => {
+    match done {
+        Ok((table, good)) => {
             let seconds = start.elapsed().as_secs_f64();
             _ = writeln!(std::io::stdout(), "{table}flown in {seconds:.1} s");
-            ExitCode::SUCCESS
+            if good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
         }
         Err(error) => {
             _ = writeln!(std::io::stderr(), "error: {error}");

@@ -97,6 +97,7 @@ impl fmt::Display for LandingReason {
             Self::PlaceUncertain => f.write_str("the place is too uncertain"),
             Self::Wind => f.write_str("the wind is too strong to hold the place"),
             Self::Guard(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
+            Self::Guard(Veto::Landing) => f.write_str("the drone lands by itself"),
             Self::Guard(_) => f.write_str("no navdata for too long"),
         }
     }

@@ -44,7 +44,10 @@ impl Pilot {
     /// The person at the controls wants something.
     pub fn order(&mut self, now: Duration, order: PilotOrder) {
         match order {
-            PilotOrder::Land => self.land(now, LandingReason::Pilot),
+            PilotOrder::Land => {
+                self.guard.land_here();
+                self.land(now, LandingReason::Pilot);
+            }
             PilotOrder::Cut => {
                 self.events.push_back(FlightEvent::CutOrdered);
                 self.session.request_emergency_stop();

@@ -364,9 +364,11 @@ impl Pilot {
     fn circumstances(&self, now: Duration) -> Circumstances {
         let state = self.state(now);
         Circumstances {
+            now,
             blind_for: self.blind_for(now),
             emergency: self.drone_state().contains(DroneState::EMERGENCY),
             airborne: !self.on_ground(),
+            landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
             pose: pose(&state),
             velocity_m_s: state.velocity_m_s.into(),
         }

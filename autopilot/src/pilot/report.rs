@@ -96,9 +96,10 @@ impl fmt::Display for FlightEvent {
                 Veto::StaleNavdata => "no fresh navdata: hovering",
                 Veto::Blind => "no navdata for too long: landing",
                 Veto::Emergency => "emergency state: not flying",
-                Veto::TargetOutside => "target outside the fence: hovering",
-                Veto::NearFence => "at the fence: hovering",
-                Veto::OutsideFence => "outside the fence: landing",
+                Veto::Landing => "the drone lands: letting it",
+                Veto::TargetOutside => "target outside the fence: flying to its edge",
+                Veto::NearFence => "at the fence: stopping",
+                Veto::OutsideFence => "outside the fence: flying back and landing",
             }),
         }
     }

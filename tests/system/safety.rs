@@ -1,0 +1,156 @@
+//! Nothing that goes wrong becomes a crash: a campaign of random faults, and each way in which a flight
+//! once went wrong.
+
+use std::thread;
+use std::time::Duration;
+
+use autopilot::outcome::Outcome;
+use autopilot::pilot::{FlightEvent, LandingReason, PilotConfig, PilotOrder, Trust};
+use autopilot::plan::FlightLimits;
+use autopilot::safety::Veto;
+use autopilot::sim::{Moment, SimulatedFlight, Simulation};
+use autopilot::{Demand, Plan};
+use mock_drone::WorldConfig;
+use mock_drone::firmware::Phase;
+use mock_drone::scenario::Scenario;
+use system_tests::{SQUARE, campaign, plan};
+
+const SECOND: Duration = Duration::from_secs(1);
+const NEAR: FlightLimits = FlightLimits {
+    radius_m: 4.0,
+    ceiling_m: 3.0,
+    floor_m: 0.3,
+    z_origin: autopilot::plan::ZOrigin::Hover,
+};
+
+#[test]
+fn five_hundred_flights_with_random_faults_end_well() {
+    let halves = [1_u64..251, 251..501].map(|seeds| {
+        thread::spawn(move || seeds.map(|seed| campaign::fly(seed).unwrap()).collect::<Vec<_>>())
+    });
+    let mut flown = 0;
+    for verdict in halves.into_iter().flat_map(|half| half.join().unwrap()) {
+        assert!(verdict.faults.is_empty(), "seed {}: {:?}", verdict.seed, verdict.faults);
+        flown += usize::from(verdict.outcome == Outcome::Completed);
+    }
+    // A campaign in which nobody flies proves nothing.
+    assert!(flown > 100, "only {flown} plans were flown to their end");
+}
+
+#[test]
+fn the_same_seed_is_the_same_flight() {
+    assert_eq!(campaign::fly(5).unwrap(), campaign::fly(5).unwrap());
+}
+
+/// A flight with a scenario, and every moment of it.
+fn watched(
+    text: &str,
+    seed: u64,
+    plan: Plan,
+    simulation: Simulation,
+    watch: impl FnMut(&Moment),
+) -> SimulatedFlight {
+    let scenario = Scenario::parse("scenario", text).unwrap();
+    let mut world = WorldConfig { scenario, ..simulation.world };
+    world.drone.seed = seed;
+    Simulation { world, ..simulation }.fly_watched(plan, watch).unwrap()
+}
+
+/// How often the drone took off on the square.
+fn take_offs(text: &str, seed: u64) -> u32 {
+    let mut count = 0;
+    let mut rose = false;
+    let simulation = Simulation { aftermath: 20 * SECOND, ..Simulation::default() };
+    let flight = watched(text, seed, plan(SQUARE), simulation, |moment| {
+        let rises = matches!(moment.truth.phase, Phase::TakingOff { .. });
+        count += u32::from(rises && !rose);
+        rose = rises;
+    });
+    assert_eq!(flight.final_truth.phase, Phase::Landed, "{text}, seed {seed}");
+    count
+}
+
+/// The drone lands by itself after 2 s of silence. When it is heard again, shortly before it stands,
+/// the order to stay in the air must not reach it on the ground.
+#[test]
+fn a_drone_that_landed_by_itself_is_not_lifted_again() {
+    for quarters in 8_u32..40 {
+        let text = format!("+5 outage {}", f64::from(quarters) / 4.0);
+        assert_eq!(take_offs(&text, u64::from(quarters % 3)), 1, "{text}");
+    }
+}
+
+/// It does not remember that it flew, and orders to stay in the air still came.
+#[test]
+fn a_drone_that_restarts_unheard_is_not_lifted() {
+    for tenths in 0_u32..20 {
+        let outage = f64::from(tenths) / 10.0 + 0.05;
+        let text = format!("+5 restart\n+5 outage {outage}\n0 delay 40 jitter 40");
+        assert_eq!(take_offs(&text, 1), 1, "{text}");
+    }
+}
+
+/// Its own landing drifts with the wind: we come down by ourselves first.
+#[test]
+fn a_landing_in_the_wind_does_not_drift_far() {
+    for seed in 1..=10 {
+        let flown = plan("takeoff\ngoto 2 0 1 0\nland\n");
+        let flight = watched("0 wind 1 0", seed, flown, Simulation::default(), |_| {});
+        assert_eq!(flight.outcome, Outcome::Completed);
+        let drifted_m = flight.final_truth.odometry_m.x - 2.0;
+        assert!(drifted_m < 0.7, "seed {seed}: {drifted_m:.2} m");
+    }
+}
+
+/// The furthest that the drone is from the start.
+fn furthest_m(moment: &Moment, furthest_m: &mut f64) {
+    *furthest_m = furthest_m.max(moment.truth.odometry_m.norm());
+}
+
+#[test]
+fn the_pilots_hand_does_not_leave_the_fence() {
+    let full = Demand { roll: 1.0, ..Demand::default() };
+    let sticks = (0..200_u32)
+        .map(|tenth| (8 * SECOND + SECOND / 10 * tenth, PilotOrder::Steer(full)))
+        .chain([(30 * SECOND, PilotOrder::Land)]);
+    let orders: Vec<_> = sticks.collect();
+    for (seed, wind) in [(1, ""), (2, "0 wind 1 0"), (3, "0 wind 0.5 -1 gusts 0.3")] {
+        let pilot = PilotConfig { limits: NEAR, ..PilotConfig::default() };
+        let simulation = Simulation { pilot, orders: orders.clone(), ..Simulation::default() };
+        let mut away_m = 0.0;
+        let flown = plan("takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n");
+        let flight = watched(wind, seed, flown, simulation, |m| furthest_m(m, &mut away_m));
+        assert_eq!(flight.outcome, Outcome::Interrupted);
+        let stopped = flight.events.iter().any(|(_, event)| {
+            matches!(event, FlightEvent::Veto(Veto::NearFence | Veto::OutsideFence))
+        });
+        assert!(stopped && away_m < 4.5, "{wind}: {away_m:.2} m");
+    }
+}
+
+/// A gust that nobody could have resisted: the drone comes back, low, and lands there.
+#[test]
+fn a_drone_that_was_blown_over_the_fence_comes_back_to_land() {
+    for seed in 1..=5 {
+        let pilot = PilotConfig { limits: NEAR, ..PilotConfig::default() };
+        let simulation = Simulation { pilot, ..Simulation::default() };
+        let flown = plan("takeoff\nsetStayTime 20\ngoto 3.9 0 0 0\nland\n");
+        let gust = "+12 wind 7 0\n+13 wind 0 0";
+        let flight = watched(gust, seed, flown, simulation, |_| {});
+        let outside = FlightEvent::LandingOrdered(LandingReason::Guard(Veto::OutsideFence));
+        assert!(flight.events.iter().any(|(_, event)| *event == outside), "{:?}", flight.events);
+        let away_m = flight.final_truth.odometry_m.norm();
+        assert!(flight.final_truth.phase == Phase::Landed && away_m < 4.2, "{away_m:.2} m");
+    }
+}
+
+#[test]
+fn navdata_that_stay_frozen_or_lie_too_much_land_the_drone() {
+    for (text, trust) in
+        [("+5 freeze 20", Trust::Frozen), ("+5 lie velocity 4 0 for 20", Trust::Implausible)]
+    {
+        let flight = watched(text, 1, plan(SQUARE), Simulation::default(), |_| {});
+        let ordered = FlightEvent::LandingOrdered(LandingReason::Distrust(trust));
+        assert!(flight.events.iter().any(|(_, event)| *event == ordered), "{:?}", flight.events);
+    }
+}
