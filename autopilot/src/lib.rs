@@ -11,7 +11,8 @@
 //! - [`mission`]: which step of the plan is next, and where that is.
 //! - [`pilot`]: the tick.
 //! - [`safety`]: what the agent may not overrule.
-//! - [`flight`], [`sim`]: the shells. [`cli`]: the command line.
+//! - [`flight`], [`sim`]: the shells; [`realtime`], [`timing`]: what the system gives the tick, and how
+//!   regular it was. [`cli`]: the command line.
 #![deny(unsafe_code)]
 
 pub mod agent;
@@ -21,10 +22,11 @@ pub mod mission;
 pub mod outcome;
 pub mod pilot;
 pub mod plan;
+pub mod realtime;
 pub mod safety;
 pub mod settings;
 pub mod sim;
-pub mod statistics;
+pub mod timing;
 
 pub use pid::Demand;
 pub use pilot::{Pilot, PilotConfig};

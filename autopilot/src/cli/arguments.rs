@@ -21,7 +21,16 @@ Exit status:
   130  the pilot landed it (Ctrl-C)
 
 Ctrl-C lands the drone and waits for the ground; a second one leaves at once, with the
-landing ordered.";
+landing ordered. SIGTERM and a closed terminal do the same.
+
+Keys, in a terminal:
+    space     hold the place; the plan waits
+    r         resume the plan
+    l         land
+    q         land and quit, as Ctrl-C
+    w a s d   fly forward, left, back, right by hand, as long as pressed
+    arrows    climb, sink, turn
+    e e       cut the motors: the drone falls";
 
 /// Fly an AR.Drone 2.0 along a plan.
 ///
@@ -82,6 +91,9 @@ pub(super) struct Fly {
     /// How targets are approached and held; `cascade` unless the settings say otherwise
     #[arg(long, value_enum, value_name = "LAW")]
     law: Option<LawName>,
+    /// Print how regular the ticks were and what they cost
+    #[arg(long)]
+    pub(super) timing: bool,
     /// Plain lines, no terminal tricks
     #[arg(long)]
     pub(super) plain: bool,

@@ -1,6 +1,7 @@
 //! The command line of `ardrone-pilot`.
 
 mod arguments;
+mod keys;
 mod progress;
 mod summary;
 
@@ -14,11 +15,13 @@ use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports, ServerError};
 
 use self::arguments::{Arguments, Command, Fly};
+use self::keys::Keys;
 use self::progress::Progress;
 use self::summary::{Summary, TrueWaypoint};
 use crate::flight::{Flight, FlightError, Message};
 use crate::plan::{FlightLimits, Plan, PlanError};
 use crate::settings::{self, Settings, SettingsError};
+use crate::timing::TimingReport;
 
 /// Why nothing was flown.
 #[derive(Debug, thiserror::Error)]
@@ -108,6 +111,10 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
         }
     ));
     let flight = Flight::start(plan, &config, &drone)?;
+    let keys = Keys::start(flight.controls());
+    if keys.is_some() {
+        progress.say(keys::HELP);
+    }
     let mut truths = Vec::new();
     for message in flight.messages() {
         if let (Message::Waypoint(waypoint), Some(mock)) = (&message, &mock) {
@@ -115,10 +122,14 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
         }
         progress.show(&message);
     }
+    drop(keys);
     let finished = flight.finish()?;
     progress.end();
     // Whoever closed the pipe does not want the summary.
     _ = write!(std::io::stdout(), "{}", Summary { finished: &finished, truths: &truths });
+    if arguments.timing {
+        _ = write!(std::io::stdout(), "{}", TimingReport(&finished.ticks));
+    }
     Ok(finished.outcome.exit_status())
 }
 

@@ -6,6 +6,8 @@
 //! (signals, the control port, whoever watches) is on other threads behind bounded channels that
 //! drop rather than block.
 
+mod services;
+
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _, UdpSocket};
 use std::thread::JoinHandle;
@@ -16,19 +18,21 @@ use ardrone_link::settings::SettingError;
 use ardrone_link::{DroneAddress, WAKE_UP, is_passing};
 use crossbeam_channel::{Receiver, Sender, bounded};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use tokio::io::AsyncReadExt as _;
-use tokio::sync::oneshot;
 
+use self::services::{Input, Services};
 use crate::outcome::Outcome;
 use crate::pilot::{
     FlightEvent, FlightReport, Pilot, PilotConfig, PilotOrder, Status, TICK, Waypoint,
 };
 use crate::plan::Plan;
-use crate::statistics::{TickRecorder, TickSummary};
+use crate::realtime::Realtime;
+use crate::timing::{Stage, TickRecorder, TickSummary};
 
 /// What the flight tells while it lasts.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Message {
+    /// What the system gives the flight's thread.
+    Realtime(Realtime),
     /// Something happened.
     Event(Duration, FlightEvent),
     /// A target was reached and stayed at.
@@ -82,7 +86,26 @@ pub enum FlightError {
 #[derive(Debug)]
 pub struct Flight {
     messages: Receiver<Message>,
+    controls: Controls,
     thread: JoinHandle<Result<FinishedFlight, FlightError>>,
+}
+
+/// The pilot's hand on a flight that goes on.
+#[derive(Debug, Clone)]
+pub struct Controls {
+    inputs: Sender<Input>,
+}
+
+impl Controls {
+    /// Orders something; returns whether the flight could be told. A flight that is over cannot.
+    pub fn order(&self, order: PilotOrder) -> bool {
+        self.inputs.try_send(Input::Order(order)).is_ok()
+    }
+
+    /// Does what Ctrl-C does: lands, and the second time leaves at once with the landing ordered.
+    pub fn stop(&self) -> bool {
+        self.inputs.try_send(Input::Stop).is_ok()
+    }
 }
 
 /// How often whoever watches is told where things stand.
@@ -95,8 +118,8 @@ const BUFFER_BYTES: usize = 8192;
 const PARTING_ORDERS: u32 = 10;
 
 impl Flight {
-    /// Starts flying `plan`. Ctrl-C and SIGTERM land; a second one ends the flight at once, with
-    /// the landing ordered.
+    /// Starts flying `plan`. Ctrl-C, SIGTERM and a closed terminal land; a second one ends
+    /// the flight at once, with the landing ordered.
     ///
     /// # Errors
     /// [`FlightError`] if the drone has no address or no socket or thread can be had.
@@ -110,7 +133,7 @@ impl Flight {
         let connect = |port| connected_socket(SocketAddr::new(address, port));
         let at = connect(drone.at_port).map_err(FlightError::Socket)?;
         let navdata = connect(drone.navdata_port).map_err(FlightError::Socket)?;
-        let services = Services::start(SocketAddr::new(address, drone.control_port))?;
+        let (services, inputs) = Services::start(SocketAddr::new(address, drone.control_port))?;
         let (sender, messages) = bounded(MESSAGES);
         let mut tick = TickLoop {
             pilot,
@@ -120,18 +143,25 @@ impl Flight {
             messages: sender,
             dropped_messages: 0,
             ticks: TickRecorder::default(),
+            realtime: Realtime::default(),
             waypoints: 0,
+            stops: 0,
         };
         let thread = std::thread::Builder::new()
             .name("flight".to_owned())
             .spawn(move || tick.run())
             .map_err(FlightError::Thread)?;
-        Ok(Self { messages, thread })
+        Ok(Self { messages, controls: Controls { inputs }, thread })
     }
 
     /// What the flight tells; ends when the flight does.
     pub fn messages(&self) -> impl Iterator<Item = Message> + '_ {
         self.messages.iter()
+    }
+
+    /// What orders this flight, from any thread.
+    pub fn controls(&self) -> Controls {
+        self.controls.clone()
     }
 
     /// Waits for the end.
@@ -175,43 +205,68 @@ struct TickLoop {
     messages: Sender<Message>,
     dropped_messages: u64,
     ticks: TickRecorder,
+    realtime: Realtime,
     waypoints: usize,
+    /// How often the end was asked for.
+    stops: u32,
 }
 
 impl TickLoop {
     fn run(&mut self) -> Result<FinishedFlight, FlightError> {
+        self.realtime = Realtime::acquire();
+        self.say(Message::Realtime(self.realtime));
         let start = clock();
         let mut datagram = Datagram::new();
         let mut buffer = vec![0_u8; BUFFER_BYTES];
         let mut deadline = Duration::ZERO;
+        let mut held_up = false;
         let mut count = 0_u32;
         loop {
             let now = start.elapsed();
             if let Some(rest) = deadline.checked_sub(now).filter(|rest| !rest.is_zero()) {
                 self.wait(rest)?;
+                let woken = start.elapsed();
                 self.take_in_navdata(start, &mut buffer)?;
+                let done = start.elapsed();
+                self.ticks.spend(Stage::Estimate, done.saturating_sub(woken));
+                held_up = woken < deadline && done >= deadline;
                 continue;
             }
             let skipped = skip_missed(&mut deadline, now);
-            self.ticks.record(now, deadline, skipped);
+            self.ticks.begin(now, deadline, skipped, std::mem::take(&mut held_up));
             deadline += TICK;
             self.take_in_services(now);
-            self.pilot.tick(now, &mut datagram)?;
-            if !datagram.as_bytes().is_empty() {
-                tolerate(self.at.send(datagram.as_bytes()))?;
-            }
-            if self.pilot.wake_up_due(now) {
-                tolerate(self.navdata.send(&WAKE_UP))?;
-            }
+            self.tick(start, &mut datagram)?;
+            self.ticks.end();
             self.tell(now, count.is_multiple_of(STATUS_TICKS));
             count = count.wrapping_add(1);
             if let Some(outcome) = self.pilot.outcome().cloned() {
                 return Ok(self.finished(outcome));
             }
-            if self.services.wants_to_leave() {
+            if self.stops >= 2 {
                 return self.leave(start, &mut datagram);
             }
         }
+    }
+
+    /// Decides and sends, and takes the time of each stage.
+    fn tick(&mut self, start: Instant, datagram: &mut Datagram) -> Result<(), FlightError> {
+        let now = start.elapsed();
+        let mut last = now;
+        let mut done = |ticks: &mut TickRecorder, stage| {
+            let now = start.elapsed();
+            ticks.spend(stage, now.saturating_sub(last));
+            last = now;
+        };
+        self.pilot.tick_timed(now, datagram, |stage| done(&mut self.ticks, stage))?;
+        if !datagram.as_bytes().is_empty() {
+            tolerate(self.at.send(datagram.as_bytes()))?;
+        }
+        if self.pilot.wake_up_due(now) {
+            tolerate(self.navdata.send(&WAKE_UP))?;
+        }
+        done(&mut self.ticks, Stage::Send);
+        Ok(())
     }
 
     /// Sleeps until navdata arrives or the time is over.
@@ -236,12 +291,13 @@ impl TickLoop {
     }
 
     fn take_in_services(&mut self, now: Duration) {
-        while let Ok(input) = self.services.inputs.try_recv() {
+        while let Some(input) = self.services.poll() {
             match input {
-                ServiceInput::Control(bytes) => self.pilot.handle_control(now, &bytes),
-                ServiceInput::Stop => {
-                    self.services.stops += 1;
-                    if self.services.stops == 1 {
+                Input::Control(bytes) => self.pilot.handle_control(now, &bytes),
+                Input::Order(order) => self.pilot.order(now, order),
+                Input::Stop => {
+                    self.stops += 1;
+                    if self.stops == 1 {
                         self.pilot.order(now, PilotOrder::Land);
                     }
                 }
@@ -275,10 +331,7 @@ impl TickLoop {
         datagram: &mut Datagram,
     ) -> Result<FinishedFlight, FlightError> {
         for _ in 0..PARTING_ORDERS {
-            self.pilot.tick(start.elapsed(), datagram)?;
-            if !datagram.as_bytes().is_empty() {
-                tolerate(self.at.send(datagram.as_bytes()))?;
-            }
+            self.tick(start, datagram)?;
             self.wait(TICK)?;
         }
         Ok(self.finished(Outcome::Interrupted))
@@ -288,7 +341,7 @@ impl TickLoop {
         FinishedFlight {
             outcome,
             report: self.pilot.report().clone(),
-            ticks: self.ticks.summary(),
+            ticks: self.ticks.summary(self.realtime),
             dropped_messages: self.dropped_messages,
         }
     }
@@ -309,105 +362,6 @@ fn tolerate(result: io::Result<usize>) -> Result<Option<usize>, FlightError> {
     match result {
         Err(error) if is_passing(&error) => Ok(None),
         result => result.map(Some).map_err(FlightError::Socket),
-    }
-}
-
-/// What the slow side brings.
-enum ServiceInput {
-    /// Bytes from the control port.
-    Control(Vec<u8>),
-    /// Ctrl-C or SIGTERM.
-    Stop,
-}
-
-/// Signals and the control port, on a thread of their own; it ends with the flight.
-struct Services {
-    inputs: Receiver<ServiceInput>,
-    stops: u32,
-    end: Option<oneshot::Sender<()>>,
-    thread: Option<JoinHandle<()>>,
-}
-
-/// Blocks of the configuration dump that may wait for the tick.
-const SERVICE_INPUTS: usize = 64;
-/// The control port is tried again after this time.
-const CONTROL_RETRY: Duration = Duration::from_millis(500);
-
-impl Services {
-    fn start(control: SocketAddr) -> Result<Self, FlightError> {
-        let runtime = tokio::runtime::Builder::new_current_thread()
-            .enable_all()
-            .build()
-            .map_err(FlightError::Thread)?;
-        let (sender, inputs) = bounded(SERVICE_INPUTS);
-        let (end, ended) = oneshot::channel();
-        let thread = std::thread::Builder::new()
-            .name("services".to_owned())
-            .spawn(move || {
-                runtime.block_on(async {
-                    tokio::select! {
-                        () = forward_signals(&sender) => {}
-                        () = read_control_port(control, &sender) => {}
-                        // The flight is over.
-                        _ = ended => {}
-                    }
-                });
-            })
-            .map_err(FlightError::Thread)?;
-        Ok(Self { inputs, stops: 0, end: Some(end), thread: Some(thread) })
-    }
-
-    fn wants_to_leave(&self) -> bool {
-        self.stops >= 2
-    }
-}
-
-impl Drop for Services {
-    fn drop(&mut self) {
-        if let Some(end) = self.end.take() {
-            // The thread may have ended by itself.
-            _ = end.send(());
-        }
-        if let Some(thread) = self.thread.take()
-            && thread.join().is_err()
-        {
-            tracing::error!("the services thread panicked");
-        }
-    }
-}
-
-/// Never returns: without signals the flight goes on.
-async fn forward_signals(inputs: &Sender<ServiceInput>) {
-    use tokio::signal::unix::{SignalKind, signal};
-    let interrupt = signal(SignalKind::interrupt());
-    let terminate = signal(SignalKind::terminate());
-    let (Ok(mut interrupt), Ok(mut terminate)) = (interrupt, terminate) else {
-        tracing::warn!("signals cannot be caught: Ctrl-C will not land the drone");
-        return std::future::pending().await;
-    };
-    loop {
-        tokio::select! {
-            _ = interrupt.recv() => {}
-            _ = terminate.recv() => {}
-        }
-        if inputs.try_send(ServiceInput::Stop).is_err() {
-            tracing::warn!("the flight is too busy to be told to land");
-        }
-    }
-}
-
-/// Never returns: a drone without control port can be flown all the same.
-async fn read_control_port(address: SocketAddr, inputs: &Sender<ServiceInput>) {
-    let mut buffer = vec![0_u8; 4096];
-    loop {
-        if let Ok(mut stream) = tokio::net::TcpStream::connect(address).await {
-            while let Ok(length @ 1..) = stream.read(&mut buffer).await {
-                let bytes = buffer.get(..length).unwrap_or_default().to_vec();
-                // A full channel loses the dump; the session asks again.
-                _ = inputs.try_send(ServiceInput::Control(bytes));
-            }
-        }
-        tokio::time::sleep(CONTROL_RETRY).await;
     }
 }
 

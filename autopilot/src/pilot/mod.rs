@@ -32,6 +32,7 @@ use crate::mission::{AgentOrder, Due, Mission};
 use crate::outcome::Outcome;
 use crate::plan::{FlightLimits, Plan};
 use crate::safety::{Circumstances, Guard, Veto};
+use crate::timing::Stage;
 
 /// The time between two ticks.
 pub const TICK: Duration = Duration::from_millis(30);
@@ -210,6 +211,19 @@ impl Pilot {
     /// # Errors
     /// See [`Session::tick`].
     pub fn tick(&mut self, now: Duration, datagram: &mut Datagram) -> Result<(), EncodeError> {
+        self.tick_timed(now, datagram, |_| {})
+    }
+
+    /// As [`Pilot::tick`]; `done` is called at the end of each of its stages.
+    ///
+    /// # Errors
+    /// See [`Session::tick`].
+    pub fn tick_timed(
+        &mut self,
+        now: Duration,
+        datagram: &mut Datagram,
+        mut done: impl FnMut(Stage),
+    ) -> Result<(), EncodeError> {
         let step_s = self
             .last_tick
             .map_or(TICK, |last| now.saturating_sub(last))
@@ -231,6 +245,7 @@ impl Pilot {
         if let Some(danger) = step.danger {
             self.endangered(now, danger);
         }
+        done(Stage::Agent);
         // An agent that asks for nothing gets a hover.
         let wanted = step.command.unwrap_or(AgentCommand::Hover);
         let circumstances = self.circumstances(now);
@@ -243,7 +258,9 @@ impl Pilot {
         }
         self.veto = veto;
         let order = self.carry_out(now, command, step_s);
+        done(Stage::Control);
         self.session.tick(now, order, datagram)?;
+        done(Stage::Encode);
         self.session_events(now);
         Ok(())
     }
