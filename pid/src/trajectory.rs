@@ -3,6 +3,7 @@
 //! A target that changes on the way adds a second motion to the first, which runs to its end: the sum
 //! is as smooth as its parts and ends at the new target.
 
+use arrayvec::ArrayVec;
 use nalgebra::Vector2;
 
 /// Limits of a motion along a line.
@@ -129,7 +130,7 @@ pub(crate) struct Trajectory {
     /// Where the motions that are over have led.
     origin_m: Vector2<f64>,
     target_m: Vector2<f64>,
-    legs: Vec<Leg>,
+    legs: ArrayVec<Leg, MAX_LEGS>,
 }
 
 /// More motions than this at a time are not added up: the oldest are taken as over.
@@ -138,7 +139,7 @@ const MAX_LEGS: usize = 4;
 impl Trajectory {
     /// At rest.
     pub(crate) fn new(place_m: Vector2<f64>) -> Self {
-        Self { origin_m: place_m, target_m: place_m, legs: Vec::with_capacity(MAX_LEGS + 1) }
+        Self { origin_m: place_m, target_m: place_m, legs: ArrayVec::new() }
     }
 
     /// Sets out for a target, unless it is the old one.
@@ -147,14 +148,14 @@ impl Trajectory {
         if way.norm() <= f64::EPSILON {
             return;
         }
+        if self.legs.is_full() {
+            self.origin_m += self.legs.remove(0).displacement_m();
+        }
         self.legs.push(Leg {
             direction: way.normalize(),
             profile: Profile::new(way.norm(), limits),
             elapsed_s: 0.0,
         });
-        if self.legs.len() > MAX_LEGS {
-            self.origin_m += self.legs.remove(0).displacement_m();
-        }
         self.target_m = target_m;
     }
 

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::disallowed_methods, reason = "these tests run real processes in real time")]
 
+mod allocation;
 mod architecture;
 mod client;
 mod command_line;

@@ -7,6 +7,10 @@ use std::process::{Child, Command, ExitStatus, Output, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
+use mock_drone::WorldConfig;
+use mock_drone::firmware::Phase;
+use mock_drone::server::{MockDrone, Ports};
+
 /// A program of this workspace, built like this test.
 pub(crate) fn program(name: &str) -> Command {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
@@ -93,8 +97,8 @@ fn wait_for(log: &Path, text: &str) {
     }
 }
 
-fn signal(child: &Child) {
-    let status = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+fn signal(child: &Child, name: &str) {
+    let status = Command::new("kill").args([name, &child.id().to_string()]).status();
     assert!(status.as_ref().is_ok_and(ExitStatus::success), "{status:?}");
 }
 
@@ -138,11 +142,58 @@ fn control_c_lands_and_waits_for_the_ground() {
     let plan = plan_file(LONG);
     let (child, log) = start(&mut mock.pilot(plan.path()));
     wait_for(log.path(), "step 3/4");
-    signal(&child);
+    signal(&child, "-INT");
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     assert!(text(&output).contains("landed on the pilot's order"));
     assert!(!text(&output).contains("flight time     -"), "{}", text(&output));
+}
+
+#[test]
+fn a_terminated_pilot_and_a_closed_terminal_land() {
+    for name in ["-TERM", "-HUP"] {
+        let mock = MockProcess::start();
+        let plan = plan_file(LONG);
+        let (child, log) = start(&mut mock.pilot(plan.path()));
+        wait_for(log.path(), "step 3/4");
+        signal(&child, name);
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130), "{name}");
+        assert!(text(&output).contains("landed on the pilot's order"), "{name}");
+    }
+}
+
+/// Nothing of ours runs any more: the drone's own watchdog lands it where it is.
+#[test]
+fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
+    let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+    let ports = mock.ports();
+    let mut pilot = program("ardrone-pilot");
+    let plan = plan_file(LONG);
+    pilot.arg("--plan").arg(plan.path()).args(["--drone", "127.0.0.1"]);
+    for (name, port) in [
+        ("--at-port", ports.at),
+        ("--navdata-port", ports.navdata),
+        ("--control-port", ports.control),
+    ] {
+        pilot.args([name, &port.to_string()]);
+    }
+    let (mut child, log) = start(&mut pilot);
+    wait_for(log.path(), "step 3/4");
+    // Under way it would keep its last stick for the 2 s in which it waits for the pilot.
+    std::thread::sleep(Duration::from_secs(3));
+    let before = mock.truth();
+    assert_eq!(before.phase, Phase::Flying);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let killed = Instant::now();
+    while mock.truth().phase != Phase::Landed {
+        assert!(killed.elapsed() < Duration::from_secs(15), "{:?}", mock.truth());
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    assert!(killed.elapsed() > Duration::from_secs(2), "it hovers first");
+    let moved_m = (mock.truth().position_m - before.position_m).xy().norm();
+    assert!(moved_m < 2.0, "{moved_m:.2} m");
 }
 
 #[test]
@@ -151,10 +202,10 @@ fn a_second_control_c_leaves_at_once_with_the_landing_ordered() {
     let plan = plan_file(LONG);
     let (child, log) = start(&mut mock.pilot(plan.path()));
     wait_for(log.path(), "step 3/4");
-    signal(&child);
+    signal(&child, "-INT");
     wait_for(log.path(), "landing: the pilot's order");
     let second = Instant::now();
-    signal(&child);
+    signal(&child, "-INT");
     let output = child.wait_with_output().unwrap();
     assert!(second.elapsed() < Duration::from_secs(2));
     assert_eq!(output.status.code(), Some(130));
@@ -167,7 +218,7 @@ fn control_c_before_the_drone_is_found_ends_at_once() {
     pilot.arg("--plan").arg(plan.path()).args(["--drone", "127.0.0.1", "--navdata-port", "9"]);
     let (child, log) = start(&mut pilot);
     wait_for(log.path(), "connecting");
-    signal(&child);
+    signal(&child, "-INT");
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
 }

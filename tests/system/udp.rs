@@ -5,12 +5,14 @@ use autopilot::PilotConfig;
 use autopilot::flight::{Flight, Message};
 use autopilot::outcome::Outcome;
 use autopilot::sim::Simulation;
-use mock_drone::WorldConfig;
+use mock_drone::firmware::Phase;
+use mock_drone::scenario::Scenario;
 use mock_drone::server::{MockDrone, Ports};
+use mock_drone::{Truth, WorldConfig};
 use system_tests::{SQUARE, place_in_navdata_frame, plan, true_error_m};
 
 /// The address of a drone that runs in this process.
-fn address(mock: &MockDrone) -> DroneAddress {
+pub(crate) fn address(mock: &MockDrone) -> DroneAddress {
     let ports = mock.ports();
     DroneAddress {
         host: ports.host.to_string(),
@@ -43,5 +45,28 @@ fn a_flight_over_udp_is_the_simulated_one() {
         let apart = place_in_navdata_frame(real) - place_in_navdata_frame(simulated);
         println!("waypoint: {:.3} m apart", apart.norm());
         assert!(apart.norm() < 0.05, "{:.3} m apart", apart.norm());
+    }
+}
+
+/// How a flight over UDP ends with this scenario, and what is then true of the drone.
+fn ends(scenario: &str) -> (Outcome, Truth) {
+    let scenario = Scenario::parse("scenario", scenario).unwrap();
+    let world = WorldConfig { scenario, ..WorldConfig::default() };
+    let mock = MockDrone::start(&world, Ports::LOOPBACK).unwrap();
+    let flown = plan("takeoff\nsetStayTime 5\ngoto 0 0.5 0 0\nland\n");
+    let flight = Flight::start(flown, &PilotConfig::default(), &address(&mock)).unwrap();
+    let outcome = flight.finish().unwrap().outcome;
+    (outcome, mock.truth())
+}
+
+#[test]
+fn outages_and_a_restart_end_as_the_documentation_says() {
+    let flights = ["+4 outage 1.2", "+4 outage 4", "+4 restart"]
+        .map(|scenario| std::thread::spawn(move || ends(scenario)));
+    let restarted = Outcome::Failsafe { reason: "the drone has restarted".to_owned() };
+    let expected = [Outcome::Completed, Outcome::LinkLost, restarted];
+    for (flight, expected) in flights.into_iter().zip(expected) {
+        let (outcome, truth) = flight.join().unwrap();
+        assert_eq!((outcome, truth.phase), (expected, Phase::Landed));
     }
 }

@@ -58,6 +58,8 @@ impl Default for SessionConfig {
     }
 }
 
+/// Nothing is allocated in flight: so many events may wait to be told.
+const EVENTS: usize = 32;
 /// A drone that has been silent for so long is not heard.
 const UNHEARD: Duration = Duration::from_millis(300);
 
@@ -205,7 +207,7 @@ impl Session {
             take_off: TakeOffLatch::Follow { airborne: false },
             taking_off_since: None,
             emergency: EmergencySwitch::default(),
-            events: VecDeque::new(),
+            events: VecDeque::with_capacity(EVENTS),
             statistics: Statistics::default(),
         }
     }

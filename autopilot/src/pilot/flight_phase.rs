@@ -5,8 +5,7 @@ use std::time::Duration;
 
 use super::{
     AgentOrder, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration, Danger,
-    DroneState, FlightEvent, LANDING_TIMEOUT, MIN_TAKE_OFF_BATTERY_PERCENT, NAVDATA_OPTIONS_KEY,
-    Pilot, SETTLE_TIME, Trust, Veto, session,
+    FlightEvent, LANDING_TIMEOUT, NAVDATA_OPTIONS_KEY, Pilot, SETTLE_TIME, Trust, Veto, session,
 };
 use crate::outcome::Outcome;
 
@@ -24,6 +23,8 @@ pub enum FlightPhase {
     Settling {
         /// When it was sent.
         since: Duration,
+        /// How many packets of navdata had come before.
+        received: u64,
     },
     /// Flying the plan.
     Flying,
@@ -114,15 +115,16 @@ impl Pilot {
                 let reason = "the drone does not take its configuration".to_owned();
                 self.end(Outcome::PreflightRefused { reasons: vec![reason] });
             }
-            FlightPhase::Settling { since } if now.saturating_sub(since) >= SETTLE_TIME => {
-                self.take_off_or_refuse();
+            FlightPhase::Settling { since, received } => {
+                let watched = now.saturating_sub(since);
+                if watched >= SETTLE_TIME {
+                    let packets = self.session.statistics().received.saturating_sub(received);
+                    self.take_off_or_refuse(now, watched, packets);
+                }
             }
             FlightPhase::Flying => self.watch_flight(now),
             FlightPhase::Landing { since } => self.watch_landing(now, since),
-            FlightPhase::Connecting
-            | FlightPhase::Configuring { .. }
-            | FlightPhase::Settling { .. }
-            | FlightPhase::Ended(_) => {}
+            FlightPhase::Connecting | FlightPhase::Configuring { .. } | FlightPhase::Ended(_) => {}
         }
     }
 
@@ -234,7 +236,8 @@ impl Pilot {
                 session::Event::Ready => {
                     if matches!(self.phase, FlightPhase::Configuring { .. }) {
                         self.session.request_flat_trim();
-                        self.phase = FlightPhase::Settling { since: now };
+                        let received = self.session.statistics().received;
+                        self.phase = FlightPhase::Settling { since: now, received };
                         self.events.push_back(FlightEvent::Configured);
                     }
                 }
@@ -298,56 +301,6 @@ impl Pilot {
             self.events.push_back(FlightEvent::NoDroneClock);
         } else {
             self.report.unconfirmed_settings.push(key.to_owned());
-        }
-    }
-
-    /// The pre-flight check: every reason not to fly, at once.
-    fn take_off_or_refuse(&mut self) {
-        let mut reasons = Vec::new();
-        let state = self.drone_state();
-        if state.contains(DroneState::EMERGENCY) {
-            reasons.push(
-                "the drone is in its emergency state: check it, then clear it with its reset or \
-                 battery"
-                    .to_owned(),
-            );
-        }
-        for (bit, reason) in [
-            (DroneState::MOTORS_PROBLEM, "a motor is blocked or broken"),
-            (DroneState::SOFTWARE_FAULT, "the drone reports a software fault"),
-            (DroneState::ANGLES_OUT_OF_RANGE, "the drone does not stand level"),
-            (DroneState::CUTOUT_DETECTED, "the drone reports a motor cut-out"),
-        ] {
-            if state.contains(bit) {
-                reasons.push(reason.to_owned());
-            }
-        }
-        match self.demo() {
-            None => reasons.push("the drone sends no flight data".to_owned()),
-            Some(demo) if demo.battery_percent <= MIN_TAKE_OFF_BATTERY_PERCENT => {
-                reasons.push(format!(
-                    "battery at {} %: more than {MIN_TAKE_OFF_BATTERY_PERCENT} % are needed",
-                    demo.battery_percent
-                ));
-            }
-            Some(_) => {}
-        }
-        if !self.on_ground() && !self.mission.takes_over() {
-            reasons.push(
-                "the drone is not landed: land it first, or begin the plan with `autoTakeover`"
-                    .to_owned(),
-            );
-        }
-        if !self.report.unconfirmed_settings.is_empty() {
-            reasons.push(format!(
-                "the drone has not taken its settings: {}",
-                self.report.unconfirmed_settings.join(", ")
-            ));
-        }
-        if reasons.is_empty() {
-            self.phase = FlightPhase::Flying;
-        } else {
-            self.end(Outcome::PreflightRefused { reasons });
         }
     }
 }

@@ -7,6 +7,7 @@
 
 mod flight_phase;
 mod hand;
+mod preflight;
 mod report;
 
 use std::collections::VecDeque;
@@ -81,14 +82,14 @@ impl Default for PilotConfig {
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 /// The drone must be configured within this time.
 const CONFIGURE_TIMEOUT: Duration = Duration::from_secs(25);
-/// After the level reference the drone gets this time to apply it.
+/// After the level reference the drone gets this time to apply it, and is watched.
 const SETTLE_TIME: Duration = Duration::from_millis(500);
 /// A landing that takes longer than this is not reported as one.
 const LANDING_TIMEOUT: Duration = Duration::from_secs(30);
 /// After a loss of the link, landing is ordered blindly for this time.
 const BLIND_LANDING_TIME: Duration = Duration::from_secs(4);
-/// Below this the drone may refuse to take off.
-const MIN_TAKE_OFF_BATTERY_PERCENT: u32 = 20;
+/// Nothing is allocated in flight: so many events may wait to be told.
+const EVENTS: usize = 64;
 /// What pushes the drone for less than this is a gust.
 const WIND_TIME_S: f64 = 2.0;
 const GRAVITY_M_S2: f64 = 9.81;
@@ -107,6 +108,8 @@ pub struct Pilot {
     dead_time: Duration,
     agent: Agent,
     mission: Mission,
+    /// How long the plan takes.
+    expected_time: Duration,
     settings: Vec<Config>,
     phase: FlightPhase,
     navdata: Option<Navdata>,
@@ -149,7 +152,10 @@ impl Pilot {
             take_off_timeout: Duration::MAX,
             ..SessionConfig::default()
         };
-        let report = FlightReport { steps: plan.steps().len(), ..FlightReport::default() };
+        let steps = plan.steps().len();
+        let expected_time = plan.expected_time(&config.limits);
+        let waypoints = Vec::with_capacity(steps);
+        let report = FlightReport { steps, waypoints, ..FlightReport::default() };
         Ok(Self {
             session: Session::new(session_config),
             estimator: Estimator::new(config.estimator),
@@ -157,6 +163,7 @@ impl Pilot {
             law: config.law,
             dead_time: config.estimator.dead_time,
             agent: Agent::new(),
+            expected_time,
             mission: Mission::new(plan, config.limits),
             settings,
             phase: FlightPhase::Connecting,
@@ -171,7 +178,7 @@ impl Pilot {
             full_tilt_m_s2: GRAVITY_M_S2 * config.estimator.limits.tilt_rad.tan(),
             target: None,
             last_tick: None,
-            events: VecDeque::new(),
+            events: VecDeque::with_capacity(EVENTS),
             report,
         })
     }

@@ -1,3 +1,6 @@
+use ardrone_link::navdata::{NavdataOption, PacketWriter};
+use bytes::BytesMut;
+
 use super::*;
 
 fn pilot(plan: &str) -> Pilot {
@@ -55,4 +58,50 @@ fn limits_that_the_drone_has_not_taken_forbid_the_flight_and_a_missing_clock_doe
     assert!(pilot.report.unconfirmed_settings.is_empty());
     pilot.compare_configuration(&taken(&pilot, "control:altitude_max"));
     assert_eq!(pilot.report.unconfirmed_settings, ["control:altitude_max"]);
+}
+
+/// Why a pilot that has just heard a drone on the ground does not take off.
+fn refusals(plan: &str, demo: Demo, packets: u64, later: Duration) -> Vec<String> {
+    let mut pilot = pilot(plan);
+    let mut bytes = BytesMut::new();
+    let mut packet = PacketWriter::new(&mut bytes, DroneState::empty(), 1, 0);
+    packet.option(&NavdataOption::Demo(demo)).unwrap();
+    packet.finish();
+    pilot.handle_navdata(Duration::ZERO, &bytes);
+    pilot.take_off_or_refuse(later, Duration::from_secs(1), packets);
+    match pilot.outcome() {
+        Some(Outcome::PreflightRefused { reasons }) => reasons.clone(),
+        None => Vec::new(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn the_pre_flight_check_tells_every_reason() {
+    let control_state = ControlState::Landed;
+    let fine = Demo { battery_percent: 60, control_state, ..Demo::default() };
+    let short = "takeoff\nland";
+    let now = Duration::from_millis(60);
+    assert_eq!(refusals(short, fine, 15, now), [""; 0]);
+    let leaning = Demo { pitch_deg: -9.0, ..fine };
+    assert_eq!(
+        refusals(short, leaning, 3, now),
+        [
+            "the drone leans by 9°: put it on level ground",
+            "only 3 packets of flight data a second: at least 5 are needed; go nearer, or to \
+             another channel",
+        ]
+    );
+    assert_eq!(
+        refusals(short, fine, 15, Duration::from_millis(501)),
+        ["the newest flight data are 501 ms old: go nearer, or to another channel"]
+    );
+    assert_eq!(
+        refusals(short, Demo { battery_percent: 20, ..fine }, 15, now),
+        ["battery at 20 %: more than 20 % are needed"]
+    );
+    assert_eq!(
+        refusals("takeoff\nsetStayTime 300\ngoto 0 0 1 0\nland", fine, 15, now),
+        ["battery at 60 %: the plan takes about 310 s, for which 64 % are needed"]
+    );
 }

@@ -5,6 +5,7 @@ use pid::Pose;
 
 use super::Command;
 use super::parser::Line;
+use super::walk::Walk;
 
 /// Where z = 0 is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -38,7 +39,7 @@ impl Default for FlightLimits {
 impl FlightLimits {
     /// Where the drone hovers after take-off, as far as it is known before the flight. The true
     /// height is known only then, and targets are checked against it once more.
-    const EXPECTED_HOVER_M: f64 = 0.85;
+    pub(super) const EXPECTED_HOVER_M: f64 = 0.85;
 
     /// The height above the floor of z = 0 of the take-off reference.
     pub fn origin_height_m(&self, hover_m: f64) -> f64 {
@@ -55,15 +56,7 @@ const TOLERANCE_M: f64 = 1e-9;
 /// Flies the plan on paper: order of commands, places of targets.
 pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Diagnostic> {
     let end = text.trim_end().len();
-    let mut check = Check {
-        limits,
-        airborne: false,
-        origin_m: limits.origin_height_m(FlightLimits::EXPECTED_HOVER_M),
-        reference: Pose::default(),
-        target: Pose::default(),
-        diagnostics: Vec::new(),
-    };
-    check.reference.z_m = check.origin_m;
+    let mut check = Check { limits, walk: Walk::new(limits), diagnostics: Vec::new() };
     let mut flies = false;
     for line in lines {
         if let Some(command) = line.command {
@@ -82,50 +75,25 @@ pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Di
 
 struct Check<'a> {
     limits: &'a FlightLimits,
-    airborne: bool,
-    origin_m: f64,
-    reference: Pose,
-    target: Pose,
+    walk: Walk,
     diagnostics: Vec<Diagnostic>,
 }
 
 impl Check<'_> {
     fn step(&mut self, command: Command, span: &Span) {
-        match command {
-            Command::TakeOff { .. } => {
-                self.airborne = true;
-                self.target = Pose { z_m: FlightLimits::EXPECTED_HOVER_M, ..self.target };
-            }
-            Command::Land => self.airborne = false,
-            Command::GoTo(pose) => self.target(self.reference, &pose, span),
-            Command::MoveBy(pose) | Command::MoveByRelative(pose) => {
-                self.target(self.target, &pose, span);
-            }
-            Command::SetReference(pose) => {
-                self.reference = Pose { z_m: self.origin_m + pose.z_m, ..pose }
-            }
-            Command::SetReferenceHere => self.reference = self.target,
-            Command::SetReachDistance { .. }
-            | Command::SetStayDistance { .. }
-            | Command::SetStayTime { .. }
-            | Command::SetMaxControl { .. } => {}
+        if let Some(target) = self.walk.step(command) {
+            self.target(&target, span);
         }
     }
 
-    fn target(&mut self, from: Pose, pose: &Pose, span: &Span) {
-        self.target = Pose {
-            x_m: from.x_m + pose.x_m,
-            y_m: from.y_m + pose.y_m,
-            z_m: from.z_m + pose.z_m,
-            ..from
-        };
-        if !self.airborne {
+    fn target(&mut self, target: &Pose, span: &Span) {
+        if !self.walk.airborne {
             self.diagnostics.push(
                 Diagnostic::error("the drone is on the ground here", span.clone())
                     .help("put `takeoff` before it"),
             );
         }
-        let away_m = self.target.x_m.hypot(self.target.y_m);
+        let away_m = target.x_m.hypot(target.y_m);
         if away_m > self.limits.radius_m + TOLERANCE_M {
             self.diagnostics.push(
                 Diagnostic::error(
@@ -138,7 +106,7 @@ impl Check<'_> {
                 .help("the fence is `fence.radius_m` of the settings"),
             );
         }
-        let height_m = self.target.z_m;
+        let height_m = target.z_m;
         let (low, high) = (self.limits.floor_m, self.limits.ceiling_m);
         let limit = if height_m < low - TOLERANCE_M {
             format!("below the lowest of {low} m")

@@ -11,11 +11,14 @@
 //! ```
 
 mod check;
+mod expectation;
 mod parser;
+mod walk;
 
 use pid::Pose;
 
 pub use check::{FlightLimits, ZOrigin};
+pub use expectation::{Expectation, battery_percent};
 
 /// A flight plan that was read without errors.
 #[derive(Debug, Clone, PartialEq)]

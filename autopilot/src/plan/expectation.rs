@@ -1,0 +1,123 @@
+//! How long a plan takes, and what it takes of the battery, as far as that can be told before.
+
+use std::time::Duration;
+
+use pid::Pose;
+
+use super::walk::Walk;
+use super::{Command, FlightLimits, Plan};
+use crate::agent::ApproachSettings;
+
+/// What is expected of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expectation {
+    /// Where it ends, if it moves the drone.
+    pub target: Option<Pose>,
+    /// The way to there.
+    pub leg_m: f64,
+    /// How long it takes, with the stay at its end.
+    pub time: Duration,
+}
+
+/// From the order until the drone hovers.
+const TAKE_OFF_S: f64 = 3.2;
+/// The drone's own landing: before it sinks, and how fast it does.
+const LANDING_S: f64 = 1.2;
+const LANDING_M_S: f64 = 0.45;
+/// What a leg takes: to set out and arrive, and on the way. Fitted to flights of the `rec` airframe
+/// over 1 to 8 m, 1 to 1.4 m upwards and down, 90 and 180 degrees.
+const ACROSS_S: f64 = 0.8;
+const ACROSS_M_S: f64 = 2.0;
+const UPWARDS_S: f64 = 0.3;
+const UPWARDS_M_S: f64 = 0.65;
+const TURN_S: f64 = 0.2;
+const TURN_DEG_S: f64 = 90.0;
+/// A new battery of 1000 mAh carries the drone for about 12 minutes of hovering; moving takes more.
+const PERCENT_PER_S: f64 = 1.2 * 100.0 / 720.0;
+
+impl Plan {
+    /// What is expected of each step, in the order of [`Plan::steps`].
+    pub fn expectations(&self, limits: &FlightLimits) -> Vec<Expectation> {
+        let mut walk = Walk::new(limits);
+        let mut stay_s = ApproachSettings::default().stay_time_ms as f64 / 1000.0;
+        let mut share = 1.0;
+        let mut expect = |command| {
+            let before = walk.target;
+            let target = walk.step(command);
+            let (leg_m, time_s) = match command {
+                Command::TakeOff { .. } => (walk.target.z_m, TAKE_OFF_S),
+                Command::Land => (before.z_m, LANDING_S + before.z_m / LANDING_M_S),
+                Command::SetStayTime { time_s } => {
+                    stay_s = time_s;
+                    (0.0, 0.0)
+                }
+                Command::SetMaxControl { fraction } => {
+                    share = fraction;
+                    (0.0, 0.0)
+                }
+                _ => target.map_or((0.0, 0.0), |target| leg(&before, &target, share, stay_s)),
+            };
+            Expectation { target, leg_m, time: Duration::from_secs_f64(time_s) }
+        };
+        self.steps().iter().map(|step| expect(step.command)).collect()
+    }
+
+    /// How long the flight takes.
+    pub fn expected_time(&self, limits: &FlightLimits) -> Duration {
+        self.expectations(limits).iter().map(|step| step.time).sum()
+    }
+}
+
+/// What flying so long takes of a new battery.
+pub fn battery_percent(time: Duration) -> f64 {
+    time.as_secs_f64() * PERCENT_PER_S
+}
+
+fn leg(from: &Pose, to: &Pose, share: f64, stay_s: f64) -> (f64, f64) {
+    let across_m = (to.x_m - from.x_m).hypot(to.y_m - from.y_m);
+    let upwards_m = (to.z_m - from.z_m).abs();
+    let turn_deg = (to.yaw_deg - from.yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
+    let moves = [
+        (across_m, ACROSS_S, ACROSS_M_S),
+        (upwards_m, UPWARDS_S, UPWARDS_M_S),
+        (turn_deg.abs(), TURN_S, TURN_DEG_S),
+    ];
+    let times = moves.map(
+        |(way, least_s, speed)| {
+            if way > 0.0 { least_s + way / (speed * share) } else { 0.0 }
+        },
+    );
+    (across_m.hypot(upwards_m), times.into_iter().fold(0.0, f64::max) + stay_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn times(text: &str) -> Vec<f64> {
+        let limits = FlightLimits::default();
+        let plan = Plan::parse("plan", text).unwrap();
+        plan.expectations(&limits).iter().map(|step| step.time.as_secs_f64()).collect()
+    }
+
+    #[test]
+    fn each_step_has_its_time() {
+        let plan = "takeoff\ngoto 0 2 0 0\nsetStayTime 10\nmoveBy 0 0 1 90\nsetMaxControl 0.5\n\
+                    moveBy 4 0 0 0\nland\n";
+        let expected = [3.2, 3.8, 0.0, 0.3 + 1.0 / 0.65 + 10.0, 0.0, 14.8, 1.2 + 1.85 / 0.45];
+        for (time, expected) in times(plan).into_iter().zip(expected) {
+            assert!((time - expected).abs() < 1e-6, "{time} {expected}");
+        }
+    }
+
+    #[test]
+    fn turns_go_the_short_way() {
+        let [_, turn, ..] = times("takeoff\ngoto 0 0 0 270\nland\n")[..] else { panic!() };
+        assert!((turn - (0.2 + 1.0 + 2.0)).abs() < 1e-9, "{turn}");
+    }
+
+    #[test]
+    fn a_battery_carries_ten_minutes() {
+        assert!((battery_percent(Duration::from_mins(10)) - 100.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,66 @@
+//! A tick in the air asks the system for no memory: it could wait for it.
+
+use std::time::Duration;
+
+use allocation_counter::measure;
+use ardrone_link::at::Datagram;
+use autopilot::pilot::{NavdataRate, PilotConfig, PilotOrder, TICK};
+use autopilot::{Demand, Pilot};
+use mock_drone::{Message, World, WorldConfig};
+use system_tests::{SQUARE, plan};
+
+const POLL: Duration = Duration::from_millis(5);
+
+/// What was asked for in flight: on the ground the configuration is read and compared.
+fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
+    let config = PilotConfig { navdata, ..PilotConfig::default() };
+    let mut pilot = Pilot::new(plan(SQUARE), &config).unwrap();
+    let mut world = World::new(&WorldConfig::default());
+    let mut datagram = Datagram::new();
+    let mut orders = orders.iter().peekable();
+    let mut allocations = 0;
+    let mut now = Duration::ZERO;
+    while pilot.outcome().is_none() {
+        let flies = pilot.status(now).phase == "flying";
+        let mut count = |work: &mut dyn FnMut()| {
+            let asked = measure(work).count_total;
+            allocations += if flies { asked } else { 0 };
+        };
+        world.advance(now);
+        while let Some(message) = world.receive(now) {
+            match message {
+                Message::Navdata(packet) => count(&mut || pilot.handle_navdata(now, &packet)),
+                Message::Control(dump) => pilot.handle_control(now, dump.as_bytes()),
+            }
+        }
+        if now.as_millis().is_multiple_of(TICK.as_millis()) {
+            while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
+                count(&mut || pilot.order(now, *order));
+            }
+            count(&mut || pilot.tick(now, &mut datagram).unwrap());
+            count(&mut || while pilot.poll_event().is_some() {});
+            world.send_at(now, datagram.as_bytes());
+            if pilot.wake_up_due(now) {
+                world.send_wake_up(now, &ardrone_link::WAKE_UP);
+            }
+        }
+        now += POLL;
+    }
+    assert!(now > Duration::from_secs(15), "it flew: {:?}", pilot.outcome());
+    allocations
+}
+
+#[test]
+fn nothing_is_allocated_in_flight() {
+    let second = Duration::from_secs(1);
+    let orders = [
+        (7 * second, PilotOrder::Hold),
+        (8 * second, PilotOrder::Steer(Demand { roll: 0.5, ..Demand::default() })),
+        (10 * second, PilotOrder::Resume),
+        (18 * second, PilotOrder::Land),
+    ];
+    for navdata in [NavdataRate::Demo, NavdataRate::Full] {
+        assert_eq!(allocations(navdata, &[]), 0, "{navdata:?}");
+        assert_eq!(allocations(navdata, &orders), 0, "{navdata:?}, by hand");
+    }
+}
