@@ -254,7 +254,7 @@ approachTime(60000).
     & blindFor(Time) & holdWhenBlind(Patience) & Time <= Patience
     & position(X, Y, Z, Yaw) & landingHeight(Low) & Z > Low
   <- +target(X, Y, Low, Yaw);
-     sendGoto(X, Y, Low, Yaw);
+     sendDescent(X, Y, Low, Yaw);
      Start = getCurrentTimeMS;
      !descend(Start).
 
@@ -281,7 +281,7 @@ approachTime(60000).
 
 +!descend(Start) : blindFor(Time) & landWhenBlind(Limit) & Time <= Limit
     & target(X, Y, Z, Yaw) & position(_, _, Height, _) & Height > Z + 0.1
-  <- sendGoto(X, Y, Z, Yaw);
+  <- sendDescent(X, Y, Z, Yaw);
      !descend(Start).
 
 +!descend(_)

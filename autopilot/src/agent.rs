@@ -171,6 +171,10 @@ impl Environment for AgentStep {
         self.issue(AgentCommand::GoTo(Pose { x_m, y_m, z_m, yaw_deg }));
     }
 
+    fn send_descent(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
+        self.issue(AgentCommand::GoTo(Pose { x_m, y_m, z_m, yaw_deg }));
+    }
+
     fn send_sticks(&mut self) {
         self.issue(AgentCommand::Sticks);
     }

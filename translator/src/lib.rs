@@ -24,6 +24,7 @@ mod backend;
 pub mod configuration;
 mod coverage;
 pub mod interpreter;
+mod obligations;
 mod program;
 mod report;
 pub mod syntax;
@@ -31,6 +32,7 @@ pub mod types;
 
 use configuration::{Configuration, Instance};
 use diagnostic::{Diagnostic, Severity, Source, render_all};
+pub use obligations::{HARNESS, Obligations, Promise};
 pub use report::Report;
 use types::TypeKind;
 
@@ -46,6 +48,21 @@ impl ParsedConfiguration {
     /// The AgentSpeak source's name, relative to the configuration.
     pub fn input(&self) -> &str {
         &self.configuration.settings.input
+    }
+
+    fn promises(&self) -> Vec<Promise> {
+        let properties = self.configuration.properties.iter();
+        properties
+            .map(|property| {
+                let text = self.text.get(property.span.clone()).unwrap_or_default();
+                let formula = text.split_once(':').map_or(text, |(_, formula)| formula);
+                Promise {
+                    name: property.name.text.clone(),
+                    requirements: property.requirements.clone(),
+                    formula: formula.split_whitespace().collect::<Vec<_>>().join(" "),
+                }
+            })
+            .collect()
     }
 }
 
@@ -85,6 +102,12 @@ pub enum TranslateError {
         /// All errors with line, column and caret.
         rendered: String,
     },
+    /// A proof would have to make up values that only the environment knows.
+    #[error("values of type `{name}` cannot be made up: nothing can be proved of this agent")]
+    Unprovable {
+        /// The type.
+        name: String,
+    },
     /// The trace matrix could not be written as CSV.
     #[error("cannot write the trace matrix: {problem}")]
     Matrix {
@@ -116,6 +139,67 @@ pub fn translate(
     configuration: ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Translation, TranslateError> {
+    let (program, warnings) = check(configuration, agent_text)?;
+    let settings = &program.configuration.settings;
+    let mut files = c_files(&program);
+    if let Some(rust) = &settings.rust {
+        let text = backend::rust::emit(&program, &settings.input);
+        files.push(GeneratedFile { name: rust.text.clone(), text });
+    }
+    if let Some(name) = &settings.matrix {
+        let matrix = backend::matrix::emit(&program, &settings.input, &files[0].text)
+            .map_err(|source| TranslateError::Matrix { problem: source.to_string() })?;
+        files.push(GeneratedFile { name: format!("{name}.csv"), text: matrix.csv });
+        files.push(GeneratedFile { name: format!("{name}.json"), text: matrix.json });
+    }
+    Ok(Translation { files, warnings, report: Report::new(&program) })
+}
+
+/// What a model checker needs to prove the properties of an agent on its C.
+///
+/// The agent is translated with its state passed in, whatever the configuration says: a proof starts in
+/// any state.
+///
+/// # Errors
+/// As [`translate`], and if a value of a type would have to be made up that only the environment knows.
+pub fn obligations(
+    configuration: ParsedConfiguration,
+    agent_text: &str,
+) -> Result<Obligations, TranslateError> {
+    let mut configuration = configuration;
+    configuration.configuration.settings.instance = Instance::Context;
+    let properties = configuration.promises();
+    let (program, _) = check(configuration, agent_text)?;
+    if let Some(name) = backend::c::unknown_type(&program) {
+        return Err(TranslateError::Unprovable { name });
+    }
+    let harness = backend::c::harness(&program);
+    let mut files = c_files(&program);
+    files.push(GeneratedFile { name: HARNESS.to_owned(), text: harness.source });
+    Ok(Obligations {
+        files,
+        state_type: format!("{}agent_t", backend::c::symbol_prefix(&program)),
+        candidates: harness.candidates,
+        properties,
+    })
+}
+
+/// The C file, its header, and that of the basic actions.
+fn c_files(program: &program::Program) -> Vec<GeneratedFile> {
+    let settings = &program.configuration.settings;
+    let c = backend::c::emit(program, &settings.input);
+    vec![
+        GeneratedFile { name: settings.output.clone(), text: c.source },
+        GeneratedFile { name: settings.header.clone(), text: c.header },
+        GeneratedFile { name: settings.basics.clone(), text: c.basics },
+    ]
+}
+
+/// The checked program and the warnings, rendered.
+fn check(
+    configuration: ParsedConfiguration,
+    agent_text: &str,
+) -> Result<(program::Program, String), TranslateError> {
     let ParsedConfiguration { name, text, configuration } = configuration;
     let input = configuration.settings.input.clone();
     let configuration_source = Source { name: &name, text: &text };
@@ -133,28 +217,10 @@ pub fn translate(
     findings.configuration.extend(boundary);
     let mut rendered = render_all(&findings.configuration, &configuration_source);
     append(&mut rendered, &render_all(&findings.agent, &agent_source));
-    let Some(program) = program.filter(|_| !findings.has_errors()) else {
-        return Err(TranslateError::Agent { rendered });
-    };
-
-    let settings = &program.configuration.settings;
-    let c = backend::c::emit(&program, &input);
-    let mut files = vec![
-        GeneratedFile { name: settings.output.clone(), text: c.source },
-        GeneratedFile { name: settings.header.clone(), text: c.header },
-        GeneratedFile { name: settings.basics.clone(), text: c.basics },
-    ];
-    if let Some(rust) = &settings.rust {
-        let text = backend::rust::emit(&program, &input);
-        files.push(GeneratedFile { name: rust.text.clone(), text });
+    match program.filter(|_| !findings.has_errors()) {
+        Some(program) => Ok((program, rendered)),
+        None => Err(TranslateError::Agent { rendered }),
     }
-    if let Some(name) = &settings.matrix {
-        let matrix = backend::matrix::emit(&program, &input, &files[0].text)
-            .map_err(|source| TranslateError::Matrix { problem: source.to_string() })?;
-        files.push(GeneratedFile { name: format!("{name}.csv"), text: matrix.csv });
-        files.push(GeneratedFile { name: format!("{name}.json"), text: matrix.json });
-    }
-    Ok(Translation { files, warnings: rendered, report: Report::new(&program) })
 }
 
 /// The Rust side needs the state passed in, and types that it knows.

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use diagnostic::{Diagnostic, Span, closest};
 
-use crate::configuration::{Basic, Configuration};
+use crate::configuration::{Basic, Cause, Configuration, ExternalTrigger, Formula};
 use crate::program::BasicId;
 use crate::syntax::ast::{Atom, Name};
 use crate::types::{CType, TypeKind};
@@ -181,11 +181,55 @@ impl Declarations {
                 findings.push(declarations.undeclared(action, "basics"));
             }
         }
+        declarations.check_properties(configuration, findings);
         for predicate in &configuration.predicates {
             let declared = Declared::Predicate(predicate.parameters.clone());
             declarations.declare(&predicate.name, declared, findings);
         }
         declarations
+    }
+
+    /// Properties speak of actions, classes and events that there are.
+    fn check_properties(&self, configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
+        let (mut actions, mut events) = (Vec::new(), Vec::new());
+        for property in &configuration.properties {
+            match &property.formula {
+                Formula::AllHandled => {}
+                Formula::Count { action, .. } => actions.push(action),
+                Formula::Within { cause, actions: answers, unless, .. } => {
+                    match cause {
+                        Cause::Event(event) => events.push(event),
+                        Cause::Action(action) => actions.push(action),
+                    }
+                    actions.extend(answers);
+                    events.extend(unless);
+                }
+                Formula::OnlyAfter { action, event, until } => {
+                    actions.push(action);
+                    actions.extend(until);
+                    events.push(event);
+                }
+            }
+        }
+        let is_class =
+            |name: &str| configuration.classes.iter().any(|class| class.name.text == name);
+        for action in actions {
+            if !self.is_basic(&action.text) && !is_class(&action.text) {
+                findings.push(self.undeclared(action, "basics"));
+            }
+        }
+        for event in events {
+            let same = |other: &&ExternalTrigger| {
+                (other.operator, other.kind, &other.name.text)
+                    == (event.operator, event.kind, &event.name.text)
+            };
+            if !configuration.triggerables.iter().any(|other| same(&other)) {
+                findings.push(
+                    Diagnostic::error("the environment does not raise this", event.span.clone())
+                        .help("properties speak of events of the section `triggerables`"),
+                );
+            }
+        }
     }
 
     fn declare(&mut self, name: &Name, declared: Declared, findings: &mut Vec<Diagnostic>) {

@@ -13,16 +13,19 @@
 //! perceived { position; };
 //! triggerables { +!land; };
 //! preemptive { +!land; };
+//! properties { one_command: exactly_one(at_command); };
 //! ```
 //!
 //! Sections may stand in any order and may be left out or empty, except `settings`.
 
 mod parser;
+mod properties;
 mod scanner;
 
 use diagnostic::Span;
 
 pub use parser::parse;
+pub use properties::{CallBound, Cause, Formula, Property};
 
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 use crate::types::CType;
@@ -50,6 +53,8 @@ pub struct Configuration {
     pub triggerables: Vec<ExternalTrigger>,
     /// External events that abort what runs, in order of priority.
     pub preemptive: Vec<ExternalTrigger>,
+    /// What must hold in every environment.
+    pub properties: Vec<Property>,
 }
 
 /// The `settings` section.

@@ -7,7 +7,7 @@ use super::{ActionClass, Basic, Configuration, ExternalTrigger, Instance, Predic
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 use crate::types::{CType, TypeKind};
 
-const SECTIONS: [&str; 10] = [
+const SECTIONS: [&str; 11] = [
     "settings",
     "includes",
     "structs",
@@ -18,6 +18,7 @@ const SECTIONS: [&str; 10] = [
     "perceived",
     "triggerables",
     "preemptive",
+    "properties",
 ];
 const SETTINGS: [&str; 11] = [
     "trace",
@@ -47,9 +48,9 @@ pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
     (parser.configuration, parser.diagnostics)
 }
 
-struct Parser<'a> {
-    scanner: Scanner<'a>,
-    configuration: Configuration,
+pub(super) struct Parser<'a> {
+    pub(super) scanner: Scanner<'a>,
+    pub(super) configuration: Configuration,
     seen: Vec<&'a str>,
     diagnostics: Vec<Diagnostic>,
 }
@@ -134,15 +135,16 @@ impl<'a> Parser<'a> {
                 Ok(())
             }
             "triggerables" => {
-                let trigger = self.external_trigger()?;
+                let trigger = self.declared_trigger()?;
                 self.configuration.triggerables.push(trigger);
                 Ok(())
             }
-            _ => {
-                let trigger = self.external_trigger()?;
+            "preemptive" => {
+                let trigger = self.declared_trigger()?;
                 self.configuration.preemptive.push(trigger);
                 Ok(())
             }
+            _ => self.property(),
         }
     }
 
@@ -376,7 +378,13 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn external_trigger(&mut self) -> Parsed<ExternalTrigger> {
+    fn declared_trigger(&mut self) -> Parsed<ExternalTrigger> {
+        let trigger = self.trigger()?;
+        self.scanner.expect(";")?;
+        Ok(trigger)
+    }
+
+    pub(super) fn trigger(&mut self) -> Parsed<ExternalTrigger> {
         let start = self.scanner.position;
         let operator = if self.scanner.take("+") {
             Operator::Add
@@ -394,7 +402,6 @@ impl<'a> Parser<'a> {
         };
         let name = self.scanner.word("a name")?;
         let span = start..self.scanner.position;
-        self.scanner.expect(";")?;
         if operator == Operator::Delete && kind == TriggerKind::Achieve {
             return Err(Diagnostic::error("`-!goal` cannot be raised from outside", span)
                 .help("failure plans run when their goal fails"));
@@ -467,6 +474,7 @@ fn advice(word: &str, known: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::configuration::{CallBound, Cause, Formula};
 
     const MINIMAL: &str =
         "settings { input = a.asl; output = my-a.c; header = a.h; basics = b.h; };";
@@ -499,6 +507,27 @@ mod tests {
         assert_eq!(configuration.predicates[0].parameters[1].kind, TypeKind::Opaque);
         assert_eq!(configuration.includes.len(), 2);
         assert_eq!(configuration.triggerables.len(), 2);
+    }
+
+    #[test]
+    fn properties_are_read() {
+        let text = format!(
+            "{MINIMAL} properties {{ one: exactly_one(send); none_lost: all_handled;\n\
+             prompt [SAF-1, SAF-2]: within(3, +!land, a, b, unless +!hold, unless -wind);\n\
+             asked: only_after(lift, +!takeOff, until sink, stay); }};"
+        );
+        let (configuration, diagnostics) = parse(&text);
+        assert_eq!(diagnostics, []);
+        let [one, lost, prompt, asked] = &configuration.properties[..] else { panic!() };
+        assert!(matches!(&one.formula, Formula::Count { bound: CallBound::ExactlyOne, .. }));
+        assert_eq!(lost.formula, Formula::AllHandled);
+        assert_eq!(prompt.requirements, ["SAF-1", "SAF-2"]);
+        let Formula::Within { steps: 3, cause: Cause::Event(_), actions, unless } = &prompt.formula
+        else {
+            panic!("{prompt:?}")
+        };
+        assert_eq!((actions.len(), unless.len()), (2, 2));
+        assert!(matches!(&asked.formula, Formula::OnlyAfter { until, .. } if until.len() == 2));
     }
 
     #[test]
@@ -535,6 +564,12 @@ mod tests {
             "includes { #include <a\n> };",
             "settables { 3",
             "includes { #include <a>",
+            "properties { p: always(a); };",
+            "properties { p: within(0, +!g, a); };",
+            "properties { p: within(1, +!g, unless +!h); };",
+            "properties { p: never(a); p: never(a); };",
+            "properties { p [A B]: never(a); };",
+            "properties { p: only_after(a); };",
             "/* open",
             "\0\u{fffd}}}{{",
         ] {

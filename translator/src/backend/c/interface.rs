@@ -6,12 +6,12 @@ use super::header::init_prototype;
 use super::helpers::Helpers;
 use super::names::{Names, argument, argument_names};
 use super::state::{
-    Counter, Slot, belief_value, counters, external_count, external_name, handler_name, held,
-    inbox_ring, limits, pending, perceived, queued, rings, slot_value,
+    Counter, FieldType, Slot, belief_value, counters, external_count, external_name, handler_name,
+    held, inbox_ring, layout, limits, pending, perceived, queued, rings, slot_value,
 };
 use crate::backend::writer::Writer;
 use crate::program::{Belief, External, Program, Value};
-use crate::types::CType;
+use crate::types::{CType, TypeKind};
 
 pub(super) fn interface(
     writer: &mut Writer,
@@ -103,6 +103,7 @@ fn init(writer: &mut Writer, program: &Program, names: &Names) {
     if names.is_context() {
         writer.line("self->environment = environment;");
     }
+    nothing_is_left(writer, program, names);
     for belief in &program.beliefs {
         let held = names.field(&held(&belief.name));
         if let Some(initial) = &belief.initial {
@@ -125,6 +126,61 @@ fn init(writer: &mut Writer, program: &Program, names: &Names) {
     writer.line(&forget);
     writer.close("}");
     writer.line("");
+}
+
+/// Nothing is read before it is written. Values are set all the same, so that a tool that does not
+/// see why need not.
+fn nothing_is_left(writer: &mut Writer, program: &Program, names: &Names) {
+    let initial = initial_fields(program);
+    let fields = layout(program).fields;
+    for field in fields.iter().filter(|field| !initial.contains(&field.name)) {
+        let nothing = match &field.content {
+            FieldType::Value(ctype) => match zero(ctype) {
+                Some(zero) => zero.to_owned(),
+                None => continue,
+            },
+            FieldType::Event if field.length.is_some() => no_event(names),
+            FieldType::Event | FieldType::Environment | FieldType::Flag | FieldType::Count => {
+                continue;
+            }
+        };
+        let place = names.field(&field.name);
+        match field.length {
+            Some(length) => {
+                for slot in 0..length {
+                    writer.line(format!("{place}[{slot}] = {nothing};"));
+                }
+            }
+            None => writer.line(format!("{place} = {nothing};")),
+        }
+    }
+}
+
+/// Fields that initial beliefs and the initial goal set.
+fn initial_fields(program: &Program) -> Vec<String> {
+    let beliefs = program.beliefs.iter().filter(|belief| belief.initial.is_some());
+    let mut fields: Vec<String> = beliefs
+        .flat_map(|belief| (0..belief.types.len()).map(|index| belief_value(&belief.name, index)))
+        .collect();
+    if let Some((handler, values)) = &program.initial_goal {
+        let trigger = handler_name(program, *handler);
+        fields.extend((0..values.len()).map(|index| slot_value(Slot::Posted, &trigger, index)));
+    }
+    fields
+}
+
+/// Zero of a type whose values can be written down.
+fn zero(ctype: &CType) -> Option<&'static str> {
+    match ctype.kind {
+        TypeKind::Bool => Some("false"),
+        TypeKind::Float32 => Some("0.0F"),
+        TypeKind::Float64 => Some("0.0"),
+        TypeKind::Signed { bits: 64 } => Some("0LL"),
+        TypeKind::Unsigned { bits: 64 } => Some("0ULL"),
+        TypeKind::Signed { .. } => Some("0"),
+        TypeKind::Unsigned { .. } => Some("0U"),
+        TypeKind::Void | TypeKind::Text | TypeKind::Struct | TypeKind::Opaque => None,
+    }
 }
 
 /// Initial beliefs and goals carry constants only.

@@ -7,6 +7,7 @@
 mod cycle;
 mod expression;
 mod handlers;
+mod harness;
 mod header;
 mod helpers;
 mod interface;
@@ -20,6 +21,7 @@ use super::writer::Writer;
 use crate::program::Program;
 
 pub(crate) use self::handlers::plan_name;
+pub(crate) use self::harness::{harness, unknown_type};
 pub(crate) use self::names::{action_symbol, symbol_prefix};
 pub(crate) use self::state::{Counter, Field, FieldType, counters, handler_name, layout};
 

@@ -1,0 +1,213 @@
+//! The section `properties`: what must hold of the agent in every environment.
+
+use diagnostic::{Diagnostic, Span};
+
+use super::ExternalTrigger;
+use super::parser::Parser;
+use super::scanner::Parsed;
+use crate::syntax::ast::Name;
+
+/// Something that must hold, whatever the environment does and however long the agent runs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Property {
+    /// What it is called.
+    pub name: Name,
+    /// The requirements that it stands for.
+    pub requirements: Vec<String>,
+    /// What must hold.
+    pub formula: Formula,
+    /// The whole declaration.
+    pub span: Span,
+}
+
+/// What must hold. Actions are basic actions, or classes of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Formula {
+    /// `exactly_one(a)`: how often one of the actions is called in each step.
+    Count {
+        /// How often.
+        bound: CallBound,
+        /// Of what.
+        action: Name,
+    },
+    /// `within(n, cause, a, b, unless +!g)`: after the cause one of the actions is called in one of the
+    /// next steps, unless one of the events waits already or comes first.
+    Within {
+        /// In how many.
+        steps: u32,
+        /// After what.
+        cause: Cause,
+        /// What must then be called.
+        actions: Vec<Name>,
+        /// What excuses.
+        unless: Vec<ExternalTrigger>,
+    },
+    /// `only_after(a, +!g, until b, c)`: the action is called only after the event was accepted, and not
+    /// again once one of the others was called while no such event waited.
+    OnlyAfter {
+        /// What is called.
+        action: Name,
+        /// What allows it.
+        event: ExternalTrigger,
+        /// What ends the permission.
+        until: Vec<Name>,
+    },
+    /// `all_handled`: each event is handled to its end by some plan.
+    AllHandled,
+}
+
+/// How often in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CallBound {
+    /// `exactly_one`
+    ExactlyOne,
+    /// `at_most_one`
+    AtMostOne,
+    /// `at_least_one`
+    AtLeastOne,
+    /// `never`
+    Never,
+}
+
+/// What must be answered.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Cause {
+    /// The environment raised an event, and it was accepted.
+    Event(ExternalTrigger),
+    /// The agent called an action.
+    Action(Name),
+}
+
+const FORMULAS: &str = "`exactly_one`, `at_most_one`, `at_least_one`, `never`, `within`, `only_after` \
+                        or `all_handled`";
+/// A response that may take longer than this is none.
+const MOST_STEPS: u32 = 1000;
+
+impl Parser<'_> {
+    /// `name [TAG, TAG]: formula;`
+    pub(super) fn property(&mut self) -> Parsed<()> {
+        self.scanner.skip_blanks()?;
+        let start = self.scanner.position;
+        let name = self.scanner.word("a property's name")?;
+        let requirements = self.requirements()?;
+        self.scanner.expect(":")?;
+        let formula = self.formula()?;
+        let span = start..self.scanner.position;
+        self.scanner.expect(";")?;
+        let known = &mut self.configuration.properties;
+        if known.iter().any(|property| property.name.text == name.text) {
+            let message = format!("a second property `{}`", name.text);
+            return Err(Diagnostic::error(message, name.span));
+        }
+        known.push(Property { name, requirements, formula, span });
+        Ok(())
+    }
+
+    /// `[REQ-1, REQ-2]`, or nothing.
+    fn requirements(&mut self) -> Parsed<Vec<String>> {
+        self.scanner.skip_blanks()?;
+        if !self.scanner.take("[") {
+            return Ok(Vec::new());
+        }
+        let length = self.scanner.rest().find([']', ';', '\n']).unwrap_or_default();
+        let tags = &self.scanner.rest()[..length];
+        let tags: Vec<String> = tags.split(',').map(|tag| tag.trim().to_owned()).collect();
+        let is_tag = |tag: &String| {
+            !tag.is_empty() && tag.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
+        };
+        if !tags.iter().all(is_tag) {
+            return Err(self.scanner.unexpected("requirement tags, such as `[SAF-1, SAF-2]`"));
+        }
+        self.scanner.position += length;
+        self.scanner.expect("]")?;
+        Ok(tags)
+    }
+
+    fn formula(&mut self) -> Parsed<Formula> {
+        let name = self.scanner.word(FORMULAS)?;
+        let bound = match name.text.as_str() {
+            "exactly_one" => CallBound::ExactlyOne,
+            "at_most_one" => CallBound::AtMostOne,
+            "at_least_one" => CallBound::AtLeastOne,
+            "never" => CallBound::Never,
+            "within" => return self.within(),
+            "only_after" => return self.only_after(),
+            "all_handled" => return Ok(Formula::AllHandled),
+            other => {
+                let message = format!("unknown formula `{other}`");
+                return Err(Diagnostic::error(message, name.span).help(format!("write {FORMULAS}")));
+            }
+        };
+        self.scanner.expect("(")?;
+        let action = self.scanner.word("an action or a class of actions")?;
+        self.scanner.expect(")")?;
+        Ok(Formula::Count { bound, action })
+    }
+
+    fn within(&mut self) -> Parsed<Formula> {
+        self.scanner.expect("(")?;
+        let steps = self.steps()?;
+        self.scanner.expect(",")?;
+        self.scanner.skip_blanks()?;
+        let cause = if self.scanner.rest().starts_with(['+', '-']) {
+            Cause::Event(self.trigger()?)
+        } else {
+            Cause::Action(self.scanner.word("an event or an action")?)
+        };
+        let (mut actions, mut unless) = (Vec::new(), Vec::new());
+        self.scanner.expect(",")?;
+        loop {
+            let word = self.scanner.word("an action, a class of actions, or `unless`")?;
+            self.scanner.skip_blanks()?;
+            if word.text == "unless" {
+                unless.push(self.trigger()?);
+            } else {
+                actions.push(word);
+            }
+            self.scanner.skip_blanks()?;
+            if !self.scanner.take(",") {
+                break;
+            }
+        }
+        self.scanner.expect(")")?;
+        if actions.is_empty() {
+            return Err(self.scanner.unexpected("an action that must follow"));
+        }
+        Ok(Formula::Within { steps, cause, actions, unless })
+    }
+
+    fn only_after(&mut self) -> Parsed<Formula> {
+        self.scanner.expect("(")?;
+        let action = self.scanner.word("an action or a class of actions")?;
+        self.scanner.expect(",")?;
+        self.scanner.skip_blanks()?;
+        let event = self.trigger()?;
+        self.scanner.skip_blanks()?;
+        let mut until = Vec::new();
+        while self.scanner.take(",") {
+            let mut word = self.scanner.word("`until`, an action or a class of actions")?;
+            if word.text == "until" && until.is_empty() {
+                word = self.scanner.word("an action or a class of actions")?;
+            }
+            until.push(word);
+            self.scanner.skip_blanks()?;
+        }
+        self.scanner.expect(")")?;
+        Ok(Formula::OnlyAfter { action, event, until })
+    }
+
+    fn steps(&mut self) -> Parsed<u32> {
+        self.scanner.skip_blanks()?;
+        let rest = self.scanner.rest();
+        let length = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        let start = self.scanner.position;
+        match rest[..length].parse() {
+            Ok(steps @ 1..=MOST_STEPS) => {
+                self.scanner.position += length;
+                Ok(steps)
+            }
+            _ => Err(Diagnostic::error("not a number of steps", start..start + length.max(1))
+                .help(format!("a whole number from 1 to {MOST_STEPS}"))),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What a model checker needs to prove the properties of an agent.
+
+use std::fmt::Write as _;
+
+use crate::GeneratedFile;
+
+/// The file of a proof that includes all others.
+pub const HARNESS: &str = "harness.c";
+
+/// What must be shown of an agent's C, and the environment in which it must be shown.
+///
+/// A proof needs an invariant: it begins with all candidates and drops those that do not hold in the
+/// beginning, or that some transition breaks, until the rest proves itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Obligations {
+    /// The C of the agent and [`HARNESS`], with the functions `base`, `induction` and `main`.
+    pub files: Vec<GeneratedFile>,
+    pub(crate) state_type: String,
+    pub(crate) candidates: Vec<String>,
+    /// The properties: each has an assertion `property NAME`.
+    pub properties: Vec<Promise>,
+}
+
+/// A property as it was declared.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Promise {
+    /// Its name.
+    pub name: String,
+    /// The requirements that it stands for.
+    pub requirements: Vec<String>,
+    /// What must hold, with single blanks.
+    pub formula: String,
+}
+
+impl Obligations {
+    /// The number of candidates for the invariant.
+    pub fn candidates(&self) -> usize {
+        self.candidates.len()
+    }
+
+    /// The file `invariant.h` of an invariant of these candidates; each has an assertion
+    /// `candidate INDEX`.
+    pub fn invariant(&self, chosen: &[usize]) -> GeneratedFile {
+        let chosen =
+            || chosen.iter().filter_map(|index| Some((index, self.candidates.get(*index)?)));
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        self.open(&mut text, "assume_invariant");
+        for (_, candidate) in chosen() {
+            _ = writeln!(text, "    __CPROVER_assume({candidate});");
+        }
+        text += "}\n\n";
+        self.open(&mut text, "check_invariant");
+        for (index, candidate) in chosen() {
+            _ = writeln!(text, "    __CPROVER_assert({candidate}, \"candidate {index}\");");
+        }
+        text += "}\n";
+        GeneratedFile { name: "invariant.h".to_owned(), text }
+    }
+
+    fn open(&self, text: &mut String, function: &str) {
+        let state = &self.state_type;
+        _ = writeln!(text, "static void {function}(const {state} *self)\n{{\n    (void)self;");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{obligations, parse_configuration};
+
+    const LAMP: &str =
+        "settings { input = a.asl; output = lamp.c; header = lamp.h; basics = b.h; };
+        basics { void on(void); }; types { light(void); lit(int); }; triggerables { +!light; };
+        settables { lit; }; properties { one [R-1]: at_most_one(on);
+            answered:  within(1, +!light,
+                on); };";
+
+    #[test]
+    fn a_proof_has_an_environment_an_invariant_and_its_properties() {
+        let configuration = parse_configuration("a.conf", LAMP).unwrap();
+        let obligations = obligations(configuration, "+!light <- on.").unwrap();
+        let formulas = obligations.properties.iter().map(|promise| promise.formula.as_str());
+        assert!(formulas.eq(["at_most_one(on)", "within(1, +!light, on)"]));
+        assert_eq!(obligations.properties[0].requirements, ["R-1"]);
+        let harness = &obligations.files.last().unwrap().text;
+        for part in
+            ["\"property one\"", "lamp_set_lit(self, any_int())", "lamp_achieve_light(self)"]
+        {
+            assert!(harness.contains(part), "{part}:\n{harness}");
+        }
+        assert!(obligations.candidates() > 5);
+        let invariant = obligations.invariant(&[0, 999]);
+        assert!(invariant.text.contains("\"candidate 0\"") && !invariant.text.contains("999"));
+    }
+
+    #[test]
+    fn what_only_the_environment_knows_is_not_made_up() {
+        let text = LAMP.replace("lit(int)", "lit(handle_t)");
+        let configuration = parse_configuration("a.conf", &text).unwrap();
+        let error = obligations(configuration, "+!light <- on.").unwrap_err();
+        assert!(error.to_string().contains("`handle_t`"), "{error}");
+    }
+}
