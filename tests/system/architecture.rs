@@ -12,7 +12,7 @@ const MAY_USE: [(&str, &[&str]); 9] = [
     ("mock-drone", &["ardrone-link", "diagnostic"]),
     ("autopilot", &["ardrone-link", "diagnostic", "estimator", "mock-drone", "pid", "translator"]),
     ("system-tests", &["ardrone-link", "autopilot", "mock-drone"]),
-    ("xtask", &["autopilot", "mock-drone", "system-tests"]),
+    ("xtask", &["autopilot", "mock-drone", "system-tests", "translator"]),
 ];
 
 #[test]

@@ -4,10 +4,12 @@
 mod campaign;
 mod cases;
 mod fly;
+mod mutants;
 mod parallel;
 mod plot;
 mod score;
 mod table;
+mod verify;
 
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -47,6 +49,8 @@ enum Command {
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
     },
+    /// Prove the properties of the shipped agent on its C
+    Verify,
 }
 
 fn main() -> ExitCode {
@@ -59,12 +63,13 @@ fn main() -> ExitCode {
         Command::Campaign { flights, first } => {
             campaign::run(flights, first).map_err(|error| error.to_string())
         }
+        Command::Verify => verify::run().map_err(|error| error.to_string()),
     };
     // What cannot be printed has nowhere else to go.
     match done {
         Ok((table, good)) => {
             let seconds = start.elapsed().as_secs_f64();
-            _ = writeln!(std::io::stdout(), "{table}flown in {seconds:.1} s");
+            _ = writeln!(std::io::stdout(), "{table}done in {seconds:.1} s");
             if good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
         }
         Err(error) => {
