@@ -1,6 +1,7 @@
 //! `asl2c`: translates an AgentSpeak agent to C.
 #![forbid(unsafe_code)]
 
+mod path;
 mod stack;
 
 use std::io::Write as _;
@@ -28,8 +29,8 @@ struct Arguments {
     /// Where the generated files go [default: the configuration's folder]
     #[arg(short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Print what the agent costs: memory, call depth, calls of each action in a step. The stack is
-    /// measured with gcc, if it is there
+    /// Print what the agent costs: memory, call depth, calls of each action in a step. The stack and the
+    /// longest path of a step are gcc's, if it is there
     #[arg(long)]
     report: bool,
 }
@@ -52,8 +53,17 @@ fn main() -> ExitCode {
                 _ = writeln!(stderr, "{}", translation.warnings);
             }
             if arguments.report {
-                match stack::frame_bytes(&translation) {
-                    Ok(frames) => translation.report.add_stack(stack::COMPILER, &frames),
+                match stack::compiled(&translation) {
+                    Ok(compiled) => {
+                        let report = &mut translation.report;
+                        report.add_stack(stack::COMPILER, &compiled.frame_bytes);
+                        match path::longest(&compiled.assembly, report.entry()) {
+                            Ok(instructions) => report.add_path(stack::COMPILER, instructions),
+                            Err(reason) => {
+                                _ = writeln!(stderr, "the longest path is not known: {reason}");
+                            }
+                        }
+                    }
                     Err(reason) => _ = writeln!(stderr, "the stack is not measured: {reason}"),
                 }
                 _ = write!(std::io::stdout(), "{}", translation.report);

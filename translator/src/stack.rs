@@ -1,4 +1,4 @@
-//! Asks the C compiler how large the frame of each generated function is.
+//! Asks the C compiler how large the frame of each generated function is, and what it makes of them.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -9,8 +9,16 @@ use translator::Translation;
 /// What compiles, and how: the figures hold for these options.
 pub(crate) const COMPILER: &str = "gcc -O2";
 
-/// Bytes of stack by function, or why they are not known.
-pub(crate) fn frame_bytes(translation: &Translation) -> Result<HashMap<String, u64>, String> {
+/// What the compiler says of the generated C.
+pub(crate) struct Compiled {
+    /// Bytes of stack by function.
+    pub(crate) frame_bytes: HashMap<String, u64>,
+    /// The assembly.
+    pub(crate) assembly: String,
+}
+
+/// Compiles the generated C, or says why it is not compiled.
+pub(crate) fn compiled(translation: &Translation) -> Result<Compiled, String> {
     let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
     for file in &translation.files {
         let path = folder.path().join(&file.name);
@@ -23,10 +31,12 @@ pub(crate) fn frame_bytes(translation: &Translation) -> Result<HashMap<String, u
     compile(folder.path(), &translation.files[0].name)
 }
 
-fn compile(folder: &Path, source: &str) -> Result<HashMap<String, u64>, String> {
+fn compile(folder: &Path, source: &str) -> Result<Compiled, String> {
     let output = Command::new("gcc")
         .current_dir(folder)
-        .args(["-std=c99", "-O2", "-fstack-usage", "-c", "-o", "agent.o", source])
+        // Tables of jumps would hide where a path goes on.
+        .args(["-std=c99", "-O2", "-fno-jump-tables", "-fstack-usage", "-S", "-o", "agent.s"])
+        .arg(source)
         .output()
         .map_err(|error| format!("gcc cannot be run: {error}"))?;
     if !output.status.success() {
@@ -36,7 +46,9 @@ fn compile(folder: &Path, source: &str) -> Result<HashMap<String, u64>, String> 
     }
     let usage = std::fs::read_to_string(folder.join("agent.su"))
         .map_err(|error| format!("gcc has left no stack usage: {error}"))?;
-    Ok(parse(&usage))
+    let assembly = std::fs::read_to_string(folder.join("agent.s"))
+        .map_err(|error| format!("gcc has left no assembly: {error}"))?;
+    Ok(Compiled { frame_bytes: parse(&usage), assembly })
 }
 
 /// Each line has place and function, bytes and kind, with tabs between. Of the parts that the compiler may make of

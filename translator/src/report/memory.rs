@@ -48,6 +48,11 @@ impl Frames {
         Self { triggers, next_step }
     }
 
+    /// The linker's name of `next_step()`.
+    pub(super) fn next_step(&self) -> &str {
+        &self.next_step
+    }
+
     /// The deepest stack below a call of `next_step()`, without what the basic actions take.
     pub(super) fn deepest(&self, frame_bytes: &HashMap<String, u64>) -> u64 {
         let frame = |name: &str| frame_bytes.get(name).copied().unwrap_or(0);

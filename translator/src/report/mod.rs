@@ -23,6 +23,8 @@ pub struct Report {
     frames: Frames,
     /// The deepest stack, if a compiler has said how large each frame is.
     stack: Option<(String, u64)>,
+    /// The instructions of the longest path, if a compiler has made some.
+    path: Option<(String, u64)>,
 }
 
 impl Report {
@@ -53,6 +55,7 @@ impl Report {
                 .collect(),
             frames: Frames::new(program, next_step),
             stack: None,
+            path: None,
         }
     }
 
@@ -62,6 +65,22 @@ impl Report {
     pub fn add_stack(&mut self, compiler: &str, frame_bytes: &HashMap<String, u64>) {
         self.stack = Some((compiler.to_owned(), self.frames.deepest(frame_bytes)));
     }
+
+    /// The linker's name of `next_step()`.
+    pub fn entry(&self) -> &str {
+        self.frames.next_step()
+    }
+
+    /// Adds the instructions of the longest path through `next_step()`, as `compiler` has made them.
+    pub fn add_path(&mut self, compiler: &str, instructions: u64) {
+        self.path = Some((compiler.to_owned(), instructions));
+    }
+}
+
+/// What so many instructions take of a tick of 30 ms, on a slow machine.
+fn share_percent(instructions: u64) -> f64 {
+    const PER_TICK: f64 = 0.03 * 1e9;
+    100.0 * instructions as f64 / PER_TICK
 }
 
 fn figures(program: &Program, costs: &[Cost], events: &[HandlerId]) -> Vec<(&'static str, String)> {
@@ -101,6 +120,15 @@ impl fmt::Display for Report {
         if let Some((compiler, bytes)) = &self.stack {
             let label = "stack of next_step()";
             writeln!(formatter, "{label:<28}{bytes} bytes and what the actions take ({compiler})")?;
+        }
+        if let Some((compiler, instructions)) = &self.path {
+            let label = "longest path of next_step()";
+            writeln!(
+                formatter,
+                "{label:<28}{instructions} instructions and what the actions take ({compiler}); \
+                 {:.4} % of 30 ms at a thousand million a second",
+                share_percent(*instructions)
+            )?;
         }
         for (title, rows) in [
             ("calls in a step that handles an event", &self.actions),
