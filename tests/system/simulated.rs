@@ -218,7 +218,11 @@ fn an_empty_battery_is_refused_before_take_off_and_lands_in_flight() {
         if reasons.len() == 1 && reasons[0].contains("battery at 15 %")));
     assert!(flight.final_truth.position_m.z.abs() < 1e-9);
     let long = "takeoff\nsetStayTime 55\ngoto 0 1 0 0\ngoto 0 0 0 0\nland";
-    let flight = fly(&battery(21.0), long);
+    let flight = fly(&battery(30.0), long);
+    assert!(matches!(&flight.outcome, Outcome::PreflightRefused { reasons }
+        if reasons.len() == 1 && reasons[0].contains("the plan takes about 1")));
+    // One that is older than it seems.
+    let flight = fly(&happens(9 * SECOND, Action::Battery(11.0)), SQUARE);
     assert!(matches!(&flight.outcome, Outcome::Failsafe { reason } if reason.contains("battery")));
     assert_eq!(flight.final_truth.phase, Phase::Landed);
 }

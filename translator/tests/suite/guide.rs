@@ -1,10 +1,18 @@
 //! The language guide's examples do what the guide says.
 
-use translator::{parse_configuration, translate};
+use translator::{obligations, parse_configuration, translate};
 
 use crate::harness::run_program;
 
 const GUIDE: &str = include_str!("../../../docs/agentspeak.md");
+
+/// What the guide's properties speak of.
+const DRONE: &str = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
+    basics { void sendLand(void); void sendStandby(void); void sendTakeOff(void);
+        void sendHover(void); };
+    classes { at_command: sendLand, sendStandby, sendTakeOff, sendHover; };
+    types { land(void); takeOff(void); }; triggerables { +!land; +!takeOff; };
+    ";
 
 /// The fenced blocks of the guide: language and content.
 fn blocks() -> Vec<(&'static str, String)> {
@@ -48,6 +56,13 @@ fn every_example_of_the_guide_does_what_it_says() {
                 let parsed = parse_configuration("a.conf", &configuration).unwrap();
                 let error = translate(parsed, &agent).unwrap_err().to_string();
                 assert_eq!(error.trim_end(), content.trim_end());
+                checked += 1;
+            }
+            "properties" => {
+                let parsed = parse_configuration("a.conf", &format!("{DRONE}{content}")).unwrap();
+                let agent = "+!land <- sendLand. +!takeOff <- sendTakeOff; sendHover; sendStandby.";
+                let promises = obligations(parsed, agent).unwrap().properties;
+                assert_eq!(promises.len(), content.matches(';').count() - 1);
                 checked += 1;
             }
             other => panic!("what is ```{other} for?"),
