@@ -504,6 +504,17 @@ mod tests {
         }
     }
 
+    /// The pre-flight check reckons with it.
+    #[test]
+    fn the_charge_at_which_it_lands_is_the_one_that_is_kept_back() {
+        let kept = crate::pilot::LANDING_BATTERY_PERCENT;
+        for (percent, lands) in [(kept, true), (kept + 1, false)] {
+            let mut bench = Bench::new(HOVERING);
+            bench.senses.battery_percent = Some(percent);
+            assert_eq!(bench.run().danger == Some(Danger::BatteryEmpty), lands, "{percent}");
+        }
+    }
+
     #[test]
     fn a_blind_drone_holds_still_and_goes_on_when_it_sees() {
         let mut bench = Bench::new(HOVERING);

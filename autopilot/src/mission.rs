@@ -6,7 +6,7 @@
 use pid::Pose;
 
 use crate::agent::ApproachSettings;
-use crate::plan::{Command, FlightLimits, Plan};
+use crate::plan::{Command, FlightLimits, Plan, offset};
 
 /// What the agent is to be told next.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,11 +113,8 @@ impl Mission {
     }
 
     fn go_to(&mut self, step: usize, target: Pose) -> Due {
-        let z_m = target.z_m.clamp(self.limits.floor_m, self.limits.ceiling_m);
-        let away_m = target.x_m.hypot(target.y_m);
-        let share = if away_m > self.limits.radius_m { self.limits.radius_m / away_m } else { 1.0 };
-        let corrected = (z_m - target.z_m).abs() > 0.0 || share < 1.0;
-        self.target = Pose { x_m: target.x_m * share, y_m: target.y_m * share, z_m, ..target };
+        self.target = self.limits.nearest_inside(&target, 0.0);
+        let corrected = self.target != target;
         Due { step, order: AgentOrder::GoTo(self.target), corrected }
     }
 
@@ -134,16 +131,6 @@ impl Mission {
     /// Whether the plan may start with a drone that is in the air.
     pub fn takes_over(&self) -> bool {
         self.plan.takes_over()
-    }
-}
-
-/// The pose `by` away from `from`: displacements are along the world's axes, headings add up.
-fn offset(from: &Pose, by: &Pose) -> Pose {
-    Pose {
-        x_m: from.x_m + by.x_m,
-        y_m: from.y_m + by.y_m,
-        z_m: from.z_m + by.z_m,
-        yaw_deg: estimator::wrap_deg(from.yaw_deg + by.yaw_deg),
     }
 }
 

@@ -142,11 +142,12 @@ impl Guard {
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
         match command {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
-            AgentCommand::GoTo(target) if !self.is_inside(&target, 1e-6) => {
-                (AgentCommand::GoTo(self.inside(&target, 0.0)), Some(Veto::TargetOutside))
-            }
+            AgentCommand::GoTo(target) if !self.is_inside(&target, 1e-6) => (
+                AgentCommand::GoTo(self.fence.nearest_inside(&target, 0.0)),
+                Some(Veto::TargetOutside),
+            ),
             AgentCommand::Sticks if !self.stops_inside(now) => {
-                let stop = self.inside(&stopping_place(now), INSIDE_M);
+                let stop = self.fence.nearest_inside(&stopping_place(now), INSIDE_M);
                 (AgentCommand::GoTo(stop), Some(Veto::NearFence))
             }
             _ => (command, None),
@@ -205,7 +206,7 @@ impl Guard {
     /// A low place inside the fence, unless the drone is near it.
     fn retreat(&self, pose: &Pose) -> Option<Pose> {
         let low_m = self.fence.floor_m + LOW_M;
-        let target = Pose { z_m: low_m, ..self.inside(pose, INSIDE_M) };
+        let target = Pose { z_m: low_m, ..self.fence.nearest_inside(pose, INSIDE_M) };
         let is_inside = pose.x_m.hypot(pose.y_m) <= self.fence.radius_m;
         let is_there = is_inside && pose.z_m <= low_m + LOW_M;
         (!is_there).then_some(target)
@@ -219,19 +220,6 @@ impl Guard {
     fn is_inside_above(&self, pose: &Pose, margin_m: f64) -> bool {
         pose.x_m.hypot(pose.y_m) <= self.fence.radius_m + margin_m
             && pose.z_m <= self.fence.ceiling_m + margin_m
-    }
-
-    /// The nearest place inside the fence, and so far inside across the ground.
-    fn inside(&self, place: &Pose, by_m: f64) -> Pose {
-        let away_m = place.x_m.hypot(place.y_m);
-        let allowed_m = (self.fence.radius_m - by_m).max(0.0);
-        let share = if away_m > allowed_m { allowed_m / away_m } else { 1.0 };
-        Pose {
-            x_m: place.x_m * share,
-            y_m: place.y_m * share,
-            z_m: place.z_m.clamp(self.fence.floor_m, self.fence.ceiling_m),
-            ..*place
-        }
     }
 
     fn stops_inside(&self, now: &Circumstances) -> bool {

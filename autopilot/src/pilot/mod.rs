@@ -27,6 +27,8 @@ use pid::{CascadeConfig, Demand, Inputs, Pose, PositionController};
 pub use self::flight_phase::{FlightPhase, LandingReason};
 use self::hand::Hand;
 pub use self::hand::PilotOrder;
+#[cfg(test)]
+pub(crate) use self::preflight::LANDING_BATTERY_PERCENT;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
 use crate::agent::{Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
 use crate::mission::{AgentOrder, Due, Mission};
@@ -243,8 +245,14 @@ impl Pilot {
             return Ok(());
         }
         self.offer_order(now);
-        self.feel_wind(now, step_s);
-        let senses = self.senses(now);
+        // The estimate is flown on to this moment once: everything below looks at the same.
+        let prediction = self.estimator.predicted(now);
+        let state = match self.law {
+            Law::Cascade => prediction,
+            Law::Tum => self.state(now),
+        };
+        self.feel_wind(prediction.disturbance_m_s2, step_s);
+        let senses = self.senses(now, &state);
         let step = AgentStep::run(&mut self.agent, senses);
         if let Some(report) = step.report {
             self.order_ended(now, report);
@@ -255,7 +263,7 @@ impl Pilot {
         done(Stage::Agent);
         // An agent that asks for nothing gets a hover.
         let wanted = step.command.unwrap_or(AgentCommand::Hover);
-        let circumstances = self.circumstances(now);
+        let circumstances = self.circumstances(now, &state);
         let (command, veto) = self.guard.check(wanted, &circumstances);
         if let Some(veto) = veto.filter(|_| veto != self.veto) {
             self.events.push_back(FlightEvent::Veto(veto));
@@ -344,13 +352,13 @@ impl Pilot {
         pose(&self.state(now))
     }
 
-    fn senses(&self, now: Duration) -> Senses {
+    fn senses(&self, now: Duration, state: &Prediction) -> Senses {
         let hovering = self.demo().is_some_and(|demo| {
             matches!(demo.control_state, ControlState::Hovering | ControlState::Flying)
         });
         Senses {
             now_ms: i64::try_from(now.as_millis()).unwrap_or(i64::MAX),
-            pose: self.demo().map(|_| self.pose(now)),
+            pose: self.demo().map(|_| pose(state)),
             on_ground: self.on_ground(),
             hovering: hovering && self.drone_state().contains(DroneState::FLYING),
             battery_percent: self.battery_percent(),
@@ -376,24 +384,19 @@ impl Pilot {
         self.estimator.airframe().thrust_gain.amin()
     }
 
-    fn feel_wind(&mut self, now: Duration, step_s: f64) {
-        let push_m_s2 = if self.on_ground() {
-            Vector2::zeros()
-        } else {
-            self.estimator.predicted(now).disturbance_m_s2
-        };
+    fn feel_wind(&mut self, push_m_s2: Vector2<f64>, step_s: f64) {
+        let push_m_s2 = if self.on_ground() { Vector2::zeros() } else { push_m_s2 };
         self.wind_m_s2 += (push_m_s2 - self.wind_m_s2) * (step_s / WIND_TIME_S);
     }
 
-    fn circumstances(&self, now: Duration) -> Circumstances {
-        let state = self.state(now);
+    fn circumstances(&self, now: Duration, state: &Prediction) -> Circumstances {
         Circumstances {
             now,
             blind_for: self.blind_for(now),
             emergency: self.drone_state().contains(DroneState::EMERGENCY),
             airborne: !self.on_ground(),
             landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
-            pose: pose(&state),
+            pose: pose(state),
             velocity_m_s: state.velocity_m_s.into(),
         }
     }

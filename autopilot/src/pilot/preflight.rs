@@ -10,7 +10,7 @@ use crate::plan;
 /// Below this the drone may refuse to take off.
 const LEAST_BATTERY_PERCENT: u32 = 20;
 /// The agent lands at this charge (`landingBattery`): the plan must be over before.
-const LANDING_BATTERY_PERCENT: f64 = 12.0;
+pub(crate) const LANDING_BATTERY_PERCENT: u32 = 12;
 /// Navdata older than this are no basis for taking off.
 const OLDEST_NAVDATA: Duration = Duration::from_millis(500);
 /// The drone sends 15 packets a second, or 200. A third of them may be lost.
@@ -140,7 +140,7 @@ impl Pilot {
 
     fn problems_of_the_battery(&self) -> Option<Refusal> {
         let percent = self.demo()?.battery_percent;
-        let needed = LANDING_BATTERY_PERCENT + plan::battery_percent(self.expected_time);
+        let needed = f64::from(LANDING_BATTERY_PERCENT) + plan::battery_percent(self.expected_time);
         if percent <= LEAST_BATTERY_PERCENT {
             Some(Refusal::EmptyBattery { percent })
         } else if f64::from(percent) < needed {

@@ -17,7 +17,7 @@ pub enum ZOrigin {
     Floor,
 }
 
-/// Heights between which the drone may fly.
+/// The fence: heights between which, and a radius within which the drone may fly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightLimits {
     /// Targets below this are refused. Above the floor.
@@ -46,6 +46,19 @@ impl FlightLimits {
         match self.z_origin {
             ZOrigin::Hover => hover_m,
             ZOrigin::Floor => 0.0,
+        }
+    }
+
+    /// The nearest place inside, and so far inside across the ground.
+    pub fn nearest_inside(&self, place: &Pose, by_m: f64) -> Pose {
+        let away_m = place.x_m.hypot(place.y_m);
+        let allowed_m = (self.radius_m - by_m).max(0.0);
+        let share = if away_m > allowed_m { allowed_m / away_m } else { 1.0 };
+        Pose {
+            x_m: place.x_m * share,
+            y_m: place.y_m * share,
+            z_m: place.z_m.clamp(self.floor_m, self.ceiling_m),
+            ..*place
         }
     }
 }

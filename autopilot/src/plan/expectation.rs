@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use estimator::wrap_deg;
 use pid::Pose;
 
 use super::walk::Walk;
@@ -76,7 +77,7 @@ pub fn battery_percent(time: Duration) -> f64 {
 fn leg(from: &Pose, to: &Pose, share: f64, stay_s: f64) -> (f64, f64) {
     let across_m = (to.x_m - from.x_m).hypot(to.y_m - from.y_m);
     let upwards_m = (to.z_m - from.z_m).abs();
-    let turn_deg = (to.yaw_deg - from.yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
+    let turn_deg = wrap_deg(to.yaw_deg - from.yaw_deg);
     let moves = [
         (across_m, ACROSS_S, ACROSS_M_S),
         (upwards_m, UPWARDS_S, UPWARDS_M_S),

@@ -19,6 +19,7 @@ use pid::Pose;
 
 pub use check::{FlightLimits, ZOrigin};
 pub use expectation::{Expectation, battery_percent};
+pub(crate) use walk::offset;
 
 /// A flight plan that was read without errors.
 #[derive(Debug, Clone, PartialEq)]

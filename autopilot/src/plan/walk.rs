@@ -1,5 +1,6 @@
 //! A plan on paper: where its targets are, as far as that is known before the flight.
 
+use estimator::wrap_deg;
 use pid::Pose;
 
 use super::{Command, FlightLimits};
@@ -8,8 +9,8 @@ use super::{Command, FlightLimits};
 #[derive(Debug, Clone)]
 pub(super) struct Walk {
     pub(super) airborne: bool,
-    /// The height of z = 0 of the take-off reference.
-    origin_m: f64,
+    /// The take-off reference.
+    origin: Pose,
     reference: Pose,
     /// Where the last command has led.
     pub(super) target: Pose,
@@ -17,13 +18,9 @@ pub(super) struct Walk {
 
 impl Walk {
     pub(super) fn new(limits: &FlightLimits) -> Self {
-        let origin_m = limits.origin_height_m(FlightLimits::EXPECTED_HOVER_M);
-        Self {
-            airborne: false,
-            origin_m,
-            reference: Pose { z_m: origin_m, ..Pose::default() },
-            target: Pose::default(),
-        }
+        let z_m = limits.origin_height_m(FlightLimits::EXPECTED_HOVER_M);
+        let origin = Pose { z_m, ..Pose::default() };
+        Self { airborne: false, origin, reference: origin, target: Pose::default() }
     }
 
     /// Carries out a command; returns its target, if it has one.
@@ -42,7 +39,7 @@ impl Walk {
                 return None;
             }
             Command::SetReference(pose) => {
-                self.reference = Pose { z_m: self.origin_m + pose.z_m, ..pose };
+                self.reference = offset(&self.origin, &pose);
                 return None;
             }
             Command::SetReferenceHere => {
@@ -54,12 +51,17 @@ impl Walk {
             | Command::SetStayTime { .. }
             | Command::SetMaxControl { .. } => return None,
         };
-        self.target = Pose {
-            x_m: from.x_m + by.x_m,
-            y_m: from.y_m + by.y_m,
-            z_m: from.z_m + by.z_m,
-            yaw_deg: from.yaw_deg + by.yaw_deg,
-        };
+        self.target = offset(&from, &by);
         Some(self.target)
+    }
+}
+
+/// The pose `by` away from `from`: displacements are along the world's axes, headings add up.
+pub(crate) fn offset(from: &Pose, by: &Pose) -> Pose {
+    Pose {
+        x_m: from.x_m + by.x_m,
+        y_m: from.y_m + by.y_m,
+        z_m: from.z_m + by.z_m,
+        yaw_deg: wrap_deg(from.yaw_deg + by.yaw_deg),
     }
 }
