@@ -111,7 +111,7 @@ pub(crate) struct Plan {
     /// One pattern for each argument of the trigger.
     pub(crate) patterns: Vec<Pattern>,
     pub(crate) context: Vec<Condition>,
-    pub(crate) body: Vec<Step>,
+    pub(crate) body: Vec<Placed>,
     /// For plans of test goals: which variable answers which argument.
     pub(crate) outputs: Vec<(usize, VariableId)>,
     pub(crate) label: Option<String>,
@@ -164,6 +164,13 @@ pub(crate) struct Alternatives {
     pub(crate) branches: Vec<Vec<Condition>>,
     /// Variables that every branch binds: the one that is seen afterwards, and each branch's own.
     pub(crate) exports: Vec<(VariableId, Vec<VariableId>)>,
+}
+
+/// A formula of a body, and the line of the source where it stands.
+#[derive(Debug)]
+pub(crate) struct Placed {
+    pub(crate) line: usize,
+    pub(crate) step: Step,
 }
 
 /// One formula of a body.
@@ -256,6 +263,11 @@ impl Handler {
 }
 
 impl Plan {
+    /// What the body does, in order.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = &Step> {
+        self.body.iter().map(|placed| &placed.step)
+    }
+
     /// Whether the plan fits every event of its trigger.
     pub(crate) fn always_applies(&self) -> bool {
         self.context.is_empty()

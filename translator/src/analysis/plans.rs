@@ -8,7 +8,7 @@ use super::scope::Scope;
 use super::time::Place;
 use super::values::Resolved;
 use super::{Analysis, TriggerKey};
-use crate::program::{Handler, HandlerId, Pattern, Plan, Raise, Step, Value, VariableId};
+use crate::program::{Handler, HandlerId, Pattern, Placed, Plan, Raise, Step, Value, VariableId};
 use crate::syntax::ast::{
     self, Agent, Atom, Expression, Formula, Name, Operator, Trigger, TriggerKind,
 };
@@ -218,17 +218,18 @@ impl Analysis<'_> {
         place: &Place<'_>,
         formulae: &[Formula],
         scope: &mut Scope,
-    ) -> Vec<Step> {
+    ) -> Vec<Placed> {
         let mut body = Vec::new();
         for (index, formula) in formulae.iter().enumerate() {
             let rest = &formulae[index + 1..];
+            let line = self.line(formula.span().start);
             if let Formula::Wait { duration, span } = formula {
                 let step = self.wait(place, duration, span, rest, scope);
-                body.extend(self.report(step));
+                body.extend(self.report(step).map(|step| Placed { line, step }));
                 break;
             }
             let step = self.step(formula, rest.is_empty(), place.graph, scope);
-            body.extend(self.report(step));
+            body.extend(self.report(step).map(|step| Placed { line, step }));
         }
         body
     }

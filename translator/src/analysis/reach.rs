@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use diagnostic::Diagnostic;
 
 use crate::coverage::always_finds_a_plan;
-use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Raise, Step};
+use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Plan, Raise, Step};
 use crate::syntax::ast::{Operator, TriggerKind};
 
 /// What the reachable plans do besides calling each other.
@@ -28,7 +28,7 @@ pub(super) fn reach(handlers: &mut [Handler], roots: &[HandlerId]) -> Reached {
             continue;
         }
         open.extend(handlers[index].failure);
-        for step in handlers[index].plans.iter().flat_map(|plan| &plan.body) {
+        for step in handlers[index].plans.iter().flat_map(Plan::steps) {
             match step {
                 Step::Achieve { handler, .. } => open.push(*handler),
                 Step::Post { handler, deadline, .. } => {
@@ -72,7 +72,7 @@ pub(super) fn mark_believable(beliefs: &mut [Belief], handlers: &[Handler], exte
         belief.believable = belief.settable || belief.initial.is_some();
     }
     let raised = external.iter().filter(|event| event.operator == Operator::Add);
-    let steps = handlers.iter().flat_map(|handler| &handler.plans).flat_map(|plan| &plan.body);
+    let steps = handlers.iter().flat_map(|handler| &handler.plans).flat_map(Plan::steps);
     let added = steps.filter_map(|step| match step {
         Step::Add { belief, .. } => Some(*belief),
         _ => None,
@@ -109,7 +109,7 @@ pub(super) fn warn_without_plan(
         if handler.failure.is_some() || std::mem::replace(&mut unguarded[index], true) {
             continue;
         }
-        let steps = handler.plans.iter().flat_map(|plan| &plan.body);
+        let steps = handler.plans.iter().flat_map(Plan::steps);
         open.extend(steps.filter_map(|step| match step {
             Step::Achieve { handler, .. } => Some(*handler),
             _ => None,

@@ -14,7 +14,7 @@ use super::scope::Scope;
 use super::values::Resolved;
 use crate::configuration::Configuration;
 use crate::program::{
-    BasicId, Call, Condition, Handler, HandlerId, Operation, Pattern, Plan, Step, Value,
+    BasicId, Call, Condition, Handler, HandlerId, Operation, Pattern, Placed, Plan, Step, Value,
 };
 use crate::syntax::ast::{
     self, Arithmetic, Expression, Formula, Name, Relation, Trigger, TriggerKind,
@@ -211,12 +211,14 @@ impl Analysis<'_> {
                 ctype: clock.ctype.clone(),
             }
         });
+        let too_early = too_early.collect();
+        let step = Step::Post { handler, values, deadline: None };
         Plan {
             lines: (self.line(span.start), self.line(span.end)),
             source: self.text[span.clone()].to_owned(),
             patterns: ids.into_iter().map(Pattern::Bind).collect(),
-            context: too_early.collect(),
-            body: vec![Step::Post { handler, values, deadline: None }],
+            context: too_early,
+            body: vec![Placed { line: self.line(span.start), step }],
             variables: scope.variables,
             outputs: Vec::new(),
             label: place.plan.label.as_ref().map(|label| label.text.clone()),

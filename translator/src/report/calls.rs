@@ -107,7 +107,7 @@ pub(super) fn costs(program: &Program) -> Vec<Cost> {
 
 pub(super) fn callees(program: &Program, id: HandlerId) -> Vec<HandlerId> {
     let handler = program.handler(id);
-    let steps = handler.plans.iter().flat_map(|plan| &plan.body);
+    let steps = handler.plans.iter().flat_map(Plan::steps);
     handler.failure.into_iter().chain(steps.filter_map(callee)).collect()
 }
 
@@ -157,7 +157,7 @@ fn plan_outcome<'a>(
 ) -> (Bounds, Option<Bounds>) {
     let mut now = counted.nothing();
     let mut fails: Option<Bounds> = None;
-    for step in &plan.body {
+    for step in plan.steps() {
         if step.values_can_fail() {
             fails = either(fails, Some(now.clone()));
         }

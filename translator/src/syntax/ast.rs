@@ -290,6 +290,20 @@ pub enum Formula {
 }
 
 impl Formula {
+    /// Where the formula begins and ends, without a leading `+`, `-`, `!` or `?`.
+    pub(crate) fn span(&self) -> Span {
+        match self {
+            Self::Action(atom)
+            | Self::Add(atom)
+            | Self::Delete(atom)
+            | Self::Defer(atom)
+            | Self::Test(atom) => atom.span.clone(),
+            Self::Assign { variable, value } => variable.span.start..value.span().end,
+            Self::Achieve { goal, .. } => goal.span.clone(),
+            Self::Wait { span, .. } => span.clone(),
+        }
+    }
+
     /// Every variable that stands in the formula.
     pub(crate) fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
         match self {

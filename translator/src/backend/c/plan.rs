@@ -104,10 +104,10 @@ impl<'a> PlanEmitter<'a> {
 
     fn body(&mut self) {
         let plan = self.plan;
-        if plan.body.iter().any(Step::can_fail) {
+        if plan.steps().any(Step::can_fail) {
             self.writer.line("outcome = OUTCOME_FAILED;");
         }
-        for step in &plan.body {
+        for step in plan.steps() {
             self.step(step);
         }
         for (index, id) in &plan.outputs {
