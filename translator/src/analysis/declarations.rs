@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use diagnostic::{Diagnostic, Span, closest};
 
-use crate::configuration::{Basic, Cause, Configuration, ExternalTrigger, Formula};
+use crate::configuration::{Basic, Cause, Comparison, Configuration, ExternalTrigger, Formula};
 use crate::program::BasicId;
 use crate::syntax::ast::{Atom, Name};
 use crate::types::{CType, TypeKind};
@@ -181,11 +181,11 @@ impl Declarations {
                 findings.push(declarations.undeclared(action, "basics"));
             }
         }
-        declarations.check_properties(configuration, findings);
         for predicate in &configuration.predicates {
             let declared = Declared::Predicate(predicate.parameters.clone());
             declarations.declare(&predicate.name, declared, findings);
         }
+        declarations.check_properties(configuration, findings);
         declarations
     }
 
@@ -200,6 +200,9 @@ impl Declarations {
                     match cause {
                         Cause::Event(event) => events.push(event),
                         Cause::Action(action) => actions.push(action),
+                        Cause::Comparison(comparison) => {
+                            self.check_comparison(comparison, findings);
+                        }
                     }
                     actions.extend(answers);
                     events.extend(unless);
@@ -229,6 +232,32 @@ impl Declarations {
                         .help("properties speak of events of the section `triggerables`"),
                 );
             }
+        }
+    }
+
+    /// Both beliefs have one number of the same type.
+    fn check_comparison(&self, comparison: &Comparison, findings: &mut Vec<Diagnostic>) {
+        let mut number = |name: &Name| {
+            let Some(Declared::Predicate(types)) = self.find(&name.text) else {
+                findings.push(self.undeclared(name, "types"));
+                return None;
+            };
+            let number = types.first().filter(|ctype| types.len() == 1 && ctype.is_numeric());
+            if number.is_none() {
+                let message = format!("`{}` is no belief with one number", name.text);
+                findings.push(
+                    Diagnostic::error(message, name.span.clone())
+                        .help("properties compare beliefs such as `battery(int64_t)`"),
+                );
+            }
+            number.cloned()
+        };
+        let (left, right) = (number(&comparison.left), number(&comparison.right));
+        if let (Some(left), Some(right)) = (left, right)
+            && left != right
+        {
+            let message = format!("a `{}` is compared with a `{}`", left.name, right.name);
+            findings.push(Diagnostic::error(message, comparison.right.span.clone()));
         }
     }
 

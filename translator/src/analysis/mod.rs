@@ -24,7 +24,7 @@ use self::reach::{
     Reached, mark_believable, reach, warn_never_believed, warn_unreachable, warn_without_plan,
 };
 use self::time::{Clock, find_clock};
-use crate::configuration::{Configuration, ExternalTrigger};
+use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula};
 use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Program, Value};
 use crate::syntax::ast::{Agent, Atom, Operator, TriggerKind};
 use crate::types::CType;
@@ -83,6 +83,7 @@ pub(crate) fn analyse(
     let initial_goal = agent.goal.as_ref().and_then(|goal| analysis.initial_goal(goal));
     analysis.settables(&configuration);
     let external = analysis.external(&configuration);
+    analysis.compared_beliefs(&configuration);
     let settings = &configuration.settings;
     let named = settings.trace.iter().chain(&settings.clock);
     let named: Vec<&str> = named.map(|name| name.text.as_str()).collect();
@@ -400,6 +401,27 @@ impl Analysis<'_> {
             handler,
             preemptive,
         })
+    }
+
+    /// Properties compare what the agent believes.
+    fn compared_beliefs(&mut self, configuration: &Configuration) {
+        for property in &configuration.properties {
+            let Formula::Within { cause: Cause::Comparison(comparison), .. } = &property.formula
+            else {
+                continue;
+            };
+            for name in [&comparison.left, &comparison.right] {
+                if self.declarations.is_predicate(&name.text)
+                    && !self.belief_ids.contains_key(&name.text)
+                {
+                    let message = format!("`{}` is never believed", name.text);
+                    self.findings.configuration.push(
+                        Diagnostic::error(message, name.span.clone())
+                            .help("a comparison of what is not believed never holds"),
+                    );
+                }
+            }
+        }
     }
 
     /// The id of a belief; a predicate becomes a belief when it is first used as one.

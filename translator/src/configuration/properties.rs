@@ -5,7 +5,7 @@ use diagnostic::{Diagnostic, Span};
 use super::ExternalTrigger;
 use super::parser::Parser;
 use super::scanner::Parsed;
-use crate::syntax::ast::Name;
+use crate::syntax::ast::{Name, Relation};
 
 /// Something that must hold, whatever the environment does and however long the agent runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub enum Formula {
         action: Name,
     },
     /// `within(n, cause, a, b, unless +!g)`: after the cause one of the actions is called in one of the
-    /// next steps, unless one of the events waits already or comes first.
+    /// next steps, unless one of the events waits already or comes first. A comparison must go on to hold.
     Within {
         /// In how many.
         steps: u32,
@@ -76,6 +76,19 @@ pub enum Cause {
     Event(ExternalTrigger),
     /// The agent called an action.
     Action(Name),
+    /// Two beliefs compare so when a step begins.
+    Comparison(Comparison),
+}
+
+/// Both are believed, and their values compare so: `battery <= landingBattery`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Comparison {
+    /// A belief with one value.
+    pub left: Name,
+    /// How they compare.
+    pub relation: Relation,
+    /// A belief with one value of the same type.
+    pub right: Name,
 }
 
 const FORMULAS: &str = "`exactly_one`, `at_most_one`, `at_least_one`, `never`, `within`, `only_after` \
@@ -152,7 +165,14 @@ impl Parser<'_> {
         let cause = if self.scanner.rest().starts_with(['+', '-']) {
             Cause::Event(self.trigger()?)
         } else {
-            Cause::Action(self.scanner.word("an event or an action")?)
+            let name = self.scanner.word("an event, an action or a belief")?;
+            match self.relation()? {
+                Some(relation) => {
+                    let right = self.scanner.word("a belief")?;
+                    Cause::Comparison(Comparison { left: name, relation, right })
+                }
+                None => Cause::Action(name),
+            }
         };
         let (mut actions, mut unless) = (Vec::new(), Vec::new());
         self.scanner.expect(",")?;
@@ -174,6 +194,20 @@ impl Parser<'_> {
             return Err(self.scanner.unexpected("an action that must follow"));
         }
         Ok(Formula::Within { steps, cause, actions, unless })
+    }
+
+    fn relation(&mut self) -> Parsed<Option<Relation>> {
+        self.scanner.skip_blanks()?;
+        let known = [
+            ("<=", Relation::LessOrEqual),
+            (">=", Relation::GreaterOrEqual),
+            ("==", Relation::Equal),
+            ("\\==", Relation::NotEqual),
+            ("<", Relation::Less),
+            (">", Relation::Greater),
+        ];
+        let found = known.into_iter().find(|(symbol, _)| self.scanner.take(symbol));
+        Ok(found.map(|(_, relation)| relation))
     }
 
     fn only_after(&mut self) -> Parsed<Formula> {

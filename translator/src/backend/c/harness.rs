@@ -12,8 +12,9 @@ use super::state::{
     perceived, queued, rings,
 };
 use crate::backend::writer::Writer;
-use crate::configuration::{CallBound, Cause, ExternalTrigger, Formula, Property};
+use crate::configuration::{CallBound, Cause, Comparison, ExternalTrigger, Formula, Property};
 use crate::program::{External, Program, Value};
+use crate::syntax::ast::{Name, Relation};
 use crate::types::{CType, TypeKind};
 
 /// The texts of a proof.
@@ -175,6 +176,13 @@ impl Builder<'_> {
                 writer.line(format!("{} = 0U;", calls(&basic.name.text)));
             }
         }
+        for property in self.properties() {
+            if let Formula::Within { steps, cause: Cause::Comparison(comparison), unless, .. } =
+                &property.formula
+            {
+                self.compare(writer, &property.name.text, *steps, comparison, unless);
+            }
+        }
         writer.line(format!("{}(self);", self.names.interface("next_step")));
         for property in self.properties() {
             self.check(writer, property);
@@ -242,6 +250,32 @@ impl Builder<'_> {
         conditions.extend(unless.iter().map(|event| format!("!{}", self.waits(event))));
         writer.open(format!("if ({})", conditions.join(" && ")));
         writer.line(format!("due_{name} = {steps}U;"));
+        writer.close("}");
+    }
+
+    /// An answer is due as long as the comparison holds when steps begin.
+    fn compare(
+        &self,
+        writer: &mut Writer,
+        name: &str,
+        steps: u32,
+        comparison: &Comparison,
+        unless: &[ExternalTrigger],
+    ) {
+        let Comparison { left, relation, right } = comparison;
+        let believed = |belief: &Name| format!("self->{}", held(&belief.text));
+        let value = |belief: &Name| format!("self->{}", belief_value(&belief.text, 0));
+        let condition = format!(
+            "({} && {} && ({} {} {}))",
+            believed(left),
+            believed(right),
+            value(left),
+            c_operator(*relation),
+            value(right)
+        );
+        self.begin(writer, name, steps, &condition, unless);
+        writer.open(format!("if (!{condition})"));
+        writer.line(format!("due_{name} = 0U;"));
         writer.close("}");
     }
 
@@ -511,6 +545,17 @@ fn anything(ctype: &str) -> String {
 /// The function that makes any value up.
 fn any(ctype: &str) -> String {
     format!("any_{}(void)", ctype.replace(' ', "_"))
+}
+
+fn c_operator(relation: Relation) -> &'static str {
+    match relation {
+        Relation::Less => "<",
+        Relation::LessOrEqual => "<=",
+        Relation::Greater => ">",
+        Relation::GreaterOrEqual => ">=",
+        Relation::Equal => "==",
+        Relation::NotEqual => "!=",
+    }
 }
 
 fn calls(action: &str) -> String {
