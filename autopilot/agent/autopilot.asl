@@ -83,6 +83,11 @@ approachTime(60000).
 // ---- Taking off. The drone climbs by itself; it is done when it says that it hovers.
 // The place where it then is becomes the target to hold.
 
++!takeOff : onGround & battery(Percent) & landingBattery(Limit) & Percent <= Limit
+  <- reportRefused;
+     sendStandby;
+     !!wait.
+
 +!takeOff : onGround
   <- -target(_, _, _, _);
      sendTakeOff;
@@ -91,19 +96,24 @@ approachTime(60000).
 
 // In the air already: take over where the drone is.
 +!takeOff : position(X, Y, Z, Yaw)
-  <- +target(X, Y, Z, Yaw);
+  <- !watch;
+     +target(X, Y, Z, Yaw);
      sendGoto(X, Y, Z, Yaw);
      reportDone;
      !!wait.
 
 // In the air and no idea where: hold still.
 +!takeOff
-  <- sendHover;
+  <- !watch;
+     sendHover;
      reportFailed;
      !!wait.
 
+-!takeOff <- sendHover; !land.
+
 +!completeTakeOff(_) : hovering & position(X, Y, Z, Yaw)
-  <- +target(X, Y, Z, Yaw);
+  <- !watch;
+     +target(X, Y, Z, Yaw);
      sendGoto(X, Y, Z, Yaw);
      reportDone;
      !!wait.
@@ -273,9 +283,10 @@ approachTime(60000).
      sendLand;
      !completeLand.
 
-// Blind for a moment.
+// Blind for a moment, and charge enough to wait for it to pass.
 +!descend(Start) : blindFor(Time) & holdWhenBlind(Patience) & Time > Patience
     & landWhenBlind(Limit) & Time <= Limit
+    & not (battery(Percent) & landingBattery(Least) & Percent <= Least)
   <- sendHover;
      !descend(Start).
 
