@@ -24,6 +24,7 @@ mod backend;
 pub mod configuration;
 mod coverage;
 pub mod interpreter;
+mod model;
 mod obligations;
 mod program;
 mod report;
@@ -32,6 +33,7 @@ pub mod types;
 
 use configuration::{Configuration, Instance};
 use diagnostic::{Diagnostic, Severity, Source, render_all};
+pub use model::{Happening, Model};
 pub use obligations::{HARNESS, Obligations, Promise};
 pub use report::Report;
 use types::TypeKind;
@@ -182,6 +184,19 @@ pub fn obligations(
         candidates: harness.candidates,
         properties,
     })
+}
+
+/// A model of the agent for SPIN, in which its properties can be checked in every environment.
+///
+/// # Errors
+/// As [`translate`].
+pub fn model(
+    configuration: ParsedConfiguration,
+    agent_text: &str,
+) -> Result<Model, TranslateError> {
+    let properties = configuration.promises();
+    let (program, _) = check(configuration, agent_text)?;
+    Ok(Model::new(program, properties))
 }
 
 /// The C file, its header, and that of the basic actions.

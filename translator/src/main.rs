@@ -2,14 +2,18 @@
 #![forbid(unsafe_code)]
 
 mod path;
+mod spin;
 mod stack;
+mod verify;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::Parser;
-use translator::{TranslateError, Translation, parse_configuration, translate};
+use clap::{Parser, Subcommand};
+use translator::{
+    ParsedConfiguration, TranslateError, Translation, parse_configuration, translate,
+};
 
 /// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
 ///
@@ -20,12 +24,17 @@ use translator::{TranslateError, Translation, parse_configuration, translate};
 #[command(
     name = "asl2c",
     version,
-    after_help = "Exit status: 0 translated, 1 refused or unreadable, 2 usage."
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, or a property \
+                  that does not hold; 2 usage."
 )]
 struct Arguments {
+    #[command(subcommand)]
+    command: Option<Task>,
     /// The agent's configuration
-    #[arg(value_name = "AGENT.CONF")]
-    configuration: PathBuf,
+    #[arg(value_name = "AGENT.CONF", required = true)]
+    configuration: Option<PathBuf>,
     /// Where the generated files go [default: the configuration's folder]
     #[arg(short, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -35,19 +44,61 @@ struct Arguments {
     report: bool,
 }
 
+#[derive(Debug, Subcommand)]
+enum Task {
+    /// Check the configuration's properties with SPIN, on a model of the agent in any environment
+    ///
+    /// A property that does not hold is told as a way to its failure in the agent's own terms: what the
+    /// environment did, the event of each step, its plan and the actions, with lines of the agent. Values are
+    /// not part of the model, so a failure may need an environment that there is not.
+    Verify {
+        /// The agent's configuration
+        #[arg(value_name = "AGENT.CONF")]
+        configuration: PathBuf,
+        /// Print one JSON object
+        #[arg(long)]
+        json: bool,
+        /// Print the model in Promela, and check nothing
+        #[arg(long, conflicts_with = "json")]
+        model: bool,
+    },
+}
+
 #[derive(Debug, thiserror::Error)]
 enum CommandError {
     #[error("cannot {action} {path}: {source}")]
     File { action: &'static str, path: PathBuf, source: std::io::Error },
     #[error("{0}")]
     Translate(#[from] TranslateError),
+    #[error("error: {0}")]
+    Spin(#[from] spin::SpinError),
 }
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    let done = match (&arguments.command, &arguments.configuration) {
+        (Some(Task::Verify { configuration, json, model }), _) => read_agent(configuration)
+            .and_then(|(parsed, agent)| Ok(translator::model(parsed, &agent)?))
+            .and_then(|checked| {
+                if *model { Ok(verify::print(&checked)) } else { Ok(verify::run(&checked, *json)?) }
+            }),
+        (None, Some(configuration)) => Ok(translate_files(&arguments, configuration)),
+        (None, None) => unreachable!("clap asks for the configuration"),
+    };
+    done.unwrap_or_else(|error| complain(&error))
+}
+
+fn complain(error: &CommandError) -> ExitCode {
+    let prefix = if matches!(error, CommandError::File { .. }) { "error: " } else { "" };
+    // A message that cannot be printed has nowhere else to go.
+    _ = writeln!(std::io::stderr(), "{prefix}{error}");
+    ExitCode::FAILURE
+}
+
+fn translate_files(arguments: &Arguments, configuration: &Path) -> ExitCode {
     let mut stderr = std::io::stderr().lock();
     // A message that cannot be printed has nowhere else to go.
-    match run(&arguments) {
+    match run(arguments, configuration) {
         Ok(mut translation) => {
             if !translation.warnings.is_empty() {
                 _ = writeln!(stderr, "{}", translation.warnings);
@@ -71,19 +122,24 @@ fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(error) => {
-            let prefix = if matches!(error, CommandError::File { .. }) { "error: " } else { "" };
-            _ = writeln!(stderr, "{prefix}{error}");
-            ExitCode::FAILURE
+            drop(stderr);
+            complain(&error)
         }
     }
 }
 
-fn run(arguments: &Arguments) -> Result<Translation, CommandError> {
-    let path = &arguments.configuration;
+/// The configuration, and the text of its agent.
+fn read_agent(path: &Path) -> Result<(ParsedConfiguration, String), CommandError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let configuration = parse_configuration(&path.display().to_string(), &read(path)?)?;
     let agent = read(&folder.join(configuration.input()))?;
+    Ok((configuration, agent))
+}
+
+fn run(arguments: &Arguments, path: &Path) -> Result<Translation, CommandError> {
+    let (configuration, agent) = read_agent(path)?;
     let translation = translate(configuration, &agent)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
     let output = arguments.output.as_deref().unwrap_or(folder);
     for file in &translation.files {
         let path = output.join(&file.name);

@@ -2,5 +2,6 @@
 
 pub(crate) mod c;
 pub(crate) mod matrix;
+pub(crate) mod promela;
 pub(crate) mod rust;
 mod writer;

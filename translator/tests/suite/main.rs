@@ -14,3 +14,4 @@ mod guide;
 mod harness;
 mod refused;
 mod validation;
+mod verification;

@@ -1,0 +1,194 @@
+//! The environment and the deliberation cycle.
+
+use super::{Emission, Waiting};
+use crate::program::{BeliefId, HandlerId};
+use crate::syntax::ast::{Operator, TriggerKind};
+
+impl Emission<'_> {
+    /// What may happen next: an event is raised, a belief is set, or the agent takes a step.
+    pub(super) fn environment(&mut self) {
+        self.writer.line("if");
+        for (index, external) in self.program.external.iter().enumerate() {
+            let number = self.number(Waiting::External(index));
+            let settings = &self.program.configuration.settings;
+            if external.preemptive {
+                self.writer.line(format!(":: preempts_{index} = true;"));
+            } else if settings.queue {
+                self.writer
+                    .line(format!(":: raised < {} -> raised++; inbox!{number};", settings.inbox));
+            } else {
+                self.writer.line(format!(":: len(inbox) < {} -> inbox!{number};", settings.inbox));
+            }
+            self.say(&format!("raise {number}"));
+            self.on_raise(index);
+            self.writer.line("goto finished");
+        }
+        for (index, belief) in self.program.beliefs.iter().enumerate() {
+            let id = BeliefId(index);
+            let watched =
+                belief.perceived.is_some() || !self.comparisons.of(&belief.name).is_empty();
+            let held = self.held(id);
+            if !belief.settable || (held == "true" && !watched) {
+                continue;
+            }
+            let guard = if watched { "true".to_owned() } else { format!("!({held})") };
+            self.writer.line(format!(":: {guard} ->"));
+            if belief.perceived.is_some() {
+                // The same value again is no change.
+                self.writer.line("if");
+                self.writer.line(format!(":: perceived_{index} = true"));
+                if !belief.types.is_empty() {
+                    self.writer.line(format!(":: {held}"));
+                }
+                self.writer.line("fi;");
+            }
+            self.believe(id);
+            self.say(&format!("set {index}"));
+            self.writer.line("goto finished");
+        }
+        self.writer.line(":: true");
+        self.writer.line("fi;");
+    }
+
+    /// One step of the agent.
+    pub(super) fn step(&mut self) {
+        self.say("step");
+        self.before_step();
+        self.writer.line("take: event = 0;");
+        self.take();
+        self.handle();
+        self.writer.line("handled: skip;");
+        self.writer.line("if");
+        self.writer.line(":: outcome != 0 -> lost = true; outcome = 0");
+        self.writer.line(":: else");
+        self.writer.line("fi;");
+        self.writer.line("if");
+        self.writer.line(":: posted == 0 -> limited = 0");
+        self.writer.line(":: else");
+        self.writer.line("fi;");
+        self.writer.line("stepped: event = 0;");
+        self.after_step();
+        self.writer.line("goto finished;");
+    }
+
+    /// The event that comes first.
+    fn take(&mut self) {
+        self.writer.line("if");
+        let mut before: Vec<String> = Vec::new();
+        let guarded = |before: &[String], own: &str| {
+            let mut all = before.to_vec();
+            all.push(own.to_owned());
+            all.join(" && ")
+        };
+        for (index, external) in self.program.external.iter().enumerate() {
+            if !external.preemptive {
+                continue;
+            }
+            let number = self.number(Waiting::External(index));
+            let flag = format!("preempts_{index}");
+            self.writer.line(format!(
+                ":: {} -> {flag} = false; posted = 0; limited = 0; event = {number}",
+                guarded(&before, &flag)
+            ));
+            before.push(format!("!{flag}"));
+        }
+        self.writer.line(format!(":: {} ->", guarded(&before, "posted != 0")));
+        self.writer.line("event = posted; posted = 0;");
+        self.writer.line("if");
+        self.writer.line(":: true");
+        // The clock may say that the time of a goal is over.
+        self.writer.line(":: limited != 0 -> event = limited; limited = 0");
+        self.writer.line("fi");
+        before.push("posted == 0".to_owned());
+        for event in self.events.clone() {
+            let Waiting::Perceived(belief, _) = event else { continue };
+            let (number, flag) = (self.number(event), format!("perceived_{}", belief.0));
+            self.writer.line(format!(
+                ":: {} -> {flag} = false; event = {number}",
+                guarded(&before, &flag)
+            ));
+            before.push(format!("!{flag}"));
+        }
+        for queue in self.queues() {
+            let name = queue.name;
+            let waiting = format!("len({name}) > 0");
+            self.writer.line(format!(":: {} -> {name}?event", guarded(&before, &waiting)));
+            before.push(format!("len({name}) == 0"));
+        }
+        self.writer.line(format!(":: {} -> goto stepped", before.join(" && ")));
+        self.writer.line("fi;");
+    }
+
+    /// Runs the event; a mere update of a belief is followed by the next one.
+    fn handle(&mut self) {
+        self.writer.line("if");
+        for event in self.events.clone() {
+            let number = self.number(event);
+            self.writer.line(format!(":: event == {number} ->"));
+            self.say(&format!("event {number}"));
+            match event {
+                Waiting::Posted(id) => self.run(id),
+                Waiting::Overdue(id) => match self.program.handler(id).failure {
+                    Some(failure) => self.run(failure),
+                    None => self.writer.line("outcome = 2; goto handled"),
+                },
+                Waiting::Perceived(belief, id) => {
+                    let held = self.held(belief);
+                    self.writer.line("if");
+                    self.writer.line(format!(":: {held} ->"));
+                    self.run(id);
+                    self.writer.line(":: else -> goto take");
+                    self.writer.line("fi");
+                }
+                Waiting::External(index) => self.handle_external(index),
+                Waiting::Deferred(id) => {
+                    self.writer.line(format!("deferred_{} = false;", id.0));
+                    self.run(id);
+                }
+            }
+        }
+        self.writer.line("fi;");
+    }
+
+    fn handle_external(&mut self, index: usize) {
+        let external = &self.program.external[index];
+        if self.program.configuration.settings.queue && !external.preemptive {
+            self.writer.line("raised--;");
+        }
+        match (external.belief, external.operator) {
+            (Some(belief), Operator::Delete) => {
+                let held = self.held(belief);
+                self.writer.line("if");
+                self.writer.line(format!(":: {held} ->"));
+                self.forget(belief);
+                self.run_or_take(external.handler);
+                self.writer.line(":: else -> goto take");
+                self.writer.line("fi");
+            }
+            (Some(belief), Operator::Add) => {
+                self.believe(belief);
+                self.run_or_take(external.handler);
+            }
+            (None, _) => self.run_or_take(external.handler),
+        }
+    }
+
+    fn run_or_take(&mut self, handler: Option<HandlerId>) {
+        match handler {
+            Some(handler) => self.run(handler),
+            None => self.writer.line("goto take"),
+        }
+    }
+
+    fn run(&mut self, id: HandlerId) {
+        self.call(id);
+        if self.program.handler(id).kind == TriggerKind::Belief {
+            // A percept that no plan cares for is no failure.
+            self.writer.line("if");
+            self.writer.line(":: outcome == 1 -> outcome = 0");
+            self.writer.line(":: else");
+            self.writer.line("fi;");
+        }
+        self.writer.line("goto handled");
+    }
+}

@@ -1,0 +1,216 @@
+//! What properties watch. One is checked at a time, so they share their variables.
+
+use super::Emission;
+use crate::configuration::{CallBound, Cause, ExternalTrigger, Formula, Property};
+use crate::program::BeliefId;
+use crate::types::TypeKind;
+
+impl Emission<'_> {
+    /// What an action means to each property.
+    pub(super) fn actions(&mut self) {
+        for basic in &self.program.configuration.basics {
+            if basic.result.kind != TypeKind::Void {
+                continue;
+            }
+            let name = &basic.name.text;
+            self.writer.open_here(format!("inline act_{name}()"));
+            self.writer.open_here("d_step");
+            for role in [Role::Main, Role::Cause, Role::Until] {
+                let concerned: Vec<String> = (1..)
+                    .zip(self.properties())
+                    .filter(|(_, property)| self.plays(property, role, name))
+                    .map(|(number, _)| format!("checked == {number}"))
+                    .collect();
+                if concerned.is_empty() {
+                    continue;
+                }
+                let counter = role.counter();
+                self.writer.line("if");
+                // Two are already one too many: the count stays there.
+                self.writer.line(format!(
+                    ":: ({}) && {counter} < 2 -> {counter}++",
+                    concerned.join(" || ")
+                ));
+                self.writer.line(":: else");
+                self.writer.line("fi;");
+            }
+            self.writer.line("skip");
+            self.writer.close("}");
+            self.writer.close("}");
+        }
+        self.writer.line("");
+    }
+
+    /// Whether an action is one of those that a property gives a role.
+    fn plays(&self, property: &Property, role: Role, action: &str) -> bool {
+        let is_one_of = |name: &str| {
+            let classes = &self.program.configuration.classes;
+            match classes.iter().find(|class| class.name.text == name) {
+                Some(class) => class.actions.iter().any(|member| member.text == action),
+                None => name == action,
+            }
+        };
+        match (&property.formula, role) {
+            (Formula::Count { action, .. } | Formula::OnlyAfter { action, .. }, Role::Main) => {
+                is_one_of(&action.text)
+            }
+            (Formula::Within { actions, .. }, Role::Main) => {
+                actions.iter().any(|name| is_one_of(&name.text))
+            }
+            (Formula::Within { cause: Cause::Action(cause), .. }, Role::Cause) => {
+                is_one_of(&cause.text)
+            }
+            (Formula::OnlyAfter { until, .. }, Role::Until) => {
+                until.iter().any(|name| is_one_of(&name.text))
+            }
+            _ => false,
+        }
+    }
+
+    /// The environment has raised an event.
+    pub(super) fn on_raise(&mut self, index: usize) {
+        let is_this =
+            |event: &ExternalTrigger| self.external(event).is_some_and(|(other, _)| other == index);
+        let case = |property: &Property| match &property.formula {
+            Formula::Within { unless, .. } if unless.iter().any(&is_this) => {
+                vec![when("true", "due = 0")]
+            }
+            Formula::Within { steps, cause: Cause::Event(event), unless, .. } if is_this(event) => {
+                vec![when(self.begin("true", unless), format!("due = {steps}"))]
+            }
+            Formula::OnlyAfter { event, .. } if is_this(event) => {
+                vec![when("true", "allowed = true")]
+            }
+            _ => Vec::new(),
+        };
+        let cases = (1..).zip(self.properties().iter().map(case)).collect();
+        self.of_the_checked(cases);
+    }
+
+    /// A step begins.
+    pub(super) fn before_step(&mut self) {
+        let cases = (1..).zip(self.properties().iter().map(|p| self.compared(p))).collect();
+        self.of_the_checked(cases);
+    }
+
+    /// An answer is due as long as a comparison holds.
+    fn compared(&self, property: &Property) -> Vec<Case> {
+        let Formula::Within { steps, cause: Cause::Comparison(comparison), unless, .. } =
+            &property.formula
+        else {
+            return Vec::new();
+        };
+        let Some(index) = self.comparisons.number(comparison) else { return Vec::new() };
+        let beliefs = &self.program.beliefs;
+        let held = |name: &str| {
+            let index = beliefs.iter().position(|belief| belief.name == name);
+            index.map_or("false".to_owned(), |index| self.held(BeliefId(index)))
+        };
+        let holds = format!(
+            "({} && {} && compared_{index})",
+            held(&comparison.left.text),
+            held(&comparison.right.text)
+        );
+        let begin = when(self.begin(&holds, unless), format!("due = {steps}"));
+        vec![begin, when(format!("!{holds}"), "due = 0")]
+    }
+
+    /// An answer is due from now on, unless one is already, or something that excuses waits.
+    fn begin(&self, happened: &str, unless: &[ExternalTrigger]) -> String {
+        let mut conditions = vec![happened.to_owned(), "due == 0".to_owned()];
+        conditions.extend(unless.iter().map(|event| format!("!({})", self.waits(event))));
+        conditions.join(" && ")
+    }
+
+    /// A step has ended.
+    pub(super) fn after_step(&mut self) {
+        let cases = (1..).zip(self.properties().iter().map(|p| self.judged(p))).collect();
+        self.of_the_checked(cases);
+        self.writer.line("main_calls = 0; cause_calls = 0; until_calls = 0; lost = false;");
+    }
+
+    fn judged(&self, property: &Property) -> Vec<Case> {
+        match &property.formula {
+            Formula::AllHandled => vec![when("true", "assert(!lost)")],
+            Formula::Count { bound, .. } => {
+                let bound = match bound {
+                    CallBound::ExactlyOne => "== 1",
+                    CallBound::AtMostOne => "<= 1",
+                    CallBound::AtLeastOne => ">= 1",
+                    CallBound::Never => "== 0",
+                };
+                vec![when("true", format!("assert(main_calls {bound})"))]
+            }
+            Formula::Within { steps, cause, unless, .. } => {
+                let mut cases = vec![when(
+                    "due > 0",
+                    "due = (main_calls > 0 -> 0 : due - 1); assert(main_calls > 0 || due > 0)",
+                )];
+                if matches!(cause, Cause::Action(_)) {
+                    let begin = self.begin("cause_calls > 0", unless);
+                    cases.push(when(begin, format!("due = {steps}")));
+                }
+                cases
+            }
+            Formula::OnlyAfter { event, until, .. } => {
+                let mut cases = vec![when("true", "assert(main_calls == 0 || allowed)")];
+                if !until.is_empty() {
+                    let ends = format!("until_calls > 0 && !({})", self.waits(event));
+                    cases.push(when(ends, "allowed = false"));
+                }
+                cases
+            }
+        }
+    }
+
+    /// What a property does here, besides which only one is checked. `cases` are in order.
+    fn of_the_checked(&mut self, cases: Vec<(usize, Vec<Case>)>) {
+        self.writer.open_here("d_step");
+        self.writer.line("if");
+        for (number, cases) in cases.into_iter().filter(|(_, cases)| !cases.is_empty()) {
+            self.writer.line(format!(":: checked == {number} ->"));
+            self.writer.indent();
+            for Case { condition, then } in cases {
+                self.writer.line("if");
+                self.writer.line(format!(":: {condition} -> {then}"));
+                self.writer.line(":: else");
+                self.writer.line("fi;");
+            }
+            self.writer.dedent();
+        }
+        self.writer.line(":: else");
+        self.writer.line("fi;");
+        self.writer.close("};");
+    }
+}
+
+/// What is done where something holds.
+struct Case {
+    condition: String,
+    then: String,
+}
+
+fn when(condition: impl Into<String>, then: impl Into<String>) -> Case {
+    Case { condition: condition.into(), then: then.into() }
+}
+
+/// What a call of an action can mean to a property.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Role {
+    /// What the property is about.
+    Main,
+    /// What must be answered.
+    Cause,
+    /// What ends a permission.
+    Until,
+}
+
+impl Role {
+    fn counter(self) -> &'static str {
+        match self {
+            Self::Main => "main_calls",
+            Self::Cause => "cause_calls",
+            Self::Until => "until_calls",
+        }
+    }
+}

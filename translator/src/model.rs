@@ -1,0 +1,122 @@
+//! A model of the agent for the model checker SPIN, and what its replays mean.
+
+use std::fmt;
+
+use crate::Promise;
+use crate::backend::promela::{MARK, PROPERTY, Waiting, emit, events};
+use crate::program::{Program, trigger_text};
+
+/// A model of an agent in Promela.
+///
+/// Beliefs are held or not; their values, what functions return and how values compare is free, but for
+/// the comparisons that properties speak of. So a property that holds of the model holds in every
+/// environment, while a failure may need an environment that there is not.
+#[derive(Debug)]
+pub struct Model {
+    /// The properties, in the order of their numbers.
+    pub properties: Vec<Promise>,
+    program: Program,
+}
+
+/// Something that happens on the way to a failure, in the agent's own terms.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Happening {
+    /// How deep it belongs below what comes before it: 0 for the environment and for steps, 1 for plans, 2 for
+    /// what plans do.
+    pub depth: usize,
+    /// The line of the agent's source, if there is one.
+    pub line: Option<usize>,
+    /// What happens.
+    pub text: String,
+}
+
+impl fmt::Display for Happening {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let indentation = "  ".repeat(self.depth);
+        match self.line {
+            Some(line) => write!(f, "{indentation}line {line}: {}", self.text),
+            None => write!(f, "{indentation}{}", self.text),
+        }
+    }
+}
+
+impl Model {
+    pub(crate) fn new(program: Program, properties: Vec<Promise>) -> Self {
+        Self { properties, program }
+    }
+
+    /// The name of the environment variable that tells the checker which property to look at, counted
+    /// from 1.
+    pub fn selector(&self) -> &'static str {
+        PROPERTY
+    }
+
+    /// The AgentSpeak source's name.
+    pub fn input(&self) -> &str {
+        &self.program.configuration.settings.input
+    }
+
+    /// The model in Promela.
+    pub fn promela(&self) -> String {
+        emit(&self.program)
+    }
+
+    /// What the replay of a failure tells, in the agent's terms.
+    pub fn explain(&self, replay: &str) -> Vec<Happening> {
+        let told = replay.lines().filter_map(|line| line.trim().strip_prefix(MARK));
+        let mut steps = 0_usize;
+        told.filter_map(|line| {
+            let mut words = line.split_whitespace();
+            let what = words.next()?;
+            let numbers: Vec<usize> = words.filter_map(|word| word.parse().ok()).collect();
+            steps += usize::from(what == "step");
+            self.happening(what, &numbers, steps)
+        })
+        .collect()
+    }
+
+    fn happening(&self, what: &str, numbers: &[usize], steps: usize) -> Option<Happening> {
+        let at = |depth, line, text| Some(Happening { depth, line, text });
+        let first = numbers.first().copied();
+        match what {
+            "raise" => at(0, None, format!("the environment raises {}", self.event(first?)?)),
+            "set" => {
+                let belief = self.program.beliefs.get(first?)?;
+                at(0, None, format!("the environment tells `{}`", belief.name))
+            }
+            "step" => at(0, None, format!("step {steps}")),
+            "event" => at(1, None, format!("handles {}", self.event(first?)?)),
+            "plan" => {
+                let (_, _, plan) = self.program.reachable_plans().nth(first?)?;
+                let head = plan.source.split("<-").next().unwrap_or_default();
+                let head = head.split_whitespace().collect::<Vec<_>>().join(" ");
+                at(1, Some(plan.lines.0), format!("plan {head}"))
+            }
+            "action" => {
+                let basic = self.program.configuration.basics.get(first?)?;
+                at(2, numbers.get(1).copied(), basic.name.text.clone())
+            }
+            "fails" => at(2, first, "fails".to_owned()),
+            "unplanned" => {
+                let handler = self.program.handlers.get(first?)?;
+                at(1, None, format!("no plan for {} applies", handler.text()))
+            }
+            _ => None,
+        }
+    }
+
+    /// An event by its number, and why it is there.
+    fn event(&self, number: usize) -> Option<String> {
+        let handler = |id| self.program.handler(id).text();
+        Some(match events(&self.program).get(number.checked_sub(1)?)? {
+            Waiting::Posted(id) => handler(*id),
+            Waiting::Overdue(id) => format!("the end of the time for {}", handler(*id)),
+            Waiting::Perceived(_, id) => format!("{}, which was perceived", handler(*id)),
+            Waiting::External(index) => {
+                let external = self.program.external.get(*index)?;
+                trigger_text(external.operator, external.kind, &external.name)
+            }
+            Waiting::Deferred(id) => format!("{}, which was deferred", handler(*id)),
+        })
+    }
+}

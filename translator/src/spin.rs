@@ -1,0 +1,151 @@
+//! Checks a model with SPIN: one exhaustive search for each property.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use translator::{Happening, Model, Promise};
+
+/// What an exhaustive search found.
+#[derive(Debug)]
+pub(crate) enum Verdict {
+    /// Whatever the environment does, the property holds.
+    Holds,
+    /// The shortest way to a step that breaks it.
+    Fails(Vec<Happening>),
+    /// The search did not come to an end.
+    Undecided(String),
+}
+
+/// Why nothing was checked.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum SpinError {
+    #[error("cannot run `{program}`: {source}; `apt install spin gcc` may help")]
+    Missing { program: &'static str, source: std::io::Error },
+    #[error("cannot write the model: {0}")]
+    Write(#[source] std::io::Error),
+    #[error("`{program}` refuses the model, which should not be:\n{output}")]
+    Refused { program: &'static str, output: String },
+}
+
+/// Memory that a search may take.
+const MEGABYTES: u32 = 2048;
+
+/// Checks each property in every environment.
+pub(crate) fn check(model: &Model) -> Result<Vec<(Promise, Verdict)>, SpinError> {
+    let folder = tempfile::tempdir().map_err(SpinError::Write)?;
+    let folder = folder.path();
+    std::fs::write(folder.join("model.pml"), model.promela()).map_err(SpinError::Write)?;
+    let mut spin = Command::new("spin");
+    succeed("spin", spin.args(["-a", "model.pml"]).current_dir(folder))?;
+    let memory = format!("-DMEMLIM={MEGABYTES}");
+    let compile = |search: &Search| {
+        let mut compiler = Command::new("cc");
+        // To optimize takes longer than most searches.
+        compiler.args(["-O0", "-w", "-DSAFETY", &memory]).args(search.options);
+        succeed("cc", compiler.args(["-o", search.program, "pan.c"]).current_dir(folder))
+    };
+    compile(&IN_DEPTH)?;
+    let numbers: Vec<usize> = (1..=model.properties.len()).collect();
+    let searched = in_parallel(&numbers, |number| run(model, folder, number, &IN_DEPTH, DEPTH));
+    let searched = searched.into_iter().map(|said| Ok(result(&said?)));
+    let searched = searched.collect::<Result<Vec<Found>, SpinError>>()?;
+    if searched.iter().any(|found| matches!(found, Found::Failure)) {
+        compile(&IN_BREADTH)?;
+    }
+    let verdicts = numbers.into_iter().zip(&model.properties).zip(searched);
+    verdicts
+        .map(|((number, promise), found)| {
+            let verdict = match found {
+                Found::Nothing => Verdict::Holds,
+                Found::NoEnd(said) => Verdict::Undecided(said),
+                Found::Failure => {
+                    run(model, folder, number, &IN_BREADTH, DEPTH)?;
+                    Verdict::Fails(model.explain(&run(model, folder, number, &IN_BREADTH, "-r")?))
+                }
+            };
+            Ok((promise.clone(), verdict))
+        })
+        .collect()
+}
+
+/// What the checker says of a property. Each has a folder of its own, where the way to a failure is kept.
+fn run(
+    model: &Model,
+    folder: &Path,
+    number: usize,
+    search: &Search,
+    option: &str,
+) -> Result<String, SpinError> {
+    let own = folder.join(number.to_string());
+    std::fs::create_dir_all(&own).map_err(SpinError::Write)?;
+    let mut program = Command::new(folder.join(search.program));
+    program.arg(option).env(model.selector(), number.to_string()).current_dir(own);
+    let output = output("pan", &mut program)?;
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// The results in the order of the inputs, on all cores.
+fn in_parallel<T: Copy + Sync, R: Send>(inputs: &[T], work: impl Fn(T) -> R + Sync) -> Vec<R> {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
+    let share = inputs.len().div_ceil(cores).max(1);
+    std::thread::scope(|scope| {
+        let work = &work;
+        let threads: Vec<_> = inputs
+            .chunks(share)
+            .map(|chunk| {
+                scope.spawn(move || chunk.iter().map(|input| work(*input)).collect::<Vec<R>>())
+            })
+            .collect();
+        threads
+            .into_iter()
+            .flat_map(|thread| {
+                thread.join().expect("a search waits for a program and does not panic")
+            })
+            .collect()
+    })
+}
+
+/// A way to search.
+struct Search {
+    program: &'static str,
+    options: &'static [&'static str],
+}
+
+/// The fast way.
+const IN_DEPTH: Search = Search { program: "pan", options: &[] };
+/// The way that finds the shortest failure.
+const IN_BREADTH: Search = Search { program: "pan_breadth", options: &["-DBFS"] };
+/// No search is deeper than this, or it has no end.
+const DEPTH: &str = "-m2000000";
+
+enum Found {
+    Nothing,
+    Failure,
+    NoEnd(String),
+}
+
+/// What a search says. Everything else than a finished search without errors proves nothing.
+fn result(text: &str) -> Found {
+    if text.contains("assertion violated") {
+        return Found::Failure;
+    }
+    let unfinished = ["Search not completed", "out of memory", "max search depth too small"];
+    if text.contains("errors: 0") && !unfinished.iter().any(|words| text.contains(words)) {
+        return Found::Nothing;
+    }
+    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+    Found::NoEnd(lines[..lines.len().min(5)].join("\n"))
+}
+
+fn succeed(program: &'static str, command: &mut Command) -> Result<(), SpinError> {
+    let output = output(program, command)?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let said = [output.stdout, output.stderr].concat();
+    Err(SpinError::Refused { program, output: String::from_utf8_lossy(&said).into_owned() })
+}
+
+fn output(program: &'static str, command: &mut Command) -> Result<Output, SpinError> {
+    command.output().map_err(|source| SpinError::Missing { program, source })
+}

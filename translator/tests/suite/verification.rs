@@ -1,0 +1,213 @@
+//! What `asl2c verify` finds, and how it tells it.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use translator::{model, parse_configuration};
+
+/// An agent that can switch a lamp, and promises something.
+fn configuration(settings: &str, sections: &str, agent: &str, property: &str) -> String {
+    let events = ["+!light", "+!dim", "+flag", "-flag"];
+    let raised = events.iter().filter(|event| agent.lines().any(|line| line.starts_with(**event)));
+    let raised: String = raised.map(|event| format!("{event}; ")).collect();
+    format!(
+        "settings {{ input = a.asl; output = a.c; header = a.h; basics = b.h; {settings} }};\n\
+         basics {{ void on(void); void off(void); void idle(void); bool dark(void); int64_t now(void); }};\n\
+         types {{ light(void); dim(int); level(int); limit(int); asked(int); flag(void); wait(void); inner(void); }};\n\
+         triggerables {{ {raised}}};\n{sections}\n\
+         properties {{ p [R-1]: {property}; }};\n"
+    )
+}
+
+/// Runs `asl2c verify`; nothing if there is no SPIN here, which is said.
+fn verify(configuration: &str, agent: &str, options: &[&str]) -> Option<Output> {
+    if Command::new("spin").arg("-V").output().is_err() {
+        println!("skipped: there is no SPIN here");
+        return None;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.conf"), configuration).unwrap();
+    std::fs::write(folder.path().join("a.asl"), agent).unwrap();
+    Some(run(folder.path(), options))
+}
+
+fn run(folder: &Path, options: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_asl2c"))
+        .arg("verify")
+        .args(options)
+        .arg("a.conf")
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+const WAITING: &str = "!wait.\n+!wait <- idle; !!wait.\n";
+
+/// Whether a property holds of an agent that idles besides.
+#[track_caller]
+fn check(settings: &str, sections: &str, plans: &str, property: &str, holds: bool) {
+    // Each plan on a line of its own; beliefs come first.
+    let plans = plans.replace(". ", ".\n");
+    let (beliefs, plans): (Vec<&str>, Vec<&str>) =
+        plans.lines().partition(|line| !line.starts_with(['+', '-']));
+    let agent = format!("{}\n{WAITING}{}\n", beliefs.join("\n"), plans.join("\n"));
+    let Some(output) = verify(&configuration(settings, sections, &agent, property), &agent, &[])
+    else {
+        return;
+    };
+    let text = String::from_utf8_lossy(&output.stdout);
+    let expected = if holds { "p [R-1]: holds" } else { "p [R-1]: DOES NOT HOLD" };
+    assert!(
+        text.starts_with(expected),
+        "{agent}\n{text}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert_eq!(output.status.success(), holds);
+}
+
+const PREEMPTIVE: &str = "preemptive { +!light; };";
+
+#[test]
+fn a_failure_is_told_in_the_agents_own_terms() {
+    let agent = "!wait.\n+!wait\n  <- idle;\n     !!wait.\n+!light : dark\n  <- on.\n+!light\n  <- idle;\n     ?asked(1).\n";
+    let configuration = configuration("", PREEMPTIVE, agent, "within(1, +!light, on)");
+    let Some(output) = verify(&configuration, agent, &[]) else { return };
+    insta::assert_snapshot!(String::from_utf8_lossy(&output.stdout), @r"
+    p [R-1]: DOES NOT HOLD
+      within(1, +!light, on)
+      for this can happen (a.asl):
+        the environment raises +!light
+        step 1
+          handles +!light
+          line 7: plan +!light
+            line 8: idle
+            line 9: fails
+    ");
+    let Some(output) = verify(&configuration, agent, &["--json"]) else { return };
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let property = &json["properties"][0];
+    assert_eq!((&property["name"], &property["verdict"]), (&"p".into(), &"fails".into()));
+    assert_eq!(property["trace"][4]["line"], 8);
+}
+
+#[test]
+fn events_come_in_the_order_of_the_cycle() {
+    // What pre-empts is next; what waits in the inbox comes before deferred goals.
+    check("", PREEMPTIVE, "+!light <- on.", "within(1, +!light, on)", true);
+    check("", "", "+!light <- on.", "within(1, +!light, on)", false);
+    check("", "", "+!light <- on.", "within(2, +!light, on)", true);
+    // One that waits already is served first.
+    check("inbox = 2;", "", "+!light <- on. +!dim(_) <- off.", "within(2, +!light, on)", false);
+    check("inbox = 2;", "", "+!light <- on. +!dim(_) <- off.", "within(3, +!light, on)", true);
+    // A posted event holds up the inbox.
+    check("", "", "+!light <- on. +!dim(X) <- off; !dim(X).", "within(9, +!light, on)", false);
+    // In queue mode so does a deferred goal that came before.
+    check(
+        "max_events = 2;",
+        "",
+        "+!light <- on. +!dim(_) <- off.",
+        "within(2, +!light, on)",
+        false,
+    );
+    check("max_events = 2;", "", "+!light <- on. +!dim(_) <- off.", "within(3, +!light, on)", true);
+}
+
+#[test]
+fn failure_is_mended_or_is_not() {
+    check("", "", "+!light <- ?asked(1); on.", "all_handled", false);
+    check("", "", "+!light <- ?asked(1); on. -!light <- off.", "all_handled", true);
+    check("", "", "+!light : dark <- on.", "all_handled", false);
+    check("", "", "+!light : dark <- on. +!light : not dark <- off.", "all_handled", false);
+    check("", "", "+!light : flag <- on. +!light : not flag <- off.", "all_handled", true);
+    check(
+        "",
+        "",
+        "+!light <- !inner; on. +!inner : dark <- off. -!light <- off.",
+        "exactly_one(idle)",
+        false,
+    );
+    // What no value fits is asked of the plans.
+    check(
+        "",
+        "",
+        "+!light <- ?asked(X); +level(X); on. +?asked(X) <- X = 1; off.",
+        "all_handled",
+        true,
+    );
+    // A division may have no result.
+    check("", "", "+!dim(X) <- +level(10 / X); on. +!light <- idle.", "all_handled", false);
+}
+
+#[test]
+fn beliefs_are_followed_and_their_values_are_free() {
+    check("", "", "+flag <- on. -flag <- off.", "only_after(off, +flag)", true);
+    check("", "", "+!light : flag <- on. +flag <- idle.", "only_after(on, +flag)", true);
+    check(
+        "",
+        "",
+        "+!light : flag <- on. +flag <- idle. +!dim(_) <- +flag.",
+        "only_after(on, +flag)",
+        false,
+    );
+    check("", "", "level(1). +!light : level(2) <- on.", "never(on)", false);
+    check("", "", "+!light : level(_) <- on.", "never(on)", true);
+    check(
+        "",
+        "settables { level; }; perceived { level; };",
+        "+level(_) <- on.",
+        "never(on)",
+        false,
+    );
+    // A belief that changes calls its plans only if it changes.
+    check("", "", "+!light <- +flag; -flag. +flag <- on. -flag <- off.", "at_most_one(on)", true);
+    check("", "", "+!light <- +flag; +flag. +flag <- on.", "at_most_one(on)", true);
+    check("", "", "+!dim(X) <- +level(X); +level(1). +level(_) <- on.", "at_most_one(on)", false);
+}
+
+#[test]
+fn the_comparisons_of_properties_are_remembered() {
+    let sections = "settables { level; };";
+    let watching = "limit(5).\n+!light : level(X) & limit(Y) & X <= Y <- on.\n+!light <- off.\n";
+    // The step that idles is free to come first.
+    let lowers = "within(1, level <= limit, on, idle)";
+    check("", sections, watching, lowers, true);
+    check("", sections, &watching.replace("X <= Y", "Y >= X"), lowers, true);
+    check("", sections, &watching.replace("X <= Y", "not X > Y"), lowers, true);
+    check("", sections, &watching.replace("X <= Y", "X < Y"), lowers, false);
+}
+
+#[test]
+fn time_can_be_over_and_need_not_be() {
+    let clock = "clock = now;";
+    let waits = "+!light <- on; .wait(100); off.";
+    check(clock, "", waits, "only_after(off, +!light)", true);
+    check(clock, "", waits, "within(5, on, off)", false);
+    let limited = "+!light <- on; !dim(1)[deadline(10)]. +!dim(X) : dark <- off; !dim(X).\n\
+                   +!dim(_) <- idle. -!dim(_) <- idle.\n-!light <- idle.";
+    check(clock, "", limited, "all_handled", true);
+    check(clock, "", &limited.replace("-!dim(_) <- idle.", ""), "all_handled", false);
+}
+
+#[test]
+fn what_cannot_be_checked_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run(folder.path(), &[]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("cannot read a.conf"));
+    assert_eq!(output.status.code(), Some(1));
+    let text = configuration("", "", WAITING, "within(1, level <= flag, on)");
+    let error = model(parse_configuration("a.conf", &text).unwrap(), WAITING).unwrap_err();
+    let places: Vec<String> =
+        error.to_string().lines().filter(|l| l.starts_with("error")).map(str::to_owned).collect();
+    assert_eq!(
+        places,
+        [
+            "error: `level` is never believed",
+            "error: `flag` is no belief with one number",
+            "error: `flag` is never believed",
+        ]
+    );
+    let text = configuration("", "", WAITING, "within(1, level <= limit, on)");
+    let error =
+        model(parse_configuration("a.conf", &text).unwrap(), "!wait. +!wait : level(_) <- on.");
+    assert!(error.unwrap_err().to_string().starts_with("error: `limit` is never believed"));
+}
