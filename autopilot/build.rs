@@ -1,8 +1,12 @@
 //! Translates the agent to C and Rust, and compiles the C.
+//!
+//! With `AGENT_COVERAGE` set to a folder, what runs of the C is counted there (gcov): `cargo xtask verify`
+//! asks the tests so.
 
 use std::error::Error;
 use std::path::PathBuf;
 
+const COVERAGE: &str = "AGENT_COVERAGE";
 const CONFIGURATION: &str = "agent/autopilot.conf";
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -15,15 +19,29 @@ fn main() -> Result<(), Box<dyn Error>> {
     for line in translation.warnings.lines() {
         println!("cargo::warning={line}");
     }
+    println!("cargo::rerun-if-env-changed={COVERAGE}");
+    let counted = std::env::var_os(COVERAGE).map(PathBuf::from);
+    let sources = counted.as_ref().unwrap_or(&out);
+    std::fs::create_dir_all(sources)?;
     let mut c = cc::Build::new();
-    c.include(&out).std("c99").warnings(true).extra_warnings(true);
+    c.include(sources).std("c99").warnings(true).extra_warnings(true);
     for file in &translation.files {
-        let path = out.join(&file.name);
+        // The bindings are included from where cargo wants them.
+        std::fs::write(out.join(&file.name), &file.text)?;
+        let path = sources.join(&file.name);
         std::fs::write(&path, &file.text)?;
         if path.extension().is_some_and(|extension| extension == "c") {
             c.file(path);
         }
     }
+    if counted.is_some() {
+        // Optimized code has other branches than the source; threads of tests count together.
+        c.opt_level(0).flag("--coverage").flag("-fprofile-update=atomic").out_dir(sources);
+        println!("cargo::rerun-if-changed={}", sources.join(&translation.files[0].name).display());
+    }
     c.try_compile("autopilot_agent")?;
+    if counted.is_some() {
+        println!("cargo::rustc-link-lib=gcov");
+    }
     Ok(())
 }

@@ -35,22 +35,27 @@ approachTime(60000).
 // ---- Watching over the flight. Every plan in the air asks this first. Where flying on is no
 // longer safe, the reason is told and the plan fails: the failure plans land.
 
+@empty_battery[req("SAF-4")]
 +!watch : battery(Percent) & landingBattery(Limit) & Percent <= Limit
   <- tellBatteryEmpty;
      ?airworthy.
 
+@blind[req("SAF-5")]
 +!watch : blindFor(Time) & landWhenBlind(Limit) & Time > Limit
   <- tellBlind;
      ?airworthy.
 
+@lost[req("SAF-5")]
 +!watch : doubt(Metres) & largestDoubt(Limit) & Metres > Limit
   <- tellLost;
      ?airworthy.
 
+@strong_wind[req("SAF-5")]
 +!watch : wind(Share) & strongestWind(Limit) & Share > Limit
   <- tellWind;
      ?airworthy.
 
+@low_battery[req("SAF-4")]
 +!watch : battery(Percent) & warningBattery(Limit) & Percent <= Limit & not batteryWarned
   <- +batteryWarned;
      tellBatteryLow.
@@ -78,16 +83,19 @@ approachTime(60000).
      sendHover;
      !!wait.
 
+@danger_waiting[req("SAF-4"), req("SAF-5")]
 -!wait <- sendHover; !land.
 
 // ---- Taking off. The drone climbs by itself; it is done when it says that it hovers.
 // The place where it then is becomes the target to hold.
 
+@no_charge_to_take_off[req("SAF-4")]
 +!takeOff : onGround & battery(Percent) & landingBattery(Limit) & Percent <= Limit
   <- reportRefused;
      sendStandby;
      !!wait.
 
+@take_off[req("SAF-3")]
 +!takeOff : onGround
   <- -target(_, _, _, _);
      sendTakeOff;
@@ -109,6 +117,7 @@ approachTime(60000).
      reportFailed;
      !!wait.
 
+@danger_taking_over[req("SAF-4"), req("SAF-5")]
 -!takeOff <- sendHover; !land.
 
 +!completeTakeOff(_) : hovering & position(X, Y, Z, Yaw)
@@ -123,11 +132,13 @@ approachTime(60000).
      reportFailed;
      !completeLand.
 
+@still_taking_off[req("SAF-3")]
 +!completeTakeOff(Start)
   <- !watch;
      sendTakeOff;
      !completeTakeOff(Start).
 
+@danger_taking_off[req("SAF-4"), req("SAF-5")]
 -!completeTakeOff(_) <- sendHover; !land.
 
 // ---- Going somewhere: approach until close enough, then stay a while.
@@ -170,13 +181,7 @@ approachTime(60000).
      sendGoto(X, Y, Z, Yaw);
      !approach(Start).
 
-// Nowhere to go: hold still.
-+!approach(_)
-  <- !watch;
-     sendHover;
-     reportFailed;
-     !!wait.
-
+@danger_approaching[req("SAF-4"), req("SAF-5")]
 -!approach(_) <- sendHover; !land.
 
 +!stay(Start, Arrival) : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
@@ -201,12 +206,7 @@ approachTime(60000).
      sendGoto(X, Y, Z, Yaw);
      !stay(Start, Arrival).
 
-+!stay(_, _)
-  <- !watch;
-     sendHover;
-     reportFailed;
-     !!wait.
-
+@danger_staying[req("SAF-4"), req("SAF-5")]
 -!stay(_, _) <- sendHover; !land.
 
 // ---- The pilot's hand. Hold where we are, until told otherwise.
@@ -251,15 +251,18 @@ approachTime(60000).
      sendHover;
      !!wait.
 
+@danger_steering[req("SAF-4"), req("SAF-5")]
 -!steer <- sendHover; !land.
 
 // ---- Landing: where it blows by ourselves as far as we can, with eyes open; then by the drone.
 
+@landed_already[req("SAF-2")]
 +!land : onGround
   <- sendStandby;
      reportDone;
      !!wait.
 
+@land_in_wind[req("SAF-2")]
 +!land : wind(Share) & landingWind(Breeze) & Share > Breeze
     & blindFor(Time) & holdWhenBlind(Patience) & Time <= Patience
     & position(X, Y, Z, Yaw) & landingHeight(Low) & Z > Low
@@ -268,44 +271,52 @@ approachTime(60000).
      Start = getCurrentTimeMS;
      !descend(Start).
 
+@land[req("SAF-2")]
 +!land
   <- -target(_, _, _, _);
      sendLand;
      !completeLand.
 
+@landed_descending[req("SAF-2")]
 +!descend(_) : onGround
   <- sendStandby;
      reportDone;
      !!wait.
 
+@too_long_descending[req("SAF-2")]
 +!descend(Start) : comingDownTime(Limit) & longEnough(Start, Limit)
   <- -target(_, _, _, _);
      sendLand;
      !completeLand.
 
 // Blind for a moment, and charge enough to wait for it to pass.
+@blind_descending[req("SAF-2")]
 +!descend(Start) : blindFor(Time) & holdWhenBlind(Patience) & Time > Patience
     & landWhenBlind(Limit) & Time <= Limit
     & not (battery(Percent) & landingBattery(Least) & Percent <= Least)
   <- sendHover;
      !descend(Start).
 
-+!descend(Start) : blindFor(Time) & landWhenBlind(Limit) & Time <= Limit
+@descend[req("SAF-2")]
++!descend(Start) : blindFor(Time) & holdWhenBlind(Patience) & Time <= Patience
     & target(X, Y, Z, Yaw) & position(_, _, Height, _) & Height > Z + 0.1
   <- sendDescent(X, Y, Z, Yaw);
      !descend(Start).
 
+@low_enough[req("SAF-2")]
 +!descend(_)
   <- -target(_, _, _, _);
      sendLand;
      !completeLand.
 
 // The order is repeated until the drone says that it has landed.
+@landed[req("SAF-2")]
 +!completeLand : onGround
   <- sendStandby;
      reportDone;
      !!wait.
 
+@still_landing[req("SAF-2")]
 +!completeLand
   <- sendLand;
      !completeLand.

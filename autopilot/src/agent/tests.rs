@@ -1,0 +1,393 @@
+//! What the agent decides, step by step.
+
+use super::*;
+
+const GROUND: Senses = Senses {
+    now_ms: 0,
+    pose: Some(Pose { x_m: 0.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 }),
+    on_ground: true,
+    hovering: false,
+    battery_percent: Some(80),
+    blind_for_ms: 0,
+    doubt_m: 0.1,
+    wind: 0.0,
+    steering: false,
+    settings: ApproachSettings { reach_distance_m: 0.2, stay_distance_m: 0.5, stay_time_ms: 2000 },
+};
+const HOVERING: Senses = Senses { on_ground: false, hovering: true, ..GROUND };
+const TARGET: Pose = Pose { x_m: 1.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 };
+
+/// The state is all the memory that the agent uses; it must not grow unseen.
+const _: () = assert!(STATE_BYTES <= 512);
+
+/// An agent and what it senses.
+struct Bench {
+    agent: Agent,
+    senses: Senses,
+}
+
+impl Bench {
+    /// An agent that already waits: its initial goal took the first step.
+    fn new(senses: Senses) -> Self {
+        let mut bench = Self { agent: Agent::new(), senses };
+        bench.step();
+        bench
+    }
+
+    fn step(&mut self) -> (Option<AgentCommand>, Option<Report>) {
+        let step = self.run();
+        assert_eq!(step.commands, 1, "exactly one AT command a step");
+        (step.command, step.report)
+    }
+
+    fn run(&mut self) -> AgentStep {
+        let step = AgentStep::run(&mut self.agent, self.senses);
+        self.senses.now_ms += 30;
+        step
+    }
+
+    fn go_to(&mut self, pose: Pose) {
+        assert!(self.agent.achieve_go_to(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg));
+    }
+}
+
+#[test]
+fn it_waits_on_the_ground_and_in_the_air() {
+    let mut bench = Bench::new(GROUND);
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), None));
+    bench.senses = HOVERING;
+    assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
+}
+
+#[test]
+fn it_tells_which_plans_it_chose() {
+    let mut bench = Bench::new(HOVERING);
+    let chosen = |step: &AgentStep| {
+        let name = |number: &u32| PLANS[*number as usize].1;
+        step.plans.numbers().iter().map(name).collect::<Vec<_>>()
+    };
+    assert_eq!(chosen(&bench.run()), ["+!wait", "+!watch"]);
+    bench.senses.battery_percent = Some(5);
+    assert_eq!(chosen(&bench.run()), ["+!wait", "+!watch", "-!wait"]);
+}
+
+#[test]
+fn it_takes_off_until_the_drone_hovers_and_then_holds_the_place() {
+    let mut bench = Bench::new(GROUND);
+    assert!(bench.agent.achieve_take_off());
+    assert!(!bench.agent.can_add_event());
+    assert_eq!(bench.step(), (Some(AgentCommand::TakeOff), None));
+    assert_eq!(bench.step(), (Some(AgentCommand::TakeOff), None));
+    bench.senses = Senses { pose: Some(TARGET), now_ms: 3000, ..HOVERING };
+    let hold = Some(AgentCommand::GoTo(TARGET));
+    assert_eq!(bench.step(), (hold, Some(Report::Done)));
+    assert_eq!(bench.step(), (hold, None));
+}
+
+#[test]
+fn an_empty_battery_does_not_take_off() {
+    let mut bench = Bench::new(Senses { battery_percent: Some(12), ..GROUND });
+    assert!(bench.agent.achieve_take_off());
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Refused)));
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), None));
+}
+
+/// Without a place there is nothing to hold but still.
+#[test]
+fn holding_and_steering_work_without_a_place() {
+    let mut bench = Bench::new(Senses { pose: None, ..HOVERING });
+    assert!(bench.agent.achieve_hold());
+    assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
+    assert!(bench.agent.achieve_steer());
+    assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
+    bench.senses.battery_percent = Some(5);
+    assert!(bench.agent.achieve_steer());
+    assert_eq!(bench.run().danger, Some(Danger::BatteryEmpty));
+    assert_eq!(bench.step().0, Some(AgentCommand::Land));
+}
+
+/// Orders to take off do not keep the agent from looking around.
+#[test]
+fn taking_over_in_the_air_looks_at_the_dangers() {
+    for pose in [Some(TARGET), None] {
+        let mut bench = Bench::new(Senses { pose, ..HOVERING });
+        assert!(bench.agent.achieve_take_off());
+        bench.senses.battery_percent = Some(5);
+        let step = bench.run();
+        assert_eq!((step.command, step.report), (Some(AgentCommand::Hover), None));
+        assert_eq!(step.danger, Some(Danger::BatteryEmpty));
+        assert!(bench.agent.achieve_take_off());
+        assert_eq!(bench.step().0, Some(AgentCommand::Land));
+    }
+}
+
+#[test]
+fn a_take_off_that_does_not_succeed_is_given_up() {
+    let mut bench = Bench::new(GROUND);
+    assert!(bench.agent.achieve_take_off());
+    bench.step();
+    bench.senses.now_ms = 10_031;
+    assert_eq!(bench.step(), (Some(AgentCommand::Land), Some(Report::Failed)));
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
+}
+
+#[test]
+fn it_reaches_stays_and_reports() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    let approach = (Some(AgentCommand::GoTo(TARGET)), None);
+    assert_eq!(bench.step(), approach);
+    assert_eq!(bench.step(), approach);
+    bench.senses.pose = Some(TARGET);
+    assert_eq!(bench.step(), approach);
+    bench.senses.now_ms += 1900;
+    assert_eq!(bench.step(), approach);
+    // Drifting off starts the stay anew.
+    bench.senses.pose = Some(Pose { x_m: 0.4, ..TARGET });
+    assert_eq!(bench.step(), approach);
+    bench.senses.pose = Some(TARGET);
+    assert_eq!(bench.step(), approach);
+    bench.senses.now_ms += 1900;
+    assert_eq!(bench.step(), approach);
+    bench.senses.now_ms += 200;
+    assert_eq!(bench.step(), (approach.0, Some(Report::Done)));
+    assert_eq!(bench.step(), approach);
+}
+
+#[test]
+fn a_heading_across_the_jump_is_close() {
+    let mut bench = Bench::new(HOVERING);
+    let target = Pose { yaw_deg: 181.0, ..TARGET };
+    bench.senses.pose = Some(Pose { yaw_deg: -178.0, ..TARGET });
+    bench.go_to(target);
+    bench.step();
+    bench.step();
+    bench.senses.now_ms += 2100;
+    assert_eq!(bench.step().1, Some(Report::Done));
+}
+
+#[test]
+fn landing_is_obeyed_in_the_next_step_whatever_runs() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    bench.step();
+    bench.step();
+    assert!(bench.agent.achieve_land());
+    assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
+    assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
+    bench.senses = GROUND;
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
+    // The old target is forgotten: the next take-off holds the new place.
+    bench.senses = HOVERING;
+    assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
+}
+
+#[test]
+fn a_drone_that_lands_by_itself_is_not_lifted_again() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    bench.step();
+    bench.senses = GROUND;
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Failed)));
+    bench.go_to(TARGET);
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Refused)));
+}
+
+/// Brings a drone into the air by each goal that can run there.
+fn in_the_air() -> Vec<(&'static str, Bench)> {
+    let mut benches = Vec::new();
+    for name in ["wait", "hold", "approach", "stay", "steer", "take-off"] {
+        let mut bench = Bench::new(if name == "take-off" { GROUND } else { HOVERING });
+        assert!(match name {
+            "take-off" => bench.agent.achieve_take_off(),
+            "hold" => bench.agent.achieve_hold(),
+            "steer" => bench.agent.achieve_steer(),
+            "wait" => true,
+            _ => bench.agent.achieve_go_to(1.0, 0.0, 0.0, 0.0),
+        });
+        bench.senses.steering = name == "steer";
+        if name == "stay" {
+            bench.senses.pose = Some(TARGET);
+        }
+        for _ in 0..5 {
+            bench.step();
+        }
+        bench.senses.on_ground = false;
+        benches.push((name, bench));
+    }
+    benches
+}
+
+#[test]
+fn each_danger_lands_whatever_runs_and_is_told() {
+    for danger in [Danger::BatteryEmpty, Danger::Blind, Danger::Lost, Danger::Wind] {
+        for (name, mut bench) in in_the_air() {
+            let senses = bench.senses;
+            bench.senses = match danger {
+                Danger::BatteryEmpty => Senses { battery_percent: Some(12), ..senses },
+                Danger::Blind => Senses { blind_for_ms: 2001, ..senses },
+                Danger::Lost => Senses { doubt_m: 3.1, ..senses },
+                // It comes down by itself first, unless it is low already.
+                _ => Senses {
+                    wind: 0.81,
+                    pose: senses.pose.map(|pose| Pose { z_m: 0.3, ..pose }),
+                    ..senses
+                },
+            };
+            let step = bench.run();
+            let said = (step.command, step.danger, step.commands);
+            assert_eq!(said, (Some(AgentCommand::Hover), Some(danger), 1), "{name}");
+            assert_eq!(bench.step().0, Some(AgentCommand::Land), "{name}");
+            assert_eq!(bench.step().0, Some(AgentCommand::Land), "{name}");
+        }
+    }
+    for (name, mut bench) in in_the_air() {
+        assert_ne!(bench.step().0, Some(AgentCommand::Land), "{name}: nothing is wrong");
+    }
+}
+
+#[test]
+fn in_the_wind_it_comes_down_where_it_is_before_it_lands() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    bench.step();
+    let here = Pose { x_m: 0.3, z_m: 2.0, ..TARGET };
+    bench.senses = Senses { wind: 0.9, pose: Some(here), ..bench.senses };
+    let down = Some(AgentCommand::GoTo(Pose { z_m: 0.35, ..here }));
+    assert_eq!(bench.step().0, Some(AgentCommand::Hover));
+    assert_eq!(bench.step().0, down);
+    assert_eq!(bench.step().0, down);
+    bench.senses.pose = Some(Pose { z_m: 0.4, ..here });
+    assert_eq!(bench.step().0, Some(AgentCommand::Land));
+    // Not for ever, and not blindly.
+    for (later_ms, blind_for_ms) in [(9000, 0), (30, 2001)] {
+        let mut bench = Bench::new(HOVERING);
+        bench.senses = Senses { wind: 0.9, pose: Some(here), ..bench.senses };
+        bench.step();
+        assert_eq!(bench.step().0, down);
+        bench.senses.blind_for_ms = 400;
+        assert_eq!(bench.step().0, Some(AgentCommand::Hover));
+        bench.senses =
+            Senses { now_ms: bench.senses.now_ms + later_ms, blind_for_ms, ..bench.senses };
+        assert_eq!(bench.step().0, Some(AgentCommand::Land));
+    }
+}
+
+#[test]
+fn a_blind_descent_does_not_wait_with_an_empty_battery() {
+    for (percent, command) in [(13, AgentCommand::Hover), (12, AgentCommand::Land)] {
+        let here = Pose { z_m: 2.0, ..TARGET };
+        let mut bench = Bench::new(Senses { wind: 0.9, pose: Some(here), ..HOVERING });
+        bench.step();
+        assert_ne!(bench.step().0, Some(AgentCommand::Land));
+        bench.senses = Senses { blind_for_ms: 400, battery_percent: Some(percent), ..bench.senses };
+        assert_eq!(bench.step().0, Some(command), "{percent} %");
+    }
+}
+
+#[test]
+fn a_descent_can_end_on_the_ground() {
+    let mut bench =
+        Bench::new(Senses { wind: 0.3, pose: Some(Pose { z_m: 2.0, ..TARGET }), ..HOVERING });
+    assert!(bench.agent.achieve_land());
+    bench.step();
+    bench.senses.on_ground = true;
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
+}
+
+#[test]
+fn an_ordered_landing_comes_down_by_itself_where_it_blows() {
+    let here = Pose { z_m: 1.5, ..TARGET };
+    let down = AgentCommand::GoTo(Pose { z_m: 0.35, ..here });
+    for (wind, blind_for_ms, command) in
+        [(0.1, 0, AgentCommand::Land), (0.3, 0, down), (0.3, 400, AgentCommand::Land)]
+    {
+        let mut bench = Bench::new(HOVERING);
+        bench.senses = Senses { wind, blind_for_ms, pose: Some(here), ..bench.senses };
+        assert!(bench.agent.achieve_land());
+        assert_eq!(bench.step().0, Some(command), "{wind} {blind_for_ms}");
+    }
+}
+
+/// The pre-flight check reckons with it.
+#[test]
+fn the_charge_at_which_it_lands_is_the_one_that_is_kept_back() {
+    let kept = crate::pilot::LANDING_BATTERY_PERCENT;
+    for (percent, lands) in [(kept, true), (kept + 1, false)] {
+        let mut bench = Bench::new(HOVERING);
+        bench.senses.battery_percent = Some(percent);
+        assert_eq!(bench.run().danger == Some(Danger::BatteryEmpty), lands, "{percent}");
+    }
+}
+
+#[test]
+fn a_blind_drone_holds_still_and_goes_on_when_it_sees() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    bench.step();
+    bench.senses.blind_for_ms = 301;
+    assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
+    bench.senses.blind_for_ms = 30;
+    assert_eq!(bench.step(), (Some(AgentCommand::GoTo(TARGET)), None));
+}
+
+#[test]
+fn a_low_battery_is_told_once() {
+    let mut bench = Bench::new(HOVERING);
+    bench.senses.battery_percent = Some(20);
+    assert_eq!(bench.run().danger, Some(Danger::BatteryLow));
+    assert_eq!(bench.run().danger, None);
+}
+
+#[test]
+fn a_target_that_is_not_reached_in_its_time_is_given_up() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    bench.step();
+    bench.senses.now_ms += 60_001;
+    let step = bench.run();
+    assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::NoProgress)));
+}
+
+#[test]
+fn the_pilots_hand_comes_first() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    bench.step();
+    assert!(bench.agent.achieve_steer());
+    bench.senses.steering = true;
+    assert_eq!(bench.step().0, Some(AgentCommand::Sticks));
+    assert_eq!(bench.step().0, Some(AgentCommand::Sticks));
+    let here = Pose { x_m: 0.3, ..TARGET };
+    bench.senses = Senses { steering: false, pose: Some(here), ..bench.senses };
+    assert_eq!(bench.step().0, Some(AgentCommand::GoTo(here)), "it holds where it is");
+    assert_eq!(bench.step().0, Some(AgentCommand::GoTo(here)));
+    assert!(bench.agent.achieve_hold() && bench.agent.achieve_land());
+    assert_eq!(bench.step().0, Some(AgentCommand::Land), "a landing comes before a hold");
+}
+
+/// Every order, given on the ground and in the air, while the drone then stays or changes over.
+#[test]
+fn every_event_finds_a_plan() {
+    for order in 0..5 {
+        for (first, then) in
+            [(GROUND, GROUND), (GROUND, HOVERING), (HOVERING, GROUND), (HOVERING, HOVERING)]
+        {
+            let mut bench = Bench::new(first);
+            assert!(match order {
+                0 => bench.agent.achieve_take_off(),
+                1 => bench.agent.achieve_go_to(1.0, 0.0, 0.0, 0.0),
+                2 => bench.agent.achieve_hold(),
+                3 => bench.agent.achieve_steer(),
+                _ => bench.agent.achieve_land(),
+            });
+            bench.step();
+            bench.senses = Senses { now_ms: bench.senses.now_ms, ..then };
+            // Long enough for a take-off to be given up.
+            for _ in 0..400 {
+                bench.step();
+            }
+            assert_eq!(bench.agent.unhandled_events(), 0, "{order} {first:?} {then:?}");
+        }
+    }
+}
