@@ -34,7 +34,7 @@ pub mod types;
 use configuration::{Configuration, Instance};
 use diagnostic::{Diagnostic, Severity, Source, render_all};
 pub use model::{Happening, Model};
-pub use obligations::{HARNESS, Obligations, Promise};
+pub use obligations::{HARNESS, Obligations, Promise, RANDOM_TRANSITIONS};
 pub use report::Report;
 use types::TypeKind;
 

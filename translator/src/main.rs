@@ -5,6 +5,7 @@ mod path;
 mod spin;
 mod stack;
 mod verify;
+mod worst;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -39,7 +40,8 @@ struct Arguments {
     #[arg(short, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print what the agent costs: memory, call depth, calls of each action in a step. The stack and the
-    /// longest path of a step are gcc's, if it is there
+    /// longest path of a step are gcc's, the costliest step that random events lead to is callgrind's, if they
+    /// are there
     #[arg(long)]
     report: bool,
 }
@@ -55,6 +57,9 @@ enum Task {
         /// The agent's configuration
         #[arg(value_name = "AGENT.CONF")]
         configuration: PathBuf,
+        /// Check this property only; may be given more than once
+        #[arg(long, value_name = "PROPERTY")]
+        only: Vec<String>,
         /// Print one JSON object
         #[arg(long)]
         json: bool,
@@ -71,21 +76,24 @@ enum CommandError {
     #[error("{0}")]
     Translate(#[from] TranslateError),
     #[error("error: {0}")]
-    Spin(#[from] spin::SpinError),
+    Verify(#[from] verify::VerifyError),
 }
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match (&arguments.command, &arguments.configuration) {
-        (Some(Task::Verify { configuration, json, model }), _) => read_agent(configuration)
-            .and_then(|(parsed, agent)| Ok(translator::model(parsed, &agent)?))
-            .and_then(|checked| {
-                if *model { Ok(verify::print(&checked)) } else { Ok(verify::run(&checked, *json)?) }
-            }),
+        (Some(task), _) => carry_out(task),
         (None, Some(configuration)) => Ok(translate_files(&arguments, configuration)),
         (None, None) => unreachable!("clap asks for the configuration"),
     };
     done.unwrap_or_else(|error| complain(&error))
+}
+
+fn carry_out(task: &Task) -> Result<ExitCode, CommandError> {
+    let Task::Verify { configuration, only, json, model } = task;
+    let (parsed, agent) = read_agent(configuration)?;
+    let checked = translator::model(parsed, &agent)?;
+    if *model { Ok(verify::print(&checked)) } else { Ok(verify::run(&checked, only, *json)?) }
 }
 
 fn complain(error: &CommandError) -> ExitCode {
@@ -95,28 +103,41 @@ fn complain(error: &CommandError) -> ExitCode {
     ExitCode::FAILURE
 }
 
-fn translate_files(arguments: &Arguments, configuration: &Path) -> ExitCode {
+/// Adds what a compiler makes of the C, and what that costs; says what cannot be known.
+fn measure(translation: &mut Translation, path: &Path, stderr: &mut impl std::io::Write) {
+    let compiled = match stack::compiled(translation) {
+        Ok(compiled) => compiled,
+        Err(reason) => {
+            _ = writeln!(stderr, "the stack is not measured: {reason}");
+            return;
+        }
+    };
+    let report = &mut translation.report;
+    report.add_stack(stack::COMPILER, &compiled.frame_bytes);
+    match path::longest(&compiled.assembly, report.entry()) {
+        Ok(instructions) => report.add_path(stack::COMPILER, instructions),
+        Err(reason) => _ = writeln!(stderr, "the longest path is not known: {reason}"),
+    }
+    let costliest = read_agent(path)
+        .and_then(|(parsed, agent)| Ok(translator::obligations(parsed, &agent)?))
+        .map_err(|error| error.to_string())
+        .and_then(|obligations| worst::costliest(&obligations));
+    match costliest {
+        Ok(instructions) => report.add_costliest(instructions),
+        Err(reason) => _ = writeln!(stderr, "no costliest step was found: {reason}"),
+    }
+}
+
+fn translate_files(arguments: &Arguments, path: &Path) -> ExitCode {
     let mut stderr = std::io::stderr().lock();
     // A message that cannot be printed has nowhere else to go.
-    match run(arguments, configuration) {
+    match run(arguments, path) {
         Ok(mut translation) => {
             if !translation.warnings.is_empty() {
                 _ = writeln!(stderr, "{}", translation.warnings);
             }
             if arguments.report {
-                match stack::compiled(&translation) {
-                    Ok(compiled) => {
-                        let report = &mut translation.report;
-                        report.add_stack(stack::COMPILER, &compiled.frame_bytes);
-                        match path::longest(&compiled.assembly, report.entry()) {
-                            Ok(instructions) => report.add_path(stack::COMPILER, instructions),
-                            Err(reason) => {
-                                _ = writeln!(stderr, "the longest path is not known: {reason}");
-                            }
-                        }
-                    }
-                    Err(reason) => _ = writeln!(stderr, "the stack is not measured: {reason}"),
-                }
+                measure(&mut translation, path, &mut stderr);
                 _ = write!(std::io::stdout(), "{}", translation.report);
             }
             ExitCode::SUCCESS

@@ -64,18 +64,36 @@ impl Model {
     /// What the replay of a failure tells, in the agent's terms.
     pub fn explain(&self, replay: &str) -> Vec<Happening> {
         let told = replay.lines().filter_map(|line| line.trim().strip_prefix(MARK));
+        let told: Vec<Vec<&str>> = told.map(|line| line.split_whitespace().collect()).collect();
+        let mut happenings: Vec<Happening> = Vec::new();
         let mut steps = 0_usize;
-        told.filter_map(|line| {
-            let mut words = line.split_whitespace();
-            let what = words.next()?;
-            let numbers: Vec<usize> = words.filter_map(|word| word.parse().ok()).collect();
-            steps += usize::from(what == "step");
-            self.happening(what, &numbers, steps)
-        })
-        .collect()
+        let mut idle_from = None;
+        for (index, words) in told.iter().enumerate() {
+            let Some((what, numbers)) = words.split_first() else { continue };
+            let numbers: Vec<usize> = numbers.iter().filter_map(|n| n.parse().ok()).collect();
+            if *what != "step" {
+                happenings.extend(self.happening(what, &numbers));
+                continue;
+            }
+            steps += 1;
+            let handles = told.get(index + 1).is_some_and(|next| next.first() == Some(&"event"));
+            let text = match idle_from.filter(|_| !handles) {
+                // One line for all steps in which nothing waits.
+                Some(first) => {
+                    happenings.pop();
+                    format!("steps {first} to {steps}: no event waits")
+                }
+                None if handles => format!("step {steps}"),
+                None => format!("step {steps}: no event waits"),
+            };
+            happenings.push(Happening { depth: 0, line: None, text });
+            let alone = told.get(index + 1).is_none_or(|next| next.first() == Some(&"step"));
+            idle_from = (!handles && alone).then(|| idle_from.unwrap_or(steps));
+        }
+        happenings
     }
 
-    fn happening(&self, what: &str, numbers: &[usize], steps: usize) -> Option<Happening> {
+    fn happening(&self, what: &str, numbers: &[usize]) -> Option<Happening> {
         let at = |depth, line, text| Some(Happening { depth, line, text });
         let first = numbers.first().copied();
         match what {
@@ -84,7 +102,6 @@ impl Model {
                 let belief = self.program.beliefs.get(first?)?;
                 at(0, None, format!("the environment tells `{}`", belief.name))
             }
-            "step" => at(0, None, format!("step {steps}")),
             "event" => at(1, None, format!("handles {}", self.event(first?)?)),
             "plan" => {
                 let (_, _, plan) = self.program.reachable_plans().nth(first?)?;

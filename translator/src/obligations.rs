@@ -4,6 +4,10 @@ use std::fmt::Write as _;
 
 use crate::GeneratedFile;
 
+/// Compiled with this defined as a number, the proof's `main` makes so many random transitions and ends; the agent's
+/// C is then compiled by itself.
+pub use crate::backend::c::RANDOM_TRANSITIONS;
+
 /// The file of a proof that includes all others.
 pub const HARNESS: &str = "harness.c";
 
@@ -33,9 +37,15 @@ pub struct Promise {
 }
 
 impl Obligations {
-    /// The number of candidates for the invariant.
-    pub fn candidates(&self) -> usize {
-        self.candidates.len()
+    /// The linker's name of `next_step()`, with the state passed in.
+    pub fn entry(&self) -> String {
+        let prefix = self.state_type.trim_end_matches("agent_t");
+        format!("{prefix}next_step")
+    }
+
+    /// The candidates for the invariant, as C.
+    pub fn candidates(&self) -> &[String] {
+        &self.candidates
     }
 
     /// The file `invariant.h` of an invariant of these candidates; each has an assertion
@@ -88,7 +98,7 @@ mod tests {
         {
             assert!(harness.contains(part), "{part}:\n{harness}");
         }
-        assert!(obligations.candidates() > 5);
+        assert!(obligations.candidates().len() > 5);
         let invariant = obligations.invariant(&[0, 999]);
         assert!(invariant.text.contains("\"candidate 0\"") && !invariant.text.contains("999"));
     }

@@ -30,8 +30,11 @@ pub(crate) enum SpinError {
 /// Memory that a search may take.
 const MEGABYTES: u32 = 2048;
 
-/// Checks each property in every environment.
-pub(crate) fn check(model: &Model) -> Result<Vec<(Promise, Verdict)>, SpinError> {
+/// Checks properties in every environment: all, or those whose numbers, from 1, are given.
+pub(crate) fn check(
+    model: &Model,
+    numbers: &[usize],
+) -> Result<Vec<(Promise, Verdict)>, SpinError> {
     let folder = tempfile::tempdir().map_err(SpinError::Write)?;
     let folder = folder.path();
     std::fs::write(folder.join("model.pml"), model.promela()).map_err(SpinError::Write)?;
@@ -45,22 +48,22 @@ pub(crate) fn check(model: &Model) -> Result<Vec<(Promise, Verdict)>, SpinError>
         succeed("cc", compiler.args(["-o", search.program, "pan.c"]).current_dir(folder))
     };
     compile(&IN_DEPTH)?;
-    let numbers: Vec<usize> = (1..=model.properties.len()).collect();
-    let searched = in_parallel(&numbers, |number| run(model, folder, number, &IN_DEPTH, DEPTH));
+    let searched = in_parallel(numbers, |number| run(model, folder, number, &IN_DEPTH, DEPTH));
     let searched = searched.into_iter().map(|said| Ok(result(&said?)));
     let searched = searched.collect::<Result<Vec<Found>, SpinError>>()?;
     if searched.iter().any(|found| matches!(found, Found::Failure)) {
         compile(&IN_BREADTH)?;
     }
-    let verdicts = numbers.into_iter().zip(&model.properties).zip(searched);
+    let verdicts = numbers.iter().zip(searched);
     verdicts
-        .map(|((number, promise), found)| {
+        .map(|(number, found)| {
+            let promise = &model.properties[number - 1];
             let verdict = match found {
                 Found::Nothing => Verdict::Holds,
                 Found::NoEnd(said) => Verdict::Undecided(said),
                 Found::Failure => {
-                    run(model, folder, number, &IN_BREADTH, DEPTH)?;
-                    Verdict::Fails(model.explain(&run(model, folder, number, &IN_BREADTH, "-r")?))
+                    run(model, folder, *number, &IN_BREADTH, DEPTH)?;
+                    Verdict::Fails(model.explain(&run(model, folder, *number, &IN_BREADTH, "-r")?))
                 }
             };
             Ok((promise.clone(), verdict))

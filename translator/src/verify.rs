@@ -9,6 +9,15 @@ use translator::{Happening, Model, Promise};
 
 use crate::spin::{self, SpinError, Verdict};
 
+/// Why nothing was checked.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum VerifyError {
+    #[error(transparent)]
+    Spin(#[from] SpinError),
+    #[error("the configuration has no property `{name}`")]
+    Unknown { name: String },
+}
+
 /// Prints the model.
 pub(crate) fn print(model: &Model) -> ExitCode {
     // What cannot be printed has nowhere else to go.
@@ -17,12 +26,24 @@ pub(crate) fn print(model: &Model) -> ExitCode {
 }
 
 /// Checks and prints; fails unless everything holds.
-pub(crate) fn run(model: &Model, as_json: bool) -> Result<ExitCode, SpinError> {
-    let verdicts = spin::check(model)?;
+pub(crate) fn run(model: &Model, only: &[String], as_json: bool) -> Result<ExitCode, VerifyError> {
+    let verdicts = spin::check(model, &numbers(model, only)?)?;
     let text = if as_json { json(&verdicts) } else { text(model, &verdicts) };
     _ = write!(std::io::stdout(), "{text}");
     let holds = verdicts.iter().all(|(_, verdict)| matches!(verdict, Verdict::Holds));
     Ok(if holds { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// The numbers of the properties to check: of all, unless some are named.
+fn numbers(model: &Model, only: &[String]) -> Result<Vec<usize>, VerifyError> {
+    if only.is_empty() {
+        return Ok((1..=model.properties.len()).collect());
+    }
+    let number = |name: &String| {
+        let index = model.properties.iter().position(|promise| promise.name == *name);
+        index.map(|index| index + 1).ok_or_else(|| VerifyError::Unknown { name: name.clone() })
+    };
+    only.iter().map(number).collect()
 }
 
 fn text(model: &Model, verdicts: &[(Promise, Verdict)]) -> String {

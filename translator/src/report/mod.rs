@@ -25,6 +25,8 @@ pub struct Report {
     stack: Option<(String, u64)>,
     /// The instructions of the longest path, if a compiler has made some.
     path: Option<(String, u64)>,
+    /// The instructions of the costliest step that was found.
+    costliest: Option<u64>,
 }
 
 impl Report {
@@ -37,7 +39,11 @@ impl Report {
             bounds.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1))).unwrap_or((0, 0))
         };
         let actions = configuration.basics.iter().enumerate();
-        let actions = actions.filter(|(_, basic)| basic.result.kind == TypeKind::Void);
+        // Which plan is chosen is told by the plans themselves.
+        let trace = configuration.settings.trace.as_ref().map(|name| name.text.as_str());
+        let actions = actions.filter(|(_, basic)| {
+            basic.result.kind == TypeKind::Void && Some(basic.name.text.as_str()) != trace
+        });
         let count = configuration.basics.len();
         let with_bounds = |name: &str, counter: usize| {
             let (fewest, most) = bounds(counter);
@@ -56,6 +62,7 @@ impl Report {
             frames: Frames::new(program, next_step),
             stack: None,
             path: None,
+            costliest: None,
         }
     }
 
@@ -74,6 +81,11 @@ impl Report {
     /// Adds the instructions of the longest path through `next_step()`, as `compiler` has made them.
     pub fn add_path(&mut self, compiler: &str, instructions: u64) {
         self.path = Some((compiler.to_owned(), instructions));
+    }
+
+    /// Adds the instructions of the costliest step that was found by running the same code.
+    pub fn add_costliest(&mut self, instructions: u64) {
+        self.costliest = Some(instructions);
     }
 }
 
@@ -128,6 +140,13 @@ impl fmt::Display for Report {
                 "{label:<28}{instructions} instructions and what the actions take ({compiler}); \
                  {:.4} % of 30 ms at a thousand million a second",
                 share_percent(*instructions)
+            )?;
+        }
+        if let Some(instructions) = self.costliest {
+            let label = "costliest step found";
+            writeln!(
+                formatter,
+                "{label:<28}{instructions} instructions of the same code (callgrind)"
             )?;
         }
         for (title, rows) in [

@@ -20,6 +20,7 @@ fn configuration(settings: &str, sections: &str, agent: &str, property: &str) ->
 }
 
 /// Runs `asl2c verify`; nothing if there is no SPIN here, which is said.
+#[allow(clippy::print_stdout, reason = "what is left out is said")]
 fn verify(configuration: &str, agent: &str, options: &[&str]) -> Option<Output> {
     if Command::new("spin").arg("-V").output().is_err() {
         println!("skipped: there is no SPIN here");

@@ -1,0 +1,106 @@
+//! The instructions of the costliest step that random events and beliefs lead to, counted by callgrind.
+
+use std::path::Path;
+use std::process::Command;
+
+use translator::{HARNESS, Obligations, RANDOM_TRANSITIONS};
+
+/// What compiles, and how: as for the bound that the figure is held against.
+const OPTIMIZED: &str = "-O2";
+/// Transitions to try; most are steps.
+const TRANSITIONS: u32 = 4000;
+
+/// Instructions of the agent's own C in the costliest step, or why they are not known. Actions and senses
+/// are the environment's and do not count.
+pub(crate) fn costliest(obligations: &Obligations) -> Result<u64, String> {
+    let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
+    let folder = folder.path();
+    let invariant = obligations.invariant(&[]);
+    for file in obligations.files.iter().chain([&invariant]) {
+        let path = folder.join(&file.name);
+        std::fs::write(&path, &file.text)
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    }
+    let agent = &obligations.files.first().ok_or("there is no C")?.name;
+    let random = format!("-D{RANDOM_TRANSITIONS}={TRANSITIONS}");
+    run(
+        folder,
+        "gcc",
+        &["-std=c99", OPTIMIZED, "-fno-jump-tables", "-g", "-w", "-c", agent, "-o", "agent.o"],
+    )?;
+    run(folder, "gcc", &["-std=c99", "-g", "-w", &random, HARNESS, "agent.o", "-o", "steps"])?;
+    let entry = obligations.entry();
+    let toggle = format!("--toggle-collect={entry}");
+    let dump = format!("--dump-after={entry}");
+    let options = ["--tool=callgrind", "--callgrind-out-file=step", &toggle, &dump, "./steps"];
+    run(folder, "valgrind", &options)?;
+    let entries = std::fs::read_dir(folder).map_err(|error| error.to_string())?;
+    let profiles = entries.filter_map(Result::ok).map(|entry| entry.path());
+    let profiles = profiles
+        .filter(|path| path.file_name().is_some_and(|n| n.to_string_lossy().starts_with("step.")));
+    let costs = profiles.map(|path| {
+        let profile = std::fs::read_to_string(&path)
+            .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        Ok(own_cost(&profile, agent))
+    });
+    let costs: Vec<u64> = costs.collect::<Result<_, String>>()?;
+    costs.into_iter().max().filter(|cost| *cost > 0).ok_or_else(|| "no step was counted".to_owned())
+}
+
+fn run(folder: &Path, program: &str, arguments: &[&str]) -> Result<(), String> {
+    let output = Command::new(program).args(arguments).current_dir(folder).output();
+    let output = output.map_err(|error| format!("{program} cannot be run: {error}"))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let message = String::from_utf8_lossy(&output.stderr);
+    let first = message.lines().find(|line| line.contains("rror")).unwrap_or("it failed");
+    Err(format!("{program}: {first}"))
+}
+
+/// The cost of the lines of one source file in a profile of callgrind (its manual, "Callgrind Format
+/// Specification"). Costs behind `calls=` are those of what is called, which has lines of its own.
+fn own_cost(profile: &str, source: &str) -> u64 {
+    let mut files: Vec<(&str, &str)> = Vec::new();
+    let mut inside = false;
+    let mut called = false;
+    let mut cost = 0;
+    for line in profile.lines() {
+        let value = |keys: &[&str]| keys.iter().find_map(|key| line.strip_prefix(key));
+        let own = value(&["fl=", "fi=", "fe="]);
+        if let Some(place) = own.or_else(|| value(&["cfl=", "cfi="])) {
+            // "(3) name" says what the number stands for from then on.
+            let (number, name) = place.split_once(' ').unwrap_or((place, ""));
+            if !name.is_empty() {
+                files.push((number, name));
+            }
+            if own.is_some() {
+                let name = files.iter().find(|(known, _)| *known == number).map(|(_, name)| *name);
+                inside = name.is_some_and(|name| Path::new(name).ends_with(source));
+            }
+        } else if line.starts_with("calls=") {
+            called = true;
+        } else if line.starts_with(|c: char| c.is_ascii_digit() || "+-*".contains(c)) {
+            if inside && !std::mem::take(&mut called) {
+                let count = line.split_whitespace().nth(1).and_then(|count| count.parse().ok());
+                cost += count.unwrap_or(0_u64);
+            }
+            called = false;
+        }
+    }
+    cost
+}
+
+#[cfg(test)]
+mod tests {
+    use super::own_cost;
+
+    #[test]
+    fn what_is_called_counts_where_it_stands() {
+        let profile = "version: 1\nevents: Ir\nfl=(2) /tmp/x/harness.c\nfn=(9) step\ncfi=(1) /tmp/x/agent.c\n\
+                       cfn=(1)\ncalls=1 9\n8 54\nfl=(1)\nfn=(1) next_step\n10 5\n+1 2\ncfi=(2)\ncfn=(2) onGround\ncalls=1 7\n* 40\n12 1\n\
+                       fl=(2)\nfn=(2)\n7 40\nfl=(1)\nfn=(3) run\n3 4\n";
+        assert_eq!(own_cost(profile, "agent.c"), 12);
+        assert_eq!(own_cost(profile, "other.c"), 0);
+    }
+}
