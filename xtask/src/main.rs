@@ -4,7 +4,6 @@
 mod campaign;
 mod cases;
 mod fly;
-mod mutants;
 mod parallel;
 mod plot;
 mod score;
@@ -49,7 +48,7 @@ enum Command {
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
     },
-    /// Prove the properties of the shipped agent on its C
+    /// Prove the properties of the shipped agent on a model and on its C, and measure what tests exercise
     Verify,
 }
 

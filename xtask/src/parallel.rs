@@ -36,6 +36,22 @@ pub(crate) fn map<J: Copy + Sync, R: Send, E: Send>(
     Ok(done.into_iter().map(|(_, result)| result).collect())
 }
 
+/// Does two things at once.
+///
+/// # Errors
+/// One of the errors, if there are any.
+pub(crate) fn both<R: Send, E: Send>(
+    one: impl Fn() -> Result<R, E> + Sync,
+    other: impl Fn() -> Result<R, E> + Sync,
+) -> Result<[R; 2], E> {
+    std::thread::scope(|scope| {
+        let other = scope.spawn(&other);
+        let one = one();
+        let other = other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        Ok([one?, other?])
+    })
+}
+
 /// A poisoned lock holds what was pushed before; nothing of it is half done.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)

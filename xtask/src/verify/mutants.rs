@@ -2,7 +2,7 @@
 
 /// Where something is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(super) enum Place {
     /// In the AgentSpeak.
     Agent,
     /// In its configuration.
@@ -13,22 +13,23 @@ pub(crate) enum Place {
 
 /// A change, and the property that it breaks; `run time` stands for an error at run time.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Mutant {
+pub(super) struct Mutant {
     /// What is wrong with it.
-    pub(crate) name: &'static str,
-    place: Place,
+    pub(super) name: &'static str,
+    /// Where it is changed.
+    pub(super) place: Place,
     from: &'static str,
     to: &'static str,
     /// What must be found.
-    pub(crate) breaks: &'static str,
+    pub(super) breaks: &'static str,
 }
 
 /// What a mutant breaks that has an error at run time.
-pub(crate) const RUN_TIME: &str = "run time";
+pub(super) const RUN_TIME: &str = "run time";
 
 impl Mutant {
     /// Changes the first such text; nothing if there is none, or the mutant is about another place.
-    pub(crate) fn apply(&self, place: Place, text: &str) -> Option<String> {
+    pub(super) fn apply(&self, place: Place, text: &str) -> Option<String> {
         (place == self.place && text.contains(self.from))
             .then(|| text.replacen(self.from, self.to, 1))
     }
@@ -53,7 +54,7 @@ const fn c(
 }
 
 /// All of them.
-pub(crate) const MUTANTS: [Mutant; 21] = [
+pub(super) const MUTANTS: [Mutant; 25] = [
     agent(
         "a failure plan says nothing",
         "-!wait <- sendHover; !land.",
@@ -105,8 +106,8 @@ pub(crate) const MUTANTS: [Mutant; 21] = [
     ),
     agent(
         "a target on the ground takes off",
-        "reportRefused;\n     sendStandby;",
-        "reportRefused;\n     sendTakeOff;",
+        "+!goTo(_, _, _, _) : onGround\n  <- reportRefused;\n     sendStandby;",
+        "+!goTo(_, _, _, _) : onGround\n  <- reportRefused;\n     sendTakeOff;",
         "take_off_is_ordered",
     ),
     agent(
@@ -153,15 +154,39 @@ pub(crate) const MUTANTS: [Mutant; 21] = [
     ),
     agent(
         "steering in danger has no way out",
-        "-!steer <- sendHover; !land.",
+        "@danger_steering[req(\"SAF-4\"), req(\"SAF-5\")]\n-!steer <- sendHover; !land.",
         "",
         "nothing_is_lost",
     ),
     agent(
-        "a take-off in the air without position is forgotten",
-        "+!takeOff\n  <- sendHover;\n     reportFailed;\n     !!wait.",
+        "taking over in danger has no way out",
+        "@danger_taking_over[req(\"SAF-4\"), req(\"SAF-5\")]\n-!takeOff <- sendHover; !land.",
         "",
         "nothing_is_lost",
+    ),
+    agent(
+        "the last percent counts as charge",
+        "Percent <= Limit\n  <- tellBatteryEmpty",
+        "Percent < Limit\n  <- tellBatteryEmpty",
+        "low_battery_lands",
+    ),
+    agent(
+        "a take-off that is complete looks at nothing",
+        "hovering & position(X, Y, Z, Yaw)\n  <- !watch;",
+        "hovering & position(X, Y, Z, Yaw)\n  <-",
+        "low_battery_lands",
+    ),
+    agent(
+        "taking over looks at nothing",
+        "+!takeOff : position(X, Y, Z, Yaw)\n  <- !watch;",
+        "+!takeOff : position(X, Y, Z, Yaw)\n  <-",
+        "low_battery_lands",
+    ),
+    agent(
+        "a blind descent waits with an empty battery",
+        "\n    & not (battery(Percent) & landingBattery(Least) & Percent <= Least)",
+        "",
+        "low_battery_lands",
     ),
     c(
         "the C forgets a landing order",

@@ -1,0 +1,246 @@
+//! What the simulated test flights exercise of the agent: gcov counts what runs of its C, the trace matrix leads
+//! back to plans and requirements.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+
+use serde::Deserialize;
+
+use super::{VerifyError, folder, in_file};
+
+/// Tests that fly in simulated time, and the agent's own.
+const TESTS: [&str; 5] = ["agent::", "simulated::", "safety::", "faults::", "estimate::"];
+
+/// What ran, of how much.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Share {
+    /// So many ran.
+    pub(super) ran: usize,
+    /// Of so many.
+    pub(super) all: usize,
+}
+
+impl Share {
+    fn count(&mut self, ran: bool) {
+        self.ran += usize::from(ran);
+        self.all += 1;
+    }
+
+    fn add(&mut self, other: Self) {
+        self.ran += other.ran;
+        self.all += other.all;
+    }
+}
+
+impl std::fmt::Display for Share {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} of {}", self.ran, self.all)
+    }
+}
+
+/// One plan.
+#[derive(Debug, Clone)]
+pub(super) struct PlanCoverage {
+    /// Its first line in the agent.
+    pub(super) line: usize,
+    /// Its trigger.
+    pub(super) trigger: String,
+    /// Its own name, if it has one.
+    pub(super) label: String,
+    /// What it is for.
+    pub(super) requirements: Vec<String>,
+    /// How often it was chosen.
+    pub(super) chosen: u64,
+    /// Outcomes of its conditions: each can be true and false.
+    pub(super) outcomes: Share,
+}
+
+/// The whole agent.
+#[derive(Debug, Clone)]
+pub(super) struct Coverage {
+    /// Each plan, in the order of the source.
+    pub(super) plans: Vec<PlanCoverage>,
+    /// Outcomes of all conditions of the C, those of the cycle among them.
+    pub(super) outcomes: Share,
+    /// Lines of the C.
+    pub(super) lines: Share,
+}
+
+impl Coverage {
+    /// How many plans were chosen.
+    pub(super) fn chosen(&self) -> Share {
+        let mut share = Share::default();
+        self.plans.iter().for_each(|plan| share.count(plan.chosen > 0));
+        share
+    }
+
+    /// By requirement: how many of its plans were chosen, and the outcomes of their conditions.
+    pub(super) fn by_requirement(&self) -> BTreeMap<&str, (Share, Share)> {
+        let mut shares: BTreeMap<&str, (Share, Share)> = BTreeMap::new();
+        for plan in &self.plans {
+            for requirement in &plan.requirements {
+                let (chosen, outcomes) = shares.entry(requirement).or_default();
+                chosen.count(plan.chosen > 0);
+                outcomes.add(plan.outcomes);
+            }
+        }
+        shares
+    }
+}
+
+/// Runs the tests with counting C.
+pub(super) fn measure() -> Result<Coverage, VerifyError> {
+    let counted = folder("coverage");
+    std::fs::create_dir_all(&counted).map_err(in_file("cannot make", &counted))?;
+    let counted = counted.canonicalize().map_err(in_file("cannot find", &counted))?;
+    for path in files(&counted, "gcda")? {
+        std::fs::remove_file(&path).map_err(in_file("cannot remove", &path))?;
+    }
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut tests = Command::new(&cargo);
+    tests.args(["test", "--locked", "--quiet", "-p", "autopilot", "-p", "system-tests"]);
+    tests.args(["--lib", "--test", "system", "--"]).args(TESTS);
+    let output = tests.env("AGENT_COVERAGE", &counted).output();
+    let output = output.map_err(in_file("cannot run", Path::new(&cargo)))?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        return Err(VerifyError::Tool { tool: "cargo test", output: said });
+    }
+    let mut gcov = Command::new("gcov");
+    gcov.args(["--json-format", "--stdout", "--branch-probabilities", "--branch-counts"]);
+    let output = gcov.args(files(&counted, "gcda")?).current_dir(&counted).output();
+    let output = output.map_err(in_file("cannot run", Path::new("gcov")))?;
+    let read = |name: &str| {
+        let path = counted.join(name);
+        std::fs::read_to_string(&path).map_err(in_file("cannot read", &path))
+    };
+    let odd = |tool: &'static str| {
+        move |error: serde_json::Error| VerifyError::Tool { tool, output: error.to_string() }
+    };
+    let counts: Counts = serde_json::from_slice(&output.stdout).map_err(odd("gcov"))?;
+    let rows: Vec<Row> = serde_json::from_str(&read("trace.json")?).map_err(odd("asl2c"))?;
+    Ok(assign(&counts, &rows, &read("autopilot.c")?))
+}
+
+fn files(folder: &Path, extension: &str) -> Result<Vec<std::path::PathBuf>, VerifyError> {
+    let entries = std::fs::read_dir(folder).map_err(in_file("cannot read", folder))?;
+    let paths = entries.filter_map(Result::ok).map(|entry| entry.path());
+    Ok(paths.filter(|path| path.extension().is_some_and(|own| own == extension)).collect())
+}
+
+/// What gcov says.
+#[derive(Debug, Deserialize)]
+struct Counts {
+    files: Vec<FileCounts>,
+}
+
+#[derive(Debug, Deserialize)]
+struct FileCounts {
+    file: String,
+    lines: Vec<LineCounts>,
+}
+
+#[derive(Debug, Deserialize)]
+struct LineCounts {
+    line_number: usize,
+    count: u64,
+    branches: Vec<BranchCounts>,
+}
+
+#[derive(Debug, Deserialize)]
+struct BranchCounts {
+    count: u64,
+}
+
+/// A row of the trace matrix: a plan and one of its requirements.
+#[derive(Debug, Deserialize)]
+struct Row {
+    requirement: String,
+    plan: usize,
+    label: String,
+    trigger: String,
+    source: Place,
+    c: Place,
+}
+
+#[derive(Debug, Deserialize)]
+struct Place {
+    lines: [usize; 2],
+}
+
+/// Assigns counts to plans. A plan is chosen where its function tells the trace function so.
+fn assign(counts: &Counts, rows: &[Row], source: &str) -> Coverage {
+    let of_agent = counts.files.iter().filter(|file| file.file.ends_with("autopilot.c"));
+    let counted: Vec<&LineCounts> = of_agent.flat_map(|file| &file.lines).collect();
+    let tells: Vec<bool> = source.lines().map(|line| line.contains("tracePlan(")).collect();
+    let mut plans: Vec<PlanCoverage> = Vec::new();
+    let mut last = None;
+    for row in rows {
+        let requirement = Some(row.requirement.clone()).filter(|text| !text.is_empty());
+        if last == Some(row.plan) {
+            if let Some(plan) = plans.last_mut() {
+                plan.requirements.extend(requirement);
+            }
+            continue;
+        }
+        last = Some(row.plan);
+        let [first, end] = row.c.lines;
+        let inside = counted.iter().filter(|line| (first..=end).contains(&line.line_number));
+        let mut outcomes = Share::default();
+        let mut chosen = 0;
+        for line in inside {
+            line.branches.iter().for_each(|branch| outcomes.count(branch.count > 0));
+            if tells.get(line.line_number - 1) == Some(&true) {
+                chosen = line.count;
+            }
+        }
+        plans.push(PlanCoverage {
+            line: row.source.lines[0],
+            trigger: row.trigger.clone(),
+            label: row.label.clone(),
+            requirements: requirement.into_iter().collect(),
+            chosen,
+            outcomes,
+        });
+    }
+    let (mut outcomes, mut lines) = (Share::default(), Share::default());
+    for line in counted {
+        lines.count(line.count > 0);
+        line.branches.iter().for_each(|branch| outcomes.count(branch.count > 0));
+    }
+    Coverage { plans, outcomes, lines }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plan_has_the_counts_of_its_lines() {
+        let counts = r#"{ "files": [{ "file": "x/autopilot.c", "lines": [
+            { "line_number": 2, "count": 9, "branches": [{ "count": 9 }, { "count": 0 }] },
+            { "line_number": 3, "count": 4, "branches": [] },
+            { "line_number": 5, "count": 0, "branches": [{ "count": 0 }, { "count": 0 }] } ] }] }"#;
+        let row = |requirement: &str| {
+            format!(
+                r#"{{ "requirement": "{requirement}", "plan": 0, "label": "l", "trigger": "+!g",
+                "source": {{ "lines": [7, 9] }}, "c": {{ "lines": [1, 4] }} }}"#
+            )
+        };
+        let rows = format!("[{}, {}]", row("A"), row("B"));
+        let source = "f\n{ if (a)\ntracePlan(self, 0U);\n}\nif (b)\n";
+        let coverage = assign(
+            &serde_json::from_str(counts).unwrap(),
+            &serde_json::from_str::<Vec<Row>>(&rows).unwrap(),
+            source,
+        );
+        let [plan] = &coverage.plans[..] else { panic!("{coverage:?}") };
+        assert_eq!((plan.line, plan.chosen), (7, 4));
+        assert_eq!(plan.outcomes, Share { ran: 1, all: 2 });
+        assert_eq!(plan.requirements, ["A", "B"]);
+        assert_eq!(coverage.outcomes, Share { ran: 1, all: 4 });
+        assert_eq!(coverage.lines, Share { ran: 2, all: 3 });
+        assert_eq!(coverage.by_requirement()["B"].0, Share { ran: 1, all: 1 });
+    }
+}

@@ -1,0 +1,39 @@
+//! Frama-C's EVA follows the agent's whole life and reports what could be an error at run time.
+
+use std::path::Path;
+use std::process::Command;
+
+use translator::HARNESS;
+
+use super::{VerifyError, in_file};
+
+/// The program.
+pub(super) const FRAMA_C: &str = "frama-c";
+
+/// What Frama-C's EVA cannot exclude in the agent's whole life, from `init()` on.
+pub(super) fn alarms(folder: &Path) -> Result<Vec<String>, VerifyError> {
+    let folder = folder.canonicalize().map_err(in_file("cannot find", folder))?;
+    let output = Command::new(FRAMA_C)
+        .args(["-eva", "-eva-precision", "1", "-machdep", "gcc_x86_64"])
+        // Numbers that are none may come from outside; literals need not be exact.
+        .args(["-warn-special-float", "none", "-kernel-warn-key", "parser:decimal-float=inactive"])
+        .arg(HARNESS)
+        .current_dir(&folder)
+        // It asks the environment where it is.
+        .env("PWD", &folder)
+        .output()
+        .map_err(in_file("cannot run", Path::new(FRAMA_C)))?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    if !text.contains("ANALYSIS SUMMARY") {
+        return Err(VerifyError::Tool { tool: "Frama-C", output: text.into_owned() });
+    }
+    let mut lines = text.lines();
+    let mut alarms = Vec::new();
+    while let Some(line) = lines.next() {
+        if let Some(place) = line.strip_prefix("[eva:alarm] ") {
+            let place = place.trim_end_matches(" Warning: ").trim_end_matches(':');
+            alarms.push(format!("{place} {}", lines.next().unwrap_or_default().trim()));
+        }
+    }
+    Ok(alarms)
+}
