@@ -37,6 +37,9 @@ impl Default for ApproachSettings {
     }
 }
 
+/// Charge at which the agent lands: its belief `landingBattery`.
+pub const LANDING_BATTERY_PERCENT: u32 = 12;
+
 /// A target's heading is reached within this angle.
 const REACH_ANGLE_DEG: f64 = 5.0;
 

@@ -20,6 +20,7 @@ pub mod cli;
 pub mod flight;
 pub mod mission;
 pub mod outcome;
+pub mod picture;
 pub mod pilot;
 pub mod plan;
 pub mod realtime;

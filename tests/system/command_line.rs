@@ -172,3 +172,39 @@ fn the_mock_drone_says_what_is_wrong_with_its_files() {
         assert_eq!(output.status.code(), Some(2), "{value}");
     }
 }
+
+#[test]
+fn a_plan_can_be_checked_without_a_drone() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("plan.svg");
+    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/../plans/square.txt");
+    let output = pilot(&["check", plan, "--svg", picture.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = String::from_utf8_lossy(&output.stdout);
+    let row = text.lines().find(|line| line.contains("goto 1 1 0 0")).unwrap();
+    let row: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!(row[..10].join(" "), "5 goto 1 1 0 0 1.00 1.00 0.85 0");
+    assert!(text.ends_with("square.txt can be flown\n"), "{text}");
+    let svg = std::fs::read_to_string(&picture).unwrap();
+    assert!(svg.starts_with("<svg") && svg.contains("height over expected time"));
+    let output = pilot(&["check", plan, "--svg", "/no/such/folder/plan.svg"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("cannot write the picture /no/such/folder/plan.svg"));
+}
+
+#[test]
+fn a_bad_plan_is_told_to_programs_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plan.txt");
+    std::fs::write(&path, "goto 0 1 0 0\nfly\n").unwrap();
+    let output = pilot(&["check", path.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(20));
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(json["steps"].is_null());
+    let told = json["problems"].as_array().unwrap();
+    let told: Vec<(u64, &str)> = told
+        .iter()
+        .map(|problem| (problem["line"].as_u64().unwrap(), problem["message"].as_str().unwrap()))
+        .collect();
+    assert_eq!(told, [(1, "the drone is on the ground here"), (2, "unknown command `fly`")]);
+}

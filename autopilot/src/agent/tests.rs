@@ -312,7 +312,7 @@ fn an_ordered_landing_comes_down_by_itself_where_it_blows() {
 /// The pre-flight check reckons with it.
 #[test]
 fn the_charge_at_which_it_lands_is_the_one_that_is_kept_back() {
-    let kept = crate::pilot::LANDING_BATTERY_PERCENT;
+    let kept = LANDING_BATTERY_PERCENT;
     for (percent, lands) in [(kept, true), (kept + 1, false)] {
         let mut bench = Bench::new(HOVERING);
         bench.senses.battery_percent = Some(percent);

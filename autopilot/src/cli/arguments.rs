@@ -53,12 +53,34 @@ pub(super) struct Arguments {
 /// What else there is to do than to fly.
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
+    /// Check a plan: each step with its target, time and charge, and everything that is wrong or unwise
+    Check(CheckPlan),
     /// Print the settings that hold: the documented defaults, or those of a file
     Config {
         /// A `pilot.toml`
         #[arg(long, value_name = "FILE")]
         config: Option<PathBuf>,
     },
+}
+
+/// A plan to be checked.
+#[derive(Debug, Args)]
+pub(super) struct CheckPlan {
+    /// The flight plan
+    #[arg(value_name = "PLAN")]
+    pub(super) plan: PathBuf,
+    /// Settings other than the defaults, for the fence
+    #[arg(long, value_name = "FILE")]
+    pub(super) config: Option<PathBuf>,
+    /// Where z = 0 of the plan is
+    #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
+    pub(super) z_origin: ZOrigin,
+    /// Draw the way from above and its height to this file
+    #[arg(long, value_name = "FILE")]
+    pub(super) svg: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 /// A flight.
@@ -108,7 +130,7 @@ enum LawName {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ZOrigin {
+pub(super) enum ZOrigin {
     /// Where the drone hovers after take-off
     Hover,
     /// On the floor
@@ -124,9 +146,15 @@ impl Fly {
     }
 
     pub(super) fn z_origin(&self) -> plan::ZOrigin {
-        match self.z_origin {
-            ZOrigin::Hover => plan::ZOrigin::Hover,
-            ZOrigin::Floor => plan::ZOrigin::Floor,
+        self.z_origin.into()
+    }
+}
+
+impl From<ZOrigin> for plan::ZOrigin {
+    fn from(origin: ZOrigin) -> Self {
+        match origin {
+            ZOrigin::Hover => Self::Hover,
+            ZOrigin::Floor => Self::Floor,
         }
     }
 }

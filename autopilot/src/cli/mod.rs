@@ -1,6 +1,7 @@
 //! The command line of `ardrone-pilot`.
 
 mod arguments;
+mod check;
 mod keys;
 mod progress;
 mod summary;
@@ -19,6 +20,7 @@ use self::keys::Keys;
 use self::progress::Progress;
 use self::summary::{Summary, TrueWaypoint};
 use crate::flight::{Flight, FlightError, Message};
+use crate::picture::PictureError;
 use crate::plan::{FlightLimits, Plan, PlanError};
 use crate::settings::{self, Settings, SettingsError};
 use crate::timing::TimingReport;
@@ -28,12 +30,16 @@ use crate::timing::TimingReport;
 enum CommandError {
     #[error("cannot read {what} {path}: {source}")]
     Read { what: &'static str, path: String, source: std::io::Error },
+    #[error("cannot write {what} {path}: {source}")]
+    Write { what: &'static str, path: String, source: std::io::Error },
     #[error("{0}")]
     Settings(#[from] SettingsError),
     #[error("cannot print the settings: {0}")]
     PrintSettings(#[from] toml::ser::Error),
     #[error("{0}")]
     Plan(#[from] PlanError),
+    #[error("{0}")]
+    Picture(#[from] PictureError),
     #[error("{0}")]
     Mock(#[from] ServerError),
     #[error("{0}")]
@@ -45,7 +51,11 @@ impl CommandError {
         match self {
             Self::Read { .. } | Self::Plan(_) | Self::Settings(_) => 20,
             Self::Flight(FlightError::Address { .. }) => 10,
-            Self::Mock(_) | Self::Flight(_) | Self::PrintSettings(_) => 1,
+            Self::Mock(_)
+            | Self::Flight(_)
+            | Self::PrintSettings(_)
+            | Self::Picture(_)
+            | Self::Write { .. } => 1,
         }
     }
 }
@@ -62,6 +72,7 @@ pub fn main() -> ExitCode {
         .log_internal_errors(false)
         .init();
     let done = match (&arguments.command, &arguments.fly) {
+        (Some(Command::Check(arguments)), _) => check::run(arguments),
         (Some(Command::Config { config }), _) => print_settings(config.as_deref()),
         (None, Some(flight)) => fly(flight),
         // The parser demands a plan where there is no command.

@@ -27,8 +27,6 @@ use pid::{CascadeConfig, Demand, Inputs, Pose, PositionController};
 pub use self::flight_phase::{FlightPhase, LandingReason};
 use self::hand::Hand;
 pub use self::hand::PilotOrder;
-#[cfg(test)]
-pub(crate) use self::preflight::LANDING_BATTERY_PERCENT;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
 use crate::agent::{Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
 use crate::mission::{AgentOrder, Due, Mission};

@@ -4,13 +4,12 @@ use std::fmt;
 use std::time::Duration;
 
 use super::{ControlState, DroneState, FlightPhase, Pilot};
+use crate::agent::LANDING_BATTERY_PERCENT;
 use crate::outcome::Outcome;
 use crate::plan;
 
 /// Below this the drone may refuse to take off.
 const LEAST_BATTERY_PERCENT: u32 = 20;
-/// The agent lands at this charge (`landingBattery`): the plan must be over before.
-pub(crate) const LANDING_BATTERY_PERCENT: u32 = 12;
 /// Navdata older than this are no basis for taking off.
 const OLDEST_NAVDATA: Duration = Duration::from_millis(500);
 /// The drone sends 15 packets a second, or 200. A third of them may be lost.

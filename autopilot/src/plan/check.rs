@@ -69,19 +69,24 @@ const TOLERANCE_M: f64 = 1e-9;
 /// Flies the plan on paper: order of commands, places of targets.
 pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Diagnostic> {
     let end = text.trim_end().len();
-    let mut check = Check { limits, walk: Walk::new(limits), diagnostics: Vec::new() };
-    let mut flies = false;
-    for line in lines {
-        if let Some(command) = line.command {
-            flies |= matches!(command, Command::TakeOff { .. });
-            check.step(command, &line.span);
-        }
-    }
-    if !flies && check.diagnostics.is_empty() {
-        check.diagnostics.push(
+    let mut diagnostics = check_places(lines, limits);
+    let flies = lines.iter().any(|line| matches!(line.command, Some(Command::TakeOff { .. })));
+    if !flies && diagnostics.is_empty() {
+        diagnostics.push(
             Diagnostic::error("the plan never takes off", end..end)
                 .help("begin with `takeoff` and end with `land`"),
         );
+    }
+    diagnostics
+}
+
+/// What is wrong with the places that commands lead to.
+pub(super) fn check_places(lines: &[Line], limits: &FlightLimits) -> Vec<Diagnostic> {
+    let mut check = Check { limits, walk: Walk::new(limits), diagnostics: Vec::new() };
+    for line in lines {
+        if let Some(command) = line.command {
+            check.step(command, &line.span);
+        }
     }
     check.diagnostics
 }

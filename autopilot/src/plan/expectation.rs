@@ -14,8 +14,12 @@ use crate::agent::ApproachSettings;
 pub struct Expectation {
     /// Where it ends, if it moves the drone.
     pub target: Option<Pose>,
+    /// Where the drone is when it has ended, above the place of take-off and the floor.
+    pub place: Pose,
     /// The way to there.
     pub leg_m: f64,
+    /// How long the drone stays there.
+    pub stay: Duration,
     /// How long it takes, with the stay at its end.
     pub time: Duration,
 }
@@ -36,31 +40,65 @@ const TURN_DEG_S: f64 = 90.0;
 /// A new battery of 1000 mAh carries the drone for about 12 minutes of hovering; moving takes more.
 const PERCENT_PER_S: f64 = 1.2 * 100.0 / 720.0;
 
+/// Follows the commands of a plan and says what each will take.
+#[derive(Debug, Clone)]
+pub(super) struct Expectations {
+    walk: Walk,
+    stay_s: f64,
+    /// How far sticks may be moved.
+    share: f64,
+}
+
+impl Expectations {
+    pub(super) fn new(limits: &FlightLimits) -> Self {
+        let stay_s = ApproachSettings::default().stay_time_ms as f64 / 1000.0;
+        Self { walk: Walk::new(limits), stay_s, share: 1.0 }
+    }
+
+    /// Where the last command has led.
+    pub(super) fn place(&self) -> Pose {
+        self.walk.target
+    }
+
+    /// What is expected of the next command.
+    pub(super) fn step(&mut self, command: Command) -> Expectation {
+        let before = self.walk.target;
+        let target = self.walk.step(command);
+        let mut stay_s = 0.0;
+        let (leg_m, time_s) = match command {
+            Command::TakeOff { .. } => (self.walk.target.z_m, TAKE_OFF_S),
+            Command::Land => (before.z_m, LANDING_S + before.z_m / LANDING_M_S),
+            Command::SetStayTime { time_s } => {
+                self.stay_s = time_s;
+                (0.0, 0.0)
+            }
+            Command::SetMaxControl { fraction } => {
+                self.share = fraction;
+                (0.0, 0.0)
+            }
+            _ => match target {
+                Some(target) => {
+                    stay_s = self.stay_s;
+                    leg(&before, &target, self.share)
+                }
+                None => (0.0, 0.0),
+            },
+        };
+        Expectation {
+            target,
+            place: self.walk.target,
+            leg_m,
+            stay: Duration::from_secs_f64(stay_s),
+            time: Duration::from_secs_f64(time_s + stay_s),
+        }
+    }
+}
+
 impl Plan {
     /// What is expected of each step, in the order of [`Plan::steps`].
     pub fn expectations(&self, limits: &FlightLimits) -> Vec<Expectation> {
-        let mut walk = Walk::new(limits);
-        let mut stay_s = ApproachSettings::default().stay_time_ms as f64 / 1000.0;
-        let mut share = 1.0;
-        let mut expect = |command| {
-            let before = walk.target;
-            let target = walk.step(command);
-            let (leg_m, time_s) = match command {
-                Command::TakeOff { .. } => (walk.target.z_m, TAKE_OFF_S),
-                Command::Land => (before.z_m, LANDING_S + before.z_m / LANDING_M_S),
-                Command::SetStayTime { time_s } => {
-                    stay_s = time_s;
-                    (0.0, 0.0)
-                }
-                Command::SetMaxControl { fraction } => {
-                    share = fraction;
-                    (0.0, 0.0)
-                }
-                _ => target.map_or((0.0, 0.0), |target| leg(&before, &target, share, stay_s)),
-            };
-            Expectation { target, leg_m, time: Duration::from_secs_f64(time_s) }
-        };
-        self.steps().iter().map(|step| expect(step.command)).collect()
+        let mut expectations = Expectations::new(limits);
+        self.steps().iter().map(|step| expectations.step(step.command)).collect()
     }
 
     /// How long the flight takes.
@@ -74,7 +112,7 @@ pub fn battery_percent(time: Duration) -> f64 {
     time.as_secs_f64() * PERCENT_PER_S
 }
 
-fn leg(from: &Pose, to: &Pose, share: f64, stay_s: f64) -> (f64, f64) {
+fn leg(from: &Pose, to: &Pose, share: f64) -> (f64, f64) {
     let across_m = (to.x_m - from.x_m).hypot(to.y_m - from.y_m);
     let upwards_m = (to.z_m - from.z_m).abs();
     let turn_deg = wrap_deg(to.yaw_deg - from.yaw_deg);
@@ -88,7 +126,7 @@ fn leg(from: &Pose, to: &Pose, share: f64, stay_s: f64) -> (f64, f64) {
             if way > 0.0 { least_s + way / (speed * share) } else { 0.0 }
         },
     );
-    (across_m.hypot(upwards_m), times.into_iter().fold(0.0, f64::max) + stay_s)
+    (across_m.hypot(upwards_m), times.into_iter().fold(0.0, f64::max))
 }
 
 #[cfg(test)]

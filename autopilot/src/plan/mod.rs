@@ -14,7 +14,9 @@ mod check;
 mod expectation;
 mod parser;
 mod walk;
+mod warnings;
 
+use diagnostic::{Diagnostic, Severity};
 use pid::Pose;
 
 pub use check::{FlightLimits, ZOrigin};
@@ -102,15 +104,30 @@ impl Plan {
     /// # Errors
     /// [`PlanError`] with everything that is wrong.
     pub fn parse_within(name: &str, text: &str, limits: &FlightLimits) -> Result<Self, PlanError> {
+        let (plan, mut diagnostics) = Self::review(text, limits);
+        diagnostics.retain(|diagnostic| diagnostic.severity == Severity::Error);
+        plan.ok_or_else(|| {
+            let source = diagnostic::Source { name, text };
+            PlanError { rendered: diagnostic::render_all(&diagnostics, &source) }
+        })
+    }
+
+    /// Reads a plan, refuses targets outside `limits`, and warns of what is legal and yet unwise. There is a
+    /// plan unless one of the findings is an error.
+    pub fn review(text: &str, limits: &FlightLimits) -> (Option<Self>, Vec<Diagnostic>) {
         let (lines, mut diagnostics) = parser::parse(text);
         let mut notes: Vec<String> = lines.iter().filter_map(parser::note).collect();
-        let lines = parser::clear_commands(lines);
-        if diagnostics.is_empty() {
+        let mut lines = parser::clear_commands(lines);
+        if let Some(first) = diagnostics.first() {
+            // Where a line cannot be read, nobody knows where those behind it lead.
+            lines.retain(|line| line.span.start < first.span.start);
+            diagnostics.extend(check::check_places(&lines, limits));
+        } else {
             diagnostics = check::check(&lines, text, limits);
         }
-        if !diagnostics.is_empty() {
-            let source = diagnostic::Source { name, text };
-            return Err(PlanError { rendered: diagnostic::render_all(&diagnostics, &source) });
+        diagnostics.extend(warnings::warnings(&lines, limits));
+        if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
+            return (None, diagnostics);
         }
         let mut steps: Vec<Step> = lines
             .into_iter()
@@ -123,7 +140,7 @@ impl Plan {
             notes.push("the plan does not end with `land`: the drone will land".to_owned());
             steps.push(Step { command: Command::Land, line: 0, text: "land".to_owned() });
         }
-        Ok(Self { steps, notes })
+        (Some(Self { steps, notes }), diagnostics)
     }
 
     /// The commands in order.

@@ -1,0 +1,219 @@
+//! What is legal in a plan, and yet unwise.
+
+use std::time::Duration;
+
+use diagnostic::{Diagnostic, Span};
+use estimator::wrap_deg;
+use pid::Pose;
+
+use super::expectation::Expectations;
+use super::parser::Line;
+use super::{Command, FlightLimits, battery_percent};
+use crate::agent::{ApproachSettings, LANDING_BATTERY_PERCENT};
+
+/// Nearer than this to the fence a drone that overshoots in the wind is turned back.
+const NEAR_FENCE_M: f64 = 0.5;
+/// Lower than this the air that the propellers push down shakes the drone.
+const LOW_M: f64 = 0.4;
+/// Longer than this an estimate from navdata alone drifts far.
+const LONG_STAY_S: f64 = 60.0;
+/// A battery of which so much is planned is old or cold some day.
+const CAREFUL_PERCENT: f64 = 70.0;
+
+/// Everything that somebody who flies often would mention.
+pub(super) fn warnings(lines: &[Line], limits: &FlightLimits) -> Vec<Diagnostic> {
+    let mut review = Review {
+        limits,
+        settings: ApproachSettings::default(),
+        expectations: Expectations::new(limits),
+        diagnostics: Vec::new(),
+    };
+    let mut time = Duration::ZERO;
+    let mut end: Option<&Line> = None;
+    for line in lines {
+        if let Some(command) = line.command {
+            time += review.step(command, &line.span);
+            end = Some(line);
+        }
+    }
+    if let Some(end) = end {
+        review.battery(time, &end.span);
+    }
+    review.unused_settings(lines);
+    review.diagnostics
+}
+
+struct Review<'a> {
+    limits: &'a FlightLimits,
+    settings: ApproachSettings,
+    expectations: Expectations,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Review<'_> {
+    fn warn(&mut self, message: impl Into<String>, span: &Span, help: impl Into<String>) {
+        self.diagnostics.push(Diagnostic::warning(message, span.clone()).help(help));
+    }
+
+    /// Looks at a step and says how long it takes.
+    fn step(&mut self, command: Command, span: &Span) -> Duration {
+        let before = self.expectations.place();
+        let expected = self.expectations.step(command);
+        match command {
+            Command::SetReachDistance { distance_m } => self.settings.reach_distance_m = distance_m,
+            Command::SetStayDistance { distance_m } => self.settings.stay_distance_m = distance_m,
+            Command::SetStayTime { time_s } if time_s > LONG_STAY_S => self.warn(
+                format!("the drone stays for {time_s} s at each target"),
+                span,
+                "its place is known by navdata alone, and known worse the longer it hovers",
+            ),
+            _ => {}
+        }
+        if matches!(command, Command::SetReachDistance { .. } | Command::SetStayDistance { .. })
+            && self.settings.stay_distance_m < self.settings.reach_distance_m
+        {
+            self.warn(
+                "the drone may stray less while it stays than when it arrives",
+                span,
+                "each stay would begin anew until it is so near: make `setStayWithinDist` larger than \
+                 `setInitialReachDist`",
+            );
+        }
+        if let Some(target) = expected.target {
+            self.target(&before, &target, expected.leg_m, span);
+        }
+        expected.time
+    }
+
+    fn target(&mut self, before: &Pose, target: &Pose, leg_m: f64, span: &Span) {
+        let turns = wrap_deg(target.yaw_deg - before.yaw_deg).abs() > 5.0;
+        let reach_m = self.settings.reach_distance_m;
+        if leg_m > 0.0 && leg_m <= reach_m && !turns {
+            self.warn(
+                format!("the target is {leg_m:.2} m away, and counts as reached from {reach_m} m"),
+                span,
+                "the drone will hardly move: make `setInitialReachDist` smaller",
+            );
+        }
+        let away_m = target.x_m.hypot(target.y_m);
+        let to_fence_m = self.limits.radius_m - away_m;
+        // What is outside is an error.
+        if (0.0..NEAR_FENCE_M).contains(&to_fence_m) {
+            self.warn(
+                format!("the target is {to_fence_m:.2} m from the fence"),
+                span,
+                "a drone that the wind pushes over it is turned back: leave half a metre",
+            );
+        }
+        if (self.limits.floor_m..LOW_M).contains(&target.z_m) {
+            self.warn(
+                format!("the target is {:.2} m above the floor", target.z_m),
+                span,
+                "so low the drone's own wind shakes it",
+            );
+        }
+    }
+
+    fn battery(&mut self, time: Duration, span: &Span) {
+        let percent = battery_percent(time);
+        let left = 100.0 - f64::from(LANDING_BATTERY_PERCENT);
+        if percent > left {
+            self.warn(
+                format!("the plan takes about {percent:.0} % of a new battery, which lands at {LANDING_BATTERY_PERCENT} %"),
+                span,
+                "it will not be flown to its end: divide it",
+            );
+        } else if percent > CAREFUL_PERCENT {
+            self.warn(
+                format!("the plan takes about {percent:.0} % of a new battery"),
+                span,
+                "an old or cold battery will not carry it to its end",
+            );
+        }
+    }
+
+    /// Settings behind the last target change nothing.
+    fn unused_settings(&mut self, lines: &[Line]) {
+        let is_target = |line: &Line| {
+            matches!(
+                line.command,
+                Some(Command::GoTo(_) | Command::MoveBy(_) | Command::MoveByRelative(_))
+            )
+        };
+        let last = lines.iter().rposition(is_target).map_or(0, |index| index + 1);
+        for line in &lines[last..] {
+            let sets = matches!(
+                line.command,
+                Some(
+                    Command::SetReachDistance { .. }
+                        | Command::SetStayDistance { .. }
+                        | Command::SetStayTime { .. }
+                        | Command::SetReference(_)
+                        | Command::SetReferenceHere
+                )
+            );
+            if sets {
+                self.warn("no target comes after this", &line.span, "put it before the targets");
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use diagnostic::{Severity, line_column};
+
+    use crate::plan::{FlightLimits, Plan};
+
+    /// Line and message of each warning.
+    fn warned(text: &str) -> Vec<(usize, String)> {
+        let (plan, diagnostics) = Plan::review(text, &FlightLimits::default());
+        assert!(plan.is_some(), "{diagnostics:?}");
+        assert!(diagnostics.iter().all(|diagnostic| diagnostic.severity == Severity::Warning));
+        let place = |start| line_column(text, start).0;
+        diagnostics.into_iter().map(|d| (place(d.span.start), d.message)).collect()
+    }
+
+    #[test]
+    fn what_is_legal_and_unwise_is_told() {
+        for (lines, message) in [
+            ("goto 9.7 0 0 0", "the target is 0.30 m from the fence"),
+            ("goto 0 0 -0.5 0", "the target is 0.35 m above the floor"),
+            ("moveBy 0.1 0 0 0", "the target is 0.10 m away, and counts as reached from 0.2 m"),
+            ("setStayTime 61\ngoto 0 1 0 0", "the drone stays for 61 s at each target"),
+            (
+                "setStayWithinDist 0.1\ngoto 0 1 0 0",
+                "the drone may stray less while it stays than when it arrives",
+            ),
+            ("goto 0 1 0 0\nsetInitialReachDist 0.1", "no target comes after this"),
+        ] {
+            let warned = warned(&format!("takeoff\n{lines}\nland\n"));
+            assert_eq!(warned.len(), 1, "{lines}: {warned:?}");
+            assert_eq!(warned[0].1, message);
+        }
+    }
+
+    #[test]
+    fn a_plan_that_takes_most_of_a_battery_is_told_at_its_end() {
+        let hover = "goto 0 1 0 0\ngoto 0 0 0 0\n".repeat(65);
+        let warned = warned(&format!("takeoff\n{hover}land\n"));
+        assert_eq!(warned, [(132, "the plan takes about 73 % of a new battery".to_owned())]);
+    }
+
+    #[test]
+    fn good_plans_are_left_alone() {
+        assert_eq!(warned("takeoff\ngoto 0 0 0 0\nmoveBy 0 0 0 90\ngoto 0 1 0 0\nland\n"), []);
+    }
+
+    /// What stands before a line that cannot be read is looked at all the same.
+    #[test]
+    fn every_problem_is_told_at_once() {
+        let text = "takeoff\ngoto 50 0 0 0\nfly\ngoto 60 0 0 0\ngoto 1\n";
+        let (plan, diagnostics) = Plan::review(text, &FlightLimits::default());
+        assert!(plan.is_none());
+        let mut lines: Vec<usize> =
+            diagnostics.iter().map(|d| line_column(text, d.span.start).0).collect();
+        lines.sort_unstable();
+        assert_eq!(lines, [2, 3, 5]);
+    }
+}
