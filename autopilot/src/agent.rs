@@ -85,6 +85,20 @@ pub enum AgentCommand {
     Land,
 }
 
+impl AgentCommand {
+    /// What it is called in the agent, without `send`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Standby => "Standby",
+            Self::TakeOff => "TakeOff",
+            Self::Hover => "Hover",
+            Self::GoTo(_) => "Goto",
+            Self::Sticks => "Sticks",
+            Self::Land => "Land",
+        }
+    }
+}
+
 /// Why the agent lands, or warns that it soon will.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Danger {

@@ -12,6 +12,7 @@ use mock_drone::{Message, Truth, World, WorldConfig};
 use crate::outcome::Outcome;
 use crate::pilot::{FlightEvent, FlightReport, Pilot, PilotConfig, PilotOrder, Status, TICK};
 use crate::plan::Plan;
+use crate::recording::{Record, Timing};
 
 /// A world to fly in.
 #[derive(Debug, Clone, Default)]
@@ -92,7 +93,28 @@ impl Simulation {
     pub fn fly_watched(
         &self,
         plan: Plan,
+        watch: impl FnMut(&Moment),
+    ) -> Result<SimulatedFlight, SimulationError> {
+        self.run(plan, watch, |_| {})
+    }
+
+    /// As [`Simulation::fly`]; `record` gets every entry of a flight log.
+    ///
+    /// # Errors
+    /// As [`Simulation::fly`].
+    pub fn fly_recorded(
+        &self,
+        plan: Plan,
+        record: impl FnMut(Record),
+    ) -> Result<SimulatedFlight, SimulationError> {
+        self.run(plan, |_| {}, record)
+    }
+
+    fn run(
+        &self,
+        plan: Plan,
         mut watch: impl FnMut(&Moment),
+        mut record: impl FnMut(Record),
     ) -> Result<SimulatedFlight, SimulationError> {
         let mut pilot = Pilot::new(plan, &self.pilot)?;
         let mut world = World::new(&self.world);
@@ -105,12 +127,19 @@ impl Simulation {
         while now < LIMIT {
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
                 pilot.order(now, *order);
+                record(Record::Order { at: now, order: *order });
             }
             world.advance(now);
             while let Some(message) = world.receive(now) {
                 match message {
-                    Message::Navdata(packet) => pilot.handle_navdata(now, &packet),
-                    Message::Control(dump) => pilot.handle_control(now, dump.as_bytes()),
+                    Message::Navdata(packet) => {
+                        pilot.handle_navdata(now, &packet);
+                        record(Record::Navdata { at: now, packet: packet.to_vec() });
+                    }
+                    Message::Control(dump) => {
+                        pilot.handle_control(now, dump.as_bytes());
+                        record(Record::Control { at: now, bytes: dump.into_bytes() });
+                    }
                 }
             }
             if now >= next_tick {
@@ -119,10 +148,15 @@ impl Simulation {
                 if !datagram.as_bytes().is_empty() {
                     world.send_at(now, datagram.as_bytes());
                 }
+                if let Some(decision) = pilot.decision().copied() {
+                    let (timing, datagram) = (Timing::default(), datagram.as_bytes().to_vec());
+                    record(Record::Tick { decision, timing, datagram });
+                }
                 if pilot.wake_up_due(now) {
                     world.send_wake_up(now, &WAKE_UP);
                 }
                 while let Some(event) = pilot.poll_event() {
+                    record(Record::Event { at: now, event: event.clone() });
                     events.push((now, event));
                 }
                 watch(&Moment { now, truth: world.truth(), status: pilot.status(now) });

@@ -21,7 +21,7 @@ if [[ $clients == *node* ]]; then
 fi
 
 pilot() {
-    "$@" "$programs/ardrone-pilot" --plan "$work/plan.txt" --config "$work/pilot.toml" \
+    "$@" "$programs/ardrone-pilot" --log "$work/flight.mcap" --plan "$work/plan.txt" --config "$work/pilot.toml" \
         --drone 127.0.0.1 --plain --timing >"$work/out.txt" 2>"$work/err.txt" || true
 }
 

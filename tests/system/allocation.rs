@@ -5,6 +5,7 @@ use std::time::Duration;
 use allocation_counter::measure;
 use ardrone_link::at::Datagram;
 use autopilot::pilot::{NavdataRate, PilotConfig, PilotOrder, TICK};
+use autopilot::recording::{Header, Recorder, Timing};
 use autopilot::{Demand, Pilot};
 use mock_drone::{Message, World, WorldConfig};
 use system_tests::{SQUARE, plan};
@@ -19,6 +20,9 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
     let mut datagram = Datagram::new();
     let mut orders = orders.iter().peekable();
     let mut allocations = 0;
+    let folder = tempfile::tempdir().unwrap();
+    let (mut recorder, recording) =
+        Recorder::start(&folder.path().join("flight.mcap"), &Header::default()).unwrap();
     let mut now = Duration::ZERO;
     while pilot.outcome().is_none() {
         let flies = pilot.status(now).phase == "flying";
@@ -29,7 +33,10 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
         world.advance(now);
         while let Some(message) = world.receive(now) {
             match message {
-                Message::Navdata(packet) => count(&mut || pilot.handle_navdata(now, &packet)),
+                Message::Navdata(packet) => count(&mut || {
+                    pilot.handle_navdata(now, &packet);
+                    recorder.navdata(now, &packet);
+                }),
                 Message::Control(dump) => pilot.handle_control(now, dump.as_bytes()),
             }
         }
@@ -38,7 +45,16 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
                 count(&mut || pilot.order(now, *order));
             }
             count(&mut || pilot.tick(now, &mut datagram).unwrap());
-            count(&mut || while pilot.poll_event().is_some() {});
+            count(&mut || {
+                while let Some(event) = pilot.poll_event() {
+                    recorder.event(now, event);
+                }
+            });
+            count(&mut || {
+                if let Some(decision) = pilot.decision() {
+                    recorder.tick(*decision, Timing::default(), datagram.as_bytes());
+                }
+            });
             world.send_at(now, datagram.as_bytes());
             if pilot.wake_up_due(now) {
                 world.send_wake_up(now, &ardrone_link::WAKE_UP);
@@ -46,6 +62,8 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
         }
         now += POLL;
     }
+    drop(recorder);
+    assert!(recording.finish().unwrap().bytes > 100_000);
     assert!(now > Duration::from_secs(15), "it flew: {:?}", pilot.outcome());
     allocations
 }

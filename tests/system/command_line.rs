@@ -8,7 +8,9 @@ use std::time::{Duration, Instant};
 use crate::processes::program;
 
 fn pilot(arguments: &[&str]) -> Output {
-    program("ardrone-pilot").args(arguments).output().unwrap()
+    let flies = arguments.contains(&"--plan");
+    let mut pilot = program("ardrone-pilot");
+    pilot.args(arguments).args(flies.then_some("--no-log")).output().unwrap()
 }
 
 fn stderr(output: &Output) -> String {

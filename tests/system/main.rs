@@ -11,6 +11,7 @@ mod estimate;
 mod faults;
 mod ports;
 mod processes;
+mod recording;
 mod safety;
 mod simulated;
 mod udp;

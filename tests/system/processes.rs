@@ -7,6 +7,7 @@ use std::process::{Child, Command, ExitStatus, Output, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
+use autopilot::recording::Log;
 use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::server::{MockDrone, Ports};
@@ -58,7 +59,7 @@ impl MockProcess {
     fn pilot(&self, plan: &Path) -> Command {
         let [at, navdata, control] = self.ports.map(|port| port.to_string());
         let mut pilot = program("ardrone-pilot");
-        pilot.arg("--plan").arg(plan).args(["--drone", "127.0.0.1"]);
+        pilot.arg("--plan").arg(plan).args(["--drone", "127.0.0.1", "--no-log"]);
         pilot.args(["--at-port", &at, "--navdata-port", &navdata, "--control-port", &control]);
         pilot
     }
@@ -170,7 +171,10 @@ fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
     let ports = mock.ports();
     let mut pilot = program("ardrone-pilot");
     let plan = plan_file(LONG);
+    let folder = tempfile::tempdir().unwrap();
+    let flight_log = folder.path().join("flight.mcap");
     pilot.arg("--plan").arg(plan.path()).args(["--drone", "127.0.0.1"]);
+    pilot.arg("--log").arg(&flight_log);
     for (name, port) in [
         ("--at-port", ports.at),
         ("--navdata-port", ports.navdata),
@@ -194,6 +198,10 @@ fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
     assert!(killed.elapsed() > Duration::from_secs(2), "it hovers first");
     let moved_m = (mock.truth().position_m - before.position_m).xy().norm();
     assert!(moved_m < 2.0, "{moved_m:.2} m");
+    // What it had recorded is there.
+    let recorded = Log::read(&std::fs::read(&flight_log).unwrap()).unwrap();
+    assert!(!recorded.complete);
+    assert!(recorded.ticks().count() > 250, "{}", recorded.ticks().count());
 }
 
 #[test]
@@ -216,6 +224,7 @@ fn control_c_before_the_drone_is_found_ends_at_once() {
     let plan = plan_file(SHORT);
     let mut pilot = program("ardrone-pilot");
     pilot.arg("--plan").arg(plan.path()).args(["--drone", "127.0.0.1", "--navdata-port", "9"]);
+    pilot.arg("--no-log");
     let (child, log) = start(&mut pilot);
     wait_for(log.path(), "connecting");
     signal(&child, "-INT");

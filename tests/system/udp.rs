@@ -27,7 +27,8 @@ fn a_flight_over_udp_is_the_simulated_one() {
     let simulated = Simulation::default().fly(plan(SQUARE)).unwrap();
 
     let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
-    let flight = Flight::start(plan(SQUARE), &PilotConfig::default(), &address(&mock)).unwrap();
+    let flight =
+        Flight::start(plan(SQUARE), &PilotConfig::default(), &address(&mock), None).unwrap();
     let mut truths = Vec::new();
     for message in flight.messages() {
         if let Message::Waypoint(waypoint) = message {
@@ -54,7 +55,7 @@ fn ends(scenario: &str) -> (Outcome, Truth) {
     let world = WorldConfig { scenario, ..WorldConfig::default() };
     let mock = MockDrone::start(&world, Ports::LOOPBACK).unwrap();
     let flown = plan("takeoff\nsetStayTime 5\ngoto 0 0.5 0 0\nland\n");
-    let flight = Flight::start(flown, &PilotConfig::default(), &address(&mock)).unwrap();
+    let flight = Flight::start(flown, &PilotConfig::default(), &address(&mock), None).unwrap();
     let outcome = flight.finish().unwrap().outcome;
     (outcome, mock.truth())
 }

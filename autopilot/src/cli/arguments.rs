@@ -55,6 +55,12 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Check a plan: each step with its target, time and charge, and everything that is wrong or unwise
     Check(CheckPlan),
+    /// Fly a recorded flight again, and show where today's code decides otherwise
+    Replay {
+        /// A flight log
+        #[arg(value_name = "LOG")]
+        log: PathBuf,
+    },
     /// Print the settings that hold: the documented defaults, or those of a file
     Config {
         /// A `pilot.toml`
@@ -85,6 +91,7 @@ pub(super) struct CheckPlan {
 
 /// A flight.
 #[derive(Debug, Args)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag that can be given")]
 pub(super) struct Fly {
     /// The flight plan
     #[arg(long, value_name = "FILE")]
@@ -113,6 +120,12 @@ pub(super) struct Fly {
     /// How targets are approached and held; `cascade` unless the settings say otherwise
     #[arg(long, value_enum, value_name = "LAW")]
     law: Option<LawName>,
+    /// Record the flight to this file [default: flights/DATE.mcap]
+    #[arg(long, value_name = "FILE")]
+    pub(super) log: Option<PathBuf>,
+    /// Do not record the flight
+    #[arg(long, conflicts_with = "log")]
+    pub(super) no_log: bool,
     /// Print how regular the ticks were and what they cost
     #[arg(long)]
     pub(super) timing: bool,

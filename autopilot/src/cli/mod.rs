@@ -7,13 +7,15 @@ mod progress;
 mod summary;
 
 use std::io::{IsTerminal as _, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use clap::Parser as _;
 use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports, ServerError};
+use time::UtcDateTime;
 
 use self::arguments::{Arguments, Command, Fly};
 use self::keys::Keys;
@@ -22,6 +24,8 @@ use self::summary::{Summary, TrueWaypoint};
 use crate::flight::{Flight, FlightError, Message};
 use crate::picture::PictureError;
 use crate::plan::{FlightLimits, Plan, PlanError};
+use crate::recording::{Header, Log, LogError, Recorder, Recording, RecordingError};
+use crate::replay::{Replay, ReplayError};
 use crate::settings::{self, Settings, SettingsError};
 use crate::timing::TimingReport;
 
@@ -38,10 +42,16 @@ enum CommandError {
     PrintSettings(#[from] toml::ser::Error),
     #[error("{0}")]
     Plan(#[from] PlanError),
+    #[error("{path}: {source}")]
+    Log { path: String, source: LogError },
+    #[error("{0}")]
+    Replay(#[from] ReplayError),
     #[error("{0}")]
     Picture(#[from] PictureError),
     #[error("{0}")]
     Mock(#[from] ServerError),
+    #[error("{0}; give another file as --log, or --no-log")]
+    Recording(#[from] RecordingError),
     #[error("{0}")]
     Flight(#[from] FlightError),
 }
@@ -49,12 +59,17 @@ enum CommandError {
 impl CommandError {
     fn exit_status(&self) -> u8 {
         match self {
-            Self::Read { .. } | Self::Plan(_) | Self::Settings(_) => 20,
+            Self::Read { .. }
+            | Self::Plan(_)
+            | Self::Settings(_)
+            | Self::Log { .. }
+            | Self::Replay(_) => 20,
             Self::Flight(FlightError::Address { .. }) => 10,
             Self::Mock(_)
             | Self::Flight(_)
             | Self::PrintSettings(_)
             | Self::Picture(_)
+            | Self::Recording(_)
             | Self::Write { .. } => 1,
         }
     }
@@ -73,6 +88,7 @@ pub fn main() -> ExitCode {
         .init();
     let done = match (&arguments.command, &arguments.fly) {
         (Some(Command::Check(arguments)), _) => check::run(arguments),
+        (Some(Command::Replay { log }), _) => replay(log),
         (Some(Command::Config { config }), _) => print_settings(config.as_deref()),
         (None, Some(flight)) => fly(flight),
         // The parser demands a plan where there is no command.
@@ -95,6 +111,28 @@ fn print_settings(path: Option<&Path>) -> Result<u8, CommandError> {
     // Whoever closed the pipe does not want the settings.
     _ = write!(std::io::stdout(), "{text}");
     Ok(0)
+}
+
+/// Flies a log again; 1 if today's code decides otherwise.
+fn replay(path: &Path) -> Result<u8, CommandError> {
+    let replay = Replay::new(&read_log(path)?)?;
+    // Whoever closed the pipe does not want the rest.
+    _ = write!(std::io::stdout(), "{replay}");
+    Ok(u8::from(!replay.is_same()))
+}
+
+fn read_log(path: &Path) -> Result<Log, CommandError> {
+    let name = || path.display().to_string();
+    let file = std::fs::read(path).map_err(|source| CommandError::Read {
+        what: "the flight log",
+        path: name(),
+        source,
+    })?;
+    let log = Log::read(&file).map_err(|source| CommandError::Log { path: name(), source })?;
+    if !log.complete {
+        _ = writeln!(std::io::stderr(), "note: {} was cut off; what is there is read", name());
+    }
+    Ok(log)
 }
 
 fn fly(arguments: &Fly) -> Result<u8, CommandError> {
@@ -121,7 +159,11 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
             format!("the drone at {}", drone.host)
         }
     ));
-    let flight = Flight::start(plan, &config, &drone)?;
+    let (recorder, recording) = match record(arguments, &settings, &plan, mock.is_some())? {
+        Some((recorder, recording)) => (Some(recorder), Some(recording)),
+        None => (None, None),
+    };
+    let flight = Flight::start(plan, &config, &drone, recorder)?;
     let keys = Keys::start(flight.controls());
     if keys.is_some() {
         progress.say(keys::HELP);
@@ -132,16 +174,72 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
             truths.push(TrueWaypoint::new(waypoint, &mock.truth()));
         }
         progress.show(&message);
+        if let Some(problem) = recording.as_ref().and_then(Recording::problem) {
+            progress.say(&format!("warning: {problem}"));
+        }
     }
     drop(keys);
     let finished = flight.finish()?;
     progress.end();
+    let recorded = recording.and_then(Recording::finish);
+    let summary = Summary { finished: &finished, truths: &truths, recorded: recorded.as_ref() };
     // Whoever closed the pipe does not want the summary.
-    _ = write!(std::io::stdout(), "{}", Summary { finished: &finished, truths: &truths });
+    _ = write!(std::io::stdout(), "{summary}");
     if arguments.timing {
         _ = write!(std::io::stdout(), "{}", TimingReport(&finished.ticks));
     }
     Ok(finished.outcome.exit_status())
+}
+
+/// Starts to record the flight, unless nobody wants that.
+fn record(
+    arguments: &Fly,
+    settings: &Settings,
+    plan: &Plan,
+    mock: bool,
+) -> Result<Option<(Recorder, Recording)>, CommandError> {
+    if arguments.no_log {
+        return Ok(None);
+    }
+    let now = UtcDateTime::now();
+    let path = match &arguments.log {
+        Some(path) => path.clone(),
+        None => default_log(now)?,
+    };
+    let start = now - UtcDateTime::UNIX_EPOCH;
+    let header = Header {
+        start: start.try_into().unwrap_or_default(),
+        plan_name: arguments.plan.display().to_string(),
+        plan: read("the plan", &arguments.plan)?,
+        settings: settings.to_toml()?,
+        z_origin: arguments.z_origin(),
+        drone: if mock { "mock drone".to_owned() } else { arguments.drone.clone() },
+    };
+    let (mut recorder, recording) = Recorder::start(&path, &header)?;
+    for note in plan.notes() {
+        recorder.note(Duration::ZERO, note.clone());
+    }
+    Ok(Some((recorder, recording)))
+}
+
+/// `flights/2026-11-21T13-45-07Z.mcap`: names in the order of time, on any file system.
+fn default_log(now: UtcDateTime) -> Result<PathBuf, CommandError> {
+    let folder = PathBuf::from("flights");
+    std::fs::create_dir_all(&folder).map_err(|source| CommandError::Write {
+        what: "the folder",
+        path: folder.display().to_string(),
+        source,
+    })?;
+    let (date, time) = (now.date(), now.time());
+    Ok(folder.join(format!(
+        "{:04}-{:02}-{:02}T{:02}-{:02}-{:02}Z.mcap",
+        date.year(),
+        u8::from(date.month()),
+        date.day(),
+        time.hour(),
+        time.minute(),
+        time.second()
+    )))
 }
 
 fn read_settings(path: Option<&Path>) -> Result<Settings, CommandError> {

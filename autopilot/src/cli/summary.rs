@@ -7,6 +7,7 @@ use nalgebra::Vector2;
 
 use crate::flight::FinishedFlight;
 use crate::pilot::Waypoint;
+use crate::recording::Recorded;
 
 /// A waypoint as the simulation knows it.
 pub(super) struct TrueWaypoint {
@@ -29,6 +30,7 @@ impl TrueWaypoint {
 pub(super) struct Summary<'a> {
     pub(super) finished: &'a FinishedFlight,
     pub(super) truths: &'a [TrueWaypoint],
+    pub(super) recorded: Option<&'a Recorded>,
 }
 
 impl fmt::Display for Summary<'_> {
@@ -63,6 +65,15 @@ impl fmt::Display for Summary<'_> {
                 "  simulated truth at most {error_m:.2} m from a target, navdata drifted {drift_m:.2} m"
             )?;
         }
-        writeln!(f, "  ticks           {}", self.finished.ticks)
+        writeln!(f, "  ticks           {}", self.finished.ticks)?;
+        if let Some(recorded) = self.recorded {
+            let (path, kilobytes) = (recorded.path.display(), recorded.bytes.div_ceil(1000));
+            writeln!(f, "  flight log      {path}, {kilobytes} kB")?;
+        }
+        if self.finished.lost_records > 0 {
+            let lost = self.finished.lost_records;
+            writeln!(f, "  not recorded    {lost} entries, for which the disk was too slow")?;
+        }
+        Ok(())
     }
 }

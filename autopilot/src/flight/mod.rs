@@ -26,6 +26,7 @@ use crate::pilot::{
 };
 use crate::plan::Plan;
 use crate::realtime::Realtime;
+use crate::recording::{Recorder, Timing};
 use crate::timing::{Stage, TickRecorder, TickSummary};
 
 /// What the flight tells while it lasts.
@@ -52,6 +53,8 @@ pub struct FinishedFlight {
     pub ticks: TickSummary,
     /// Messages that were dropped because nobody took them in time.
     pub dropped_messages: u64,
+    /// Entries of the flight log that the disk was too slow for.
+    pub lost_records: u64,
 }
 
 /// Why a flight could not be started or went wrong in a way that is no flight's fault.
@@ -118,7 +121,7 @@ const BUFFER_BYTES: usize = 8192;
 const PARTING_ORDERS: u32 = 10;
 
 impl Flight {
-    /// Starts flying `plan`. Ctrl-C, SIGTERM and a closed terminal land; a second one ends
+    /// Starts flying `plan`, and records it if there is a recorder. Ctrl-C, SIGTERM and a closed terminal land; a second one ends
     /// the flight at once, with the landing ordered.
     ///
     /// # Errors
@@ -127,6 +130,7 @@ impl Flight {
         plan: Plan,
         config: &PilotConfig,
         drone: &DroneAddress,
+        recorder: Option<Recorder>,
     ) -> Result<Self, FlightError> {
         let pilot = Pilot::new(plan, config)?;
         let address = resolve(&drone.host)?;
@@ -140,6 +144,7 @@ impl Flight {
             at,
             navdata,
             services,
+            recorder,
             messages: sender,
             dropped_messages: 0,
             ticks: TickRecorder::default(),
@@ -202,6 +207,7 @@ struct TickLoop {
     at: UdpSocket,
     navdata: UdpSocket,
     services: Services,
+    recorder: Option<Recorder>,
     messages: Sender<Message>,
     dropped_messages: u64,
     ticks: TickRecorder,
@@ -233,11 +239,13 @@ impl TickLoop {
                 continue;
             }
             let skipped = skip_missed(&mut deadline, now);
+            let late = now.saturating_sub(deadline);
             self.ticks.begin(now, deadline, skipped, std::mem::take(&mut held_up));
             deadline += TICK;
             self.take_in_services(now);
             self.tick(start, &mut datagram)?;
             self.ticks.end();
+            self.record_tick(late, start.elapsed().saturating_sub(now), &datagram);
             self.tell(now, count.is_multiple_of(STATUS_TICKS));
             count = count.wrapping_add(1);
             if let Some(outcome) = self.pilot.outcome().cloned() {
@@ -285,7 +293,11 @@ impl TickLoop {
     fn take_in_navdata(&mut self, start: Instant, buffer: &mut [u8]) -> Result<(), FlightError> {
         while let Some(length) = tolerate(self.navdata.recv(buffer))? {
             let packet = buffer.get(..length).unwrap_or_default();
-            self.pilot.handle_navdata(start.elapsed(), packet);
+            let now = start.elapsed();
+            self.pilot.handle_navdata(now, packet);
+            if let Some(recorder) = &mut self.recorder {
+                recorder.navdata(now, packet);
+            }
         }
         Ok(())
     }
@@ -293,20 +305,43 @@ impl TickLoop {
     fn take_in_services(&mut self, now: Duration) {
         while let Some(input) = self.services.poll() {
             match input {
-                Input::Control(bytes) => self.pilot.handle_control(now, &bytes),
-                Input::Order(order) => self.pilot.order(now, order),
+                Input::Control(bytes) => {
+                    self.pilot.handle_control(now, &bytes);
+                    if let Some(recorder) = &mut self.recorder {
+                        recorder.control(now, &bytes);
+                    }
+                }
+                Input::Order(order) => self.order(now, order),
                 Input::Stop => {
                     self.stops += 1;
                     if self.stops == 1 {
-                        self.pilot.order(now, PilotOrder::Land);
+                        self.order(now, PilotOrder::Land);
                     }
                 }
             }
         }
     }
 
+    fn order(&mut self, now: Duration, order: PilotOrder) {
+        self.pilot.order(now, order);
+        if let Some(recorder) = &mut self.recorder {
+            recorder.order(now, order);
+        }
+    }
+
+    fn record_tick(&mut self, late: Duration, work: Duration, datagram: &Datagram) {
+        if let (Some(recorder), Some(decision)) = (&mut self.recorder, self.pilot.decision()) {
+            let ms = |time: Duration| time.as_secs_f64() * 1e3;
+            let timing = Timing { late_ms: ms(late), work_ms: ms(work) };
+            recorder.tick(*decision, timing, datagram.as_bytes());
+        }
+    }
+
     fn tell(&mut self, now: Duration, with_status: bool) {
         while let Some(event) = self.pilot.poll_event() {
+            if let Some(recorder) = &mut self.recorder {
+                recorder.event(now, event.clone());
+            }
             self.say(Message::Event(now, event));
         }
         while let Some(waypoint) = self.pilot.report().waypoints.get(self.waypoints).copied() {
@@ -343,6 +378,7 @@ impl TickLoop {
             report: self.pilot.report().clone(),
             ticks: self.ticks.summary(self.realtime),
             dropped_messages: self.dropped_messages,
+            lost_records: self.recorder.as_ref().map_or(0, Recorder::lost),
         }
     }
 }

@@ -5,6 +5,7 @@
 //! ([`Pilot::order`]); every 30 ms it calls [`Pilot::tick`] and sends the datagram. It goes
 //! on until [`Pilot::outcome`] tells how the flight ended.
 
+mod decision;
 mod flight_phase;
 mod hand;
 mod preflight;
@@ -24,6 +25,7 @@ use nalgebra::Vector2;
 pub use pid::Law;
 use pid::{CascadeConfig, Demand, Inputs, Pose, PositionController};
 
+pub use self::decision::Decision;
 pub use self::flight_phase::{FlightPhase, LandingReason};
 use self::hand::Hand;
 pub use self::hand::PilotOrder;
@@ -128,6 +130,8 @@ pub struct Pilot {
     last_tick: Option<Duration>,
     events: VecDeque<FlightEvent>,
     report: FlightReport,
+    /// What the last tick decided; nothing before the first navdata.
+    decision: Option<Decision>,
 }
 
 /// The step that is being flown.
@@ -180,6 +184,7 @@ impl Pilot {
             last_tick: None,
             events: VecDeque::with_capacity(EVENTS),
             report,
+            decision: None,
         })
     }
 
@@ -271,6 +276,22 @@ impl Pilot {
         }
         self.veto = veto;
         let order = self.carry_out(now, command, step_s);
+        self.decision = Some(Decision {
+            at: now,
+            phase: self.phase.name(),
+            step: self.due.as_ref().map(|active| active.due.step),
+            state,
+            horizontal_deviation_m: senses.doubt_m,
+            vertical_deviation_m: self.estimator.vertical_deviation_m(now),
+            senses,
+            plans: step.plans,
+            wanted,
+            report: step.report,
+            danger: step.danger,
+            veto,
+            target: self.target,
+            order,
+        });
         done(Stage::Control);
         self.session.tick(now, order, datagram)?;
         done(Stage::Encode);
@@ -281,6 +302,11 @@ impl Pilot {
     /// What happened, oldest first.
     pub fn poll_event(&mut self) -> Option<FlightEvent> {
         self.events.pop_front()
+    }
+
+    /// What the last tick decided and why; nothing before the first navdata.
+    pub fn decision(&self) -> Option<&Decision> {
+        self.decision.as_ref()
     }
 
     /// How the flight ended, once it has.

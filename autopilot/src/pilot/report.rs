@@ -64,6 +64,31 @@ pub enum FlightEvent {
     Veto(Veto),
 }
 
+impl FlightEvent {
+    /// Whether somebody should worry.
+    pub fn warns(&self) -> bool {
+        match self {
+            Self::Connected
+            | Self::ConfigurationRead { .. }
+            | Self::NoDroneClock
+            | Self::Configured
+            | Self::StepStarted { .. }
+            | Self::StepDone { .. }
+            | Self::Held
+            | Self::Steered
+            | Self::Resumed => false,
+            Self::ConfigurationNotRead
+            | Self::TargetCorrected { .. }
+            | Self::LandingOrdered(_)
+            | Self::LinkLost
+            | Self::Emergency
+            | Self::BatteryLow { .. }
+            | Self::CutOrdered
+            | Self::Veto(_) => true,
+        }
+    }
+}
+
 impl fmt::Display for FlightEvent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

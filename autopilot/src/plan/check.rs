@@ -17,6 +17,21 @@ pub enum ZOrigin {
     Floor,
 }
 
+impl ZOrigin {
+    /// Its name on the command line and in logs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hover => "hover",
+            Self::Floor => "floor",
+        }
+    }
+
+    /// What has this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::Hover, Self::Floor].into_iter().find(|origin| origin.name() == name)
+    }
+}
+
 /// The fence: heights between which, and a radius within which the drone may fly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightLimits {

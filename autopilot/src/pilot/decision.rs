@@ -1,0 +1,43 @@
+//! What the pilot decided in a tick, and why.
+
+use std::time::Duration;
+
+use ardrone_link::session::Order;
+use estimator::Prediction;
+use pid::Pose;
+
+use crate::agent::{AgentCommand, ChosenPlans, Danger, Report, Senses};
+use crate::safety::Veto;
+
+/// One tick of the pilot, from what was known to what was ordered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Decision {
+    /// Since the start.
+    pub at: Duration,
+    /// What the flight was doing, in one word.
+    pub phase: &'static str,
+    /// The step of the plan that was flown.
+    pub step: Option<usize>,
+    /// Where the drone was, and how it moved.
+    pub state: Prediction,
+    /// Standard deviation of the place on each horizontal axis.
+    pub horizontal_deviation_m: f64,
+    /// Standard deviation of the height.
+    pub vertical_deviation_m: f64,
+    /// What the agent knew.
+    pub senses: Senses,
+    /// The plans that it chose.
+    pub plans: ChosenPlans,
+    /// What it wanted.
+    pub wanted: AgentCommand,
+    /// What it said of its last order.
+    pub report: Option<Report>,
+    /// What it said of the flight.
+    pub danger: Option<Danger>,
+    /// Why something else was done.
+    pub veto: Option<Veto>,
+    /// Where the drone was sent.
+    pub target: Option<Pose>,
+    /// What the drone was told.
+    pub order: Order,
+}

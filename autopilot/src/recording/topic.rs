@@ -1,0 +1,38 @@
+//! What a flight log has, and how it looks.
+
+/// A topic and its schema.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Topic {
+    pub(super) name: &'static str,
+    pub(super) schema: &'static str,
+    /// The JSON schema.
+    pub(super) text: &'static str,
+}
+
+pub(super) const TICK: Topic =
+    Topic { name: "/tick", schema: "ardrone_pilot.Tick", text: include_str!("schemas/tick.json") };
+pub(super) const NAVDATA: Topic = Topic {
+    name: "/navdata",
+    schema: "ardrone_pilot.Navdata",
+    text: include_str!("schemas/navdata.json"),
+};
+pub(super) const RAW_NAVDATA: Topic = Topic {
+    name: "/navdata/raw",
+    schema: "ardrone_pilot.Bytes",
+    text: include_str!("schemas/bytes.json"),
+};
+pub(super) const CONTROL: Topic = Topic { name: "/control/raw", ..RAW_NAVDATA };
+pub(super) const HAND: Topic =
+    Topic { name: "/hand", schema: "ardrone_pilot.Hand", text: include_str!("schemas/hand.json") };
+/// Foxglove's own: it shows them as log lines.
+pub(super) const LOG: Topic =
+    Topic { name: "/log", schema: "foxglove.Log", text: include_str!("schemas/log.json") };
+/// Foxglove's own: it draws them.
+pub(super) const POSE: Topic = Topic {
+    name: "/pose",
+    schema: "foxglove.PoseInFrame",
+    text: include_str!("schemas/pose.json"),
+};
+pub(super) const TARGET: Topic = Topic { name: "/target", ..POSE };
+
+pub(super) const ALL: [Topic; 8] = [TICK, NAVDATA, RAW_NAVDATA, CONTROL, HAND, LOG, POSE, TARGET];

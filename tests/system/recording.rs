@@ -1,0 +1,163 @@
+//! Flight logs: what is written can be read, also when it was cut off, and flown again.
+
+use std::io::Cursor;
+use std::time::Duration;
+
+use autopilot::pilot::PilotOrder;
+use autopilot::plan::ZOrigin;
+use autopilot::recording::{Entry, Header, Log, LogWriter};
+use autopilot::replay::Replay;
+use autopilot::settings;
+use autopilot::sim::{SimulatedFlight, Simulation};
+use system_tests::{SQUARE, plan};
+
+fn header(text: &str) -> Header {
+    Header {
+        start: Duration::from_secs(1_700_000_000),
+        plan_name: "plan.txt".to_owned(),
+        plan: text.to_owned(),
+        settings: settings::DEFAULTS.to_owned(),
+        z_origin: ZOrigin::Hover,
+        drone: "simulated".to_owned(),
+    }
+}
+
+/// Flies in simulated time and returns the flight with its log.
+fn recorded(text: &str, simulation: &Simulation) -> (SimulatedFlight, Vec<u8>) {
+    let mut writer = LogWriter::new(Cursor::new(Vec::new()), &header(text)).unwrap();
+    let mut written = 0_u32;
+    let record = |record| {
+        writer.write(&record).unwrap();
+        written += 1;
+        // As often as in a real flight.
+        if written.is_multiple_of(50) {
+            writer.flush().unwrap();
+        }
+    };
+    let flight = simulation.fly_recorded(plan(text), record).unwrap();
+    (flight, writer.finish().unwrap().into_inner())
+}
+
+#[test]
+fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
+    let second = Duration::from_secs(1);
+    let orders = vec![
+        (7 * second, PilotOrder::Hold),
+        (8 * second, PilotOrder::Steer(autopilot::Demand { roll: 0.3, ..Default::default() })),
+        (9 * second, PilotOrder::Resume),
+    ];
+    let simulation = Simulation { orders, ..Simulation::default() };
+    let (flight, file) = recorded(SQUARE, &simulation);
+    let log = Log::read(&file).unwrap();
+    assert!(log.complete);
+    assert_eq!((log.plan.as_str(), log.drone.as_str()), (SQUARE, "simulated"));
+    assert!(log.agent.contains("+!land"));
+    let (last, tick) = log.ticks().last().unwrap();
+    assert_eq!(last, flight.duration);
+    assert!(tick.agent.on_ground && tick.datagram.contains("AT*REF="), "{tick:?}");
+    let orders = log.entries.iter().filter(|(_, entry)| matches!(entry, Entry::Order(_)));
+    assert_eq!(orders.count(), 3);
+    let told: Vec<String> = log.events().map(|(_, _, text)| text.to_owned()).collect();
+    let happened: Vec<String> = flight.events.iter().map(|(_, event)| event.to_string()).collect();
+    assert_eq!(told, happened);
+    let replay = Replay::new(&log).unwrap();
+    assert!(replay.is_same(), "{replay}");
+    assert_eq!(replay.outcome, Some(flight.outcome));
+}
+
+#[test]
+fn other_code_is_told_apart() {
+    let (_, file) = recorded(SQUARE, &Simulation::default());
+    let mut log = Log::read(&file).unwrap();
+    log.settings = log.settings.replace("law = \"cascade\"", "law = \"tum\"");
+    let replay = Replay::new(&log).unwrap();
+    assert!(!replay.is_same());
+    assert!(replay.largest_stick_difference > 0.1, "{replay}");
+    let first = replay.differences.first().unwrap();
+    assert!(first.at > Duration::from_secs(3), "the take-off is the same: {replay}");
+    assert!(replay.to_string().contains("then: Goto by"), "{replay}");
+}
+
+/// Wherever a process is killed, what was flushed before is there.
+#[test]
+fn a_log_that_was_cut_off_is_read_as_far_as_it_goes() {
+    let (_, file) = recorded(SQUARE, &Simulation::default());
+    let whole = Log::read(&file).unwrap().entries.len();
+    let mut longest = 0;
+    for part in 1..40 {
+        let cut = &file[..file.len() * part / 40];
+        let log = match Log::read(cut) {
+            Ok(log) => log,
+            Err(error) => {
+                assert!(part < 4, "{part}: {error}");
+                continue;
+            }
+        };
+        assert!(!log.complete && log.entries.len() < whole);
+        assert!(log.entries.len() >= longest);
+        longest = log.entries.len();
+    }
+    assert!(longest > whole / 2, "{longest} of {whole}");
+}
+
+#[test]
+fn what_is_no_log_is_refused() {
+    let (_, mut file) = recorded(SQUARE, &Simulation::default());
+    for bytes in [&b""[..], b"takeoff\nland\n", &file[..7], &[0x89; 4096]] {
+        assert!(Log::read(bytes).is_err());
+    }
+    // Whatever is spoiled, nothing panics.
+    for place in (0..file.len()).step_by(file.len() / 500) {
+        let old = std::mem::replace(&mut file[place], 0xff);
+        _ = Log::read(&file);
+        file[place] = old;
+    }
+}
+
+/// Others read it too: JSON with schemas, of which Foxglove knows some.
+#[test]
+fn each_topic_has_a_schema_that_its_messages_keep() {
+    let (_, file) = recorded(SQUARE, &Simulation::default());
+    let mut topics = std::collections::BTreeMap::new();
+    for message in mcap::MessageStream::new(&file).unwrap() {
+        let message = message.unwrap();
+        let schema = message.channel.schema.clone().unwrap();
+        assert_eq!(
+            (schema.encoding.as_str(), message.channel.message_encoding.as_str()),
+            ("jsonschema", "json")
+        );
+        let rules: serde_json::Value = serde_json::from_slice(&schema.data).unwrap();
+        let content: serde_json::Value = serde_json::from_slice(&message.data).unwrap();
+        assert_eq!(rules["type"], "object");
+        let known = rules["properties"].as_object().unwrap();
+        for (key, value) in content.as_object().unwrap() {
+            let kinds =
+                &known.get(key).unwrap_or_else(|| panic!("{key} of {}", schema.name))["type"];
+            let kind = match value {
+                serde_json::Value::Null => "null",
+                serde_json::Value::Bool(_) => "boolean",
+                serde_json::Value::Number(number) if number.is_f64() => "number",
+                serde_json::Value::Number(_) => "integer",
+                serde_json::Value::String(_) => "string",
+                serde_json::Value::Array(_) => "array",
+                serde_json::Value::Object(_) => "object",
+            };
+            let kinds = kinds.to_string();
+            let fits = kinds.contains(kind) || (kind == "integer" && kinds.contains("number"));
+            assert!(fits, "{key} of {} is a {kind}, not {kinds}", schema.name);
+        }
+        *topics.entry(message.channel.topic.clone()).or_insert(0) += 1;
+    }
+    for topic in ["/tick", "/navdata", "/navdata/raw", "/control/raw", "/log", "/pose", "/target"] {
+        assert!(topics.contains_key(topic), "{topic}: {topics:?}");
+    }
+    let summary = mcap::Summary::read(&file).unwrap().unwrap();
+    assert_eq!(summary.attachment_indexes.len(), 3);
+}
+
+#[test]
+fn ten_minutes_are_less_than_30_megabytes() {
+    let (flight, file) = recorded(SQUARE, &Simulation::default());
+    let ten_minutes = file.len() as f64 * 600.0 / flight.duration.as_secs_f64();
+    assert!(ten_minutes < 30e6, "{ten_minutes:.0} bytes");
+}
