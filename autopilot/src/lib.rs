@@ -11,7 +11,7 @@
 //! - [`mission`]: which step of the plan is next, and where that is.
 //! - [`pilot`]: the tick.
 //! - [`safety`]: what the agent may not overrule.
-//! - [`recording`]: the flight log; [`replay`]: a log flown again; [`picture`]: a plan drawn.
+//! - [`recording`]: the flight log; [`replay`]: a log flown again; [`report`]: a page about it; [`picture`]: a plan drawn.
 //! - [`flight`], [`sim`]: the shells; [`realtime`], [`timing`]: what the system gives the tick, and how
 //!   regular it was. [`cli`]: the command line.
 #![deny(unsafe_code)]
@@ -27,6 +27,7 @@ pub mod plan;
 pub mod realtime;
 pub mod recording;
 pub mod replay;
+pub mod report;
 pub mod safety;
 pub mod settings;
 pub mod sim;

@@ -7,6 +7,7 @@ use autopilot::pilot::PilotOrder;
 use autopilot::plan::ZOrigin;
 use autopilot::recording::{Entry, Header, Log, LogWriter};
 use autopilot::replay::Replay;
+use autopilot::report;
 use autopilot::settings;
 use autopilot::sim::{SimulatedFlight, Simulation};
 use system_tests::{SQUARE, plan};
@@ -160,4 +161,38 @@ fn ten_minutes_are_less_than_30_megabytes() {
     let (flight, file) = recorded(SQUARE, &Simulation::default());
     let ten_minutes = file.len() as f64 * 600.0 / flight.duration.as_secs_f64();
     assert!(ten_minutes < 30e6, "{ten_minutes:.0} bytes");
+}
+
+/// The page needs nothing but itself, and text of the log stays text.
+#[test]
+fn a_report_answers_why() {
+    let (flight, file) = recorded(SQUARE, &Simulation::default());
+    let mut log = Log::read(&file).unwrap();
+    log.plan_name = "<script>alert(1)</script>".to_owned();
+    let page = report::html(&log).unwrap();
+    assert_eq!(page.matches("<svg ").count(), 8);
+    for outside in ["http://", "https://", "<link", "src=", "<script>alert"] {
+        let inside = page.replace("http://www.w3.org/2000/svg", "");
+        assert!(!inside.contains(outside), "{outside}");
+    }
+    // The decision that ended the first stay, with the plan's line and its text.
+    let line =
+        1 + log.agent.lines().position(|line| line.starts_with("+!stay(_, Arrival)")).unwrap();
+    assert!(page.contains(&format!("<pre>{line}: +!stay(_, Arrival) : target(X, Y, Z, Yaw)")));
+    assert!(page.contains("last order: Done") && page.contains("Nothing went wrong."));
+    let steps = flight.report.steps_done;
+    assert!(page.contains(&format!("<b>{steps}</b>steps done")), "{steps}");
+    log.entries.clear();
+    assert!(report::html(&log).is_err());
+}
+
+#[test]
+fn a_report_tells_what_went_wrong() {
+    let scenario = mock_drone::scenario::Scenario::parse("faults", "8 battery 5\n").unwrap();
+    let world = mock_drone::WorldConfig { scenario, ..Default::default() };
+    let (_, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
+    let page = report::html(&Log::read(&file).unwrap()).unwrap();
+    for told in ["landing: battery", "danger: BatteryEmpty", "@empty_battery"] {
+        assert!(page.contains(told), "{told}");
+    }
 }

@@ -55,6 +55,15 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Check a plan: each step with its target, time and charge, and everything that is wrong or unwise
     Check(CheckPlan),
+    /// Make a page about a recorded flight: plots, and why the agent did what it did
+    Report {
+        /// A flight log
+        #[arg(value_name = "LOG")]
+        log: PathBuf,
+        /// The page [default: the log's name with .html]
+        #[arg(short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
     /// Fly a recorded flight again, and show where today's code decides otherwise
     Replay {
         /// A flight log

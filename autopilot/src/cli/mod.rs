@@ -26,6 +26,7 @@ use crate::picture::PictureError;
 use crate::plan::{FlightLimits, Plan, PlanError};
 use crate::recording::{Header, Log, LogError, Recorder, Recording, RecordingError};
 use crate::replay::{Replay, ReplayError};
+use crate::report::{self, ReportError};
 use crate::settings::{self, Settings, SettingsError};
 use crate::timing::TimingReport;
 
@@ -46,6 +47,8 @@ enum CommandError {
     Log { path: String, source: LogError },
     #[error("{0}")]
     Replay(#[from] ReplayError),
+    #[error("{0}")]
+    Report(#[from] ReportError),
     #[error("{0}")]
     Picture(#[from] PictureError),
     #[error("{0}")]
@@ -69,6 +72,7 @@ impl CommandError {
             | Self::Flight(_)
             | Self::PrintSettings(_)
             | Self::Picture(_)
+            | Self::Report(_)
             | Self::Recording(_)
             | Self::Write { .. } => 1,
         }
@@ -88,6 +92,7 @@ pub fn main() -> ExitCode {
         .init();
     let done = match (&arguments.command, &arguments.fly) {
         (Some(Command::Check(arguments)), _) => check::run(arguments),
+        (Some(Command::Report { log, output }), _) => make_report(log, output.as_deref()),
         (Some(Command::Replay { log }), _) => replay(log),
         (Some(Command::Config { config }), _) => print_settings(config.as_deref()),
         (None, Some(flight)) => fly(flight),
@@ -110,6 +115,20 @@ fn print_settings(path: Option<&Path>) -> Result<u8, CommandError> {
     };
     // Whoever closed the pipe does not want the settings.
     _ = write!(std::io::stdout(), "{text}");
+    Ok(0)
+}
+
+/// Writes the page about a log.
+fn make_report(path: &Path, output: Option<&Path>) -> Result<u8, CommandError> {
+    let page = report::html(&read_log(path)?)?;
+    let output = output.map_or_else(|| path.with_extension("html"), Path::to_owned);
+    std::fs::write(&output, page).map_err(|source| CommandError::Write {
+        what: "the report",
+        path: output.display().to_string(),
+        source,
+    })?;
+    // Whoever closed the pipe does not want to know.
+    _ = writeln!(std::io::stdout(), "{}", output.display());
     Ok(0)
 }
 

@@ -33,7 +33,7 @@ pub enum RecordingError {
         source: std::io::Error,
     },
     /// It cannot be written.
-    #[error("cannot write the flight log {}: {source}; the flight goes on without it", .path.display())]
+    #[error("cannot write the flight log {}: {}; the flight goes on without it", .path.display(), reason(.source))]
     Write {
         /// The file.
         path: PathBuf,
@@ -43,6 +43,14 @@ pub enum RecordingError {
     /// The thread cannot be started.
     #[error("cannot start the thread of the flight log: {0}")]
     Thread(std::io::Error),
+}
+
+/// What the system says, where it says something.
+fn reason(error: &McapError) -> String {
+    match error {
+        McapError::Io(error) => error.to_string(),
+        other => other.to_string(),
+    }
 }
 
 /// The end of the tick: takes entries and never waits, nor asks for memory in flight.

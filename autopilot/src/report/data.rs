@@ -1,0 +1,190 @@
+//! What a report tells, gathered from a log.
+
+use serde::Serialize;
+
+use crate::recording::{Log, Tick};
+
+/// A flight as the report needs it.
+#[derive(Debug)]
+pub(super) struct Flight<'a> {
+    /// Seconds since the start, and the tick.
+    pub(super) ticks: Vec<(f64, &'a Tick)>,
+    /// What was flown when.
+    pub(super) bands: Vec<Band>,
+    /// What the agent decided, as long as it decided the same.
+    pub(super) decisions: Vec<Decision>,
+    /// Seconds, whether it is a warning, and what happened.
+    pub(super) events: Vec<(f64, bool, &'a str)>,
+    /// When the last tick was.
+    pub(super) end_s: f64,
+}
+
+/// A part of the flight, which plots have as background.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Band {
+    pub(super) from_s: f64,
+    pub(super) to_s: f64,
+    /// The step of the plan, or what the flight was doing.
+    pub(super) label: String,
+    pub(super) kind: BandKind,
+}
+
+/// How a band is painted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum BandKind {
+    /// On the ground, before or after.
+    Ground,
+    /// A step of the plan: even and odd ones differ.
+    Step(usize),
+    /// In the air without a step: held, flown by hand, landed early.
+    Other,
+}
+
+/// The agent's answer to "why did it do that".
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Decision {
+    pub(super) from_s: f64,
+    pub(super) to_s: f64,
+    /// The step of the plan as it was written.
+    pub(super) step: String,
+    /// What the agent ordered.
+    pub(super) command: String,
+    /// Trigger, line, and the plan as it stands in the agent.
+    pub(super) plans: Vec<(String, u32, String)>,
+    /// What it said of its last order.
+    pub(super) said: Option<String>,
+    /// Dangers that it told, and what the guard did instead.
+    pub(super) warnings: Vec<String>,
+}
+
+impl<'a> Flight<'a> {
+    pub(super) fn new(log: &'a Log) -> Option<Self> {
+        let ticks: Vec<(f64, &Tick)> =
+            log.ticks().map(|(at, tick)| (at.as_secs_f64(), tick)).collect();
+        let end_s = ticks.last()?.0;
+        let steps = steps(&log.plan);
+        let mut flight =
+            Self { bands: Vec::new(), decisions: Vec::new(), events: Vec::new(), end_s, ticks };
+        for index in 0..flight.ticks.len() {
+            let (at_s, tick) = flight.ticks[index];
+            let until_s = flight.ticks.get(index + 1).map_or(at_s, |(next_s, _)| *next_s);
+            flight.extend_band(at_s, until_s, tick, &steps);
+            flight.extend_decision(at_s, until_s, tick, &steps, &log.agent);
+        }
+        let events = log.events().map(|(at, warns, text)| (at.as_secs_f64(), warns, text));
+        flight.events = events.collect();
+        Some(flight)
+    }
+
+    fn extend_band(&mut self, at_s: f64, until_s: f64, tick: &Tick, steps: &[String]) {
+        let (label, kind) = match tick.step {
+            Some(step) => (step_text(steps, step), BandKind::Step(step)),
+            None if tick.agent.on_ground => (tick.phase.clone(), BandKind::Ground),
+            None => (tick.phase.clone(), BandKind::Other),
+        };
+        match self.bands.last_mut() {
+            Some(band) if band.kind == kind && band.label == label => band.to_s = until_s,
+            _ => self.bands.push(Band { from_s: at_s, to_s: until_s, label, kind }),
+        }
+    }
+
+    fn extend_decision(
+        &mut self,
+        at_s: f64,
+        until_s: f64,
+        tick: &Tick,
+        steps: &[String],
+        agent: &str,
+    ) {
+        let danger = tick.agent.danger.iter().map(|danger| format!("danger: {danger}"));
+        let veto = tick.veto.iter().map(|veto| format!("the guard: {veto}"));
+        let plans = tick.agent.plans.iter();
+        let plans = plans
+            .map(|plan| (plan.trigger.clone(), plan.line, plan_text(agent, plan.line).to_owned()));
+        let step = tick.step.map_or_else(|| tick.phase.clone(), |step| step_text(steps, step));
+        let decision = Decision {
+            from_s: at_s,
+            to_s: until_s,
+            step,
+            command: tick.agent.command.clone(),
+            plans: plans.collect(),
+            said: tick.agent.report.as_ref().map(|report| format!("last order: {report}")),
+            warnings: danger.chain(veto).collect(),
+        };
+        match self.decisions.last_mut() {
+            Some(last) if last.is_like(&decision) => last.to_s = until_s,
+            _ => self.decisions.push(decision),
+        }
+    }
+
+    /// When the drone was in the air.
+    pub(super) fn flown_s(&self) -> f64 {
+        let airborne = |(_, tick): &&(f64, &Tick)| !tick.agent.on_ground;
+        let first = self.ticks.iter().find(airborne).map(|(at_s, _)| *at_s);
+        let last = self.ticks.iter().rfind(airborne).map(|(at_s, _)| *at_s);
+        first.zip(last).map_or(0.0, |(first, last)| last - first)
+    }
+
+    /// The charge at the begin and the end.
+    pub(super) fn battery_percent(&self) -> Option<(u32, u32)> {
+        let charge = |(_, tick): &(f64, &Tick)| tick.agent.battery_percent;
+        Some((self.ticks.iter().find_map(charge)?, self.ticks.iter().rev().find_map(charge)?))
+    }
+
+    /// How late ticks were, sorted, in ms.
+    pub(super) fn lateness_ms(&self) -> Vec<f64> {
+        let mut late: Vec<f64> = self.ticks.iter().map(|(_, tick)| tick.timing.late_ms).collect();
+        late.sort_by(f64::total_cmp);
+        late
+    }
+}
+
+impl Decision {
+    fn is_like(&self, other: &Self) -> bool {
+        (&self.step, &self.command, &self.plans, &self.said, &self.warnings)
+            == (&other.step, &other.command, &other.plans, &other.said, &other.warnings)
+    }
+}
+
+/// The commands of a plan, as the mission counts them.
+fn steps(plan: &str) -> Vec<String> {
+    let limits = crate::plan::FlightLimits {
+        floor_m: f64::NEG_INFINITY,
+        ceiling_m: f64::INFINITY,
+        radius_m: f64::INFINITY,
+        ..crate::plan::FlightLimits::default()
+    };
+    let (plan, _) = crate::plan::Plan::review(plan, &limits);
+    plan.map_or_else(Vec::new, |plan| plan.steps().iter().map(|step| step.text.clone()).collect())
+}
+
+fn step_text(steps: &[String], step: usize) -> String {
+    let text = steps.get(step).map_or("", String::as_str);
+    format!("{}: {text}", step + 1)
+}
+
+/// A plan of the agent from its first line to its full stop.
+fn plan_text(agent: &str, line: u32) -> &str {
+    let first = usize::try_from(line).unwrap_or(1).saturating_sub(1);
+    let start: usize = agent.split_inclusive('\n').take(first).map(str::len).sum();
+    let rest = agent.get(start..).unwrap_or_default();
+    let end = rest.split_inclusive('\n').scan(0, |end, line| {
+        *end += line.len();
+        Some((*end, line.trim_end().ends_with('.')))
+    });
+    let end = end.into_iter().find(|(_, last)| *last).map_or(rest.len(), |(end, _)| end);
+    rest[..end].trim_end()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plan_text;
+
+    #[test]
+    fn a_plan_goes_to_its_full_stop() {
+        let agent = "!wait.\n// A comment.\n+!wait : a\n  <- b;\n     !!wait.\n+!c <- d.\n";
+        assert_eq!(plan_text(agent, 3), "+!wait : a\n  <- b;\n     !!wait.");
+        assert_eq!(plan_text(agent, 6), "+!c <- d.");
+        assert_eq!(plan_text(agent, 99), "");
+    }
+}

@@ -1,0 +1,194 @@
+//! The report as a page.
+
+use std::fmt::Write as _;
+
+use time::UtcDateTime;
+
+use super::data::Flight;
+use super::plots::{LEFT, Plot, RIGHT, WIDTH};
+use crate::recording::Log;
+
+const STYLE: &str = include_str!("page.css");
+const SCRIPT: &str = include_str!("page.js");
+/// Decisions of the table: more are in the plots alone.
+const MOST_ROWS: usize = 400;
+
+/// The whole page.
+pub(super) fn html(log: &Log, flight: &Flight<'_>, plots: &[Plot]) -> String {
+    let mut page = String::new();
+    let title = escaped(&log.plan_name);
+    // Writing to a string cannot fail.
+    _ = write!(
+        page,
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title}: flight report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n"
+    );
+    head(&mut page, log, flight);
+    _ = write!(
+        page,
+        "<div class=\"columns\">\n<div id=\"plots\" data-end=\"{}\" data-width=\"{WIDTH}\" data-left=\"{LEFT}\" \
+         data-right=\"{RIGHT}\">\n",
+        flight.end_s
+    );
+    page += "<p class=\"legend faint\">Background: <span style=\"background:#e9e9e9\">on the ground</span>\
+             <span style=\"background:#eff5fa\">every other step of the plan</span>\
+             <span style=\"background:#f9e7dc\">in the air without a step</span></p>\n";
+    for plot in plots {
+        let Plot { title, over_time, legend, svg } = plot;
+        let legend: Vec<String> = legend
+            .iter()
+            .map(|(name, colour)| format!("<span style=\"color:{colour}\">{name}</span>"))
+            .collect();
+        let legend = legend.concat();
+        let (kind, cursor) =
+            if *over_time { ("plot", "<div class=\"cursor\"></div>") } else { ("still", "") };
+        let svg = svg.replace("<svg ", &format!("<svg role=\"img\" aria-label=\"{title}\" "));
+        _ = writeln!(
+            page,
+            "<h2>{title} <small>{legend}</small></h2>\n<div class=\"{kind}\">{svg}{cursor}</div>"
+        );
+    }
+    page += "</div>\n<div class=\"why\"><h2>Why?</h2>\n<div id=\"moment\"><p class=\"faint\">Move over a plot: the \
+             moment, what was ordered, and the agent's plan behind it.</p></div></div>\n</div>\n";
+    timeline(&mut page, flight);
+    events(&mut page, flight);
+    let decisions = serde_json::to_string(&flight.decisions).unwrap_or_else(|_| "[]".to_owned());
+    // A script ends at `</`, whatever stands around it.
+    let decisions = decisions.replace("</", "<\\/");
+    _ = write!(
+        page,
+        "<script type=\"application/json\" id=\"decisions\">{decisions}</script>\n\
+         <script>\n{SCRIPT}</script>\n</body>\n</html>\n"
+    );
+    page
+}
+
+/// What somebody wants to know first.
+fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
+    let date = i64::try_from(log.start.as_secs()).ok();
+    let date = date.and_then(|seconds| UtcDateTime::from_unix_timestamp(seconds).ok());
+    let date = date.map_or_else(String::new, |date| {
+        let (day, time) = (date.date(), date.time());
+        format!(
+            "{:04}-{:02}-{:02} {:02}:{:02} UTC, ",
+            day.year(),
+            u8::from(day.month()),
+            day.day(),
+            time.hour(),
+            time.minute()
+        )
+    });
+    let (plan, drone, version) =
+        (escaped(&log.plan_name), escaped(&log.drone), escaped(&log.version));
+    _ = write!(
+        page,
+        "<h1>{plan}</h1>\n<p class=\"faint\">{date}{drone}, ardrone-pilot {version}</p>\n"
+    );
+    let warning = flight.events.iter().rev().find(|(_, warns, _)| *warns);
+    let told = match (log.complete, warning) {
+        (false, _) => "The log was cut off: what is here is what was written before.".to_owned(),
+        (true, Some((at_s, _, text))) => format!("{at_s:.1} s: {text}"),
+        (true, None) => "Nothing went wrong.".to_owned(),
+    };
+    let class = if log.complete && warning.is_none() { "outcome" } else { "outcome warn" };
+    _ = writeln!(page, "<p class=\"{class}\">{}</p>\n<div class=\"facts\">", escaped(&told));
+    let mut fact = |name: &str, value: String| {
+        _ = writeln!(page, "<div><b>{value}</b>{name}</div>");
+    };
+    let done = flight
+        .events
+        .iter()
+        .filter(|(_, _, text)| text.starts_with("step ") && text.ends_with(" done"));
+    fact("steps done", done.count().to_string());
+    fact("in the air", format!("{:.1} s", flight.flown_s()));
+    if let Some((begin, end)) = flight.battery_percent() {
+        fact("battery", format!("{begin} to {end} %"));
+    }
+    let away = flight.ticks.iter().map(|(_, tick)| tick.estimate.x_m.hypot(tick.estimate.y_m));
+    fact("furthest from the start", format!("{:.2} m", away.fold(0.0, f64::max)));
+    let height = flight.ticks.iter().map(|(_, tick)| tick.estimate.z_m);
+    fact("highest", format!("{:.2} m", height.fold(0.0, f64::max)));
+    let late = flight.lateness_ms();
+    let at = |share: f64| {
+        // An index from a share of a length.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let index = (share * late.len() as f64) as usize;
+        late.get(index.min(late.len().saturating_sub(1))).copied().unwrap_or_default()
+    };
+    fact("late, 99 of 100 ticks at most", format!("{:.2} ms", at(0.99)));
+    fact("ticks", late.len().to_string());
+    *page += "</div>\n";
+}
+
+/// The agent's decisions, as long as each lasted.
+fn timeline(page: &mut String, flight: &Flight<'_>) {
+    *page += "<h2>Decisions</h2>\n<table id=\"timeline\">\n<thead><tr><th>from</th><th>for</th><th>step</th>\
+              <th>ordered</th><th>because of</th><th></th></tr></thead>\n<tbody>\n";
+    for (index, decision) in flight.decisions.iter().enumerate().take(MOST_ROWS) {
+        let plans: Vec<String> = decision
+            .plans
+            .iter()
+            .map(|(trigger, line, source)| {
+                let head = source.split("<-").next().unwrap_or_default();
+                let head = head.split_whitespace().collect::<Vec<_>>().join(" ");
+                let head = if head.is_empty() { trigger.clone() } else { head };
+                format!("<pre>{line}: {}</pre>", escaped(&head))
+            })
+            .collect();
+        _ = writeln!(
+            page,
+            "<tr data-index=\"{index}\"><td class=\"time\">{:.2} s</td><td class=\"time\">{:.2} s</td><td>{}</td>\
+             <td>{}</td><td>{}</td><td>{} <span class=\"warn\">{}</span></td></tr>",
+            decision.from_s,
+            decision.to_s - decision.from_s,
+            escaped(&decision.step),
+            escaped(&decision.command),
+            plans.concat(),
+            escaped(decision.said.as_deref().unwrap_or_default()),
+            escaped(&decision.warnings.join("; "))
+        );
+    }
+    *page += "</tbody>\n</table>\n";
+    let more = flight.decisions.len().saturating_sub(MOST_ROWS);
+    if more > 0 {
+        _ = writeln!(page, "<p class=\"faint\">… and {more} more; the plots tell all of them.</p>");
+    }
+}
+
+/// What the pilot was told.
+fn events(page: &mut String, flight: &Flight<'_>) {
+    *page += "<h2>Messages</h2>\n<table>\n<tbody>\n";
+    for (at_s, warns, text) in &flight.events {
+        let class = if *warns { " class=\"warn\"" } else { "" };
+        _ = writeln!(
+            page,
+            "<tr><td class=\"time\">{at_s:.2} s</td><td{class}>{}</td></tr>",
+            escaped(text)
+        );
+    }
+    *page += "</tbody>\n</table>\n";
+}
+
+/// Text that stands for itself in HTML.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn text_is_no_markup() {
+        assert_eq!(super::escaped("<b a=\"1\">&"), "&lt;b a=&quot;1&quot;&gt;&amp;");
+    }
+}
