@@ -210,3 +210,32 @@ fn a_bad_plan_is_told_to_programs_too() {
         .collect();
     assert_eq!(told, [(1, "the drone is on the ground here"), (2, "unknown command `fly`")]);
 }
+
+#[test]
+fn shells_and_manuals_are_served() {
+    let bash = pilot(&["completions", "bash"]);
+    let script = String::from_utf8_lossy(&bash.stdout);
+    assert!(script.contains("complete -F") && script.contains("--z-origin"));
+    assert_eq!(pilot(&["completions", "no-shell"]).status.code(), Some(2));
+    let manual = pilot(&["man"]);
+    let manual = String::from_utf8_lossy(&manual.stdout);
+    assert!(manual.contains(".TH ardrone-pilot") && manual.contains("Exit status"), "{manual}");
+}
+
+#[test]
+fn programs_are_told_of_a_flight_line_by_line() {
+    let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/../plans/square.txt");
+    let output = pilot(&["--plan", plan, "--mock", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let lines = String::from_utf8_lossy(&output.stdout);
+    let told: Vec<serde_json::Value> =
+        lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let of = |kind: &str| told.iter().filter(|line| line["type"] == kind).collect::<Vec<_>>();
+    assert!(of("status").len() > 50, "{}", of("status").len());
+    assert_eq!(of("target").len(), 4);
+    let started: Vec<&str> =
+        of("event").iter().filter_map(|event| event["command"].as_str()).collect();
+    assert!(started.contains(&"goto 1 1 0 0"));
+    let end = told.last().unwrap();
+    assert_eq!((&end["type"], &end["exit_status"]), (&"end".into(), &0.into()));
+}

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 use crate::pilot::Law;
 use crate::plan;
@@ -70,6 +71,14 @@ pub(super) enum Command {
         #[arg(value_name = "LOG")]
         log: PathBuf,
     },
+    /// Print what a shell needs to complete the command line
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL")]
+        shell: Shell,
+    },
+    /// Print the manual page
+    Man,
     /// Print the settings that hold: the documented defaults, or those of a file
     Config {
         /// A `pilot.toml`
@@ -141,6 +150,9 @@ pub(super) struct Fly {
     /// Plain lines, no terminal tricks
     #[arg(long)]
     pub(super) plain: bool,
+    /// Print one JSON object a line: status, events, targets reached, and the end
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod check;
+mod json;
 mod keys;
 mod progress;
 mod summary;
@@ -12,7 +13,8 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use ardrone_link::DroneAddress;
-use clap::Parser as _;
+use clap::{CommandFactory as _, Parser as _};
+use clap_complete::Shell;
 use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports, ServerError};
 use time::UtcDateTime;
@@ -94,6 +96,8 @@ pub fn main() -> ExitCode {
         (Some(Command::Check(arguments)), _) => check::run(arguments),
         (Some(Command::Report { log, output }), _) => make_report(log, output.as_deref()),
         (Some(Command::Replay { log }), _) => replay(log),
+        (Some(Command::Completions { shell }), _) => Ok(print_completions(*shell)),
+        (Some(Command::Man), _) => Ok(print_manual()),
         (Some(Command::Config { config }), _) => print_settings(config.as_deref()),
         (None, Some(flight)) => fly(flight),
         // The parser demands a plan where there is no command.
@@ -116,6 +120,23 @@ fn print_settings(path: Option<&Path>) -> Result<u8, CommandError> {
     // Whoever closed the pipe does not want the settings.
     _ = write!(std::io::stdout(), "{text}");
     Ok(0)
+}
+
+fn print_completions(shell: Shell) -> u8 {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "ardrone-pilot", &mut script);
+    // Whoever closed the pipe does not want it.
+    _ = std::io::stdout().write_all(&script);
+    0
+}
+
+fn print_manual() -> u8 {
+    let mut page = Vec::new();
+    // Writing to memory cannot fail, and whoever closed the pipe does not want it.
+    _ = clap_mangen::Man::new(Arguments::command())
+        .render(&mut page)
+        .and_then(|()| std::io::stdout().write_all(&page));
+    0
 }
 
 /// Writes the page about a log.
@@ -182,6 +203,7 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
         None => (None, None),
     };
+    let steps = plan.steps().to_vec();
     let flight = Flight::start(plan, &config, &drone, recorder)?;
     let keys = Keys::start(flight.controls());
     if keys.is_some() {
@@ -189,6 +211,9 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
     }
     let mut truths = Vec::new();
     for message in flight.messages() {
+        if arguments.json {
+            json::print(&json::message(&message, &steps));
+        }
         if let (Message::Waypoint(waypoint), Some(mock)) = (&message, &mock) {
             truths.push(TrueWaypoint::new(waypoint, &mock.truth()));
         }
@@ -202,6 +227,10 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
     progress.end();
     let recorded = recording.and_then(Recording::finish);
     let summary = Summary { finished: &finished, truths: &truths, recorded: recorded.as_ref() };
+    if arguments.json {
+        json::print(&json::end(&finished, recorded.as_ref()));
+        return Ok(finished.outcome.exit_status());
+    }
     // Whoever closed the pipe does not want the summary.
     _ = write!(std::io::stdout(), "{summary}");
     if arguments.timing {

@@ -1,0 +1,82 @@
+//! What programs are told of a flight: one JSON object a line, each with its `type`.
+
+use std::io::Write as _;
+
+use pid::Pose;
+use serde_json::{Value, json};
+
+use crate::flight::{FinishedFlight, Message};
+use crate::pilot::{FlightEvent, Status};
+use crate::plan::Step;
+use crate::recording::Recorded;
+
+/// One line.
+pub(super) fn print(object: &Value) {
+    let mut stdout = std::io::stdout().lock();
+    // Whoever closed the pipe does not want more: the flight goes on.
+    _ = writeln!(stdout, "{object}").and_then(|()| stdout.flush());
+}
+
+/// What the flight tells while it lasts.
+pub(super) fn message(message: &Message, steps: &[Step]) -> Value {
+    match message {
+        Message::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
+        Message::Event(at, event) => {
+            let step = match event {
+                FlightEvent::StepStarted { step } | FlightEvent::StepDone { step } => Some(*step),
+                _ => None,
+            };
+            let command = step.and_then(|step| steps.get(step)).map(|step| step.text.as_str());
+            json!({
+                "type": "event",
+                "t_s": at.as_secs_f64(),
+                "warning": event.warns(),
+                "text": event.to_string(),
+                "step": step,
+                "command": command,
+            })
+        }
+        Message::Waypoint(waypoint) => json!({
+            "type": "target",
+            "t_s": waypoint.at.as_secs_f64(),
+            "step": waypoint.step,
+            "target": pose(&waypoint.target),
+            "reached": pose(&waypoint.pose),
+            "error_m": waypoint.error_m(),
+        }),
+        Message::Status(at, status) => {
+            let Status { phase, step, target, distance_m, battery_percent, .. } = status;
+            json!({
+                "type": "status",
+                "t_s": at.as_secs_f64(),
+                "phase": phase,
+                "step": step,
+                "pose": pose(&status.pose),
+                "target": target.map(|target| pose(&target)),
+                "distance_m": distance_m,
+                "battery_percent": battery_percent,
+                "horizontal_deviation_m": status.horizontal_deviation_m,
+                "navdata_age_s": status.navdata_age.map(|age| age.as_secs_f64()),
+            })
+        }
+    }
+}
+
+/// How it ended.
+pub(super) fn end(finished: &FinishedFlight, recorded: Option<&Recorded>) -> Value {
+    let report = &finished.report;
+    json!({
+        "type": "end",
+        "outcome": finished.outcome.to_string(),
+        "exit_status": finished.outcome.exit_status(),
+        "steps": report.steps,
+        "steps_done": report.steps_done,
+        "flight_time_s": report.flight_time().map(|time| time.as_secs_f64()),
+        "final_error_m": report.final_error_m(),
+        "log": recorded.map(|recorded| recorded.path.display().to_string()),
+    })
+}
+
+fn pose(pose: &Pose) -> Value {
+    json!({ "x_m": pose.x_m, "y_m": pose.y_m, "z_m": pose.z_m, "yaw_deg": pose.yaw_deg })
+}
