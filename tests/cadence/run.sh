@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How regular AT datagrams are: ours with and without real-time priority, and node-ar-drone's, with an
 # idle machine and with all cores busy, while the drone sends 200 packets of navdata a second.
-# The times are those of the kernel as it sends (tcpdump on the loopback device). Needs root.
+# Ours records the flight meanwhile. The times are those of the kernel as it sends (tcpdump on the loopback device). Needs root.
 set -euo pipefail
 usage="usage: run.sh FOLDER-OF-PROGRAMS [SECONDS [CLIENTS [LOADS]]], e.g. run.sh target/release 60 'fifo plain node' 'idle busy'"
 programs=$(realpath "${1:?$usage}")
@@ -12,6 +12,7 @@ cd "$(dirname "$0")"
 command -v tcpdump >/dev/null || { echo "tcpdump is needed"; exit 1; }
 work=$(mktemp -d)
 chmod 755 "$work"
+mkdir -m 777 "$work/logs"
 trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$work"' EXIT
 printf 'takeoff\nsetStayTime %s\ngoto 0 1 0 0\nland\n' "$seconds" >"$work/plan.txt"
 printf '[drone]\nnavdata = "full"\n' >"$work/pilot.toml"
@@ -21,7 +22,7 @@ if [[ $clients == *node* ]]; then
 fi
 
 pilot() {
-    "$@" "$programs/ardrone-pilot" --log "$work/flight.mcap" --plan "$work/plan.txt" --config "$work/pilot.toml" \
+    "$@" "$programs/ardrone-pilot" --log "$work/logs/$(date +%s%N).mcap" --plan "$work/plan.txt" --config "$work/pilot.toml" \
         --drone 127.0.0.1 --plain --timing >"$work/out.txt" 2>"$work/err.txt" || true
 }
 
