@@ -105,11 +105,18 @@ impl Plan {
     /// [`PlanError`] with everything that is wrong.
     pub fn parse_within(name: &str, text: &str, limits: &FlightLimits) -> Result<Self, PlanError> {
         let (plan, mut diagnostics) = Self::review(text, limits);
-        diagnostics.retain(|diagnostic| diagnostic.severity == Severity::Error);
-        plan.ok_or_else(|| {
+        let Some(mut plan) = plan else {
+            diagnostics.retain(|diagnostic| diagnostic.severity == Severity::Error);
             let source = diagnostic::Source { name, text };
-            PlanError { rendered: diagnostic::render_all(&diagnostics, &source) }
-        })
+            return Err(PlanError { rendered: diagnostic::render_all(&diagnostics, &source) });
+        };
+        let warnings = match diagnostics.len() {
+            0 => return Ok(plan),
+            1 => "is a warning".to_owned(),
+            several => format!("are {several} warnings"),
+        };
+        plan.notes.push(format!("there {warnings}: `ardrone-pilot check {name}` tells"));
+        Ok(plan)
     }
 
     /// Reads a plan, refuses targets outside `limits`, and warns of what is legal and yet unwise. There is a

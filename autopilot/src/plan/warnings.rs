@@ -205,6 +205,14 @@ mod tests {
         assert_eq!(warned("takeoff\ngoto 0 0 0 0\nmoveBy 0 0 0 90\ngoto 0 1 0 0\nland\n"), []);
     }
 
+    #[test]
+    fn whoever_flies_is_told_that_there_are_warnings() {
+        let notes = |text| Plan::parse("p.txt", text).unwrap().notes().to_vec();
+        assert!(notes("takeoff\ngoto 0 1 0 0\nland\n").is_empty());
+        let low = notes("takeoff\ngoto 0 0 -0.5 0\nland\n");
+        assert_eq!(low, ["there is a warning: `ardrone-pilot check p.txt` tells"]);
+    }
+
     /// What stands before a line that cannot be read is looked at all the same.
     #[test]
     fn every_problem_is_told_at_once() {
