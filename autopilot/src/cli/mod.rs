@@ -5,6 +5,7 @@ mod check;
 mod json;
 mod keys;
 mod progress;
+mod screen;
 mod summary;
 
 use std::io::{IsTerminal as _, Write as _};
@@ -22,6 +23,7 @@ use time::UtcDateTime;
 use self::arguments::{Arguments, Command, Fly};
 use self::keys::Keys;
 use self::progress::Progress;
+use self::screen::{Screen, Warnings};
 use self::summary::{Summary, TrueWaypoint};
 use crate::flight::{Flight, FlightError, Message};
 use crate::picture::PictureError;
@@ -84,8 +86,9 @@ impl CommandError {
 /// Runs the program and returns its exit status.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    let warnings = Warnings::default();
     tracing_subscriber::fmt()
-        .with_writer(std::io::stderr)
+        .with_writer(warnings.clone())
         .with_max_level(tracing::Level::WARN)
         .with_ansi(std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none())
         .with_target(false)
@@ -99,7 +102,7 @@ pub fn main() -> ExitCode {
         (Some(Command::Completions { shell }), _) => Ok(print_completions(*shell)),
         (Some(Command::Man), _) => Ok(print_manual()),
         (Some(Command::Config { config }), _) => print_settings(config.as_deref()),
-        (None, Some(flight)) => fly(flight),
+        (None, Some(flight)) => fly(flight, &warnings),
         // The parser demands a plan where there is no command.
         (None, None) => Ok(2),
     };
@@ -175,7 +178,7 @@ fn read_log(path: &Path) -> Result<Log, CommandError> {
     Ok(log)
 }
 
-fn fly(arguments: &Fly) -> Result<u8, CommandError> {
+fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let mut settings = read_settings(arguments.config.as_deref())?;
     if let Some(law) = arguments.law() {
         settings.set_law(law);
@@ -204,10 +207,16 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
         None => (None, None),
     };
     let steps = plan.steps().to_vec();
-    let flight = Flight::start(plan, &config, &drone, recorder)?;
+    let screen = || Screen::start(&plan, &config.limits, warnings);
+    let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
+    let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
+    let mut watch = match wanted.then(screen).flatten() {
+        Some(screen) => Watch::Screen(Box::new(screen)),
+        None => Watch::Lines(progress),
+    };
     let keys = Keys::start(flight.controls());
     if keys.is_some() {
-        progress.say(keys::HELP);
+        watch.say(keys::HELP);
     }
     let mut truths = Vec::new();
     for message in flight.messages() {
@@ -217,14 +226,14 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
         if let (Message::Waypoint(waypoint), Some(mock)) = (&message, &mock) {
             truths.push(TrueWaypoint::new(waypoint, &mock.truth()));
         }
-        progress.show(&message);
+        watch.show(&message);
         if let Some(problem) = recording.as_ref().and_then(Recording::problem) {
-            progress.say(&format!("warning: {problem}"));
+            watch.say(&format!("warning: {problem}"));
         }
     }
     drop(keys);
+    watch.end();
     let finished = flight.finish()?;
-    progress.end();
     let recorded = recording.and_then(Recording::finish);
     let summary = Summary { finished: &finished, truths: &truths, recorded: recorded.as_ref() };
     if arguments.json {
@@ -237,6 +246,41 @@ fn fly(arguments: &Fly) -> Result<u8, CommandError> {
         _ = write!(std::io::stdout(), "{}", TimingReport(&finished.ticks));
     }
     Ok(finished.outcome.exit_status())
+}
+
+/// Where people watch the flight.
+enum Watch {
+    Lines(Progress),
+    Screen(Box<Screen>),
+}
+
+impl Watch {
+    fn say(&mut self, line: &str) {
+        match self {
+            Self::Lines(progress) => progress.say(line),
+            Self::Screen(screen) => screen.say(line),
+        }
+    }
+
+    fn show(&mut self, message: &Message) {
+        match self {
+            Self::Lines(progress) => progress.show(message),
+            Self::Screen(screen) => screen.show(message),
+        }
+    }
+
+    /// The flight is over: the terminal is as it was.
+    fn end(self) {
+        match self {
+            Self::Lines(mut progress) => progress.end(),
+            Self::Screen(screen) => {
+                for warning in screen.end() {
+                    // Nobody watches any more.
+                    _ = writeln!(std::io::stderr(), "{warning}");
+                }
+            }
+        }
+    }
 }
 
 /// Starts to record the flight, unless nobody wants that.

@@ -141,6 +141,7 @@ mod tests {
     use pid::Pose;
 
     use super::*;
+    use crate::agent::ChosenPlans;
     use crate::pilot::{Airframe, Trust};
 
     #[test]
@@ -165,6 +166,10 @@ mod tests {
             trust: Trust::Sound,
             airframe: Airframe::default(),
             navdata_age: Some(Duration::from_millis(40)),
+            navdata_hz: 15.0,
+            attitude_deg: None,
+            plans: ChosenPlans::default(),
+            command: None,
         };
         assert_eq!(
             status_line(Duration::from_millis(12_340), &status),

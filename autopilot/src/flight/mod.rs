@@ -31,6 +31,7 @@ use crate::timing::{Stage, TickRecorder, TickSummary};
 
 /// What the flight tells while it lasts.
 #[derive(Debug, Clone, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a box would be asked for in flight")]
 pub enum Message {
     /// What the system gives the flight's thread.
     Realtime(Realtime),
@@ -112,7 +113,7 @@ impl Controls {
 }
 
 /// How often whoever watches is told where things stand.
-const STATUS_TICKS: u32 = 10;
+const STATUS_TICKS: u32 = 3;
 /// Messages that may wait for whoever watches.
 const MESSAGES: usize = 256;
 /// Longer than any navdata packet.

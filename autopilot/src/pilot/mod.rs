@@ -94,6 +94,8 @@ const BLIND_LANDING_TIME: Duration = Duration::from_secs(4);
 const EVENTS: usize = 64;
 /// What pushes the drone for less than this is a gust.
 const WIND_TIME_S: f64 = 2.0;
+/// The rate of navdata is told over so long.
+const RATE_TIME_S: f64 = 1.0;
 const GRAVITY_M_S2: f64 = 9.81;
 
 /// Asks for the drone's clock in demo mode. The key belongs to a category that firmware may only
@@ -132,6 +134,10 @@ pub struct Pilot {
     report: FlightReport,
     /// What the last tick decided; nothing before the first navdata.
     decision: Option<Decision>,
+    /// Packets a second, smoothed.
+    navdata_hz: f64,
+    /// When the last packet came.
+    packet_at: Option<Duration>,
 }
 
 /// The step that is being flown.
@@ -185,6 +191,8 @@ impl Pilot {
             events: VecDeque::with_capacity(EVENTS),
             report,
             decision: None,
+            navdata_hz: 0.0,
+            packet_at: None,
         })
     }
 
@@ -192,6 +200,7 @@ impl Pilot {
     pub fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
         match self.session.handle_navdata(now, datagram) {
             Received::Navdata(navdata) => {
+                self.count_packet(now);
                 self.session_events(now);
                 if let Some(demo) = &navdata.demo {
                     self.estimator.update(&sample(now, &navdata, demo));
@@ -203,6 +212,14 @@ impl Pilot {
             }
             // Counted by the session.
             Received::Stale | Received::Damaged(_) => {}
+        }
+    }
+
+    fn count_packet(&mut self, now: Duration) {
+        if let Some(last) = self.packet_at.replace(now) {
+            let period_s = now.saturating_sub(last).as_secs_f64().max(1e-3);
+            let share = (period_s / RATE_TIME_S).min(1.0);
+            self.navdata_hz += (1.0 / period_s - self.navdata_hz) * share;
         }
     }
 
@@ -338,6 +355,10 @@ impl Pilot {
             trust: self.estimator.trust(),
             airframe: *self.estimator.airframe(),
             navdata_age: self.session.silence(now),
+            navdata_hz: self.navdata_hz,
+            attitude_deg: self.demo().map(|demo| [demo.roll_deg, demo.pitch_deg]),
+            plans: self.decision.map(|decision| decision.plans).unwrap_or_default(),
+            command: self.decision.map(|decision| decision.wanted.name()),
         }
     }
 

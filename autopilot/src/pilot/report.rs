@@ -7,7 +7,7 @@ use estimator::{Airframe, Trust};
 use pid::Pose;
 
 use super::LandingReason;
-use crate::agent::distance;
+use crate::agent::{ChosenPlans, distance};
 use crate::safety::Veto;
 
 /// Something that happened in a flight.
@@ -208,4 +208,12 @@ pub struct Status {
     pub airframe: Airframe,
     /// Age of the newest navdata.
     pub navdata_age: Option<Duration>,
+    /// How many packets came in the last second, smoothed.
+    pub navdata_hz: f64,
+    /// Roll and pitch as the drone tells them: right side down, nose up.
+    pub attitude_deg: Option<[f64; 2]>,
+    /// The plans that the agent chose in the last tick.
+    pub plans: ChosenPlans,
+    /// What it ordered; nothing before the first navdata.
+    pub command: Option<&'static str>,
 }
