@@ -164,6 +164,49 @@ fn a_terminated_pilot_and_a_closed_terminal_land() {
     }
 }
 
+/// The pilot whose command line names this plan, if it runs.
+fn runs(plan: &Path) -> bool {
+    let processes = std::fs::read_dir("/proc").unwrap().filter_map(Result::ok);
+    let mut commands = processes.filter_map(|process| {
+        let command = std::fs::read(process.path().join("cmdline")).ok()?;
+        Some(String::from_utf8_lossy(&command).into_owned())
+    });
+    // `script` and its shell name it too.
+    commands.any(|command| {
+        command.contains(plan.to_str().unwrap())
+            && command.split('\0').next().is_some_and(|name| name.ends_with("ardrone-pilot"))
+    })
+}
+
+/// A window that is closed hangs its terminal up: the drone lands, and the process ends.
+#[test]
+fn a_real_terminal_that_is_closed_lands_and_ends() {
+    let mock = MockProcess::start();
+    let plan = plan_file(LONG);
+    let pilot = mock.pilot(plan.path());
+    let words = std::iter::once(pilot.get_program()).chain(pilot.get_args());
+    let words: Vec<&str> = words.map(|word| word.to_str().unwrap()).collect();
+    let mut terminal = Command::new("script");
+    terminal.args(["-qfc", &words.join(" "), "/dev/null"]);
+    let shown = tempfile::NamedTempFile::new().unwrap();
+    let terminal = terminal
+        .stdin(Stdio::piped())
+        .stdout(shown.reopen().unwrap())
+        .stderr(Stdio::null())
+        .spawn();
+    let mut terminal = terminal.expect("`script` of util-linux is there");
+    wait_for(shown.path(), "step 3");
+    assert!(runs(plan.path()));
+    terminal.kill().unwrap();
+    terminal.wait().unwrap();
+    let closed = Instant::now();
+    while runs(plan.path()) {
+        assert!(closed.elapsed() < Duration::from_secs(20), "it does not end");
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    assert!(closed.elapsed() > Duration::from_secs(1), "it lands first");
+}
+
 /// Nothing of ours runs any more: the drone's own watchdog lands it where it is.
 #[test]
 fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {

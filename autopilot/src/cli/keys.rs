@@ -10,6 +10,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, poll, read};
+use rustix::event::{PollFd, PollFlags, Timespec};
 use rustix::termios::{
     InputModes, LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcsetattr,
 };
@@ -112,10 +113,18 @@ impl Keys {
 impl Drop for Keys {
     fn drop(&mut self) {
         self.ended.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take()
-            && thread.join().is_err()
-        {
-            tracing::error!("the thread that reads keys panicked");
+        if let Some(thread) = self.thread.take() {
+            // A thread that hangs in the terminal must not keep the process: it ends with it.
+            for _ in 0..10 {
+                if thread.is_finished() {
+                    break;
+                }
+                #[allow(clippy::disallowed_methods, reason = "this is the shell")]
+                std::thread::sleep(LOOK / 2);
+            }
+            if thread.is_finished() && thread.join().is_err() {
+                tracing::error!("the thread that reads keys panicked");
+            }
         }
         // A terminal that is gone needs nothing back.
         _ = tcsetattr(stdin(), OptionalActions::Now, &self.before);
@@ -127,28 +136,55 @@ fn read_keys(controls: &Controls, ended: &AtomicBool) {
     let start = Instant::now();
     let mut keymap = Keymap::default();
     while !ended.load(Ordering::Relaxed) {
-        match poll(LOOK) {
-            Ok(true) => {}
-            Ok(false) => continue,
-            // A terminal that is gone is told to the flight by the system.
-            Err(_) => return,
+        match waiting() {
+            Waiting::Keys => {}
+            Waiting::Nothing => continue,
+            // The flight is told by the system.
+            Waiting::Gone => return,
         }
-        let Ok(event) = read() else { return };
-        let Some(action) = pressed(&event).and_then(|key| keymap.action(start.elapsed(), key))
-        else {
-            continue;
-        };
-        let told = match action {
-            Action::Order(order) => controls.order(order),
-            Action::Stop => controls.stop(),
-            Action::AskAgain => {
-                tracing::warn!("press e again within 2 s to cut the motors: the drone will fall");
-                true
+        // One look at the terminal can bring several keys.
+        while let Ok(true) = poll(Duration::ZERO) {
+            let Ok(event) = read() else { return };
+            if let Some(key) = pressed(&event)
+                && let Some(action) = keymap.action(start.elapsed(), key)
+            {
+                act(controls, action);
             }
-        };
-        if !told {
-            tracing::warn!("the flight did not take the key: press it again");
         }
+    }
+}
+
+fn act(controls: &Controls, action: Action) {
+    let told = match action {
+        Action::Order(order) => controls.order(order),
+        Action::Stop => controls.stop(),
+        Action::AskAgain => {
+            tracing::warn!("press e again within 2 s to cut the motors: the drone will fall");
+            true
+        }
+    };
+    if !told {
+        tracing::warn!("the flight did not take the key: press it again");
+    }
+}
+
+/// What the terminal has.
+enum Waiting {
+    Keys,
+    Nothing,
+    /// It was closed.
+    Gone,
+}
+
+/// Looks for keys, for a moment. crossterm reads a closed terminal for ever, so it is not asked to.
+fn waiting() -> Waiting {
+    let moment = Timespec { tv_sec: 0, tv_nsec: i64::from(LOOK.subsec_nanos()) };
+    let stdin = stdin();
+    let mut terminal = [PollFd::new(&stdin, PollFlags::IN)];
+    match rustix::event::poll(&mut terminal, Some(&moment)) {
+        Ok(0) | Err(rustix::io::Errno::INTR) => Waiting::Nothing,
+        Ok(_) if terminal[0].revents() == PollFlags::IN => Waiting::Keys,
+        Ok(_) | Err(_) => Waiting::Gone,
     }
 }
 
