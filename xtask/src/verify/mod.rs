@@ -150,7 +150,7 @@ impl Verifier {
             Some(_) => Some(self.asl2c.verify(agent, folder, None)?),
             None => None,
         };
-        let mut c = prove(agent, &self.cbmc, folder, Checks::All, &[], |_| None)?;
+        let mut c = prove(agent, &self.cbmc, folder, Checks::All, &[], None, |_| None)?;
         if self.tools.frama_c.is_some() {
             c.run_time.extend(alarms(folder)?);
         }
@@ -187,7 +187,8 @@ impl Verifier {
         // nothing may be left out, for a proof that lacks a condition says nothing against the mutant.
         let on_model = self.tools.spin.is_some() && mutant.place != Place::C;
         let known = if on_model { invariant } else { &[] };
-        let mut verdict = prove(&agent, &self.cbmc, folder, checks, known, spoil)?;
+        let mut verdict =
+            prove(&agent, &self.cbmc, folder, checks, known, Some(mutant.breaks), spoil)?;
         if runs_wrong {
             verdict.run_time.extend(alarms(folder)?);
         }

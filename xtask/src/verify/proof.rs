@@ -41,12 +41,14 @@ impl Verdict {
 
 /// Proves what can be proved of an agent with a CBMC; `folder` is for generated files, and `change`
 /// may spoil them. If an invariant is known that nearly holds, only its conditions are tried.
+/// It is `enough` to know that this property is not proved: with fewer conditions it is not proved either.
 pub(super) fn prove(
     agent: &Agent<'_>,
     cbmc: &Path,
     folder: &Path,
     checks: Checks,
     known: &[String],
+    enough: Option<&str>,
     change: impl Fn(&str) -> Option<String>,
 ) -> Result<Verdict, VerifyError> {
     let parsed = parse_configuration(agent.name, agent.configuration)?;
@@ -63,7 +65,9 @@ pub(super) fn prove(
     let mut chosen = checker.check("base", &tried, Checks::Properties)?.1;
     let mut results = loop {
         let (results, left) = checker.check("induction", &chosen, Checks::Properties)?;
-        if left.len() == chosen.len() {
+        let found =
+            |name: &str| results.iter().any(|said| said.strip_prefix("property ") == Some(name));
+        if left.len() == chosen.len() || enough.is_some_and(found) {
             break results;
         }
         chosen = left;

@@ -123,7 +123,7 @@ impl Report {
             said(&self.tools.spin),
         );
         text += MUTANTS_INTRODUCTION;
-        text += "| mutant | made to break | broken on the C | on the model |\n|---|---|---|---|\n";
+        text += "| mutant | made to break | broken on the C, at least | on the model |\n|---|---|---|---|\n";
         for caught in &self.mutants {
             let not = if caught.is_caught() { "" } else { "**not caught**; " };
             let on_model = match caught.on_model {
