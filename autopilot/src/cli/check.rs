@@ -12,6 +12,7 @@ use super::CommandError;
 use super::arguments::CheckPlan;
 use crate::picture;
 use crate::plan::{Expectation, FlightLimits, Plan, battery_percent};
+use crate::recording::Place;
 
 /// Checks a plan, prints what was found, and draws it if asked to. The status is 20 for a plan that cannot be
 /// flown.
@@ -89,13 +90,10 @@ impl<'a> Checked<'a> {
         let steps = self.plan.steps().iter().zip(&self.expectations);
         steps
             .map(|(step, expected)| {
-                let target = expected.target.map(|pose| {
-                    json!({ "x_m": pose.x_m, "y_m": pose.y_m, "z_m": pose.z_m, "yaw_deg": pose.yaw_deg })
-                });
                 json!({
                     "line": (step.line > 0).then_some(step.line),
                     "command": step.text,
-                    "target": target,
+                    "target": expected.target.map(|pose| Place::from(&pose)),
                     "leg_m": expected.leg_m,
                     "time_s": expected.time.as_secs_f64(),
                     "battery_percent": battery_percent(expected.time),

@@ -2,13 +2,12 @@
 
 use std::io::Write as _;
 
-use pid::Pose;
 use serde_json::{Value, json};
 
 use crate::flight::{FinishedFlight, Message};
 use crate::pilot::{FlightEvent, Status};
 use crate::plan::Step;
-use crate::recording::Recorded;
+use crate::recording::{Place, Recorded};
 
 /// One line.
 pub(super) fn print(object: &Value) {
@@ -40,8 +39,8 @@ pub(super) fn message(message: &Message, steps: &[Step]) -> Value {
             "type": "target",
             "t_s": waypoint.at.as_secs_f64(),
             "step": waypoint.step,
-            "target": pose(&waypoint.target),
-            "reached": pose(&waypoint.pose),
+            "target": Place::from(&waypoint.target),
+            "reached": Place::from(&waypoint.pose),
             "error_m": waypoint.error_m(),
         }),
         Message::Status(at, status) => {
@@ -51,8 +50,8 @@ pub(super) fn message(message: &Message, steps: &[Step]) -> Value {
                 "t_s": at.as_secs_f64(),
                 "phase": phase,
                 "step": step,
-                "pose": pose(&status.pose),
-                "target": target.map(|target| pose(&target)),
+                "pose": Place::from(&status.pose),
+                "target": target.map(|target| Place::from(&target)),
                 "distance_m": distance_m,
                 "battery_percent": battery_percent,
                 "horizontal_deviation_m": status.horizontal_deviation_m,
@@ -75,8 +74,4 @@ pub(super) fn end(finished: &FinishedFlight, recorded: Option<&Recorded>) -> Val
         "final_error_m": report.final_error_m(),
         "log": recorded.map(|recorded| recorded.path.display().to_string()),
     })
-}
-
-fn pose(pose: &Pose) -> Value {
-    json!({ "x_m": pose.x_m, "y_m": pose.y_m, "z_m": pose.z_m, "yaw_deg": pose.yaw_deg })
 }

@@ -20,8 +20,6 @@ pub struct Decision {
     pub step: Option<usize>,
     /// Where the drone was, and how it moved.
     pub state: Prediction,
-    /// Standard deviation of the place on each horizontal axis.
-    pub horizontal_deviation_m: f64,
     /// Standard deviation of the height.
     pub vertical_deviation_m: f64,
     /// What the agent knew.

@@ -298,7 +298,6 @@ impl Pilot {
             phase: self.phase.name(),
             step: self.due.as_ref().map(|active| active.due.step),
             state,
-            horizontal_deviation_m: senses.doubt_m,
             vertical_deviation_m: self.estimator.vertical_deviation_m(now),
             senses,
             plans: step.plans,
@@ -341,7 +340,11 @@ impl Pilot {
 
     /// A snapshot for whoever watches.
     pub fn status(&self, now: Duration) -> Status {
-        let pose = self.pose(now);
+        // The last tick has flown the estimate on already.
+        let pose = match &self.decision {
+            Some(decision) => pose(&decision.state),
+            None => self.pose(now),
+        };
         Status {
             phase: self.phase.name(),
             step: self.due.as_ref().map(|active| active.due.step),

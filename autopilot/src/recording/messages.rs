@@ -191,7 +191,7 @@ impl Tick {
                 vx_m_s: short(state.velocity_m_s.x),
                 vy_m_s: short(state.velocity_m_s.y),
                 vz_m_s: short(state.velocity_m_s.z),
-                horizontal_deviation_m: short(decision.horizontal_deviation_m),
+                horizontal_deviation_m: short(senses.doubt_m),
                 vertical_deviation_m: short(decision.vertical_deviation_m),
             },
             target: decision.target.map(|pose| Place::from(&pose)),
