@@ -98,7 +98,7 @@ impl Replay {
                 Entry::Navdata(packet) => pilot.handle_navdata(*at, packet),
                 Entry::Control(bytes) => pilot.handle_control(*at, bytes),
                 Entry::Order(order) => pilot.order(*at, *order),
-                Entry::Decoded(_) | Entry::Event { .. } => {}
+                Entry::Decoded(_) | Entry::Event { .. } | Entry::Outcome { .. } => {}
                 Entry::Tick(recorded) => {
                     pilot.tick(*at, &mut datagram)?;
                     // Both change what is said later.

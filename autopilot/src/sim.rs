@@ -165,6 +165,7 @@ impl Simulation {
                     truth_at_waypoints.push(world.truth());
                 }
                 if let Some(outcome) = pilot.outcome() {
+                    record(Record::Outcome { at: now, outcome: outcome.clone() });
                     let end = now + self.aftermath;
                     let mut later = now;
                     while later < end {

@@ -61,6 +61,7 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
     let told: Vec<String> = log.events().map(|(_, _, text)| text.to_owned()).collect();
     let happened: Vec<String> = flight.events.iter().map(|(_, event)| event.to_string()).collect();
     assert_eq!(told, happened);
+    assert_eq!(log.outcome(), Some((false, flight.outcome.to_string().as_str())));
     let replay = Replay::new(&log).unwrap();
     assert!(replay.is_same(), "{replay}");
     assert_eq!(replay.outcome, Some(flight.outcome));
@@ -179,7 +180,7 @@ fn a_report_answers_why() {
     let line =
         1 + log.agent.lines().position(|line| line.starts_with("+!stay(_, Arrival)")).unwrap();
     assert!(page.contains(&format!("<pre>{line}: +!stay(_, Arrival) : target(X, Y, Z, Yaw)")));
-    assert!(page.contains("last order: Done") && page.contains("Nothing went wrong."));
+    assert!(page.contains("last order: Done") && page.contains("plan flown to its end"));
     let steps = flight.report.steps_done;
     assert!(page.contains(&format!("<b>{steps}</b>steps done")), "{steps}");
     log.entries.clear();
@@ -192,7 +193,18 @@ fn a_report_tells_what_went_wrong() {
     let world = mock_drone::WorldConfig { scenario, ..Default::default() };
     let (_, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
     let page = report::html(&Log::read(&file).unwrap()).unwrap();
-    for told in ["landing: battery", "danger: BatteryEmpty", "@empty_battery"] {
+    for told in ["landed by a failsafe: battery", "landing: battery", "danger: BatteryEmpty", "@empty_battery"] {
         assert!(page.contains(told), "{told}");
     }
+}
+
+/// Nothing was flown, and nothing was warned of in flight: the end itself is the news.
+#[test]
+fn a_refused_flight_is_not_told_as_a_good_one() {
+    let mut world = mock_drone::WorldConfig::default();
+    world.drone.battery_percent = 10.0;
+    let (flight, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
+    assert_ne!(flight.outcome.exit_status(), 0);
+    let page = report::html(&Log::read(&file).unwrap()).unwrap();
+    assert!(page.contains("<p class=\"outcome warn\">"), "{}", flight.outcome);
 }

@@ -27,7 +27,7 @@ use self::screen::{Screen, Warnings};
 use self::summary::{Summary, TrueWaypoint};
 use crate::flight::{Flight, FlightError, Message};
 use crate::picture::PictureError;
-use crate::plan::{FlightLimits, Plan, PlanError};
+use crate::plan::{Plan, PlanError};
 use crate::recording::{Header, Log, LogError, Recorder, Recording, RecordingError};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{self, ReportError};
@@ -184,7 +184,10 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
         settings.set_law(law);
     }
     let config = settings.pilot_config(arguments.z_origin());
-    let plan = read_plan(arguments, &config.limits)?;
+    // What is recorded is what is flown.
+    let text = read("the plan", &arguments.plan)?;
+    let name = arguments.plan.display().to_string();
+    let plan = Plan::parse_within(&name, &text, &config.limits)?;
     let plain = arguments.plain || !std::io::stderr().is_terminal();
     let mut progress = Progress::new(&plan, plain);
     let mock = if arguments.mock {
@@ -202,11 +205,10 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
             format!("the drone at {}", drone.host)
         }
     ));
-    let (recorder, recording) = match record(arguments, &settings, &plan, mock.is_some())? {
+    let (recorder, recording) = match record(arguments, &settings, &plan, text, mock.is_some())? {
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
         None => (None, None),
     };
-    let steps = plan.steps().to_vec();
     let screen = || Screen::start(&plan, &config.limits, warnings);
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
     let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
@@ -221,7 +223,7 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let mut truths = Vec::new();
     for message in flight.messages() {
         if arguments.json {
-            json::print(&json::message(&message, &steps));
+            json::print(&json::message(&message, plan.steps()));
         }
         if let (Message::Waypoint(waypoint), Some(mock)) = (&message, &mock) {
             truths.push(TrueWaypoint::new(waypoint, &mock.truth()));
@@ -288,6 +290,7 @@ fn record(
     arguments: &Fly,
     settings: &Settings,
     plan: &Plan,
+    text: String,
     mock: bool,
 ) -> Result<Option<(Recorder, Recording)>, CommandError> {
     if arguments.no_log {
@@ -302,7 +305,7 @@ fn record(
     let header = Header {
         start: start.try_into().unwrap_or_default(),
         plan_name: arguments.plan.display().to_string(),
-        plan: read("the plan", &arguments.plan)?,
+        plan: text,
         settings: settings.to_toml()?,
         z_origin: arguments.z_origin(),
         drone: if mock { "mock drone".to_owned() } else { arguments.drone.clone() },
@@ -338,11 +341,6 @@ fn read_settings(path: Option<&Path>) -> Result<Settings, CommandError> {
     let Some(path) = path else { return Ok(Settings::default()) };
     let text = read("the settings", path)?;
     Ok(Settings::parse(&path.display().to_string(), &text)?)
-}
-
-fn read_plan(arguments: &Fly, limits: &FlightLimits) -> Result<Plan, CommandError> {
-    let text = read("the plan", &arguments.plan)?;
-    Ok(Plan::parse_within(&arguments.plan.display().to_string(), &text, limits)?)
 }
 
 fn read(what: &'static str, path: &Path) -> Result<String, CommandError> {

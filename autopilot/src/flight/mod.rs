@@ -250,7 +250,7 @@ impl TickLoop {
             self.tell(now, count.is_multiple_of(STATUS_TICKS));
             count = count.wrapping_add(1);
             if let Some(outcome) = self.pilot.outcome().cloned() {
-                return Ok(self.finished(outcome));
+                return Ok(self.finished(start.elapsed(), outcome));
             }
             if self.stops >= 2 {
                 return self.leave(start, &mut datagram);
@@ -368,12 +368,16 @@ impl TickLoop {
     ) -> Result<FinishedFlight, FlightError> {
         for _ in 0..PARTING_ORDERS {
             self.tick(start, datagram)?;
+            self.record_tick(Duration::ZERO, Duration::ZERO, datagram);
             self.wait(TICK)?;
         }
-        Ok(self.finished(Outcome::Interrupted))
+        Ok(self.finished(start.elapsed(), Outcome::Interrupted))
     }
 
-    fn finished(&self, outcome: Outcome) -> FinishedFlight {
+    fn finished(&mut self, now: Duration, outcome: Outcome) -> FinishedFlight {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.outcome(now, outcome.clone());
+        }
         FinishedFlight {
             outcome,
             report: self.pilot.report().clone(),

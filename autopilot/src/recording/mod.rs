@@ -18,6 +18,7 @@ pub use reader::{Entry, Log, LogError};
 pub use recorder::{Recorded, Recorder, Recording, RecordingError};
 pub use writer::LogWriter;
 
+use crate::outcome::Outcome;
 use crate::pilot::{Decision, FlightEvent, PilotOrder};
 use crate::plan::ZOrigin;
 
@@ -27,6 +28,9 @@ const AGENT: &str = include_str!("../../agent/autopilot.asl");
 const AGENT_FILE: &str = "autopilot.asl";
 const PLAN_FILE: &str = "plan.txt";
 const SETTINGS_FILE: &str = "pilot.toml";
+/// What a log line is about: its `name`.
+const EVENT: &str = "event";
+const OUTCOME: &str = "outcome";
 /// The name of the metadata.
 const FLIGHT: &str = "flight";
 
@@ -78,6 +82,13 @@ pub enum Record {
         at: Duration,
         /// What.
         event: FlightEvent,
+    },
+    /// How the flight ended.
+    Outcome {
+        /// When.
+        at: Duration,
+        /// How.
+        outcome: Outcome,
     },
     /// Something else to be read by people.
     Note {

@@ -11,7 +11,7 @@ use mcap::{McapError, parse_record};
 use serde::de::DeserializeOwned;
 
 use super::messages::{Bytes, DecodedNavdata, Hand, Tick};
-use super::{AGENT_FILE, FLIGHT, PLAN_FILE, SETTINGS_FILE, topic};
+use super::{AGENT_FILE, FLIGHT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
 use crate::pilot::PilotOrder;
 use crate::plan::ZOrigin;
 
@@ -56,6 +56,13 @@ pub enum Entry {
         /// Whether it is a warning.
         warns: bool,
         /// What happened.
+        text: String,
+    },
+    /// How the flight ended, and whether that is a warning.
+    Outcome {
+        /// Whether it is a warning.
+        warns: bool,
+        /// How it ended.
         text: String,
     },
     /// A tick.
@@ -127,6 +134,14 @@ impl Log {
     pub fn ticks(&self) -> impl Iterator<Item = (Duration, &Tick)> {
         self.entries.iter().filter_map(|(at, entry)| match entry {
             Entry::Tick(tick) => Some((*at, tick.as_ref())),
+            _ => None,
+        })
+    }
+
+    /// How the flight ended, and whether that is a warning; nothing if the log does not say.
+    pub fn outcome(&self) -> Option<(bool, &str)> {
+        self.entries.iter().rev().find_map(|(_, entry)| match entry {
+            Entry::Outcome { warns, text } => Some((*warns, text.as_str())),
             _ => None,
         })
     }
@@ -222,10 +237,16 @@ fn entry(topic: &str, data: &[u8]) -> Result<Option<Entry>, LogError> {
             #[derive(serde::Deserialize)]
             struct Line {
                 level: u8,
+                name: String,
                 message: String,
             }
-            let Line { level, message } = parse(topic, data)?;
-            Entry::Event { warns: level > 2, text: message }
+            let Line { level, name, message } = parse(topic, data)?;
+            let warns = level > 2;
+            if name == OUTCOME {
+                Entry::Outcome { warns, text: message }
+            } else {
+                Entry::Event { warns, text: message }
+            }
         }
         _ => return Ok(None),
     }))

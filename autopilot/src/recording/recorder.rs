@@ -11,6 +11,7 @@ use mcap::McapError;
 
 use super::messages::Timing;
 use super::{Header, LogWriter, Record};
+use crate::outcome::Outcome;
 use crate::pilot::{Decision, FlightEvent, PilotOrder};
 
 /// Entries that may wait for the disk: some seconds.
@@ -131,6 +132,11 @@ impl Recorder {
     /// Something happened.
     pub fn event(&mut self, at: Duration, event: FlightEvent) {
         self.record(Record::Event { at, event });
+    }
+
+    /// How the flight ended.
+    pub fn outcome(&mut self, at: Duration, outcome: Outcome) {
+        self.record(Record::Outcome { at, outcome });
     }
 
     /// Something else to be read by people.

@@ -17,7 +17,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::messages::{Bytes, DecodedNavdata, Hand, Place, Tick};
-use super::{AGENT_FILE, FLIGHT, Header, PLAN_FILE, Record, SETTINGS_FILE, topic};
+use super::{AGENT_FILE, EVENT, FLIGHT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE, topic};
 
 /// The place of drone and target is told so often for those who draw it: each third tick.
 const POSE_TICKS: u64 = 3;
@@ -91,9 +91,14 @@ impl<W: Write + Seek> LogWriter<W> {
             Record::Order { at, order } => self.message(topic::HAND, *at, &Hand::from(*order)),
             Record::Event { at, event } => {
                 let level = if event.warns() { Level::Warning } else { Level::Info };
-                self.log(*at, level, &event.to_string())
+                self.log(*at, level, EVENT, &event.to_string())
             }
-            Record::Note { at, text } => self.log(*at, Level::Info, text),
+            Record::Outcome { at, outcome } => {
+                let good = outcome.exit_status() == 0;
+                let level = if good { Level::Info } else { Level::Warning };
+                self.log(*at, level, OUTCOME, &outcome.to_string())
+            }
+            Record::Note { at, text } => self.log(*at, Level::Info, EVENT, text),
             Record::Tick { decision, timing, datagram } => {
                 let tick = Tick::new(decision, *timing, datagram);
                 if self.ticks.is_multiple_of(POSE_TICKS) {
@@ -151,12 +156,12 @@ impl<W: Write + Seek> LogWriter<W> {
         self.writer.write_to_known_channel(&header, &data)
     }
 
-    fn log(&mut self, at: Duration, level: Level, text: &str) -> Result<(), McapError> {
+    fn log(&mut self, at: Duration, level: Level, name: &str, text: &str) -> Result<(), McapError> {
         let log = json!({
             "timestamp": self.timestamp(at),
             "level": level as u8,
             "message": text,
-            "name": "ardrone-pilot",
+            "name": name,
             "file": "",
             "line": 0,
         });

@@ -85,13 +85,14 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
         page,
         "<h1>{plan}</h1>\n<p class=\"faint\">{date}{drone}, ardrone-pilot {version}</p>\n"
     );
-    let warning = flight.events.iter().rev().find(|(_, warns, _)| *warns);
-    let told = match (log.complete, warning) {
-        (false, _) => "The log was cut off: what is here is what was written before.".to_owned(),
-        (true, Some((at_s, _, text))) => format!("{at_s:.1} s: {text}"),
-        (true, None) => "Nothing went wrong.".to_owned(),
+    let warning = flight.events.iter().find(|(_, warns, _)| *warns);
+    let warning = warning.map(|(at_s, _, text)| format!("; first warning at {at_s:.1} s: {text}"));
+    let (ill, ended) = match log.outcome() {
+        Some((warns, text)) => (warns, text),
+        None => (true, "the log was cut off: what is here is what was written before"),
     };
-    let class = if log.complete && warning.is_none() { "outcome" } else { "outcome warn" };
+    let class = if ill || warning.is_some() { "outcome warn" } else { "outcome" };
+    let told = format!("{ended}{}", warning.unwrap_or_default());
     _ = writeln!(page, "<p class=\"{class}\">{}</p>\n<div class=\"facts\">", escaped(&told));
     let mut fact = |name: &str, value: String| {
         _ = writeln!(page, "<div><b>{value}</b>{name}</div>");
