@@ -113,9 +113,14 @@ impl Mission {
     }
 
     fn go_to(&mut self, step: usize, target: Pose) -> Due {
-        self.target = self.limits.nearest_inside(&target, 0.0);
+        self.target = self.inside(&target);
         let corrected = self.target != target;
         Due { step, order: AgentOrder::GoTo(self.target), corrected }
+    }
+
+    /// The place in the fence that is nearest to a target.
+    pub fn inside(&self, target: &Pose) -> Pose {
+        self.limits.nearest_inside(target, 0.0)
     }
 
     /// How orders are to be flown now.

@@ -74,7 +74,8 @@ fn nothing_is_allocated_in_flight() {
     let orders = [
         (7 * second, PilotOrder::Hold),
         (8 * second, PilotOrder::Steer(Demand { roll: 0.5, ..Demand::default() })),
-        (10 * second, PilotOrder::Resume),
+        (10 * second, PilotOrder::GoTo { x_m: 0.5, y_m: 0.5 }),
+        (13 * second, PilotOrder::Resume),
         (18 * second, PilotOrder::Land),
     ];
     for navdata in [NavdataRate::Demo, NavdataRate::Full] {

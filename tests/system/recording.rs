@@ -45,7 +45,8 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
     let orders = vec![
         (7 * second, PilotOrder::Hold),
         (8 * second, PilotOrder::Steer(autopilot::Demand { roll: 0.3, ..Default::default() })),
-        (9 * second, PilotOrder::Resume),
+        (9 * second, PilotOrder::GoTo { x_m: 0.5, y_m: 0.25 }),
+        (12 * second, PilotOrder::Resume),
     ];
     let simulation = Simulation { orders, ..Simulation::default() };
     let (flight, file) = recorded(SQUARE, &simulation);
@@ -57,7 +58,7 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
     assert_eq!(last, flight.duration);
     assert!(tick.agent.on_ground && tick.datagram.contains("AT*REF="), "{tick:?}");
     let orders = log.entries.iter().filter(|(_, entry)| matches!(entry, Entry::Order(_)));
-    assert_eq!(orders.count(), 3);
+    assert_eq!(orders.count(), 4);
     let told: Vec<String> = log.events().map(|(_, _, text)| text.to_owned()).collect();
     let happened: Vec<String> = flight.events.iter().map(|(_, event)| event.to_string()).collect();
     assert_eq!(told, happened);
@@ -193,7 +194,12 @@ fn a_report_tells_what_went_wrong() {
     let world = mock_drone::WorldConfig { scenario, ..Default::default() };
     let (_, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
     let page = report::html(&Log::read(&file).unwrap()).unwrap();
-    for told in ["landed by a failsafe: battery", "landing: battery", "danger: BatteryEmpty", "@empty_battery"] {
+    for told in [
+        "landed by a failsafe: battery",
+        "landing: battery",
+        "danger: BatteryEmpty",
+        "@empty_battery",
+    ] {
         assert!(page.contains(told), "{told}");
     }
 }

@@ -154,3 +154,76 @@ fn navdata_that_stay_frozen_or_lie_too_much_land_the_drone() {
         assert!(flight.events.iter().any(|(_, event)| *event == ordered), "{:?}", flight.events);
     }
 }
+
+/// A place given by hand is flown to and held while the plan waits; the plan then goes on.
+#[test]
+fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
+    let go_to = |x_m, y_m| PilotOrder::GoTo { x_m, y_m };
+    let orders = vec![
+        (8 * SECOND, go_to(f64::NAN, 0.0)),
+        (8 * SECOND, go_to(0.5, 2.0)),
+        // Elsewhere, in flight and twice at once: the last word counts.
+        (10 * SECOND, go_to(1.0, -1.0)),
+        (10 * SECOND, go_to(-1.5, 0.5)),
+        (22 * SECOND, PilotOrder::Resume),
+    ];
+    for seed in 1..=3 {
+        let mut there_m = f64::INFINITY;
+        let watch = |moment: &Moment| {
+            if moment.now < 22 * SECOND {
+                let at = moment.truth.odometry_m;
+                there_m = (at.x + 1.5).hypot(at.y - 0.5);
+            }
+        };
+        let simulation = Simulation { orders: orders.clone(), ..Simulation::default() };
+        let flight = watched("", seed, plan(SQUARE), simulation, watch);
+        assert_eq!(flight.outcome, Outcome::Completed);
+        assert!(there_m < 0.25, "seed {seed}: {there_m:.2} m off");
+        let count = |event| flight.events.iter().filter(|(_, told)| *told == event).count();
+        assert_eq!(count(FlightEvent::SentByHand), 3);
+        assert_eq!(count(FlightEvent::HandTargetReached), 1);
+    }
+}
+
+/// Whoever holds in the tick in which the drone was sent somewhere, or just after, means it.
+#[test]
+fn a_hold_takes_back_where_the_drone_was_sent() {
+    for after_ms in [0, 10, 30, 40, 60, 100] {
+        let held = 9 * SECOND + Duration::from_millis(after_ms);
+        let sent = PilotOrder::GoTo { x_m: 3.0, y_m: 0.0 };
+        let orders = vec![
+            (8 * SECOND, PilotOrder::Hold),
+            (9 * SECOND, sent),
+            (held, PilotOrder::Hold),
+            (20 * SECOND, PilotOrder::Land),
+        ];
+        let mut furthest = 0.0;
+        let simulation = Simulation { orders, ..Simulation::default() };
+        let flown = plan("takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n");
+        let flight = watched("", 1, flown, simulation, |m| furthest_m(m, &mut furthest));
+        assert_eq!(flight.outcome, Outcome::Interrupted);
+        assert!(furthest < 0.4, "{after_ms} ms: {furthest:.2} m");
+    }
+}
+
+/// Beyond the fence the drone is sent to its edge; what is not reached in time is given up.
+#[test]
+fn a_place_given_by_hand_may_be_outside_or_never_reached() {
+    let sent = (8 * SECOND, PilotOrder::GoTo { x_m: 80.0, y_m: 0.0 });
+    let fly = |radius_m, settings, orders| {
+        let flown = plan(&format!("takeoff\n{settings}goto 0 0 0 0\ngoto 0 1 0 0\nland\n"));
+        let limits = FlightLimits { radius_m, ..NEAR };
+        let pilot = PilotConfig { limits, ..PilotConfig::default() };
+        let simulation = Simulation { orders, pilot, ..Simulation::default() };
+        let mut away_m = 0.0;
+        let flight = watched("", 1, flown, simulation, |m| furthest_m(m, &mut away_m));
+        let events: Vec<_> = flight.events.into_iter().map(|(_, event)| event).collect();
+        (events, away_m)
+    };
+    let (events, away_m) = fly(4.0, "", vec![sent, (25 * SECOND, PilotOrder::Land)]);
+    assert!(events.contains(&FlightEvent::HandTargetReached), "{events:?}");
+    assert!((3.5..4.3).contains(&away_m), "{away_m:.2} m");
+    let (events, _) = fly(100.0, "setMaxControl 0.05\n", vec![sent]);
+    let given_up = FlightEvent::LandingOrdered(LandingReason::HandTargetTimedOut);
+    assert!(events.contains(&given_up), "{events:?}");
+}

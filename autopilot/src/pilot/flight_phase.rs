@@ -75,6 +75,8 @@ pub enum LandingReason {
         /// Its index.
         step: usize,
     },
+    /// Where the pilot has sent the drone was not reached in time.
+    HandTargetTimedOut,
     /// What the drone says of itself cannot be believed.
     Distrust(Trust),
     /// The place is not known well enough any more.
@@ -94,6 +96,9 @@ impl fmt::Display for LandingReason {
             Self::DroneRestarted => f.write_str("the drone has restarted"),
             Self::StepFailed { step } => write!(f, "step {} failed", step + 1),
             Self::StepTimedOut { step } => write!(f, "step {} was not done in its time", step + 1),
+            Self::HandTargetTimedOut => {
+                f.write_str("the place it was sent to by hand was not reached in time")
+            }
             Self::Distrust(trust) => write!(f, "navdata are {trust}"),
             Self::PlaceUncertain => f.write_str("the place is too uncertain"),
             Self::Wind => f.write_str("the wind is too strong to hold the place"),
@@ -153,6 +158,7 @@ impl Pilot {
             },
             Danger::Lost => LandingReason::PlaceUncertain,
             Danger::Wind => LandingReason::Wind,
+            Danger::NoProgress if self.hand.sends() => LandingReason::HandTargetTimedOut,
             Danger::NoProgress => {
                 LandingReason::StepTimedOut { step: self.due.map_or(0, |active| active.due.step) }
             }

@@ -274,6 +274,7 @@ impl Pilot {
         self.feel_wind(prediction.disturbance_m_s2, step_s);
         let senses = self.senses(now, &state);
         let step = AgentStep::run(&mut self.agent, senses);
+        self.hand.pre_empts = false;
         if let Some(report) = step.report {
             self.order_ended(now, report);
         }
@@ -533,8 +534,12 @@ impl Pilot {
 
     /// Gives the agent the next order when the last one has ended.
     fn offer_order(&mut self, now: Duration) {
-        let waits = self.landing.is_some() || self.hand.holds_plan;
+        let waits = self.landing.is_some() || self.hand.pre_empts;
         if self.phase != FlightPhase::Flying || waits {
+            return;
+        }
+        if self.hand.holds_plan {
+            self.offer_hand_target();
             return;
         }
         if self.due.is_none() {
@@ -564,8 +569,12 @@ impl Pilot {
 
     /// The agent has reported how its last order ended.
     fn order_ended(&mut self, now: Duration, report: Report) {
-        if self.landing.is_some() || self.hand.holds_plan {
-            // The end of a landing is judged by the drone's state; a plan that waits has no order.
+        if self.landing.is_some() {
+            // The end of a landing is judged by the drone's state.
+            return;
+        }
+        if self.hand.holds_plan {
+            self.hand_target_ended(report);
             return;
         }
         let Some(active) = self.due.take() else { return };

@@ -56,6 +56,10 @@ pub enum FlightEvent {
     Held,
     /// The pilot flies by hand.
     Steered,
+    /// The pilot sends the drone somewhere.
+    SentByHand,
+    /// The drone is where the pilot has sent it.
+    HandTargetReached,
     /// The plan goes on.
     Resumed,
     /// The pilot has the motors cut.
@@ -76,6 +80,8 @@ impl FlightEvent {
             | Self::StepDone { .. }
             | Self::Held
             | Self::Steered
+            | Self::SentByHand
+            | Self::HandTargetReached
             | Self::Resumed => false,
             Self::ConfigurationNotRead
             | Self::TargetCorrected { .. }
@@ -115,6 +121,8 @@ impl fmt::Display for FlightEvent {
             Self::BatteryLow { percent } => write!(f, "battery at {percent} %: land soon"),
             Self::Held => f.write_str("holding"),
             Self::Steered => f.write_str("flown by hand"),
+            Self::SentByHand => f.write_str("sent by hand"),
+            Self::HandTargetReached => f.write_str("where it was sent by hand"),
             Self::Resumed => f.write_str("going on with the plan"),
             Self::CutOrdered => f.write_str("EMERGENCY CUT ordered"),
             Self::Veto(veto) => f.write_str(match veto {

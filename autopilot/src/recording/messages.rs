@@ -169,6 +169,13 @@ pub enum Hand {
         /// Positive turns clockwise.
         yaw: f64,
     },
+    /// Fly to this place and stay there.
+    GoTo {
+        /// To the right of the start.
+        x_m: f64,
+        /// Before the start.
+        y_m: f64,
+    },
     /// Land.
     Land,
     /// Cut the motors.
@@ -275,6 +282,7 @@ impl From<PilotOrder> for Hand {
             PilotOrder::Steer(Demand { roll, pitch, gaz, yaw }) => {
                 Self::Steer { roll, pitch, gaz, yaw }
             }
+            PilotOrder::GoTo { x_m, y_m } => Self::GoTo { x_m, y_m },
             PilotOrder::Land => Self::Land,
             PilotOrder::Cut => Self::Cut,
         }
@@ -287,6 +295,7 @@ impl From<Hand> for PilotOrder {
             Hand::Hold => Self::Hold,
             Hand::Resume => Self::Resume,
             Hand::Steer { roll, pitch, gaz, yaw } => Self::Steer(Demand { roll, pitch, gaz, yaw }),
+            Hand::GoTo { x_m, y_m } => Self::GoTo { x_m, y_m },
             Hand::Land => Self::Land,
             Hand::Cut => Self::Cut,
         }
