@@ -113,14 +113,14 @@ impl Mission {
     }
 
     fn go_to(&mut self, step: usize, target: Pose) -> Due {
-        self.target = self.inside(&target);
+        self.target = self.inside(&target, 0.0);
         let corrected = self.target != target;
         Due { step, order: AgentOrder::GoTo(self.target), corrected }
     }
 
-    /// The place in the fence that is nearest to a target.
-    pub fn inside(&self, target: &Pose) -> Pose {
-        self.limits.nearest_inside(target, 0.0)
+    /// The nearest place in the fence, and so far inside across the ground.
+    pub fn inside(&self, target: &Pose, by_m: f64) -> Pose {
+        self.limits.nearest_inside(target, by_m)
     }
 
     /// How orders are to be flown now.

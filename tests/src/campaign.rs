@@ -316,7 +316,7 @@ fn accident(random: &mut impl Rng, strongest_m_s: f64) -> Action {
 }
 
 fn pilot_order(random: &mut impl Rng) -> PilotOrder {
-    match random.random_range(0..10) {
+    match random.random_range(0..12) {
         0 | 1 => PilotOrder::Hold,
         2..=4 => PilotOrder::Resume,
         5..=7 => {
@@ -324,6 +324,10 @@ fn pilot_order(random: &mut impl Rng) -> PilotOrder {
             PilotOrder::Steer(Demand { roll: stick(), pitch: stick(), gaz: stick(), yaw: stick() })
         }
         8 => PilotOrder::Land,
+        9 | 10 => {
+            let mut place_m = || random.random_range(-15.0..15.0);
+            PilotOrder::GoTo { x_m: place_m(), y_m: place_m() }
+        }
         _ if random.random_bool(0.1) => PilotOrder::Cut,
         _ => PilotOrder::Resume,
     }

@@ -18,7 +18,7 @@ pub enum PilotOrder {
     /// drone's signs.
     Steer(Demand),
     /// Fly to this place and stay there, as high and looking the same way as before; the plan waits.
-    /// A place outside the fence becomes the nearest one inside. In the estimator's frame.
+    /// A place at or outside the fence becomes the nearest one inside. In the estimator's frame.
     GoTo {
         /// To the right of the start, as the drone stood there.
         x_m: f64,
@@ -33,6 +33,10 @@ pub enum PilotOrder {
 
 /// A stick that is not moved again for so long is let go: keys that are held repeat faster.
 const STICK_TIME: Duration = Duration::from_millis(600);
+
+/// A place given by hand is no nearer to the fence than this: in the wind the drone would be blown over
+/// it, and that lands.
+const FENCE_DISTANCE_M: f64 = 0.5;
 
 /// What the hand does.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -92,7 +96,7 @@ impl Pilot {
                 let wanted = Pose { x_m, y_m, ..self.target.unwrap_or_else(|| self.pose(now)) };
                 self.take_in_hand(FlightEvent::SentByHand);
                 self.hold();
-                self.hand.target = Some((self.mission.inside(&wanted), false));
+                self.hand.target = Some((self.mission.inside(&wanted, FENCE_DISTANCE_M), false));
             }
             // No place.
             PilotOrder::GoTo { .. } => {}
