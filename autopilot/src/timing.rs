@@ -52,6 +52,17 @@ pub struct TickRecorder {
     last: Option<Duration>,
     tick: Tick,
     worst: Option<Tick>,
+    /// The longest lateness since somebody asked.
+    latest: Duration,
+}
+
+/// How the ticks are now, for whoever watches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TickHealth {
+    /// The longest time after a deadline since the last look.
+    pub lateness: Duration,
+    /// Deadlines since the start that passed without a tick.
+    pub skipped: u64,
 }
 
 /// A tick.
@@ -109,6 +120,7 @@ impl Default for TickRecorder {
             last: None,
             tick: Tick::default(),
             worst: None,
+            latest: Duration::ZERO,
         }
     }
 }
@@ -122,6 +134,7 @@ impl TickRecorder {
         self.late += u64::from(lateness > LATE);
         self.skipped += skipped;
         self.lateness.add(lateness);
+        self.latest = self.latest.max(lateness);
         if let Some(last) = self.last.replace(now) {
             self.periods.add(now.saturating_sub(last));
         }
@@ -144,6 +157,11 @@ impl TickRecorder {
         if self.worst.is_none_or(|worst| tick.behind() > worst.behind()) {
             self.worst = Some(tick);
         }
+    }
+
+    /// How the ticks were since the last call.
+    pub fn health(&mut self) -> TickHealth {
+        TickHealth { lateness: std::mem::take(&mut self.latest), skipped: self.skipped }
     }
 
     /// What was collected.

@@ -43,7 +43,7 @@ pub(super) fn message(message: &Message, steps: &[Step]) -> Value {
             "reached": Place::from(&waypoint.pose),
             "error_m": waypoint.error_m(),
         }),
-        Message::Status(at, status) => {
+        Message::Status(at, status, ticks) => {
             let Status { phase, step, target, distance_m, battery_percent, .. } = status;
             json!({
                 "type": "status",
@@ -56,6 +56,8 @@ pub(super) fn message(message: &Message, steps: &[Step]) -> Value {
                 "battery_percent": battery_percent,
                 "horizontal_deviation_m": status.horizontal_deviation_m,
                 "navdata_age_s": status.navdata_age.map(|age| age.as_secs_f64()),
+                "tick_late_s": ticks.lateness.as_secs_f64(),
+                "ticks_skipped": ticks.skipped,
             })
         }
     }

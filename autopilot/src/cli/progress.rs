@@ -43,7 +43,7 @@ impl Progress {
             }
             Message::Realtime(realtime) => self.say(&realtime.to_string()),
             Message::Waypoint(_) => {}
-            Message::Status(at, status) => self.status(*at, status),
+            Message::Status(at, status, _) => self.status(*at, status),
         }
     }
 

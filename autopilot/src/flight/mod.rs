@@ -27,7 +27,7 @@ use crate::pilot::{
 use crate::plan::Plan;
 use crate::realtime::Realtime;
 use crate::recording::{Recorder, Timing};
-use crate::timing::{Stage, TickRecorder, TickSummary};
+use crate::timing::{Stage, TickHealth, TickRecorder, TickSummary};
 
 /// What the flight tells while it lasts.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ pub enum Message {
     /// A target was reached and stayed at.
     Waypoint(Waypoint),
     /// Where things stand, some times a second.
-    Status(Duration, Status),
+    Status(Duration, Status, TickHealth),
 }
 
 /// A flight that is over.
@@ -350,7 +350,8 @@ impl TickLoop {
             self.say(Message::Waypoint(waypoint));
         }
         if with_status {
-            self.say(Message::Status(now, self.pilot.status(now)));
+            let health = self.ticks.health();
+            self.say(Message::Status(now, self.pilot.status(now), health));
         }
     }
 

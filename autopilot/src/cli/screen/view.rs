@@ -15,6 +15,7 @@ use crate::agent::PLANS;
 use crate::flight::Message;
 use crate::pilot::{FlightEvent, Status};
 use crate::plan::{FlightLimits, Plan};
+use crate::timing::TickHealth;
 
 /// Lines that are remembered.
 const REMEMBERED: usize = 50;
@@ -34,6 +35,7 @@ pub(super) struct View {
     limits: FlightLimits,
     at: Duration,
     status: Option<Status>,
+    ticks: TickHealth,
     trail: VecDeque<(f64, f64)>,
     /// When, and what the agent then decided otherwise.
     decisions: VecDeque<(Duration, String)>,
@@ -48,6 +50,7 @@ impl View {
             limits: *limits,
             at: Duration::ZERO,
             status: None,
+            ticks: TickHealth::default(),
             trail: VecDeque::new(),
             decisions: VecDeque::new(),
             messages: VecDeque::new(),
@@ -84,7 +87,10 @@ impl View {
                 let line = format!("{:6.1} s {text}", at.as_secs_f64());
                 remember(&mut self.messages, (line, event.warns()));
             }
-            Message::Status(at, status) => self.look(*at, status),
+            Message::Status(at, status, ticks) => {
+                self.ticks = *ticks;
+                self.look(*at, status);
+            }
         }
     }
 
@@ -135,7 +141,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
     .areas(frame.area());
     let [map, side] =
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).areas(body);
-    let [gauges, steps] = Layout::vertical([Constraint::Length(7), Constraint::Min(3)]).areas(side);
+    let [gauges, steps] = Layout::vertical([Constraint::Length(8), Constraint::Min(3)]).areas(side);
     let [decisions, messages] =
         Layout::horizontal([Constraint::Percentage(50), Constraint::Percentage(50)]).areas(foot);
     frame.render_widget(headline(view), head);
@@ -278,11 +284,17 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
             _ => "target  -".to_owned(),
         },
         format!("known   to {:.2} m", status.horizontal_deviation_m),
+        ticks(&view.ticks),
     ];
     if let Some([roll_deg, pitch_deg]) = status.attitude_deg {
         lines.push(format!("leans   {roll_deg:+.1}° right, {:+.1}° forward", -pitch_deg));
     }
     frame.render_widget(Paragraph::new(lines.join("\n")), text);
+}
+
+fn ticks(health: &TickHealth) -> String {
+    let late_ms = health.lateness.as_secs_f64() * 1e3;
+    format!("ticks   {late_ms:.1} ms late, {} skipped", health.skipped)
 }
 
 /// The plan, with the step that is flown.
@@ -340,7 +352,9 @@ mod tests {
                 plans: ChosenPlans::default(),
                 command: Some("Goto"),
             };
-            view.take_in(&Message::Status(Duration::from_millis(u64::from(tick) * 90), status));
+            let ticks = TickHealth { lateness: Duration::from_micros(230), skipped: 1 };
+            let at = Duration::from_millis(u64::from(tick) * 90);
+            view.take_in(&Message::Status(at, status, ticks));
         }
         let started = FlightEvent::StepStarted { step: 2 };
         view.take_in(&Message::Event(Duration::from_secs(3), started));
