@@ -17,7 +17,10 @@ mod bindings {
     include!(concat!(env!("OUT_DIR"), "/bindings.rs"));
 }
 
+mod source;
+
 pub use bindings::{Agent, PLANS, STATE_BYTES};
+pub use source::{SOURCE, plan_text};
 
 /// How orders are flown; plans can change it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -19,6 +19,7 @@
 pub mod agent;
 pub mod cli;
 pub mod flight;
+mod json;
 pub mod mission;
 pub mod outcome;
 pub mod picture;
@@ -32,6 +33,7 @@ pub mod safety;
 pub mod settings;
 pub mod sim;
 pub mod timing;
+mod trail;
 
 pub use pid::Demand;
 pub use pilot::{Pilot, PilotConfig};

@@ -2,7 +2,6 @@
 
 mod arguments;
 mod check;
-mod json;
 mod keys;
 mod progress;
 mod screen;
@@ -18,6 +17,7 @@ use clap::{CommandFactory as _, Parser as _};
 use clap_complete::Shell;
 use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports, ServerError};
+use serde_json::Value;
 use time::UtcDateTime;
 
 use self::arguments::{Arguments, Command, Fly};
@@ -26,6 +26,7 @@ use self::progress::Progress;
 use self::screen::{Screen, Warnings};
 use self::summary::{Summary, TrueWaypoint};
 use crate::flight::{Flight, FlightError, Message};
+use crate::json;
 use crate::picture::PictureError;
 use crate::plan::{Plan, PlanError};
 use crate::recording::{Header, Log, LogError, Recorder, Recording, RecordingError};
@@ -223,7 +224,7 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let mut truths = Vec::new();
     for message in flight.messages() {
         if arguments.json {
-            json::print(&json::message(&message, plan.steps()));
+            print_object(&json::message(&message, plan.steps()));
         }
         if let (Message::Waypoint(waypoint), Some(mock)) = (&message, &mock) {
             truths.push(TrueWaypoint::new(waypoint, &mock.truth()));
@@ -239,7 +240,7 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let recorded = recording.and_then(Recording::finish);
     let summary = Summary { finished: &finished, truths: &truths, recorded: recorded.as_ref() };
     if arguments.json {
-        json::print(&json::end(&finished, recorded.as_ref()));
+        print_object(&json::end(&finished, recorded.as_ref()));
         return Ok(finished.outcome.exit_status());
     }
     // Whoever closed the pipe does not want the summary.
@@ -248,6 +249,13 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
         _ = write!(std::io::stdout(), "{}", TimingReport(&finished.ticks));
     }
     Ok(finished.outcome.exit_status())
+}
+
+/// One line for programs.
+fn print_object(object: &Value) {
+    let mut stdout = std::io::stdout().lock();
+    // Whoever closed the pipe does not want more: the flight goes on.
+    _ = writeln!(stdout, "{object}").and_then(|()| stdout.flush());
 }
 
 /// Where people watch the flight.

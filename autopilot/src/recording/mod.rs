@@ -22,8 +22,6 @@ use crate::outcome::Outcome;
 use crate::pilot::{Decision, FlightEvent, PilotOrder};
 use crate::plan::ZOrigin;
 
-/// The agent as it flies.
-const AGENT: &str = include_str!("../../agent/autopilot.asl");
 /// Names of attachments.
 const AGENT_FILE: &str = "autopilot.asl";
 const PLAN_FILE: &str = "plan.txt";

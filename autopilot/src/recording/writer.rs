@@ -60,7 +60,7 @@ impl<W: Write + Seek> LogWriter<W> {
         for (name, text) in [
             (PLAN_FILE, header.plan.as_str()),
             (SETTINGS_FILE, header.settings.as_str()),
-            (AGENT_FILE, super::AGENT),
+            (AGENT_FILE, crate::agent::SOURCE),
         ] {
             writer.attach(&Attachment {
                 log_time: start_ns,

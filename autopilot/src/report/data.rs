@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::agent::plan_text;
 use crate::recording::{Log, Tick};
 
 /// A flight as the report needs it.
@@ -161,30 +162,4 @@ fn steps(plan: &str) -> Vec<String> {
 fn step_text(steps: &[String], step: usize) -> String {
     let text = steps.get(step).map_or("", String::as_str);
     format!("{}: {text}", step + 1)
-}
-
-/// A plan of the agent from its first line to its full stop.
-fn plan_text(agent: &str, line: u32) -> &str {
-    let first = usize::try_from(line).unwrap_or(1).saturating_sub(1);
-    let start: usize = agent.split_inclusive('\n').take(first).map(str::len).sum();
-    let rest = agent.get(start..).unwrap_or_default();
-    let end = rest.split_inclusive('\n').scan(0, |end, line| {
-        *end += line.len();
-        Some((*end, line.trim_end().ends_with('.')))
-    });
-    let end = end.into_iter().find(|(_, last)| *last).map_or(rest.len(), |(end, _)| end);
-    rest[..end].trim_end()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::plan_text;
-
-    #[test]
-    fn a_plan_goes_to_its_full_stop() {
-        let agent = "!wait.\n// A comment.\n+!wait : a\n  <- b;\n     !!wait.\n+!c <- d.\n";
-        assert_eq!(plan_text(agent, 3), "+!wait : a\n  <- b;\n     !!wait.");
-        assert_eq!(plan_text(agent, 6), "+!c <- d.");
-        assert_eq!(plan_text(agent, 99), "");
-    }
 }

@@ -16,13 +16,10 @@ use crate::flight::Message;
 use crate::pilot::{FlightEvent, Status};
 use crate::plan::{FlightLimits, Plan};
 use crate::timing::TickHealth;
+use crate::trail::Trail;
 
 /// Lines that are remembered.
 const REMEMBERED: usize = 50;
-/// Places of the trail; older ones go.
-const TRAIL: usize = 2000;
-/// A place that is nearer than this to the last is no new one.
-const TRAIL_STEP_M: f64 = 0.02;
 
 const HERE: Color = Color::Cyan;
 const TARGET: Color = Color::Yellow;
@@ -36,7 +33,7 @@ pub(super) struct View {
     at: Duration,
     status: Option<Status>,
     ticks: TickHealth,
-    trail: VecDeque<(f64, f64)>,
+    trail: Trail,
     /// When, and what the agent then decided otherwise.
     decisions: VecDeque<(Duration, String)>,
     /// What was told, and whether it is a warning.
@@ -51,7 +48,7 @@ impl View {
             at: Duration::ZERO,
             status: None,
             ticks: TickHealth::default(),
-            trail: VecDeque::new(),
+            trail: Trail::default(),
             decisions: VecDeque::new(),
             messages: VecDeque::new(),
         };
@@ -95,14 +92,7 @@ impl View {
     }
 
     fn look(&mut self, at: Duration, status: &Status) {
-        let place = (status.pose.x_m, status.pose.y_m);
-        let far = |last: &(f64, f64)| (last.0 - place.0).hypot(last.1 - place.1) > TRAIL_STEP_M;
-        if self.trail.back().is_none_or(far) {
-            self.trail.push_back(place);
-            if self.trail.len() > TRAIL {
-                self.trail.pop_front();
-            }
-        }
+        self.trail.add(status.pose.x_m, status.pose.y_m);
         let decision = decision(status);
         if !decision.is_empty() && self.decisions.back().is_none_or(|(_, last)| *last != decision) {
             remember(&mut self.decisions, (at, decision));
@@ -211,7 +201,7 @@ fn headline(view: &View) -> Paragraph<'_> {
 fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let pose = view.status.map(|status| status.pose).unwrap_or_default();
     let target = view.status.and_then(|status| status.target);
-    let places = view.trail.iter().copied().chain(target.map(|target| (target.x_m, target.y_m)));
+    let places = view.trail.places_m().chain(target.map(|target| (target.x_m, target.y_m)));
     let (mut x, mut y) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
     for place in places {
         x = (x.0.min(place.0), x.1.max(place.0));
@@ -222,7 +212,7 @@ fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let wide = columns / (2.0 * rows);
     let half_m = ((y.1 - y.0) / 2.0).max((x.1 - x.0) / 2.0 / wide).max(0.7) * 1.2;
     let middle = (f64::midpoint(x.0, x.1), f64::midpoint(y.0, y.1));
-    let trail: Vec<(f64, f64)> = view.trail.iter().copied().collect();
+    let trail: Vec<(f64, f64)> = view.trail.places_m().collect();
     let title = format!("from above, {:.1} m high", 2.0 * half_m);
     let canvas = Canvas::default()
         .block(Block::bordered().title(title))

@@ -1,23 +1,15 @@
-//! What programs are told of a flight: one JSON object a line, each with its `type`.
-
-use std::io::Write as _;
+//! What programs and browsers are told of a flight: JSON objects, each with its `type`.
 
 use serde_json::{Value, json};
 
+use crate::agent::PLANS;
 use crate::flight::{FinishedFlight, Message};
 use crate::pilot::{FlightEvent, Status};
 use crate::plan::Step;
 use crate::recording::{Place, Recorded};
 
-/// One line.
-pub(super) fn print(object: &Value) {
-    let mut stdout = std::io::stdout().lock();
-    // Whoever closed the pipe does not want more: the flight goes on.
-    _ = writeln!(stdout, "{object}").and_then(|()| stdout.flush());
-}
-
 /// What the flight tells while it lasts.
-pub(super) fn message(message: &Message, steps: &[Step]) -> Value {
+pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
     match message {
         Message::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
         Message::Event(at, event) => {
@@ -44,27 +36,39 @@ pub(super) fn message(message: &Message, steps: &[Step]) -> Value {
             "error_m": waypoint.error_m(),
         }),
         Message::Status(at, status, ticks) => {
-            let Status { phase, step, target, distance_m, battery_percent, .. } = status;
+            let Status { phase, step, steps, target, distance_m, battery_percent, .. } = status;
             json!({
                 "type": "status",
                 "t_s": at.as_secs_f64(),
                 "phase": phase,
                 "step": step,
+                "steps": steps,
                 "pose": Place::from(&status.pose),
                 "target": target.map(|target| Place::from(&target)),
                 "distance_m": distance_m,
                 "battery_percent": battery_percent,
                 "horizontal_deviation_m": status.horizontal_deviation_m,
+                "vertical_deviation_m": status.vertical_deviation_m,
+                "attitude_deg": status.attitude_deg,
+                "navdata_hz": status.navdata_hz,
                 "navdata_age_s": status.navdata_age.map(|age| age.as_secs_f64()),
                 "tick_late_s": ticks.lateness.as_secs_f64(),
                 "ticks_skipped": ticks.skipped,
+                "order": status.command,
+                "plans": plans(status),
             })
         }
     }
 }
 
+/// The lines of the agent's source where the plans stand that it chose.
+fn plans(status: &Status) -> Vec<u32> {
+    let numbers = status.plans.numbers().iter();
+    numbers.filter_map(|number| Some(PLANS.get(usize::try_from(*number).ok()?)?.0)).collect()
+}
+
 /// How it ended.
-pub(super) fn end(finished: &FinishedFlight, recorded: Option<&Recorded>) -> Value {
+pub(crate) fn end(finished: &FinishedFlight, recorded: Option<&Recorded>) -> Value {
     let report = &finished.report;
     json!({
         "type": "end",

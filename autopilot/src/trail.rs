@@ -1,0 +1,51 @@
+//! The way that the drone has come, as far as it is shown.
+
+use std::collections::VecDeque;
+
+/// Places of the trail; older ones go.
+const PLACES: usize = 2000;
+/// A place that is nearer than this to the last is no new one.
+const STEP_M: f64 = 0.02;
+
+/// Places that the drone was at, right of the start and forward of it, oldest first.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Trail {
+    places_m: VecDeque<(f64, f64)>,
+}
+
+impl Trail {
+    /// The drone is at a place.
+    pub(crate) fn add(&mut self, x_m: f64, y_m: f64) {
+        let far = |last: &(f64, f64)| (last.0 - x_m).hypot(last.1 - y_m) > STEP_M;
+        if self.places_m.back().is_none_or(far) {
+            self.places_m.push_back((x_m, y_m));
+            if self.places_m.len() > PLACES {
+                self.places_m.pop_front();
+            }
+        }
+    }
+
+    /// All places.
+    pub(crate) fn places_m(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.places_m.iter().copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn standing_still_adds_nothing_and_old_places_go() {
+        let mut trail = Trail::default();
+        for _ in 0..10 {
+            trail.add(1.0, 2.0);
+        }
+        assert_eq!(trail.places_m().collect::<Vec<_>>(), [(1.0, 2.0)]);
+        for step in 0..3000 {
+            trail.add(f64::from(step), 0.0);
+        }
+        assert_eq!(trail.places_m().count(), PLACES);
+        assert_eq!(trail.places_m().last(), Some((2999.0, 0.0)));
+    }
+}
