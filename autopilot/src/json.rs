@@ -43,6 +43,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "phase": phase,
                 "step": step,
                 "steps": steps,
+                "plan_waits": status.plan_waits,
                 "pose": Place::from(&status.pose),
                 "target": target.map(|target| Place::from(&target)),
                 "distance_m": distance_m,

@@ -12,11 +12,13 @@
 //! - [`pilot`]: the tick.
 //! - [`safety`]: what the agent may not overrule.
 //! - [`recording`]: the flight log; [`replay`]: a log flown again; [`report`]: a page about it; [`picture`]: a plan drawn.
+//! - [`browser`]: the flight in a browser.
 //! - [`flight`], [`sim`]: the shells; [`realtime`], [`timing`]: what the system gives the tick, and how
 //!   regular it was. [`cli`]: the command line.
 #![deny(unsafe_code)]
 
 pub mod agent;
+pub mod browser;
 pub mod cli;
 pub mod flight;
 mod json;

@@ -5,6 +5,8 @@
 
 mod allocation;
 mod architecture;
+mod browser;
+mod chromium;
 mod client;
 mod command_line;
 mod estimate;

@@ -76,7 +76,7 @@ impl Drop for MockProcess {
     }
 }
 
-fn plan_file(text: &str) -> tempfile::NamedTempFile {
+pub(crate) fn plan_file(text: &str) -> tempfile::NamedTempFile {
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), text).unwrap();
     file

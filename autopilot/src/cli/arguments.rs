@@ -1,5 +1,6 @@
 //! What can be typed.
 
+use std::net::{Ipv4Addr, SocketAddr, ToSocketAddrs as _};
 use std::path::PathBuf;
 
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
@@ -144,6 +145,16 @@ pub(super) struct Fly {
     /// Do not record the flight
     #[arg(long, conflicts_with = "log")]
     pub(super) no_log: bool,
+    /// Show the flight in a browser, and take orders from it; at an address that others can reach, with
+    /// a token
+    #[arg(
+        long,
+        value_name = "ADDRESS",
+        num_args = 0..=1,
+        default_missing_value = "127.0.0.1:8080",
+        value_parser = page_address
+    )]
+    pub(super) ui: Option<SocketAddr>,
     /// Print how regular the ticks were and what they cost
     #[arg(long)]
     pub(super) timing: bool,
@@ -193,6 +204,16 @@ impl From<ZOrigin> for plan::ZOrigin {
     }
 }
 
+/// An address and a port, or a port of the loopback.
+fn page_address(text: &str) -> Result<SocketAddr, String> {
+    if let Ok(port) = text.parse() {
+        return Ok((Ipv4Addr::LOCALHOST, port).into());
+    }
+    let wanted = "expected an address and a port, as 127.0.0.1:8080";
+    let mut addresses = text.to_socket_addrs().map_err(|error| format!("{error}; {wanted}"))?;
+    addresses.next().ok_or_else(|| wanted.to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory as _;
@@ -202,6 +223,18 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_page_has_an_address() {
+        let ui = |words: &[&str]| {
+            let words = ["ardrone-pilot", "--plan", "p", "--ui"].iter().chain(words);
+            Arguments::try_parse_from(words).map(|arguments| arguments.fly.unwrap().ui.unwrap())
+        };
+        assert_eq!(ui(&[]).unwrap(), "127.0.0.1:8080".parse().unwrap());
+        assert_eq!(ui(&["9000"]).unwrap(), "127.0.0.1:9000".parse().unwrap());
+        assert_eq!(ui(&["0.0.0.0:80"]).unwrap(), "0.0.0.0:80".parse().unwrap());
+        assert!(ui(&["nowhere"]).unwrap_err().to_string().contains("as 127.0.0.1:8080"));
     }
 
     #[test]

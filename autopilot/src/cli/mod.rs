@@ -25,6 +25,7 @@ use self::keys::Keys;
 use self::progress::Progress;
 use self::screen::{Screen, Warnings};
 use self::summary::{Summary, TrueWaypoint};
+use crate::browser::{BrowserError, Door};
 use crate::flight::{Flight, FlightError, Message};
 use crate::json;
 use crate::picture::PictureError;
@@ -61,6 +62,8 @@ enum CommandError {
     #[error("{0}; give another file as --log, or --no-log")]
     Recording(#[from] RecordingError),
     #[error("{0}")]
+    Browser(#[from] BrowserError),
+    #[error("{0}")]
     Flight(#[from] FlightError),
 }
 
@@ -79,6 +82,7 @@ impl CommandError {
             | Self::Picture(_)
             | Self::Report(_)
             | Self::Recording(_)
+            | Self::Browser(_)
             | Self::Write { .. } => 1,
         }
     }
@@ -206,6 +210,10 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
             format!("the drone at {}", drone.host)
         }
     ));
+    let door = arguments.ui.map(Door::bind).transpose()?;
+    if let Some(door) = &door {
+        progress.say(&format!("watch it at {}", door.url()));
+    }
     let (recorder, recording) = match record(arguments, &settings, &plan, text, mock.is_some())? {
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
         None => (None, None),
@@ -213,6 +221,12 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let screen = || Screen::start(&plan, &config.limits, warnings);
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
     let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
+    let open = |door: Door| door.open(&name, &plan, &config.limits, flight.controls());
+    let browser = door.map(open).transpose().unwrap_or_else(|error| {
+        // The drone may be flying already.
+        progress.say(&format!("warning: {error}"));
+        None
+    });
     let mut watch = match wanted.then(screen).flatten() {
         Some(screen) => Watch::Screen(Box::new(screen)),
         None => Watch::Lines(progress),
@@ -229,6 +243,9 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
         if let (Message::Waypoint(waypoint), Some(mock)) = (&message, &mock) {
             truths.push(TrueWaypoint::new(waypoint, &mock.truth()));
         }
+        if let Some(browser) = &browser {
+            browser.show(&message);
+        }
         watch.show(&message);
         if let Some(problem) = recording.as_ref().and_then(Recording::problem) {
             watch.say(&format!("warning: {problem}"));
@@ -239,8 +256,12 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let finished = flight.finish()?;
     let recorded = recording.and_then(Recording::finish);
     let summary = Summary { finished: &finished, truths: &truths, recorded: recorded.as_ref() };
+    let end = json::end(&finished, recorded.as_ref());
+    if let Some(browser) = browser {
+        browser.end(&end);
+    }
     if arguments.json {
-        print_object(&json::end(&finished, recorded.as_ref()));
+        print_object(&end);
         return Ok(finished.outcome.exit_status());
     }
     // Whoever closed the pipe does not want the summary.

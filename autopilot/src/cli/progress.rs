@@ -157,6 +157,7 @@ mod tests {
             phase: "flying",
             step: Some(2),
             steps: 6,
+            plan_waits: false,
             pose: Pose { x_m: 0.12, y_m: 0.98, z_m: 0.85, yaw_deg: -1.0 },
             target: Some(Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 }),
             distance_m: Some(0.88),

@@ -350,6 +350,7 @@ impl Pilot {
             phase: self.phase.name(),
             step: self.due.as_ref().map(|active| active.due.step),
             steps: self.report.steps,
+            plan_waits: self.hand.holds_plan,
             pose,
             target: self.target,
             distance_m: self.target.map(|target| distance(&pose, &target)),

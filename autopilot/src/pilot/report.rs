@@ -122,7 +122,7 @@ impl fmt::Display for FlightEvent {
             Self::Held => f.write_str("holding"),
             Self::Steered => f.write_str("flown by hand"),
             Self::SentByHand => f.write_str("sent by hand"),
-            Self::HandTargetReached => f.write_str("where it was sent by hand"),
+            Self::HandTargetReached => f.write_str("it is where it was sent by hand"),
             Self::Resumed => f.write_str("going on with the plan"),
             Self::CutOrdered => f.write_str("EMERGENCY CUT ordered"),
             Self::Veto(veto) => f.write_str(match veto {
@@ -198,6 +198,8 @@ pub struct Status {
     pub step: Option<usize>,
     /// Steps of the plan.
     pub steps: usize,
+    /// The plan waits: the pilot has the drone in hand.
+    pub plan_waits: bool,
     /// Where the drone is.
     pub pose: Pose,
     /// Where it is going.

@@ -175,7 +175,8 @@ fn headline(view: &View) -> Paragraph<'_> {
         Style::new().add_modifier(Modifier::REVERSED),
     )];
     if let Some(step) = status.step {
-        parts.push(Span::raw(format!("  step {}/{}", step + 1, status.steps)));
+        let waits = if status.plan_waits { ", waits" } else { "" };
+        parts.push(Span::raw(format!("  step {}/{}{waits}", step + 1, status.steps)));
     }
     let charge = status.battery_percent.map_or("-".to_owned(), |percent| format!("{percent} %"));
     let low = status.battery_percent.is_some_and(|percent| percent <= 20);
@@ -328,6 +329,7 @@ mod tests {
                 phase: "flying",
                 step: Some(2),
                 steps: 4,
+                plan_waits: false,
                 pose: Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 },
                 target: Some(target),
                 distance_m: Some(1.0 - share),

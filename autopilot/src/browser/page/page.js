@@ -1,0 +1,342 @@
+"use strict";
+// The flight as ardrone-pilot tells it over /live, and the pilot's orders back.
+
+const $ = (id) => document.getElementById(id);
+const svg = (name, attributes = {}) => {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  return element;
+};
+const signed = (value, digits = 2) => {
+  const text = Math.abs(value).toFixed(digits);
+  return (value < 0 && Number(text) !== 0 ? "−" : "+") + text;
+};
+const at = (seconds) => `${seconds.toFixed(1)} s`;
+
+// Without a word for this long the page is not to be believed, in milliseconds.
+const SILENCE = 1000;
+// So long a question stands, in milliseconds: the second click of a cut, and a click on the map.
+const CUT_AGAIN = 2500;
+const GO_AGAIN = 8000;
+
+let flight = null; // what was told at the beginning
+let status = null;
+let socket = null;
+let heard = 0; // when something was last told
+let clock = -Infinity; // the flight's clock less ours, as the fastest message had it, in milliseconds
+let behind = 0; // how much later than that the last message was
+let over = null; // how it ended
+let trail = [];
+let decided = ""; // the last decision
+let decidedAt = 0;
+let zoom = 1;
+let view = null; // the part of the world on the map: { x, y, half }
+let wanted = null; // where was clicked
+let wantedUntil = 0;
+let armedUntil = 0;
+
+// ---- The way to the pilot.
+
+function connect() {
+  const address = new URL("live" + location.search, location.href);
+  address.protocol = "ws:";
+  socket = new WebSocket(address);
+  socket.onmessage = (event) => {
+    heard = performance.now();
+    take(JSON.parse(event.data));
+  };
+  socket.onclose = () => {
+    if (!over) setTimeout(connect, 500);
+  };
+}
+
+function order(request) {
+  $("answer").textContent = "";
+  if (!socket || socket.readyState !== WebSocket.OPEN) {
+    $("answer").textContent = "not connected: the order was not given";
+    return;
+  }
+  socket.send(JSON.stringify(request));
+}
+
+function take(told) {
+  switch (told.type) {
+    case "flight":
+      begin(told);
+      break;
+    case "status":
+      status = told;
+      clock = Math.max(clock, told.t_s * 1000 - performance.now());
+      behind = clock - (told.t_s * 1000 - performance.now());
+      extendTrail(told.pose);
+      decide(told);
+      break;
+    case "event":
+      addEvent(told);
+      break;
+    case "end":
+      finish(told);
+      break;
+    case "armed":
+      armedUntil = performance.now() + CUT_AGAIN;
+      break;
+    case "refused":
+      $("answer").textContent = told.reason;
+      break;
+  }
+}
+
+function begin(told) {
+  flight = told;
+  trail = told.trail;
+  decided = "";
+  $("plan").textContent = told.plan;
+  document.title = `${told.plan} – ardrone-pilot`;
+  for (const id of ["steps", "events", "decisions", "targets"]) $(id).replaceChildren();
+  told.steps.forEach((step, index) => {
+    const item = document.createElement("li");
+    item.textContent = `${index + 1}  ${step.text}`;
+    $("steps").append(item);
+    if (!step.target) return;
+    const mark = svg("g", { "data-step": index });
+    mark.append(svg("circle", { r: 1 }), svg("text"));
+    mark.lastChild.textContent = index + 1;
+    $("targets").append(mark);
+  });
+  const way = [[0, 0], ...told.steps.filter((step) => step.target).map((step) => [step.target.x_m, step.target.y_m])];
+  $("way").setAttribute("points", points(way));
+  $("fence").setAttribute("r", told.radius_m);
+  told.notes.forEach((note) => addEvent({ t_s: 0, text: `note: ${note}` }));
+  told.events.forEach(addEvent);
+  if (told.status) take(told.status);
+  if (told.end) finish(told.end);
+}
+
+function finish(told) {
+  over = told;
+  const steps = `${told.steps_done} of ${told.steps} steps`;
+  const log = told.log ? ` Log: ${told.log}` : "";
+  $("alarm").textContent = `Over: ${told.outcome}; ${steps}.${log}`;
+  $("alarm").className = "over";
+  $("alarm").hidden = false;
+}
+
+function line(list, seconds, text, ill) {
+  const item = document.createElement("li");
+  const time = document.createElement("time");
+  time.textContent = at(seconds);
+  item.append(time, " ", text);
+  if (ill) item.className = "ill";
+  $(list).prepend(item);
+  while ($(list).childElementCount > 100) $(list).lastElementChild.remove();
+}
+
+function addEvent(told) {
+  const command = told.command ? `: ${told.command}` : "";
+  line("events", told.t_s, told.text + command, told.warning);
+}
+
+function decide(told) {
+  if (!told.order) return;
+  const decision = `${told.order}: ${told.plans.join(" ")}`;
+  if (decision === decided) return;
+  decided = decision;
+  decidedAt = told.t_s;
+  $("order").textContent = told.order;
+  const plans = told.plans.map((number) => {
+    const text = document.createElement("pre");
+    text.textContent = `${number}: ${flight.plans[number]}`;
+    return text;
+  });
+  $("because").replaceChildren(...plans);
+  const triggers = told.plans.map((number) => trigger(flight.plans[number]));
+  line("decisions", told.t_s, `${told.order}: ${triggers.join(", ")}`);
+}
+
+// "+!stay(_, Arrival)" of "+!stay(_, Arrival) : target(..) <- ..".
+function trigger(plan) {
+  const start = plan.split("\n").find((text) => /^[+-]/.test(text)) || "";
+  return start.split(/ :| <-|\.$/)[0].trim();
+}
+
+function extendTrail(pose) {
+  const last = trail[trail.length - 1];
+  if (last && Math.hypot(last[0] - pose.x_m, last[1] - pose.y_m) < 0.02) return;
+  trail.push([pose.x_m, pose.y_m]);
+  if (trail.length > 2000) trail.shift();
+}
+
+// ---- What is seen. Drawn when the browser draws, so that a page in the background costs nothing.
+
+const points = (places) => places.map(([x, y]) => `${x.toFixed(3)},${(-y).toFixed(3)}`).join(" ");
+
+function draw() {
+  requestAnimationFrame(draw);
+  drawAlarm();
+  drawButtons();
+  if (!flight || !status) return;
+  drawFacts();
+  drawMap();
+  drawGauges();
+  drawSteps();
+}
+
+function drawAlarm() {
+  if (over) return;
+  const silence = performance.now() - heard;
+  const seconds = (time) => `${(time / 1000).toFixed(0)} s`;
+  let alarm = "";
+  if (silence > SILENCE) {
+    const since = heard ? ` for ${seconds(silence)}` : "";
+    alarm = `No word from ardrone-pilot${since}. The flight goes on without this page; the terminal has it.`;
+  } else if (behind > SILENCE) {
+    alarm = `This page shows what was ${seconds(behind)} ago: the way to it is slow.`;
+  }
+  $("alarm").hidden = !alarm;
+  $("alarm").textContent = alarm;
+}
+
+function drawButtons() {
+  const live = !over && socket && socket.readyState === WebSocket.OPEN;
+  const flying = live && status && status.phase === "flying";
+  $("hold").disabled = $("fly").disabled = !flying;
+  $("resume").disabled = !flying || !status.plan_waits;
+  $("land").disabled = $("cut").disabled = !live;
+  const now = performance.now();
+  const armed = now < armedUntil;
+  $("cut").classList.toggle("armed", armed);
+  $("cut").textContent = armed ? "Again: the drone FALLS" : "Cut motors";
+  if (now > wantedUntil) wanted = null;
+  $("go").hidden = !wanted || !flying;
+  if (wanted) $("fly").textContent = `Fly to ${signed(wanted.x)}, ${signed(wanted.y)} m`;
+}
+
+function drawFacts() {
+  $("phase").textContent = over ? "over" : status.plan_waits ? "by hand, plan waits" : status.phase;
+  $("time").textContent = at(status.t_s);
+  $("step").textContent = status.step === null ? "–" : `${status.step + 1} of ${status.steps}`;
+  const charge = status.battery_percent;
+  $("battery").textContent = charge === null ? "–" : `${charge} %`;
+  $("charge").value = charge || 0;
+  const age = status.navdata_age_s;
+  const stale = age === null || age > 0.3;
+  $("link").textContent = age === null ? "none" : stale ? `NONE for ${age.toFixed(1)} s` : `${status.navdata_hz.toFixed(0)}/s, ${(age * 1000).toFixed(0)} ms old`;
+  $("link").classList.toggle("ill", stale);
+  $("ticks").textContent = `${(status.tick_late_s * 1000).toFixed(1)} ms late, ${status.ticks_skipped} skipped`;
+  $("ticks").classList.toggle("ill", status.tick_late_s > 0.01);
+  $("since").textContent = decided ? `for ${Math.max(0, status.t_s - decidedAt).toFixed(1)} s` : "";
+}
+
+function drawMap() {
+  const map = $("map");
+  const { width, height } = map.getBoundingClientRect();
+  if (!width || !height) return;
+  const places = flight.steps.filter((step) => step.target).map((step) => [step.target.x_m, step.target.y_m]);
+  places.push([0, 0], [status.pose.x_m, status.pose.y_m]);
+  if (status.target) places.push([status.target.x_m, status.target.y_m]);
+  const [xs, ys] = [0, 1].map((axis) => places.map((place) => place[axis]));
+  const middle = (values) => (Math.min(...values) + Math.max(...values)) / 2;
+  const reach = (values) => (Math.max(...values) - Math.min(...values)) / 2;
+  const least = Math.min(width, height);
+  const half = Math.max((reach(xs) * least) / width, (reach(ys) * least) / height, 0.8) * 1.25 + 0.3;
+  // It follows, but does not jump; it does not shrink by itself either.
+  view ??= { x: middle(xs), y: middle(ys), half };
+  view.half = Math.max(view.half, half);
+  view.x += (middle(xs) - view.x) * 0.1;
+  view.y += (middle(ys) - view.y) * 0.1;
+  const shown = view.half / zoom;
+  const [wide, high] = [(shown * width) / least, (shown * height) / least];
+  map.setAttribute("viewBox", `${view.x - wide} ${-view.y - high} ${2 * wide} ${2 * high}`);
+  drawGrid(wide, high, shown);
+  const size = shown * 0.05; // of a mark, in metres
+  const put = (id, x, y, more = "") => $(id).setAttribute("transform", `translate(${x} ${-y}) scale(${size}) ${more}`);
+  const pose = status.pose;
+  put("drone", pose.x_m, pose.y_m, `rotate(${pose.yaw_deg})`);
+  $("doubt").setAttribute("cx", pose.x_m);
+  $("doubt").setAttribute("cy", -pose.y_m);
+  $("doubt").setAttribute("r", 2 * status.horizontal_deviation_m);
+  $("trail").setAttribute("points", points(trail));
+  $("aim").style.display = status.target ? "" : "none";
+  if (status.target) put("aim", status.target.x_m, status.target.y_m);
+  $("wanted").style.display = wanted ? "" : "none";
+  if (wanted) put("wanted", wanted.x, wanted.y);
+  for (const mark of $("targets").children) {
+    const step = Number(mark.dataset.step);
+    const target = flight.steps[step].target;
+    mark.setAttribute("transform", `translate(${target.x_m} ${-target.y_m}) scale(${size * 0.8})`);
+    mark.setAttribute("class", step === status.step ? "now" : "");
+    mark.lastChild.setAttribute("font-size", 1.1);
+  }
+}
+
+function drawGrid(wide, high, shown) {
+  const step = [0.25, 0.5, 1, 2, 5, 10, 20, 50].find((step) => shown / step < 6) || 100;
+  const [left, right, low, top] = [view.x - wide, view.x + wide, -view.y - high, -view.y + high];
+  let lines = "";
+  for (let x = Math.ceil(left / step) * step; x <= right; x += step) lines += `M${x} ${low}V${top}`;
+  for (let y = Math.ceil(low / step) * step; y <= top; y += step) lines += `M${left} ${y}H${right}`;
+  if (!$("grid").firstChild) $("grid").append(svg("path"), svg("path", { class: "axis" }));
+  $("grid").firstChild.setAttribute("d", lines);
+  $("grid").lastChild.setAttribute("d", `M0 ${low}V${top}M${left} 0H${right}`);
+  $("scale").textContent = `squares of ${step} m; disc: where the drone may be; dashed: the fence, ${flight.radius_m} m from the start`;
+}
+
+function drawGauges() {
+  const [roll, pitch] = status.attitude_deg || [0, 0];
+  // Two units a degree; nose up moves the horizon down.
+  $("horizon").setAttribute("transform", `rotate(${-roll}) translate(0 ${Math.max(-45, Math.min(45, 2 * pitch))})`);
+  $("leans").textContent = status.attitude_deg ? `${signed(roll, 1)}° right, ${signed(-pitch, 1)}° forward` : "–";
+  const y = (height) => 113 - 106 * Math.max(0, Math.min(1, height / flight.ceiling_m));
+  const above = y(status.pose.z_m);
+  $("above").setAttribute("y", above);
+  $("above").setAttribute("height", 113 - above);
+  $("floor").setAttribute("d", `M20 ${y(flight.floor_m)}H40`);
+  $("aloft").style.display = status.target ? "" : "none";
+  if (status.target) $("aloft").setAttribute("transform", `translate(0 ${y(status.target.z_m)})`);
+  $("ceiling").textContent = `${flight.ceiling_m} m`;
+  const place = (pose) => `${signed(pose.x_m)} ${signed(pose.y_m)} ${signed(pose.z_m)} m`;
+  $("at").textContent = `${place(status.pose)} ${signed(status.pose.yaw_deg, 0)}°`;
+  $("target").textContent = status.target ? place(status.target) : "–";
+  $("off").textContent = status.target ? `${status.distance_m.toFixed(2)} m` : "–";
+  $("known").textContent = `${status.horizontal_deviation_m.toFixed(2)} m`;
+}
+
+function drawSteps() {
+  [...$("steps").children].forEach((item, index) => {
+    const now = index === status.step;
+    const done = index < (over ? over.steps_done : (status.step ?? 0));
+    const name = done ? "done" : now ? "now" : "";
+    if (item.className === name) return;
+    item.className = name;
+    if (now) item.scrollIntoView({ block: "nearest" });
+  });
+}
+
+// ---- The pilot's hand.
+
+$("hold").onclick = () => order({ order: "hold" });
+$("resume").onclick = () => order({ order: "resume" });
+$("land").onclick = () => order({ order: "land" });
+$("cut").onclick = () => {
+  const armed = performance.now() < armedUntil;
+  armedUntil = 0;
+  order({ order: armed ? "cut" : "arm" });
+};
+$("map").onclick = (event) => {
+  const place = new DOMPoint(event.clientX, event.clientY).matrixTransform($("map").getScreenCTM().inverse());
+  wanted = { x: place.x, y: -place.y };
+  wantedUntil = performance.now() + GO_AGAIN;
+};
+$("fly").onclick = () => {
+  if (wanted) order({ order: "goto", x_m: wanted.x, y_m: wanted.y });
+  wanted = null;
+};
+$("stay").onclick = () => (wanted = null);
+document.onkeydown = (event) => {
+  if (event.key === "Escape") wanted = null;
+};
+$("nearer").onclick = () => (zoom = Math.min(8, zoom * 1.5));
+$("farther").onclick = () => (zoom = Math.max(0.1, zoom / 1.5));
+
+connect();
+draw();

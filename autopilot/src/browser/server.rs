@@ -1,0 +1,313 @@
+//! The thread that serves the page.
+
+use std::io;
+use std::net::TcpListener;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use axum::Router;
+use axum::extract::ws::{self, WebSocket, WebSocketUpgrade};
+use axum::extract::{Request, State};
+use axum::http::header::{
+    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HOST, HeaderMap, ORIGIN, REFERRER_POLICY,
+    X_CONTENT_TYPE_OPTIONS,
+};
+use axum::http::{StatusCode, Uri};
+use axum::middleware::{self, Next};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use futures_util::stream::{SplitSink, SplitStream};
+use futures_util::{SinkExt as _, StreamExt as _};
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use rustix::net::sockopt::set_socket_send_buffer_size;
+use serde_json::{Value, json};
+use tokio::net::TcpStream;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore, broadcast, mpsc, oneshot};
+use tokio::time::{Instant, timeout};
+
+use super::access::{Access, Claims, Refusal};
+use super::requests::Requests;
+use super::story::Story;
+use crate::flight::Controls;
+
+/// Connections at a time that want a page; others wait in the system's queue.
+const CONNECTIONS: usize = 64;
+/// Browsers that watch at a time.
+const VIEWERS: u32 = 16;
+/// What a browser may be behind before it is told the whole story again.
+const BEHIND: usize = 64;
+/// A connection that is no page's way to the flight is closed after this.
+const REQUEST_TIME: Duration = Duration::from_secs(5);
+/// A browser that takes nothing for so long is dropped.
+const WRITE_TIME: Duration = Duration::from_secs(2);
+/// When the flight is over, browsers get this time to be told.
+const PARTING_TIME: Duration = Duration::from_millis(500);
+/// What the system keeps for a slow browser: some seconds.
+const SEND_BYTES: usize = 32 << 10;
+/// More than any request needs.
+const REQUEST_BYTES: usize = 1024;
+/// What a connection may have waiting to be written.
+const WRITE_BYTES: usize = 1 << 20;
+
+const PAGE: &str = include_str!("page/index.html");
+const STYLE: &str = include_str!("page/page.css");
+const SCRIPT: &str = include_str!("page/page.js");
+/// Nothing from elsewhere, and in nobody's frame: a button that cannot be seen must not be clicked.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
+    img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// The thread.
+#[derive(Debug)]
+pub(super) struct Server {
+    shared: Arc<Shared>,
+    end: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Server {
+    /// Serves as long as it lives.
+    pub(super) fn start(
+        listener: TcpListener,
+        access: Access,
+        story: Story,
+        controls: Controls,
+    ) -> io::Result<Self> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let shared = Arc::new(Shared {
+            access,
+            controls,
+            stage: Mutex::new(Stage { story, told: Some(broadcast::Sender::new(BEHIND)) }),
+            viewers: Arc::new(Semaphore::new(VIEWERS as usize)),
+        });
+        let (end, ended) = oneshot::channel();
+        let served = Arc::clone(&shared);
+        let thread = std::thread::Builder::new().name("browser".to_owned()).spawn(move || {
+            runtime.block_on(async {
+                let viewers = Arc::clone(&served.viewers);
+                tokio::select! {
+                    () = serve(listener, served) => {}
+                    // The flight is over.
+                    _ = ended => {}
+                }
+                // Whoever is not done by then is slow.
+                _ = timeout(PARTING_TIME, viewers.acquire_many(VIEWERS)).await;
+            });
+        })?;
+        Ok(Self { shared, end: Some(end), thread: Some(thread) })
+    }
+
+    /// Adds to the story, and tells those who are here.
+    pub(super) fn tell(&self, happen: impl FnOnce(&mut Story) -> Value) {
+        let mut stage = self.shared.stage();
+        let object = happen(&mut stage.story);
+        if let Some(told) = &stage.told {
+            // Nobody may be here.
+            _ = told.send(ws::Utf8Bytes::from(object.to_string()));
+        }
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        // Those who have been told everything see the end of it.
+        self.shared.stage().told = None;
+        if let Some(end) = self.end.take() {
+            // The thread may have ended by itself.
+            _ = end.send(());
+        }
+        if let Some(thread) = self.thread.take()
+            && thread.join().is_err()
+        {
+            tracing::error!("the thread that serves the page panicked");
+        }
+    }
+}
+
+/// What all connections know.
+#[derive(Debug)]
+struct Shared {
+    access: Access,
+    controls: Controls,
+    stage: Mutex<Stage>,
+    viewers: Arc<Semaphore>,
+}
+
+/// What was told and is being told: whoever comes misses nothing between the two.
+#[derive(Debug)]
+struct Stage {
+    story: Story,
+    told: Option<broadcast::Sender<ws::Utf8Bytes>>,
+}
+
+impl Shared {
+    fn stage(&self) -> std::sync::MutexGuard<'_, Stage> {
+        self.stage.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The story so far, and what comes after; nothing comes after the end.
+    fn join(&self) -> (ws::Utf8Bytes, Option<broadcast::Receiver<ws::Utf8Bytes>>) {
+        let stage = self.stage();
+        let story = stage.story.so_far().to_string();
+        (story.into(), stage.told.as_ref().map(broadcast::Sender::subscribe))
+    }
+}
+
+/// Takes in connections; never returns.
+async fn serve(listener: TcpListener, shared: Arc<Shared>) {
+    let listener = match tokio::net::TcpListener::from_std(listener) {
+        Ok(listener) => listener,
+        Err(error) => {
+            tracing::error!("no page: {error}");
+            return std::future::pending().await;
+        }
+    };
+    let asset = |kind: &'static str, text: &'static str| {
+        get(move || async move { ([(CONTENT_TYPE, kind)], text) })
+    };
+    let app = Router::new()
+        .route("/", asset("text/html; charset=utf-8", PAGE))
+        .route("/page.css", asset("text/css; charset=utf-8", STYLE))
+        .route("/page.js", asset("text/javascript; charset=utf-8", SCRIPT))
+        .route("/live", get(live))
+        .layer(middleware::from_fn_with_state(Arc::clone(&shared), guard))
+        .with_state(shared);
+    let places = Arc::new(Semaphore::new(CONNECTIONS));
+    loop {
+        // It is never closed.
+        let Ok(place) = Arc::clone(&places).acquire_owned().await else { return };
+        match listener.accept().await {
+            Ok((stream, _)) => drop(tokio::spawn(connection(stream, app.clone(), place))),
+            // Too many open files: some will be closed.
+            Err(_) => tokio::time::sleep(Duration::from_millis(100)).await,
+        }
+    }
+}
+
+/// The few requests of a page.
+async fn connection(stream: TcpStream, app: Router, place: OwnedSemaphorePermit) {
+    // What is told at once must not wait for more, nor lie about for long: it would show the past. Where
+    // the system refuses that, it is only slower.
+    _ = stream.set_nodelay(true);
+    _ = set_socket_send_buffer_size(&stream, SEND_BYTES);
+    let served = http1::Builder::new()
+        .timer(TokioTimer::new())
+        .header_read_timeout(REQUEST_TIME)
+        .serve_connection(TokioIo::new(stream), TowerToHyperService::new(app))
+        .with_upgrades();
+    // A client that breaks off or takes too long is none of our errors.
+    _ = timeout(REQUEST_TIME, served).await;
+    drop(place);
+}
+
+/// Who may, and what browsers are to be careful about.
+async fn guard(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
+    let response = match check(&shared.access, request.uri(), request.headers()) {
+        Ok(()) => next.run(request).await,
+        Err(refusal) => (StatusCode::FORBIDDEN, format!("{refusal}\n")).into_response(),
+    };
+    let careful = [
+        (CONTENT_SECURITY_POLICY, POLICY),
+        (X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (REFERRER_POLICY, "no-referrer"),
+        (CACHE_CONTROL, "no-store"),
+    ];
+    (careful, response).into_response()
+}
+
+fn check(access: &Access, uri: &Uri, headers: &HeaderMap) -> Result<(), Refusal> {
+    let mut parameters = uri.query().unwrap_or_default().split('&');
+    let claims = Claims {
+        host: headers.get(HOST).and_then(|host| host.to_str().ok()),
+        // An origin that is no text is a foreign one.
+        origin: headers.get(ORIGIN).map(|origin| origin.to_str().unwrap_or_default()),
+        token: parameters.find_map(|parameter| parameter.strip_prefix("token=")),
+    };
+    // Style and script are the same for everybody.
+    let orders = !matches!(uri.path(), "/page.css" | "/page.js");
+    access.check(claims, orders)
+}
+
+/// The way over which a page is told of the flight and gives its orders.
+async fn live(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> Response {
+    let Ok(place) = Arc::clone(&shared.viewers).try_acquire_owned() else {
+        let full = "too many pages watch this flight: close one\n";
+        return (StatusCode::SERVICE_UNAVAILABLE, full).into_response();
+    };
+    upgrade
+        .max_message_size(REQUEST_BYTES)
+        .max_frame_size(REQUEST_BYTES)
+        .max_write_buffer_size(WRITE_BYTES)
+        .on_upgrade(move |socket| async move {
+            let (sink, stream) = socket.split();
+            let (answers, answered) = mpsc::channel(BEHIND);
+            // An order is heard even while nothing can be written.
+            tokio::select! {
+                () = write(sink, &shared, answered) => {}
+                () = read(stream, &shared, answers) => {}
+            }
+            drop(place);
+        })
+}
+
+/// Tells a page the story, then what happens, until the flight is over or the page is gone.
+async fn write(
+    mut sink: SplitSink<WebSocket, ws::Message>,
+    shared: &Shared,
+    mut answers: mpsc::Receiver<ws::Utf8Bytes>,
+) {
+    let (mut text, mut told) = shared.join();
+    loop {
+        match timeout(WRITE_TIME, sink.send(ws::Message::Text(text))).await {
+            Ok(Ok(())) => {}
+            Ok(Err(_)) | Err(_) => return,
+        }
+        let Some(receiver) = &mut told else { break };
+        text = tokio::select! {
+            next = receiver.recv() => match next {
+                Ok(next) => next,
+                Err(broadcast::error::RecvError::Lagged(_)) => {
+                    let (story, again) = shared.join();
+                    told = again;
+                    story
+                }
+                Err(broadcast::error::RecvError::Closed) => break,
+            },
+            Some(answer) = answers.recv() => answer,
+        };
+    }
+    // A page that is gone does not mind.
+    _ = timeout(WRITE_TIME, sink.send(ws::Message::Close(None))).await;
+}
+
+/// Passes a page's orders on, until it is gone or makes no sense.
+async fn read(
+    mut stream: SplitStream<WebSocket>,
+    shared: &Shared,
+    answers: mpsc::Sender<ws::Utf8Bytes>,
+) {
+    let start = Instant::now();
+    let mut requests = Requests::default();
+    while let Some(Ok(message)) = stream.next().await {
+        let text = match &message {
+            ws::Message::Text(text) => text.as_str(),
+            ws::Message::Binary(_) => "",
+            ws::Message::Ping(_) | ws::Message::Pong(_) => continue,
+            ws::Message::Close(_) => return,
+        };
+        let refused = |reason: &str| json!({ "type": "refused", "reason": reason });
+        let answer = match requests.order(start.elapsed(), text) {
+            Ok(None) => json!({ "type": "armed" }),
+            Ok(Some(order)) if shared.controls.order(order) => json!({ "type": "told" }),
+            Ok(Some(_)) => refused("the flight did not take the order: give it again"),
+            Err(error) => refused(&error.to_string()),
+        };
+        // A page that does not listen is not answered.
+        _ = answers.try_send(answer.to_string().into());
+        if requests.is_garbage() {
+            return;
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! The flight in a browser, end to end: a real Chromium, the program, the mock drone.
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use tungstenite::client::IntoClientRequest as _;
+use tungstenite::{Message, WebSocket};
+
+use crate::chromium::Chromium;
+use crate::processes::{plan_file, program};
+
+/// A flight with a page.
+struct Flown {
+    child: Child,
+    /// `127.0.0.1:1234`.
+    host: String,
+    _plan: tempfile::NamedTempFile,
+}
+
+impl Flown {
+    fn start(plan: &str) -> Self {
+        let (mut flown, address) = Self::at("0", plan);
+        address.strip_suffix('/').unwrap().clone_into(&mut flown.host);
+        flown
+    }
+
+    /// With a page at this address; returns what is printed of it.
+    fn at(address: &str, plan: &str) -> (Self, String) {
+        let plan = plan_file(plan);
+        let mut child = program("ardrone-pilot")
+            .arg("--plan")
+            .arg(plan.path())
+            .args(["--mock", "--plain", "--no-log", "--ui", address])
+            .stderr(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+        let printed = lines
+            .find_map(|line| Some(line.unwrap().strip_prefix("watch it at http://")?.to_owned()))
+            .unwrap();
+        std::thread::spawn(move || lines.for_each(drop));
+        (Self { child, host: String::new(), _plan: plan }, printed)
+    }
+
+    /// Waits for its end: the exit status, and what it printed.
+    fn end(mut self) -> (Option<i32>, String) {
+        let mut printed = String::new();
+        self.child.stdout.take().unwrap().read_to_string(&mut printed).unwrap();
+        (self.child.wait().unwrap().code(), printed)
+    }
+
+    fn url(&self) -> String {
+        format!("http://{}/", self.host)
+    }
+
+    /// What the server says to a request, all of it.
+    fn request(&self, head: &str) -> String {
+        let mut stream = TcpStream::connect(&self.host).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        stream.write_all(head.as_bytes()).unwrap();
+        let mut answer = Vec::new();
+        // It may be cut off.
+        _ = stream.read_to_end(&mut answer);
+        String::from_utf8_lossy(&answer).into_owned()
+    }
+
+    /// A page's way to the flight.
+    fn live(&self) -> Live {
+        Live::from(&self.host, "/live", None).unwrap()
+    }
+}
+
+impl Drop for Flown {
+    fn drop(&mut self) {
+        // It may have ended.
+        _ = self.child.kill();
+        _ = self.child.wait();
+    }
+}
+
+/// A program instead of a page.
+struct Live(WebSocket<TcpStream>);
+
+impl Live {
+    fn from(
+        host: &str,
+        path: &str,
+        origin: Option<&str>,
+    ) -> Result<Self, Box<dyn std::error::Error>> {
+        let mut request = format!("ws://{host}{path}").into_client_request()?;
+        if let Some(origin) = origin {
+            request.headers_mut().insert("Origin", origin.parse()?);
+        }
+        let stream = TcpStream::connect(host)?;
+        stream.set_read_timeout(Some(Duration::from_secs(20)))?;
+        Ok(Self(tungstenite::client(request, stream)?.0))
+    }
+
+    /// The next object of this type.
+    fn next(&mut self, kind: &str) -> Value {
+        loop {
+            let Message::Text(text) = self.0.read().unwrap() else { continue };
+            let told: Value = serde_json::from_str(&text).unwrap();
+            if told["type"] == kind {
+                return told;
+            }
+        }
+    }
+
+    fn order(&mut self, request: &Value) {
+        self.0.send(Message::text(request.to_string())).unwrap();
+    }
+}
+
+const HOVER: &str = "takeoff\ngoto 0 1 0 0\nsetStayTime 300\ngoto 0 0 0 0\nland\n";
+
+#[test]
+fn the_page_shows_the_flight_and_orders_it() {
+    let Some(mut chromium) = Chromium::start() else {
+        println!("skipped: no chromium here");
+        return;
+    };
+    let flown = Flown::start(HOVER);
+    let tab = chromium.open(&flown.url());
+    chromium.wait(&tab, "document.querySelector('#steps .now')?.innerText.startsWith('2')");
+    chromium.wait(&tab, "document.querySelector('#because pre')?.innerText.includes('+!approach')");
+    chromium.wait(&tab, "!document.querySelector('#hold').disabled");
+    chromium.click(&tab, "#hold", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('holding')");
+    // A click on the map, and that it is meant: the drone goes there.
+    chromium.click(&tab, "#map", [60.0, 40.0]);
+    chromium.wait(&tab, "!document.querySelector('#go').hidden");
+    chromium.click(&tab, "#fly", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('sent by hand')");
+    chromium
+        .wait(&tab, "document.querySelector('#events').innerText.includes('is where it was sent')");
+    let target = chromium.evaluate(&tab, "status.target");
+    assert!(target["x_m"].as_f64() > Some(0.1) && target["y_m"].as_f64() < Some(0.5), "{target}");
+    chromium.click(&tab, "#resume", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('going on')");
+    // Reloaded, and seen twice: nothing is lost.
+    chromium.reload(&tab);
+    let second = chromium.open(&flown.url());
+    for tab in [&tab, &second] {
+        chromium.wait(tab, "document.querySelector('#events').innerText.includes('drone found')");
+        chromium.wait(tab, "document.querySelector('#events').innerText.includes('holding')");
+        chromium.wait(tab, "!status.plan_waits");
+        // What is behind another tab is not drawn.
+        chromium.wait(tab, "trail.length > 40");
+    }
+    if let Some(file) = std::env::var_os("PAGE_PICTURE") {
+        chromium.screenshot(&second, Path::new(&file));
+    }
+    chromium.click(&second, "#land", [0.0; 2]);
+    for tab in [&tab, &second] {
+        chromium
+            .wait(tab, "document.querySelector('#alarm').innerText.startsWith('Over: landed on')");
+    }
+    let (status, printed) = flown.end();
+    assert_eq!(status, Some(130), "{printed}");
+}
+
+#[test]
+fn one_click_cuts_nothing_and_two_do() {
+    let Some(mut chromium) = Chromium::start() else {
+        println!("skipped: no chromium here");
+        return;
+    };
+    let flown = Flown::start(HOVER);
+    let tab = chromium.open(&flown.url());
+    chromium.wait(&tab, "!!status && status.phase === 'flying' && status.pose.z_m > 0.5");
+    chromium.click(&tab, "#cut", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelector('#cut').innerText === 'Again: the drone FALLS'");
+    chromium.wait(&tab, "document.querySelector('#cut').innerText === 'Cut motors'");
+    assert_eq!(chromium.evaluate(&tab, "status.phase"), json!("flying"));
+    chromium.click(&tab, "#cut", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelector('#cut').innerText === 'Again: the drone FALLS'");
+    chromium.click(&tab, "#cut", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelector('#alarm').innerText.includes('emergency')");
+    assert_eq!(flown.end().0, Some(50));
+}
+
+#[test]
+fn foreign_pages_and_names_are_refused() {
+    let flown = Flown::start(HOVER);
+    let host = &flown.host;
+    let page =
+        flown.request(&format!("GET / HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"));
+    assert!(page.starts_with("HTTP/1.1 200") && page.contains("<title>ardrone-pilot"), "{page}");
+    assert!(page.contains("frame-ancestors 'none'"), "{page}");
+    for outside in ["http://", "https://", "//cdn"] {
+        let page = page.split("\r\n\r\n").nth(1).unwrap();
+        assert!(!page.contains(outside), "{page}");
+    }
+    for (head, status) in [
+        ("GET / HTTP/1.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n".to_owned(), "403"),
+        (
+            format!(
+                "GET / HTTP/1.1\r\nHost: {host}\r\nOrigin: http://evil.example\r\nConnection: close\r\n\r\n"
+            ),
+            "403",
+        ),
+        (
+            format!("GET /../Cargo.toml HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"),
+            "404",
+        ),
+        (format!("POST / HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"), "405"),
+        (format!("GET /live HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"), "4"),
+        ("\0\u{1}\u{2} nonsense\r\nConnection: close\r\n\r\n".to_owned(), "400"),
+    ] {
+        let answer = flown.request(&head);
+        assert!(answer.starts_with(&format!("HTTP/1.1 {status}")), "{head}\n{answer}");
+    }
+    assert!(Live::from(host, "/live", Some("http://evil.example")).is_err());
+    assert!(Live::from(host, "/live", Some("null")).is_err());
+    let mut ours = Live::from(host, "/live", Some(&format!("http://{host}"))).unwrap();
+    assert_eq!(ours.next("flight")["steps"][0]["text"], "takeoff");
+    ours.next("status");
+    ours.order(&json!({ "order": "land" }));
+    assert_eq!(flown.end().0, Some(130));
+}
+
+#[test]
+fn other_machines_need_the_token() {
+    let (mut flown, printed) = Flown::at("0.0.0.0:0", HOVER);
+    let (port, token) = printed
+        .strip_prefix("ADDRESS-OF-THIS-MACHINE:")
+        .and_then(|rest| rest.split_once("/?token="))
+        .unwrap();
+    flown.host = format!("127.0.0.1:{port}");
+    for (query, status) in [("", "403"), ("?token=0", "403"), (&format!("?token={token}"), "200")] {
+        let answer = flown.request(&format!(
+            "GET /{query} HTTP/1.1\r\nHost: pilot.local:{port}\r\nConnection: close\r\n\r\n"
+        ));
+        assert!(answer.starts_with(&format!("HTTP/1.1 {status}")), "{query}: {answer}");
+    }
+    assert!(Live::from(&flown.host, "/live", None).is_err());
+    let mut live = Live::from(&flown.host, &format!("/live?token={token}"), None).unwrap();
+    live.next("status");
+    live.order(&json!({ "order": "land" }));
+    assert_eq!(flown.end().0, Some(130));
+}
+
+/// Clients of every bad kind, at once: the others see the flight, and it is flown to its end.
+#[test]
+fn no_client_disturbs_the_flight() {
+    let flown = Flown::start("takeoff\ngoto 0 1 0 0\nsetStayTime 6\ngoto 1 1 0 0\nland\n");
+    let mut good = flown.live();
+    // Slow ones: they open, and read nothing of what they are told, or say nothing at all.
+    let deaf: Vec<Live> = (0..5).map(|_| flown.live()).collect();
+    let silent: Vec<TcpStream> =
+        (0..40).map(|_| TcpStream::connect(&flown.host).unwrap()).collect();
+    // One that talks nonsense is shown the door.
+    let mut garbage = flown.live();
+    for text in ["", "{", "{\"order\":\"fall\"}", "[1,2,3]", "land"].iter().cycle().take(30) {
+        // It may be closed by now.
+        _ = garbage.0.send(Message::text(*text));
+        std::thread::sleep(Duration::from_millis(25));
+    }
+    while let Ok(message) = garbage.0.read() {
+        drop(message);
+    }
+    let mut binary = flown.live();
+    // More than it takes.
+    _ = binary.0.send(Message::binary(vec![0; 1 << 20]));
+    while let Ok(message) = binary.0.read() {
+        drop(message);
+    }
+    // One that comes and goes, a thousand times.
+    for count in 0..1000 {
+        let mut stream = TcpStream::connect(&flown.host).unwrap();
+        if count % 2 == 0 {
+            _ = stream.write_all(b"GET / HTTP/1.1\r\nHo");
+        }
+    }
+    drop(silent);
+    let mut late = flown.live();
+    assert_eq!(late.next("flight")["steps"][4]["text"], "land");
+    // Too many at a time.
+    let mut all = Vec::new();
+    while let Ok(live) = Live::from(&flown.host, "/live", None) {
+        all.push(live);
+        assert!(all.len() < 100);
+    }
+    drop((all, deaf));
+    let end = good.next("end");
+    assert_eq!((&end["exit_status"], &end["steps_done"]), (&json!(0), &json!(5)));
+    assert_eq!(late.next("end"), end);
+    let (status, printed) = flown.end();
+    assert_eq!(status, Some(0));
+    println!("{printed}");
+}
+
+#[test]
+fn a_port_that_is_taken_is_told_before_anything_flies() {
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let plan = plan_file("takeoff\nland\n");
+    let address = taken.local_addr().unwrap().to_string();
+    let output = program("ardrone-pilot")
+        .arg("--plan")
+        .arg(plan.path())
+        .args(["--mock", "--no-log", "--ui", &address])
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(told.contains(&address) && told.contains("give another address as --ui"), "{told}");
+}

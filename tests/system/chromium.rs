@@ -1,0 +1,132 @@
+//! Drives a headless Chromium over its own protocol, as far as these tests need it.
+
+use std::io::{BufRead as _, BufReader};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use serde_json::{Value, json};
+use tungstenite::{Message, WebSocket};
+
+/// Nothing that a page does takes longer than this, even on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(40);
+
+/// A browser, killed when the test ends.
+pub(crate) struct Chromium {
+    child: Child,
+    socket: WebSocket<TcpStream>,
+    calls: u64,
+    _profile: tempfile::TempDir,
+}
+
+/// A tab.
+#[derive(Debug, Clone)]
+pub(crate) struct Tab(String);
+
+impl Chromium {
+    /// Starts it; nothing if this machine has none.
+    pub(crate) fn start() -> Option<Self> {
+        let profile = tempfile::tempdir().unwrap();
+        let mut child = Command::new("chromium")
+            .args(["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run"])
+            .args(["--disable-background-networking", "--disable-component-update"])
+            .args(["--disable-sync", "--disable-quic", "--remote-debugging-port=0"])
+            .args(["--window-size=1400,860", "--force-prefers-reduced-motion"])
+            .arg(format!("--user-data-dir={}", profile.path().display()))
+            .stderr(Stdio::piped())
+            .stdout(Stdio::null())
+            .spawn()
+            .ok()?;
+        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+        let address = lines
+            .find_map(|line| Some(line.unwrap().strip_prefix("DevTools listening on ")?.to_owned()))
+            .expect("it tells where it listens");
+        // Whatever else it complains of must not fill the pipe.
+        std::thread::spawn(move || lines.for_each(drop));
+        let host = address.strip_prefix("ws://").unwrap().split('/').next().unwrap();
+        let stream = TcpStream::connect(host).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        let (socket, _) = tungstenite::client(address.as_str(), stream).unwrap();
+        Some(Self { child, socket, calls: 0, _profile: profile })
+    }
+
+    fn call(&mut self, tab: Option<&Tab>, method: &str, parameters: &Value) -> Value {
+        self.calls += 1;
+        let mut call = json!({ "id": self.calls, "method": method, "params": parameters });
+        if let Some(Tab(session)) = tab {
+            call["sessionId"] = json!(session);
+        }
+        self.socket.send(Message::text(call.to_string())).unwrap();
+        loop {
+            let Message::Text(text) = self.socket.read().unwrap() else { continue };
+            let told: Value = serde_json::from_str(&text).unwrap();
+            if told["id"] == self.calls {
+                assert!(told["error"].is_null(), "{method}: {told}");
+                return told["result"].clone();
+            }
+        }
+    }
+
+    /// Opens an address in a new tab.
+    pub(crate) fn open(&mut self, url: &str) -> Tab {
+        let target = self.call(None, "Target.createTarget", &json!({ "url": url }));
+        let attach = json!({ "targetId": target["targetId"], "flatten": true });
+        let session = self.call(None, "Target.attachToTarget", &attach);
+        Tab(session["sessionId"].as_str().unwrap().to_owned())
+    }
+
+    /// Loads the page again.
+    pub(crate) fn reload(&mut self, tab: &Tab) {
+        self.call(Some(tab), "Page.reload", &json!({}));
+    }
+
+    /// What an expression is in the page.
+    pub(crate) fn evaluate(&mut self, tab: &Tab, expression: &str) -> Value {
+        let parameters = json!({ "expression": expression, "returnByValue": true });
+        self.call(Some(tab), "Runtime.evaluate", &parameters)["result"]["value"].clone()
+    }
+
+    /// Waits until something is so in the page.
+    pub(crate) fn wait(&mut self, tab: &Tab, condition: &str) {
+        let start = Instant::now();
+        while self.evaluate(tab, condition) != json!(true) {
+            let page = self.evaluate(tab, "document.body.innerText");
+            assert!(start.elapsed() < PATIENCE, "never so: {condition}\n{page}");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    /// Clicks into the middle of an element, as a mouse does, and so far off the middle.
+    pub(crate) fn click(&mut self, tab: &Tab, selector: &str, off: [f64; 2]) {
+        let place = self.evaluate(
+            tab,
+            &format!(
+                "{{ const box = document.querySelector('{selector}').getBoundingClientRect(); \
+                 [box.x + box.width / 2, box.y + box.height / 2] }}"
+            ),
+        );
+        let [x, y] = [0, 1].map(|axis| place[axis].as_f64().unwrap() + off[axis]);
+        for kind in ["mousePressed", "mouseReleased"] {
+            let mouse = json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1 });
+            self.call(Some(tab), "Input.dispatchMouseEvent", &mouse);
+        }
+    }
+
+    /// Keeps what is seen as a picture.
+    pub(crate) fn screenshot(&mut self, tab: &Tab, file: &Path) {
+        let picture = self.call(Some(tab), "Page.captureScreenshot", &json!({ "format": "png" }));
+        let bytes = BASE64_STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
+        std::fs::write(file, bytes).unwrap();
+    }
+}
+
+impl Drop for Chromium {
+    fn drop(&mut self) {
+        // It may be gone already.
+        _ = self.child.kill();
+        _ = self.child.wait();
+    }
+}
