@@ -18,7 +18,7 @@ struct Flown {
     child: Child,
     /// `127.0.0.1:1234`.
     host: String,
-    _plan: tempfile::NamedTempFile,
+    _plan: Option<tempfile::NamedTempFile>,
 }
 
 impl Flown {
@@ -31,9 +31,15 @@ impl Flown {
     /// With a page at this address; returns what is printed of it.
     fn at(address: &str, plan: &str) -> (Self, String) {
         let plan = plan_file(plan);
+        let (child, printed) = Self::fly(address, plan.path());
+        (Self { child, host: String::new(), _plan: Some(plan) }, printed)
+    }
+
+    fn fly(address: &str, plan: &Path) -> (Child, String) {
         let mut child = program("ardrone-pilot")
+            .current_dir("..")
             .arg("--plan")
-            .arg(plan.path())
+            .arg(plan)
             .args(["--mock", "--plain", "--no-log", "--ui", address])
             .stderr(Stdio::piped())
             .stdout(Stdio::piped())
@@ -44,7 +50,7 @@ impl Flown {
             .find_map(|line| Some(line.unwrap().strip_prefix("watch it at http://")?.to_owned()))
             .unwrap();
         std::thread::spawn(move || lines.for_each(drop));
-        (Self { child, host: String::new(), _plan: plan }, printed)
+        (child, printed)
     }
 
     /// Waits for its end: the exit status, and what it printed.
@@ -153,9 +159,6 @@ fn the_page_shows_the_flight_and_orders_it() {
         // What is behind another tab is not drawn.
         chromium.wait(tab, "trail.length > 40");
     }
-    if let Some(file) = std::env::var_os("PAGE_PICTURE") {
-        chromium.screenshot(&second, Path::new(&file));
-    }
     chromium.click(&second, "#land", [0.0; 2]);
     for tab in [&tab, &second] {
         chromium
@@ -163,6 +166,19 @@ fn the_page_shows_the_flight_and_orders_it() {
     }
     let (status, printed) = flown.end();
     assert_eq!(status, Some(130), "{printed}");
+}
+
+#[test]
+#[ignore = "makes the picture of the documentation"]
+fn the_picture_of_the_page() {
+    let mut chromium = Chromium::start().expect("chromium");
+    let (child, printed) = Flown::fly("0", Path::new("plans/xyz.txt"));
+    let flown = Flown { child, host: printed.replace('/', ""), _plan: None };
+    let tab = chromium.open(&flown.url());
+    chromium.wait(&tab, "!!status && status.step === 5 && status.distance_m < 0.6");
+    chromium.click(&tab, "#map", [90.0, -60.0]);
+    chromium.wait(&tab, "!document.querySelector('#go').hidden");
+    chromium.screenshot(&tab, Path::new("../docs/browser.png"));
 }
 
 #[test]

@@ -157,6 +157,9 @@ impl Log {
 
 type Texts = BTreeMap<String, String>;
 
+/// A length beyond this is a lie, before and after a chunk is unpacked.
+const LONGEST_RECORD_BYTES: usize = 64 << 20;
+
 /// What stands in the file.
 #[derive(Default)]
 struct Content {
@@ -176,7 +179,7 @@ impl Content {
         // The checksum of a chunk is checked before what is in it is looked at.
         let options = LinearReaderOptions::default()
             .with_prevalidate_chunk_crcs(true)
-            .with_record_length_limit(file.len());
+            .with_record_length_limit(LONGEST_RECORD_BYTES);
         let mut reader = LinearReader::new_with_options(options);
         let mut content = Self::default();
         let mut rest = file;

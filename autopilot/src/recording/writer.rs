@@ -1,4 +1,4 @@
-//! A flight log as MCAP: <https://mcap.dev>, which Foxglove and Lichtblick open.
+//! A flight log as MCAP: <https://mcap.dev>, with the schemas that Foxglove and Lichtblick know.
 //!
 //! Messages are JSON with schemas. Chunks are not compressed, so that what was flushed before a crash can be
 //! read by anything, and no C library is needed.
@@ -12,7 +12,7 @@ use ardrone_link::navdata::Navdata;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use mcap::records::{MessageHeader, Metadata};
-use mcap::{Attachment, McapError, WriteOptions, Writer};
+use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
 use serde::Serialize;
 use serde_json::json;
 
@@ -39,7 +39,11 @@ impl<W: Write + Seek> LogWriter<W> {
     /// # Errors
     /// [`McapError`] if it cannot be written.
     pub fn new(writer: W, header: &Header) -> Result<Self, McapError> {
-        let options = WriteOptions::new().compression(None).profile("").library("ardrone-pilot");
+        let options = WriteOptions::new()
+            .compression(Some(Compression::Zstd))
+            .compression_threads(0)
+            .profile("")
+            .library("ardrone-pilot");
         let mut writer = options.create(writer)?;
         let mut channels = BTreeMap::new();
         for topic in topic::ALL {
