@@ -1,0 +1,134 @@
+//! Guesses of what is invariant, of which a proof keeps what proves itself.
+
+use super::{Builder, occupied};
+use crate::backend::c::cycle::{event_name, no_event};
+use crate::backend::c::state::{
+    Slot, belief_value, deferred_ring, external_name, handler_name, held, pending, perceived,
+    queued, rings,
+};
+use crate::configuration::{Cause, Formula, Property};
+use crate::program::Value;
+
+impl Builder<'_> {
+    /// What may be invariant. Wrong guesses do no harm: they are dropped.
+    pub(super) fn candidates(&self) -> Vec<String> {
+        let mut candidates = Vec::new();
+        let posted: Vec<String> = (self.program.posted.iter())
+            .map(|id| event_name(&self.names, Slot::Posted, &handler_name(self.program, *id)))
+            .collect();
+        let none = no_event(&self.names);
+        let any_of = |left: &str, of: &[String]| {
+            let tests: Vec<String> = of.iter().map(|one| format!("({left} == {one})")).collect();
+            format!("({})", tests.join(" || "))
+        };
+        let mut posted_or_none = posted.clone();
+        posted_or_none.push(none.clone());
+        candidates.push(any_of("self->posted", &posted_or_none));
+        self.rings_are_sound(&mut candidates);
+        self.something_waits(&mut candidates, &none);
+        for belief in &self.program.beliefs {
+            let held = format!("self->{}", held(&belief.name));
+            for event in &posted {
+                candidates.push(format!("((self->posted != {event}) || {held})"));
+            }
+            candidates.push(format!("(!{held})"));
+            candidates.push(held);
+            for (index, value) in belief.initial.iter().flatten().enumerate() {
+                if let Value::Constant(text, _) = value {
+                    let field = belief_value(&belief.name, index);
+                    candidates.push(format!("(self->{field} == {text})"));
+                }
+            }
+        }
+        for property in self.properties() {
+            self.monitor_candidates(property, &posted, &mut candidates);
+        }
+        candidates
+    }
+
+    fn rings_are_sound(&self, candidates: &mut Vec<String>) {
+        for ring in rings(self.program) {
+            let length = ring.length;
+            let (count, first) = (ring.field("count"), ring.field("first"));
+            let name = count.trim_end_matches("_count").to_owned();
+            candidates.push(format!("(self->{count} <= {length}U)"));
+            candidates.push(format!("(self->{first} < {length}U)"));
+            let mut events: Vec<String> = Vec::new();
+            if name == "inbox" {
+                candidates.push(format!("(self->inbox_taken < {length}U)"));
+                events.extend(queued(self.program).map(|external| {
+                    event_name(&self.names, Slot::Inbox, &external_name(external))
+                }));
+            }
+            if deferred_ring(self.program).is_some_and(|own| own.field("count") == count) {
+                events.extend(self.program.deferred.iter().map(|id| {
+                    event_name(&self.names, Slot::Deferred, &handler_name(self.program, *id))
+                }));
+                let flags: Vec<String> = (self.program.deferred.iter())
+                    .map(|id| pending(Slot::Deferred, &handler_name(self.program, *id)))
+                    .map(|flag| format!("(self->{flag} ? 1U : 0U)"))
+                    .collect();
+                candidates.push(format!("(self->{count} == ({}))", flags.join(" + ")));
+            }
+            for slot in 0..length {
+                let free = format!("!{}", occupied(&name, slot, length));
+                let known: Vec<String> = events
+                    .iter()
+                    .map(|event| format!("(self->{name}_queue[{slot}] == {event})"))
+                    .collect();
+                candidates.push(format!("({free} || {})", known.join(" || ")));
+            }
+        }
+    }
+
+    fn something_waits(&self, candidates: &mut Vec<String>, none: &str) {
+        let mut waiting = vec![format!("(self->posted != {none})")];
+        waiting.extend(
+            rings(self.program).map(|ring| format!("(self->{} > 0U)", ring.field("count"))),
+        );
+        for external in self.program.external.iter().filter(|external| external.preemptive) {
+            let flag = pending(Slot::Preemptive, &external_name(external));
+            waiting.push(format!("self->{flag}"));
+        }
+        for (_, handler) in perceived(self.program) {
+            let flag = pending(Slot::Perceived, &handler_name(self.program, handler));
+            waiting.push(format!("self->{flag}"));
+        }
+        // By the agent alone, and with what the environment has raised.
+        candidates.push(format!("({})", waiting.join(" || ")));
+        if let Some(ring) = deferred_ring(self.program) {
+            let count = ring.field("count");
+            candidates.push(format!("((self->posted != {none}) || (self->{count} > 0U))"));
+        }
+    }
+
+    fn monitor_candidates(&self, property: &Property, posted: &[String], out: &mut Vec<String>) {
+        let name = &property.name.text;
+        match &property.formula {
+            Formula::Within { steps, cause, .. } => {
+                out.push(format!("(due_{name} <= {steps}U)"));
+                for due in 1..=(*steps).min(4) {
+                    for event in posted {
+                        out.push(format!("((due_{name} != {due}U) || (self->posted != {event}))"));
+                    }
+                    let none = no_event(&self.names);
+                    out.push(format!("((due_{name} != {due}U) || (self->posted != {none}))"));
+                }
+                if let Cause::Event(event) = cause {
+                    out.push(format!("((due_{name} == 0U) || {})", self.waits(event)));
+                }
+                for external in self.program.external.iter().filter(|e| e.preemptive) {
+                    let flag = pending(Slot::Preemptive, &external_name(external));
+                    out.push(format!("((due_{name} == 0U) || !self->{flag})"));
+                }
+            }
+            Formula::OnlyAfter { event, .. } => {
+                for event in posted {
+                    out.push(format!("(allowed_{name} || (self->posted != {event}))"));
+                }
+                out.push(format!("(allowed_{name} || !{})", self.waits(event)));
+            }
+            Formula::Count { .. } | Formula::AllHandled => {}
+        }
+    }
+}
