@@ -176,11 +176,13 @@ pub fn obligations(
         return Err(TranslateError::Unprovable { name });
     }
     let harness = backend::c::harness(&program);
+    let prefix = backend::c::symbol_prefix(&program);
     let mut files = c_files(&program);
     files.push(GeneratedFile { name: HARNESS.to_owned(), text: harness.source });
     Ok(Obligations {
         files,
-        state_type: format!("{}agent_t", backend::c::symbol_prefix(&program)),
+        entry: format!("{prefix}next_step"),
+        state_type: format!("{prefix}agent_t"),
         candidates: harness.candidates,
         properties,
     })

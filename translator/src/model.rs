@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use crate::Promise;
 use crate::backend::promela::{MARK, PROPERTY, Waiting, emit, events};
 use crate::program::{Program, trigger_text};
@@ -19,7 +21,7 @@ pub struct Model {
 }
 
 /// Something that happens on the way to a failure, in the agent's own terms.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Happening {
     /// How deep it belongs below what comes before it: 0 for the environment and for steps, 1 for plans, 2 for
     /// what plans do.

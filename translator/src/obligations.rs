@@ -19,6 +19,8 @@ pub const HARNESS: &str = "harness.c";
 pub struct Obligations {
     /// The C of the agent and [`HARNESS`], with the functions `base`, `induction` and `main`.
     pub files: Vec<GeneratedFile>,
+    /// The linker's name of `next_step()`, with the state passed in.
+    pub entry: String,
     pub(crate) state_type: String,
     pub(crate) candidates: Vec<String>,
     /// The properties: each has an assertion `property NAME`.
@@ -37,12 +39,6 @@ pub struct Promise {
 }
 
 impl Obligations {
-    /// The linker's name of `next_step()`, with the state passed in.
-    pub fn entry(&self) -> String {
-        let prefix = self.state_type.trim_end_matches("agent_t");
-        format!("{prefix}next_step")
-    }
-
     /// The candidates for the invariant, as C.
     pub fn candidates(&self) -> &[String] {
         &self.candidates

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::process::ExitCode;
 
 use serde_json::{Value, json};
-use translator::{Happening, Model, Promise};
+use translator::{Model, Promise};
 
 use crate::spin::{self, SpinError, Verdict};
 
@@ -90,13 +90,9 @@ fn json(verdicts: &[(Promise, Verdict)]) -> String {
                 "requirements": promise.requirements,
                 "formula": promise.formula,
                 "verdict": verdict,
-                "trace": happenings.iter().map(happening).collect::<Vec<_>>(),
+                "trace": happenings,
             })
         })
         .collect();
     format!("{:#}\n", json!({ "properties": properties }))
-}
-
-fn happening(happening: &Happening) -> Value {
-    json!({ "depth": happening.depth, "line": happening.line, "text": happening.text })
 }

@@ -29,7 +29,7 @@ pub(crate) fn costliest(obligations: &Obligations) -> Result<u64, String> {
         &["-std=c99", OPTIMIZED, "-fno-jump-tables", "-g", "-w", "-c", agent, "-o", "agent.o"],
     )?;
     run(folder, "gcc", &["-std=c99", "-g", "-w", &random, HARNESS, "agent.o", "-o", "steps"])?;
-    let entry = obligations.entry();
+    let entry = &obligations.entry;
     let toggle = format!("--toggle-collect={entry}");
     let dump = format!("--dump-after={entry}");
     let options = ["--tool=callgrind", "--callgrind-out-file=step", &toggle, &dump, "./steps"];

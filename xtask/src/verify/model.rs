@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use serde::Deserialize;
+use translator::Happening;
 
 use super::{Agent, VerifyError, in_file, write};
 
@@ -25,14 +26,6 @@ pub(super) struct Checked {
     pub(super) trace: Vec<Happening>,
 }
 
-/// Something on the way to a failure.
-#[derive(Debug, Clone, Deserialize)]
-pub(super) struct Happening {
-    depth: usize,
-    line: Option<usize>,
-    text: String,
-}
-
 #[derive(Debug, Deserialize)]
 struct Answer {
     properties: Vec<Checked>,
@@ -47,16 +40,6 @@ impl Checked {
     /// Whether there is an environment in which it fails.
     pub(super) fn fails(&self) -> bool {
         self.verdict == "fails"
-    }
-}
-
-impl std::fmt::Display for Happening {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let indentation = "  ".repeat(self.depth);
-        match self.line {
-            Some(line) => write!(f, "{indentation}line {line}: {}", self.text),
-            None => write!(f, "{indentation}{}", self.text),
-        }
     }
 }
 
