@@ -5,6 +5,7 @@
 //! ([`Pilot::order`]); every 30 ms it calls [`Pilot::tick`] and sends the datagram. It goes
 //! on until [`Pilot::outcome`] tells how the flight ended.
 
+mod control;
 mod decision;
 mod flight_phase;
 mod hand;
@@ -14,16 +15,16 @@ mod report;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use ardrone_link::at::{Config, Datagram, EncodeError, Fraction, Motion};
+use ardrone_link::at::{Config, Datagram, EncodeError};
 use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
-use ardrone_link::session::{self, FlightOrder, Order, Received, Session, SessionConfig};
+use ardrone_link::session::{self, Received, Session, SessionConfig};
 use ardrone_link::settings::{Setting, SettingError};
 pub use estimator::{Airframe, Trust};
-use estimator::{Estimator, EstimatorConfig, Prediction, Sample, Sticks};
+use estimator::{Estimator, EstimatorConfig, Prediction, Sample};
 use nalgebra::Vector2;
 pub use pid::Law;
-use pid::{CascadeConfig, Demand, Inputs, Pose, PositionController};
+use pid::{CascadeConfig, Pose, PositionController};
 
 pub use self::decision::Decision;
 pub use self::flight_phase::{FlightPhase, LandingReason};
@@ -451,88 +452,6 @@ impl Pilot {
         }
     }
 
-    /// The agent's command as levels and sticks.
-    fn carry_out(&mut self, now: Duration, command: AgentCommand, step_s: f64) -> Order {
-        self.target = None;
-        let mut told: Option<Demand> = None;
-        let order = match command {
-            AgentCommand::Standby | AgentCommand::Land => {
-                self.controller.reset();
-                Order { flight: FlightOrder::Land, motion: Motion::Hover }
-            }
-            AgentCommand::TakeOff => Order { flight: FlightOrder::TakeOff, motion: Motion::Hover },
-            AgentCommand::Hover => {
-                self.controller.rest();
-                Order { flight: FlightOrder::StayAirborne, motion: Motion::Hover }
-            }
-            AgentCommand::GoTo(target) => {
-                self.target = Some(target);
-                let demand = self.demand(now, &target, step_s);
-                let demand = self.guard.limit(&demand, self.mission.max_control());
-                told = Some(demand);
-                Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
-            }
-            AgentCommand::Sticks => {
-                self.controller.rest();
-                let demand = self.hand.sticks(now).unwrap_or_default();
-                let demand = self.guard.limit(&demand, self.mission.max_control());
-                told = Some(demand);
-                Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
-            }
-        };
-        if told.is_none() {
-            self.guard.let_go();
-        }
-        let told = told.map_or(estimator::Order::ByItself, |demand| {
-            estimator::Order::Sticks(Sticks {
-                right: demand.roll,
-                forward: -demand.pitch,
-                up: demand.gaz,
-                clockwise: demand.yaw,
-            })
-        });
-        self.estimator.told(now, told);
-        order
-    }
-
-    /// The sticks for the way to a target.
-    fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Demand {
-        // A command acts when the dead time is over: it must suit the drone of that moment.
-        let state = self.state(now + self.dead_time);
-        let Airframe {
-            tilt_gain,
-            tilt_lag_s,
-            climb_gain,
-            drop_gain,
-            climb_lag_s,
-            thrust_gain,
-            drag_1_s,
-            ..
-        } = *self.estimator.airframe();
-        self.controller.step(&Inputs {
-            pose: &pose(&state),
-            motion: &pid::Motion {
-                x_m_s: state.velocity_m_s.x,
-                y_m_s: state.velocity_m_s.y,
-                z_m_s: state.velocity_m_s.z,
-                yaw_deg_s: state.turn_deg_s,
-            },
-            disturbance_m_s2: state.disturbance_m_s2,
-            airframe: pid::Airframe {
-                tilt_gain,
-                tilt_lag_s,
-                climb_gain,
-                drop_gain,
-                climb_lag_s,
-                thrust_gain,
-                drag_1_s,
-            },
-            target,
-            step_s,
-            limit: self.mission.max_control(),
-        })
-    }
-
     /// Gives the agent the next order when the last one has ended.
     fn offer_order(&mut self, now: Duration) {
         let waits = self.landing.is_some() || self.hand.pre_empts;
@@ -603,15 +522,6 @@ impl Pilot {
             AgentOrder::Land => self.report.landed_at = Some(now),
         }
         self.events.push_back(FlightEvent::StepDone { step: active.due.step });
-    }
-}
-
-fn motion(demand: &Demand) -> Motion {
-    Motion::Progressive {
-        roll: Fraction::saturating(demand.roll),
-        pitch: Fraction::saturating(demand.pitch),
-        gaz: Fraction::saturating(demand.gaz),
-        yaw: Fraction::saturating(demand.yaw),
     }
 }
 

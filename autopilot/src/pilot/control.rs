@@ -1,0 +1,104 @@
+//! The agent's command, carried out: levels and sticks.
+
+use std::time::Duration;
+
+use ardrone_link::at::{Fraction, Motion};
+use ardrone_link::session::{FlightOrder, Order};
+use estimator::{Airframe, Sticks};
+use pid::{Demand, Inputs, Pose};
+
+use super::{Pilot, pose};
+use crate::agent::AgentCommand;
+
+impl Pilot {
+    /// The agent's command as levels and sticks.
+    pub(super) fn carry_out(&mut self, now: Duration, command: AgentCommand, step_s: f64) -> Order {
+        self.target = None;
+        let mut told: Option<Demand> = None;
+        let order = match command {
+            AgentCommand::Standby | AgentCommand::Land => {
+                self.controller.reset();
+                Order { flight: FlightOrder::Land, motion: Motion::Hover }
+            }
+            AgentCommand::TakeOff => Order { flight: FlightOrder::TakeOff, motion: Motion::Hover },
+            AgentCommand::Hover => {
+                self.controller.rest();
+                Order { flight: FlightOrder::StayAirborne, motion: Motion::Hover }
+            }
+            AgentCommand::GoTo(target) => {
+                self.target = Some(target);
+                let demand = self.demand(now, &target, step_s);
+                let demand = self.guard.limit(&demand, self.mission.max_control());
+                told = Some(demand);
+                Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
+            }
+            AgentCommand::Sticks => {
+                self.controller.rest();
+                let demand = self.hand.sticks(now).unwrap_or_default();
+                let demand = self.guard.limit(&demand, self.mission.max_control());
+                told = Some(demand);
+                Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
+            }
+        };
+        if told.is_none() {
+            self.guard.let_go();
+        }
+        let told = told.map_or(estimator::Order::ByItself, |demand| {
+            estimator::Order::Sticks(Sticks {
+                right: demand.roll,
+                forward: -demand.pitch,
+                up: demand.gaz,
+                clockwise: demand.yaw,
+            })
+        });
+        self.estimator.told(now, told);
+        order
+    }
+
+    /// The sticks for the way to a target.
+    fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Demand {
+        // A command acts when the dead time is over: it must suit the drone of that moment.
+        let state = self.state(now + self.dead_time);
+        let Airframe {
+            tilt_gain,
+            tilt_lag_s,
+            climb_gain,
+            drop_gain,
+            climb_lag_s,
+            thrust_gain,
+            drag_1_s,
+            ..
+        } = *self.estimator.airframe();
+        self.controller.step(&Inputs {
+            pose: &pose(&state),
+            motion: &pid::Motion {
+                x_m_s: state.velocity_m_s.x,
+                y_m_s: state.velocity_m_s.y,
+                z_m_s: state.velocity_m_s.z,
+                yaw_deg_s: state.turn_deg_s,
+            },
+            disturbance_m_s2: state.disturbance_m_s2,
+            airframe: pid::Airframe {
+                tilt_gain,
+                tilt_lag_s,
+                climb_gain,
+                drop_gain,
+                climb_lag_s,
+                thrust_gain,
+                drag_1_s,
+            },
+            target,
+            step_s,
+            limit: self.mission.max_control(),
+        })
+    }
+}
+
+fn motion(demand: &Demand) -> Motion {
+    Motion::Progressive {
+        roll: Fraction::saturating(demand.roll),
+        pitch: Fraction::saturating(demand.pitch),
+        gaz: Fraction::saturating(demand.gaz),
+        yaw: Fraction::saturating(demand.yaw),
+    }
+}
