@@ -20,6 +20,7 @@
 pub mod agent;
 pub mod browser;
 pub mod cli;
+mod drawing;
 pub mod flight;
 mod json;
 pub mod mission;

@@ -2,19 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use crate::drawing::{self, Drawing, Drawn, FONT};
 use crate::plan::{FlightLimits, Plan};
 use pid::Pose;
 
-const FONT: &str = "sans-serif";
 const SIZE: (u32, u32) = (960, 500);
 const WAY: RGBColor = RGBColor(25, 95, 170);
 const FENCE: RGBColor = RGBColor(190, 60, 40);
 const GROUND: RGBColor = RGBColor(110, 110, 110);
-
-type Drawing<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
@@ -38,12 +35,12 @@ struct Place {
 /// [`PictureError`] if the drawing library gives up.
 pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, PictureError> {
     let places = places(plan, limits);
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        draw(&area, name, &places, limits).map_err(|error| PictureError(error.to_string()))?;
-    }
-    Ok(text)
+    drawing::svg(SIZE, |area| {
+        let (left, right) = area.split_horizontally(SIZE.1);
+        from_above(&left, name, &places, limits)?;
+        over_time(&right, &places, limits)
+    })
+    .map_err(|error| PictureError(error.to_string()))
 }
 
 fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
@@ -67,27 +64,8 @@ fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
     places
 }
 
-fn draw(
-    area: &Drawing<'_>,
-    name: &str,
-    places: &[Place],
-    limits: &FlightLimits,
-) -> Result<(), Box<dyn std::error::Error>> {
-    area.fill(&WHITE)?;
-    let (left, right) = area.split_horizontally(SIZE.1);
-    from_above(&left, name, places, limits)?;
-    over_time(&right, places, limits)?;
-    area.present()?;
-    Ok(())
-}
-
 /// The way from above, in one scale for both axes.
-fn from_above(
-    area: &Drawing<'_>,
-    name: &str,
-    places: &[Place],
-    limits: &FlightLimits,
-) -> Result<(), Box<dyn std::error::Error>> {
+fn from_above(area: &Drawing<'_>, name: &str, places: &[Place], limits: &FlightLimits) -> Drawn {
     let extent = |value: fn(&Pose) -> f64| {
         let values = places.iter().map(|place| value(&place.pose));
         values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
@@ -145,11 +123,7 @@ fn from_above(
 }
 
 /// The height over time, between floor and ceiling.
-fn over_time(
-    area: &Drawing<'_>,
-    places: &[Place],
-    limits: &FlightLimits,
-) -> Result<(), Box<dyn std::error::Error>> {
+fn over_time(area: &Drawing<'_>, places: &[Place], limits: &FlightLimits) -> Drawn {
     let end_s = places.last().map_or(1.0, |place| place.departure_s).max(1.0);
     let top_m = limits.ceiling_m + 0.3;
     let mut chart = ChartBuilder::on(area)

@@ -2,14 +2,13 @@
 
 use std::error::Error;
 
-use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use super::data::{Band, BandKind, Flight};
+use crate::drawing::{self, Drawing, Drawn, FONT};
 use crate::recording::Tick;
 
-const FONT: &str = "sans-serif";
 /// All plots over time are so wide, and begin and end at the same place: the page puts a cursor on them.
 pub(super) const WIDTH: u32 = 960;
 pub(super) const LEFT: u32 = 56;
@@ -25,9 +24,7 @@ const GREEN: RGBColor = RGBColor(40, 130, 70);
 const PURPLE: RGBColor = RGBColor(120, 70, 150);
 const GREY: RGBColor = RGBColor(110, 110, 110);
 
-type Drawing<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-type Drawn = Result<(), Box<dyn Error>>;
 
 /// A drawn plot.
 pub(super) struct Plot {
@@ -91,7 +88,7 @@ pub(super) fn all(flight: &Flight<'_>) -> Result<Vec<Plot>, Box<dyn Error>> {
             title: "Ground track",
             over_time: false,
             legend: Vec::new(),
-            svg: picture((560, 520), |area| ground_track(area, flight))?,
+            svg: drawing::svg((560, 520), |area| ground_track(area, flight))?,
         },
         over_time(PLACE, 250, flight, &place)?,
         over_time("Height above the floor (m), dashed: the target", 180, flight, &height)?,
@@ -103,23 +100,9 @@ pub(super) fn all(flight: &Flight<'_>) -> Result<Vec<Plot>, Box<dyn Error>> {
             title: "How late ticks were",
             over_time: false,
             legend: Vec::new(),
-            svg: picture((560, 220), |area| histogram(area, &flight.lateness_ms()))?,
+            svg: drawing::svg((560, 220), |area| histogram(area, &flight.lateness_ms()))?,
         },
     ])
-}
-
-fn picture(
-    size: (u32, u32),
-    draw: impl FnOnce(&Drawing<'_>) -> Drawn,
-) -> Result<String, Box<dyn Error>> {
-    let mut svg = String::new();
-    {
-        let area = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-        area.fill(&WHITE)?;
-        draw(&area)?;
-        area.present()?;
-    }
-    Ok(svg)
 }
 
 fn over_time(
@@ -130,7 +113,7 @@ fn over_time(
 ) -> Result<Plot, Box<dyn Error>> {
     // Steps are named once.
     let labelled = title == PLACE;
-    let svg = picture((WIDTH, height), |area| {
+    let svg = drawing::svg((WIDTH, height), |area| {
         let values = flight
             .ticks
             .iter()

@@ -27,6 +27,7 @@ let clock = -Infinity; // the flight's clock less ours, as the fastest message h
 let behind = 0; // how much later than that the last message was
 let over = null; // how it ended
 let trail = [];
+let targets = []; // of the plan: { x, y, steps, mark }
 let decided = ""; // the last decision
 let decidedAt = 0;
 let zoom = 1;
@@ -97,11 +98,21 @@ function begin(told) {
     const item = document.createElement("li");
     item.textContent = `${index + 1}  ${step.text}`;
     $("steps").append(item);
-    if (!step.target) return;
-    const mark = svg("g", { "data-step": index });
-    mark.append(svg("circle", { r: 1 }), svg("text"));
-    mark.lastChild.textContent = index + 1;
-    $("targets").append(mark);
+  });
+  targets = [];
+  told.steps.forEach(({ target }, index) => {
+    if (!target) return;
+    // Targets at one place share a mark.
+    const near = (other) => Math.hypot(other.x - target.x_m, other.y - target.y_m) < 0.1;
+    let place = targets.find(near);
+    if (!place) {
+      place = { x: target.x_m, y: target.y_m, steps: [], mark: svg("g") };
+      place.mark.append(svg("circle", { r: 0.8 }), svg("text", { y: -1.7, "font-size": 1.3 }));
+      $("targets").append(place.mark);
+      targets.push(place);
+    }
+    place.steps.push(index);
+    place.mark.lastChild.textContent = place.steps.map((step) => step + 1).join(", ");
   });
   const way = [[0, 0], ...told.steps.filter((step) => step.target).map((step) => [step.target.x_m, step.target.y_m])];
   $("way").setAttribute("points", points(way));
@@ -260,12 +271,9 @@ function drawMap() {
   if (status.target) put("aim", status.target.x_m, status.target.y_m);
   $("wanted").style.display = wanted ? "" : "none";
   if (wanted) put("wanted", wanted.x, wanted.y);
-  for (const mark of $("targets").children) {
-    const step = Number(mark.dataset.step);
-    const target = flight.steps[step].target;
-    mark.setAttribute("transform", `translate(${target.x_m} ${-target.y_m}) scale(${size * 0.8})`);
-    mark.setAttribute("class", step === status.step ? "now" : "");
-    mark.lastChild.setAttribute("font-size", 1.1);
+  for (const { x, y, steps, mark } of targets) {
+    mark.setAttribute("transform", `translate(${x} ${-y}) scale(${size * 0.8})`);
+    mark.setAttribute("class", steps.includes(status.step) ? "now" : "");
   }
 }
 
