@@ -11,7 +11,7 @@ use tungstenite::client::IntoClientRequest as _;
 use tungstenite::{Message, WebSocket};
 
 use crate::chromium::Chromium;
-use crate::processes::{plan_file, program};
+use crate::processes::{plan_file, program, signal};
 
 /// A flight with a page.
 struct Flown {
@@ -199,6 +199,28 @@ fn one_click_cuts_nothing_and_two_do() {
     chromium.click(&tab, "#cut", [0.0; 2]);
     chromium.wait(&tab, "document.querySelector('#alarm').innerText.includes('emergency')");
     assert_eq!(flown.end().0, Some(50));
+}
+
+/// The pilot's process stands still for a moment: what the page shows is old, and it says so.
+#[test]
+fn a_page_that_hears_nothing_says_so() {
+    let Some(mut chromium) = Chromium::start() else {
+        println!("skipped: no chromium here");
+        return;
+    };
+    let flown = Flown::start(HOVER);
+    let tab = chromium.open(&flown.url());
+    let hidden = "document.querySelector('#alarm').hidden";
+    chromium.wait(&tab, &format!("!!status && status.phase === 'flying' && {hidden}"));
+    signal(&flown.child, "-STOP");
+    chromium.wait(
+        &tab,
+        "document.querySelector('#alarm').innerText.startsWith('No word from ardrone-pilot')",
+    );
+    signal(&flown.child, "-CONT");
+    chromium.wait(&tab, hidden);
+    chromium.click(&tab, "#land", [0.0; 2]);
+    flown.end();
 }
 
 #[test]

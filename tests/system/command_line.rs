@@ -239,3 +239,26 @@ fn programs_are_told_of_a_flight_line_by_line() {
     let end = told.last().unwrap();
     assert_eq!((&end["type"], &end["exit_status"]), (&"end".into(), &0.into()));
 }
+
+/// The first block of a documentation page in this language.
+fn block(page: &str, language: &str) -> String {
+    let text = std::fs::read_to_string(format!("../docs/{page}")).unwrap();
+    let (_, rest) = text.split_once(&format!("```{language}\n")).unwrap();
+    rest.split_once("```").unwrap().0.to_owned()
+}
+
+#[test]
+fn the_documentation_shows_what_is_seen() {
+    let terminal = block("plans.md", "console");
+    let (command, expected) = terminal.split_once('\n').unwrap();
+    let arguments = command.strip_prefix("$ ardrone-pilot ").unwrap().split(' ');
+    let output = program("ardrone-pilot").args(arguments).current_dir("..").output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stdout), expected);
+    let plan = std::fs::read_to_string("../plans/square.txt").unwrap();
+    assert_eq!(block("plans.md", "text"), plan);
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(file.path(), block("configuration.md", "toml")).unwrap();
+    let output = pilot(&["config", "--config", file.path().to_str().unwrap()]);
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(printed.contains("radius_m = 4.0") && printed.contains("floor_m = 0.3"), "{printed}");
+}

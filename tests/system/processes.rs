@@ -98,7 +98,7 @@ fn wait_for(log: &Path, text: &str) {
     }
 }
 
-fn signal(child: &Child, name: &str) {
+pub(crate) fn signal(child: &Child, name: &str) {
     let status = Command::new("kill").args([name, &child.id().to_string()]).status();
     assert!(status.as_ref().is_ok_and(ExitStatus::success), "{status:?}");
 }

@@ -66,7 +66,7 @@ pub(super) enum Command {
         #[arg(short, value_name = "FILE")]
         output: Option<PathBuf>,
     },
-    /// Fly a recorded flight again, and show where today's code decides otherwise
+    /// Fly a recorded flight again, and show where today's code decides otherwise: exit status 1 if it does
     Replay {
         /// A flight log
         #[arg(value_name = "LOG")]
