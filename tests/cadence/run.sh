@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # How regular AT datagrams are: ours with and without real-time priority, and node-ar-drone's, with an
 # idle machine and with all cores busy, while the drone sends 200 packets of navdata a second.
-# Ours records the flight meanwhile. The times are those of the kernel as it sends (tcpdump on the loopback device). Needs root.
+# Ours records the flight meanwhile; `watched` is ours with its screen on a terminal of its own and its page in a
+# headless Chromium on the same machine. The times are those of the kernel as it sends (tcpdump on the loopback device). Needs root.
 set -euo pipefail
-usage="usage: run.sh FOLDER-OF-PROGRAMS [SECONDS [CLIENTS [LOADS]]], e.g. run.sh target/release 60 'fifo plain node' 'idle busy'"
+usage="usage: run.sh FOLDER-OF-PROGRAMS [SECONDS [CLIENTS [LOADS]]], e.g. run.sh target/release 60 'fifo plain watched node' 'idle busy'"
 programs=$(realpath "${1:?$usage}")
 seconds=${2:-60}
 clients=${3:-fifo plain node}
@@ -26,9 +27,20 @@ pilot() {
         --drone 127.0.0.1 --plain --timing >"$work/out.txt" 2>"$work/err.txt" || true
 }
 
+watched() {
+    (sleep 1 && exec chromium --headless --no-sandbox --disable-gpu --no-first-run --remote-debugging-port=0 \
+        --disable-background-networking --user-data-dir="$work/chromium" http://127.0.0.1:8097/) \
+        >/dev/null 2>&1 &
+    local page=$!
+    script -qec "$programs/ardrone-pilot --log $work/logs/$(date +%s%N).mcap --plan $work/plan.txt \
+        --config $work/pilot.toml --drone 127.0.0.1 --ui 8097 --timing" "$work/out.txt" >/dev/null || true
+    kill "$page" && wait "$page" || true
+}
+
 fly() {
     case $1 in
     fifo) pilot ;;
+    watched) watched ;;
     plain) pilot setpriv --reuid=65534 --clear-groups --inh-caps=-all --bounding-set=-all ;;
     node) (cd "$work" && node fly_node.js "$seconds") >/dev/null 2>&1 || true ;;
     esac
