@@ -44,13 +44,17 @@ impl Checked {
 }
 
 impl Asl2c {
-    /// Builds it beside this program.
+    /// Builds it as this program is built.
     pub(super) fn build() -> Result<Self, VerifyError> {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let mut build = Command::new(&cargo);
-        build.args(["build", "--release", "--locked", "--quiet", "-p", "translator"]);
+        build.args(["build", "--locked", "--quiet", "-p", "translator"]);
+        let profile = if cfg!(debug_assertions) { "debug" } else { "release" };
+        if profile == "release" {
+            build.arg("--release");
+        }
         let built = build.status().map_err(in_file("cannot run", Path::new(&cargo)))?;
-        let program = super::folder("release").join("asl2c");
+        let program = super::folder(profile).join("asl2c");
         if !built.success() {
             let output = "the translator does not build".to_owned();
             return Err(VerifyError::Tool { tool: "cargo", output });
