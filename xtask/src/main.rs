@@ -49,7 +49,11 @@ enum Command {
         first: u64,
     },
     /// Prove the properties of the shipped agent on a model and on its C, and measure what tests exercise
-    Verify,
+    Verify {
+        /// Only prove, which is all that the shipped agent needs: no mutants, no coverage, no other agent, no report
+        #[arg(long)]
+        only_proofs: bool,
+    },
 }
 
 fn main() -> ExitCode {
@@ -62,7 +66,9 @@ fn main() -> ExitCode {
         Command::Campaign { flights, first } => {
             campaign::run(flights, first).map_err(|error| error.to_string())
         }
-        Command::Verify => verify::run().map_err(|error| error.to_string()),
+        Command::Verify { only_proofs } => {
+            verify::run(only_proofs).map_err(|error| error.to_string())
+        }
     };
     // What cannot be printed has nowhere else to go.
     match done {

@@ -51,35 +51,37 @@ impl Findings {
     }
 }
 
+/// What was proved of the shipped agent, for people.
+pub(super) fn proved(autopilot: &Findings, tools: &Tools) -> String {
+    let mut text =
+        String::from("The shipped agent, in every environment, for any number of steps\n");
+    // Writing to a string cannot fail.
+    for row in autopilot.rows() {
+        let name = &row.promise.name;
+        _ = writeln!(text, "  {name:<28}model: {:<10}C: {}", row.on_model, row.on_c);
+    }
+    _ = writeln!(text, "  {:<46}C: {}", "no error at run time", autopilot.run_time());
+    for error in &autopilot.c.run_time {
+        _ = writeln!(text, "    possible: {error}");
+    }
+    for checked in autopilot.model.iter().flatten().filter(|one| !one.holds()) {
+        _ = writeln!(text, "  {} does not hold of the model, for this can happen:", checked.name);
+        for happening in &checked.trace {
+            _ = writeln!(text, "    {happening}");
+        }
+    }
+    for (tool, there) in [("Frama-C", &tools.frama_c), ("SPIN", &tools.spin)] {
+        if there.is_none() {
+            _ = writeln!(text, "  skipped: there is no {tool} here");
+        }
+    }
+    text
+}
+
 impl Report {
     /// For the terminal.
     pub(super) fn lines(&self) -> String {
-        let mut text =
-            String::from("The shipped agent, in every environment, for any number of steps\n");
-        // Writing to a string cannot fail.
-        for row in self.autopilot.rows() {
-            let name = &row.promise.name;
-            _ = writeln!(text, "  {name:<28}model: {:<10}C: {}", row.on_model, row.on_c);
-        }
-        _ = writeln!(text, "  {:<46}C: {}", "no error at run time", self.autopilot.run_time());
-        for error in &self.autopilot.c.run_time {
-            _ = writeln!(text, "    possible: {error}");
-        }
-        for checked in self.autopilot.model.iter().flatten().filter(|one| !one.holds()) {
-            _ = writeln!(
-                text,
-                "  {} does not hold of the model, for this can happen:",
-                checked.name
-            );
-            for happening in &checked.trace {
-                _ = writeln!(text, "    {happening}");
-            }
-        }
-        for (tool, there) in [("Frama-C", &self.tools.frama_c), ("SPIN", &self.tools.spin)] {
-            if there.is_none() {
-                _ = writeln!(text, "  skipped: there is no {tool} here");
-            }
-        }
+        let mut text = proved(&self.autopilot, &self.tools);
         text += "Mutants, each of which must break what it is made for\n";
         for caught in &self.mutants {
             let how = if caught.is_caught() { "caught: " } else { "NOT CAUGHT; broken: " };
