@@ -163,6 +163,12 @@ impl ChosenPlans {
         &self.numbers[..self.count]
     }
 
+    /// The first line of each in the agent's source, and its trigger.
+    pub fn places(&self) -> impl Iterator<Item = (u32, &'static str)> + '_ {
+        let plan = |number: &u32| PLANS.get(usize::try_from(*number).ok()?).copied();
+        self.numbers().iter().filter_map(plan)
+    }
+
     fn push(&mut self, number: u32) {
         if let Some(place) = self.numbers.get_mut(self.count) {
             *place = number;

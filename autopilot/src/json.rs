@@ -2,7 +2,6 @@
 
 use serde_json::{Value, json};
 
-use crate::agent::PLANS;
 use crate::flight::{FinishedFlight, Message};
 use crate::pilot::{FlightEvent, Status};
 use crate::plan::Step;
@@ -56,16 +55,10 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "tick_late_s": ticks.lateness.as_secs_f64(),
                 "ticks_skipped": ticks.skipped,
                 "order": status.command,
-                "plans": plans(status),
+                "plans": status.plans.places().map(|(line, _)| line).collect::<Vec<_>>(),
             })
         }
     }
-}
-
-/// The lines of the agent's source where the plans stand that it chose.
-fn plans(status: &Status) -> Vec<u32> {
-    let numbers = status.plans.numbers().iter();
-    numbers.filter_map(|number| Some(PLANS.get(usize::try_from(*number).ok()?)?.0)).collect()
 }
 
 /// How it ended.

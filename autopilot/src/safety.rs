@@ -21,9 +21,10 @@ const MARGIN_M: f64 = 0.35;
 /// against the wind.
 const REACTION_S: f64 = 0.5;
 const BRAKING_M_S2: f64 = 0.8;
-/// By hand the drone is stopped so far inside the fence. One that left it is flown back that far, and
+/// By hand the drone is stopped so far inside the fence, and sent no nearer to it: in the wind it would be
+/// blown over it, and that lands. One that left it is flown back that far, and
 /// down to so far above its floor, and is landed there.
-const INSIDE_M: f64 = 0.5;
+pub(crate) const INSIDE_M: f64 = 0.5;
 const LOW_M: f64 = 0.15;
 /// It is landed wherever it is after so long.
 const RETREAT: Duration = Duration::from_secs(10);

@@ -6,6 +6,7 @@ use pid::{Demand, Pose};
 
 use super::{FlightEvent, FlightPhase, LandingReason, Pilot};
 use crate::agent::Report;
+use crate::safety::INSIDE_M;
 
 /// What the person at the controls wants.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,10 +34,6 @@ pub enum PilotOrder {
 
 /// A stick that is not moved again for so long is let go: keys that are held repeat faster.
 const STICK_TIME: Duration = Duration::from_millis(600);
-
-/// A place given by hand is no nearer to the fence than this: in the wind the drone would be blown over
-/// it, and that lands.
-const FENCE_DISTANCE_M: f64 = 0.5;
 
 /// What the hand does.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -96,7 +93,7 @@ impl Pilot {
                 let wanted = Pose { x_m, y_m, ..self.target.unwrap_or_else(|| self.pose(now)) };
                 self.take_in_hand(FlightEvent::SentByHand);
                 self.hold();
-                self.hand.target = Some((self.mission.inside(&wanted, FENCE_DISTANCE_M), false));
+                self.hand.target = Some((self.mission.inside(&wanted, INSIDE_M), false));
             }
             // No place.
             PilotOrder::GoTo { .. } => {}

@@ -6,7 +6,6 @@ use ardrone_link::session::FlightOrder;
 use pid::{Demand, Pose};
 use serde::{Deserialize, Serialize};
 
-use crate::agent::PLANS;
 use crate::pilot::{Decision, PilotOrder};
 
 /// A tick: what was known, decided and sent.
@@ -239,12 +238,9 @@ impl Command {
 impl Agent {
     fn new(decision: &Decision) -> Self {
         let Decision { senses, .. } = decision;
-        let plan = |number: &u32| {
-            let plan = PLANS.get(usize::try_from(*number).ok()?)?;
-            Some(ChosenPlan { trigger: plan.1.to_owned(), line: plan.0 })
-        };
+        let plan = |(line, trigger): (u32, &str)| ChosenPlan { trigger: trigger.to_owned(), line };
         Self {
-            plans: decision.plans.numbers().iter().filter_map(plan).collect(),
+            plans: decision.plans.places().map(plan).collect(),
             command: decision.wanted.name().to_owned(),
             report: decision.report.map(|report| format!("{report:?}")),
             danger: decision.danger.map(|danger| format!("{danger:?}")),

@@ -42,6 +42,8 @@ function connect() {
   const address = new URL("live" + location.search, location.href);
   address.protocol = "ws:";
   socket = new WebSocket(address);
+  // Whoever answers now may have another clock.
+  socket.onopen = () => (clock = -Infinity);
   socket.onmessage = (event) => {
     heard = performance.now();
     take(JSON.parse(event.data));
@@ -210,7 +212,9 @@ function drawAlarm() {
 function drawButtons() {
   const live = !over && socket && socket.readyState === WebSocket.OPEN;
   const flying = live && status && status.phase === "flying";
-  $("hold").disabled = $("fly").disabled = !flying;
+  $("hold").disabled = !flying;
+  // An order to fly somewhere must not come late.
+  $("fly").disabled = !flying || !$("alarm").hidden;
   $("resume").disabled = !flying || !status.plan_waits;
   $("land").disabled = $("cut").disabled = !live;
   const now = performance.now();

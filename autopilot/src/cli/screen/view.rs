@@ -11,7 +11,6 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Circle, Line as Segment, Points};
 use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
 
-use crate::agent::PLANS;
 use crate::flight::Message;
 use crate::pilot::{FlightEvent, Status};
 use crate::plan::{FlightLimits, Plan};
@@ -111,9 +110,8 @@ fn remember<T>(lines: &mut VecDeque<T>, line: T) {
 
 /// What the agent ordered, and by which of its plans.
 fn decision(status: &Status) -> String {
-    let plans = status.plans.numbers().iter();
-    let plans = plans.filter_map(|number| PLANS.get(usize::try_from(*number).ok()?));
-    let plans: Vec<String> = plans.map(|(line, trigger)| format!("{trigger} {line}")).collect();
+    let plans = status.plans.places().map(|(line, trigger)| format!("{trigger} {line}"));
+    let plans: Vec<String> = plans.collect();
     match status.command {
         Some(command) => format!("{command}: {}", plans.join(", ")),
         None => String::new(),
