@@ -66,6 +66,7 @@ struct Drone {
     climb_max_m_s: f64,
     turn_max_deg_s: f64,
     navdata: Navdata,
+    read_back: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -150,6 +151,7 @@ impl Default for Drone {
             climb_max_m_s: climb_m_s,
             turn_max_deg_s: turn_deg_s,
             navdata: Navdata::Demo,
+            read_back: true,
         }
     }
 }
@@ -272,6 +274,7 @@ impl Settings {
                 Navdata::Demo => NavdataRate::Demo,
                 Navdata::Full => NavdataRate::Full,
             },
+            read_back: drone.read_back,
             law: match controller.law {
                 LawName::Cascade => Law::Cascade,
                 LawName::Tum => Law::Tum,
@@ -299,7 +302,6 @@ impl Settings {
                 identify: airframe.identify,
             },
             cascade: controller.cascade(&limits),
-            ..PilotConfig::default()
         }
     }
 

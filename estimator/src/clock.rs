@@ -47,35 +47,38 @@ impl SampleClock {
     pub(crate) fn made_s(&mut self, drone_time: Option<Duration>, arrival: Duration) -> f64 {
         let arrival_s = arrival.as_secs_f64();
         let by_arrival_s = self.smooth(arrival_s);
-        let made_s = match drone_time {
-            Some(time) => self.by_drone_clock(time.as_secs_f64(), arrival_s),
-            None => by_arrival_s,
-        };
+        let made_s = drone_time
+            .and_then(|time| self.by_drone_clock(time.as_secs_f64(), arrival_s))
+            .unwrap_or(by_arrival_s);
         let made_s = self.last_made_s.map_or(made_s, |last| made_s.max(last)).min(arrival_s);
         self.last_made_s = Some(made_s);
         made_s
     }
 
-    fn by_drone_clock(&mut self, time_s: f64, arrival_s: f64) -> f64 {
+    /// Nothing if the drone's clock stands still: a new packet with an old time.
+    fn by_drone_clock(&mut self, time_s: f64, arrival_s: f64) -> Option<f64> {
         let fresh = DroneClock { time_s, offset_s: arrival_s - time_s };
         let Some(last) = self.drone else {
             self.drone = Some(fresh);
-            return arrival_s;
+            return Some(arrival_s);
         };
         let step_s = (time_s - last.time_s).rem_euclid(DRONE_CLOCK_WRAP_S);
+        if step_s <= 0.0 {
+            return None;
+        }
         if step_s > MAX_PLAUSIBLE_STEP_S {
             self.drone = Some(fresh);
-            return arrival_s;
+            return Some(arrival_s);
         }
         let time_s = last.time_s + step_s;
         let offset_s = (last.offset_s + CLOCK_DRIFT * step_s).min(arrival_s - time_s);
         // The sample of a drone that was restarted cannot have been under way for so long.
         if arrival_s - time_s - offset_s > MAX_PLAUSIBLE_STEP_S {
             self.drone = Some(fresh);
-            return arrival_s;
+            return Some(arrival_s);
         }
         self.drone = Some(DroneClock { time_s, offset_s });
-        time_s + offset_s
+        Some(time_s + offset_s)
     }
 
     fn smooth(&mut self, arrival_s: f64) -> f64 {
@@ -144,6 +147,16 @@ mod tests {
             }
         }
         assert!(worst < 0.02, "{worst}");
+    }
+
+    #[test]
+    fn a_clock_that_stands_still_is_replaced_by_the_arrivals() {
+        let mut clock = SampleClock::default();
+        for i in 0..200_u64 {
+            let time = MS(66 * i.min(50));
+            let made_s = clock.made_s(Some(time), MS(66 * i));
+            assert_near(made_s, 0.066 * i as f64, 0.01);
+        }
     }
 
     #[test]

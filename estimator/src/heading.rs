@@ -6,6 +6,10 @@ use crate::airframe::{Airframe, DroneLimits};
 use crate::angle::wrap_deg;
 use crate::orders::{Order, Orders};
 
+/// A heading further than this from the one that the sticks explain, and this much more a second since
+/// the last one, is a step of the compass and no turn: the firmware has been seen to step by 160°.
+const MAX_SURPRISE_DEG: f64 = 6.0;
+const MAX_SURPRISE_DEG_S: f64 = 60.0;
 /// Enough for the delay of the velocity at 200 packets a second.
 const MEMORY: usize = 64;
 
@@ -23,7 +27,8 @@ impl Heading {
         Self { baseline_deg: None, measured: VecDeque::with_capacity(MEMORY), turn_deg_s: 0.0 }
     }
 
-    /// Takes in a compass heading that was measured at a time.
+    /// Takes in a compass heading that was measured at a time; returns whether the compass has made a
+    /// step. The heading goes on as if there had been none.
     pub(crate) fn update(
         &mut self,
         at_s: f64,
@@ -31,22 +36,34 @@ impl Heading {
         orders: &Orders,
         airframe: &Airframe,
         limits: &DroneLimits,
-    ) {
+    ) -> bool {
         let baseline_deg = *self.baseline_deg.get_or_insert(compass_deg);
         let last = self.measured.back().copied();
         if last.is_some_and(|(last_s, _)| at_s < last_s) {
-            return;
+            return false;
         }
         let turned_deg = wrap_deg(compass_deg - baseline_deg);
-        // Nearest to the last one, so that it does not jump at half a turn.
-        let deg = last.map_or(turned_deg, |(_, last)| last + wrap_deg(turned_deg - last));
-        if let Some((last_s, _)) = last {
-            self.turn_deg_s = turned(self.turn_deg_s, last_s, at_s, orders, airframe, limits).0;
+        let (mut deg, mut stepped) = (turned_deg, false);
+        if let Some((last_s, last_deg)) = last {
+            let (rate_deg_s, angle_deg) =
+                turned(self.turn_deg_s, last_s, at_s, orders, airframe, limits);
+            self.turn_deg_s = rate_deg_s;
+            let expected_deg = last_deg + angle_deg;
+            let surprise_deg = wrap_deg(turned_deg - expected_deg);
+            stepped = surprise_deg.abs() > MAX_SURPRISE_DEG + MAX_SURPRISE_DEG_S * (at_s - last_s);
+            if stepped {
+                self.baseline_deg = Some(baseline_deg + surprise_deg);
+                deg = expected_deg;
+            } else {
+                // Nearest to the last one, so that it does not jump at half a turn.
+                deg = last_deg + wrap_deg(turned_deg - last_deg);
+            }
         }
         if self.measured.len() == MEMORY {
             self.measured.pop_front();
         }
         self.measured.push_back((at_s, deg));
+        stepped
     }
 
     /// Between two measurements the line between them; after the last one what the sticks tell.
@@ -141,6 +158,26 @@ mod tests {
         assert!((at(2.95) - 147.5).abs() < 1e-6);
         assert!((at(0.72) - 36.0).abs() < 1e-6);
         assert!((at(-1.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_step_that_no_turn_explains_does_not_turn_the_world() {
+        for step_deg in [160.0, -60.0, 10.0] {
+            let (mut heading, orders) = turning();
+            let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+            let mut steps = 0;
+            for i in 31..=60 {
+                let at_s = f64::from(i) * 0.1;
+                let lie_deg = if (40..50).contains(&i) { step_deg } else { 0.0 };
+                let compass_deg = wrap_deg(171.0 + 50.0 * at_s + lie_deg);
+                let stepped = heading.update(at_s, compass_deg, &orders, &airframe, &limits);
+                steps += u32::from(stepped);
+            }
+            let error_deg = heading.at(6.0, &orders, &airframe, &limits) - 300.0;
+            let small = step_deg.abs() < 12.0;
+            assert_eq!(steps, if small { 0 } else { 2 }, "there and back: {step_deg}");
+            assert!(error_deg.abs() < 1.0, "{step_deg}: {error_deg}");
+        }
     }
 
     #[test]

@@ -27,7 +27,7 @@
 //!     estimator.update(&Sample {
 //!         arrival: Duration::from_millis(100 * tick),
 //!         yaw_deg: 37.0,
-//!         velocity_forward_m_s: 0.5,
+//!         velocity_forward_m_s: if tick % 2 == 0 { 0.45 } else { 0.55 },
 //!         airborne: true,
 //!         ..Sample::default()
 //!     });
@@ -46,6 +46,8 @@ mod horizontal;
 mod identification;
 mod orders;
 mod plausibility;
+mod response;
+mod trust;
 mod uncertainty;
 mod vertical;
 
@@ -56,14 +58,15 @@ use nalgebra::{Vector2, Vector3};
 pub use airframe::{Airframe, DroneLimits};
 pub use angle::wrap_deg;
 pub use orders::{Order, Sticks};
-pub use plausibility::Trust;
+pub use trust::{Quantity, Trust};
 
 use crate::clock::SampleClock;
 use crate::heading::Heading;
 use crate::horizontal::{Horizontal, ObserverGains, world_from_body};
 use crate::identification::Identification;
 use crate::orders::Orders;
-use crate::plausibility::Plausibility;
+use crate::plausibility::{Plausibility, VelocityGate, Verdict};
+use crate::response::{Measured, Response};
 use crate::uncertainty::Uncertainty;
 use crate::vertical::{AltitudeFilter, Echo, Vertical};
 
@@ -88,6 +91,8 @@ pub struct Sample {
     pub altitude_m: f64,
     /// Whether the drone flies; on the ground its velocity means nothing.
     pub airborne: bool,
+    /// What the drone itself says it has lost, if anything.
+    pub reported_lost: Option<Quantity>,
 }
 
 /// How late the drone tells and obeys, and what it is set to.
@@ -172,11 +177,15 @@ pub struct Estimator {
     horizontal: Horizontal,
     /// The moment that `horizontal` is of.
     velocity_at_s: Option<f64>,
+    /// What navdata said then: forward and to the right.
+    velocity_told_m_s: Option<Vector2<f64>>,
+    velocity_gate: VelocityGate,
     altitude: AltitudeFilter,
     /// The moment of the last altitude, and the altitude.
     altitude_at: Option<(f64, f64)>,
     identification: Identification,
     plausibility: Plausibility,
+    response: Response,
     uncertainty: Uncertainty,
     airborne: bool,
     estimate: Estimate,
@@ -188,8 +197,9 @@ impl Default for Estimator {
     }
 }
 
-/// A gap longer than this is not bridged by the mean of the velocities around it.
-const MAX_STEP_S: f64 = 0.3;
+/// A gap is bridged by the mean of the velocities around it, but for no longer than this: a drone that
+/// is not heard hovers and then lands by itself.
+const MAX_STEP_S: f64 = 3.0;
 /// Navdata that are further apart than this leave something unseen.
 const USUAL_STEP_S: f64 = 0.1;
 /// An altitude that is the same after this time is a new one that happens to be the same: the
@@ -209,10 +219,13 @@ impl Estimator {
             heading: Heading::new(),
             horizontal: Horizontal::default(),
             velocity_at_s: None,
+            velocity_told_m_s: None,
+            velocity_gate: VelocityGate::default(),
             altitude: AltitudeFilter::default(),
             altitude_at: None,
             identification: Identification::new(config.airframe, config.limits),
             plausibility: Plausibility::default(),
+            response: Response::default(),
             uncertainty: Uncertainty::default(),
             airborne: false,
             estimate: Estimate::default(),
@@ -225,28 +238,43 @@ impl Estimator {
         self.orders.push(sent_at, order);
     }
 
+    /// No stick will be moved further than this share, from 0 to 1: what "full" means when the response
+    /// to the sticks is judged.
+    pub fn limit_sticks(&mut self, most: f64) {
+        self.response.limit_sticks(most);
+    }
+
     /// Takes in the next sample; samples come in the order of the drone's packets. Values that are
     /// impossible are not used.
     pub fn update(&mut self, sample: &Sample) {
         let made_s = self.clock.made_s(sample.drone_time, sample.arrival);
-        if !plausibility::is_possible(sample) {
-            self.plausibility.watch(made_s, sample, false);
+        let arrival_s = sample.arrival.as_secs_f64();
+        let lateness_s = arrival_s - made_s;
+        if let Some(quantity) = plausibility::impossible(sample) {
+            let verdict = Verdict { rejected: Some(quantity), lateness_s, ..Verdict::default() };
+            self.plausibility.watch(arrival_s, sample, &verdict);
             return;
         }
         self.airborne = sample.airborne;
         let attitude_s = made_s - self.config.attitude_delay.as_secs_f64();
-        let Self { config, orders, heading, identification, .. } = self;
-        let airframe = *identification.airframe();
-        heading.update(attitude_s, sample.yaw_deg, orders, &airframe, &config.limits);
-        if config.identify {
-            let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
-            identification.tilt(attitude_s, tilt_deg.map(f64::to_radians), orders);
-            let yaw_deg = heading.at(attitude_s, orders, &airframe, &config.limits);
-            identification.heading(attitude_s, yaw_deg, orders);
-        }
+        let turned = self.update_attitude(attitude_s, sample);
         let believed = self.update_horizontal(made_s, sample);
-        self.update_vertical(made_s, sample);
-        self.plausibility.watch(made_s, sample, believed);
+        let floor_stepped = self.update_vertical(made_s, sample);
+        let by_itself = self.orders.at(attitude_s) == Order::ByItself;
+        let verdict = Verdict {
+            rejected: (!believed).then_some(Quantity::Velocity),
+            unresponsive: self.watch_response(attitude_s, sample),
+            step: match (turned, floor_stepped) {
+                (true, _) => Some(Quantity::Heading),
+                (false, true) => Some(Quantity::Altitude),
+                (false, false) => None,
+            },
+            near_ground: by_itself && sample.altitude_m < CLEAR_OF_GROUND_M,
+            asked_rise_m: self.response.asked_rise_m(),
+            asked_turn_deg: self.response.asked_turn_deg(),
+            lateness_s,
+        };
+        self.plausibility.watch(arrival_s, sample, &verdict);
 
         let vertical = self.altitude.state();
         self.estimate = Estimate {
@@ -258,9 +286,43 @@ impl Estimator {
         };
     }
 
+    /// Whether the compass has made a step.
+    fn update_attitude(&mut self, attitude_s: f64, sample: &Sample) -> bool {
+        let Self { config, orders, heading, identification, .. } = self;
+        let airframe = *identification.airframe();
+        let stepped = heading.update(attitude_s, sample.yaw_deg, orders, &airframe, &config.limits);
+        if stepped {
+            self.uncertainty.step_of_the_heading();
+        }
+        if config.identify {
+            let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
+            identification.tilt(attitude_s, tilt_deg.map(f64::to_radians), orders);
+            let yaw_deg = heading.at(attitude_s, orders, &airframe, &config.limits);
+            identification.heading(attitude_s, yaw_deg, orders);
+        }
+        stepped
+    }
+
+    fn watch_response(&mut self, at_s: f64, sample: &Sample) -> Option<Quantity> {
+        let measured = Measured {
+            at_s,
+            altitude_m: sample.altitude_m,
+            yaw_deg: sample.yaw_deg,
+            heading_deg: self.heading_at(at_s),
+            velocity_m_s: Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s),
+        };
+        self.response.watch(&measured, &self.orders, &self.config.limits)
+    }
+
     /// Whether the velocity was believed.
     fn update_horizontal(&mut self, made_s: f64, sample: &Sample) -> bool {
         let at_s = made_s - self.config.velocity_delay.as_secs_f64();
+        let body = Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s);
+        // The very same numbers are the last measurement once more: navdata come more often than the
+        // flow measures, and a flow that hangs leaves a gap.
+        if self.velocity_told_m_s.replace(body) == Some(body) && sample.airborne {
+            return !self.velocity_gate.has_jumped();
+        }
         let from_s = self.velocity_at_s.replace(at_s).unwrap_or(at_s);
         let step_s = (at_s - from_s).max(0.0);
         let order = self.orders.at(at_s);
@@ -274,16 +336,21 @@ impl Estimator {
             );
             return true;
         }
-        let body = Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s);
         let yaw_deg = self.heading_at(at_s);
         let measured_m_s = world_from_body(body, yaw_deg);
         let foreseen = self.horizontal_at(self.horizontal, from_s, at_s);
-        let surprise_m_s = (measured_m_s - foreseen.velocity_m_s).norm();
-        let believed = plausibility::is_foreseeable(surprise_m_s);
+        let (before, after) = (self.horizontal.velocity_m_s, foreseen.velocity_m_s);
+        let believed = self.velocity_gate.admits(measured_m_s, before, after, step_s);
         let velocity_m_s = if believed { measured_m_s } else { foreseen.velocity_m_s };
-        let mean_m_s = (self.horizontal.measured_m_s() + velocity_m_s) / 2.0;
+        let before_m_s = self.horizontal.measured_m_s();
+        let mean_m_s = (before_m_s + velocity_m_s) / 2.0;
         let position_m = self.horizontal.position_m + mean_m_s * step_s.min(MAX_STEP_S);
-        self.uncertainty.fly(step_s, (step_s - USUAL_STEP_S).max(0.0));
+        self.uncertainty.fly(step_s);
+        let unseen_s = (step_s - USUAL_STEP_S).max(0.0);
+        self.uncertainty.fly_unseen(unseen_s, before_m_s, velocity_m_s);
+        if !believed {
+            self.uncertainty.fly_disputed(step_s, (measured_m_s - after).norm());
+        }
         self.horizontal = foreseen;
         let gains = self.observer_gains();
         self.horizontal.correct(velocity_m_s, position_m, step_s, order, &gains);
@@ -299,18 +366,19 @@ impl Estimator {
         believed
     }
 
-    fn update_vertical(&mut self, made_s: f64, sample: &Sample) {
+    /// Whether the floor has made a step.
+    fn update_vertical(&mut self, made_s: f64, sample: &Sample) -> bool {
         let at_s = made_s - self.config.altitude_delay.as_secs_f64();
         if !sample.airborne {
             self.altitude.stand(sample.altitude_m);
             self.altitude_at = Some((at_s, sample.altitude_m));
-            return;
+            return false;
         }
         let (last_s, last_m) = self.altitude_at.unwrap_or((at_s, f64::NAN));
         #[allow(clippy::float_cmp, reason = "the very same number, not a near one")]
         let same = sample.altitude_m == last_m && at_s - last_s < ALTITUDE_INTERVAL_S;
         if same {
-            return;
+            return false;
         }
         let expected = self.vertical_at(last_s, at_s);
         let order = self.orders.at(at_s);
@@ -327,6 +395,7 @@ impl Estimator {
             }
             Echo::Good | Echo::First | Echo::Wrong => {}
         }
+        echo == Echo::FloorStep
     }
 
     fn observer_gains(&self) -> ObserverGains {
@@ -396,7 +465,8 @@ impl Estimator {
     /// start, and silence.
     pub fn horizontal_deviation_m(&self, now: Duration) -> f64 {
         let distance_m = self.horizontal.position_m.norm();
-        self.uncertainty.horizontal_m(distance_m, self.silence_s(now))
+        let speed_m_s = self.horizontal.measured_m_s().norm();
+        self.uncertainty.horizontal_m(distance_m, self.silence_s(now), speed_m_s)
     }
 
     /// Standard deviation of the height.
@@ -419,13 +489,22 @@ impl Estimator {
         self.plausibility.trust()
     }
 
+    /// When the newest navdata arrived that could be believed; nothing if there were none yet. What is
+    /// found to be wrong was so from its first packet on: this moves back to the one before it.
+    pub fn sound_at(&self) -> Option<Duration> {
+        self.plausibility.sound_at_s().map(|at_s| Duration::from_secs_f64(at_s.max(0.0)))
+    }
+
     /// Forgets the clock and the compass, not the place: the drone has started again.
     pub fn handle_restart(&mut self) {
         self.clock = SampleClock::default();
         self.heading.handle_restart();
         self.velocity_at_s = None;
+        self.velocity_told_m_s = None;
+        self.velocity_gate = VelocityGate::default();
         self.altitude_at = None;
         self.plausibility = Plausibility::default();
+        self.response = Response::default();
     }
 }
 

@@ -1,111 +1,244 @@
-//! Whether navdata can be believed.
+//! Whether what navdata say can be: each quantity on its own, on the clock of the packets' arrival.
+//!
+//! The arrival clock is the one thing that a broken drone cannot stop: with the drone's own clock a
+//! computer that hangs would also stop the time after which it is noticed.
 
-use std::fmt;
+use nalgebra::Vector2;
 
 use crate::Sample;
+use crate::trust::{Quantity, Trust};
 
-/// Whether navdata can be believed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Trust {
-    /// They look like those of a drone that flies.
-    #[default]
-    Sound,
-    /// Packets keep coming, but what they say does not change: the drone's own computer or sensors
-    /// hang.
-    Frozen,
-    /// They say what no AR.Drone does.
-    Implausible,
-}
-
-impl fmt::Display for Trust {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Sound => "sound",
-            Self::Frozen => "frozen",
-            Self::Implausible => "implausible",
-        })
-    }
-}
-
-/// Faster is no AR.Drone.
+/// Above the top speed of an AR.Drone.
 const MAX_SPEED_M_S: f64 = 8.0;
 /// The ultrasound ends at 6 m; the pressure goes on to what the firmware allows.
 const MAX_ALTITUDE_M: f64 = 120.0;
+/// A drone that stands on the floor of its pit reads no lower.
+const MIN_ALTITUDE_M: f64 = -1.0;
 /// The firmware cuts the motors long before.
 const MAX_TILT_RAD: f64 = 1.2;
-/// What is wrong or the same for so long is told.
-const PATIENCE_S: f64 = 0.4;
-/// So many packets must say the same.
-const SAME_PACKETS: u32 = 5;
-/// A velocity further than this from the expected one is wrong.
+/// How long data must be wrong before trust is lost.
+const WRONG_TIME_S: f64 = 0.4;
+/// How long a quantity with noise of its own must repeat one value: the flow has 40 to 80 mm/s.
+const FROZEN_TIME_S: f64 = 0.4;
+/// The altitude is told in whole millimetres and the attitude in whole thousandths of a degree, so in
+/// a quiet hover they may repeat a value for a while...
+const QUIET_FROZEN_TIME_S: f64 = 1.0;
+/// ...but not while the drone is told to climb or to turn by this much.
+const ASKED_RISE_M: f64 = 0.05;
+const ASKED_TURN_DEG: f64 = 5.0;
+/// At least this many packets must repeat the value: loss makes the time between them long.
+const FROZEN_PACKETS: u32 = 5;
+/// A velocity changes from one measurement to the next by no more than this beyond what the model
+/// foresees: by noise (m/s), and by gusts and an airframe that is not known yet (m/s²).
+const JUMP_M_S: f64 = 0.2;
+const JUMP_M_S2: f64 = 4.0;
+/// A velocity further than this from the expected one is wrong, however it came there.
 const MAX_SURPRISE_M_S: f64 = 1.5;
+/// Steps of the floor or of the heading that are forgiven, and how fast they are forgotten.
+const FORGIVEN_STEPS: f64 = 2.5;
+const FORGET_STEPS_1_S: f64 = 0.25;
+/// Navdata that are this much later than usual are old news.
+const MAX_LATENESS_S: f64 = 0.3;
+
+/// The quantity of a sample that has a value no AR.Drone can have.
+pub(crate) fn impossible(sample: &Sample) -> Option<Quantity> {
+    let speed_m_s = sample.velocity_forward_m_s.hypot(sample.velocity_right_m_s);
+    let tilt_rad = sample.roll_deg.abs().max(sample.pitch_deg.abs()).to_radians();
+    let is_level_number = sample.roll_deg.is_finite() && sample.pitch_deg.is_finite();
+    [
+        (Quantity::Velocity, speed_m_s <= MAX_SPEED_M_S),
+        (Quantity::Altitude, (MIN_ALTITUDE_M..=MAX_ALTITUDE_M).contains(&sample.altitude_m)),
+        (Quantity::Heading, sample.yaw_deg.abs() <= 360.0),
+        (Quantity::Attitude, is_level_number && tilt_rad <= MAX_TILT_RAD),
+    ]
+    .into_iter()
+    .find_map(|(quantity, possible)| (!possible).then_some(quantity))
+}
+
+/// Tells velocities that jump, as no drone can, from those that a gust changes. (right, forward) in the
+/// world.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct VelocityGate {
+    last_m_s: Option<Vector2<f64>>,
+    jumped: bool,
+}
+
+impl VelocityGate {
+    /// Whether the newest velocity is not believed because it jumped.
+    pub(crate) fn has_jumped(&self) -> bool {
+        self.jumped
+    }
+
+    /// Whether to believe a velocity that was measured `step_s` after the last one, while the model's
+    /// went from `before` to `foreseen`. After a jump only what the model foresees is believed.
+    pub(crate) fn admits(
+        &mut self,
+        measured_m_s: Vector2<f64>,
+        before_m_s: Vector2<f64>,
+        foreseen_m_s: Vector2<f64>,
+        step_s: f64,
+    ) -> bool {
+        let Some(last_m_s) = self.last_m_s.replace(measured_m_s) else { return true };
+        let allowed_m_s = JUMP_M_S + JUMP_M_S2 * step_s;
+        let surprise_m_s = (measured_m_s - foreseen_m_s).norm();
+        let unforeseen = (measured_m_s - last_m_s) - (foreseen_m_s - before_m_s);
+        self.jumped =
+            surprise_m_s > allowed_m_s && (self.jumped || unforeseen.norm() > allowed_m_s);
+        !self.jumped && surprise_m_s <= MAX_SURPRISE_M_S + JUMP_M_S2 * step_s
+    }
+}
+
+/// What the estimator made of one sample.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Verdict {
+    /// A quantity with a value that was not used.
+    pub(crate) rejected: Option<Quantity>,
+    /// A quantity that does not follow the commands.
+    pub(crate) unresponsive: Option<Quantity>,
+    /// The floor or the heading made a step, which was compensated.
+    pub(crate) step: Option<Quantity>,
+    /// The drone takes off by itself, near the ground: its sensors may not work yet.
+    pub(crate) near_ground: bool,
+    /// What the sticks have asked for since the flight began: climb and turn.
+    pub(crate) asked_rise_m: f64,
+    pub(crate) asked_turn_deg: f64,
+    /// How much later than usual the sample arrived.
+    pub(crate) lateness_s: f64,
+}
 
 /// Watches what navdata say.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Plausibility {
-    last: Option<Values>,
-    same: u32,
-    same_since_s: f64,
-    wrong_since_s: Option<f64>,
+    velocity: [Repetition; 2],
+    altitude: Repetition,
+    heading: Repetition,
+    attitude: [Repetition; 2],
+    wrong: Option<(Quantity, f64)>,
+    reported_since_s: Option<f64>,
+    steps: f64,
+    last_s: Option<f64>,
     trust: Trust,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Values([f64; 6]);
-
-impl Values {
-    fn of(sample: &Sample) -> Self {
-        Self([
-            sample.yaw_deg,
-            sample.velocity_forward_m_s,
-            sample.velocity_right_m_s,
-            sample.altitude_m,
-            sample.roll_deg,
-            sample.pitch_deg,
-        ])
-    }
-}
-
-/// Whether the values of a sample are possible at all.
-pub(crate) fn is_possible(sample: &Sample) -> bool {
-    let Values(values) = Values::of(sample);
-    let speed_m_s = sample.velocity_forward_m_s.hypot(sample.velocity_right_m_s);
-    let tilt_rad = sample.roll_deg.abs().max(sample.pitch_deg.abs()).to_radians();
-    values.iter().all(|value| value.is_finite())
-        && speed_m_s <= MAX_SPEED_M_S
-        && (-1.0..=MAX_ALTITUDE_M).contains(&sample.altitude_m)
-        && tilt_rad <= MAX_TILT_RAD
-        && sample.yaw_deg.abs() <= 360.0
-}
-
-/// Whether a velocity so far from the expected one can be.
-pub(crate) fn is_foreseeable(surprise_m_s: f64) -> bool {
-    surprise_m_s <= MAX_SURPRISE_M_S
+    sound_at_s: Option<f64>,
 }
 
 impl Plausibility {
-    /// Looks at a sample that was made at a time; `believed` tells whether it was used.
-    pub(crate) fn watch(&mut self, at_s: f64, sample: &Sample, believed: bool) {
-        let values = Values::of(sample);
-        if self.last == Some(values) && sample.airborne {
-            self.same += 1;
+    /// Looks at a sample that arrived at a time.
+    pub(crate) fn watch(&mut self, arrival_s: f64, sample: &Sample, verdict: &Verdict) {
+        let step_s = self.last_s.replace(arrival_s).map_or(0.0, |last_s| arrival_s - last_s);
+        self.steps = (self.steps - FORGET_STEPS_1_S * step_s).max(0.0);
+        self.steps += f64::from(u8::from(verdict.step.is_some()));
+        let frozen = self.frozen(arrival_s, sample, verdict);
+        let wrong = self.wrong(arrival_s, verdict);
+        let reported = self.reported(arrival_s, sample);
+        let unresponsive = verdict.unresponsive;
+        // Since when it cannot be believed: an answer may come at once, not after one more patience.
+        let since_s = [wrong.map(|(_, since_s)| since_s), frozen.map(|(_, since_s)| since_s)];
+        self.trust = if let Some((quantity, _)) = wrong {
+            Trust::Implausible(quantity)
+        } else if let Some((quantity, _)) = frozen {
+            Trust::Frozen(quantity)
+        } else if let Some(quantity) = reported {
+            Trust::Reported(quantity)
+        } else if let Some(quantity) = unresponsive {
+            Trust::Unresponsive(quantity)
+        } else if let Some(quantity) = verdict.step.filter(|_| self.steps > FORGIVEN_STEPS) {
+            Trust::Implausible(quantity)
+        } else if self.steps > FORGIVEN_STEPS {
+            self.trust
         } else {
-            self.same = 0;
-            self.same_since_s = at_s;
-        }
-        self.last = Some(values);
-        self.wrong_since_s = if believed { None } else { self.wrong_since_s.or(Some(at_s)) };
-        let frozen = self.same >= SAME_PACKETS && at_s - self.same_since_s >= PATIENCE_S;
-        let implausible = self.wrong_since_s.is_some_and(|since_s| at_s - since_s >= PATIENCE_S);
-        self.trust = match (implausible, frozen) {
-            (true, _) => Trust::Implausible,
-            (false, true) => Trust::Frozen,
-            (false, false) => Trust::Sound,
+            Trust::Sound
         };
+        if self.trust == Trust::Sound {
+            let old_s = if verdict.lateness_s > MAX_LATENESS_S { verdict.lateness_s } else { 0.0 };
+            let at_s = arrival_s - old_s;
+            self.sound_at_s = Some(self.sound_at_s.map_or(at_s, |sound_s| sound_s.max(at_s)));
+        } else if let Some(sound_s) = &mut self.sound_at_s {
+            *sound_s = since_s.into_iter().flatten().fold(*sound_s, f64::min);
+        }
+    }
+
+    fn frozen(
+        &mut self,
+        arrival_s: f64,
+        sample: &Sample,
+        verdict: &Verdict,
+    ) -> Option<(Quantity, f64)> {
+        let [right, forward] = &mut self.velocity;
+        let [roll, pitch] = &mut self.attitude;
+        let watched = [
+            (Quantity::Velocity, right, sample.velocity_right_m_s),
+            (Quantity::Velocity, forward, sample.velocity_forward_m_s),
+            (Quantity::Altitude, &mut self.altitude, sample.altitude_m),
+            (Quantity::Heading, &mut self.heading, sample.yaw_deg),
+            (Quantity::Attitude, roll, sample.roll_deg),
+            (Quantity::Attitude, pitch, sample.pitch_deg),
+        ];
+        let mut frozen = None;
+        for (quantity, repetition, value) in watched {
+            let asked = match quantity {
+                Quantity::Altitude => verdict.asked_rise_m,
+                Quantity::Heading => verdict.asked_turn_deg,
+                Quantity::Velocity | Quantity::Attitude => 0.0,
+            };
+            repetition.watch(arrival_s, value, asked, sample.airborne);
+            let asked = (asked - repetition.asked).abs();
+            let is_quiet = match quantity {
+                Quantity::Velocity => false,
+                Quantity::Altitude => asked < ASKED_RISE_M,
+                Quantity::Heading => asked < ASKED_TURN_DEG,
+                Quantity::Attitude => true,
+            };
+            let patience_s = if is_quiet { QUIET_FROZEN_TIME_S } else { FROZEN_TIME_S };
+            let lasts = arrival_s - repetition.since_s >= patience_s;
+            if repetition.count >= FROZEN_PACKETS && lasts && !verdict.near_ground {
+                frozen = frozen.or(Some((quantity, repetition.since_s)));
+            }
+        }
+        frozen
+    }
+
+    fn wrong(&mut self, arrival_s: f64, verdict: &Verdict) -> Option<(Quantity, f64)> {
+        self.wrong = verdict.rejected.map(|quantity| match self.wrong {
+            Some((_, since_s)) => (quantity, since_s),
+            None => (quantity, arrival_s),
+        });
+        self.wrong.filter(|(_, since_s)| arrival_s - since_s >= WRONG_TIME_S)
+    }
+
+    fn reported(&mut self, arrival_s: f64, sample: &Sample) -> Option<Quantity> {
+        let reported = sample.reported_lost.filter(|_| sample.airborne);
+        self.reported_since_s = reported.map(|_| self.reported_since_s.unwrap_or(arrival_s));
+        reported.filter(|_| self.reported_since_s.is_some_and(|s| arrival_s - s >= WRONG_TIME_S))
     }
 
     pub(crate) fn trust(&self) -> Trust {
         self.trust
+    }
+
+    /// When the newest navdata arrived, in seconds, that could be believed.
+    pub(crate) fn sound_at_s(&self) -> Option<f64> {
+        self.sound_at_s
+    }
+}
+
+/// How often a value came again, exactly.
+#[derive(Debug, Clone, Copy, Default)]
+struct Repetition {
+    value: Option<f64>,
+    count: u32,
+    since_s: f64,
+    /// What the sticks had asked for in all when the value came first.
+    asked: f64,
+}
+
+impl Repetition {
+    /// A drone on the ground may stand still.
+    fn watch(&mut self, at_s: f64, value: f64, asked: f64, airborne: bool) {
+        if self.value == Some(value) && airborne {
+            self.count += 1;
+        } else {
+            *self = Self { value: Some(value), count: 0, since_s: at_s, asked };
+        }
     }
 }
 
@@ -113,51 +246,185 @@ impl Plausibility {
 mod tests {
     use super::*;
 
+    const FINE: Verdict = Verdict {
+        rejected: None,
+        unresponsive: None,
+        step: None,
+        near_ground: false,
+        asked_rise_m: 0.0,
+        asked_turn_deg: 0.0,
+        lateness_s: 0.0,
+    };
+    const PERIOD_S: f64 = 0.066;
+
+    /// Everything moves a little.
     fn flying(step: u32) -> Sample {
+        let wobble = 0.001 * f64::from(step % 7);
         Sample {
-            altitude_m: 1.0 + 0.001 * f64::from(step % 7),
+            yaw_deg: 10.0 + wobble,
+            roll_deg: wobble,
+            pitch_deg: -wobble,
+            velocity_forward_m_s: wobble,
+            velocity_right_m_s: 0.2 - wobble,
+            altitude_m: 1.0 + wobble,
             airborne: true,
             ..Sample::default()
         }
     }
 
-    #[test]
-    fn packets_that_say_the_same_for_long_are_frozen() {
+    /// The trust after each of some packets, and when navdata were sound last.
+    fn watch(
+        packets: u32,
+        sample: impl Fn(u32) -> Sample,
+        verdict: impl Fn(u32) -> Verdict,
+    ) -> Vec<(f64, Trust, f64)> {
         let mut plausibility = Plausibility::default();
-        for step in 0..100 {
-            plausibility.watch(0.066 * f64::from(step), &flying(step), true);
-            assert_eq!(plausibility.trust(), Trust::Sound);
+        (0..packets)
+            .map(|step| {
+                let at_s = PERIOD_S * f64::from(step);
+                plausibility.watch(at_s, &sample(step), &verdict(step));
+                (at_s, plausibility.trust(), plausibility.sound_at_s().unwrap_or(-1.0))
+            })
+            .collect()
+    }
+
+    fn first_distrust(watched: &[(f64, Trust, f64)]) -> Option<(f64, Trust)> {
+        watched
+            .iter()
+            .find(|(_, trust, _)| *trust != Trust::Sound)
+            .map(|(s, trust, _)| (*s, *trust))
+    }
+
+    #[test]
+    fn one_quantity_that_repeats_its_value_is_frozen() {
+        let still: [(Quantity, fn(&mut Sample), f64); 6] = [
+            (Quantity::Velocity, |s| s.velocity_forward_m_s = 0.0, FROZEN_TIME_S),
+            (Quantity::Velocity, |s| s.velocity_right_m_s = 1.2, FROZEN_TIME_S),
+            (Quantity::Altitude, |s| s.altitude_m = 1.0, QUIET_FROZEN_TIME_S),
+            (Quantity::Heading, |s| s.yaw_deg = 3.0, QUIET_FROZEN_TIME_S),
+            (Quantity::Attitude, |s| s.roll_deg = 3.0, QUIET_FROZEN_TIME_S),
+            (Quantity::Attitude, |s| s.pitch_deg = 3.0, QUIET_FROZEN_TIME_S),
+        ];
+        for (quantity, freeze, patience_s) in still {
+            let sample = |step| {
+                let mut sample = flying(step);
+                if step >= 100 {
+                    freeze(&mut sample);
+                }
+                sample
+            };
+            let watched = watch(150, sample, |_| FINE);
+            let (at_s, trust) = first_distrust(&watched).unwrap();
+            assert_eq!(trust, Trust::Frozen(quantity));
+            let after_s = at_s - 100.0 * PERIOD_S;
+            assert!((patience_s..patience_s + 2.0 * PERIOD_S).contains(&after_s), "{after_s}");
+            let (_, _, sound_at_s) = watched[149];
+            assert!((sound_at_s - 100.0 * PERIOD_S).abs() < 1e-9, "sound until it froze");
         }
-        for step in 100..120 {
-            plausibility.watch(0.066 * f64::from(step), &flying(3), true);
-            assert_eq!(plausibility.trust() == Trust::Frozen, step > 106, "{step}");
-        }
-        plausibility.watch(8.0, &flying(2), true);
-        assert_eq!(plausibility.trust(), Trust::Sound);
+        assert_eq!(first_distrust(&watch(150, flying, |_| FINE)), None);
+    }
+
+    #[test]
+    fn an_altitude_that_repeats_during_a_climb_is_noticed_sooner() {
+        let still = |step| Sample { altitude_m: 1.0, ..flying(step) };
+        let climbing = |step| Verdict { asked_rise_m: 0.03 * f64::from(step), ..FINE };
+        let (at_s, trust) = first_distrust(&watch(40, still, climbing)).unwrap();
+        assert_eq!(trust, Trust::Frozen(Quantity::Altitude));
+        assert!(at_s < 0.5, "{at_s}");
     }
 
     #[test]
     fn a_drone_on_the_ground_may_stand_still() {
-        let mut plausibility = Plausibility::default();
-        for step in 0..100 {
-            plausibility.watch(0.066 * f64::from(step), &Sample::default(), true);
-        }
-        assert_eq!(plausibility.trust(), Trust::Sound);
+        assert_eq!(first_distrust(&watch(100, |_| Sample::default(), |_| FINE)), None);
+        let spinning_up = |_| Sample { airborne: true, ..Sample::default() };
+        let near_ground = |_| Verdict { near_ground: true, ..FINE };
+        assert_eq!(first_distrust(&watch(100, spinning_up, near_ground)), None);
     }
 
     #[test]
-    fn what_no_drone_does_is_not_possible() {
-        assert!(is_possible(&flying(0)));
+    fn what_no_drone_does_is_impossible() {
+        assert_eq!(impossible(&flying(0)), None);
         for bad in [f64::NAN, f64::INFINITY, 1e6, -500.0] {
-            assert!(!is_possible(&Sample { altitude_m: bad, ..flying(0) }));
-            assert!(!is_possible(&Sample { velocity_right_m_s: bad, ..flying(0) }));
-            assert!(!is_possible(&Sample { roll_deg: bad, ..flying(0) }));
-            assert!(!is_possible(&Sample { yaw_deg: bad, ..flying(0) }));
+            let with = |change: fn(&mut Sample, f64)| {
+                let mut sample = flying(0);
+                change(&mut sample, bad);
+                impossible(&sample)
+            };
+            assert_eq!(with(|s, bad| s.altitude_m = bad), Some(Quantity::Altitude));
+            assert_eq!(with(|s, bad| s.velocity_right_m_s = bad), Some(Quantity::Velocity));
+            assert_eq!(with(|s, bad| s.velocity_forward_m_s = bad), Some(Quantity::Velocity));
+            assert_eq!(with(|s, bad| s.roll_deg = bad), Some(Quantity::Attitude));
+            assert_eq!(with(|s, bad| s.pitch_deg = bad), Some(Quantity::Attitude));
+            assert_eq!(with(|s, bad| s.yaw_deg = bad), Some(Quantity::Heading));
         }
-        let mut plausibility = Plausibility::default();
-        plausibility.watch(0.0, &flying(0), false);
-        assert_eq!(plausibility.trust(), Trust::Sound, "one packet is no reason to worry");
-        plausibility.watch(0.5, &flying(1), false);
-        assert_eq!(plausibility.trust(), Trust::Implausible);
+    }
+
+    #[test]
+    fn a_velocity_that_jumps_is_not_believed_and_one_that_a_gust_changes_is() {
+        let still = Vector2::zeros();
+        let along = |m_s: f64| Vector2::new(m_s, 0.0);
+        let mut gate = VelocityGate::default();
+        assert!(gate.admits(along(0.3), still, still, 0.0), "the first one");
+        let mut gate = VelocityGate { last_m_s: Some(still), jumped: false };
+        for _ in 0..10 {
+            assert!(!gate.admits(along(1.0), still, still, PERIOD_S), "as long as it lasts");
+        }
+        assert!(gate.admits(along(0.1), still, still, PERIOD_S), "and no longer");
+        // A gust at 2.5 m/s², which the model does not foresee and follows by two thirds.
+        let (mut gate, mut model_m_s) = (VelocityGate::default(), 0.0);
+        for step in 0..12 {
+            let measured_m_s = 2.5 * PERIOD_S * f64::from(step);
+            let model = along(model_m_s);
+            assert!(gate.admits(along(measured_m_s), model, model, PERIOD_S), "{step}");
+            model_m_s += 0.66 * (measured_m_s - model_m_s);
+        }
+        // After a gap much may have happened.
+        let mut gate = VelocityGate { last_m_s: Some(still), jumped: false };
+        assert!(gate.admits(along(2.0), still, still, 1.0));
+    }
+
+    #[test]
+    fn one_rejected_packet_is_no_reason_to_worry_and_many_are() {
+        let bad = Verdict { rejected: Some(Quantity::Velocity), ..FINE };
+        let once = |step| if step == 10 { bad } else { FINE };
+        assert_eq!(first_distrust(&watch(100, flying, once)), None);
+        let long = |step| if step >= 10 { bad } else { FINE };
+        let (at_s, trust) = first_distrust(&watch(100, flying, long)).unwrap();
+        assert_eq!(trust, Trust::Implausible(Quantity::Velocity));
+        assert!((at_s - 10.0 * PERIOD_S) < 0.5, "{at_s}");
+    }
+
+    #[test]
+    fn what_the_drone_says_of_itself_counts() {
+        let lost = |step| Sample {
+            reported_lost: (step >= 10).then_some(Quantity::Velocity),
+            ..flying(step)
+        };
+        let (at_s, trust) = first_distrust(&watch(30, lost, |_| FINE)).unwrap();
+        assert_eq!(trust, Trust::Reported(Quantity::Velocity));
+        assert!((at_s - 10.0 * PERIOD_S) < 0.5, "{at_s}");
+        let unresponsive = Verdict { unresponsive: Some(Quantity::Heading), ..FINE };
+        let watched = watch(3, flying, |_| unresponsive);
+        assert_eq!(watched[0].1, Trust::Unresponsive(Quantity::Heading));
+    }
+
+    #[test]
+    fn one_step_is_forgiven_and_many_are_not() {
+        let stepping = |every: u32| {
+            move |step: u32| Verdict {
+                step: step.is_multiple_of(every).then_some(Quantity::Altitude),
+                ..FINE
+            }
+        };
+        assert_eq!(first_distrust(&watch(200, flying, stepping(150))), None);
+        let (_, trust) = first_distrust(&watch(200, flying, stepping(10))).unwrap();
+        assert_eq!(trust, Trust::Implausible(Quantity::Altitude));
+    }
+
+    #[test]
+    fn old_news_does_not_make_navdata_fresh() {
+        let late = |step| Verdict { lateness_s: if step >= 10 { 1.0 } else { 0.0 }, ..FINE };
+        let watched = watch(20, flying, late);
+        assert!((watched[19].2 - 9.0 * PERIOD_S).abs() < 0.4, "{:?}", watched[19]);
     }
 }

@@ -4,16 +4,27 @@
 //! The deviations are those of the flight model's worse sensors, so that the figure errs on the safe
 //! side indoors: the flow's bias, its scale, the heading's drift, and what was flown unseen.
 
+use nalgebra::Vector2;
+
 /// Standard deviation of the flow's bias.
 const BIAS_M_S: f64 = 0.013;
 /// Of the flow's scale, as a share of the distance from the start.
 const SCALE: f64 = 0.06;
 /// Of the heading's drift.
 const HEADING_DRIFT_DEG_S: f64 = 0.03;
-/// Of the velocity while nothing is heard.
-const UNSEEN_M_S: f64 = 0.3;
+/// Of the velocity while nothing is heard: in a hover, as a share of the speed, and as a share of what
+/// the speed has changed by in the meantime.
+const UNSEEN_M_S: f64 = 0.15;
+const UNSEEN_SPEED: f64 = 0.2;
+const UNSEEN_CHANGE: f64 = 0.25;
+/// And it may be gaining: full tilt, which is a fifth of gravity, is the worst.
+const UNSEEN_M_S2: f64 = 0.3;
+/// Of the heading after each step of the compass.
+const HEADING_STEP_DEG: f64 = 2.0;
 /// Of the place while navdata are late.
 const FLOOR_M: f64 = 0.02;
+/// Of the climb while nothing is heard.
+const UNSEEN_CLIMB_M_S: f64 = 0.3;
 /// Of a height.
 const HEIGHT_M: f64 = 0.015;
 /// Of the height after each step of the floor.
@@ -24,14 +35,38 @@ const FLOOR_STEP_M: f64 = 0.05;
 pub(crate) struct Uncertainty {
     flown_s: f64,
     unseen_m2: f64,
+    /// How far the drone has flown if velocities that were not believed were true after all.
+    disputed_m: f64,
     floor_steps: u32,
+    heading_steps: u32,
 }
 
 impl Uncertainty {
-    /// So long was flown; `gap_s` of it is more than packets usually are apart.
-    pub(crate) fn fly(&mut self, step_s: f64, gap_s: f64) {
+    /// So long was flown.
+    pub(crate) fn fly(&mut self, step_s: f64) {
         self.flown_s += step_s;
-        self.unseen_m2 += (UNSEEN_M_S * gap_s).powi(2);
+    }
+
+    /// For so long nothing was known of the velocity but what it was before and after.
+    pub(crate) fn fly_unseen(
+        &mut self,
+        gap_s: f64,
+        before_m_s: Vector2<f64>,
+        after_m_s: Vector2<f64>,
+    ) {
+        let speed_m_s = before_m_s.norm().max(after_m_s.norm());
+        let change_m_s = (after_m_s - before_m_s).norm();
+        let unseen_m_s = UNSEEN_M_S + UNSEEN_SPEED * speed_m_s + UNSEEN_CHANGE * change_m_s;
+        self.unseen_m2 += (unseen_m_s * gap_s).powi(2);
+    }
+
+    /// A velocity was not believed that would have led elsewhere this fast.
+    pub(crate) fn fly_disputed(&mut self, step_s: f64, surprise_m_s: f64) {
+        self.disputed_m += surprise_m_s * step_s;
+    }
+
+    pub(crate) fn step_of_the_heading(&mut self) {
+        self.heading_steps += 1;
     }
 
     pub(crate) fn step_of_the_floor(&mut self) {
@@ -39,16 +74,19 @@ impl Uncertainty {
     }
 
     /// Standard deviation of the place across the ground, on each axis, `distance_m` from the start;
-    /// the newest sample is `silence_s` old.
-    pub(crate) fn horizontal_m(&self, distance_m: f64, silence_s: f64) -> f64 {
-        let turned = (HEADING_DRIFT_DEG_S * self.flown_s).to_radians();
+    /// the newest sample is `silence_s` old and had a speed.
+    pub(crate) fn horizontal_m(&self, distance_m: f64, silence_s: f64, speed_m_s: f64) -> f64 {
+        let steps_deg = HEADING_STEP_DEG * f64::from(self.heading_steps).sqrt();
+        let turned = (HEADING_DRIFT_DEG_S * self.flown_s).hypot(steps_deg).to_radians();
+        let unseen_m_s = UNSEEN_M_S + UNSEEN_SPEED * speed_m_s + UNSEEN_M_S2 * silence_s;
         [
             FLOOR_M,
             BIAS_M_S * self.flown_s,
             SCALE * distance_m,
             turned * distance_m,
             self.unseen_m2.sqrt(),
-            UNSEEN_M_S * silence_s,
+            self.disputed_m,
+            unseen_m_s * silence_s,
         ]
         .iter()
         .map(|part| part * part)
@@ -59,7 +97,7 @@ impl Uncertainty {
     /// Standard deviation of the height.
     pub(crate) fn vertical_m(&self, silence_s: f64) -> f64 {
         let steps_m = FLOOR_STEP_M * f64::from(self.floor_steps).sqrt();
-        HEIGHT_M.hypot(steps_m).hypot(UNSEEN_M_S * silence_s)
+        HEIGHT_M.hypot(steps_m).hypot(UNSEEN_CLIMB_M_S * silence_s)
     }
 }
 
@@ -70,17 +108,38 @@ mod tests {
     #[test]
     fn it_only_grows() {
         let mut uncertainty = Uncertainty::default();
-        let mut last = uncertainty.horizontal_m(0.0, 0.0);
+        let mut last_m = uncertainty.horizontal_m(0.0, 0.0, 0.0);
         for step in 0..100 {
-            uncertainty.fly(0.066, if step % 10 == 0 { 0.2 } else { 0.0 });
-            let now = uncertainty.horizontal_m(0.0, 0.0);
-            assert!(now > last);
-            last = now;
+            uncertainty.fly(0.066);
+            if step % 10 == 0 {
+                uncertainty.fly_unseen(0.2, Vector2::zeros(), Vector2::zeros());
+            }
+            let now_m = uncertainty.horizontal_m(0.0, 0.0, 0.0);
+            assert!(now_m > last_m);
+            last_m = now_m;
         }
-        assert!(uncertainty.horizontal_m(3.0, 0.0) > last);
-        assert!(uncertainty.horizontal_m(0.0, 1.0) > last);
-        let before = uncertainty.vertical_m(0.0);
+        assert!(uncertainty.horizontal_m(3.0, 0.0, 0.0) > last_m);
+        assert!(uncertainty.horizontal_m(0.0, 1.0, 0.0) > last_m);
+        let before_m = uncertainty.vertical_m(0.0);
         uncertainty.step_of_the_floor();
-        assert!(uncertainty.vertical_m(0.0) > before);
+        assert!(uncertainty.vertical_m(0.0) > before_m);
+        let before_m = uncertainty.horizontal_m(3.0, 0.0, 0.0);
+        uncertainty.step_of_the_heading();
+        assert!(uncertainty.horizontal_m(3.0, 0.0, 0.0) > before_m);
+    }
+
+    #[test]
+    fn what_was_flown_unseen_counts_by_the_speed_that_was_flown() {
+        let unseen_m = |before_m_s: f64, after_m_s: f64| {
+            let mut uncertainty = Uncertainty::default();
+            let along = |m_s| Vector2::new(m_s, 0.0);
+            uncertainty.fly_unseen(1.0, along(before_m_s), along(after_m_s));
+            uncertainty.horizontal_m(0.0, 0.0, 0.0)
+        };
+        assert!(unseen_m(0.0, 0.0) < 0.2);
+        assert!(unseen_m(2.5, 2.5) > 0.5);
+        assert!(unseen_m(2.5, 0.0) > 1.0, "when it braked nobody knows");
+        let silent_m = |speed_m_s| Uncertainty::default().horizontal_m(0.0, 1.0, speed_m_s);
+        assert!(silent_m(2.5) > silent_m(0.0) + 0.4);
     }
 }

@@ -5,7 +5,7 @@ use std::thread;
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{FlightEvent, LandingReason, PilotConfig, PilotOrder, Trust};
+use autopilot::pilot::{FlightEvent, LandingReason, PilotConfig, PilotOrder, Quantity, Trust};
 use autopilot::plan::FlightLimits;
 use autopilot::safety::Veto;
 use autopilot::sim::{Moment, SimulatedFlight, Simulation};
@@ -146,9 +146,10 @@ fn a_drone_that_was_blown_over_the_fence_comes_back_to_land() {
 
 #[test]
 fn navdata_that_stay_frozen_or_lie_too_much_land_the_drone() {
-    for (text, trust) in
-        [("+5 freeze 20", Trust::Frozen), ("+5 lie velocity 4 0 for 20", Trust::Implausible)]
-    {
+    for (text, trust) in [
+        ("+5 freeze 20", Trust::Frozen(Quantity::Velocity)),
+        ("+5 lie velocity 4 0 for 20", Trust::Implausible(Quantity::Velocity)),
+    ] {
         let flight = watched(text, 1, plan(SQUARE), Simulation::default(), |_| {});
         let ordered = FlightEvent::LandingOrdered(LandingReason::Distrust(trust));
         assert!(flight.events.iter().any(|(_, event)| *event == ordered), "{:?}", flight.events);

@@ -74,7 +74,15 @@ fn the_same_flight_twice_is_the_same_bit_for_bit() {
 
 #[test]
 fn perfect_sensors_make_the_estimate_the_truth() {
-    let drone = DroneConfig { sensors: SensorModel::perfect(), ..DroneConfig::default() };
+    // Without any noise a sensor looks frozen.
+    let sensors = SensorModel {
+        flow_noise_m_s: 1e-4,
+        altitude_noise_m: 0.002,
+        attitude_noise_deg: 0.01,
+        yaw_noise_deg: 0.01,
+        ..SensorModel::perfect()
+    };
+    let drone = DroneConfig { sensors, ..DroneConfig::default() };
     let flight = fly(&with_drone(drone), SQUARE);
     assert_eq!(flight.outcome, Outcome::Completed);
     for (waypoint, truth) in flight.report.waypoints.iter().zip(&flight.truth_at_waypoints) {

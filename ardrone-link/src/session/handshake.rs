@@ -15,7 +15,7 @@ const KEY_TIMEOUT: Duration = Duration::from_secs(2);
 /// Time between two requests for the configuration.
 const READ_INTERVAL: Duration = Duration::from_millis(500);
 /// The read-back is given up after this time.
-const READ_TIMEOUT: Duration = Duration::from_millis(2500);
+const READ_TIMEOUT: Duration = Duration::from_secs(6);
 /// A dump has about 4 kB; more than this is no dump.
 const MAX_DUMP_BYTES: usize = 65_536;
 

@@ -4,16 +4,26 @@ use std::time::Duration;
 
 use ardrone_link::at::{Fraction, Motion};
 use ardrone_link::session::{FlightOrder, Order};
-use estimator::{Airframe, Sticks};
+use estimator::{Airframe, Prediction, Sticks};
 use pid::{Demand, Inputs, Pose};
 
 use super::{Pilot, pose};
 use crate::agent::AgentCommand;
 
 impl Pilot {
-    /// The agent's command as levels and sticks.
-    pub(super) fn carry_out(&mut self, now: Duration, command: AgentCommand, step_s: f64) -> Order {
+    /// The agent's command as levels and sticks, where `state` is how the drone moves now.
+    pub(super) fn carry_out(
+        &mut self,
+        now: Duration,
+        command: AgentCommand,
+        state: &Prediction,
+        step_s: f64,
+    ) -> Order {
         self.target = None;
+        self.estimator.limit_sticks(self.mission.max_control());
+        if !matches!(command, AgentCommand::GoTo(_)) {
+            self.saturation.rest(step_s);
+        }
         let mut told: Option<Demand> = None;
         let order = match command {
             AgentCommand::Standby | AgentCommand::Land => {
@@ -27,8 +37,10 @@ impl Pilot {
             }
             AgentCommand::GoTo(target) => {
                 self.target = Some(target);
+                let limit = self.mission.max_control();
                 let demand = self.demand(now, &target, step_s);
-                let demand = self.guard.limit(&demand, self.mission.max_control());
+                let demand = self.guard.limit(&demand, limit);
+                self.saturation.watch(&demand, limit, state, &target, step_s);
                 told = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }

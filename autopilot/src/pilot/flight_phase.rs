@@ -3,9 +3,11 @@
 use std::fmt;
 use std::time::Duration;
 
+use super::preflight::Refusal;
 use super::{
-    AgentOrder, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration, Danger,
-    FlightEvent, LANDING_TIMEOUT, NAVDATA_OPTIONS_KEY, Pilot, SETTLE_TIME, Trust, Veto, session,
+    AgentOrder, Authority, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration,
+    Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT, NAVDATA_OPTIONS_KEY, Pilot, SETTLE_TIME,
+    Trust, Veto, session,
 };
 use crate::outcome::Outcome;
 
@@ -14,6 +16,14 @@ use crate::outcome::Outcome;
 pub enum FlightPhase {
     /// Waiting for the first packet.
     Connecting,
+    /// The drone was found in the air: it is watched, and nothing is sent, until it is decided whether it
+    /// is taken over.
+    Observing {
+        /// When it was first heard.
+        since: Duration,
+        /// How many packets of navdata had come before.
+        received: u64,
+    },
     /// Setting the drone's configuration.
     Configuring {
         /// When the drone was first heard.
@@ -42,6 +52,7 @@ impl FlightPhase {
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Connecting => "connecting",
+            Self::Observing { .. } => "observing",
             Self::Configuring { .. } => "configuring",
             Self::Settling { .. } => "trimming",
             Self::Flying => "flying",
@@ -83,6 +94,10 @@ pub enum LandingReason {
     PlaceUncertain,
     /// The wind is stronger than the drone.
     Wind,
+    /// The drone reports a fault of its own.
+    DroneFault(&'static str),
+    /// A drone that was taken over in the air must not be flown on.
+    TakeOverRefused,
     /// The safety layer took the drone down.
     Guard(Veto),
 }
@@ -99,9 +114,11 @@ impl fmt::Display for LandingReason {
             Self::HandTargetTimedOut => {
                 f.write_str("the place it was sent to by hand was not reached in time")
             }
-            Self::Distrust(trust) => write!(f, "navdata are {trust}"),
+            Self::Distrust(trust) => trust.fmt(f),
             Self::PlaceUncertain => f.write_str("the place is too uncertain"),
             Self::Wind => f.write_str("the wind is too strong to hold the place"),
+            Self::DroneFault(fault) => f.write_str(fault),
+            Self::TakeOverRefused => f.write_str("the drone must not be flown on"),
             Self::Guard(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
             Self::Guard(Veto::Landing) => f.write_str("the drone lands by itself"),
             Self::Guard(_) => f.write_str("no navdata for too long"),
@@ -112,13 +129,23 @@ impl fmt::Display for LandingReason {
 impl Pilot {
     /// Moves from phase to phase, and notices what ends a flight.
     pub(super) fn watch(&mut self, now: Duration) {
+        if self.is_flown_by_another() {
+            self.refuse(now, vec![Refusal::NotLanded.to_string()]);
+        }
         match self.phase {
+            FlightPhase::Observing { since, received } => {
+                let watched = now.saturating_sub(since);
+                if watched >= SETTLE_TIME {
+                    let packets = self.session.statistics().received.saturating_sub(received);
+                    self.take_over_or_refuse(now, watched, packets);
+                }
+            }
             FlightPhase::Connecting if now >= CONNECT_TIMEOUT => self.end(Outcome::NoDrone),
             FlightPhase::Configuring { since }
                 if now.saturating_sub(since) >= CONFIGURE_TIMEOUT =>
             {
                 let reason = "the drone does not take its configuration".to_owned();
-                self.end(Outcome::PreflightRefused { reasons: vec![reason] });
+                self.refuse(now, vec![reason]);
             }
             FlightPhase::Settling { since, received } => {
                 let watched = now.saturating_sub(since);
@@ -135,12 +162,44 @@ impl Pilot {
 
     /// The agent watches over the flight; it repeats a landing for ever.
     fn watch_flight(&mut self, now: Duration) {
+        if let Some(fault) = self.lasting_fault(now) {
+            self.land(now, LandingReason::DroneFault(fault));
+        }
         if let Some(active) = self.due
             && active.due.order == AgentOrder::Land
             && now.saturating_sub(active.since) >= LANDING_TIMEOUT
         {
             self.land(now, LandingReason::StepTimedOut { step: active.due.step });
         }
+    }
+
+    /// The fault that the drone reports of itself, once it has done so for a while: one packet may be
+    /// spoiled.
+    fn lasting_fault(&mut self, now: Duration) -> Option<&'static str> {
+        let fault = if self.on_ground() { None } else { self.reported_fault() };
+        self.fault_since = fault.map(|_| self.fault_since.unwrap_or(now));
+        fault.filter(|_| self.fault_since.is_some_and(|at| now.saturating_sub(at) >= FAULT_TIME))
+    }
+
+    /// Somebody else has taken off with the drone that was found on the ground.
+    fn is_flown_by_another(&self) -> bool {
+        let prepares =
+            matches!(self.phase, FlightPhase::Configuring { .. } | FlightPhase::Settling { .. });
+        prepares && self.authority == Authority::OnGround && !self.on_ground()
+    }
+
+    /// Does not fly. A drone in the air that was taken over is landed; to one that was not nothing is
+    /// said.
+    pub(super) fn refuse(&mut self, now: Duration, reasons: Vec<String>) {
+        if self.authority == Authority::TakenOver && !self.on_ground() {
+            self.refusals = reasons;
+            self.land(now, LandingReason::TakeOverRefused);
+            return;
+        }
+        if !self.on_ground() {
+            self.authority = Authority::None;
+        }
+        self.end(Outcome::PreflightRefused { reasons });
     }
 
     /// The agent says that flying on is not safe; but for a warning it already lands.
@@ -180,6 +239,9 @@ impl Pilot {
         let outcome = match self.landing {
             Some(LandingReason::Pilot) => Outcome::Interrupted,
             Some(LandingReason::LinkLost) => Outcome::LinkLost,
+            Some(LandingReason::TakeOverRefused) => {
+                Outcome::PreflightRefused { reasons: std::mem::take(&mut self.refusals) }
+            }
             Some(reason) => {
                 let mut reason = reason.to_string();
                 if !landed {
@@ -228,7 +290,7 @@ impl Pilot {
             match event {
                 session::Event::Connected => {
                     if self.phase == FlightPhase::Connecting {
-                        self.phase = FlightPhase::Configuring { since: now };
+                        self.found(now);
                         self.events.push_back(FlightEvent::Connected);
                     }
                 }
@@ -237,11 +299,15 @@ impl Pilot {
                     self.compare_configuration(&configuration);
                 }
                 session::Event::ConfigurationNotRead => {
+                    self.report.settings_not_read = true;
                     self.events.push_back(FlightEvent::ConfigurationNotRead);
                 }
                 session::Event::Ready => {
                     if matches!(self.phase, FlightPhase::Configuring { .. }) {
-                        self.session.request_flat_trim();
+                        // A drone in the air does not stand level.
+                        if self.on_ground() {
+                            self.session.request_flat_trim();
+                        }
                         let received = self.session.statistics().received;
                         self.phase = FlightPhase::Settling { since: now, received };
                         self.events.push_back(FlightEvent::Configured);
@@ -273,6 +339,23 @@ impl Pilot {
                 | session::Event::TakeOffTimedOut => {}
             }
         }
+    }
+
+    /// The drone answers for the first time.
+    fn found(&mut self, now: Duration) {
+        if self.on_ground() {
+            self.begin_to_configure(now, Authority::OnGround);
+        } else {
+            let received = self.session.statistics().received;
+            self.phase = FlightPhase::Observing { since: now, received };
+        }
+    }
+
+    /// From here on the drone is spoken to.
+    pub(super) fn begin_to_configure(&mut self, now: Duration, authority: Authority) {
+        self.authority = authority;
+        self.asked_at = now;
+        self.phase = FlightPhase::Configuring { since: now };
     }
 
     fn link_lost(&mut self) {

@@ -11,6 +11,7 @@ mod flight_phase;
 mod hand;
 mod preflight;
 mod report;
+mod saturation;
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -20,7 +21,7 @@ use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use ardrone_link::session::{self, Received, Session, SessionConfig};
 use ardrone_link::settings::{Setting, SettingError};
-pub use estimator::{Airframe, Trust};
+pub use estimator::{Airframe, Quantity, Trust};
 use estimator::{Estimator, EstimatorConfig, Prediction, Sample};
 use nalgebra::Vector2;
 pub use pid::Law;
@@ -31,6 +32,7 @@ pub use self::flight_phase::{FlightPhase, LandingReason};
 use self::hand::Hand;
 pub use self::hand::PilotOrder;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
+use self::saturation::Saturation;
 use crate::agent::{Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
 use crate::mission::{AgentOrder, Due, Mission};
 use crate::outcome::Outcome;
@@ -93,6 +95,8 @@ const LANDING_TIMEOUT: Duration = Duration::from_secs(30);
 const BLIND_LANDING_TIME: Duration = Duration::from_secs(4);
 /// Nothing is allocated in flight: so many events may wait to be told.
 const EVENTS: usize = 64;
+/// A fault that the drone reports for this long ends the flight.
+const FAULT_TIME: Duration = Duration::from_millis(300);
 /// What pushes the drone for less than this is a gust.
 const WIND_TIME_S: f64 = 2.0;
 /// The rate of navdata is told over so long.
@@ -123,8 +127,14 @@ pub struct Pilot {
     guard: Guard,
     veto: Option<Veto>,
     hand: Hand,
-    /// When the newest navdata arrived that could be believed.
-    seen_at: Option<Duration>,
+    authority: Authority,
+    /// When the drone was first asked for all navdata.
+    asked_at: Duration,
+    /// Why a drone that was taken over is not flown on.
+    refusals: Vec<String>,
+    /// Since when the drone reports a fault of its own.
+    fault_since: Option<Duration>,
+    saturation: Saturation,
     /// What pushes the drone, gusts apart: right, forward.
     wind_m_s2: Vector2<f64>,
     /// What full tilt gives, if gravity alone made it.
@@ -139,6 +149,17 @@ pub struct Pilot {
     navdata_hz: f64,
     /// When the last packet came.
     packet_at: Option<Duration>,
+}
+
+/// By what right the drone is spoken to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Authority {
+    /// By none: it was not heard yet, or somebody else flies it. Nothing is sent.
+    None,
+    /// It was found on the ground.
+    OnGround,
+    /// It was found in the air, and the plan takes it over.
+    TakenOver,
 }
 
 /// The step that is being flown.
@@ -184,7 +205,11 @@ impl Pilot {
             guard: Guard::new(config.limits),
             veto: None,
             hand: Hand::default(),
-            seen_at: None,
+            authority: Authority::None,
+            asked_at: Duration::ZERO,
+            refusals: Vec::new(),
+            fault_since: None,
+            saturation: Saturation::default(),
             wind_m_s2: Vector2::zeros(),
             full_tilt_m_s2: GRAVITY_M_S2 * config.estimator.limits.tilt_rad.tan(),
             target: None,
@@ -205,9 +230,6 @@ impl Pilot {
                 self.session_events(now);
                 if let Some(demo) = &navdata.demo {
                     self.estimator.update(&sample(now, &navdata, demo));
-                    if self.estimator.trust() == Trust::Sound {
-                        self.seen_at = Some(now);
-                    }
                 }
                 self.navdata = Some(navdata);
             }
@@ -236,7 +258,7 @@ impl Pilot {
     }
 
     /// One tick: fills `datagram` with what the drone is to do. It stays empty until the drone is
-    /// heard: a drone that is already flying must not be landed by a first word said unseen.
+    /// heard, and while it is flown by somebody else: what we say would land it, or fight for it.
     ///
     /// # Errors
     /// See [`Session::tick`].
@@ -262,7 +284,7 @@ impl Pilot {
         self.last_tick = Some(now);
         datagram.clear();
         self.watch(now);
-        if self.navdata.is_none() {
+        if self.navdata.is_none() || self.authority == Authority::None {
             return Ok(());
         }
         self.offer_order(now);
@@ -294,7 +316,7 @@ impl Pilot {
             }
         }
         self.veto = veto;
-        let order = self.carry_out(now, command, step_s);
+        let order = self.carry_out(now, command, &state, step_s);
         self.decision = Some(Decision {
             at: now,
             phase: self.phase.name(),
@@ -427,8 +449,11 @@ impl Pilot {
         self.demo().map(|demo| if empty { 0 } else { demo.battery_percent })
     }
 
+    /// Time since the newest navdata that could be believed. Until there are any the time counts from
+    /// when the drone was asked for them.
     fn blind_for(&self, now: Duration) -> Duration {
-        self.seen_at.map_or(Duration::ZERO, |seen_at| now.saturating_sub(seen_at))
+        let since = self.estimator.sound_at().unwrap_or(self.asked_at);
+        now.saturating_sub(since)
     }
 
     fn least_thrust(&self) -> f64 {
@@ -546,6 +571,18 @@ fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
         velocity_right_m_s: demo.velocity_right_m_s,
         altitude_m: demo.altitude_m,
         airborne: navdata.state.contains(DroneState::FLYING),
+        reported_lost: reported_lost(navdata.state, demo),
+    }
+}
+
+/// What the drone says it has lost.
+fn reported_lost(state: DroneState, demo: &Demo) -> Option<Quantity> {
+    if demo.has_lost_vision() {
+        Some(Quantity::Velocity)
+    } else if demo.has_lost_altitude() || state.contains(DroneState::ULTRASOUND_DEAF) {
+        Some(Quantity::Altitude)
+    } else {
+        None
     }
 }
 

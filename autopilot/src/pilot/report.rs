@@ -26,6 +26,8 @@ pub enum FlightEvent {
     NoDroneClock,
     /// All settings are made.
     Configured,
+    /// The drone flies already, and the plan takes it over.
+    TakingOver,
     /// A step of the plan began.
     StepStarted {
         /// Its index.
@@ -76,6 +78,7 @@ impl FlightEvent {
             | Self::ConfigurationRead { .. }
             | Self::NoDroneClock
             | Self::Configured
+            | Self::TakingOver
             | Self::StepStarted { .. }
             | Self::StepDone { .. }
             | Self::Held
@@ -104,12 +107,13 @@ impl fmt::Display for FlightEvent {
             }
             Self::ConfigurationRead { version: None } => f.write_str("configuration read back"),
             Self::ConfigurationNotRead => f.write_str(
-                "configuration could not be read back: the settings are acknowledged, not verified",
+                "configuration could not be read back: the drone's limits are not known",
             ),
             Self::NoDroneClock => {
                 f.write_str("the drone does not send its clock: taking the arrival of packets")
             }
             Self::Configured => f.write_str("drone configured, level reference set"),
+            Self::TakingOver => f.write_str("the drone flies: taking it over"),
             Self::StepStarted { step } => write!(f, "step {}", step + 1),
             Self::StepDone { step } => write!(f, "step {} done", step + 1),
             Self::TargetCorrected { step } => {
@@ -175,6 +179,8 @@ pub struct FlightReport {
     pub landed_at: Option<Duration>,
     /// Settings that the drone did not acknowledge, or reported otherwise.
     pub unconfirmed_settings: Vec<String>,
+    /// The drone's settings could not be read back.
+    pub settings_not_read: bool,
 }
 
 impl FlightReport {

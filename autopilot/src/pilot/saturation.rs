@@ -1,0 +1,103 @@
+//! Whether the drone is too weak for the wind: its sticks are at their limit and it drifts off all the
+//! same.
+//!
+//! How strong the wind is cannot be told well enough to decide by: an estimate of it also holds what
+//! is not known of the airframe. What matters is whether the place is held.
+
+use estimator::Prediction;
+use nalgebra::Vector3;
+use pid::{Demand, Pose};
+
+/// Sticks beyond this share of their limit ask for all that there is.
+const FULL: f64 = 0.95;
+/// Slower than this a drone does not drift off, in m/s.
+const DRIFT_M_S: f64 = 0.1;
+/// Nearer than this no direction leads away, in metres.
+const HERE_M: f64 = 0.2;
+
+/// How long the drone has been drifting off at the limit of its sticks.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Saturation {
+    for_s: f64,
+}
+
+impl Saturation {
+    /// Takes in one tick of flying to a target. What was drifted is made good as slowly as it came: a
+    /// drone that wins now and then holds no place.
+    pub(super) fn watch(
+        &mut self,
+        demand: &Demand,
+        limit: f64,
+        state: &Prediction,
+        target: &Pose,
+        step_s: f64,
+    ) {
+        let away = state.position_m - Vector3::new(target.x_m, target.y_m, target.z_m);
+        let across_m = away.xy().norm();
+        let drift_m_s = state.velocity_m_s.xy().dot(&away.xy()) / across_m.max(f64::EPSILON);
+        let is_full = |stick: f64| stick.abs() >= FULL * limit;
+        let across = (is_full(demand.roll) || is_full(demand.pitch))
+            && across_m > HERE_M
+            && drift_m_s > DRIFT_M_S;
+        let climbs_off_m_s = state.velocity_m_s.z * away.z.signum();
+        let up = is_full(demand.gaz) && away.z.abs() > HERE_M && climbs_off_m_s > DRIFT_M_S;
+        let change_s = if across || up { step_s } else { -step_s };
+        self.for_s = (self.for_s + change_s).max(0.0);
+    }
+
+    /// The drone is not being flown anywhere.
+    pub(super) fn rest(&mut self, step_s: f64) {
+        self.for_s = (self.for_s - step_s).max(0.0);
+    }
+
+    /// In milliseconds.
+    pub(super) fn for_ms(self) -> i64 {
+        // At most the length of a flight.
+        #[allow(clippy::cast_possible_truncation)]
+        let for_ms = (self.for_s * 1e3).round() as i64;
+        for_ms
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TARGET: Pose = Pose { x_m: 0.0, y_m: 0.0, z_m: 1.0, yaw_deg: 0.0 };
+
+    fn after_a_second(demand: Demand, position: [f64; 3], velocity: [f64; 3]) -> i64 {
+        let state = Prediction {
+            position_m: position.into(),
+            velocity_m_s: velocity.into(),
+            ..Prediction::default()
+        };
+        let mut saturation = Saturation::default();
+        for _ in 0..100 {
+            saturation.watch(&demand, 1.0, &state, &TARGET, 0.01);
+        }
+        saturation.for_ms()
+    }
+
+    #[test]
+    fn only_a_drone_that_drifts_off_at_full_stick_is_too_weak() {
+        let full = Demand { roll: -1.0, ..Demand::default() };
+        let half = Demand { roll: -0.5, ..Demand::default() };
+        let sinking = Demand { gaz: 1.0, ..Demand::default() };
+        let (right, low) = ([1.0, 0.0, 1.0], [0.0, 0.0, 0.5]);
+        assert_eq!(after_a_second(full, right, [0.5, 0.0, 0.0]), 1000);
+        assert_eq!(after_a_second(full, right, [-0.5, 0.0, 0.0]), 0, "it comes back");
+        assert_eq!(after_a_second(half, right, [0.5, 0.0, 0.0]), 0, "there is more");
+        assert_eq!(after_a_second(full, right, [0.0, 0.0, 0.0]), 0, "it holds");
+        assert_eq!(after_a_second(sinking, low, [0.0, 0.0, -0.3]), 1000);
+        assert_eq!(after_a_second(sinking, low, [0.0, 0.0, 0.3]), 0);
+    }
+
+    #[test]
+    fn what_passes_is_forgotten() {
+        let mut saturation = Saturation { for_s: 1.5 };
+        for _ in 0..100 {
+            saturation.rest(0.02);
+        }
+        assert_eq!(saturation.for_ms(), 0);
+    }
+}
