@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use ardrone_link::at::DecodeError;
-use ardrone_link::navdata::{NavdataError, PacketWriter};
+use ardrone_link::at::{DecodeError, Motion};
+use ardrone_link::navdata::{DroneState, NavdataError, PacketWriter};
 use bytes::{Bytes, BytesMut};
 use nalgebra::{Vector2, Vector3};
 use rand::SeedableRng as _;
@@ -12,8 +12,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, Uniform};
 
 use crate::airframe::{Airframe, Profile, STEP_S};
+use crate::faults::{Quantity, SensorFault, SensorFaults, Told};
 use crate::firmware::{Firmware, Phase};
-use crate::sensors::{Reading, SensorModel, Sensors};
+use crate::sensors::{SensorModel, Sensors};
 use crate::telemetry::{Tag27, Telemetry};
 use crate::wind::Wind;
 
@@ -28,6 +29,11 @@ pub struct DroneConfig {
     pub seed: u64,
     /// Charge at the start.
     pub battery_percent: f64,
+    /// By how much less seems to be left at full load.
+    pub battery_sag_percent: f64,
+    /// The drone flies already, at this height in metres, as another pilot has left it: it hovers by
+    /// itself, and lands when it hears nobody.
+    pub flies_at_m: Option<f64>,
     /// Blows towards (right, forward).
     pub wind_m_s: Vector2<f64>,
     /// Standard deviation of the gusts.
@@ -45,6 +51,8 @@ impl Default for DroneConfig {
             sensors: SensorModel::nominal(),
             seed: 1,
             battery_percent: 90.0,
+            battery_sag_percent: 0.0,
+            flies_at_m: None,
             wind_m_s: Vector2::zeros(),
             gusts_m_s: 0.0,
             tag_27: Tag27::Absent,
@@ -68,9 +76,17 @@ pub struct Truth {
     pub yaw_deg: f64,
     /// What the firmware is doing.
     pub phase: Phase,
-    /// The drone's own velocity integrated without delay: the frame of whoever hears only
-    /// navdata. (right, forward)
+    /// The velocity that the healthy sensors read, integrated without delay: the frame of whoever
+    /// hears only navdata. Injected sensor faults are not in it. (right, forward)
     pub odometry_m: Vector2<f64>,
+    /// The motion that the firmware carries out while it flies.
+    pub motion: Motion,
+    /// Remaining charge, as the drone believes it by its voltage.
+    pub battery_percent: f64,
+    /// How often it hit the floor while it was to fly.
+    pub floor_contacts: u32,
+    /// How fast it sank when it last came down on the floor, whatever it was to do.
+    pub touch_down_m_s: Option<f64>,
 }
 
 impl Truth {
@@ -80,15 +96,28 @@ impl Truth {
     }
 }
 
-/// What a drone with broken sensors adds to what it reads.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Lie {
-    /// Added to the altitude.
-    pub altitude_m: f64,
-    /// Added to the velocity (right, forward).
-    pub velocity_m_s: Vector2<f64>,
-    /// Added to the heading.
-    pub yaw_deg: f64,
+/// What the firmware says of itself for a time, whether it is so or not.
+#[derive(Debug, Clone, Default)]
+struct Claims {
+    /// State bits, until when.
+    bits: Vec<(DroneState, Duration)>,
+    /// The detail of the control state, until when; the last one counts.
+    minor: Vec<(u16, Duration)>,
+}
+
+impl Claims {
+    fn settle(&mut self, now: Duration) {
+        self.bits.retain(|(_, ends)| *ends > now);
+        self.minor.retain(|(_, ends)| *ends > now);
+    }
+
+    fn state(&self) -> DroneState {
+        self.bits.iter().map(|(bits, _)| *bits).collect()
+    }
+
+    fn minor(&self) -> u16 {
+        self.minor.last().map_or(0, |(minor, _)| *minor)
+    }
 }
 
 /// A simulated drone.
@@ -102,9 +131,10 @@ pub struct Drone {
     wind: Wind,
     /// When it was switched on.
     switched_on: Duration,
-    lie: Lie,
-    /// What it reads for as long as its sensors are frozen.
-    frozen: Option<Reading>,
+    faults: SensorFaults,
+    claims: Claims,
+    /// How often it hit the floor while it was to fly.
+    floor_contacts: u32,
     firmware: Firmware,
     airframe: Airframe,
     sensors: Sensors,
@@ -127,7 +157,7 @@ const CLOCK_AT_START: Duration = Duration::from_millis(31_400);
 const BOOT_TIME: Duration = Duration::from_secs(1);
 
 impl Drone {
-    /// A drone that has just started, on the ground.
+    /// A drone that has just started, on the ground unless its configuration says otherwise.
     pub fn new(config: &DroneConfig) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(config.seed ^ 0x7472_696d);
         let trim_rad = Uniform::new_inclusive(-1.0, 1.0).map_or(Vector2::zeros(), |unit| {
@@ -135,14 +165,21 @@ impl Drone {
                 * config.trim_error_deg.to_radians()
         });
         debug_assert!((STEP.as_secs_f64() - STEP_S).abs() < 1e-12);
+        let mut firmware = match config.flies_at_m {
+            Some(height_m) => Firmware::in_flight(config.profile, config.battery_percent, height_m),
+            None => Firmware::new(config.profile, config.battery_percent),
+        };
+        firmware.set_battery_sag_percent(config.battery_sag_percent);
+        let airframe = Airframe::new(config.profile, trim_rad);
         Self {
             config: config.clone(),
             wind: Wind::new(config.wind_m_s, config.gusts_m_s, config.seed),
             switched_on: Duration::ZERO,
-            lie: Lie::default(),
-            frozen: None,
-            firmware: Firmware::new(config.profile, config.battery_percent),
-            airframe: Airframe::new(config.profile, trim_rad),
+            faults: SensorFaults::new(config.seed),
+            claims: Claims::default(),
+            floor_contacts: 0,
+            firmware,
+            airframe: airframe.at_height(config.flies_at_m.unwrap_or_default()),
             sensors: Sensors::new(config.sensors, config.seed),
             steps: 0,
             sequence: 0,
@@ -158,7 +195,11 @@ impl Drone {
             self.steps += 1;
             let time = self.time();
             let thrust = self.firmware.step(time, &self.airframe);
+            let contacts = self.airframe.floor_contacts();
             self.airframe.step(thrust, self.wind.step());
+            if self.firmware.phase() == Phase::Flying {
+                self.floor_contacts += self.airframe.floor_contacts() - contacts;
+            }
             self.sensors.step(self.steps, time, &self.airframe);
             if self.listener && time >= self.next_navdata {
                 self.send_navdata(time);
@@ -204,9 +245,8 @@ impl Drone {
     /// Switches the drone off and on again, wherever it is: it forgets everything, and falls.
     pub fn restart(&mut self, now: Duration) {
         self.advance(now);
-        let battery_percent = self.firmware.battery_percent();
-        self.firmware = Firmware::new(self.config.profile, battery_percent);
-        self.sensors = Sensors::new(self.config.sensors, self.config.seed);
+        self.firmware = self.firmware.restarted();
+        self.sensors = self.sensors.clone().restarted(self.config.seed);
         self.switched_on = now;
         self.sequence = 0;
         self.listener = false;
@@ -218,21 +258,39 @@ impl Drone {
         starts_anew && self.time() < self.switched_on + BOOT_TIME
     }
 
-    /// Freezes what the sensors read, or lets them go on; packets keep coming.
-    pub fn set_frozen(&mut self, frozen: bool) {
-        let time = self.time();
-        self.frozen = frozen.then(|| self.sensors.read(time));
+    /// Something that navdata tell is wrong for a time. Several faults may last at once; each sees
+    /// what the earlier ones left.
+    pub fn break_sensor(&mut self, quantity: Quantity, fault: SensorFault, time: Duration) {
+        let now = self.time();
+        let told = self.told(now);
+        self.faults.begin(now, quantity, fault, time, &told);
     }
 
-    /// Adds something to what the sensors read from now on.
-    pub fn set_lie(&mut self, lie: Lie) {
-        self.lie = lie;
+    /// The firmware raises bits of its state word for a time. They are only said: nothing else
+    /// follows from them.
+    pub fn claim_state(&mut self, bits: DroneState, time: Duration) {
+        self.claims.bits.push((bits, self.time() + time));
+    }
+
+    /// The firmware tells this detail of its control state for a time.
+    pub fn claim_minor_state(&mut self, minor: u16, time: Duration) {
+        self.claims.minor.push((minor, self.time() + time));
+    }
+
+    /// A motor weakens to a share of its thrust, from 0 to 1, within a time, for good.
+    pub fn weaken_motor(&mut self, share: f64, within: Duration) {
+        self.airframe.weaken_motor(share, within);
     }
 
     /// Changes the steady wind, which blows towards (right, forward), and its gusts.
     pub fn set_wind(&mut self, steady_m_s: Vector2<f64>, gusts_m_s: f64) {
         self.wind.steady_m_s = steady_m_s;
         self.wind.gust_deviation_m_s = gusts_m_s;
+    }
+
+    /// Changes by how much less charge seems to be left at full load.
+    pub fn set_battery_sag_percent(&mut self, percent: f64) {
+        self.firmware.set_battery_sag_percent(percent);
     }
 
     /// Changes the charge.
@@ -250,10 +308,14 @@ impl Drone {
             yaw_deg: self.airframe.yaw_rad().to_degrees(),
             phase: self.firmware.phase(),
             odometry_m: self.sensors.odometry_m(),
+            motion: self.firmware.motion(),
+            battery_percent: self.firmware.battery_percent(),
+            floor_contacts: self.floor_contacts,
+            touch_down_m_s: self.airframe.touch_down_m_s(),
         }
     }
 
-    /// Remaining charge.
+    /// Remaining charge, as the drone believes it by its voltage.
     pub fn battery_percent(&self) -> f64 {
         self.firmware.battery_percent()
     }
@@ -281,15 +343,18 @@ impl Drone {
         demo_only: bool,
         bytes: &mut BytesMut,
     ) -> Result<(), NavdataError> {
-        let state = self.firmware.state(now);
+        self.claims.settle(now);
+        let state = self.firmware.state(now) | self.claims.state();
         let mut packet = PacketWriter::new(bytes, state, self.sequence, 1);
         if !self.firmware.is_bootstrapping() {
+            let Told { reading, clock } = self.told(now);
             let telemetry = Telemetry {
-                reading: self.reading(now),
+                reading,
+                minor_state: self.claims.minor(),
                 firmware: &self.firmware,
                 airframe: &self.airframe,
                 wind_m_s: self.wind.steady_m_s,
-                clock: now.saturating_sub(self.switched_on) + CLOCK_AT_START,
+                clock,
                 tag_27: self.config.tag_27,
             };
             let firmware = &self.firmware;
@@ -301,13 +366,12 @@ impl Drone {
         Ok(())
     }
 
-    /// What the sensors say, be it true or not.
-    fn reading(&mut self, now: Duration) -> Reading {
-        let mut reading = self.frozen.unwrap_or_else(|| self.sensors.read(now));
-        reading.altitude_m += self.lie.altitude_m;
-        reading.velocity_m_s += self.lie.velocity_m_s;
-        reading.yaw_deg = (reading.yaw_deg + self.lie.yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
-        reading
+    /// What navdata say of the motion, be it true or not.
+    fn told(&mut self, now: Duration) -> Told {
+        let clock = now.saturating_sub(self.switched_on) + CLOCK_AT_START;
+        let mut told = Told { reading: self.sensors.read(now), clock };
+        self.faults.apply(now, &self.config.sensors, &mut told);
+        told
     }
 }
 

@@ -68,8 +68,27 @@ pub struct Firmware {
     cutout: bool,
     motion: DelayedMotion,
     hold: Hold,
-    battery_percent: f64,
+    charge_percent: f64,
+    battery: Load,
     dump_requested: Option<Dump>,
+}
+
+/// What the motors draw from the battery, and what that does to what it seems to hold.
+#[derive(Debug, Clone, Copy, Default)]
+struct Load {
+    /// So much less seems to be left at full load.
+    sag_percent: f64,
+    /// Share of full load, as the battery feels it.
+    share: f64,
+}
+
+impl Load {
+    /// A battery answers its load with this time constant.
+    const TIME_CONSTANT_S: f64 = 0.5;
+
+    fn step(&mut self, share: f64) {
+        self.share += (share - self.share) * (STEP_S / Self::TIME_CONSTANT_S);
+    }
 }
 
 /// PCMD on its way to the motors.
@@ -126,9 +145,31 @@ impl Firmware {
             cutout: false,
             motion: DelayedMotion::default(),
             hold: Hold::default(),
-            battery_percent,
+            charge_percent: battery_percent,
+            battery: Load::default(),
             dump_requested: None,
         }
+    }
+
+    /// A drone of this kind that another pilot has configured and flown to a height, and whose
+    /// commands ended just now.
+    pub fn in_flight(profile: Profile, battery_percent: f64, height_m: f64) -> Self {
+        let mut configuration = ConfigurationStore::default();
+        configuration.set("general:navdata_demo", "TRUE");
+        Self {
+            phase: Phase::Flying,
+            configuration,
+            bootstrapping: false,
+            last_command: Some(Duration::ZERO),
+            hold: Hold { place_m: None, height_m: Some(height_m) },
+            ..Self::new(profile, battery_percent)
+        }
+    }
+
+    /// The same drone after it was switched off and on: of what it knew, only its battery remains.
+    #[must_use]
+    pub fn restarted(&self) -> Self {
+        Self { battery: self.battery, ..Self::new(self.profile, self.charge_percent) }
     }
 
     /// Takes in a datagram of the AT port. Returns the errors of commands that were not
@@ -208,7 +249,7 @@ impl Firmware {
         }
         match (reference, self.phase) {
             (Ref::TakeOff, Phase::Landed)
-                if self.battery_percent > BATTERY_REFUSES_TAKE_OFF_PERCENT =>
+                if self.battery_percent() > BATTERY_REFUSES_TAKE_OFF_PERCENT =>
             {
                 self.phase = Phase::TakingOff { since: now };
                 self.motion.clear();
@@ -270,19 +311,24 @@ impl Firmware {
             _ => {}
         }
         let lost = lost_for.is_some_and(|lost_for| lost_for >= LINK_LOSS_HOVER);
-        let empty = self.battery_percent <= BATTERY_LANDS_PERCENT;
+        let empty = self.battery_percent() <= BATTERY_LANDS_PERCENT;
         if (lost || empty) && matches!(self.phase, Phase::Flying | Phase::TakingOff { .. }) {
             self.start_landing();
         }
     }
 
     fn drain_battery(&mut self, airframe: &Airframe) {
+        /// What full tilt draws besides what hovering does.
+        const TILT_SHARE: f64 = 0.6;
         if matches!(self.phase, Phase::Landed | Phase::Emergency) {
+            self.battery.step(0.0);
             return;
         }
         let tilt = (airframe.pitch_rad().hypot(airframe.roll_rad()) / 0.2).min(1.0);
-        let drain = 100.0 / BATTERY_LIFE_S * (1.0 + 0.6 * tilt) * STEP_S;
-        self.battery_percent = (self.battery_percent - drain).max(0.0);
+        let load = 1.0 + TILT_SHARE * tilt;
+        let drain = 100.0 / BATTERY_LIFE_S * load * STEP_S;
+        self.charge_percent = (self.charge_percent - drain).max(0.0);
+        self.battery.step(load / (1.0 + TILT_SHARE));
     }
 
     fn fly(&mut self, motion: Motion, airframe: &Airframe) -> Attitude {
@@ -391,12 +437,22 @@ impl Firmware {
 
     /// Sets the charge.
     pub fn set_battery_percent(&mut self, percent: f64) {
-        self.battery_percent = percent.clamp(0.0, 100.0);
+        self.charge_percent = percent.clamp(0.0, 100.0);
     }
 
-    /// Remaining charge.
+    /// Sets by how much less seems to be left at full load.
+    pub fn set_battery_sag_percent(&mut self, percent: f64) {
+        self.battery.sag_percent = percent.clamp(0.0, 100.0);
+    }
+
+    /// Remaining charge, as the drone believes it by its voltage, which sags under load.
     pub fn battery_percent(&self) -> f64 {
-        self.battery_percent
+        (self.charge_percent - self.battery.sag_percent * self.battery.share).max(0.0)
+    }
+
+    /// Remaining charge without any load.
+    pub fn charge_percent(&self) -> f64 {
+        self.charge_percent
     }
 
     /// The state word for navdata.
@@ -417,7 +473,7 @@ impl Firmware {
             (self.is_demo(), DroneState::NAVDATA_DEMO),
             (self.watchdog, DroneState::COMMUNICATION_WATCHDOG),
             (self.link_is_lost(now), DroneState::COMMUNICATION_LOST),
-            (self.battery_percent <= BATTERY_LOW_PERCENT, DroneState::BATTERY_LOW),
+            (self.battery_percent() <= BATTERY_LOW_PERCENT, DroneState::BATTERY_LOW),
             (self.phase == Phase::Emergency, DroneState::EMERGENCY),
             (self.cutout, DroneState::CUTOUT_DETECTED),
             (self.user_emergency && self.phase == Phase::Emergency, DroneState::USER_EMERGENCY),

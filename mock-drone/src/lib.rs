@@ -14,9 +14,11 @@
 pub mod airframe;
 mod configuration;
 mod drone;
+mod faults;
 pub mod firmware;
 mod link;
 pub mod scenario;
+mod second_pilot;
 pub mod sensors;
 pub mod server;
 mod telemetry;
@@ -24,7 +26,8 @@ mod truth_log;
 mod wind;
 mod world;
 
-pub use drone::{Drone, DroneConfig, Lie, Truth};
+pub use drone::{Drone, DroneConfig, Truth};
+pub use faults::{Quantity, SensorFault};
 pub use link::LinkFaults;
 pub use telemetry::Tag27;
 pub use truth_log::TruthLog;

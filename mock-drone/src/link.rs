@@ -37,7 +37,14 @@ pub(crate) struct Link<L> {
     /// In the order in which they arrive.
     waiting: VecDeque<Travelling<L>>,
     held_back: Option<(L, Bytes)>,
+    /// Until then nothing arrives, and then all of it at once.
+    held_until: Duration,
+    /// What arrived last.
+    past: VecDeque<(L, Bytes)>,
 }
+
+/// So many old datagrams can arrive again.
+pub(crate) const PAST: usize = 256;
 
 #[derive(Debug, Clone)]
 struct Travelling<L> {
@@ -55,6 +62,8 @@ impl<L: Copy> Link<L> {
             random: ChaCha8Rng::seed_from_u64(seed ^ 0x6c69_6e6b),
             waiting: VecDeque::new(),
             held_back: None,
+            held_until: Duration::ZERO,
+            past: VecDeque::with_capacity(PAST),
         }
     }
 
@@ -103,15 +112,33 @@ impl<L: Copy> Link<L> {
         self.waiting.insert(place, Travelling { due, label, datagram });
     }
 
+    /// Nothing arrives until then, and then all of it at once.
+    pub(crate) fn hold_until(&mut self, time: Duration) {
+        self.held_until = self.held_until.max(time);
+    }
+
+    /// The last datagrams that arrived, at most [`PAST`], arrive again, in their old order.
+    pub(crate) fn repeat(&mut self, now: Duration, count: usize) {
+        for (label, datagram) in self.past.iter().skip(self.past.len().saturating_sub(count)) {
+            let place = self.waiting.partition_point(|other| other.due <= now);
+            let again = Travelling { due: now, label: *label, datagram: datagram.clone() };
+            self.waiting.insert(place, again);
+        }
+    }
+
     /// When the next datagram arrives.
     pub(crate) fn next_due(&self) -> Option<Duration> {
-        self.waiting.front().map(|next| next.due)
+        self.waiting.front().map(|next| next.due.max(self.held_until))
     }
 
     /// The next datagram that has arrived by now, with the time at which it did.
     pub(crate) fn receive(&mut self, now: Duration) -> Option<(Duration, L, Bytes)> {
-        let next = self.waiting.pop_front_if(|next| next.due <= now)?;
-        Some((next.due, next.label, next.datagram))
+        let next = self.waiting.pop_front_if(|next| next.due.max(self.held_until) <= now)?;
+        if self.past.len() == PAST {
+            self.past.pop_front();
+        }
+        self.past.push_back((next.label, next.datagram.clone()));
+        Some((next.due.max(self.held_until), next.label, next.datagram))
     }
 
     fn happens(&mut self, share: f64) -> bool {
@@ -171,6 +198,36 @@ mod tests {
         assert_eq!(jittery.len(), 2560);
         assert!(out_of_order(&jittery) > 1000);
         assert!(jittery[0].0 >= MS(20) && jittery.last().unwrap().0 < MS(2610));
+    }
+
+    #[test]
+    fn what_is_held_arrives_late_and_all_at_once() {
+        let mut link = Link::new(LinkFaults::default(), 1);
+        link.send(MS(0), (), Bytes::from_static(b"1"));
+        link.hold_until(MS(50));
+        link.send(MS(10), (), Bytes::from_static(b"2"));
+        assert_eq!(link.next_due(), Some(MS(50)));
+        assert_eq!(link.receive(MS(49)), None);
+        for expected in [b"1", b"2"] {
+            let (due, (), datagram) = link.receive(MS(60)).unwrap();
+            assert_eq!((due, datagram.as_ref()), (MS(50), expected.as_slice()));
+        }
+    }
+
+    #[test]
+    fn old_datagrams_arrive_again_in_their_order() {
+        let mut link = Link::new(LinkFaults::default(), 1);
+        for text in [&b"1"[..], b"2", b"3"] {
+            link.send(MS(0), (), Bytes::from_static(text));
+            assert!(link.receive(MS(0)).is_some());
+        }
+        link.repeat(MS(10), 2);
+        for expected in [&b"2"[..], b"3"] {
+            assert_eq!(link.receive(MS(10)).unwrap().2, expected);
+        }
+        assert_eq!(link.receive(MS(10)), None);
+        link.repeat(MS(20), 1000);
+        assert_eq!(std::iter::from_fn(|| link.receive(MS(20))).count(), 5);
     }
 
     #[test]

@@ -43,11 +43,31 @@ start, or with a plus since the first take-off; # starts a comment.
   0     delay 20 jitter 15       milliseconds
   +2    loss 30                  percent; likewise duplicate, reorder, corrupt
   +5    outage 1.2               seconds without any datagram
+  +6    hold 0.8                 seconds of datagrams that arrive in a heap at their end
+  +7    burst 50                 so many of the last navdata packets arrive once more
   +8    freeze 2                 seconds of sensors that read the same
-  +12   lie altitude 0.5 for 3   metres; or velocity RIGHT FORWARD, or yaw DEGREES
+  +12   lie altitude 0.5 for 3   what is added to a quantity, for so many seconds
   +16   wind 1.5 -0.5 gusts 0.4  metres a second towards right and forward
-  +20   battery 15               percent
+  +20   battery 15               percent; likewise sag, what is lost under full load
+  +22   motor 70 over 2          percent of its thrust that are left, after so many seconds
+  +23   second-pilot 5           seconds of another client's orders to hover; its commands count
+                                 from 1, or with `from 5000` at the end from there
   +25   restart                  or propeller, which cuts the motors
+
+loss, outage and hold concern both directions, or with up or down behind the word only what goes to
+the drone or comes from it. A quantity is velocity-right, velocity-forward, altitude, yaw (or heading),
+roll, pitch or clock, in metres, degrees and seconds; each of these lasts so many seconds:
+
+  +8    stuck yaw for 3              it stays at what it read; with `at 20` at that
+  +8    dead altitude at 1.5 for 3   it stays at that, with its usual noise; else at zero
+  +8    lie velocity-right 0.5 for 3 that is added; `lie velocity RIGHT FORWARD` is two in one
+  +8    ramp heading 5 for 3         that is added each second
+  +8    nan pitch for 3              it is not a number; altitude and clock always are
+  +8    late altitude 0.5 for 3      it is told so many seconds late
+  +8    state ultrasound-deaf for 3  a bit of the state word is raised
+  +8    minor 6 for 3                the detail of the control state
+
+What is faulty is what navdata say. The drone's own hover and landing go on by the truth.
 
 Exit status: 0 stopped by Ctrl-C; 1 a port is taken, a file is wrong or a socket failed; 2 usage.";
 
@@ -86,6 +106,12 @@ struct DroneArguments {
     /// Charge at the start, in percent
     #[arg(long, value_name = "PERCENT", default_value_t = 90, value_parser = clap::value_parser!(u8).range(0..=100))]
     battery: u8,
+    /// What the charge seems to lose under full load, in percent
+    #[arg(long, value_name = "PERCENT", default_value_t = 0.0, value_parser = percentage)]
+    battery_sag: f64,
+    /// It flies already at this height in metres, as another pilot has left it
+    #[arg(long, value_name = "METRES", value_parser = not_negative)]
+    flies_at: Option<f64>,
     /// Which published model it flies by
     #[arg(long, value_enum, default_value_t = Airframe::Rec)]
     airframe: Airframe,
@@ -258,11 +284,13 @@ async fn stopped() {
 }
 
 fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
-    let DroneArguments { seed, battery, airframe, sensors, option_27, ref wind, gusts } =
+    let DroneArguments { seed, battery, airframe, sensors, option_27, ref wind, gusts, .. } =
         arguments.drone;
     let drone = DroneConfig {
         seed,
         battery_percent: f64::from(battery),
+        battery_sag_percent: arguments.drone.battery_sag,
+        flies_at_m: arguments.drone.flies_at,
         profile: match airframe {
             Airframe::Rec => Profile::rec(),
             Airframe::Tum => Profile::tum(),

@@ -100,6 +100,13 @@ impl SensorModel {
             initial_heading_deg: 171.0,
         }
     }
+
+    /// Standard deviation of the flow's white noise behind its own filter.
+    pub(crate) fn filtered_flow_noise_m_s(&self) -> f64 {
+        let period_s = FLOW_STEPS as f64 * STEP_S;
+        let share = period_s / (period_s + self.flow_filter.as_secs_f64());
+        self.flow_noise_m_s * (share / (2.0 - share)).sqrt()
+    }
 }
 
 /// What the sensors read now.
@@ -162,6 +169,13 @@ impl Sensors {
             odometry_m: Vector2::zeros(),
             model,
         }
+    }
+
+    /// The same sensors after the drone was switched off and on. What they were integrated to is
+    /// nothing that the drone knows: it goes on.
+    #[must_use]
+    pub fn restarted(self, seed: u64) -> Self {
+        Self { odometry_m: self.odometry_m, ..Self::new(self.model, seed) }
     }
 
     /// Looks at the airframe after physics step number `step`, at time `now`.
@@ -230,8 +244,9 @@ impl Sensors {
         }
     }
 
-    /// The drone's own velocity integrated without delay: the best that anybody can know of its
-    /// place who hears only navdata. (right, forward) from the start.
+    /// The velocity that the healthy sensors read, integrated without delay: the best that anybody
+    /// can know of the drone's place who hears only navdata. Injected faults are not in it.
+    /// (right, forward) from the start.
     pub fn odometry_m(&self) -> Vector2<f64> {
         self.odometry_m
     }
@@ -255,7 +270,12 @@ pub(crate) struct DelayLine<T> {
 
 impl<T: Copy + Default> DelayLine<T> {
     pub(crate) fn new(delay: Duration) -> Self {
-        Self { delay, waiting: VecDeque::new(), visible: T::default() }
+        Self::starting_at(T::default(), delay)
+    }
+
+    /// A line that shows this value until the first one has come through.
+    pub(crate) fn starting_at(value: T, delay: Duration) -> Self {
+        Self { delay, waiting: VecDeque::new(), visible: value }
     }
 
     pub(crate) fn push(&mut self, now: Duration, value: T) {

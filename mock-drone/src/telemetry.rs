@@ -33,6 +33,8 @@ pub(crate) struct Telemetry<'a> {
     pub(crate) firmware: &'a Firmware,
     pub(crate) airframe: &'a Airframe,
     pub(crate) reading: Reading,
+    /// The detail of the control state; 0 when all is well.
+    pub(crate) minor_state: u16,
     pub(crate) wind_m_s: Vector2<f64>,
     /// The drone's own clock.
     pub(crate) clock: Duration,
@@ -110,6 +112,7 @@ impl Telemetry<'_> {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let battery_percent = self.firmware.battery_percent().round() as u32;
         Demo {
+            control_state_minor: self.minor_state,
             control_state: self.firmware.control_state(),
             battery_percent,
             pitch_deg: self.reading.pitch_deg,

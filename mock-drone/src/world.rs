@@ -6,10 +6,12 @@ use std::time::Duration;
 
 use bytes::Bytes;
 
-use crate::drone::{Drone, DroneConfig, Lie, Truth};
+use crate::drone::{Drone, DroneConfig, Truth};
+use crate::faults::{Quantity, SensorFault};
 use crate::firmware::Phase;
 use crate::link::{Link, LinkFaults};
-use crate::scenario::{Action, Scenario};
+use crate::scenario::{Action, Direction, Scenario};
+use crate::second_pilot::SecondPilot;
 
 /// A world to fly in.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -46,9 +48,9 @@ pub struct World {
     down: Link<()>,
     scenario: Scenario,
     take_off: Option<Duration>,
-    outage_ends: Option<Duration>,
-    freeze_ends: Option<Duration>,
-    lie_ends: Option<Duration>,
+    /// When nothing is lost any more on the way up, and on the way down.
+    outage_ends: [Option<Duration>; 2],
+    second_pilot: Option<SecondPilot>,
     control: Option<String>,
 }
 
@@ -62,9 +64,8 @@ impl World {
             down: Link::new(config.link, seed.wrapping_add(1)),
             scenario: config.scenario.clone(),
             take_off: None,
-            outage_ends: None,
-            freeze_ends: None,
-            lie_ends: None,
+            outage_ends: [None; 2],
+            second_pilot: None,
             control: None,
         }
     }
@@ -87,21 +88,22 @@ impl World {
             let next = [
                 self.up.next_due(),
                 self.scenario.next_due(self.take_off),
-                self.outage_ends,
-                self.freeze_ends,
-                self.lie_ends,
+                self.outage_ends[0],
+                self.outage_ends[1],
+                self.second_pilot.as_ref().and_then(SecondPilot::next_due),
             ];
             let next = next.into_iter().flatten().min().filter(|next| *next <= now);
             let Some(time) = next.map(|next| next.max(self.drone.time())) else { break };
             self.live(time);
             self.change(time);
+            if let Some(datagram) =
+                self.second_pilot.as_mut().and_then(|other| other.datagram(time))
+            {
+                self.hear(time, datagram.as_bytes());
+            }
             while let Some((_, port, datagram)) = self.up.receive(time) {
                 match port {
-                    Port::At => {
-                        for error in self.drone.handle_at(time, &datagram) {
-                            tracing::debug!("{error}");
-                        }
-                    }
+                    Port::At => self.hear(time, &datagram),
                     Port::Navdata => self.drone.handle_wake_up(time),
                 }
             }
@@ -125,16 +127,24 @@ impl World {
         &self.drone
     }
 
+    fn hear(&mut self, now: Duration, datagram: &[u8]) {
+        for error in self.drone.handle_at(now, datagram) {
+            tracing::debug!("{error}");
+        }
+    }
+
     fn live(&mut self, now: Duration) {
         self.drone.advance(now);
-        if matches!(self.drone.truth().phase, Phase::TakingOff { .. }) {
+        // A drone that flies from the start has taken off then.
+        if matches!(self.drone.truth().phase, Phase::TakingOff { .. } | Phase::Flying) {
             self.take_off.get_or_insert(now);
         }
         while let Some(packet) = self.drone.poll_navdata() {
             self.down.send(now, (), packet);
         }
-        // TCP repeats what is lost.
+        // TCP repeats what is lost, and needs both directions.
         if !self.down.out
+            && !self.up.out
             && let Some(dump) = self.drone.poll_control()
         {
             self.control = Some(dump);
@@ -144,14 +154,12 @@ impl World {
     /// Ends what is over, begins what is due.
     fn change(&mut self, now: Duration) {
         let over = |end: &mut Duration| *end <= now;
-        if self.outage_ends.take_if(over).is_some() {
-            self.set_out(false);
+        let [up, down] = &mut self.outage_ends;
+        if up.take_if(over).is_some() {
+            self.up.out = false;
         }
-        if self.freeze_ends.take_if(over).is_some() {
-            self.drone.set_frozen(false);
-        }
-        if self.lie_ends.take_if(over).is_some() {
-            self.drone.set_lie(Lie::default());
+        if down.take_if(over).is_some() {
+            self.down.out = false;
         }
         for action in self.scenario.due(now, self.take_off) {
             tracing::info!("{action:?}");
@@ -161,39 +169,173 @@ impl World {
 
     fn act(&mut self, now: Duration, action: Action) {
         match action {
-            Action::Loss(share) => self.faults(|faults| faults.loss = share),
+            Action::Loss(direction, share) => {
+                self.faults(direction, |faults| faults.loss = share);
+            }
             Action::Delay(delay, jitter) => {
-                self.faults(|faults| (faults.delay, faults.jitter) = (delay, jitter));
+                self.faults(Direction::Both, |faults| {
+                    (faults.delay, faults.jitter) = (delay, jitter);
+                });
             }
-            Action::Duplication(share) => self.faults(|faults| faults.duplication = share),
-            Action::Reordering(share) => self.faults(|faults| faults.reordering = share),
-            Action::Corruption(share) => self.faults(|faults| faults.corruption = share),
-            Action::Outage(time) => {
-                self.set_out(true);
-                self.outage_ends = Some(now + time);
+            Action::Duplication(share) => {
+                self.faults(Direction::Both, |faults| faults.duplication = share);
             }
+            Action::Reordering(share) => {
+                self.faults(Direction::Both, |faults| faults.reordering = share);
+            }
+            Action::Corruption(share) => {
+                self.faults(Direction::Both, |faults| faults.corruption = share);
+            }
+            Action::Outage(direction, time) => self.cut_off(direction, now + time),
+            Action::Hold(direction, time) => {
+                if direction.is_up() {
+                    self.up.hold_until(now + time);
+                }
+                if direction.is_down() {
+                    self.down.hold_until(now + time);
+                }
+            }
+            Action::Burst(packets) => self.down.repeat(now, packets),
             Action::Restart => self.drone.restart(now),
             Action::Propeller => self.drone.block_propeller(),
             Action::Freeze(time) => {
-                self.drone.set_frozen(true);
-                self.freeze_ends = Some(now + time);
+                for quantity in Quantity::SENSED {
+                    self.drone.break_sensor(quantity, SensorFault::Stuck, time);
+                }
             }
-            Action::Lie(lie, time) => {
-                self.drone.set_lie(lie);
-                self.lie_ends = Some(now + time);
+            Action::Sensor(quantity, fault, time) => {
+                self.drone.break_sensor(quantity, fault, time);
             }
+            Action::State(bits, time) => self.drone.claim_state(bits, time),
+            Action::Minor(minor, time) => self.drone.claim_minor_state(minor, time),
+            Action::Motor(share, within) => self.drone.weaken_motor(share, within),
             Action::Wind(steady_m_s, gusts_m_s) => self.drone.set_wind(steady_m_s, gusts_m_s),
             Action::Battery(percent) => self.drone.set_battery_percent(percent),
+            Action::BatterySag(percent) => self.drone.set_battery_sag_percent(percent),
+            Action::SecondPilot(time, sequence) => {
+                self.second_pilot = Some(SecondPilot::new(now, time, sequence));
+            }
         }
     }
 
-    fn faults(&mut self, change: impl Fn(&mut LinkFaults)) {
-        change(&mut self.up.faults);
-        change(&mut self.down.faults);
+    fn faults(&mut self, direction: Direction, change: impl Fn(&mut LinkFaults)) {
+        if direction.is_up() {
+            change(&mut self.up.faults);
+        }
+        if direction.is_down() {
+            change(&mut self.down.faults);
+        }
     }
 
-    fn set_out(&mut self, out: bool) {
-        self.up.out = out;
-        self.down.out = out;
+    /// Nothing passes until then; of two outages the later end counts.
+    fn cut_off(&mut self, direction: Direction, ends: Duration) {
+        let [up, down] = &mut self.outage_ends;
+        if direction.is_up() {
+            self.up.out = true;
+            *up = (*up).max(Some(ends));
+        }
+        if direction.is_down() {
+            self.down.out = true;
+            *down = (*down).max(Some(ends));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ardrone_link::at::{Command, Config, Datagram, Motion, Ref};
+    use ardrone_link::navdata::Navdata;
+
+    use super::*;
+
+    const TICK: Duration = Duration::from_millis(30);
+
+    /// A world with a client that configures the drone and keeps it in the air.
+    struct Bench {
+        world: World,
+        now: Duration,
+        sequence: u32,
+        /// When each packet of navdata came, and its number.
+        heard: Vec<(Duration, u32)>,
+    }
+
+    impl Bench {
+        fn new(scenario: &str) -> Self {
+            let scenario = Scenario::parse("s.txt", scenario).unwrap();
+            let world = World::new(&WorldConfig { scenario, ..WorldConfig::default() });
+            let mut bench = Self { world, now: Duration::ZERO, sequence: 0, heard: Vec::new() };
+            bench.world.send_wake_up(Duration::ZERO, &[1, 0, 0, 0]);
+            bench.send(&Command::Config(Config::new("general:navdata_demo", "TRUE").unwrap()));
+            bench
+        }
+
+        fn send(&mut self, command: &Command) {
+            self.sequence += 1;
+            let mut datagram = Datagram::new();
+            datagram.push(self.sequence, command).unwrap();
+            self.world.send_at(self.now, datagram.as_bytes());
+        }
+
+        fn fly(&mut self, reference: Ref, seconds: u32) {
+            let end = self.now + Duration::from_secs(1) * seconds;
+            while self.now < end {
+                self.send(&Command::Ref(reference));
+                self.send(&Command::Pcmd(Motion::Hover));
+                self.now += TICK;
+                self.world.advance(self.now);
+                while let Some(message) = self.world.receive(self.now) {
+                    if let Message::Navdata(packet) = message {
+                        self.heard.push((self.now, Navdata::decode(&packet).unwrap().sequence));
+                    }
+                }
+            }
+        }
+
+        fn heard_between(&self, from_s: f64, to_s: f64) -> usize {
+            let is_between = |at: f64| (from_s..to_s).contains(&at);
+            self.heard.iter().filter(|(at, _)| is_between(at.as_secs_f64())).count()
+        }
+    }
+
+    #[test]
+    fn an_outage_may_concern_one_direction() {
+        let mut deaf = Bench::new("8 outage up 8");
+        deaf.fly(Ref::TakeOff, 15);
+        assert_eq!(deaf.world.truth().phase, Phase::Landed, "the drone has heard nobody");
+        assert!(deaf.heard_between(8.1, 9.9) > 20, "but said that it lives");
+        let mut dumb = Bench::new("8 outage down 6");
+        dumb.fly(Ref::TakeOff, 15);
+        assert_eq!(dumb.world.truth().phase, Phase::Flying);
+        assert_eq!(dumb.heard_between(8.1, 14.0), 0);
+        assert!(dumb.heard_between(14.0, 15.0) > 10);
+    }
+
+    #[test]
+    fn what_is_held_comes_in_a_heap_and_old_packets_come_again() {
+        let mut bench = Bench::new("3 hold down 1\n6 burst 20");
+        bench.fly(Ref::Land, 8);
+        assert_eq!(bench.heard_between(3.05, 4.0), 0);
+        assert!(bench.heard_between(4.0, 4.05) > 12);
+        let again = bench.heard.windows(2).filter(|pair| pair[1].1 <= pair[0].1).count();
+        assert_eq!(again, 1, "a heap of old ones");
+        assert!(bench.heard_between(5.95, 6.05) >= 20);
+    }
+
+    #[test]
+    fn a_second_pilot_keeps_the_drone_in_the_air() {
+        let mut bench = Bench::new("6 second-pilot 8 from 5000");
+        bench.fly(Ref::TakeOff, 7);
+        bench.fly(Ref::Land, 5);
+        assert_eq!(bench.world.truth().phase, Phase::Flying, "its numbers are higher");
+        bench.fly(Ref::Land, 14);
+        assert_eq!(bench.world.truth().phase, Phase::Landed, "it has gone");
+    }
+
+    #[test]
+    fn a_frozen_drone_tells_the_same_with_a_running_clock() {
+        let mut bench = Bench::new("+6 freeze 2\n+6 stuck clock for 1");
+        bench.fly(Ref::TakeOff, 10);
+        assert_eq!(bench.world.truth().phase, Phase::Flying);
+        assert!(bench.heard_between(6.0, 8.0) > 25, "packets keep coming");
     }
 }

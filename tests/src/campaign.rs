@@ -14,9 +14,9 @@ use autopilot::sim::{Moment, Simulation, SimulationError};
 use autopilot::{Demand, Plan};
 use mock_drone::airframe::{Profile, ThrustLaw};
 use mock_drone::firmware::Phase;
-use mock_drone::scenario::{Action, Scenario, When};
+use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::sensors::SensorModel;
-use mock_drone::{DroneConfig, Lie, LinkFaults, WorldConfig};
+use mock_drone::{DroneConfig, LinkFaults, Quantity, SensorFault, WorldConfig};
 use nalgebra::Vector2;
 use rand::{Rng, RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
@@ -291,16 +291,16 @@ fn link(random: &mut impl Rng) -> LinkFaults {
 
 fn accident(random: &mut impl Rng, strongest_m_s: f64) -> Action {
     match random.random_range(0..9) {
-        0 => Action::Outage(seconds(random, 0.2, 10.0)),
+        0 => Action::Outage(Direction::Both, seconds(random, 0.2, 10.0)),
         1 => Action::Restart,
         2 => Action::Freeze(seconds(random, 0.2, 8.0)),
         3 | 4 => {
-            let lie = match random.random_range(0..3) {
-                0 => Lie { altitude_m: random.random_range(-1.0..1.0), ..Lie::default() },
-                1 => Lie { velocity_m_s: wind(random, 3.0), ..Lie::default() },
-                _ => Lie { yaw_deg: random.random_range(-60.0..60.0), ..Lie::default() },
+            let (quantity, offset) = match random.random_range(0..3) {
+                0 => (Quantity::Altitude, random.random_range(-1.0..1.0)),
+                1 => (Quantity::VelocityRight, random.random_range(-3.0..3.0)),
+                _ => (Quantity::Yaw, random.random_range(-60.0..60.0)),
             };
-            Action::Lie(lie, seconds(random, 0.2, 8.0))
+            Action::Sensor(quantity, SensorFault::Offset(offset), seconds(random, 0.2, 8.0))
         }
         5 => {
             let steady_m_s = wind(random, 0.6 * strongest_m_s);
@@ -309,9 +309,9 @@ fn accident(random: &mut impl Rng, strongest_m_s: f64) -> Action {
             Action::Wind(steady_m_s, random.random_range(0.0..0.3) * left_m_s)
         }
         6 => Action::Battery(random.random_range(3.0..30.0)),
-        7 => Action::Loss(random.random_range(0.0..0.6)),
+        7 => Action::Loss(Direction::Both, random.random_range(0.0..0.6)),
         _ if random.random_bool(0.2) => Action::Propeller,
-        _ => Action::Outage(seconds(random, 0.1, 1.5)),
+        _ => Action::Outage(Direction::Both, seconds(random, 0.1, 1.5)),
     }
 }
 

@@ -7,7 +7,7 @@ use autopilot::pilot::{FlightEvent, LandingReason, PilotOrder};
 use autopilot::sim::{SimulatedFlight, Simulation};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
-use mock_drone::scenario::{Action, Scenario, When};
+use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, WorldConfig};
 use system_tests::{SQUARE, plan, true_error_m};
@@ -166,8 +166,9 @@ fn the_pilots_order_is_obeyed_at_every_moment() {
 
 #[test]
 fn a_short_outage_is_survived_and_a_long_one_lands() {
-    let outage =
-        |from: u32, to: u32| happens(SECOND * from / 10, Action::Outage(SECOND * (to - from) / 10));
+    let outage = |from: u32, to: u32| {
+        happens(SECOND * from / 10, Action::Outage(Direction::Both, SECOND * (to - from) / 10))
+    };
     let mut hovered = 0;
     let flight = outage(80, 90)
         .fly_watched(plan(SQUARE), |moment| {
@@ -189,7 +190,8 @@ fn a_short_outage_is_survived_and_a_long_one_lands() {
 
 #[test]
 fn a_drone_that_never_answers_is_reported_soon() {
-    let flight = fly(&happens(Duration::ZERO, Action::Outage(100 * SECOND)), SQUARE);
+    let flight =
+        fly(&happens(Duration::ZERO, Action::Outage(Direction::Both, 100 * SECOND)), SQUARE);
     assert_eq!(flight.outcome, Outcome::NoDrone);
     assert!(flight.duration <= 6 * SECOND);
 }

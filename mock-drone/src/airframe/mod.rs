@@ -5,6 +5,8 @@
 
 mod profile;
 
+use std::time::Duration;
+
 use nalgebra::{Vector2, Vector3};
 
 pub use profile::{AttitudeLoop, Profile, Scaling, ThrustLaw};
@@ -47,6 +49,42 @@ pub struct Airframe {
     yaw_rad: f64,
     turn_rad_s: f64,
     trim_rad: Vector2<f64>,
+    motor: Motor,
+    floor_contacts: u32,
+    touch_down_m_s: Option<f64>,
+}
+
+/// A motor that may weaken: the drone leans to its side, sinks, and obeys less.
+#[derive(Debug, Clone, Copy)]
+struct Motor {
+    /// What is left of its thrust, from 0 to 1.
+    share: f64,
+    goal: f64,
+    change_1_s: f64,
+}
+
+impl Motor {
+    const HEALTHY: Self = Self { share: 1.0, goal: 1.0, change_1_s: 0.0 };
+    /// A motor without any thrust would make the drone lean and sink by so much. Crude: it is to
+    /// disturb, not to foretell.
+    const LEAN_RAD: f64 = 0.3;
+    const SINK_M_S: f64 = 1.5;
+
+    fn step(&mut self) {
+        let left = self.goal - self.share;
+        self.share += left.signum() * (self.change_1_s * STEP_S).min(left.abs());
+    }
+
+    /// What becomes of a demand.
+    fn carry_out(&self, demand: &Attitude) -> Attitude {
+        let lost = 1.0 - self.share;
+        Attitude {
+            pitch_rad: demand.pitch_rad * self.share,
+            roll_rad: demand.roll_rad * self.share + lost * Self::LEAN_RAD,
+            climb_m_s: demand.climb_m_s * self.share - lost * Self::SINK_M_S,
+            turn_rad_s: demand.turn_rad_s * self.share,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -77,16 +115,40 @@ impl Airframe {
             yaw_rad: 0.0,
             turn_rad_s: 0.0,
             trim_rad,
+            motor: Motor::HEALTHY,
+            floor_contacts: 0,
+            touch_down_m_s: None,
         }
+    }
+
+    /// The same drone, at rest at a height above the origin.
+    #[must_use]
+    pub fn at_height(mut self, height_m: f64) -> Self {
+        self.position_m.z = height_m.max(0.0);
+        self
+    }
+
+    /// A motor weakens to this share of its thrust, from 0 to 1, within a time.
+    pub fn weaken_motor(&mut self, share: f64, within: Duration) {
+        let motor = &mut self.motor;
+        motor.goal = share.clamp(0.0, 1.0);
+        let change = (motor.goal - motor.share).abs();
+        motor.change_1_s = change / within.as_secs_f64().max(STEP_S);
     }
 
     /// One step of [`STEP_S`] seconds, in a wind that blows towards (right, forward).
     pub fn step(&mut self, thrust: Thrust, wind_m_s: Vector2<f64>) {
+        let was_up = self.position_m.z > 0.0;
+        self.motor.step();
         match thrust {
-            Thrust::On(demand) => self.fly(&demand, wind_m_s),
+            Thrust::On(demand) => self.fly(&self.motor.carry_out(&demand), wind_m_s),
             Thrust::Off => self.fall(wind_m_s),
         }
         if self.position_m.z <= 0.0 {
+            if was_up {
+                self.floor_contacts += 1;
+                self.touch_down_m_s = Some(-self.velocity_m_s.z);
+            }
             self.position_m.z = 0.0;
             self.velocity_m_s.z = self.velocity_m_s.z.max(0.0);
             if thrust == Thrust::Off {
@@ -150,6 +212,16 @@ impl Airframe {
     /// How fast it rolls, pitches and turns.
     pub fn angular_rate_rad_s(&self) -> Vector3<f64> {
         Vector3::new(self.roll.rate_rad_s, self.pitch.rate_rad_s, self.turn_rad_s)
+    }
+
+    /// How often it came down on the floor.
+    pub fn floor_contacts(&self) -> u32 {
+        self.floor_contacts
+    }
+
+    /// How fast it sank when it last came down on the floor.
+    pub fn touch_down_m_s(&self) -> Option<f64> {
+        self.touch_down_m_s
     }
 
     /// Right, forward, up.
@@ -256,6 +328,33 @@ mod tests {
             let aside = fly_as(profile, Attitude { roll_rad, ..Attitude::default() }, 30.0);
             assert!((aside.velocity_m_s().x - right).abs() < 0.1, "{profile:?}");
         }
+    }
+
+    #[test]
+    fn a_weak_motor_makes_the_drone_lean_and_sink() {
+        let mut airframe = fly(Attitude::default(), 0.1);
+        airframe.weaken_motor(0.8, Duration::from_secs(1));
+        for _ in 0..800 {
+            airframe.step(Thrust::On(Attitude::default()), Vector2::zeros());
+        }
+        assert!((airframe.roll_rad() - 0.06).abs() < 0.005, "{}", airframe.roll_rad());
+        assert!((airframe.velocity_m_s().z + 0.3).abs() < 0.1, "{}", airframe.velocity_m_s());
+    }
+
+    #[test]
+    fn each_meeting_with_the_floor_is_counted_with_its_speed() {
+        let mut airframe = fly(Attitude::default(), 0.1);
+        for _ in 0..2 {
+            let climb = |climb_m_s| Thrust::On(Attitude { climb_m_s, ..Attitude::default() });
+            for thrust in [climb(0.5), climb(-0.5), climb(-0.5)] {
+                for _ in 0..1200 {
+                    airframe.step(thrust, Vector2::zeros());
+                }
+            }
+        }
+        assert_eq!(airframe.floor_contacts(), 2);
+        let speed_m_s = airframe.touch_down_m_s().unwrap();
+        assert!((speed_m_s - 0.5).abs() < 0.05, "{speed_m_s}");
     }
 
     #[test]

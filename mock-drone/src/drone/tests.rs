@@ -227,6 +227,92 @@ fn the_ceiling_holds() {
 }
 
 #[test]
+fn navdata_say_something_wrong_while_the_drone_hovers_by_the_truth() {
+    let mut bench = Bench::ready(&DroneConfig::default());
+    bench.fly(Ref::TakeOff, HOVER, 5.0);
+    bench.drone.break_sensor(Quantity::Altitude, SensorFault::StuckAt(5.0), TICK * 20);
+    bench.drone.break_sensor(Quantity::VelocityRight, SensorFault::NotANumber, TICK * 20);
+    let place = bench.drone.truth();
+    bench.fly(Ref::TakeOff, HOVER, 0.5);
+    let demo = bench.last().demo.unwrap();
+    assert!((demo.altitude_m - 5.0).abs() < 1e-3 && demo.velocity_right_m_s.is_nan());
+    let moved = bench.drone.truth().position_m - place.position_m;
+    assert!(moved.norm() < 0.1, "{moved}");
+    bench.fly(Ref::TakeOff, HOVER, 0.5);
+    let demo = bench.last().demo.unwrap();
+    assert!((demo.altitude_m - 0.85).abs() < 0.1 && demo.velocity_right_m_s.is_finite());
+    let drift_m = (bench.drone.truth().drift_m() - place.drift_m()).norm();
+    assert!(drift_m < 0.1, "the odometry is that of healthy sensors: {drift_m}");
+}
+
+#[test]
+fn the_drone_claims_states_for_a_time() {
+    let mut bench = Bench::ready(&DroneConfig::default());
+    bench.drone.claim_state(DroneState::ULTRASOUND_DEAF, TICK * 10);
+    bench.drone.claim_minor_state(6, TICK * 20);
+    let mut heard = |time| {
+        bench.wait(time);
+        let deaf = bench.last().state.contains(DroneState::ULTRASOUND_DEAF);
+        (deaf, bench.last().demo.unwrap().control_state_minor)
+    };
+    assert_eq!(heard(TICK * 6), (true, 6));
+    assert_eq!(heard(TICK * 8), (false, 6));
+    assert_eq!(heard(TICK * 10), (false, 0));
+}
+
+#[test]
+fn a_drone_that_flies_from_the_start_hovers_and_lands_without_a_pilot() {
+    let flying = DroneConfig { flies_at_m: Some(1.5), ..DroneConfig::default() };
+    let mut bench = Bench::new(&flying);
+    bench.wait(Duration::from_secs(1));
+    assert_eq!(bench.control_state(), ControlState::Hovering);
+    let truth = bench.drone.truth();
+    assert!((truth.position_m.z - 1.5).abs() < 0.1 && truth.phase == Phase::Flying, "{truth:?}");
+    bench.wait(Duration::from_secs(10));
+    assert_eq!(bench.drone.truth().phase, Phase::Landed);
+}
+
+#[test]
+fn a_battery_that_sags_seems_emptier_in_flight() {
+    let tired =
+        DroneConfig { battery_percent: 30.0, battery_sag_percent: 33.0, ..DroneConfig::default() };
+    let mut bench = Bench::ready(&tired);
+    assert!(bench.drone.battery_percent() > 29.9);
+    bench.fly(Ref::TakeOff, HOVER, 3.0);
+    assert!(bench.last().demo.unwrap().battery_percent < 10);
+    assert!(bench.last().state.contains(DroneState::BATTERY_LOW));
+    bench.fly(Ref::Land, HOVER, 6.0);
+    assert_eq!(bench.drone.truth().phase, Phase::Landed);
+    assert!(bench.drone.battery_percent() > 28.0, "without load it recovers");
+}
+
+#[test]
+fn the_truth_counts_meetings_with_the_floor_and_tells_their_speed() {
+    let mut bench = Bench::ready(&DroneConfig::default());
+    bench.fly(Ref::TakeOff, HOVER, 5.0);
+    bench.fly(Ref::TakeOff, progressive(0.0, 0.0, -1.0, 0.0), 3.0);
+    let truth = bench.drone.truth();
+    assert_eq!(truth.floor_contacts, 1);
+    assert!(truth.touch_down_m_s.is_some_and(|speed_m_s| speed_m_s > 0.5), "{truth:?}");
+    let mut bench = Bench::ready(&DroneConfig::default());
+    bench.fly(Ref::TakeOff, HOVER, 5.0);
+    bench.fly(Ref::Land, HOVER, 5.0);
+    let truth = bench.drone.truth();
+    assert_eq!(truth.floor_contacts, 0, "a landing is no accident");
+    assert!(truth.touch_down_m_s.is_some_and(|speed_m_s| speed_m_s < 0.3), "{truth:?}");
+}
+
+#[test]
+fn what_is_known_of_the_place_outlives_a_restart() {
+    let mut bench = Bench::ready(&DroneConfig::default());
+    bench.fly(Ref::TakeOff, HOVER, 5.0);
+    bench.fly(Ref::TakeOff, progressive(0.0, -0.5, 0.0, 0.0), 2.0);
+    bench.drone.restart(bench.now);
+    let truth = bench.drone.truth();
+    assert!(truth.odometry_m.y > 0.5 && truth.drift_m().norm() < 0.2, "{truth:?}");
+}
+
+#[test]
 fn the_same_seed_flies_the_same_flight() {
     let fly = || {
         let mut bench = Bench::ready(&DroneConfig::default());

@@ -1,0 +1,303 @@
+//! What a drone with broken sensors tells instead of what they read.
+//!
+//! Only what navdata say is wrong: the firmware's own hover and landing go on by the true motion, as
+//! those of a drone whose control loop is well and whose telemetry is not.
+
+use std::time::Duration;
+
+use rand::SeedableRng as _;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution as _, StandardNormal};
+
+use crate::sensors::{DelayLine, Reading, SensorModel};
+
+/// Something that navdata tell and that can be wrong alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Quantity {
+    /// Velocity towards the drone's right, in metres a second.
+    VelocityRight,
+    /// Velocity towards the drone's front, in metres a second.
+    VelocityForward,
+    /// Height above the ground, in metres. Whole millimetres on the wire: it is never not a number.
+    Altitude,
+    /// Heading, clockwise, in degrees.
+    Yaw,
+    /// Right side down, in degrees.
+    Roll,
+    /// Nose up, in degrees.
+    Pitch,
+    /// The drone's clock, in seconds. Whole microseconds on the wire: it is never not a number.
+    Clock,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::VelocityRight,
+        Self::VelocityForward,
+        Self::Altitude,
+        Self::Yaw,
+        Self::Roll,
+        Self::Pitch,
+        Self::Clock,
+    ];
+
+    /// Those that a sensor reads.
+    pub const SENSED: [Self; 6] = [
+        Self::VelocityRight,
+        Self::VelocityForward,
+        Self::Altitude,
+        Self::Yaw,
+        Self::Roll,
+        Self::Pitch,
+    ];
+
+    /// Whether it is a float on the wire, so that it can be not a number.
+    pub fn is_float(self) -> bool {
+        !matches!(self, Self::Altitude | Self::Clock)
+    }
+
+    /// Standard deviation of its noise in navdata.
+    fn noise(self, model: &SensorModel) -> f64 {
+        match self {
+            Self::VelocityRight | Self::VelocityForward => model.filtered_flow_noise_m_s(),
+            Self::Altitude => model.altitude_noise_m,
+            Self::Yaw => model.yaw_noise_deg,
+            Self::Roll | Self::Pitch => model.attitude_noise_deg,
+            Self::Clock => 0.0,
+        }
+    }
+}
+
+/// How a quantity is wrong.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SensorFault {
+    /// It stays at what it read.
+    Stuck,
+    /// It stays at this.
+    StuckAt(f64),
+    /// It stays at this, with its usual noise: a dead sensor that still rattles.
+    DeadAt(f64),
+    /// So much is added.
+    Offset(f64),
+    /// So much is added a second.
+    Ramp(f64),
+    /// It is not a number. What is no float on the wire reads zero.
+    NotANumber,
+    /// It is told so much later than the sensor's own delay.
+    Late(Duration),
+}
+
+/// What navdata tell of the drone's motion, and when.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Told {
+    pub(crate) reading: Reading,
+    /// The drone's own clock.
+    pub(crate) clock: Duration,
+}
+
+/// The clock starts again from zero after so long.
+const CLOCK_WRAP_S: f64 = 2048.0;
+
+impl Told {
+    fn get(&self, quantity: Quantity) -> f64 {
+        let reading = &self.reading;
+        match quantity {
+            Quantity::VelocityRight => reading.velocity_m_s.x,
+            Quantity::VelocityForward => reading.velocity_m_s.y,
+            Quantity::Altitude => reading.altitude_m,
+            Quantity::Yaw => reading.yaw_deg,
+            Quantity::Roll => reading.roll_deg,
+            Quantity::Pitch => reading.pitch_deg,
+            Quantity::Clock => self.clock.as_secs_f64(),
+        }
+    }
+
+    fn set(&mut self, quantity: Quantity, value: f64) {
+        let reading = &mut self.reading;
+        match quantity {
+            Quantity::VelocityRight => reading.velocity_m_s.x = value,
+            Quantity::VelocityForward => reading.velocity_m_s.y = value,
+            Quantity::Altitude => reading.altitude_m = value,
+            Quantity::Yaw => reading.yaw_deg = (value + 180.0).rem_euclid(360.0) - 180.0,
+            Quantity::Roll => reading.roll_deg = value,
+            Quantity::Pitch => reading.pitch_deg = value,
+            Quantity::Clock => {
+                let since_wrap_s = value.rem_euclid(CLOCK_WRAP_S);
+                self.clock = Duration::try_from_secs_f64(since_wrap_s).unwrap_or_default();
+            }
+        }
+    }
+}
+
+/// The faults of one drone's sensors, several at once.
+#[derive(Debug, Clone)]
+pub(crate) struct SensorFaults {
+    random: ChaCha8Rng,
+    /// In the order in which they began: each sees what the earlier ones left.
+    active: Vec<ActiveFault>,
+}
+
+#[derive(Debug, Clone)]
+struct ActiveFault {
+    quantity: Quantity,
+    began: Duration,
+    ends: Duration,
+    effect: Effect,
+}
+
+#[derive(Debug, Clone)]
+enum Effect {
+    StuckAt(f64),
+    DeadAt(f64),
+    Offset(f64),
+    Ramp(f64),
+    Late(DelayLine<f64>),
+}
+
+impl SensorFaults {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self { random: ChaCha8Rng::seed_from_u64(seed ^ 0x6661_756c), active: Vec::new() }
+    }
+
+    /// A fault begins, for a time; `told` is what would be told now without it.
+    pub(crate) fn begin(
+        &mut self,
+        now: Duration,
+        quantity: Quantity,
+        fault: SensorFault,
+        time: Duration,
+        told: &Told,
+    ) {
+        let effect = match fault {
+            SensorFault::Stuck => Effect::StuckAt(told.get(quantity)),
+            SensorFault::StuckAt(value) => Effect::StuckAt(value),
+            SensorFault::DeadAt(value) => Effect::DeadAt(value),
+            SensorFault::Offset(offset) => Effect::Offset(offset),
+            SensorFault::Ramp(rate) => Effect::Ramp(rate),
+            SensorFault::NotANumber => {
+                Effect::StuckAt(if quantity.is_float() { f64::NAN } else { 0.0 })
+            }
+            SensorFault::Late(delay) => {
+                Effect::Late(DelayLine::starting_at(told.get(quantity), delay))
+            }
+        };
+        self.active.push(ActiveFault { quantity, began: now, ends: now + time, effect });
+    }
+
+    /// Changes what is told at `now`.
+    pub(crate) fn apply(&mut self, now: Duration, model: &SensorModel, told: &mut Told) {
+        self.active.retain(|fault| fault.ends > now);
+        for ActiveFault { quantity, began, effect, .. } in &mut self.active {
+            let value = told.get(*quantity);
+            let wrong = match effect {
+                Effect::StuckAt(stuck) => *stuck,
+                Effect::DeadAt(dead) => {
+                    let noise: f64 = StandardNormal.sample(&mut self.random);
+                    *dead + noise * quantity.noise(model)
+                }
+                Effect::Offset(offset) => value + *offset,
+                Effect::Ramp(rate) => value + *rate * now.saturating_sub(*began).as_secs_f64(),
+                Effect::Late(line) => {
+                    line.push(now, value);
+                    line.read(now)
+                }
+            };
+            told.set(*quantity, wrong);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECOND: Duration = Duration::from_secs(1);
+    const MODEL: fn() -> SensorModel = SensorModel::nominal;
+
+    /// A quantity that reads the seconds since the start.
+    fn healthy(quantity: Quantity, now: Duration) -> Told {
+        let mut told = Told { reading: Reading::default(), clock: Duration::ZERO };
+        told.set(quantity, now.as_secs_f64());
+        told
+    }
+
+    /// What is told at 1.5 s and at 3.5 s of a fault from 1 s to 3 s.
+    fn told(quantity: Quantity, fault: SensorFault) -> [f64; 2] {
+        let mut faults = SensorFaults::new(1);
+        faults.begin(SECOND, quantity, fault, 2 * SECOND, &healthy(quantity, SECOND));
+        [SECOND + SECOND / 2, 3 * SECOND + SECOND / 2].map(|now| {
+            let mut told = healthy(quantity, now);
+            faults.apply(now, &MODEL(), &mut told);
+            told.get(quantity)
+        })
+    }
+
+    #[test]
+    fn each_fault_does_what_it_says_and_ends() {
+        for quantity in Quantity::ALL {
+            for (fault, during) in [
+                (SensorFault::Stuck, 1.0),
+                (SensorFault::StuckAt(5.0), 5.0),
+                (SensorFault::Offset(2.0), 3.5),
+                (SensorFault::Ramp(4.0), 3.5),
+                (SensorFault::Late(SECOND), 1.0),
+            ] {
+                let [then, later] = told(quantity, fault);
+                assert!((then - during).abs() < 1e-9, "{quantity:?} {fault:?}: {then}");
+                assert!((later - 3.5).abs() < 1e-9, "{quantity:?} {fault:?}: {later}");
+            }
+            let [then, later] = told(quantity, SensorFault::NotANumber);
+            assert_eq!(then.is_nan(), quantity.is_float(), "{quantity:?}: {then}");
+            assert!((later - 3.5).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_dead_sensor_rattles_as_a_healthy_one() {
+        for quantity in Quantity::SENSED {
+            let mut faults = SensorFaults::new(1);
+            let at = healthy(quantity, SECOND);
+            faults.begin(SECOND, quantity, SensorFault::DeadAt(0.5), SECOND, &at);
+            let values: Vec<f64> = (0..500)
+                .map(|step| {
+                    let now = SECOND + Duration::from_millis(step);
+                    let mut told = healthy(quantity, now);
+                    faults.apply(now, &MODEL(), &mut told);
+                    told.get(quantity) - 0.5
+                })
+                .collect();
+            let deviation = (values.iter().map(|value| value.powi(2)).sum::<f64>() / 500.0).sqrt();
+            let usual = quantity.noise(&MODEL());
+            assert!((deviation / usual - 1.0).abs() < 0.15, "{quantity:?}: {deviation} {usual}");
+        }
+    }
+
+    #[test]
+    fn several_quantities_are_wrong_at_once_and_others_stay() {
+        let mut faults = SensorFaults::new(1);
+        let at = healthy(Quantity::Roll, SECOND);
+        faults.begin(SECOND, Quantity::Yaw, SensorFault::Offset(170.0), SECOND, &at);
+        faults.begin(SECOND, Quantity::Yaw, SensorFault::Offset(20.0), SECOND, &at);
+        faults.begin(SECOND, Quantity::Clock, SensorFault::Offset(-1.0), SECOND, &at);
+        let mut told = at;
+        faults.apply(SECOND, &MODEL(), &mut told);
+        assert!((told.get(Quantity::Yaw) + 170.0).abs() < 1e-9, "headings turn round");
+        assert!((told.get(Quantity::Clock) - 2047.0).abs() < 1e-9, "and so does the clock");
+        assert!((told.get(Quantity::Roll) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_is_late_arrives_in_order_with_its_delay() {
+        let mut faults = SensorFaults::new(1);
+        let at = healthy(Quantity::Pitch, SECOND);
+        faults.begin(SECOND, Quantity::Pitch, SensorFault::Late(SECOND / 2), 9 * SECOND, &at);
+        for step in 0..100_u32 {
+            let now = SECOND + SECOND / 10 * step;
+            let mut told = healthy(Quantity::Pitch, now);
+            faults.apply(now, &MODEL(), &mut told);
+            let expected = if step < 90 { now.saturating_sub(SECOND / 2).max(SECOND) } else { now };
+            assert!((told.get(Quantity::Pitch) - expected.as_secs_f64()).abs() < 1e-9, "{step}");
+        }
+    }
+}

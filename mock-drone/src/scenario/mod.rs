@@ -1,0 +1,268 @@
+//! Faults over time, as a text that anybody can write.
+//!
+//! ```text
+//! # seconds since the start, or with a plus since the first take-off
+//! 0     delay 20 jitter 15       # milliseconds
+//! +2    loss 30                  # percent
+//! +5    outage 1.2               # seconds
+//! +8    lie altitude 0.5 for 3   # metres, seconds
+//! +9    stuck yaw for 2
+//! +12   wind 1.5 -0.5 gusts 0.4  # metres a second towards right and forward
+//! +20   restart
+//! ```
+
+mod parser;
+
+use std::time::Duration;
+
+use ardrone_link::navdata::DroneState;
+use diagnostic::{Source, render_all};
+use nalgebra::Vector2;
+
+use crate::faults::{Quantity, SensorFault};
+
+/// What happens, and when.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Scenario {
+    entries: Vec<Entry>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Entry {
+    when: When,
+    action: Action,
+}
+
+/// When something happens.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum When {
+    /// So long after the start.
+    SinceStart(Duration),
+    /// So long after the first take-off.
+    SinceTakeOff(Duration),
+}
+
+/// Which datagrams a fault of the link concerns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// From the pilot to the drone.
+    Up,
+    /// From the drone to the pilot.
+    Down,
+    /// All.
+    Both,
+}
+
+impl Direction {
+    pub(crate) fn is_up(self) -> bool {
+        self != Self::Down
+    }
+
+    pub(crate) fn is_down(self) -> bool {
+        self != Self::Up
+    }
+}
+
+/// Something that happens. Shares are probabilities from 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Action {
+    /// Datagrams are lost.
+    Loss(Direction, f64),
+    /// Datagrams take so long, and up to so much more.
+    Delay(Duration, Duration),
+    /// Datagrams arrive twice.
+    Duplication(f64),
+    /// Datagrams change their order.
+    Reordering(f64),
+    /// Datagrams are spoiled.
+    Corruption(f64),
+    /// Nothing passes for a while: it is lost.
+    Outage(Direction, Duration),
+    /// Nothing arrives for a while, and then all of it at once.
+    Hold(Direction, Duration),
+    /// So many of the last navdata packets arrive once more, at once.
+    Burst(usize),
+    /// The drone is switched off and on again.
+    Restart,
+    /// Something stops a propeller.
+    Propeller,
+    /// All that sensors read stays the same for a while; the drone's clock goes on.
+    Freeze(Duration),
+    /// One thing that navdata tell is wrong for a while.
+    Sensor(Quantity, SensorFault, Duration),
+    /// The drone raises bits of its state word for a while.
+    State(DroneState, Duration),
+    /// The drone tells this detail of its control state for a while.
+    Minor(u16, Duration),
+    /// A motor weakens to this share of its thrust, within a time.
+    Motor(f64, Duration),
+    /// The wind towards (right, forward), and the deviation of its gusts.
+    Wind(Vector2<f64>, f64),
+    /// The charge in percent.
+    Battery(f64),
+    /// So many percent less charge seem to be left at full load.
+    BatterySag(f64),
+    /// Another pilot tells the drone to hover for a while; its commands are numbered from this on.
+    SecondPilot(Duration, u32),
+}
+
+/// A scenario that could not be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{rendered}")]
+pub struct ScenarioError {
+    /// Everything that is wrong, with line and column.
+    pub rendered: String,
+}
+
+impl Scenario {
+    /// A scenario of one action.
+    #[must_use]
+    pub fn and(mut self, when: When, action: Action) -> Self {
+        self.entries.push(Entry { when, action });
+        self
+    }
+
+    /// Reads a scenario; `name` is its file's name for messages.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] with everything that is wrong.
+    pub fn parse(name: &str, text: &str) -> Result<Self, ScenarioError> {
+        let (entries, diagnostics) = parser::parse(text);
+        if diagnostics.is_empty() {
+            return Ok(Self { entries });
+        }
+        let rendered = render_all(&diagnostics, &Source { name, text });
+        Err(ScenarioError { rendered })
+    }
+
+    /// Takes out what is due, in the order in which it was written.
+    pub(crate) fn due(&mut self, now: Duration, take_off: Option<Duration>) -> Vec<Action> {
+        let is_due = |entry: &mut Entry| entry.time(take_off).is_some_and(|time| time <= now);
+        self.entries.extract_if(.., is_due).map(|entry| entry.action).collect()
+    }
+
+    /// When the next action is due, as far as that is known.
+    pub(crate) fn next_due(&self, take_off: Option<Duration>) -> Option<Duration> {
+        self.entries.iter().filter_map(|entry| entry.time(take_off)).min()
+    }
+}
+
+impl Entry {
+    fn time(&self, take_off: Option<Duration>) -> Option<Duration> {
+        match self.when {
+            When::SinceStart(time) => Some(time),
+            When::SinceTakeOff(time) => take_off.map(|take_off| take_off + time),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scenario_is_read_and_its_actions_come_when_they_are_due() {
+        let text = "# faults\n0 delay 20 jitter 15\n+2 loss 30\n\n+5.5 outage 1.2 # gone\n\
+                    1 wind 1.5 -0.5 gusts 0.4\n+8 lie altitude 0.5 for 3\n+9 restart\n";
+        let mut scenario = Scenario::parse("s.txt", text).unwrap();
+        let seconds = Duration::from_secs_f64;
+        assert_eq!(scenario.next_due(None), Some(Duration::ZERO));
+        let delay = Action::Delay(seconds(0.02), seconds(0.015));
+        let wind = Action::Wind(Vector2::new(1.5, -0.5), 0.4);
+        assert_eq!(scenario.due(seconds(1.0), None), [delay, wind]);
+        assert_eq!(scenario.due(seconds(100.0), None), []);
+        assert_eq!(scenario.next_due(Some(seconds(100.0))), Some(seconds(102.0)));
+        assert_eq!(
+            scenario.due(seconds(102.0), Some(seconds(100.0))),
+            [Action::Loss(Direction::Both, 0.3)]
+        );
+        assert_eq!(scenario.due(seconds(200.0), Some(seconds(100.0))).len(), 3);
+        assert_eq!(scenario, Scenario::default());
+    }
+
+    /// The actions of a text, all of them due.
+    fn actions(text: &str) -> Vec<Action> {
+        let mut scenario = Scenario::parse("s.txt", text).unwrap_or_else(|error| panic!("{error}"));
+        scenario.due(Duration::from_hours(1), None)
+    }
+
+    #[test]
+    fn each_quantity_can_be_wrong_in_each_way() {
+        use SensorFault as Fault;
+
+        let second = Duration::from_secs(1);
+        for (text, quantity, fault) in [
+            ("stuck velocity-right", Quantity::VelocityRight, Fault::Stuck),
+            ("stuck velocity-forward at -0.5", Quantity::VelocityForward, Fault::StuckAt(-0.5)),
+            ("dead altitude", Quantity::Altitude, Fault::DeadAt(0.0)),
+            ("dead altitude at 1.5", Quantity::Altitude, Fault::DeadAt(1.5)),
+            ("lie heading 20", Quantity::Yaw, Fault::Offset(20.0)),
+            ("lie yaw -20", Quantity::Yaw, Fault::Offset(-20.0)),
+            ("ramp roll 0.5", Quantity::Roll, Fault::Ramp(0.5)),
+            ("nan pitch", Quantity::Pitch, Fault::NotANumber),
+            ("late clock 0.5", Quantity::Clock, Fault::Late(second / 2)),
+        ] {
+            let text = format!("1 {text} for 1");
+            assert_eq!(actions(&text), [Action::Sensor(quantity, fault, second)], "{text}");
+        }
+        assert_eq!(
+            actions("1 lie velocity 0.5 -1 for 1"),
+            [
+                Action::Sensor(Quantity::VelocityRight, Fault::Offset(0.5), second),
+                Action::Sensor(Quantity::VelocityForward, Fault::Offset(-1.0), second),
+            ]
+        );
+    }
+
+    #[test]
+    fn the_other_faults_are_read() {
+        let second = Duration::from_secs(1);
+        for (text, action) in [
+            ("loss up 30", Action::Loss(Direction::Up, 0.3)),
+            ("outage down 1", Action::Outage(Direction::Down, second)),
+            ("outage 1", Action::Outage(Direction::Both, second)),
+            ("hold 1", Action::Hold(Direction::Both, second)),
+            ("hold up 1", Action::Hold(Direction::Up, second)),
+            ("burst 50", Action::Burst(50)),
+            ("state ultrasound-deaf for 1", Action::State(DroneState::ULTRASOUND_DEAF, second)),
+            ("minor 6 for 1", Action::Minor(6, second)),
+            ("motor 70 over 1", Action::Motor(0.7, second)),
+            ("motor 70", Action::Motor(0.7, Duration::ZERO)),
+            ("sag 15", Action::BatterySag(15.0)),
+            ("second-pilot 1", Action::SecondPilot(second, 1)),
+            ("second-pilot 1 from 5000", Action::SecondPilot(second, 5000)),
+        ] {
+            assert_eq!(actions(&format!("0 {text}")), [action], "{text}");
+        }
+    }
+
+    #[test]
+    fn every_mistake_is_shown_with_its_place() {
+        let text = "soon loss 3\n1 los 3\n2 loss 300\n3 loss\n4 restart now\n5 lie wind 3 for 1\n\
+                    6 lie yaw 3 1\n-7 restart\nNaN restart\n8 nan altitude for 1\n9 state happy for 1\n\
+                    10 burst 1.5\n11 lie velocity 1 for 2\n12 stuck velocity for 2";
+        let error = Scenario::parse("s.txt", text).unwrap_err().rendered;
+        let places: Vec<&str> = error.lines().filter(|line| line.starts_with("error")).collect();
+        assert_eq!(
+            places,
+            [
+                "error: `soon` is no time",
+                "error: unknown action `los`",
+                "error: expected a percentage, found `300`",
+                "error: expected a percentage, found the end of the line",
+                "error: `now` is one word too many",
+                "error: the drone does not tell its `wind`",
+                "error: expected `for`, found `1`",
+                "error: `-7` is no time",
+                "error: `NaN` is no time",
+                "error: altitude is always a number",
+                "error: unknown state `happy`",
+                "error: expected a number of packets, found `1.5`",
+                "error: expected metres a second, found `for`",
+                "error: the drone does not tell its `velocity`",
+            ]
+        );
+        assert!(error.contains("s.txt:3:8"), "{error}");
+        assert!(error.contains("ultrasound-deaf"), "{error}");
+    }
+}
