@@ -207,6 +207,8 @@ const USUAL_STEP_S: f64 = 0.1;
 const ALTITUDE_INTERVAL_S: f64 = 0.05;
 /// Below this a drone that takes off or lands does not hold its place yet.
 const CLEAR_OF_GROUND_M: f64 = 0.4;
+/// No drone flies this low by its sticks: it is on the floor, or its altitude is wrong.
+const ON_FLOOR_M: f64 = 0.1;
 /// Nothing is predicted further than this beyond the newest sample.
 const MAX_PREDICTION_S: f64 = 0.6;
 
@@ -261,8 +263,13 @@ impl Estimator {
         let believed = self.update_horizontal(made_s, sample);
         let floor_stepped = self.update_vertical(made_s, sample);
         let by_itself = self.orders.at(attitude_s) == Order::ByItself;
+        let on_floor = !by_itself && sample.airborne && sample.altitude_m < ON_FLOOR_M;
         let verdict = Verdict {
-            rejected: (!believed).then_some(Quantity::Velocity),
+            rejected: if believed {
+                on_floor.then_some(Quantity::Altitude)
+            } else {
+                Some(Quantity::Velocity)
+            },
             unresponsive: self.watch_response(attitude_s, sample),
             step: match (turned, floor_stepped) {
                 (true, _) => Some(Quantity::Heading),
@@ -310,6 +317,7 @@ impl Estimator {
             yaw_deg: sample.yaw_deg,
             heading_deg: self.heading_at(at_s),
             velocity_m_s: Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s),
+            tilt_rad: Vector2::new(sample.roll_deg, -sample.pitch_deg).map(f64::to_radians),
         };
         self.response.watch(&measured, &self.orders, &self.config.limits)
     }

@@ -34,6 +34,9 @@ const JUMP_M_S: f64 = 0.2;
 const JUMP_M_S2: f64 = 4.0;
 /// A velocity further than this from the expected one is wrong, however it came there.
 const MAX_SURPRISE_M_S: f64 = 1.5;
+/// How long a quantity that did not follow the commands is not believed: the answer is a hover, in which
+/// nothing is asked for that it could follow.
+const UNRESPONSIVE_TIME_S: f64 = 4.0;
 /// Steps of the floor or of the heading that are forgiven, and how fast they are forgotten.
 const FORGIVEN_STEPS: f64 = 2.5;
 const FORGET_STEPS_1_S: f64 = 0.25;
@@ -114,6 +117,7 @@ pub(crate) struct Plausibility {
     heading: Repetition,
     attitude: [Repetition; 2],
     wrong: Option<(Quantity, f64)>,
+    unresponsive: Option<(Quantity, f64)>,
     reported_since_s: Option<f64>,
     steps: f64,
     last_s: Option<f64>,
@@ -130,16 +134,16 @@ impl Plausibility {
         let frozen = self.frozen(arrival_s, sample, verdict);
         let wrong = self.wrong(arrival_s, verdict);
         let reported = self.reported(arrival_s, sample);
-        let unresponsive = verdict.unresponsive;
+        let unresponsive = self.unresponsive(arrival_s, verdict);
         // Since when it cannot be believed: an answer may come at once, not after one more patience.
-        let since_s = [wrong.map(|(_, since_s)| since_s), frozen.map(|(_, since_s)| since_s)];
+        let since_s = [wrong, frozen, unresponsive].map(|found| found.map(|(_, since_s)| since_s));
         self.trust = if let Some((quantity, _)) = wrong {
             Trust::Implausible(quantity)
         } else if let Some((quantity, _)) = frozen {
             Trust::Frozen(quantity)
         } else if let Some(quantity) = reported {
             Trust::Reported(quantity)
-        } else if let Some(quantity) = unresponsive {
+        } else if let Some((quantity, _)) = unresponsive {
             Trust::Unresponsive(quantity)
         } else if let Some(quantity) = verdict.step.filter(|_| self.steps > FORGIVEN_STEPS) {
             Trust::Implausible(quantity)
@@ -203,6 +207,14 @@ impl Plausibility {
             None => (quantity, arrival_s),
         });
         self.wrong.filter(|(_, since_s)| arrival_s - since_s >= WRONG_TIME_S)
+    }
+
+    fn unresponsive(&mut self, arrival_s: f64, verdict: &Verdict) -> Option<(Quantity, f64)> {
+        if let Some(quantity) = verdict.unresponsive {
+            // It took a while to notice.
+            self.unresponsive = Some((quantity, arrival_s - WRONG_TIME_S));
+        }
+        self.unresponsive.filter(|(_, since_s)| arrival_s - since_s < UNRESPONSIVE_TIME_S)
     }
 
     fn reported(&mut self, arrival_s: f64, sample: &Sample) -> Option<Quantity> {
@@ -404,8 +416,10 @@ mod tests {
         assert_eq!(trust, Trust::Reported(Quantity::Velocity));
         assert!((at_s - 10.0 * PERIOD_S) < 0.5, "{at_s}");
         let unresponsive = Verdict { unresponsive: Some(Quantity::Heading), ..FINE };
-        let watched = watch(3, flying, |_| unresponsive);
-        assert_eq!(watched[0].1, Trust::Unresponsive(Quantity::Heading));
+        let once = |step| if step == 10 { unresponsive } else { FINE };
+        let watched = watch(100, flying, once);
+        assert_eq!(watched[40].1, Trust::Unresponsive(Quantity::Heading), "a hover shows nothing");
+        assert_eq!(watched[99].1, Trust::Sound);
     }
 
     #[test]

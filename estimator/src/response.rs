@@ -9,14 +9,21 @@ use nalgebra::Vector2;
 
 use crate::airframe::{Airframe, DroneLimits};
 use crate::angle::wrap_deg;
-use crate::horizontal::world_from_body;
+use crate::horizontal::{GRAVITY_M_S2, world_from_body};
 use crate::orders::{Order, Orders, Sticks};
 use crate::trust::Quantity;
 
 /// A longer gap than this is not judged: whether the drone heard its commands is not known.
 const MAX_GAP_S: f64 = 0.3;
-/// What is missing of the response is forgotten with this time constant.
+/// What is missing of the response to a rate is forgotten with this time constant.
 const FORGET_S: f64 = 10.0;
+/// Slower than this, as a share of full stick, gains of the airframe make no difference, nor do its
+/// lags once it has been so slow for this long.
+const SLOW_SHARE: f64 = 0.35;
+const SLOW_TIME_S: f64 = 2.0;
+/// A drone that was told this share of full stick the other way may be braking for this long.
+const FAST_SHARE: f64 = 0.2;
+const BRAKING_TIME_S: f64 = 2.0;
 
 /// Of an axis that follows its stick as a rate: climb and turn.
 #[derive(Debug, Clone, Copy)]
@@ -25,8 +32,9 @@ struct RateTolerance {
     share: f64,
     /// Drift of a healthy sensor, and rates too small to judge, per second.
     slack: f64,
-    /// What may be missing in all.
+    /// What may be missing in all: of what is asked for, and of what is asked for slowly.
     missing: f64,
+    missing_slowly: f64,
     /// A measurement further than this from the expected one, and this much more a second, has
     /// jumped, which is judged elsewhere.
     jump: f64,
@@ -34,11 +42,23 @@ struct RateTolerance {
 }
 
 /// Published airframes climb with 1 to 1.7 times what is asked for, with a lag of 0.17 to 1.25 s.
-const CLIMB: RateTolerance =
-    RateTolerance { share: 0.5, slack: 0.03, missing: 0.25, jump: 0.15, jump_1_s: 1.0 };
+const CLIMB: RateTolerance = RateTolerance {
+    share: 0.5,
+    slack: 0.03,
+    missing: 0.15,
+    missing_slowly: 0.3,
+    jump: 0.15,
+    jump_1_s: 1.0,
+};
 /// They turn with 0.7 to 1 times of it, with a lag of 0.02 to 0.5 s.
-const TURN: RateTolerance =
-    RateTolerance { share: 0.6, slack: 1.0, missing: 15.0, jump: 6.0, jump_1_s: 60.0 };
+const TURN: RateTolerance = RateTolerance {
+    share: 0.6,
+    slack: 1.0,
+    missing: 15.0,
+    missing_slowly: 20.0,
+    jump: 6.0,
+    jump_1_s: 60.0,
+};
 
 /// Sticks beyond this share of their limit ask for all that there is.
 const FULL_STICK: f64 = 0.9;
@@ -47,6 +67,15 @@ const FULL_STICK: f64 = 0.9;
 const FULL_STICK_S: f64 = 1.2;
 /// Speed along the sticks that counts as motion, or as having moved before.
 const MOVED_M_S: f64 = 0.25;
+/// The velocity's answer to the tilt is compared over windows of this length...
+const AXIS_WINDOW_S: f64 = 0.4;
+/// ...with what the least thrust makes of it (the published airframes have 0.5 to 1.03 of gravity's)...
+const LEAST_THRUST: f64 = 0.4;
+/// ...and noise of the flow and gusts of this much.
+const AXIS_NOISE_M_S: f64 = 0.2;
+const AXIS_FORGET_S: f64 = 4.0;
+/// The logarithm of how much likelier a dead sensor must be: e⁴ is 55 times.
+const AXIS_EVIDENCE: f64 = 4.0;
 /// Less than this moves no drone noticeably.
 const MIN_STICK_LIMIT: f64 = 0.05;
 /// Sticks that turn further than this (cosine) ask for another motion.
@@ -59,6 +88,7 @@ pub(crate) struct Response {
     climb: Rate,
     turn: Rate,
     push: Option<Push>,
+    axes: [Axis; 2],
     /// No stick is moved further than this.
     stick_limit: f64,
 }
@@ -72,6 +102,22 @@ struct Rate {
     asked: f64,
     last: Option<f64>,
     missing: f64,
+    missing_slowly: f64,
+    slow_for_s: f64,
+    /// How long ago the drone was last told to move fast: down and up, or left and right.
+    fast_ago_s: [f64; 2],
+}
+
+/// Whether the measured velocity follows the measured tilt, along one axis of the body.
+#[derive(Debug, Clone, Copy, Default)]
+struct Axis {
+    since_s: Option<f64>,
+    from_m_s: f64,
+    /// What the tilt alone would have added to the velocity since then.
+    by_tilt_m_s: f64,
+    /// Of the window before: by the tilt, and as measured.
+    before_m_s: Option<(f64, f64)>,
+    evidence: f64,
 }
 
 /// Full sticks across the ground.
@@ -94,6 +140,8 @@ pub(crate) struct Measured {
     pub(crate) heading_deg: f64,
     /// (right, forward) in the body.
     pub(crate) velocity_m_s: Vector2<f64>,
+    /// (right, forward) in the body.
+    pub(crate) tilt_rad: Vector2<f64>,
 }
 
 impl Default for Response {
@@ -103,6 +151,7 @@ impl Default for Response {
             climb: Rate::new(CLIMB),
             turn: Rate::new(TURN),
             push: None,
+            axes: [Axis::default(); 2],
             stick_limit: 1.0,
         }
     }
@@ -139,10 +188,15 @@ impl Response {
             turn_deg +=
                 turn.follow(sticks.clockwise * limits.turn_deg_s, airframe.turn_lag_s, step_s);
         });
-        self.climb.compare(measured.altitude_m, rise_m, step_s, |difference| difference);
-        self.turn.compare(measured.yaw_deg, turn_deg, step_s, wrap_deg);
+        let DroneLimits { climb_m_s, turn_deg_s, .. } = *limits;
+        self.climb.compare(measured.altitude_m, rise_m, step_s, climb_m_s, |metres| metres);
+        self.turn.compare(measured.yaw_deg, turn_deg, step_s, turn_deg_s, wrap_deg);
         let stands_still = self.stands_still(measured, sticks, step_s);
-        if stands_still {
+        let [right, forward] = &mut self.axes;
+        let (velocity_m_s, tilt_rad) = (measured.velocity_m_s, measured.tilt_rad);
+        let right = right.is_dead(measured.at_s, step_s, velocity_m_s.x, tilt_rad.x);
+        let forward = forward.is_dead(measured.at_s, step_s, velocity_m_s.y, tilt_rad.y);
+        if stands_still || right || forward {
             Some(Quantity::Velocity)
         } else if self.climb.is_missing() {
             Some(Quantity::Altitude)
@@ -173,6 +227,7 @@ impl Response {
         self.climb.rest(measured.altitude_m);
         self.turn.rest(measured.yaw_deg);
         self.push = None;
+        self.axes = [Axis::default(); 2];
     }
 
     /// Whether full sticks have moved nothing. A wind that holds the drone still against them is
@@ -200,9 +255,42 @@ impl Response {
     }
 }
 
+impl Axis {
+    /// A sequential likelihood ratio (Wald, 1945): does the velocity change with the tilt by the
+    /// least thrust of the published airframes, or not at all? Changes of the change are compared, so
+    /// that a steady wind does not count; that gusts are leant against is a part of the noise.
+    fn is_dead(&mut self, at_s: f64, step_s: f64, velocity_m_s: f64, tilt_rad: f64) -> bool {
+        self.by_tilt_m_s += GRAVITY_M_S2 * tilt_rad.tan() * step_s;
+        let since_s = *self.since_s.get_or_insert(at_s);
+        if at_s - since_s >= AXIS_WINDOW_S {
+            let window = (self.by_tilt_m_s, velocity_m_s - self.from_m_s);
+            if let Some((tilt_before, moved_before)) = self.before_m_s.replace(window) {
+                let (by_tilt, moved) = (window.0 - tilt_before, window.1 - moved_before);
+                let expected = LEAST_THRUST * by_tilt;
+                let misses = moved.powi(2) - (moved - expected).powi(2);
+                let kept = (-(at_s - since_s) / AXIS_FORGET_S).exp();
+                self.evidence *= kept;
+                self.evidence -= misses / (2.0 * AXIS_NOISE_M_S.powi(2));
+                self.evidence = self.evidence.max(0.0);
+            }
+            (self.since_s, self.from_m_s, self.by_tilt_m_s) = (Some(at_s), velocity_m_s, 0.0);
+        }
+        self.evidence > AXIS_EVIDENCE
+    }
+}
+
 impl Rate {
     fn new(tolerance: RateTolerance) -> Self {
-        Self { tolerance, now: 0.0, asked: 0.0, last: None, missing: 0.0 }
+        Self {
+            tolerance,
+            now: 0.0,
+            asked: 0.0,
+            last: None,
+            missing: 0.0,
+            missing_slowly: 0.0,
+            slow_for_s: 0.0,
+            fast_ago_s: [f64::INFINITY; 2],
+        }
     }
 
     /// The way that an ordinary airframe makes in a step.
@@ -214,24 +302,47 @@ impl Rate {
         way
     }
 
-    fn compare(&mut self, value: f64, asked: f64, step_s: f64, difference: fn(f64) -> f64) {
+    fn compare(
+        &mut self,
+        value: f64,
+        asked: f64,
+        step_s: f64,
+        full: f64,
+        difference: fn(f64) -> f64,
+    ) {
         let Some(last) = self.last.replace(value) else { return };
         let RateTolerance { share, slack, jump, jump_1_s, .. } = self.tolerance;
         let moved = difference(value - last);
         if (moved - asked).abs() > jump + jump_1_s * step_s {
             return;
         }
+        let forgotten = (-step_s / FORGET_S).exp();
         let lacking = asked.signum() * (share * asked - moved) - slack * step_s;
-        self.missing = (self.missing * (-step_s / FORGET_S).exp() + lacking).max(0.0);
+        let [down_ago_s, up_ago_s] = &mut self.fast_ago_s;
+        *down_ago_s = if self.now < -FAST_SHARE * full { 0.0 } else { *down_ago_s + step_s };
+        *up_ago_s = if self.now > FAST_SHARE * full { 0.0 } else { *up_ago_s + step_s };
+        let other_ago_s = if asked > 0.0 { *down_ago_s } else { *up_ago_s };
+        let lacking = if other_ago_s < BRAKING_TIME_S { 0.0 } else { lacking };
+        self.missing = (self.missing * forgotten + lacking).max(0.0);
+        self.missing_slowly *= forgotten;
+        let is_slow = self.now.abs() < SLOW_SHARE * full;
+        self.slow_for_s = if is_slow { self.slow_for_s + step_s } else { 0.0 };
+        if self.slow_for_s > SLOW_TIME_S {
+            self.missing_slowly += asked - moved;
+        }
     }
 
     fn is_missing(&self) -> bool {
-        self.missing > self.tolerance.missing
+        let RateTolerance { missing, missing_slowly, .. } = self.tolerance;
+        self.missing > missing || self.missing_slowly.abs() > missing_slowly
     }
 
     fn rest(&mut self, value: f64) {
         self.now = 0.0;
         self.missing = 0.0;
+        self.missing_slowly = 0.0;
+        self.slow_for_s = 0.0;
+        self.fast_ago_s = [f64::INFINITY; 2];
         self.last = Some(value);
     }
 }
@@ -268,6 +379,7 @@ mod tests {
             yaw_deg: 0.0,
             heading_deg: 0.0,
             velocity_m_s: Vector2::zeros(),
+            tilt_rad: Vector2::zeros(),
         }
     }
 
@@ -315,6 +427,39 @@ mod tests {
     fn a_drone_that_leans_against_the_wind_is_not_accused() {
         let leaning = Sticks { right: 0.85, ..Sticks::default() };
         assert_eq!(found(leaning, 20, still), None);
+    }
+
+    /// The tilt swings by 12 degrees, and the velocity follows by a share of gravity's pull, on top of
+    /// noise.
+    fn swinging(thrust: f64) -> impl Fn(f64) -> Measured {
+        move |at_s| {
+            let (sin, cos) = (2.0 * at_s).sin_cos();
+            let tilt_rad = 0.21 * cos;
+            let noise_m_s = 0.05 * (97.0 * at_s).sin();
+            let velocity_m_s = thrust * GRAVITY_M_S2 * 0.21 * sin / 2.0 + noise_m_s;
+            Measured {
+                velocity_m_s: Vector2::new(velocity_m_s, noise_m_s),
+                tilt_rad: Vector2::new(tilt_rad, 0.0),
+                ..still(at_s)
+            }
+        }
+    }
+
+    #[test]
+    fn a_dead_flow_that_rattles_is_noticed_when_the_drone_tilts() {
+        let gently = Sticks { right: 0.5, ..Sticks::default() };
+        let (at_s, which) = found(gently, 10, swinging(0.0)).unwrap();
+        assert!(which == Quantity::Velocity && at_s < 6.0, "{at_s}");
+        for thrust in [0.5, 0.75, 1.03] {
+            assert_eq!(found(gently, 60, swinging(thrust)), None, "{thrust}");
+        }
+    }
+
+    #[test]
+    fn a_slow_drift_of_the_altitude_is_noticed() {
+        let sinking = Sticks { up: -0.15, ..Sticks::default() };
+        let (at_s, which) = found(sinking, 20, still).unwrap();
+        assert!(which == Quantity::Altitude && at_s < 7.0, "{at_s}");
     }
 
     #[test]
