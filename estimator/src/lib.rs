@@ -240,12 +240,6 @@ impl Estimator {
         self.orders.push(sent_at, order);
     }
 
-    /// No stick will be moved further than this share, from 0 to 1: what "full" means when the response
-    /// to the sticks is judged.
-    pub fn limit_sticks(&mut self, most: f64) {
-        self.response.limit_sticks(most);
-    }
-
     /// Takes in the next sample; samples come in the order of the drone's packets. Values that are
     /// impossible are not used.
     pub fn update(&mut self, sample: &Sample) {
@@ -313,9 +307,8 @@ impl Estimator {
     fn watch_response(&mut self, at_s: f64, sample: &Sample) -> Option<Quantity> {
         let measured = Measured {
             at_s,
-            altitude_m: sample.altitude_m,
+            altitude_m: self.altitude.above_floor_m(self.altitude.state().height_m),
             yaw_deg: sample.yaw_deg,
-            heading_deg: self.heading_at(at_s),
             velocity_m_s: Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s),
             tilt_rad: Vector2::new(sample.roll_deg, -sample.pitch_deg).map(f64::to_radians),
         };

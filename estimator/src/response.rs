@@ -5,11 +5,13 @@
 //! measurement must show the least that any published airframe does, and what
 //! [`crate::identification`] has learnt plays no part.
 
+use std::collections::VecDeque;
+
 use nalgebra::Vector2;
 
 use crate::airframe::{Airframe, DroneLimits};
 use crate::angle::wrap_deg;
-use crate::horizontal::{GRAVITY_M_S2, world_from_body};
+use crate::horizontal::GRAVITY_M_S2;
 use crate::orders::{Order, Orders, Sticks};
 use crate::trust::Quantity;
 
@@ -24,6 +26,8 @@ const SLOW_TIME_S: f64 = 2.0;
 /// A drone that was told this share of full stick the other way may be braking for this long.
 const FAST_SHARE: f64 = 0.2;
 const BRAKING_TIME_S: f64 = 2.0;
+/// A response must be missing for this long.
+const MISSING_TIME_S: f64 = 0.12;
 
 /// Of an axis that follows its stick as a rate: climb and turn.
 #[derive(Debug, Clone, Copy)]
@@ -46,8 +50,8 @@ const CLIMB: RateTolerance = RateTolerance {
     share: 0.5,
     slack: 0.03,
     missing: 0.15,
-    missing_slowly: 0.3,
-    jump: 0.15,
+    missing_slowly: 0.4,
+    jump: 0.1,
     jump_1_s: 1.0,
 };
 /// They turn with 0.7 to 1 times of it, with a lag of 0.02 to 0.5 s.
@@ -60,26 +64,18 @@ const TURN: RateTolerance = RateTolerance {
     jump_1_s: 60.0,
 };
 
-/// Sticks beyond this share of their limit ask for all that there is.
-const FULL_STICK: f64 = 0.9;
-/// After full sticks for this long, in seconds, the drone has moved, whatever airframe it is; where the
-/// sticks are limited it takes longer in proportion.
-const FULL_STICK_S: f64 = 1.2;
-/// Speed along the sticks that counts as motion, or as having moved before.
-const MOVED_M_S: f64 = 0.25;
-/// The velocity's answer to the tilt is compared over windows of this length...
-const AXIS_WINDOW_S: f64 = 0.4;
-/// ...with what the least thrust makes of it (the published airframes have 0.5 to 1.03 of gravity's)...
+/// The most sluggish airframe: the published ones accelerate at a tilt by 0.5 to 1.03 of gravity's
+/// pull, and slow down by 0.45 to 1.95 of their speed each second.
 const LEAST_THRUST: f64 = 0.4;
-/// ...and noise of the flow and gusts of this much.
-const AXIS_NOISE_M_S: f64 = 0.2;
-const AXIS_FORGET_S: f64 = 4.0;
-/// The logarithm of how much likelier a dead sensor must be: e⁴ is 55 times.
-const AXIS_EVIDENCE: f64 = 4.0;
-/// Less than this moves no drone noticeably.
-const MIN_STICK_LIMIT: f64 = 0.05;
-/// Sticks that turn further than this (cosine) ask for another motion.
-const SAME_DIRECTION: f64 = 0.7;
+const LARGEST_DRAG_1_S: f64 = 1.95;
+/// Where its velocity would have swung this much in so many seconds...
+const AXIS_SWING_M_S: f64 = 0.22;
+const AXIS_WINDOW_S: f64 = 3.0;
+/// ...a flow that works shows more than this share of it; noise of one that does not is less.
+const AXIS_SHARE: f64 = 0.3;
+const SMOOTHING_S: f64 = 0.2;
+const AXIS_INTERVAL_S: f64 = 0.05;
+const AXIS_MEMORY: usize = 64;
 
 /// Compares commands with what is measured.
 #[derive(Debug, Clone)]
@@ -87,10 +83,7 @@ pub(crate) struct Response {
     at_s: Option<f64>,
     climb: Rate,
     turn: Rate,
-    push: Option<Push>,
     axes: [Axis; 2],
-    /// No stick is moved further than this.
-    stick_limit: f64,
 }
 
 /// An axis on which the stick asks for a rate.
@@ -106,38 +99,28 @@ struct Rate {
     slow_for_s: f64,
     /// How long ago the drone was last told to move fast: down and up, or left and right.
     fast_ago_s: [f64; 2],
+    missing_for_s: f64,
 }
 
 /// Whether the measured velocity follows the measured tilt, along one axis of the body.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone)]
 struct Axis {
-    since_s: Option<f64>,
-    from_m_s: f64,
-    /// What the tilt alone would have added to the velocity since then.
-    by_tilt_m_s: f64,
-    /// Of the window before: by the tilt, and as measured.
-    before_m_s: Option<(f64, f64)>,
-    evidence: f64,
-}
-
-/// Full sticks across the ground.
-#[derive(Debug, Clone, Copy)]
-struct Push {
-    direction: Vector2<f64>,
-    /// The least speed along them so far: noise must not be taken for motion.
+    /// What the most sluggish airframe would make of the tilt, in m/s.
     least_m_s: f64,
-    lasts_s: f64,
+    /// The measured velocity, smoothed.
+    measured_m_s: f64,
+    /// Both of the last seconds, with their times.
+    recent: VecDeque<(f64, f64, f64)>,
 }
 
 /// What was measured, at one moment.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Measured {
     pub(crate) at_s: f64,
+    /// Height above the floor, without wrong echoes.
     pub(crate) altitude_m: f64,
     /// Compass heading; jumps at ±180.
     pub(crate) yaw_deg: f64,
-    /// Heading in the world.
-    pub(crate) heading_deg: f64,
     /// (right, forward) in the body.
     pub(crate) velocity_m_s: Vector2<f64>,
     /// (right, forward) in the body.
@@ -150,9 +133,7 @@ impl Default for Response {
             at_s: None,
             climb: Rate::new(CLIMB),
             turn: Rate::new(TURN),
-            push: None,
-            axes: [Axis::default(); 2],
-            stick_limit: 1.0,
+            axes: [Axis::new(), Axis::new()],
         }
     }
 }
@@ -167,12 +148,7 @@ impl Response {
     ) -> Option<Quantity> {
         let from_s = self.at_s.replace(measured.at_s).unwrap_or(measured.at_s);
         let step_s = measured.at_s - from_s;
-        let order = orders.at(measured.at_s);
-        let Order::Sticks(sticks) = order else {
-            self.rest(measured);
-            return None;
-        };
-        if step_s > MAX_GAP_S {
+        if orders.at(measured.at_s) == Order::ByItself || step_s > MAX_GAP_S {
             self.rest(measured);
             return None;
         }
@@ -191,12 +167,11 @@ impl Response {
         let DroneLimits { climb_m_s, turn_deg_s, .. } = *limits;
         self.climb.compare(measured.altitude_m, rise_m, step_s, climb_m_s, |metres| metres);
         self.turn.compare(measured.yaw_deg, turn_deg, step_s, turn_deg_s, wrap_deg);
-        let stands_still = self.stands_still(measured, sticks, step_s);
         let [right, forward] = &mut self.axes;
         let (velocity_m_s, tilt_rad) = (measured.velocity_m_s, measured.tilt_rad);
         let right = right.is_dead(measured.at_s, step_s, velocity_m_s.x, tilt_rad.x);
         let forward = forward.is_dead(measured.at_s, step_s, velocity_m_s.y, tilt_rad.y);
-        if stands_still || right || forward {
+        if right || forward {
             Some(Quantity::Velocity)
         } else if self.climb.is_missing() {
             Some(Quantity::Altitude)
@@ -217,66 +192,53 @@ impl Response {
         self.turn.asked
     }
 
-    /// No stick will be moved further than this share, from 0 to 1.
-    pub(crate) fn limit_sticks(&mut self, most: f64) {
-        self.stick_limit = most.clamp(MIN_STICK_LIMIT, 1.0);
-    }
-
     /// The drone moves by itself: nothing is asked of it.
     fn rest(&mut self, measured: &Measured) {
         self.climb.rest(measured.altitude_m);
         self.turn.rest(measured.yaw_deg);
-        self.push = None;
-        self.axes = [Axis::default(); 2];
-    }
-
-    /// Whether full sticks have moved nothing. A wind that holds the drone still against them is
-    /// reason enough to give up as well.
-    fn stands_still(&mut self, measured: &Measured, sticks: Sticks, step_s: f64) -> bool {
-        let body = Vector2::new(sticks.right, sticks.forward);
-        if body.amax() < FULL_STICK * self.stick_limit {
-            self.push = None;
-            return false;
-        }
-        let direction = world_from_body(body.normalize(), measured.heading_deg);
-        let speed_m_s =
-            world_from_body(measured.velocity_m_s, measured.heading_deg).dot(&direction);
-        let goes_on = |push: &Push| {
-            push.direction.dot(&direction) >= SAME_DIRECTION
-                && speed_m_s - push.least_m_s < MOVED_M_S
-                && speed_m_s < MOVED_M_S
-        };
-        let fresh = Push { direction, least_m_s: speed_m_s, lasts_s: 0.0 };
-        let mut push = self.push.filter(goes_on).unwrap_or(fresh);
-        push.least_m_s = push.least_m_s.min(speed_m_s);
-        push.lasts_s += step_s;
-        self.push = Some(push);
-        push.lasts_s * self.stick_limit >= FULL_STICK_S
+        self.axes.iter_mut().for_each(Axis::rest);
     }
 }
 
 impl Axis {
-    /// A sequential likelihood ratio (Wald, 1945): does the velocity change with the tilt by the
-    /// least thrust of the published airframes, or not at all? Changes of the change are compared, so
-    /// that a steady wind does not count; that gusts are leant against is a part of the noise.
-    fn is_dead(&mut self, at_s: f64, step_s: f64, velocity_m_s: f64, tilt_rad: f64) -> bool {
-        self.by_tilt_m_s += GRAVITY_M_S2 * tilt_rad.tan() * step_s;
-        let since_s = *self.since_s.get_or_insert(at_s);
-        if at_s - since_s >= AXIS_WINDOW_S {
-            let window = (self.by_tilt_m_s, velocity_m_s - self.from_m_s);
-            if let Some((tilt_before, moved_before)) = self.before_m_s.replace(window) {
-                let (by_tilt, moved) = (window.0 - tilt_before, window.1 - moved_before);
-                let expected = LEAST_THRUST * by_tilt;
-                let misses = moved.powi(2) - (moved - expected).powi(2);
-                let kept = (-(at_s - since_s) / AXIS_FORGET_S).exp();
-                self.evidence *= kept;
-                self.evidence -= misses / (2.0 * AXIS_NOISE_M_S.powi(2));
-                self.evidence = self.evidence.max(0.0);
-            }
-            (self.since_s, self.from_m_s, self.by_tilt_m_s) = (Some(at_s), velocity_m_s, 0.0);
-        }
-        self.evidence > AXIS_EVIDENCE
+    fn new() -> Self {
+        Self { least_m_s: 0.0, measured_m_s: 0.0, recent: VecDeque::with_capacity(AXIS_MEMORY) }
     }
+
+    /// The tilt swings, and the velocity does not. A steady wind moves neither.
+    fn is_dead(&mut self, at_s: f64, step_s: f64, velocity_m_s: f64, tilt_rad: f64) -> bool {
+        let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * tilt_rad.tan();
+        self.least_m_s += (pull_m_s2 - LARGEST_DRAG_1_S * self.least_m_s) * step_s;
+        let share = 1.0 - (-step_s / SMOOTHING_S).exp();
+        self.measured_m_s += (velocity_m_s - self.measured_m_s) * share;
+        if self.recent.back().is_none_or(|(last_s, ..)| at_s - last_s >= AXIS_INTERVAL_S) {
+            if self.recent.len() == AXIS_MEMORY {
+                self.recent.pop_front();
+            }
+            self.recent.push_back((at_s, self.least_m_s, self.measured_m_s));
+        }
+        while self.recent.front().is_some_and(|(first_s, ..)| at_s - first_s > AXIS_WINDOW_S) {
+            self.recent.pop_front();
+        }
+        let expected_m_s = range(self.recent.iter().map(|(_, expected, _)| *expected));
+        let measured_m_s = range(self.recent.iter().map(|(.., measured)| *measured));
+        expected_m_s >= AXIS_SWING_M_S && measured_m_s < AXIS_SHARE * expected_m_s
+    }
+
+    fn rest(&mut self) {
+        self.least_m_s = 0.0;
+        self.measured_m_s = 0.0;
+        self.recent.clear();
+    }
+}
+
+/// From the least to the greatest value.
+fn range(values: impl Iterator<Item = f64>) -> f64 {
+    let (least, greatest) = values
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+    greatest - least
 }
 
 impl Rate {
@@ -290,6 +252,7 @@ impl Rate {
             missing_slowly: 0.0,
             slow_for_s: 0.0,
             fast_ago_s: [f64::INFINITY; 2],
+            missing_for_s: 0.0,
         }
     }
 
@@ -330,11 +293,14 @@ impl Rate {
         if self.slow_for_s > SLOW_TIME_S {
             self.missing_slowly += asked - moved;
         }
+        let RateTolerance { missing, missing_slowly, .. } = self.tolerance;
+        let is_missing = self.missing > missing || self.missing_slowly.abs() > missing_slowly;
+        self.missing_for_s = if is_missing { self.missing_for_s + step_s } else { 0.0 };
     }
 
+    /// One wrong echo may look like it.
     fn is_missing(&self) -> bool {
-        let RateTolerance { missing, missing_slowly, .. } = self.tolerance;
-        self.missing > missing || self.missing_slowly.abs() > missing_slowly
+        self.missing_for_s >= MISSING_TIME_S
     }
 
     fn rest(&mut self, value: f64) {
@@ -343,6 +309,7 @@ impl Rate {
         self.missing_slowly = 0.0;
         self.slow_for_s = 0.0;
         self.fast_ago_s = [f64::INFINITY; 2];
+        self.missing_for_s = 0.0;
         self.last = Some(value);
     }
 }
@@ -377,7 +344,6 @@ mod tests {
             at_s,
             altitude_m: 1.0,
             yaw_deg: 0.0,
-            heading_deg: 0.0,
             velocity_m_s: Vector2::zeros(),
             tilt_rad: Vector2::zeros(),
         }
@@ -387,8 +353,6 @@ mod tests {
     fn a_drone_that_is_told_to_move_and_shows_no_motion_is_noticed_within_about_a_second() {
         let none = Sticks::default();
         let cases = [
-            (Sticks { right: 1.0, ..none }, Quantity::Velocity),
-            (Sticks { forward: -0.9, ..none }, Quantity::Velocity),
             (Sticks { up: 1.0, ..none }, Quantity::Altitude),
             (Sticks { up: -1.0, ..none }, Quantity::Altitude),
             (Sticks { clockwise: -0.6, ..none }, Quantity::Heading),
@@ -426,7 +390,14 @@ mod tests {
     #[test]
     fn a_drone_that_leans_against_the_wind_is_not_accused() {
         let leaning = Sticks { right: 0.85, ..Sticks::default() };
-        assert_eq!(found(leaning, 20, still), None);
+        let tilted = |at_s| Measured { tilt_rad: Vector2::new(0.18, 0.0), ..still(at_s) };
+        let leans = |at_s| if at_s < 1.0 { still(at_s) } else { tilted(at_s) };
+        assert_eq!(found(leaning, 20, tilted).map(|(at_s, _)| at_s < 3.0), Some(true), "at once");
+        let gently = |at_s: f64| Measured {
+            tilt_rad: Vector2::new(0.18 * (at_s / 10.0).min(1.0), 0.0),
+            ..leans(0.0)
+        };
+        assert_eq!(found(leaning, 20, |at_s| Measured { at_s, ..gently(at_s) }), None);
     }
 
     /// The tilt swings by 12 degrees, and the velocity follows by a share of gravity's pull, on top of
@@ -449,7 +420,7 @@ mod tests {
     fn a_dead_flow_that_rattles_is_noticed_when_the_drone_tilts() {
         let gently = Sticks { right: 0.5, ..Sticks::default() };
         let (at_s, which) = found(gently, 10, swinging(0.0)).unwrap();
-        assert!(which == Quantity::Velocity && at_s < 6.0, "{at_s}");
+        assert!(which == Quantity::Velocity && at_s < 3.0, "{at_s}");
         for thrust in [0.5, 0.75, 1.03] {
             assert_eq!(found(gently, 60, swinging(thrust)), None, "{thrust}");
         }

@@ -73,23 +73,21 @@ const REC: Case = Case {
     bound_s: Some(52.6),
 };
 
-pub(crate) const CASES: [Case; 9] = [
+const HARD: Case = Case { conditions: "hard", model: SensorModel::hard, day: Day::Bad, ..REC };
+
+pub(crate) const CASES: [Case; 12] = [
     REC,
     Case { airframe: "tum", profile: Profile::tum, bound_s: Some(59.0), ..REC },
     Case { airframe: "tf", profile: Profile::tf, bound_s: Some(56.5), ..REC },
     Case { airframe: "leo", profile: Profile::leo, bound_s: Some(61.4), ..REC },
     Case { conditions: "full", navdata: NavdataRate::Full, ..REC },
-    Case { conditions: "hard", model: SensorModel::hard, day: Day::Bad, ..REC },
+    HARD,
+    Case { airframe: "tum", profile: Profile::tum, bound_s: Some(59.0), ..HARD },
+    Case { airframe: "tf", profile: Profile::tf, bound_s: Some(56.5), ..HARD },
+    Case { airframe: "leo", profile: Profile::leo, bound_s: Some(61.4), ..HARD },
     Case { conditions: "late", day: Day::Late, ..REC },
     Case { conditions: "nominal", plans: &HOVER, bound_s: None, ..REC },
-    Case {
-        conditions: "hard",
-        model: SensorModel::hard,
-        day: Day::Bad,
-        plans: &HOVER,
-        bound_s: None,
-        ..REC
-    },
+    Case { plans: &HOVER, bound_s: None, ..HARD },
 ];
 
 pub(crate) const LAWS: [(&str, Law); 2] = [("tum", Law::Tum), ("cascade", Law::Cascade)];

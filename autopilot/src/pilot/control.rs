@@ -20,7 +20,6 @@ impl Pilot {
         step_s: f64,
     ) -> Order {
         self.target = None;
-        self.estimator.limit_sticks(self.mission.max_control());
         if !matches!(command, AgentCommand::GoTo(_)) {
             self.saturation.rest(step_s);
         }

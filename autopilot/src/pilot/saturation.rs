@@ -1,5 +1,7 @@
 //! Whether the drone is too weak for the wind: its sticks are at their limit and it drifts off all the
-//! same.
+//! same, or comes no nearer.
+//!
+//! A flow that is dead looks the same: full tilt, and no motion to be seen.
 //!
 //! How strong the wind is cannot be told well enough to decide by: an estimate of it also holds what
 //! is not known of the airframe. What matters is whether the place is held.
@@ -12,6 +14,8 @@ use pid::{Demand, Pose};
 const FULL: f64 = 0.95;
 /// Slower than this a drone does not drift off, in m/s.
 const DRIFT_M_S: f64 = 0.1;
+/// Further away than this, in metres, a drone at its limit must come nearer.
+const FAR_M: f64 = 0.5;
 /// Nearer than this no direction leads away, in metres.
 const HERE_M: f64 = 0.2;
 
@@ -37,10 +41,12 @@ impl Saturation {
         let drift_m_s = state.velocity_m_s.xy().dot(&away.xy()) / across_m.max(f64::EPSILON);
         let is_full = |stick: f64| stick.abs() >= FULL * limit;
         let across = (is_full(demand.roll) || is_full(demand.pitch))
-            && across_m > HERE_M
-            && drift_m_s > DRIFT_M_S;
+            && (across_m > HERE_M && drift_m_s > DRIFT_M_S
+                || across_m > FAR_M && drift_m_s > -DRIFT_M_S);
         let climbs_off_m_s = state.velocity_m_s.z * away.z.signum();
-        let up = is_full(demand.gaz) && away.z.abs() > HERE_M && climbs_off_m_s > DRIFT_M_S;
+        let up = is_full(demand.gaz)
+            && (away.z.abs() > HERE_M && climbs_off_m_s > DRIFT_M_S
+                || away.z.abs() > FAR_M && climbs_off_m_s > -DRIFT_M_S);
         let change_s = if across || up { step_s } else { -step_s };
         self.for_s = (self.for_s + change_s).max(0.0);
     }
@@ -87,7 +93,8 @@ mod tests {
         assert_eq!(after_a_second(full, right, [0.5, 0.0, 0.0]), 1000);
         assert_eq!(after_a_second(full, right, [-0.5, 0.0, 0.0]), 0, "it comes back");
         assert_eq!(after_a_second(half, right, [0.5, 0.0, 0.0]), 0, "there is more");
-        assert_eq!(after_a_second(full, right, [0.0, 0.0, 0.0]), 0, "it holds");
+        assert_eq!(after_a_second(full, right, [0.0, 0.0, 0.0]), 1000, "it comes no nearer");
+        assert_eq!(after_a_second(full, [0.3, 0.0, 1.0], [0.0; 3]), 0, "it holds");
         assert_eq!(after_a_second(sinking, low, [0.0, 0.0, -0.3]), 1000);
         assert_eq!(after_a_second(sinking, low, [0.0, 0.0, 0.3]), 0);
     }
