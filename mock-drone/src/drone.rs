@@ -81,6 +81,10 @@ pub struct Truth {
     pub odometry_m: Vector2<f64>,
     /// The motion that the firmware carries out while it flies.
     pub motion: Motion,
+    /// When the firmware last took a command.
+    pub heard_at: Option<Duration>,
+    /// How often the level reference was set in the air, where that spoils it.
+    pub trims_in_flight: u32,
     /// Remaining charge, as the drone believes it by its voltage.
     pub battery_percent: f64,
     /// How often it hit the floor while it was to fly.
@@ -309,6 +313,8 @@ impl Drone {
             phase: self.firmware.phase(),
             odometry_m: self.sensors.odometry_m(),
             motion: self.firmware.motion(),
+            heard_at: self.firmware.last_command(),
+            trims_in_flight: self.firmware.trims_in_flight(),
             battery_percent: self.firmware.battery_percent(),
             floor_contacts: self.floor_contacts,
             touch_down_m_s: self.airframe.touch_down_m_s(),

@@ -245,6 +245,7 @@ fn flight(seed: u64, random: &mut ChaCha8Rng) -> (Simulation, Plan) {
         world: WorldConfig { drone, link, scenario },
         pilot: PilotConfig { limits, ..PilotConfig::default() },
         orders,
+        stalls: Vec::new(),
         aftermath: AFTERMATH,
     };
     (simulation, plan)
