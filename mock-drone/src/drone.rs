@@ -175,6 +175,15 @@ impl Drone {
         };
         firmware.set_battery_sag_percent(config.battery_sag_percent);
         let airframe = Airframe::new(config.profile, trim_rad);
+        let sensors = Sensors::new(config.sensors, config.seed);
+        let (airframe, sensors) = match config.flies_at_m {
+            Some(height_m) => {
+                let airframe = airframe.at_height(height_m);
+                let sensors = sensors.settled(&airframe);
+                (airframe, sensors)
+            }
+            None => (airframe, sensors),
+        };
         Self {
             config: config.clone(),
             wind: Wind::new(config.wind_m_s, config.gusts_m_s, config.seed),
@@ -183,8 +192,8 @@ impl Drone {
             claims: Claims::default(),
             floor_contacts: 0,
             firmware,
-            airframe: airframe.at_height(config.flies_at_m.unwrap_or_default()),
-            sensors: Sensors::new(config.sensors, config.seed),
+            airframe,
+            sensors,
             steps: 0,
             sequence: 0,
             listener: false,

@@ -1,6 +1,7 @@
 //! What the whole-system tests share: plans, and how a flight is judged.
 #![forbid(unsafe_code)]
 
+mod alone;
 pub mod campaign;
 pub mod sensors;
 

@@ -6,7 +6,6 @@
 use std::fmt;
 use std::time::Duration;
 
-use ardrone_link::at::{Command, Datagram, Motion, Ref};
 use autopilot::Plan;
 use autopilot::pilot::{FlightEvent, PilotConfig};
 use autopilot::plan::{FlightLimits, ZOrigin};
@@ -14,10 +13,12 @@ use autopilot::sim::{Simulation, SimulationError};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
-use mock_drone::{Drone, DroneConfig, Quantity, SensorFault, Truth, WorldConfig};
+use mock_drone::{DroneConfig, Quantity, SensorFault, Truth, WorldConfig};
 use nalgebra::{Vector2, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
+
+use crate::alone;
 
 /// No single fault may take the drone further outside its fence.
 pub const MOST_OUTSIDE_M: f64 = 3.0;
@@ -37,9 +38,22 @@ const HOVER_M: f64 = 0.85;
 const AFTERMATH: Duration = Duration::from_secs(30);
 const TICK: Duration = Duration::from_millis(30);
 
-/// The airframes, with their names.
-pub const AIRFRAMES: [(&str, fn() -> Profile); 4] =
-    [("rec", Profile::rec), ("tum", Profile::tum), ("tf", Profile::tf), ("leo", Profile::leo)];
+/// One of the published models of how the drone moves.
+#[derive(Debug, Clone, Copy)]
+pub struct Model {
+    /// For people.
+    pub name: &'static str,
+    /// The model.
+    pub profile: fn() -> Profile,
+}
+
+/// All of them.
+pub const AIRFRAMES: [Model; 4] = [
+    Model { name: "rec", profile: Profile::rec },
+    Model { name: "tum", profile: Profile::tum },
+    Model { name: "tf", profile: Profile::tf },
+    Model { name: "leo", profile: Profile::leo },
+];
 
 /// What the drone is doing when a sensor fails.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -143,8 +157,7 @@ fn name_of(quantity: Quantity) -> &'static str {
 
 fn faults(quantity: Quantity) -> Vec<(&'static str, SensorFault)> {
     let (jump, ramp) = match quantity {
-        Quantity::VelocityRight | Quantity::VelocityForward => (0.8, 0.2),
-        Quantity::Altitude => (0.8, 0.2),
+        Quantity::VelocityRight | Quantity::VelocityForward | Quantity::Altitude => (0.8, 0.2),
         Quantity::Yaw => (60.0, 10.0),
         Quantity::Roll | Quantity::Pitch => (10.0, 3.0),
         Quantity::Clock => (10.0, 0.5),
@@ -251,7 +264,7 @@ pub fn fly(
     let mut own = Excursion::default();
     healthy.fly_in_world(plan.clone(), |moment, world| {
         if moment.now >= at && moment.now < at + TICK {
-            hover_and_land(world.drone(), |truth| own.see(truth, between));
+            alone::hovers_and_lands(world.drone(), Duration::ZERO, |truth| own.see(truth, between));
         }
     })?;
     let flown = failures.iter().map(|failure| {
@@ -294,29 +307,5 @@ fn simulation(
         pilot: PilotConfig { limits: FENCE, ..PilotConfig::default() },
         aftermath: AFTERMATH,
         ..Simulation::default()
-    }
-}
-
-/// What becomes of a drone that is told to hover from now on, and after two seconds to land.
-pub(crate) fn hover_and_land(drone: &Drone, mut see: impl FnMut(&Truth)) {
-    const HOVERS: Duration = Duration::from_secs(2);
-    const LANDS: Duration = Duration::from_secs(20);
-    let mut drone = drone.clone();
-    let start = drone.time();
-    let mut now = start;
-    let mut sequence = 0;
-    while now < start + HOVERS + LANDS && drone.truth().phase != Phase::Landed {
-        let reference = if now < start + HOVERS { Ref::TakeOff } else { Ref::Land };
-        let mut datagram = Datagram::new();
-        for command in [Command::Ref(reference), Command::Pcmd(Motion::Hover)] {
-            // The first number begins the count anew.
-            sequence += 1;
-            // Two commands are much shorter than a datagram may be.
-            _ = datagram.push(sequence, &command);
-        }
-        drone.handle_at(now, datagram.as_bytes());
-        now += TICK;
-        drone.advance(now);
-        see(&drone.truth());
     }
 }

@@ -2,7 +2,7 @@
 
 use std::thread;
 
-use system_tests::sensors::{AIRFRAMES, Situation, failures, fly};
+use system_tests::sensors::{AIRFRAMES, Model, Situation, failures, fly};
 
 const SEEDS: std::ops::RangeInclusive<u64> = 1..=1;
 
@@ -15,7 +15,7 @@ fn no_single_sensor_leads_the_drone_far_astray() {
 }
 
 /// What led this airframe too far.
-fn faults_on((name, profile): (&str, fn() -> mock_drone::airframe::Profile)) -> Vec<String> {
+fn faults_on(Model { name, profile }: Model) -> Vec<String> {
     let failures = failures();
     let mut found = Vec::new();
     for situation in Situation::ALL {

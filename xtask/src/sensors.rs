@@ -71,7 +71,7 @@ pub(crate) fn run(seeds: u64) -> Result<(String, bool), SimulationError> {
         }
     }
     let flown = parallel::map(&jobs, |(seed, airframe, situation)| {
-        fly(AIRFRAMES[airframe].1(), Situation::ALL[situation], seed, &failures)
+        fly((AIRFRAMES[airframe].profile)(), Situation::ALL[situation], seed, &failures)
     })?;
     let mut own = Row::new("(its own hover and landing)");
     let mut rows: Vec<Row> = failures.iter().map(|failure| Row::new(&failure.name)).collect();
@@ -104,7 +104,7 @@ fn table(rows: &[Row]) -> String {
         let worst =
             row.away.iter().zip(Situation::ALL).max_by(|a, b| a.0.metres.total_cmp(&b.0.metres));
         let worst = worst.map_or_else(String::new, |(worst, situation)| {
-            format!("{} {situation}, seed {}", AIRFRAMES[worst.airframe].0, worst.seed)
+            format!("{} {situation}, seed {}", AIRFRAMES[worst.airframe].name, worst.seed)
         });
         _ = writeln!(
             text,
