@@ -23,6 +23,9 @@ pub struct Simulation {
     pub pilot: PilotConfig,
     /// What the person at the controls orders, and when, in the order of time.
     pub orders: Vec<(Duration, PilotOrder)>,
+    /// When the pilot's program does not run, and for how long: it neither hears nor says anything,
+    /// and then finds all that came meanwhile. In the order of time.
+    pub stalls: Vec<(Duration, Duration)>,
     /// How long the drone is watched after the flight, when it hears nothing more.
     pub aftermath: Duration,
 }
@@ -95,6 +98,20 @@ impl Simulation {
         plan: Plan,
         watch: impl FnMut(&Moment),
     ) -> Result<SimulatedFlight, SimulationError> {
+        let mut watch = watch;
+        self.run(plan, |moment, _| watch(moment), |_| {})
+    }
+
+    /// As [`Simulation::fly_watched`]; `watch` sees the world too, from which it may ask what would
+    /// happen if.
+    ///
+    /// # Errors
+    /// As [`Simulation::fly`].
+    pub fn fly_in_world(
+        &self,
+        plan: Plan,
+        watch: impl FnMut(&Moment, &World),
+    ) -> Result<SimulatedFlight, SimulationError> {
         self.run(plan, watch, |_| {})
     }
 
@@ -107,13 +124,13 @@ impl Simulation {
         plan: Plan,
         record: impl FnMut(Record),
     ) -> Result<SimulatedFlight, SimulationError> {
-        self.run(plan, |_| {}, record)
+        self.run(plan, |_, _| {}, record)
     }
 
     fn run(
         &self,
         plan: Plan,
-        mut watch: impl FnMut(&Moment),
+        mut watch: impl FnMut(&Moment, &World),
         mut record: impl FnMut(Record),
     ) -> Result<SimulatedFlight, SimulationError> {
         let mut pilot = Pilot::new(plan, &self.pilot)?;
@@ -125,6 +142,16 @@ impl Simulation {
         let mut next_tick = Duration::ZERO;
         let mut orders = self.orders.iter().peekable();
         while now < LIMIT {
+            if self.is_stalled(now) {
+                world.advance(now);
+                if now >= next_tick {
+                    next_tick += TICK;
+                    let moment = Moment { now, truth: world.truth(), status: pilot.status(now) };
+                    watch(&moment, &world);
+                }
+                now += POLL;
+                continue;
+            }
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
                 pilot.order(now, *order);
                 record(Record::Order { at: now, order: *order });
@@ -159,7 +186,8 @@ impl Simulation {
                     record(Record::Event { at: now, event: event.clone() });
                     events.push((now, event));
                 }
-                watch(&Moment { now, truth: world.truth(), status: pilot.status(now) });
+                let moment = Moment { now, truth: world.truth(), status: pilot.status(now) };
+                watch(&moment, &world);
                 let reached = pilot.report().waypoints.len();
                 if reached > truth_at_waypoints.len() {
                     truth_at_waypoints.push(world.truth());
@@ -171,11 +199,8 @@ impl Simulation {
                     while later < end {
                         later += TICK;
                         world.advance(later);
-                        watch(&Moment {
-                            now: later,
-                            truth: world.truth(),
-                            status: pilot.status(now),
-                        });
+                        let status = pilot.status(now);
+                        watch(&Moment { now: later, truth: world.truth(), status }, &world);
                     }
                     return Ok(SimulatedFlight {
                         outcome: outcome.clone(),
@@ -190,5 +215,9 @@ impl Simulation {
             now += POLL;
         }
         Err(SimulationError::Endless { limit: LIMIT })
+    }
+
+    fn is_stalled(&self, now: Duration) -> bool {
+        self.stalls.iter().any(|(at, time)| (*at..*at + *time).contains(&now))
     }
 }

@@ -81,6 +81,10 @@ pub struct Truth {
     pub odometry_m: Vector2<f64>,
     /// The motion that the firmware carries out while it flies.
     pub motion: Motion,
+    /// When the firmware last took a command.
+    pub heard_at: Option<Duration>,
+    /// How often the level reference was set in the air, where that spoils it.
+    pub trims_in_flight: u32,
     /// Remaining charge, as the drone believes it by its voltage.
     pub battery_percent: f64,
     /// How often it hit the floor while it was to fly.
@@ -171,6 +175,15 @@ impl Drone {
         };
         firmware.set_battery_sag_percent(config.battery_sag_percent);
         let airframe = Airframe::new(config.profile, trim_rad);
+        let sensors = Sensors::new(config.sensors, config.seed);
+        let (airframe, sensors) = match config.flies_at_m {
+            Some(height_m) => {
+                let airframe = airframe.at_height(height_m);
+                let sensors = sensors.settled(&airframe);
+                (airframe, sensors)
+            }
+            None => (airframe, sensors),
+        };
         Self {
             config: config.clone(),
             wind: Wind::new(config.wind_m_s, config.gusts_m_s, config.seed),
@@ -179,8 +192,8 @@ impl Drone {
             claims: Claims::default(),
             floor_contacts: 0,
             firmware,
-            airframe: airframe.at_height(config.flies_at_m.unwrap_or_default()),
-            sensors: Sensors::new(config.sensors, config.seed),
+            airframe,
+            sensors,
             steps: 0,
             sequence: 0,
             listener: false,
@@ -309,6 +322,8 @@ impl Drone {
             phase: self.firmware.phase(),
             odometry_m: self.sensors.odometry_m(),
             motion: self.firmware.motion(),
+            heard_at: self.firmware.last_command(),
+            trims_in_flight: self.firmware.trims_in_flight(),
             battery_percent: self.firmware.battery_percent(),
             floor_contacts: self.floor_contacts,
             touch_down_m_s: self.airframe.touch_down_m_s(),

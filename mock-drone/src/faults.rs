@@ -9,7 +9,7 @@ use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, StandardNormal};
 
-use crate::sensors::{DelayLine, Reading, SensorModel};
+use crate::sensors::{DelayLine, Reading, SensorModel, wrapped_deg};
 
 /// Something that navdata tell and that can be wrong alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -119,7 +119,7 @@ impl Told {
             Quantity::VelocityRight => reading.velocity_m_s.x = value,
             Quantity::VelocityForward => reading.velocity_m_s.y = value,
             Quantity::Altitude => reading.altitude_m = value,
-            Quantity::Yaw => reading.yaw_deg = (value + 180.0).rem_euclid(360.0) - 180.0,
+            Quantity::Yaw => reading.yaw_deg = wrapped_deg(value),
             Quantity::Roll => reading.roll_deg = value,
             Quantity::Pitch => reading.pitch_deg = value,
             Quantity::Clock => {

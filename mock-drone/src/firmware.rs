@@ -63,6 +63,8 @@ pub struct Firmware {
     watchdog: bool,
     last_sequence: Option<u32>,
     last_command: Option<Duration>,
+    /// How often its level reference was set in the air, where that spoils it.
+    trims_in_flight: u32,
     emergency_bit: bool,
     user_emergency: bool,
     cutout: bool,
@@ -140,6 +142,7 @@ impl Firmware {
             watchdog: false,
             last_sequence: None,
             last_command: None,
+            trims_in_flight: 0,
             emergency_bit: false,
             user_emergency: false,
             cutout: false,
@@ -220,9 +223,13 @@ impl Firmware {
                 self.dump_requested = Some(Dump::Identities);
             }
             Command::CommunicationWatchdog => self.watchdog = false,
-            // Level reference and identities need no model; the rest has no effect on flight.
-            Command::FlatTrim
-            | Command::CalibrateMagneto
+            // The level reference needs no model, but where it is set matters.
+            Command::FlatTrim => {
+                let grounded = matches!(self.phase, Phase::Landed | Phase::Emergency);
+                self.trims_in_flight += u32::from(!grounded);
+            }
+            // Identities need no model; the rest has no effect on flight.
+            Command::CalibrateMagneto
             | Command::ConfigIds(_)
             | Command::Control(ControlMode::Other(_))
             | Command::Led { .. }
@@ -397,6 +404,16 @@ impl Firmware {
         self.user_emergency = false;
         self.cutout = true;
         self.phase = Phase::Emergency;
+    }
+
+    /// How often its level reference was set in the air.
+    pub fn trims_in_flight(&self) -> u32 {
+        self.trims_in_flight
+    }
+
+    /// When it last took a command.
+    pub fn last_command(&self) -> Option<Duration> {
+        self.last_command
     }
 
     /// What the drone does with its motion commands now.

@@ -171,6 +171,21 @@ impl Sensors {
         }
     }
 
+    /// The same sensors as they are when they have looked at an airframe at rest for long: nothing is
+    /// still on its way.
+    #[must_use]
+    pub fn settled(mut self, airframe: &Airframe) -> Self {
+        let attitude = AttitudeReading {
+            pitch_deg: airframe.pitch_rad().to_degrees(),
+            roll_deg: airframe.roll_rad().to_degrees(),
+            yaw_deg: wrapped_deg(self.model.initial_heading_deg + airframe.yaw_rad().to_degrees()),
+        };
+        self.attitude = DelayLine::starting_at(attitude, self.model.attitude_delay);
+        let height_m = airframe.position_m().z;
+        self.altitude = DelayLine::starting_at(height_m, self.model.attitude_delay);
+        self
+    }
+
     /// The same sensors after the drone was switched off and on. What they were integrated to is
     /// nothing that the drone knows: it goes on.
     #[must_use]
@@ -227,7 +242,7 @@ impl Sensors {
         let reading = AttitudeReading {
             pitch_deg: airframe.pitch_rad().to_degrees() + pitch * self.model.attitude_noise_deg,
             roll_deg: airframe.roll_rad().to_degrees() + roll * self.model.attitude_noise_deg,
-            yaw_deg: (heading_deg + 180.0).rem_euclid(360.0) - 180.0,
+            yaw_deg: wrapped_deg(heading_deg),
         };
         self.attitude.push(now, reading);
     }
@@ -254,6 +269,11 @@ impl Sensors {
     fn gaussian(&mut self) -> f64 {
         StandardNormal.sample(&mut self.random)
     }
+}
+
+/// The same angle in [-180, 180).
+pub(crate) fn wrapped_deg(deg: f64) -> f64 {
+    (deg + 180.0).rem_euclid(360.0) - 180.0
 }
 
 fn gaussian_pair(random: &mut ChaCha8Rng) -> Vector2<f64> {

@@ -1,7 +1,9 @@
 //! What the whole-system tests share: plans, and how a flight is judged.
 #![forbid(unsafe_code)]
 
+mod alone;
 pub mod campaign;
+pub mod sensors;
 
 use autopilot::Plan;
 use autopilot::pilot::Waypoint;

@@ -15,5 +15,6 @@ mod ports;
 mod processes;
 mod recording;
 mod safety;
+mod sensors;
 mod simulated;
 mod udp;

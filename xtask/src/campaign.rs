@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use autopilot::outcome::Outcome;
 use autopilot::pilot::LandingReason;
 use autopilot::sim::SimulationError;
-use system_tests::campaign::{Verdict, fly};
+use system_tests::campaign::{Fault, Verdict, fly};
 
 use crate::parallel;
 
@@ -15,20 +15,33 @@ use crate::parallel;
 pub(crate) fn run(flights: u64, first: u64) -> Result<(String, bool), SimulationError> {
     let seeds: Vec<u64> = (first..first.saturating_add(flights)).collect();
     let verdicts = parallel::map(&seeds, fly)?;
-    let faulty = verdicts.iter().filter(|verdict| !verdict.faults.is_empty()).count();
-    let story = match verdicts.as_slice() {
+    let good = verdicts.iter().all(|verdict| verdict.faults.is_empty());
+    let text = match verdicts.as_slice() {
         [verdict] => story(verdict),
-        _ => String::new(),
+        _ => table(&verdicts) + &faults(&verdicts),
     };
-    Ok((story + &table(&verdicts), faulty == 0))
+    Ok((text, good))
 }
 
 /// What happened on one flight.
 fn story(verdict: &Verdict) -> String {
     let mut text = String::new();
-    for (at, event) in &verdict.events {
-        _ = writeln!(text, "{:>8.2} s  {event}", at.as_secs_f64());
+    for line in &verdict.circumstances {
+        _ = writeln!(text, "{line}");
     }
+    let events = verdict.events.iter().map(|(at, event)| (*at, event.to_string()));
+    let faults = verdict.faults.iter().map(|(at, fault)| (*at, format!("FAULT: {fault}")));
+    let mut lines: Vec<_> = events.chain(faults).collect();
+    lines.sort_by_key(|(at, _)| *at);
+    for (at, line) in lines {
+        _ = writeln!(text, "{:>8.2} s  {line}", at.as_secs_f64());
+    }
+    _ = writeln!(text, "{}", verdict.outcome);
+    let Verdict { outside_m, wrong_m, .. } = verdict;
+    _ = writeln!(
+        text,
+        "{outside_m:.2} m outside the fence, healthy sensors wrong by {wrong_m:.2} m"
+    );
     text
 }
 
@@ -40,8 +53,8 @@ fn table(verdicts: &[Verdict]) -> String {
     let mut rows: Vec<_> = by_end.into_iter().collect();
     rows.sort_by_key(|(_, verdicts)| std::cmp::Reverse(verdicts.len()));
     let mut text = format!(
-        "{:<50}{:>8}{:>8}{:>10}{:>10}{:>10}{:>8}\n",
-        "how it ended", "flights", "vetoes", "outside", "unseen", "wrong", "faults"
+        "{:<50}{:>8}{:>8}{:>10}{:>10}{:>8}\n",
+        "how it ended", "flights", "vetoes", "outside", "wrong", "faulty"
     );
     let largest = |verdicts: &[&Verdict], of: fn(&Verdict) -> f64| {
         verdicts.iter().map(|verdict| of(verdict)).fold(0.0, f64::max)
@@ -50,25 +63,35 @@ fn table(verdicts: &[Verdict]) -> String {
     for (end, verdicts) in rows.into_iter().chain([("all".to_owned(), all)]) {
         _ = writeln!(
             text,
-            "{end:<50}{:>8}{:>8}{:>8.2} m{:>8.2} m{:>8.2} m{:>8}",
+            "{end:<50}{:>8}{:>8}{:>8.2} m{:>8.2} m{:>8}",
             verdicts.len(),
             verdicts.iter().filter(|verdict| verdict.vetoed).count(),
             largest(&verdicts, |verdict| verdict.outside_m),
-            largest(&verdicts, |verdict| verdict.unseen_m),
             largest(&verdicts, |verdict| verdict.wrong_m),
             verdicts.iter().filter(|verdict| !verdict.faults.is_empty()).count(),
         );
     }
-    for verdict in verdicts.iter().filter(|verdict| !verdict.faults.is_empty()).take(20) {
-        let faults: Vec<String> = verdict.faults.iter().map(ToString::to_string).collect();
-        let (outside_m, wrong_m) = (verdict.outside_m, verdict.wrong_m);
-        _ = writeln!(
-            text,
-            "seed {}: {}; {}, {outside_m:.2} m outside, navdata wrong by {wrong_m:.2} m",
-            verdict.seed,
-            faults.join(", "),
-            end(verdict),
-        );
+    text
+}
+
+/// What must never happen and did: how often, and on which flights first.
+fn faults(verdicts: &[Verdict]) -> String {
+    /// So many flights of a kind are named.
+    const NAMED: usize = 5;
+    let mut by_kind: BTreeMap<String, Vec<(u64, &Fault)>> = BTreeMap::new();
+    for verdict in verdicts {
+        for (_, fault) in &verdict.faults {
+            by_kind.entry(fault.kind()).or_default().push((verdict.seed, fault));
+        }
+    }
+    let mut kinds: Vec<_> = by_kind.into_iter().collect();
+    kinds.sort_by_key(|(_, found)| std::cmp::Reverse(found.len()));
+    let mut text = String::new();
+    for (kind, found) in kinds {
+        _ = writeln!(text, "{kind}: {} flights", found.len());
+        for (seed, fault) in found.iter().take(NAMED) {
+            _ = writeln!(text, "  seed {seed}: {fault}");
+        }
     }
     text
 }

@@ -7,6 +7,7 @@ mod fly;
 mod parallel;
 mod plot;
 mod score;
+mod sensors;
 mod table;
 mod verify;
 
@@ -48,6 +49,13 @@ enum Command {
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
     },
+    /// Fly with one wrong sensor at a time, and tell how far that led the drone astray; fails if it was
+    /// too far
+    Sensors {
+        /// Seeds of each failure in each situation on each airframe, from 1
+        #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1_000))]
+        seeds: u64,
+    },
     /// Prove the properties of the shipped agent on a model and on its C, and measure what tests exercise
     Verify {
         /// Only prove, which is all that the shipped agent needs: no mutants, no coverage, no other agent, no report
@@ -66,6 +74,7 @@ fn main() -> ExitCode {
         Command::Campaign { flights, first } => {
             campaign::run(flights, first).map_err(|error| error.to_string())
         }
+        Command::Sensors { seeds } => sensors::run(seeds).map_err(|error| error.to_string()),
         Command::Verify { only_proofs } => {
             verify::run(only_proofs).map_err(|error| error.to_string())
         }

@@ -1,0 +1,356 @@
+//! What is flown: everything follows from a seed.
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use ardrone_link::navdata::DroneState;
+use autopilot::pilot::{PilotConfig, PilotOrder};
+use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::sim::Simulation;
+use autopilot::{Demand, Plan};
+use mock_drone::airframe::{Profile, ThrustLaw};
+use mock_drone::scenario::{Action, Direction, When};
+use mock_drone::sensors::SensorModel;
+use mock_drone::{DroneConfig, LinkFaults, Quantity, SensorFault, WorldConfig};
+use nalgebra::Vector2;
+use rand::{Rng, RngExt as _, SeedableRng as _};
+use rand_chacha::ChaCha8Rng;
+
+use super::injected::Injected;
+use crate::sensors::{AIRFRAMES, Model};
+
+/// The fence of the campaign.
+const RADIUS_M: f64 = 4.0;
+/// So long is watched whether a drone that hears nothing lands by itself.
+const AFTERMATH: Duration = Duration::from_secs(45);
+
+/// A flight of the campaign.
+#[derive(Debug)]
+pub(super) struct Flight {
+    pub(super) simulation: Simulation,
+    pub(super) plan: Plan,
+    pub(super) injected: Injected,
+    /// The wind that the airframe just resists.
+    pub(super) strongest_m_s: f64,
+    airframe: &'static str,
+    plan_text: String,
+}
+
+impl Flight {
+    /// The flight of a seed.
+    pub(super) fn of(seed: u64) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let random = &mut random;
+        let limits = FlightLimits {
+            radius_m: RADIUS_M,
+            ceiling_m: random.random_range(1.6..3.0),
+            floor_m: 0.3,
+            z_origin: ZOrigin::Hover,
+        };
+        let Model { name: airframe, profile } = AIRFRAMES[random.random_range(0..AIRFRAMES.len())];
+        let strongest_m_s = strongest_wind_m_s(&profile());
+        let drone = drone(random, seed, profile(), strongest_m_s, &limits);
+        let link = if random.random_bool(0.3) { LinkFaults::default() } else { link(random) };
+        let injected = injected(random, strongest_m_s, drone.flies_at_m.is_some());
+        let orders = orders(random);
+        let plan_text = plan(random, &limits, drone.flies_at_m.is_some());
+        let plan = Plan::parse_within("campaign", &plan_text, &limits)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let simulation = Simulation {
+            world: WorldConfig { drone, link, scenario: injected.scenario() },
+            pilot: PilotConfig { limits, ..PilotConfig::default() },
+            orders,
+            stalls: injected.stalls.clone(),
+            aftermath: AFTERMATH,
+        };
+        Self { simulation, plan, injected, strongest_m_s, airframe, plan_text }
+    }
+
+    /// Whether there is no reason not to fly the plan to its end.
+    pub(super) fn is_fair(&self) -> bool {
+        let WorldConfig { drone, link, .. } = &self.simulation.world;
+        let wind_m_s = drone.wind_m_s.norm() + 3.0 * drone.gusts_m_s;
+        self.injected == Injected::default()
+            && *link == LinkFaults::default()
+            && self.simulation.orders.is_empty()
+            && drone.battery_percent > 60.0
+            && drone.flies_at_m.is_none()
+            && wind_m_s < 0.5 * self.strongest_m_s
+    }
+
+    /// What is flown with what, and what goes wrong: one line each.
+    pub(super) fn circumstances(&self) -> Vec<String> {
+        let WorldConfig { drone, link, .. } = &self.simulation.world;
+        let mut lines = vec![
+            format!(
+                "airframe {}, sensors {}, battery {:.0} % sagging by {:.0} %, ceiling {:.2} m",
+                self.airframe,
+                if drone.sensors == SensorModel::hard() { "hard" } else { "nominal" },
+                drone.battery_percent,
+                drone.battery_sag_percent,
+                self.simulation.pilot.limits.ceiling_m,
+            ),
+            format!(
+                "wind {:.2} {:.2} gusts {:.2} m/s, of {:.2} m/s that the airframe resists",
+                drone.wind_m_s.x, drone.wind_m_s.y, drone.gusts_m_s, self.strongest_m_s,
+            ),
+            format!(
+                "loss {:.0} %, delay {} + {} ms, doubled {:.0} %, swapped {:.0} %, spoiled {:.0} %",
+                100.0 * link.loss,
+                link.delay.as_millis(),
+                link.jitter.as_millis(),
+                100.0 * link.duplication,
+                100.0 * link.reordering,
+                100.0 * link.corruption,
+            ),
+            format!("plan: {}", self.plan_text.trim().replace('\n', "; ")),
+        ];
+        if let Some(height_m) = drone.flies_at_m {
+            lines.push(format!("flies at {height_m:.2} m from the start"));
+        }
+        for (when, action) in &self.injected.accidents {
+            lines.push(match when {
+                When::SinceStart(at) => format!("{:.2} s: {action:?}", at.as_secs_f64()),
+                When::SinceTakeOff(at) => format!("+{:.2} s: {action:?}", at.as_secs_f64()),
+            });
+        }
+        for (at, time) in &self.injected.stalls {
+            lines.push(format!("{:.2} s: stalls for {time:?}", at.as_secs_f64()));
+        }
+        let mut last = None;
+        for (at, order) in &self.simulation.orders {
+            // A key that is held down is told once.
+            if last.replace(order) == Some(order) {
+                continue;
+            }
+            lines.push(format!("{:.2} s: ordered to {order:?}", at.as_secs_f64()));
+        }
+        lines
+    }
+}
+
+fn drone(
+    random: &mut impl Rng,
+    seed: u64,
+    profile: Profile,
+    strongest_m_s: f64,
+    limits: &FlightLimits,
+) -> DroneConfig {
+    DroneConfig {
+        seed,
+        profile,
+        sensors: if random.random_bool(0.5) { SensorModel::nominal() } else { SensorModel::hard() },
+        battery_percent: random.random_range(15.0..100.0),
+        battery_sag_percent: if random.random_bool(0.2) {
+            random.random_range(0.0..30.0)
+        } else {
+            0.0
+        },
+        flies_at_m: random.random_bool(0.04).then(|| random.random_range(0.5..limits.ceiling_m)),
+        wind_m_s: wind(random, 0.5 * strongest_m_s),
+        gusts_m_s: random.random_range(0.0..0.15) * strongest_m_s,
+        trim_error_deg: random.random_range(0.0..1.0),
+        ..DroneConfig::default()
+    }
+}
+
+fn injected(random: &mut impl Rng, strongest_m_s: f64, flies: bool) -> Injected {
+    let mut injected = Injected::default();
+    for _ in 0..random.random_range(0..4) {
+        let at = seconds(random, 0.0, 40.0);
+        let when =
+            if random.random_bool(0.8) { When::SinceTakeOff(at) } else { When::SinceStart(at) };
+        let action = accident(random, strongest_m_s);
+        injected.accidents.push((when, action));
+    }
+    if flies && random.random_bool(0.5) {
+        let action = Action::SecondPilot(seconds(random, 1.0, 10.0), first_number(random));
+        injected.accidents.push((When::SinceStart(Duration::ZERO), action));
+    }
+    if random.random_bool(0.05) {
+        injected.stalls.push((seconds(random, 1.0, 40.0), seconds(random, 0.05, 3.0)));
+    }
+    injected
+}
+
+fn orders(random: &mut impl Rng) -> Vec<(Duration, PilotOrder)> {
+    let mut orders = Vec::new();
+    if random.random_bool(0.4) {
+        let mut at = Duration::ZERO;
+        for _ in 0..random.random_range(1..6) {
+            at += seconds(random, 0.5, 15.0);
+            let order = pilot_order(random);
+            // A key that is held down repeats.
+            let repeats = if matches!(order, PilotOrder::Steer(_)) { 10 } else { 1 };
+            for _ in 0..repeats {
+                orders.push((at, order));
+                at += Duration::from_millis(100);
+            }
+        }
+    }
+    orders
+}
+
+/// The wind that the airframe just resists at 12 degrees of tilt: what is blown away by more is lost to
+/// any pilot.
+fn strongest_wind_m_s(profile: &Profile) -> f64 {
+    let tilt_rad = 12_f64.to_radians();
+    let acceleration = match profile.thrust {
+        ThrustLaw::CarriesWeight => Vector2::repeat(9.81 * tilt_rad.tan()),
+        ThrustLaw::Sine { acceleration_m_s2 } => {
+            Vector2::repeat(acceleration_m_s2 * tilt_rad.sin())
+        }
+        ThrustLaw::Linear { acceleration_m_s2 } => acceleration_m_s2 * tilt_rad,
+    };
+    // Quadratic drag makes it a little less.
+    0.8 * acceleration.component_div(&profile.linear_drag_1_s).min()
+}
+
+fn plan(random: &mut impl Rng, limits: &FlightLimits, flies: bool) -> String {
+    let mut text = if flies && random.random_bool(0.5) {
+        "autoTakeover 500 800 0.5 0.5\n"
+    } else {
+        "takeoff\n"
+    }
+    .to_owned();
+    for _ in 0..random.random_range(1..7) {
+        let x = random.random_range(-2.5..2.5);
+        let y = random.random_range(-2.5..2.5);
+        let z = random.random_range(-0.5..limits.ceiling_m - 0.9);
+        let yaw = if random.random_bool(0.3) { random.random_range(-180.0..180.0) } else { 0.0 };
+        _ = writeln!(text, "goto {x:.2} {y:.2} {z:.2} {yaw:.0}");
+    }
+    text + "land\n"
+}
+
+fn link(random: &mut impl Rng) -> LinkFaults {
+    LinkFaults {
+        loss: random.random_range(0.0..0.4),
+        delay: seconds(random, 0.0, 0.08),
+        jitter: seconds(random, 0.0, 0.06),
+        duplication: random.random_range(0.0..0.2),
+        reordering: random.random_range(0.0..0.1),
+        corruption: random.random_range(0.0..0.05),
+    }
+}
+
+fn accident(random: &mut impl Rng, strongest_m_s: f64) -> Action {
+    match random.random_range(0..25) {
+        0 | 1 => Action::Outage(direction(random), seconds(random, 0.2, 10.0)),
+        2 => Action::Outage(direction(random), seconds(random, 0.1, 1.5)),
+        3 => Action::Restart,
+        4 => Action::Freeze(seconds(random, 0.2, 8.0)),
+        5..=11 => sensor(random),
+        12 | 13 => {
+            let steady_m_s = wind(random, 0.6 * strongest_m_s);
+            let left_m_s = strongest_m_s - steady_m_s.norm();
+            // Most gusts stay below the strongest wind.
+            Action::Wind(steady_m_s, random.random_range(0.0..0.3) * left_m_s)
+        }
+        14 => {
+            let (sin, cos) = random.random_range(0.0..std::f64::consts::TAU).sin_cos();
+            let speed_m_s = random.random_range(1.1..1.8) * strongest_m_s;
+            Action::Wind(Vector2::new(sin, cos) * speed_m_s, 0.0)
+        }
+        15 => Action::Battery(random.random_range(3.0..30.0)),
+        16 => Action::BatterySag(random.random_range(0.0..40.0)),
+        17 => Action::Loss(direction(random), random.random_range(0.0..0.6)),
+        18 => Action::Hold(direction(random), seconds(random, 0.1, 3.0)),
+        19 => Action::Burst(random.random_range(1..100)),
+        20 => Action::State(claim(random), seconds(random, 0.2, 10.0)),
+        21 => {
+            // No floor seen, and no altitude, whatever the drone is doing.
+            let minor = if random.random_bool(0.5) { 2 } else { 6 };
+            Action::Minor(minor, seconds(random, 0.2, 10.0))
+        }
+        22 => Action::Motor(random.random_range(0.8..1.0), seconds(random, 0.0, 5.0)),
+        23 => Action::SecondPilot(seconds(random, 0.5, 8.0), first_number(random)),
+        _ if random.random_bool(0.3) => Action::Propeller,
+        _ => Action::Battery(random.random_range(3.0..30.0)),
+    }
+}
+
+/// One quantity, wrong in one way. What cannot be told from the truth for long does not last long.
+fn sensor(random: &mut impl Rng) -> Action {
+    let quantity = Quantity::ALL[random.random_range(0..Quantity::ALL.len())];
+    // As wrong as it is in a bad case: in the quantity's own unit.
+    let most = match quantity {
+        Quantity::VelocityRight | Quantity::VelocityForward => 3.0,
+        Quantity::Altitude => 1.0,
+        Quantity::Yaw => 60.0,
+        Quantity::Roll | Quantity::Pitch => 15.0,
+        Quantity::Clock => 20.0,
+    };
+    let value = random.random_range(-most..most);
+    let long = seconds(random, 0.2, 30.0);
+    let short = seconds(random, 0.2, 8.0);
+    let (fault, time) = match random.random_range(0..7) {
+        0 => (SensorFault::Stuck, long),
+        1 => (SensorFault::StuckAt(0.5 * value), long),
+        2 => (SensorFault::DeadAt(0.0), long),
+        3 => (SensorFault::Offset(value), short),
+        4 => (SensorFault::Ramp(0.2 * value), short),
+        5 if quantity.is_float() => (SensorFault::NotANumber, long),
+        _ => (SensorFault::Late(seconds(random, 0.05, 1.0)), short),
+    };
+    Action::Sensor(quantity, fault, time)
+}
+
+fn direction(random: &mut impl Rng) -> Direction {
+    match random.random_range(0..4) {
+        0 => Direction::Up,
+        1 => Direction::Down,
+        _ => Direction::Both,
+    }
+}
+
+/// Something that a drone says of itself.
+fn claim(random: &mut impl Rng) -> DroneState {
+    const CLAIMS: [DroneState; 10] = [
+        DroneState::ULTRASOUND_DEAF,
+        DroneState::ULTRASOUND_DEAF,
+        DroneState::MOTORS_PROBLEM,
+        DroneState::SOFTWARE_FAULT,
+        DroneState::ANGLES_OUT_OF_RANGE,
+        DroneState::CUTOUT_DETECTED,
+        DroneState::BATTERY_LOW,
+        DroneState::COMMUNICATION_WATCHDOG,
+        DroneState::COMMUNICATION_LOST,
+        DroneState::COMMAND_ACKNOWLEDGE,
+    ];
+    CLAIMS[random.random_range(0..CLAIMS.len())]
+}
+
+/// Of a client that has just begun, or of one that has flown for minutes.
+fn first_number(random: &mut impl Rng) -> u32 {
+    if random.random_bool(0.5) { 1 } else { 5000 }
+}
+
+fn pilot_order(random: &mut impl Rng) -> PilotOrder {
+    match random.random_range(0..12) {
+        0 | 1 => PilotOrder::Hold,
+        2..=4 => PilotOrder::Resume,
+        5..=7 => {
+            let mut stick = || random.random_range(-1.0..1.0);
+            PilotOrder::Steer(Demand { roll: stick(), pitch: stick(), gaz: stick(), yaw: stick() })
+        }
+        8 => PilotOrder::Land,
+        9 | 10 => {
+            let mut place_m = || random.random_range(-15.0..15.0);
+            PilotOrder::GoTo { x_m: place_m(), y_m: place_m() }
+        }
+        _ if random.random_bool(0.1) => PilotOrder::Cut,
+        _ => PilotOrder::Resume,
+    }
+}
+
+/// Any direction, up to a speed.
+fn wind(random: &mut impl Rng, most_m_s: f64) -> Vector2<f64> {
+    let speed_m_s = random.random_range(0.0..most_m_s);
+    let (sin, cos) = random.random_range(0.0..std::f64::consts::TAU).sin_cos();
+    Vector2::new(sin, cos) * speed_m_s
+}
+
+fn seconds(random: &mut impl Rng, from: f64, to: f64) -> Duration {
+    Duration::from_secs_f64(random.random_range(from..to))
+}

@@ -1,0 +1,187 @@
+//! What goes wrong on a flight, and when: the judge knows it, the pilot does not.
+
+use std::time::Duration;
+
+use ardrone_link::navdata::DroneState;
+use mock_drone::scenario::{Action, Direction, Scenario, When};
+use mock_drone::{Quantity, SensorFault, Truth};
+
+use super::judge::TICK;
+
+/// What goes wrong on a flight.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Injected {
+    pub(super) accidents: Vec<(When, Action)>,
+    /// When the pilot's program does not run, and for how long.
+    pub(super) stalls: Vec<(Duration, Duration)>,
+    /// When the drone first took off.
+    take_off: Option<Duration>,
+}
+
+impl Injected {
+    /// The accidents as a scenario.
+    pub(super) fn scenario(&self) -> Scenario {
+        self.accidents
+            .iter()
+            .fold(Scenario::default(), |scenario, (when, action)| scenario.and(*when, *action))
+    }
+
+    /// Learns when the drone takes off.
+    pub(super) fn see(&mut self, truth: &Truth) {
+        if is_airborne(truth) {
+            // It is seen at the end of the tick in which it happens.
+            self.take_off.get_or_insert(truth.time.saturating_sub(TICK));
+        }
+    }
+
+    /// What has begun by now, and when.
+    fn begun(&self, now: Duration) -> impl Iterator<Item = (Duration, &Action)> {
+        self.times().filter(move |(at, _)| *at <= now)
+    }
+
+    /// What lasts now, and since when.
+    fn lasting(&self, now: Duration) -> impl Iterator<Item = (Duration, &Action)> {
+        self.begun(now)
+            .filter(move |(at, action)| time_of(action).is_none_or(|time| now < *at + time + TICK))
+    }
+
+    /// As far as the take-off is known.
+    fn times(&self) -> impl Iterator<Item = (Duration, &Action)> {
+        self.accidents.iter().filter_map(|(when, action)| {
+            let at = match when {
+                When::SinceStart(at) => Some(*at),
+                When::SinceTakeOff(at) => self.take_off.map(|take_off| take_off + *at),
+            };
+            Some((at?, action))
+        })
+    }
+
+    /// Whether nothing goes wrong from a moment to another.
+    pub(super) fn is_quiet(&self, from: Duration, to: Duration) -> bool {
+        let passes = |at: Duration, time: Duration| at + time < from || at > to;
+        // What has no end stays as it is: it is what happens that disturbs.
+        self.times().all(|(at, action)| passes(at, time_of(action).unwrap_or(Duration::ZERO)))
+            && self.stalls.iter().all(|(at, time)| passes(*at, *time))
+    }
+
+    /// Whether the program stands still.
+    pub(super) fn is_stalled(&self, now: Duration) -> bool {
+        self.stalls.iter().any(|(at, time)| (*at..*at + *time).contains(&now))
+    }
+
+    /// Whether nothing passes on the way to the drone, or only late.
+    pub(super) fn is_cut_up(&self, now: Duration) -> bool {
+        self.is_cut(now, Direction::Up)
+    }
+
+    /// Whether nothing passes on the way from the drone, or only late.
+    pub(super) fn is_cut_down(&self, now: Duration) -> bool {
+        self.is_cut(now, Direction::Down)
+    }
+
+    fn is_cut(&self, now: Duration, way: Direction) -> bool {
+        self.is_stalled(now)
+            || self.lasting(now).any(|(_, action)| match action {
+                Action::Outage(direction, _) | Action::Hold(direction, _) => {
+                    *direction == way || *direction == Direction::Both
+                }
+                _ => false,
+            })
+    }
+
+    /// Whether another pilot speaks, or has within so long.
+    pub(super) fn second_pilot(&self, now: Duration, since: Duration) -> bool {
+        self.begun(now).any(|(at, action)| match action {
+            Action::SecondPilot(time, _) => now < at + *time + since,
+            _ => false,
+        })
+    }
+
+    /// For how long the longest order can have been on its way.
+    pub(super) fn longest_hold(&self, now: Duration) -> Duration {
+        let holds = self.begun(now).filter_map(|(_, action)| match action {
+            Action::Hold(_, time) => Some(*time),
+            _ => None,
+        });
+        holds.max().unwrap_or_default()
+    }
+
+    /// Whether navdata have said something wrong by now.
+    pub(super) fn has_lied(&self, now: Duration) -> bool {
+        self.begun(now).any(|(_, action)| matches!(action, Action::Sensor(..) | Action::Freeze(_)))
+    }
+
+    /// Whether the altitude is wrong, or was.
+    pub(super) fn has_lied_of_height(&self, now: Duration) -> bool {
+        self.begun(now).any(|(_, action)| {
+            matches!(action, Action::Sensor(Quantity::Altitude, ..) | Action::Freeze(_))
+        })
+    }
+
+    /// For how long nothing of what navdata say of the place has been worth anything.
+    pub(super) fn worthless_for(&self, now: Duration) -> Duration {
+        let worthless = self.lasting(now).filter(|(_, action)| match action {
+            Action::Freeze(_) => true,
+            Action::Sensor(quantity, SensorFault::NotANumber, _) => matches!(
+                quantity,
+                Quantity::VelocityRight | Quantity::VelocityForward | Quantity::Yaw
+            ),
+            _ => false,
+        });
+        worthless.map(|(at, _)| now.saturating_sub(at)).max().unwrap_or_default()
+    }
+
+    /// What the drone says of itself.
+    pub(super) fn claims(&self, now: Duration, bits: DroneState) -> bool {
+        self.lasting(now).any(|(_, action)| match action {
+            Action::State(claimed, _) => claimed.intersects(bits),
+            _ => false,
+        })
+    }
+
+    /// Whether the drone says in its detail of the control state that it has no floor below.
+    pub(super) fn claims_no_floor(&self, now: Duration) -> bool {
+        self.lasting(now).any(|(_, action)| matches!(action, Action::Minor(..)))
+    }
+
+    /// Whether a motor has weakened.
+    pub(super) fn has_weak_motor(&self, now: Duration) -> bool {
+        self.begun(now).any(|(_, action)| matches!(action, Action::Motor(..)))
+    }
+
+    /// Whether it was switched off and on by now.
+    pub(super) fn has_restarted(&self, now: Duration) -> bool {
+        self.begun(now).any(|(_, action)| matches!(action, Action::Restart))
+    }
+
+    /// The wind that was last set, and the deviation of its gusts.
+    pub(super) fn wind_m_s(&self, now: Duration) -> Option<f64> {
+        let winds = self.begun(now).filter_map(|(at, action)| match action {
+            Action::Wind(steady_m_s, _) => Some((at, steady_m_s.norm())),
+            _ => None,
+        });
+        winds.max_by_key(|(at, _)| *at).map(|(_, speed_m_s)| speed_m_s)
+    }
+}
+
+/// Whether the drone is off the ground, or about to be.
+pub(super) fn is_airborne(truth: &Truth) -> bool {
+    use mock_drone::firmware::Phase;
+    matches!(truth.phase, Phase::TakingOff { .. } | Phase::Flying | Phase::Landing)
+}
+
+/// How long it lasts, if it ends.
+fn time_of(action: &Action) -> Option<Duration> {
+    match action {
+        Action::Outage(_, time)
+        | Action::Hold(_, time)
+        | Action::Freeze(time)
+        | Action::Sensor(_, _, time)
+        | Action::State(_, time)
+        | Action::Minor(_, time)
+        | Action::SecondPilot(time, _) => Some(*time),
+        // Over as soon as they have happened.
+        Action::Burst(_) | Action::Restart | Action::Propeller => Some(Duration::ZERO),
+        _ => None,
+    }
+}

@@ -1,0 +1,311 @@
+//! One sensor at a time: how far a drone is led astray when one thing that navdata tell is wrong.
+//!
+//! Each flight has a healthy twin with the same seed, which is the same flight up to the moment of
+//! the fault: so the fault comes where it was meant to, and what would have been is known.
+
+use std::fmt;
+use std::time::Duration;
+
+use autopilot::Plan;
+use autopilot::pilot::{FlightEvent, PilotConfig};
+use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::sim::{Simulation, SimulationError};
+use mock_drone::airframe::Profile;
+use mock_drone::firmware::Phase;
+use mock_drone::scenario::{Action, Scenario, When};
+use mock_drone::{DroneConfig, Quantity, SensorFault, Truth, WorldConfig};
+use nalgebra::{Vector2, Vector3};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_chacha::ChaCha8Rng;
+
+use crate::alone;
+
+/// No single fault may take the drone further outside its fence.
+pub const MOST_OUTSIDE_M: f64 = 3.0;
+/// Nor further from where it was to hold, or from its way there.
+pub const MOST_AWAY_M: f64 = 1.5;
+/// Nor may it scrape along the floor for longer.
+pub const MOST_SCRAPING: Duration = Duration::from_secs(3);
+
+const FENCE: FlightLimits =
+    FlightLimits { radius_m: 4.0, ceiling_m: 3.0, floor_m: 0.3, z_origin: ZOrigin::Hover };
+/// The step of each plan in which a sensor fails: its second `goto`, behind its setting.
+const STEP: usize = 3;
+/// The fault stays.
+const FOR_EVER: Duration = Duration::from_mins(30);
+/// The drone hovers so high after its take-off.
+const HOVER_M: f64 = 0.85;
+const AFTERMATH: Duration = Duration::from_secs(30);
+const TICK: Duration = Duration::from_millis(30);
+
+/// One of the published models of how the drone moves.
+#[derive(Debug, Clone, Copy)]
+pub struct Model {
+    /// For people.
+    pub name: &'static str,
+    /// The model.
+    pub profile: fn() -> Profile,
+}
+
+/// All of them.
+pub const AIRFRAMES: [Model; 4] = [
+    Model { name: "rec", profile: Profile::rec },
+    Model { name: "tum", profile: Profile::tum },
+    Model { name: "tf", profile: Profile::tf },
+    Model { name: "leo", profile: Profile::leo },
+];
+
+/// What the drone is doing when a sensor fails.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Situation {
+    /// Holding its place in a wind of 0.5 m/s.
+    Holding,
+    /// On the way to a place 3 m to the right.
+    Moving,
+    /// Climbing by 1.4 m.
+    Climbing,
+    /// Descending by 1.8 m.
+    Descending,
+    /// Turning by 150 degrees.
+    Turning,
+}
+
+impl Situation {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::Holding, Self::Moving, Self::Climbing, Self::Descending, Self::Turning];
+
+    /// The plan, and between which places the drone is to be in its step [`STEP`].
+    fn plan(self) -> (&'static str, [Vector3<f64>; 2]) {
+        let at = |right_m, up_m| Vector3::new(right_m, 0.0, HOVER_M + up_m);
+        match self {
+            Self::Holding => (
+                "takeoff\ngoto 0 0 0.5 0\nsetStayTime 30\ngoto 0 0 0.5 0\nland\n",
+                [at(0.0, 0.5), at(0.0, 0.5)],
+            ),
+            Self::Moving => (
+                "takeoff\ngoto 0 0 0.5 0\nsetStayTime 10\ngoto 3 0 0.5 0\nland\n",
+                [at(0.0, 0.5), at(3.0, 0.5)],
+            ),
+            Self::Climbing => (
+                "takeoff\ngoto 0 0 0 0\nsetStayTime 10\ngoto 0 0 1.4 0\nland\n",
+                [at(0.0, 0.0), at(0.0, 1.4)],
+            ),
+            Self::Descending => (
+                "takeoff\ngoto 0 0 1.4 0\nsetStayTime 10\ngoto 0 0 -0.4 0\nland\n",
+                [at(0.0, -0.4), at(0.0, 1.4)],
+            ),
+            Self::Turning => (
+                "takeoff\ngoto 0 0 0.5 0\nsetStayTime 10\ngoto 0 0 0.5 150\nland\n",
+                [at(0.0, 0.5), at(0.0, 0.5)],
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Situation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Holding => "holding",
+            Self::Moving => "moving",
+            Self::Climbing => "climbing",
+            Self::Descending => "descending",
+            Self::Turning => "turning",
+        })
+    }
+}
+
+/// Something that can be wrong, under a name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Failure {
+    /// For people.
+    pub name: String,
+    /// What begins at once, and stays.
+    pub faults: Vec<(Quantity, SensorFault)>,
+}
+
+/// Every quantity with every fault alone; then all that sensors read frozen, with the clock running
+/// and without.
+pub fn failures() -> Vec<Failure> {
+    let mut failures = Vec::new();
+    for quantity in Quantity::ALL {
+        for (name, fault) in faults(quantity) {
+            let name = format!("{} {name}", name_of(quantity));
+            failures.push(Failure { name, faults: vec![(quantity, fault)] });
+        }
+    }
+    let frozen = |quantities: &[Quantity]| {
+        quantities.iter().map(|quantity| (*quantity, SensorFault::Stuck)).collect()
+    };
+    failures.push(Failure { name: "all frozen".to_owned(), faults: frozen(&Quantity::SENSED) });
+    let name = "all frozen, clock too".to_owned();
+    failures.push(Failure { name, faults: frozen(&Quantity::ALL) });
+    failures
+}
+
+fn name_of(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::VelocityRight => "velocity right",
+        Quantity::VelocityForward => "velocity forward",
+        Quantity::Altitude => "altitude",
+        Quantity::Yaw => "yaw",
+        Quantity::Roll => "roll",
+        Quantity::Pitch => "pitch",
+        Quantity::Clock => "clock",
+    }
+}
+
+fn faults(quantity: Quantity) -> Vec<(&'static str, SensorFault)> {
+    let (jump, ramp) = match quantity {
+        Quantity::VelocityRight | Quantity::VelocityForward | Quantity::Altitude => (0.8, 0.2),
+        Quantity::Yaw => (60.0, 10.0),
+        Quantity::Roll | Quantity::Pitch => (10.0, 3.0),
+        Quantity::Clock => (10.0, 0.5),
+    };
+    let mut faults = vec![("stuck", SensorFault::Stuck)];
+    if quantity != Quantity::Clock {
+        faults.push(("stuck at 0", SensorFault::StuckAt(0.0)));
+        faults.push(("dead at 0", SensorFault::DeadAt(0.0)));
+    }
+    faults.push(("jump up", SensorFault::Offset(jump)));
+    faults.push(("jump down", SensorFault::Offset(-jump)));
+    faults.push(("ramp up", SensorFault::Ramp(ramp)));
+    faults.push(("ramp down", SensorFault::Ramp(-ramp)));
+    if quantity.is_float() {
+        faults.push(("not a number", SensorFault::NotANumber));
+    }
+    faults.push(("late", SensorFault::Late(Duration::from_millis(500))));
+    faults
+}
+
+/// How far a drone was led astray.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Excursion {
+    /// Furthest outside the fence, less what healthy sensors were wrong by.
+    pub outside_m: f64,
+    /// Furthest from where it was to hold or from its way there: to the side or above.
+    pub away_m: f64,
+    /// How long it stood or slid on the floor while it was to fly.
+    pub scraping: Duration,
+    /// It was still in the air at the end.
+    pub airborne: bool,
+}
+
+impl Excursion {
+    /// Whether that was too much.
+    pub fn is_too_far(&self) -> bool {
+        self.outside_m > MOST_OUTSIDE_M
+            || self.away_m > MOST_AWAY_M
+            || self.scraping > MOST_SCRAPING
+            || self.airborne
+    }
+
+    fn see(&mut self, truth: &Truth, between: [Vector3<f64>; 2]) {
+        // What healthy sensors are wrong by nobody can know.
+        let place_m = truth.position_m - truth.drift_m().push(0.0);
+        let across_m = place_m.xy().norm() - FENCE.radius_m;
+        self.outside_m = self.outside_m.max(across_m).max(place_m.z - FENCE.ceiling_m);
+        let [from, to] = between;
+        let nearest = nearest_on_way(place_m.xy(), from.xy(), to.xy());
+        let above_m = (place_m.z - from.z.max(to.z)).max(0.0);
+        self.away_m = self.away_m.max((place_m.xy() - nearest).norm().hypot(above_m));
+        if truth.phase == Phase::Flying && truth.position_m.z <= 0.0 {
+            self.scraping += TICK;
+        }
+    }
+}
+
+fn nearest_on_way(place: Vector2<f64>, from: Vector2<f64>, to: Vector2<f64>) -> Vector2<f64> {
+    let way = to - from;
+    let length = way.norm_squared();
+    let share = if length > 0.0 { (place - from).dot(&way) / length } else { 0.0 };
+    from + way * share.clamp(0.0, 1.0)
+}
+
+/// What became of flights that were alike up to the moment of the fault.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Siblings {
+    /// When the sensor failed.
+    pub at: Duration,
+    /// The drone's own hover for two seconds, then its own landing: the least that can be done.
+    pub own: Excursion,
+    /// With each of the failures, in their order.
+    pub flown: Vec<Excursion>,
+}
+
+/// Flies a situation with each of the failures.
+///
+/// # Errors
+/// [`SimulationError`] if a flight never ends.
+///
+/// # Panics
+/// If the healthy flight does not come so far that a sensor could fail.
+pub fn fly(
+    profile: Profile,
+    situation: Situation,
+    seed: u64,
+    failures: &[Failure],
+) -> Result<Siblings, SimulationError> {
+    let (text, between) = situation.plan();
+    let plan =
+        Plan::parse_within("sensors", text, &FENCE).unwrap_or_else(|error| panic!("{error}"));
+    let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x7365_6e73);
+    let healthy = simulation(profile, situation, seed, &mut random);
+    let began =
+        healthy.fly(plan.clone())?.events.into_iter().find_map(|(at, event)| {
+            (event == FlightEvent::StepStarted { step: STEP }).then_some(at)
+        });
+    let began = began.unwrap_or_else(|| panic!("{situation}, seed {seed}: never came so far"));
+    let into = match situation {
+        Situation::Holding => random.random_range(3.0..6.0),
+        _ => random.random_range(0.2..1.5),
+    };
+    let at = began + Duration::from_secs_f64(into);
+    let mut own = Excursion::default();
+    healthy.fly_in_world(plan.clone(), |moment, world| {
+        if moment.now >= at && moment.now < at + TICK {
+            alone::hovers_and_lands(world.drone(), Duration::ZERO, |truth| own.see(truth, between));
+        }
+    })?;
+    let flown = failures.iter().map(|failure| {
+        let mut scenario = Scenario::default();
+        for (quantity, fault) in &failure.faults {
+            let action = Action::Sensor(*quantity, *fault, FOR_EVER);
+            scenario = scenario.and(When::SinceStart(at), action);
+        }
+        let mut faulty = healthy.clone();
+        faulty.world.scenario = scenario;
+        let mut excursion = Excursion::default();
+        let flight = faulty.fly_watched(plan.clone(), |moment| {
+            if moment.now >= at {
+                excursion.see(&moment.truth, between);
+            }
+        })?;
+        let phase = flight.final_truth.phase;
+        excursion.airborne = !matches!(phase, Phase::Landed | Phase::Emergency);
+        Ok(excursion)
+    });
+    let flown = flown.collect::<Result<_, SimulationError>>()?;
+    Ok(Siblings { at, own, flown })
+}
+
+fn simulation(
+    profile: Profile,
+    situation: Situation,
+    seed: u64,
+    random: &mut ChaCha8Rng,
+) -> Simulation {
+    let wind_m_s = if situation == Situation::Holding {
+        let (sin, cos) = random.random_range(0.0..std::f64::consts::TAU).sin_cos();
+        Vector2::new(sin, cos) * 0.5
+    } else {
+        Vector2::zeros()
+    };
+    let drone = DroneConfig { profile, seed, wind_m_s, ..DroneConfig::default() };
+    Simulation {
+        world: WorldConfig { drone, ..WorldConfig::default() },
+        pilot: PilotConfig { limits: FENCE, ..PilotConfig::default() },
+        aftermath: AFTERMATH,
+        ..Simulation::default()
+    }
+}
