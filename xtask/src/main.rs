@@ -42,7 +42,7 @@ enum Command {
     /// not
     Campaign {
         /// How many flights
-        #[arg(long, value_name = "N", default_value_t = 10_000)]
+        #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(1..))]
         flights: u64,
         /// The first seed; flight by flight the next one
         #[arg(long, value_name = "SEED", default_value_t = 1)]
