@@ -1,11 +1,41 @@
 //! What programs and browsers are told of a flight: JSON objects, each with its `type`.
 
+use std::fmt::Write as _;
+
+use diagnostic::is_printable;
 use serde_json::{Value, json};
 
 use crate::flight::{FinishedFlight, Message};
 use crate::pilot::{FlightEvent, Status};
 use crate::plan::Step;
 use crate::recording::{Place, Recorded};
+
+/// The text of a value, which can stand anywhere: on a terminal, in a page, in a script. What could be obeyed
+/// there is written as `\u003c`, which means the same to whoever reads JSON.
+pub(crate) fn text(value: &Value) -> String {
+    escaped(&value.to_string())
+}
+
+/// Like [`text`], on many lines.
+pub(crate) fn text_in_lines(value: &Value) -> String {
+    escaped(&format!("{value:#}"))
+}
+
+/// Outside strings JSON has none of these characters but line feeds, which in strings are escaped already.
+fn escaped(json: &str) -> String {
+    let mut text = String::with_capacity(json.len());
+    for character in json.chars() {
+        if matches!(character, '<' | '>' | '&') || (character != '\n' && !is_printable(character)) {
+            for unit in character.encode_utf16(&mut [0; 2]) {
+                // Writing to a string cannot fail.
+                _ = write!(text, "\\u{unit:04x}");
+            }
+        } else {
+            text.push(character);
+        }
+    }
+    text
+}
 
 /// What the flight tells while it lasts.
 pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
@@ -74,4 +104,23 @@ pub(crate) fn end(finished: &FinishedFlight, recorded: Option<&Recorded>) -> Val
         "final_error_m": report.final_error_m(),
         "log": recorded.map(|recorded| recorded.path.display().to_string()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_text_can_stand_anywhere_and_means_the_same() {
+        let foreign = "</script><!--<script>&\u{2028}\u{2029}\x1b[2J\u{9b}\u{7f}\u{202e}\n\"\\\u{e0041}\u{b0}";
+        let value = json!({ "text": [foreign, 1.5] });
+        for text in [text(&value), text_in_lines(&value)] {
+            let odd =
+                text.chars().find(|c| "<>&".contains(*c) || (*c != '\n' && !is_printable(*c)));
+            assert_eq!(odd, None, "{text:?}");
+            assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), value);
+        }
+        assert_eq!(text(&json!("<\u{b0}\u{e0041}")), "\"\\u003c\u{b0}\\udb40\\udc41\"");
+        assert!(!text(&value).contains('\n'));
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use diagnostic::printable;
 use plotters::prelude::*;
 
 use crate::drawing::{self, Drawing, Drawn, FONT};
@@ -74,7 +75,7 @@ fn from_above(area: &Drawing<'_>, name: &str, places: &[Place], limits: &FlightL
     let half_m = ((x.1 - x.0).max(y.1 - y.0) * 0.55 + 0.5).max(1.0);
     let (x, y) = (f64::midpoint(x.0, x.1), f64::midpoint(y.0, y.1));
     let mut chart = ChartBuilder::on(area)
-        .caption(name, (FONT, 18))
+        .caption(printable(name), (FONT, 18))
         .margin(12)
         .x_label_area_size(36)
         .y_label_area_size(44)

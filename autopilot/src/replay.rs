@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use ardrone_link::at::{Datagram, EncodeError};
 use ardrone_link::settings::SettingError;
+use diagnostic::printable;
 
 use crate::outcome::Outcome;
 use crate::pilot::Pilot;
@@ -120,7 +121,7 @@ impl Replay {
         self.ticks += 1;
         self.same_datagrams += usize::from(then.datagram == now.datagram);
         let names = |tick: &Tick| -> Vec<String> {
-            tick.agent.plans.iter().map(|plan| plan.trigger.clone()).collect()
+            tick.agent.plans.iter().map(|plan| printable(&plan.trigger).into_owned()).collect()
         };
         let other_plans = names(then) != names(now) || then.agent.command != now.agent.command;
         self.other_plans += usize::from(other_plans);
@@ -138,9 +139,9 @@ impl Replay {
                 let [roll, pitch, gaz, yaw] = sticks(tick);
                 format!(
                     "{} by {}; {}, sticks {roll:+.2} {pitch:+.2} {gaz:+.2} {yaw:+.2}",
-                    tick.agent.command,
+                    printable(&tick.agent.command),
                     names(tick).join(" "),
-                    tick.command.flight
+                    printable(&tick.command.flight)
                 )
             };
             self.differences.push(Difference { at, then: text(then), now: text(now) });

@@ -16,10 +16,14 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod printable;
+
 use std::fmt;
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+pub use printable::{is_printable, printable, printable_lines};
 
 /// A byte range of a source text.
 pub type Span = Range<usize>;
@@ -89,7 +93,8 @@ impl Diagnostic {
     }
 
     /// The message with file, line, column, source line and caret, as rustc prints it, without
-    /// colours. A span outside the text is moved to its nearest place inside.
+    /// colours, and [printable](printable_lines) whatever the text holds. A span outside the text is moved to
+    /// its nearest place inside.
     pub fn render(&self, source: &Source<'_>) -> String {
         let level = match self.severity {
             Severity::Error => Level::ERROR,
@@ -105,7 +110,8 @@ impl Diagnostic {
         if let Some(help) = &self.help {
             group = group.element(Level::HELP.message(help.as_str()));
         }
-        Renderer::plain().render(&[group])
+        // Names and quoted text may hold anything; the renderer replaces only what it knows.
+        printable_lines(&Renderer::plain().render(&[group])).into_owned()
     }
 }
 
@@ -224,6 +230,17 @@ mod tests {
         assert!(text.starts_with("error: wrong"), "{text}");
         assert!(text.ends_with("... and 51 more"), "{text}");
         assert_eq!(render_all(&many[..3], &source).matches("warning").count(), 3);
+    }
+
+    /// Neither the text nor its name nor the message can do anything to the terminal.
+    #[test]
+    fn rendered_errors_hold_no_control_characters() {
+        let text = "go\x1b[2J \u{9b}2J\u{202e} \u{200b}\n";
+        let source = Source { name: "a\x1b]0;x\x07.txt", text };
+        let error = Diagnostic::error("no \u{9d}0;x\u{9c}", 0..2).label("\x08").help("\u{85}");
+        let rendered = error.render(&source);
+        let odd = rendered.chars().find(|c| *c != '\n' && !is_printable(*c));
+        assert_eq!(odd, None, "{rendered:?}");
     }
 
     #[test]

@@ -45,6 +45,28 @@ fn dependencies_point_one_way() {
     }
 }
 
+/// What the pilot says goes one way, on which foreign text is made harmless.
+#[test]
+fn standard_streams_are_written_to_in_one_file() {
+    let mut folders = vec![std::path::PathBuf::from("../autopilot/src")];
+    let mut writers = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                let writes = ["stdout().lock()", "stderr().lock()", "write!(std", "writeln!(std"];
+                if writes.iter().any(|write| text.contains(write)) {
+                    writers.push(path);
+                }
+            }
+        }
+    }
+    assert_eq!(writers, [std::path::Path::new("../autopilot/src/cli/terminal.rs")]);
+}
+
 /// `unsafe` stands in one file, the boundary to C.
 #[test]
 fn unsafe_code_is_in_one_file() {

@@ -128,7 +128,6 @@ const HOVER: &str = "takeoff\ngoto 0 1 0 0\nsetStayTime 300\ngoto 0 0 0 0\nland\
 #[test]
 fn the_page_shows_the_flight_and_orders_it() {
     let Some(mut chromium) = Chromium::start() else {
-        println!("skipped: no chromium here");
         return;
     };
     let flown = Flown::start(HOVER);
@@ -184,7 +183,6 @@ fn the_picture_of_the_page() {
 #[test]
 fn one_click_cuts_nothing_and_two_do() {
     let Some(mut chromium) = Chromium::start() else {
-        println!("skipped: no chromium here");
         return;
     };
     let flown = Flown::start(HOVER);
@@ -205,7 +203,6 @@ fn one_click_cuts_nothing_and_two_do() {
 #[test]
 fn a_page_that_hears_nothing_says_so() {
     let Some(mut chromium) = Chromium::start() else {
-        println!("skipped: no chromium here");
         return;
     };
     let flown = Flown::start(HOVER);

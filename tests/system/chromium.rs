@@ -27,10 +27,15 @@ pub(crate) struct Chromium {
 pub(crate) struct Tab(String);
 
 impl Chromium {
-    /// Starts it; nothing if this machine has none.
+    /// Starts it; nothing if this machine has none, which is said, and in CI is a failure: what was not tried must not
+    /// look as if it was.
+    ///
+    /// # Panics
+    /// In CI, if there is none.
+    #[allow(clippy::print_stdout, reason = "what is left out is said")]
     pub(crate) fn start() -> Option<Self> {
         let profile = tempfile::tempdir().unwrap();
-        let mut child = Command::new("chromium")
+        let child = Command::new("chromium")
             .args(["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run"])
             .args(["--disable-background-networking", "--disable-component-update"])
             .args(["--disable-sync", "--disable-quic", "--remote-debugging-port=0"])
@@ -38,8 +43,12 @@ impl Chromium {
             .arg(format!("--user-data-dir={}", profile.path().display()))
             .stderr(Stdio::piped())
             .stdout(Stdio::null())
-            .spawn()
-            .ok()?;
+            .spawn();
+        let Ok(mut child) = child else {
+            assert!(std::env::var_os("CI").is_none(), "there is no chromium here");
+            println!("skipped: there is no chromium here");
+            return None;
+        };
         let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
         let address = lines
             .find_map(|line| Some(line.unwrap().strip_prefix("DevTools listening on ")?.to_owned()))

@@ -70,6 +70,38 @@ fn random_bytes_are_no_plan() {
     assert!(refused_plan(&bytes).contains("unknown command"));
 }
 
+/// Characters that a terminal obeys, or that make a line read as something else.
+const HOSTILE: &str = "\x1b]0;title\x07\x1b[2J\u{9b}2J\u{202e}\u{200b}\r\x08";
+
+/// Nothing but lines of text that stands for itself.
+#[track_caller]
+fn is_harmless(output: &Output) {
+    for said in [&output.stdout, &output.stderr] {
+        let said = String::from_utf8_lossy(said);
+        let unseen = ['\u{202e}', '\u{200b}'];
+        let hostile = said.chars().find(|c| unseen.contains(c) || (c.is_control() && *c != '\n'));
+        assert_eq!(hostile, None, "{said:?}");
+    }
+}
+
+/// Whatever a plan, its name or the settings hold, the terminal is only written to.
+#[test]
+fn what_a_file_holds_does_nothing_to_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = folder.path().join(format!("{HOSTILE}.txt"));
+    let path = plan.to_str().unwrap();
+    let settings = folder.path().join("pilot.toml");
+    std::fs::write(&settings, format!("[limits]\nradius_m = \"{HOSTILE}\"\n")).unwrap();
+    for text in [format!("takeoff\ngoto {HOSTILE} 0 0 0\n"), "takeoff\ngoto 1 0 0 0\n".to_owned()] {
+        std::fs::write(&plan, text).unwrap();
+        is_harmless(&pilot(&["check", path]));
+        is_harmless(&pilot(&["check", "--json", path]));
+        is_harmless(&pilot(&["check", "--config", settings.to_str().unwrap(), path]));
+    }
+    is_harmless(&pilot(&["replay", path]));
+    is_harmless(&pilot(&["replay", &format!("{path}/no")]));
+}
+
 #[test]
 fn usage_errors_have_their_own_exit_status() {
     for arguments in

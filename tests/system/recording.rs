@@ -3,9 +3,9 @@
 use std::io::Cursor;
 use std::time::Duration;
 
-use autopilot::pilot::{NavdataRate, PilotConfig, PilotOrder};
+use autopilot::pilot::{FlightEvent, NavdataRate, PilotConfig, PilotOrder};
 use autopilot::plan::ZOrigin;
-use autopilot::recording::{Entry, Header, Log, LogWriter};
+use autopilot::recording::{Entry, Header, Log, LogError, LogWriter};
 use autopilot::replay::Replay;
 use autopilot::report;
 use autopilot::settings;
@@ -119,6 +119,80 @@ fn what_is_no_log_is_refused() {
     }
 }
 
+/// A file like a flight log, with messages of our choice, packed as a flight log is.
+fn foreign_log(
+    plan: &str,
+    agent: &str,
+    topic: &str,
+    messages: usize,
+    content: impl Fn(usize) -> String,
+) -> Vec<u8> {
+    let options = mcap::WriteOptions::new()
+        .compression(Some(mcap::Compression::Lz4))
+        .chunk_size(Some(4 << 20))
+        .emit_message_indexes(false);
+    let mut writer = options.create(Cursor::new(Vec::new())).unwrap();
+    let told = [("start_ns", "0"), ("plan", "p"), ("drone", "d"), ("version", "0")];
+    let mut metadata: std::collections::BTreeMap<String, String> =
+        told.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
+    metadata.insert("z_origin".to_owned(), ZOrigin::Hover.name().to_owned());
+    let metadata = mcap::records::Metadata { name: "flight".to_owned(), metadata };
+    writer.write_metadata(&metadata).unwrap();
+    for (name, text) in
+        [("plan.txt", plan), ("pilot.toml", settings::DEFAULTS), ("autopilot.asl", agent)]
+    {
+        let attachment = mcap::Attachment {
+            log_time: 0,
+            create_time: 0,
+            name: name.to_owned(),
+            media_type: String::new(),
+            data: text.as_bytes().into(),
+        };
+        writer.attach(&attachment).unwrap();
+    }
+    let channel = writer.add_channel(0, topic, "json", &std::collections::BTreeMap::new()).unwrap();
+    for number in 0..messages {
+        let header = mcap::records::MessageHeader {
+            channel_id: channel,
+            sequence: 0,
+            log_time: 0,
+            publish_time: 0,
+        };
+        writer.write_to_known_channel(&header, content(number).as_bytes()).unwrap();
+    }
+    writer.finish().unwrap();
+    writer.into_inner().into_inner()
+}
+
+/// Nothing in a small file makes much of itself: not the name of a topic, and not what is packed well.
+#[test]
+fn a_small_log_needs_little_memory() {
+    let long = "t".repeat(4000);
+    let file = foreign_log(SQUARE, "", &long, 300_000, |_| String::new());
+    assert!(file.len() < 70_000, "{}", file.len());
+    let mut read = None;
+    let used = allocation_counter::measure(|| read = Some(Log::read(&file)));
+    assert!(matches!(read, Some(Err(LogError::Bomb))), "{read:?}");
+    assert!(used.bytes_max < 64 << 20, "{} bytes", used.bytes_max);
+}
+
+/// A file that is packed better than any flight is no flight: it is not unpacked to its end.
+#[test]
+fn a_log_that_unpacks_to_too_much_is_refused() {
+    let words = "{\"data\":\"\"}".to_owned() + &" ".repeat(4000);
+    let file = foreign_log(SQUARE, "", "/control/raw", 40_000, |_| words.clone());
+    assert!(file.len() < 1_000_000, "{}", file.len());
+    let mut read = None;
+    let used = allocation_counter::measure(|| read = Some(Log::read(&file)));
+    assert!(matches!(read, Some(Err(LogError::Bomb))), "{read:?}");
+    assert!(used.bytes_max < 100 << 20, "{} bytes", used.bytes_max);
+    // A real one is far from that.
+    let (_, file) = recorded(SQUARE, &Simulation::default());
+    let unpacked: usize =
+        mcap::MessageStream::new(&file).unwrap().map(|message| message.unwrap().data.len()).sum();
+    assert!(unpacked < 8 * file.len(), "{unpacked} of {}", file.len());
+}
+
 /// Whether a value keeps a JSON schema, of which ours use `type`, `properties`, `required` and `items`.
 fn keeps(rules: &Value, value: &Value, path: &str) {
     let kind = match value {
@@ -205,6 +279,86 @@ fn a_report_answers_why() {
     assert!(page.contains(&format!("<b>{steps}</b>steps done")), "{steps}");
     log.entries.clear();
     assert!(report::html(&log).is_err());
+}
+
+/// A log may come from anywhere. What it says is read, not obeyed: not by the page, nor by a terminal.
+#[test]
+fn a_hostile_log_does_nothing_to_page_and_terminal() {
+    const HOSTILE: &str =
+        "<!--<script>alert(1)</script>\u{2028}'\"&\x1b[2J\x1b]0;x\x07\u{9b}2J\u{202e}\n";
+    let (_, file) = recorded(SQUARE, &Simulation::default());
+    let clean = Log::read(&file).unwrap();
+    let mut log = clean.clone();
+    log.agent = log.agent.replace("+!", &format!("// {HOSTILE}+!"));
+    for text in [&mut log.plan_name, &mut log.drone, &mut log.version] {
+        *text += HOSTILE;
+    }
+    for (_, entry) in &mut log.entries {
+        match entry {
+            Entry::Event { text, .. } | Entry::Outcome { text, .. } => *text += HOSTILE,
+            Entry::Tick(tick) => {
+                tick.phase += HOSTILE;
+                tick.datagram.clear();
+                tick.agent.command += HOSTILE;
+                tick.command.flight += HOSTILE;
+                tick.veto = Some(HOSTILE.to_owned());
+                tick.agent.danger = Some(HOSTILE.to_owned());
+                tick.agent.report = Some(HOSTILE.to_owned());
+                tick.agent.plans.iter_mut().for_each(|plan| plan.trigger += HOSTILE);
+            }
+            _ => {}
+        }
+    }
+    let page = report::html(&log).unwrap();
+    let count = |of: &str| report::html(&clean).unwrap().matches(of).count();
+    for markup in ["<script", "</script", "<!--"] {
+        assert_eq!(page.matches(markup).count(), count(markup), "{markup}");
+    }
+    let (_, data) = page.split_once("id=\"decided\">").unwrap();
+    let (data, _) = data.split_once("</script>").unwrap();
+    assert!(!data.contains(['<', '>', '&']));
+    let decided: Value = serde_json::from_str(data).unwrap();
+    assert!(decided["decisions"].as_array().unwrap().len() > 10);
+    let replay = Replay::new(&log).unwrap().to_string();
+    assert!(replay.contains("then:"), "{replay}");
+    for text in [page, replay] {
+        let odd = text.chars().find(|c| (c.is_control() && *c != '\n') || *c == '\u{202e}');
+        assert_eq!(odd, None);
+    }
+}
+
+/// The firmware's version is what whoever answers at the control port says.
+#[test]
+fn the_drone_says_nothing_to_the_terminal() {
+    let version = Some("2.4.8\x1b]0;x\x07\u{9b}2J\u{202e}\n".to_owned());
+    let told = FlightEvent::ConfigurationRead { version }.to_string();
+    assert!(told.contains("firmware 2.4.8\\u{1b}]0;x"), "{told:?}");
+    assert!(!told.contains(|c: char| c.is_control() || c == '\u{202e}'), "{told:?}");
+}
+
+/// A page is about as large as what is told: a plan's text or a step's that is long is not told in each moment.
+#[test]
+fn a_hostile_log_makes_no_large_page() {
+    let tick = {
+        let (_, file) = recorded(SQUARE, &Simulation::default());
+        let log = Log::read(&file).unwrap();
+        log.ticks().find(|(_, tick)| tick.agent.plans.len() > 1).unwrap().1.clone()
+    };
+    let plan = format!("takeoff\ngoto {0} 0 0 0\ngoto 1{0} 0 0 0\nland\n", "0".repeat(20_000));
+    let agent = "+!a <- b\n".repeat(4_000);
+    let messages = 4_000;
+    let file = foreign_log(&plan, &agent, "/tick", messages, |number| {
+        let mut tick = tick.clone();
+        tick.step = Some(1 + number % 2);
+        tick.agent.plans.iter_mut().for_each(|plan| plan.line = u32::try_from(number).unwrap());
+        serde_json::to_string(&tick).unwrap()
+    });
+    assert!(file.len() < 1_000_000, "{}", file.len());
+    let log = Log::read(&file).unwrap();
+    let mut length = 0;
+    let used = allocation_counter::measure(|| length = report::html(&log).unwrap().len());
+    assert!(length < 10_000_000, "{length} characters");
+    assert!(used.bytes_max < 100 << 20, "{} bytes", used.bytes_max);
 }
 
 #[test]

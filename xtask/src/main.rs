@@ -4,6 +4,7 @@
 mod campaign;
 mod cases;
 mod fly;
+mod mutants;
 mod parallel;
 mod plot;
 mod score;
@@ -43,7 +44,7 @@ enum Command {
     /// not
     Campaign {
         /// How many flights
-        #[arg(long, value_name = "N", default_value_t = 10_000)]
+        #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(1..))]
         flights: u64,
         /// The first seed; flight by flight the next one
         #[arg(long, value_name = "SEED", default_value_t = 1)]
@@ -55,6 +56,21 @@ enum Command {
         /// Seeds of each failure in each situation on each airframe, from 1
         #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1_000))]
         seeds: u64,
+    },
+    /// Fly code with mistakes in it through the campaign; fails if it finds nothing wrong with one of them
+    Mutants {
+        /// At most so many flights with each
+        #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
+        flights: u64,
+        /// Only mutants with this in their name
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+        /// Instead, all mutants that cargo-mutants makes, against the tests in simulated time: takes hours
+        #[arg(long, conflicts_with_all = ["flights", "only"])]
+        all: bool,
+        /// A part of those, such as 0/20
+        #[arg(long, value_name = "K/N", requires = "all")]
+        shard: Option<String>,
     },
     /// Prove the properties of the shipped agent on a model and on its C, and measure what tests exercise
     Verify {
@@ -75,6 +91,12 @@ fn main() -> ExitCode {
             campaign::run(flights, first).map_err(|error| error.to_string())
         }
         Command::Sensors { seeds } => sensors::run(seeds).map_err(|error| error.to_string()),
+        Command::Mutants { all: true, shard, .. } => {
+            mutants::all(shard.as_deref()).map_err(|error| error.to_string())
+        }
+        Command::Mutants { flights, only, .. } => {
+            mutants::by_hand(flights, only.as_deref()).map_err(|error| error.to_string())
+        }
         Command::Verify { only_proofs } => {
             verify::run(only_proofs).map_err(|error| error.to_string())
         }

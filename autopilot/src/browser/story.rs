@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use diagnostic::printable;
 use serde_json::{Value, json};
 
 use crate::agent::{PLANS, SOURCE, plan_text};
@@ -31,7 +32,7 @@ impl Story {
         Self {
             plan: plan.clone(),
             limits: *limits,
-            name: name.to_owned(),
+            name: printable(name).into_owned(),
             trail: Trail::default(),
             events: VecDeque::new(),
             status: Value::Null,

@@ -1,15 +1,15 @@
 //! `ardrone-pilot check`: what a plan will do, and what is wrong or unwise in it.
 
 use std::fmt;
-use std::io::Write as _;
 use std::time::Duration;
 
 use diagnostic::{Diagnostic, Severity, Source, line_column, render_all};
 use pid::Pose;
 use serde_json::{Value, json};
 
-use super::CommandError;
 use super::arguments::CheckPlan;
+use super::{CommandError, terminal};
+use crate::json;
 use crate::picture;
 use crate::plan::{Expectation, FlightLimits, Plan, battery_percent};
 use crate::recording::Place;
@@ -29,7 +29,8 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
         let problems: Vec<Value> =
             diagnostics.iter().map(|diagnostic| problem(diagnostic, &text)).collect();
         let steps = checked.as_ref().map(Checked::json);
-        format!("{:#}\n", json!({ "plan": name, "steps": steps, "problems": problems }))
+        let object = json!({ "plan": name, "steps": steps, "problems": problems });
+        json::text_in_lines(&object) + "\n"
     } else {
         let table = checked.map(|checked| checked.to_string()).unwrap_or_default();
         let problems = render_all(&diagnostics, &source);
@@ -45,8 +46,7 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
         let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
         parts.join("\n\n") + "\n"
     };
-    // Whoever closed the pipe does not want the rest.
-    _ = write!(std::io::stdout(), "{printed}");
+    terminal::print(printed);
     let Some(plan) = plan else { return Ok(20) };
     if let Some(path) = &arguments.svg {
         let drawing = picture::svg(&name, &plan, &limits)?;

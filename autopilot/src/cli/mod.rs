@@ -6,8 +6,10 @@ mod keys;
 mod progress;
 mod screen;
 mod summary;
+mod terminal;
 
-use std::io::{IsTerminal as _, Write as _};
+use std::fs::File;
+use std::io::{IsTerminal as _, Read as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -30,7 +32,9 @@ use crate::flight::{Flight, FlightError, Message};
 use crate::json;
 use crate::picture::PictureError;
 use crate::plan::{Plan, PlanError};
-use crate::recording::{Header, Log, LogError, Recorder, Recording, RecordingError};
+use crate::recording::{
+    Header, LARGEST_FILE_BYTES, Log, LogError, Recorder, Recording, RecordingError,
+};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{self, ReportError};
 use crate::settings::{self, Settings, SettingsError};
@@ -113,8 +117,7 @@ pub fn main() -> ExitCode {
     };
     let status = done.unwrap_or_else(|error| {
         let prefix = if matches!(error, CommandError::Plan(_)) { "" } else { "error: " };
-        // A message that cannot be printed has nowhere else to go.
-        _ = writeln!(std::io::stderr(), "{prefix}{error}");
+        terminal::tell(format_args!("{prefix}{error}"));
         error.exit_status()
     });
     ExitCode::from(status)
@@ -125,25 +128,22 @@ fn print_settings(path: Option<&Path>) -> Result<u8, CommandError> {
         Some(_) => read_settings(path)?.to_toml()?,
         None => settings::DEFAULTS.to_owned(),
     };
-    // Whoever closed the pipe does not want the settings.
-    _ = write!(std::io::stdout(), "{text}");
+    terminal::print(text);
     Ok(0)
 }
 
 fn print_completions(shell: Shell) -> u8 {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "ardrone-pilot", &mut script);
-    // Whoever closed the pipe does not want it.
-    _ = std::io::stdout().write_all(&script);
+    terminal::print_own(&script);
     0
 }
 
 fn print_manual() -> u8 {
     let mut page = Vec::new();
-    // Writing to memory cannot fail, and whoever closed the pipe does not want it.
-    _ = clap_mangen::Man::new(Arguments::command())
-        .render(&mut page)
-        .and_then(|()| std::io::stdout().write_all(&page));
+    // Writing to memory cannot fail.
+    _ = clap_mangen::Man::new(Arguments::command()).render(&mut page);
+    terminal::print_own(&page);
     0
 }
 
@@ -156,29 +156,28 @@ fn make_report(path: &Path, output: Option<&Path>) -> Result<u8, CommandError> {
         path: output.display().to_string(),
         source,
     })?;
-    // Whoever closed the pipe does not want to know.
-    _ = writeln!(std::io::stdout(), "{}", output.display());
+    terminal::print(format_args!("{}\n", output.display()));
     Ok(0)
 }
 
 /// Flies a log again; 1 if today's code decides otherwise.
 fn replay(path: &Path) -> Result<u8, CommandError> {
     let replay = Replay::new(&read_log(path)?)?;
-    // Whoever closed the pipe does not want the rest.
-    _ = write!(std::io::stdout(), "{replay}");
+    terminal::print(&replay);
     Ok(u8::from(!replay.is_same()))
 }
 
 fn read_log(path: &Path) -> Result<Log, CommandError> {
     let name = || path.display().to_string();
-    let file = std::fs::read(path).map_err(|source| CommandError::Read {
-        what: "the flight log",
-        path: name(),
-        source,
-    })?;
+    let mut file = Vec::new();
+    // A byte more than is taken, which is then told.
+    let most = LARGEST_FILE_BYTES as u64 + 1;
+    File::open(path)
+        .and_then(|opened| opened.take(most).read_to_end(&mut file))
+        .map_err(|source| CommandError::Read { what: "the flight log", path: name(), source })?;
     let log = Log::read(&file).map_err(|source| CommandError::Log { path: name(), source })?;
     if !log.complete {
-        _ = writeln!(std::io::stderr(), "note: {} was cut off; what is there is read", name());
+        terminal::tell(format_args!("note: {} was cut off; what is there is read", name()));
     }
     Ok(log)
 }
@@ -264,19 +263,16 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
         print_object(&end);
         return Ok(finished.outcome.exit_status());
     }
-    // Whoever closed the pipe does not want the summary.
-    _ = write!(std::io::stdout(), "{summary}");
+    terminal::print(&summary);
     if arguments.timing {
-        _ = write!(std::io::stdout(), "{}", TimingReport(&finished.ticks));
+        terminal::print(TimingReport(&finished.ticks));
     }
     Ok(finished.outcome.exit_status())
 }
 
 /// One line for programs.
 fn print_object(object: &Value) {
-    let mut stdout = std::io::stdout().lock();
-    // Whoever closed the pipe does not want more: the flight goes on.
-    _ = writeln!(stdout, "{object}").and_then(|()| stdout.flush());
+    terminal::print(format_args!("{}\n", json::text(object)));
 }
 
 /// Where people watch the flight.
@@ -306,8 +302,7 @@ impl Watch {
             Self::Lines(mut progress) => progress.end(),
             Self::Screen(screen) => {
                 for warning in screen.end() {
-                    // Nobody watches any more.
-                    _ = writeln!(std::io::stderr(), "{warning}");
+                    terminal::tell(warning);
                 }
             }
         }

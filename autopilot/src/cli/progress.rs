@@ -1,10 +1,11 @@
 //! What a person sees while the drone flies.
 
-use std::io::{Write as _, stderr};
+use std::io::stderr;
 use std::time::Duration;
 
 use rustix::termios::tcgetwinsize;
 
+use super::terminal;
 use crate::flight::Message;
 use crate::pilot::{FlightEvent, Status, TICK};
 use crate::plan::{Plan, Step};
@@ -49,14 +50,17 @@ impl Progress {
 
     /// One line.
     pub(super) fn say(&mut self, line: &str) {
-        let clear = if std::mem::take(&mut self.status_shown) { "\r\x1b[K" } else { "" };
-        write(&format!("{clear}{line}\n"));
+        if std::mem::take(&mut self.status_shown) {
+            terminal::tell_over(line);
+        } else {
+            terminal::tell(line);
+        }
     }
 
     /// The flight is over: the status line makes room.
     pub(super) fn end(&mut self) {
         if std::mem::take(&mut self.status_shown) {
-            write("\r\x1b[K");
+            terminal::clear();
         }
     }
 
@@ -73,19 +77,13 @@ impl Progress {
     fn status(&mut self, at: Duration, status: &Status) {
         let line = status_line(at, status);
         if !self.plain {
-            write(&format!("\r\x1b[K{}", shortened(&line, terminal_columns())));
+            terminal::show(shortened(&line, terminal_columns()));
             self.status_shown = true;
         } else if at + TICK > self.next_plain_status {
             self.next_plain_status = at + PLAIN_STATUS_INTERVAL;
             self.say(&line);
         }
     }
-}
-
-fn write(text: &str) {
-    let mut stderr = stderr().lock();
-    // Nobody watches any more: the flight goes on.
-    _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
 fn status_line(at: Duration, status: &Status) -> String {

@@ -14,6 +14,7 @@ use ratatui::backend::CrosstermBackend;
 use tracing_subscriber::fmt::MakeWriter;
 
 use self::view::View;
+use super::terminal;
 use crate::flight::Message;
 use crate::plan::{FlightLimits, Plan};
 
@@ -100,7 +101,7 @@ impl Warnings {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let left = std::mem::replace(&mut *kept, keep.then(VecDeque::new));
         for warning in left.into_iter().flatten() {
-            _ = io::Write::write_all(&mut stderr(), format!("{warning}\n").as_bytes());
+            terminal::tell(warning);
         }
     }
 

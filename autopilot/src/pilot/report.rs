@@ -3,6 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
+use diagnostic::printable;
 use estimator::{Airframe, Trust};
 use pid::Pose;
 
@@ -103,7 +104,8 @@ impl fmt::Display for FlightEvent {
         match self {
             Self::Connected => f.write_str("drone found"),
             Self::ConfigurationRead { version: Some(version) } => {
-                write!(f, "configuration read back, firmware {version}")
+                // The drone's own words, or those of whoever answers in its place.
+                write!(f, "configuration read back, firmware {}", printable(version))
             }
             Self::ConfigurationRead { version: None } => f.write_str("configuration read back"),
             Self::ConfigurationNotRead => f.write_str(

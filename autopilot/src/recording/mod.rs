@@ -14,7 +14,7 @@ use std::time::Duration;
 pub use messages::{
     Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, Hand, Place, Tick, Timing,
 };
-pub use reader::{Entry, Log, LogError};
+pub use reader::{Entry, LARGEST_FILE_BYTES, Log, LogError};
 pub use recorder::{Recorded, Recorder, Recording, RecordingError};
 pub use writer::LogWriter;
 

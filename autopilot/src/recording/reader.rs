@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
+use diagnostic::printable;
 use mcap::records::Record as McapRecord;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{McapError, parse_record};
@@ -73,8 +74,16 @@ pub enum Entry {
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
     /// It is no MCAP file, or a damaged one.
-    #[error("not a flight log: {0}")]
+    #[error("not a flight log: {}", printable(&.0.to_string()))]
     Mcap(#[from] McapError),
+    /// The file is longer than any flight's.
+    #[error("it is larger than {} MB: no flight is that long", LARGEST_FILE_BYTES / 1_000_000)]
+    TooLarge,
+    /// What is packed in it is out of proportion: a file that is made to fill the memory.
+    #[error(
+        "not a flight log: its content is more than {LARGEST_RATIO} times as large as the file"
+    )]
+    Bomb,
     /// Something that every flight log has is missing.
     #[error("not a flight log of ardrone-pilot: it has no {missing}")]
     Foreign {
@@ -97,6 +106,9 @@ impl Log {
     /// # Errors
     /// [`LogError`] if it is no flight log. One that was cut off is read as far as it goes.
     pub fn read(file: &[u8]) -> Result<Self, LogError> {
+        if file.len() > LARGEST_FILE_BYTES {
+            return Err(LogError::TooLarge);
+        }
         let mut content = Content::read(file)?;
         let flight = content.flight;
         let mut text = |name: &str| {
@@ -110,11 +122,9 @@ impl Log {
             .parse()
             .map_err(|_| LogError::Foreign { missing: "start_ns that is a number".to_owned() })?;
         let start = Duration::from_nanos(start);
-        let mut entries = Vec::with_capacity(content.messages.len());
-        for (topic, time_ns, data) in &content.messages {
-            if let Some(entry) = entry(topic, data)? {
-                entries.push((Duration::from_nanos(*time_ns).saturating_sub(start), entry));
-            }
+        let mut entries = content.entries;
+        for (at, _) in &mut entries {
+            *at = at.saturating_sub(start);
         }
         Ok(Self {
             plan_name: told("plan")?,
@@ -157,8 +167,14 @@ impl Log {
 
 type Texts = BTreeMap<String, String>;
 
-/// A length beyond this is a lie, before and after a chunk is unpacked.
-const LONGEST_RECORD_BYTES: usize = 64 << 20;
+/// No larger file is read: it would be three hours of all that a drone can send.
+pub const LARGEST_FILE_BYTES: usize = 512 << 20;
+/// A length beyond this is a lie, before and after a chunk is unpacked: ours are less than 1 MiB.
+const LONGEST_RECORD_BYTES: usize = 16 << 20;
+/// Flight logs unpack to four times their size; LZ4 can do 255.
+const LARGEST_RATIO: usize = 32;
+/// So much may be unpacked of any file: what repeats itself in a short log packs well.
+const ALWAYS_UNPACKED_BYTES: usize = 16 << 20;
 
 /// What stands in the file.
 #[derive(Default)]
@@ -167,15 +183,17 @@ struct Content {
     texts: Texts,
     /// What is said of the flight.
     flight: Texts,
-    /// Topics by channel.
-    topics: BTreeMap<u16, String>,
-    /// Topic, time and content of each message.
-    messages: Vec<(String, u64, Vec<u8>)>,
+    /// Topics that mean something to us, by channel.
+    topics: BTreeMap<u16, &'static str>,
+    /// The messages, with their time since the Unix epoch.
+    entries: Vec<(Duration, Entry)>,
     complete: bool,
 }
 
 impl Content {
-    fn read(file: &[u8]) -> Result<Self, McapError> {
+    /// Each record is understood as soon as it is unpacked: nothing else is kept of it. So what is needed is
+    /// in proportion to what was unpacked, and that is bounded by the size of the file.
+    fn read(file: &[u8]) -> Result<Self, LogError> {
         // The checksum of a chunk is checked before what is in it is looked at.
         let options = LinearReaderOptions::default()
             .with_prevalidate_chunk_crcs(true)
@@ -183,6 +201,8 @@ impl Content {
         let mut reader = LinearReader::new_with_options(options);
         let mut content = Self::default();
         let mut rest = file;
+        let mut room =
+            file.len().saturating_mul(LARGEST_RATIO).saturating_add(ALWAYS_UNPACKED_BYTES);
         while let Some(event) = reader.next_event() {
             match event {
                 Ok(LinearReadEvent::ReadRequest(wanted)) => {
@@ -192,9 +212,12 @@ impl Content {
                     rest = behind;
                 }
                 Ok(LinearReadEvent::Record { data, opcode }) => {
-                    content.record(parse_record(opcode, data)?);
+                    // An entry is larger than what can be said of the least of them.
+                    let needed = data.len().max(size_of::<(Duration, Entry)>());
+                    room = room.checked_sub(needed).ok_or(LogError::Bomb)?;
+                    content.record(parse_record(opcode, data)?)?;
                 }
-                Err(error @ McapError::BadMagic) => return Err(error),
+                Err(error @ McapError::BadMagic) => return Err(error.into()),
                 // It was cut off here, or it is damaged from here on.
                 Err(_) => return Ok(content),
             }
@@ -202,25 +225,38 @@ impl Content {
         Ok(content)
     }
 
-    fn record(&mut self, record: McapRecord<'_>) {
+    fn record(&mut self, record: McapRecord<'_>) -> Result<(), LogError> {
         match record {
             McapRecord::Attachment { header, data, .. } => {
-                self.texts.insert(header.name, String::from_utf8_lossy(&data).into_owned());
+                let name = [PLAN_FILE, SETTINGS_FILE, AGENT_FILE]
+                    .into_iter()
+                    .find(|name| *name == header.name);
+                if let Some(name) = name {
+                    let text = String::from_utf8_lossy(&data).into_owned();
+                    self.texts.insert(name.to_owned(), text);
+                }
             }
             McapRecord::Metadata(metadata) if metadata.name == FLIGHT => {
                 self.flight = metadata.metadata;
             }
             McapRecord::Channel(channel) => {
-                self.topics.insert(channel.id, channel.topic);
+                // The name is not kept: a file may have a long one for each of its channels.
+                let known = topic::ALL.iter().find(|topic| topic.name == channel.topic);
+                if let Some(topic) = known {
+                    self.topics.insert(channel.id, topic.name);
+                }
             }
             McapRecord::Message { header, data } => {
-                if let Some(topic) = self.topics.get(&header.channel_id) {
-                    self.messages.push((topic.clone(), header.log_time, data.into_owned()));
+                if let Some(topic) = self.topics.get(&header.channel_id)
+                    && let Some(entry) = entry(topic, &data)?
+                {
+                    self.entries.push((Duration::from_nanos(header.log_time), entry));
                 }
             }
             McapRecord::Footer(_) => self.complete = true,
             _ => {}
         }
+        Ok(())
     }
 }
 
@@ -260,5 +296,7 @@ fn parse<T: DeserializeOwned>(topic: &str, data: &[u8]) -> Result<T, LogError> {
 }
 
 fn damaged(topic: &str, problem: &impl ToString) -> LogError {
-    LogError::Message { topic: topic.to_owned(), problem: problem.to_string() }
+    // It quotes what it does not like.
+    let problem = printable(&problem.to_string()).into_owned();
+    LogError::Message { topic: topic.to_owned(), problem }
 }

@@ -1,11 +1,21 @@
 //! What a report tells, gathered from a log.
 
+use std::collections::BTreeMap;
+
+use diagnostic::{printable, printable_lines};
 use serde::Serialize;
 
 use crate::agent::plan_text;
 use crate::recording::{Log, Tick};
 
-/// A flight as the report needs it.
+/// No plan of an agent has more characters, and no agent more plans: a log that says so is not to make a page of
+/// any size.
+const LONGEST_PLAN: usize = 2000;
+const MOST_PLANS: usize = 500;
+/// Of what labels a moment.
+const LONGEST_LABEL: usize = 100;
+
+/// A flight as the report needs it. All text in it is [printable], whatever the log holds.
 #[derive(Debug)]
 pub(super) struct Flight<'a> {
     /// Seconds since the start, and the tick.
@@ -14,6 +24,8 @@ pub(super) struct Flight<'a> {
     pub(super) bands: Vec<Band>,
     /// What the agent decided, as long as it decided the same.
     pub(super) decisions: Vec<Decision>,
+    /// The agent's plans that were chosen, by their line, as they stand in the agent.
+    pub(super) plans: BTreeMap<u32, String>,
     /// Seconds, whether it is a warning, and what happened.
     pub(super) events: Vec<(f64, bool, &'a str)>,
     /// When the last tick was.
@@ -50,8 +62,8 @@ pub(super) struct Decision {
     pub(super) step: String,
     /// What the agent ordered.
     pub(super) command: String,
-    /// Trigger, line, and the plan as it stands in the agent.
-    pub(super) plans: Vec<(String, u32, String)>,
+    /// Trigger and line of each plan that was chosen.
+    pub(super) plans: Vec<(String, u32)>,
     /// What it said of its last order.
     pub(super) said: Option<String>,
     /// Dangers that it told, and what the guard did instead.
@@ -64,13 +76,20 @@ impl<'a> Flight<'a> {
             log.ticks().map(|(at, tick)| (at.as_secs_f64(), tick)).collect();
         let end_s = ticks.last()?.0;
         let steps = steps(&log.plan);
-        let mut flight =
-            Self { bands: Vec::new(), decisions: Vec::new(), events: Vec::new(), end_s, ticks };
+        let mut flight = Self {
+            bands: Vec::new(),
+            decisions: Vec::new(),
+            plans: BTreeMap::new(),
+            events: Vec::new(),
+            end_s,
+            ticks,
+        };
         for index in 0..flight.ticks.len() {
             let (at_s, tick) = flight.ticks[index];
             let until_s = flight.ticks.get(index + 1).map_or(at_s, |(next_s, _)| *next_s);
             flight.extend_band(at_s, until_s, tick, &steps);
-            flight.extend_decision(at_s, until_s, tick, &steps, &log.agent);
+            flight.extend_decision(at_s, until_s, tick, &steps);
+            flight.extend_plans(tick, &log.agent);
         }
         let events = log.events().map(|(at, warns, text)| (at.as_secs_f64(), warns, text));
         flight.events = events.collect();
@@ -80,8 +99,8 @@ impl<'a> Flight<'a> {
     fn extend_band(&mut self, at_s: f64, until_s: f64, tick: &Tick, steps: &[String]) {
         let (label, kind) = match tick.step {
             Some(step) => (step_text(steps, step), BandKind::Step(step)),
-            None if tick.agent.on_ground => (tick.phase.clone(), BandKind::Ground),
-            None => (tick.phase.clone(), BandKind::Other),
+            None if tick.agent.on_ground => (label(&tick.phase), BandKind::Ground),
+            None => (label(&tick.phase), BandKind::Other),
         };
         match self.bands.last_mut() {
             Some(band) if band.kind == kind && band.label == label => band.to_s = until_s,
@@ -89,32 +108,34 @@ impl<'a> Flight<'a> {
         }
     }
 
-    fn extend_decision(
-        &mut self,
-        at_s: f64,
-        until_s: f64,
-        tick: &Tick,
-        steps: &[String],
-        agent: &str,
-    ) {
-        let danger = tick.agent.danger.iter().map(|danger| format!("danger: {danger}"));
-        let veto = tick.veto.iter().map(|veto| format!("the guard: {veto}"));
-        let plans = tick.agent.plans.iter();
-        let plans = plans
-            .map(|plan| (plan.trigger.clone(), plan.line, plan_text(agent, plan.line).to_owned()));
-        let step = tick.step.map_or_else(|| tick.phase.clone(), |step| step_text(steps, step));
+    fn extend_decision(&mut self, at_s: f64, until_s: f64, tick: &Tick, steps: &[String]) {
+        let Tick { agent, veto, .. } = tick;
+        let danger = agent.danger.iter().map(|danger| format!("danger: {}", label(danger)));
+        let veto = veto.iter().map(|veto| format!("the guard: {}", label(veto)));
+        let plans = agent.plans.iter().map(|plan| (label(&plan.trigger), plan.line));
+        let step = tick.step.map_or_else(|| label(&tick.phase), |step| step_text(steps, step));
         let decision = Decision {
             from_s: at_s,
             to_s: until_s,
             step,
-            command: tick.agent.command.clone(),
+            command: label(&agent.command),
             plans: plans.collect(),
-            said: tick.agent.report.as_ref().map(|report| format!("last order: {report}")),
+            said: agent.report.as_ref().map(|report| format!("last order: {}", label(report))),
             warnings: danger.chain(veto).collect(),
         };
         match self.decisions.last_mut() {
             Some(last) if last.is_like(&decision) => last.to_s = until_s,
             _ => self.decisions.push(decision),
+        }
+    }
+
+    /// Keeps the texts of the plans that a tick chose, each once.
+    fn extend_plans(&mut self, tick: &Tick, agent: &str) {
+        for plan in &tick.agent.plans {
+            if self.plans.len() < MOST_PLANS && !self.plans.contains_key(&plan.line) {
+                let text: String = plan_text(agent, plan.line).chars().take(LONGEST_PLAN).collect();
+                self.plans.insert(plan.line, printable_lines(&text).into_owned());
+            }
         }
     }
 
@@ -156,7 +177,13 @@ fn steps(plan: &str) -> Vec<String> {
         ..crate::plan::FlightLimits::default()
     };
     let (plan, _) = crate::plan::Plan::review(plan, &limits);
-    plan.map_or_else(Vec::new, |plan| plan.steps().iter().map(|step| step.text.clone()).collect())
+    plan.map_or_else(Vec::new, |plan| plan.steps().iter().map(|step| label(&step.text)).collect())
+}
+
+/// A short text in one line.
+fn label(text: &str) -> String {
+    let short: String = text.chars().take(LONGEST_LABEL).collect();
+    printable(&short).into_owned()
 }
 
 fn step_text(steps: &[String], step: usize) -> String {

@@ -1,6 +1,6 @@
 "use strict";
 // Hover over a plot: the moment is marked in all of them, and what was decided then is told.
-const decisions = JSON.parse(document.getElementById("decisions").textContent);
+const { decisions, plans } = JSON.parse(document.getElementById("decided").textContent);
 const { end, width, left, right } = document.getElementById("plots").dataset;
 const plots = [...document.querySelectorAll(".plot")];
 const rows = [...document.querySelectorAll("#timeline tbody tr")];
@@ -28,9 +28,9 @@ function show(seconds) {
   element("p", `ordered: ${decision.command}`, why);
   if (decision.said) element("p", decision.said, why);
   for (const warning of decision.warnings) element("p", warning, why).className = "warn";
-  for (const [, line, source] of decision.plans) {
+  for (const [trigger, line] of decision.plans) {
     element("p", `because of line ${line}`, why).className = "faint";
-    element("pre", source, why);
+    element("pre", plans[line] || trigger, why);
   }
   rows.forEach((row) => row.classList.toggle("now", Number(row.dataset.index) === index));
 }

@@ -2,10 +2,13 @@
 
 use std::fmt::Write as _;
 
+use diagnostic::printable;
+use serde_json::json;
 use time::UtcDateTime;
 
 use super::data::Flight;
 use super::plots::{LEFT, Plot, RIGHT, WIDTH};
+use crate::json;
 use crate::recording::Log;
 
 const STYLE: &str = include_str!("page.css");
@@ -53,13 +56,12 @@ pub(super) fn html(log: &Log, flight: &Flight<'_>, plots: &[Plot]) -> String {
              moment, what was ordered, and the agent's plan behind it.</p></div></div>\n</div>\n";
     timeline(&mut page, flight);
     events(&mut page, flight);
-    let decisions = serde_json::to_string(&flight.decisions).unwrap_or_else(|_| "[]".to_owned());
-    // A script ends at `</`, whatever stands around it.
-    let decisions = decisions.replace("</", "<\\/");
+    let decided = json!({ "decisions": flight.decisions, "plans": flight.plans });
     _ = write!(
         page,
-        "<script type=\"application/json\" id=\"decisions\">{decisions}</script>\n\
-         <script>\n{SCRIPT}</script>\n</body>\n</html>\n"
+        "<script type=\"application/json\" id=\"decided\">{}</script>\n\
+         <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
+        json::text(&decided)
     );
     page
 }
@@ -130,7 +132,8 @@ fn timeline(page: &mut String, flight: &Flight<'_>) {
         let plans: Vec<String> = decision
             .plans
             .iter()
-            .map(|(trigger, line, source)| {
+            .map(|(trigger, line)| {
+                let source = flight.plans.get(line).map_or("", String::as_str);
                 let head = source.split("<-").next().unwrap_or_default();
                 let head = head.split_whitespace().collect::<Vec<_>>().join(" ");
                 let head = if head.is_empty() { trigger.clone() } else { head };
@@ -171,15 +174,16 @@ fn events(page: &mut String, flight: &Flight<'_>) {
     *page += "</tbody>\n</table>\n";
 }
 
-/// Text that stands for itself in HTML.
+/// Text that stands for itself in HTML, between tags and in quoted attributes, in one line.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
+    for character in printable(text).chars() {
         match character {
             '&' => escaped += "&amp;",
             '<' => escaped += "&lt;",
             '>' => escaped += "&gt;",
             '"' => escaped += "&quot;",
+            '\'' => escaped += "&#39;",
             other => escaped.push(other),
         }
     }
@@ -190,6 +194,7 @@ fn escaped(text: &str) -> String {
 mod tests {
     #[test]
     fn text_is_no_markup() {
-        assert_eq!(super::escaped("<b a=\"1\">&"), "&lt;b a=&quot;1&quot;&gt;&amp;");
+        assert_eq!(super::escaped("<b a=\"1\">&'"), "&lt;b a=&quot;1&quot;&gt;&amp;&#39;");
+        assert_eq!(super::escaped("\u{202e}\x1b"), "\\u{202e}\\u{1b}");
     }
 }

@@ -4,7 +4,7 @@ use std::process::Command;
 
 use translator::{obligations, parse_configuration, translate};
 
-use crate::harness::run_program;
+use crate::harness::{run_program, skip};
 
 const GUIDE: &str = include_str!("../../../docs/agentspeak.md");
 
@@ -34,13 +34,12 @@ fn blocks() -> Vec<(&'static str, String)> {
     blocks
 }
 
-/// Runs `asl2c` as a terminal shows it; without SPIN it is only said that it was not.
-#[allow(clippy::print_stdout, reason = "what is left out is said")]
+/// Runs `asl2c` as a terminal shows it; without SPIN it is [skipped](skip).
 fn shows(terminal: &str) {
     let (command, expected) = terminal.split_once('\n').unwrap();
     let arguments = command.strip_prefix("$ asl2c ").unwrap();
     if Command::new("spin").arg("-V").output().is_err() {
-        println!("skipped: there is no SPIN here");
+        skip("spin");
         return;
     }
     let output = Command::new(env!("CARGO_BIN_EXE_asl2c"))

@@ -5,6 +5,8 @@ use std::process::{Command, Output};
 
 use translator::{model, parse_configuration};
 
+use crate::harness::skip;
+
 /// An agent that can switch a lamp, and promises something.
 fn configuration(settings: &str, sections: &str, agent: &str, property: &str) -> String {
     let events = ["+!light", "+!dim", "+flag", "-flag"];
@@ -19,11 +21,10 @@ fn configuration(settings: &str, sections: &str, agent: &str, property: &str) ->
     )
 }
 
-/// Runs `asl2c verify`; nothing if there is no SPIN here, which is said.
-#[allow(clippy::print_stdout, reason = "what is left out is said")]
+/// Runs `asl2c verify`; without SPIN it is [skipped](skip).
 fn verify(configuration: &str, agent: &str, options: &[&str]) -> Option<Output> {
     if Command::new("spin").arg("-V").output().is_err() {
-        println!("skipped: there is no SPIN here");
+        skip("spin");
         return None;
     }
     let folder = tempfile::tempdir().unwrap();

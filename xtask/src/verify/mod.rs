@@ -7,18 +7,19 @@ mod mutants;
 mod proof;
 mod report;
 mod run_time;
+mod tools;
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use translator::TranslateError;
 
-use self::model::{Asl2c, Checked, SPIN};
+use self::model::{Asl2c, Checked};
 use self::mutants::{MUTANTS, Mutant, Place, RUN_TIME};
 use self::proof::{Checks, Verdict, prove};
-use self::report::{Report, Tools};
-use self::run_time::{FRAMA_C, alarms};
+use self::report::Report;
+use self::run_time::alarms;
+use self::tools::{Missing, Tools};
 use crate::parallel;
 
 /// Why nothing could be said.
@@ -32,6 +33,12 @@ pub(crate) enum VerifyError {
         /// What the system says.
         source: io::Error,
     },
+    /// What can't be proved without them is not proved.
+    #[error("{0}")]
+    Missing(Missing),
+    /// The same, and it is no package.
+    #[error("nothing is proved: there is no CBMC here")]
+    NoCbmc,
     /// The agent is refused.
     #[error("{0}")]
     Translate(#[from] TranslateError),
@@ -75,15 +82,20 @@ const REPORT: &str = "docs/verification.md";
 /// What was found of an agent on its model and on its C.
 #[derive(Debug)]
 struct Findings {
-    /// Nothing without SPIN.
-    model: Option<Vec<Checked>>,
+    model: Vec<Checked>,
     c: Verdict,
 }
 
 impl Findings {
-    /// Whether everything was proved that could be looked at.
+    /// What was found of a property on the model.
+    fn on_model(&self, name: &str) -> Option<&Checked> {
+        self.model.iter().find(|checked| checked.name == name)
+    }
+
+    /// Whether every property was proved, on the model and on the C.
     fn hold(&self) -> bool {
-        self.c.holds() && self.model.iter().flatten().all(Checked::holds)
+        let mut names = self.c.properties.iter().map(|(promise, _)| &promise.name);
+        self.c.holds() && names.all(|name| self.on_model(name).is_some_and(Checked::holds))
     }
 }
 
@@ -93,7 +105,7 @@ struct Caught {
     mutant: &'static Mutant,
     /// What the proof on the C says is broken.
     broken: Vec<String>,
-    /// On the model, whether what it is made to break fails; nothing if it was not looked at.
+    /// On the model, whether what it is made to break fails; nothing if the mistake is in the C.
     on_model: Option<bool>,
 }
 
@@ -105,28 +117,14 @@ impl Caught {
 }
 
 /// Verifies the shipped agent and, unless only proofs are wanted, its mutants and the paper's agent; tells, and writes
-/// it down.
+/// it down if all was proved.
 pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
-    let script = Path::new("xtask/tools/cbmc.sh");
-    let fetched = Command::new(script)
-        .arg(folder("tools"))
-        .status()
-        .map_err(in_file("cannot run", script))?;
-    if !fetched.success() {
-        return Ok(("skipped: there is no CBMC here\n".to_owned(), true));
-    }
-    let cbmc = folder("tools").join("cbmc");
-    let cbmc = cbmc.canonicalize().map_err(in_file("cannot find", &cbmc))?;
-    let tools = Tools {
-        cbmc: version(&cbmc, "--version"),
-        frama_c: version(FRAMA_C, "-version"),
-        spin: version(SPIN, "-V"),
-    };
-    let verifier = Verifier { cbmc, asl2c: Asl2c::build()?, tools };
+    let Tools { cbmc, versions } = Tools::find(only_proofs)?;
+    let verifier = Verifier { cbmc, asl2c: Asl2c::build()? };
     let generated = folder("verify");
     if only_proofs {
         let autopilot = verifier.verify(&AUTOPILOT, &generated.join("autopilot"))?;
-        return Ok((report::proved(&autopilot, &verifier.tools), autopilot.hold()));
+        return Ok((report::proved(&autopilot), autopilot.hold()));
     }
     let [autopilot, paper] = parallel::both(
         || verifier.verify(&AUTOPILOT, &generated.join("autopilot")),
@@ -136,38 +134,36 @@ pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
     let cost = verifier.asl2c.report(&AUTOPILOT, &generated.join("cost"))?;
     let coverage = coverage::measure()?;
     let good = autopilot.hold() && mutants.iter().all(Caught::is_caught);
-    let report = Report { tools: verifier.tools, autopilot, paper, mutants, cost, coverage };
-    write(Path::new(""), REPORT, &report.markdown())?;
-    Ok((report.lines(), good))
+    let report = Report { versions, autopilot, paper, mutants, cost, coverage };
+    let mut lines = report.lines();
+    if good {
+        write(Path::new(""), REPORT, &report.markdown())?;
+    } else {
+        lines += "Not all was proved: ";
+        lines += REPORT;
+        lines += " is left as it was\n";
+    }
+    Ok((lines, good))
 }
 
 /// Agents are verified with these.
 struct Verifier {
     cbmc: PathBuf,
     asl2c: Asl2c,
-    tools: Tools,
 }
 
 impl Verifier {
     /// All that can be said of an agent.
     fn verify(&self, agent: &Agent<'_>, folder: &Path) -> Result<Findings, VerifyError> {
-        let model = match &self.tools.spin {
-            Some(_) => Some(self.asl2c.verify(agent, folder, None)?),
-            None => None,
-        };
+        let model = self.asl2c.verify(agent, folder, None)?;
         let mut c = prove(agent, &self.cbmc, folder, Checks::All, &[], None, |_| None)?;
-        if self.tools.frama_c.is_some() {
-            c.run_time.extend(alarms(folder)?);
-        }
+        c.run_time.extend(alarms(folder)?);
         Ok(Findings { model, c })
     }
 
-    /// What becomes of the mutants of an agent with this invariant. Without Frama-C those that err at run time
-    /// are left out.
+    /// What becomes of the mutants of an agent with this invariant.
     fn mutants(&self, invariant: &[String]) -> Result<Vec<Caught>, VerifyError> {
-        let tried =
-            |number: &usize| self.tools.frama_c.is_some() || MUTANTS[*number].breaks != RUN_TIME;
-        let numbers: Vec<usize> = (0..MUTANTS.len()).filter(tried).collect();
+        let numbers: Vec<usize> = (0..MUTANTS.len()).collect();
         parallel::map(&numbers, |number| {
             let folder = folder("verify").join(format!("mutant{number}"));
             self.mutant(&MUTANTS[number], invariant, &folder)
@@ -190,7 +186,7 @@ impl Verifier {
         let spoil = |file: &str| mutant.apply(Place::C, file);
         // What the model shows to fail does fail: to find it on the C, the invariant of the agent will do. Else
         // nothing may be left out, for a proof that lacks a condition says nothing against the mutant.
-        let on_model = self.tools.spin.is_some() && mutant.place != Place::C;
+        let on_model = mutant.place != Place::C;
         let known = if on_model { invariant } else { &[] };
         let mut verdict =
             prove(&agent, &self.cbmc, folder, checks, known, Some(mutant.breaks), spoil)?;
@@ -200,18 +196,12 @@ impl Verifier {
         let broken = verdict.broken().into_iter().map(str::to_owned).collect();
         let on_model = if on_model {
             let checked = self.asl2c.verify(&agent, folder, Some(mutant.breaks))?;
-            Some(checked.iter().all(Checked::fails))
+            Some(checked.iter().any(|found| found.name == mutant.breaks && found.fails()))
         } else {
             None
         };
         Ok(Caught { mutant, broken, on_model })
     }
-}
-
-/// What a tool calls itself; nothing if it is not there.
-fn version(tool: impl AsRef<std::ffi::OsStr>, option: &str) -> Option<String> {
-    let output = Command::new(tool).arg(option).output().ok()?;
-    Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
 /// Where the tools and generated files are.

@@ -82,6 +82,11 @@ impl Asl2c {
     /// What the agent costs.
     pub(super) fn report(&self, agent: &Agent<'_>, folder: &Path) -> Result<String, VerifyError> {
         let output = self.run(agent, folder, &["--report"])?;
+        // What could not be measured is said there, and the rest is printed all the same.
+        if !output.status.success() || !output.stderr.is_empty() {
+            let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            return Err(VerifyError::Tool { tool: "asl2c", output: said });
+        }
         Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     }
 

@@ -5,18 +5,12 @@ use std::fmt::Write as _;
 use translator::Promise;
 
 use super::coverage::Coverage;
+use super::tools::Versions;
 use super::{Caught, Findings};
-
-/// What the tools call themselves; nothing where there is none.
-pub(super) struct Tools {
-    pub(super) cbmc: Option<String>,
-    pub(super) frama_c: Option<String>,
-    pub(super) spin: Option<String>,
-}
 
 /// All that was found.
 pub(super) struct Report {
-    pub(super) tools: Tools,
+    pub(super) versions: Versions,
     pub(super) autopilot: Findings,
     pub(super) paper: Findings,
     pub(super) mutants: Vec<Caught>,
@@ -35,9 +29,8 @@ struct Row<'a> {
 impl Findings {
     fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         self.c.properties.iter().map(|(promise, holds)| {
-            let checked = self.model.iter().flatten().find(|one| one.name == promise.name);
-            let on_model = match checked {
-                None => "skipped",
+            let on_model = match self.on_model(&promise.name) {
+                None => "NOT CHECKED",
                 Some(checked) if checked.holds() => "holds",
                 Some(checked) if checked.fails() => "FAILS",
                 Some(_) => "not decided",
@@ -52,7 +45,7 @@ impl Findings {
 }
 
 /// What was proved of the shipped agent, for people.
-pub(super) fn proved(autopilot: &Findings, tools: &Tools) -> String {
+pub(super) fn proved(autopilot: &Findings) -> String {
     let mut text =
         String::from("The shipped agent, in every environment, for any number of steps\n");
     // Writing to a string cannot fail.
@@ -64,15 +57,10 @@ pub(super) fn proved(autopilot: &Findings, tools: &Tools) -> String {
     for error in &autopilot.c.run_time {
         _ = writeln!(text, "    possible: {error}");
     }
-    for checked in autopilot.model.iter().flatten().filter(|one| !one.holds()) {
+    for checked in autopilot.model.iter().filter(|one| !one.holds()) {
         _ = writeln!(text, "  {} does not hold of the model, for this can happen:", checked.name);
         for happening in &checked.trace {
             _ = writeln!(text, "    {happening}");
-        }
-    }
-    for (tool, there) in [("Frama-C", &tools.frama_c), ("SPIN", &tools.spin)] {
-        if there.is_none() {
-            _ = writeln!(text, "  skipped: there is no {tool} here");
         }
     }
     text
@@ -81,7 +69,7 @@ pub(super) fn proved(autopilot: &Findings, tools: &Tools) -> String {
 impl Report {
     /// For the terminal.
     pub(super) fn lines(&self) -> String {
-        let mut text = proved(&self.autopilot, &self.tools);
+        let mut text = proved(&self.autopilot);
         text += "Mutants, each of which must break what it is made for\n";
         for caught in &self.mutants {
             let how = if caught.is_caught() { "caught: " } else { "NOT CAUGHT; broken: " };
@@ -114,15 +102,11 @@ impl Report {
         );
         let (invariant, candidates) =
             (self.autopilot.c.invariant.len(), self.autopilot.c.candidates);
-        let said =
-            |version: &Option<String>| version.clone().unwrap_or_else(|| "not there".to_owned());
+        let Versions { cbmc, frama_c, spin } = &self.versions;
         _ = writeln!(
             text,
-            "\nThe invariant has {invariant} conditions, found among {candidates} candidates. CBMC {}; \
-             Frama-C {}; {}.\n",
-            said(&self.tools.cbmc),
-            said(&self.tools.frama_c),
-            said(&self.tools.spin),
+            "\nThe invariant has {invariant} conditions, found among {candidates} candidates. CBMC {cbmc}; \
+             Frama-C {frama_c}; {spin}.\n"
         );
         text += MUTANTS_INTRODUCTION;
         text += "| mutant | made to break | broken on the C, at least | on the model |\n|---|---|---|---|\n";
@@ -156,7 +140,7 @@ impl Report {
             _ = writeln!(text, "| `{name}` | `{formula}` | {on_model} | {on_c} |");
         }
         _ = writeln!(text, "| no error at run time | | | {} |", self.paper.run_time());
-        let told = self.paper.model.iter().flatten().find(|one| one.name == "flying_goes_on");
+        let told = self.paper.on_model("flying_goes_on");
         if let Some(checked) = told.filter(|checked| checked.fails()) {
             _ = writeln!(
                 text,
@@ -203,7 +187,8 @@ const INTRODUCTION: &str = "\
 
 `cargo xtask verify` proves what must hold of the shipped agent
 ([`autopilot.asl`](../autopilot/agent/autopilot.asl), [`autopilot.conf`](../autopilot/agent/autopilot.conf)),
-shows that the proof can fail, measures what the tests exercise, and writes this page.
+shows that the proof can fail, measures what the tests exercise, and, if all was proved, writes this page. Without
+CBMC, SPIN or Frama-C it proves nothing and fails.
 
 Each property is proved twice, in an environment that may do anything at any time: raise every event with any
 arguments, believe any values (numbers that are none among them), answer every question differently each time it

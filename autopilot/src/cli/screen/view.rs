@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use diagnostic::printable;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -59,7 +60,7 @@ impl View {
 
     pub(super) fn say(&mut self, line: &str) {
         let warns = line.contains("WARN") || line.starts_with("warning");
-        remember(&mut self.messages, (line.to_owned(), warns));
+        remember(&mut self.messages, (printable(line).into_owned(), warns));
     }
 
     /// Everything that was a warning.
@@ -80,7 +81,7 @@ impl View {
                     }
                     other => other.to_string(),
                 };
-                let line = format!("{:6.1} s {text}", at.as_secs_f64());
+                let line = format!("{:6.1} s {}", at.as_secs_f64(), printable(&text));
                 remember(&mut self.messages, (line, event.warns()));
             }
             Message::Status(at, status, ticks) => {

@@ -1,0 +1,84 @@
+//! Flies the fault campaign until it finds something: `cargo run -p system-tests --example judge -- 1000`.
+//!
+//! `cargo xtask mutants` runs it on code with a mistake in it. The first fault is printed with its seed, and the exit
+//! status is 1; it is 0 if nothing was found. Hardly any plan flown to its end is a fault too: a drone that never flies
+//! does no harm, and whoever is content with that would be content with any mistake.
+#![allow(clippy::print_stdout, reason = "it prints what it finds")]
+
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+
+use autopilot::outcome::Outcome;
+use system_tests::campaign;
+
+/// Of so many flights of the campaign at least one is flown to its end; of the pilot as it is, two of five are.
+const ONE_OF: u64 = 5;
+
+/// Seeds that are to be flown, and the lowest in which something was found.
+struct Hunt {
+    next: AtomicU64,
+    last: AtomicU64,
+    /// Plans flown to their end.
+    completed: AtomicU64,
+}
+
+impl Hunt {
+    /// Flies seeds until there are none left below the lowest in which something was found; returns what was found
+    /// last.
+    fn fly(&self) -> Option<(u64, String)> {
+        let mut found = None;
+        loop {
+            let seed = self.next.fetch_add(1, Ordering::Relaxed);
+            if seed > self.last.load(Ordering::Relaxed) {
+                return found;
+            }
+            if let Some(fault) = self.fault(seed) {
+                self.last.fetch_min(seed, Ordering::Relaxed);
+                found = Some((seed, fault));
+            }
+        }
+    }
+
+    /// What is wrong with the flight of a seed.
+    fn fault(&self, seed: u64) -> Option<String> {
+        match campaign::fly(seed) {
+            Ok(verdict) => {
+                let completed = verdict.outcome == Outcome::Completed;
+                self.completed.fetch_add(completed.into(), Ordering::Relaxed);
+                verdict.faults.first().map(ToString::to_string)
+            }
+            Err(error) => Some(error.to_string()),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let Some(flights) = std::env::args().nth(1).and_then(|word| word.parse().ok()) else {
+        println!("usage: judge FLIGHTS");
+        return ExitCode::from(2);
+    };
+    let (next, last, completed) = (AtomicU64::new(1), AtomicU64::new(flights), AtomicU64::new(0));
+    let hunt = Hunt { next, last, completed };
+    let found = thread::scope(|scope| {
+        let cores = thread::available_parallelism().map_or(1, usize::from);
+        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(|| hunt.fly())).collect();
+        // A flight that panics is a fault: its thread passes the panic on, and the process ends by it.
+        let ends = threads
+            .into_iter()
+            .map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        ends.flatten().min()
+    });
+    let completed = hunt.completed.into_inner();
+    match found {
+        Some((seed, fault)) => println!("seed {seed}: {fault}"),
+        None if completed < flights / ONE_OF => {
+            println!("only {completed} of {flights} plans were flown to their end");
+        }
+        None => {
+            println!("nothing in {flights} flights, {completed} plans were flown to their end");
+            return ExitCode::SUCCESS;
+        }
+    }
+    ExitCode::FAILURE
+}

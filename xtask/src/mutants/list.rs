@@ -1,0 +1,295 @@
+//! Mistakes that the fault campaign must find. A text that is replaced stands exactly once in its file: where the code
+//! has changed, the mutant must be mended, not dropped.
+
+/// A text and what stands in its place in the mutant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Edit {
+    /// From the root of the workspace.
+    pub(super) file: &'static str,
+    pub(super) from: &'static str,
+    pub(super) to: &'static str,
+}
+
+/// The workspace with one mistake in it. What two layers take care of is taken away in both.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mutant {
+    /// What is wrong with it.
+    pub(super) name: &'static str,
+    pub(super) edits: &'static [Edit],
+}
+
+const AGENT: &str = "autopilot/agent/autopilot.asl";
+const BINDING: &str = "autopilot/src/agent.rs";
+const GUARD: &str = "autopilot/src/safety.rs";
+const PILOT: &str = "autopilot/src/pilot/mod.rs";
+const CONTROL: &str = "autopilot/src/pilot/control.rs";
+const PHASE: &str = "autopilot/src/pilot/flight_phase.rs";
+const HAND: &str = "autopilot/src/pilot/hand.rs";
+const ESTIMATOR: &str = "estimator/src/lib.rs";
+const HORIZONTAL: &str = "estimator/src/horizontal.rs";
+const SESSION: &str = "ardrone-link/src/session/mod.rs";
+
+const fn mutant(name: &'static str, edits: &'static [Edit]) -> Mutant {
+    Mutant { name, edits }
+}
+
+const fn edit(file: &'static str, from: &'static str, to: &'static str) -> Edit {
+    Edit { file, from, to }
+}
+
+/// All of them.
+pub(super) const MUTANTS: &[Mutant] = &[
+    // What is known of the place.
+    mutant(
+        "no integration: the place never moves",
+        &[edit(HORIZONTAL, "self.position_m = position_m;", "self.position_m = position_m * 0.0;")],
+    ),
+    mutant(
+        "half of each velocity",
+        &[edit(
+            PILOT,
+            "velocity_forward_m_s: demo.velocity_forward_m_s,\n        velocity_right_m_s: demo.velocity_right_m_s,",
+            "velocity_forward_m_s: 0.5 * demo.velocity_forward_m_s,\n        velocity_right_m_s: 0.5 * demo.velocity_right_m_s,",
+        )],
+    ),
+    mutant(
+        "right is left",
+        &[edit(
+            PILOT,
+            "velocity_right_m_s: demo.velocity_right_m_s,",
+            "velocity_right_m_s: -demo.velocity_right_m_s,",
+        )],
+    ),
+    mutant(
+        "the heading turns no velocity",
+        &[edit(
+            HORIZONTAL,
+            "Rotation2::new(-yaw_deg.to_radians())",
+            "Rotation2::new(0.0 * yaw_deg)",
+        )],
+    ),
+    mutant(
+        "the heading turns velocities the wrong way",
+        &[
+            edit(
+                HORIZONTAL,
+                "Rotation2::new(-yaw_deg.to_radians())",
+                "Rotation2::new(1.0 * yaw_deg.to_radians())",
+            ),
+            edit(
+                HORIZONTAL,
+                "Rotation2::new(yaw_deg.to_radians())",
+                "Rotation2::new(-1.0 * yaw_deg.to_radians())",
+            ),
+        ],
+    ),
+    mutant(
+        "the altitude is always 0.8 m",
+        &[edit(PILOT, "altitude_m: demo.altitude_m,", "altitude_m: 0.8 + 0.0 * demo.altitude_m,")],
+    ),
+    mutant(
+        "the place is always certain",
+        &[edit(
+            ESTIMATOR,
+            "self.uncertainty.horizontal_m(",
+            "0.0 * self.uncertainty.horizontal_m(",
+        )],
+    ),
+    mutant(
+        "navdata are always believed",
+        &[edit(ESTIMATOR, "self.plausibility.trust()", "Trust::Sound")],
+    ),
+    // The guard.
+    mutant(
+        "no fence",
+        &[edit(
+            GUARD,
+            "Self {\n            fence,",
+            "let fence = FlightLimits { radius_m: 1e9, ceiling_m: 1e9, floor_m: -1e9, ..fence };\n        Self {\n            fence,",
+        )],
+    ),
+    mutant(
+        "no vetoes at all",
+        &[edit(
+            GUARD,
+            "if now.emergency && flies {",
+            "if flies == flies {\n            return (command, None);\n        }\n        if now.emergency && flies {",
+        )],
+    ),
+    mutant("guard off in the air", &[edit(GUARD, "if !now.airborne {", "if now.airborne {")]),
+    mutant(
+        "the fence holds the drone outside",
+        &[edit(
+            GUARD,
+            "pose.x_m.hypot(pose.y_m) <= self.fence.radius_m + margin_m",
+            "pose.x_m.hypot(pose.y_m) >= self.fence.radius_m + margin_m",
+        )],
+    ),
+    mutant(
+        "the ceiling holds the drone above",
+        &[edit(
+            GUARD,
+            "&& pose.z_m <= self.fence.ceiling_m + margin_m",
+            "&& pose.z_m >= self.fence.ceiling_m + margin_m",
+        )],
+    ),
+    mutant(
+        "floor and ceiling changed places",
+        &[edit(
+            GUARD,
+            "Self {\n            fence,",
+            "let fence = FlightLimits { ceiling_m: fence.floor_m, floor_m: fence.ceiling_m, ..fence };\n        Self {\n            fence,",
+        )],
+    ),
+    mutant(
+        "stale navdata are flown by",
+        &[
+            edit(GUARD, "moves && now.blind_for > STALE", "moves && now.blind_for > Duration::MAX"),
+            edit(AGENT, "holdWhenBlind(300).", "holdWhenBlind(2000000000)."),
+        ],
+    ),
+    // The agent.
+    mutant(
+        "agent without @blind",
+        &[edit(
+            AGENT,
+            "& landWhenBlind(Limit) & Time > Limit\n  <- tellBlind;",
+            "& landWhenBlind(Limit) & Time > Limit & Time < 0\n  <- tellBlind;",
+        )],
+    ),
+    mutant(
+        "agent without @lost",
+        &[edit(
+            AGENT,
+            "& largestDoubt(Limit) & Metres > Limit\n  <- tellLost;",
+            "& largestDoubt(Limit) & Metres > Limit & Metres < 0\n  <- tellLost;",
+        )],
+    ),
+    mutant(
+        "agent without @strong_wind",
+        &[edit(
+            AGENT,
+            "& strongestWind(Limit) & Share > Limit\n  <- tellWind;",
+            "& strongestWind(Limit) & Share > Limit & Share < 0\n  <- tellWind;",
+        )],
+    ),
+    mutant(
+        "landWhenBlind(2000000000)",
+        &[edit(AGENT, "landWhenBlind(2000).", "landWhenBlind(2000000000).")],
+    ),
+    mutant(
+        "a landing is forgotten after a gap",
+        &[
+            edit(
+                AGENT,
+                "@still_landing[req(\"SAF-2\")]",
+                "+!completeLand : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit\n  <- sendHover;\n     !!wait.\n\n@still_landing[req(\"SAF-2\")]",
+            ),
+            edit(GUARD, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
+        ],
+    ),
+    mutant(
+        "a target is approached for ever",
+        &[edit(AGENT, "approachTime(60000).", "approachTime(2000000000).")],
+    ),
+    mutant(
+        "goals are flown 1000 m off",
+        &[edit(
+            BINDING,
+            "fn send_goto(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {",
+            "fn send_goto(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {\n        let x_m = x_m + 1000.0;",
+        )],
+    ),
+    mutant(
+        "the battery is always full",
+        &[edit(
+            PILOT,
+            "if empty { 0 } else { demo.battery_percent }",
+            "if empty { 100 } else { demo.battery_percent.max(100) }",
+        )],
+    ),
+    mutant(
+        "never blind",
+        &[edit(
+            PILOT,
+            "|seen_at| now.saturating_sub(seen_at)",
+            "|seen_at| now.saturating_sub(seen_at.max(now))",
+        )],
+    ),
+    mutant(
+        "every place is reached",
+        &[edit(
+            BINDING,
+            "distance(&pose, &target) <= distance_m",
+            "distance(&pose, &target) >= 0.0",
+        )],
+    ),
+    // What is sent.
+    mutant(
+        "the roll stick is the wrong way round",
+        &[edit(
+            CONTROL,
+            "roll: Fraction::saturating(demand.roll),",
+            "roll: Fraction::saturating(-demand.roll),",
+        )],
+    ),
+    mutant(
+        "the pitch stick is the wrong way round",
+        &[edit(
+            CONTROL,
+            "pitch: Fraction::saturating(demand.pitch),",
+            "pitch: Fraction::saturating(-demand.pitch),",
+        )],
+    ),
+    mutant(
+        "the climb stick is the wrong way round",
+        &[edit(
+            CONTROL,
+            "gaz: Fraction::saturating(demand.gaz),",
+            "gaz: Fraction::saturating(-demand.gaz),",
+        )],
+    ),
+    // The flight as a whole.
+    mutant(
+        "a hold takes a landing back",
+        &[
+            edit(
+                HAND,
+                "_ if self.phase != FlightPhase::Flying || self.on_ground() => {}",
+                "_ if self.on_ground() => {}",
+            ),
+            edit(GUARD, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
+        ],
+    ),
+    mutant(
+        "the pilot's landing order is lost",
+        &[edit(HAND, "self.land(now, LandingReason::Pilot);", "")],
+    ),
+    mutant(
+        "a step that failed counts as done",
+        &[edit(PILOT, "if report != Report::Done {", "if report != report {")],
+    ),
+    mutant(
+        "the flight ends before the drone is down",
+        &[edit(PHASE, "let landed = !blind && self.on_ground();", "let landed = !blind;")],
+    ),
+    mutant(
+        "the take-off latch is ignored",
+        &[edit(
+            SESSION,
+            "self.take_off = TakeOffLatch::Withheld { landing_ordered: false };",
+            "self.take_off = TakeOffLatch::Follow { airborne: true };",
+        )],
+    ),
+    mutant(
+        "a drone that is not heard is told to fly",
+        &[
+            edit(SESSION, "silence < UNHEARD", "silence < Duration::MAX"),
+            edit(
+                SESSION,
+                "self.take_off = TakeOffLatch::Withheld { landing_ordered: false };",
+                "self.take_off = TakeOffLatch::Follow { airborne: true };",
+            ),
+        ],
+    ),
+];

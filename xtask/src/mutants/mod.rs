@@ -1,0 +1,191 @@
+//! Mutants of the pilot: a judge that finds nothing wrong with them finds nothing.
+//!
+//! By hand: mistakes that a safety engineer would think of, each built and flown through the fault campaign until
+//! something is found. All: what `cargo mutants` makes of the code on which safety rests, against the tests in
+//! simulated time (`.cargo/mutants.toml`).
+
+mod list;
+mod workspace;
+
+use std::fmt::Write as _;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use self::list::{MUTANTS, Mutant};
+use self::workspace::Workspace;
+
+/// Why nothing was found out about the mutants.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum MutantsError {
+    /// A file or a program.
+    #[error("{what}: {source}")]
+    Io {
+        /// What was tried.
+        what: String,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The code is not what the mutant was made of.
+    #[error(
+        "{name}: the text to be replaced stands {times} times in {file}: the code has changed, mend the mutant"
+    )]
+    Changed {
+        /// The mutant.
+        name: &'static str,
+        /// Where.
+        file: &'static str,
+        /// How often.
+        times: usize,
+    },
+    /// A mutant that does not build says nothing of the judge.
+    #[error("{name} does not build:\n{said}")]
+    Build {
+        /// The mutant.
+        name: String,
+        /// What the compiler says.
+        said: String,
+    },
+    /// If the code as it is fails, then mutants fail for nothing.
+    #[error("the code as it is does not pass: {0}")]
+    Healthy(String),
+    /// There is no mutant of that name.
+    #[error("no mutant has `{0}` in its name")]
+    Unknown(String),
+    /// The tool is not here.
+    #[error("there is no cargo-mutants here: `cargo install cargo-mutants --locked`")]
+    NoCargoMutants,
+}
+
+/// What became of a mutant.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum End {
+    /// What was found.
+    Caught(String),
+    /// Nothing was found.
+    Survived,
+}
+
+/// Flies each mutant, or those with `only` in their name, until something is found or so many flights were flown. The
+/// second value is whether all were caught.
+pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool), MutantsError> {
+    let wanted = |mutant: &&Mutant| only.is_none_or(|only| mutant.name.contains(only));
+    let mutants: Vec<&Mutant> = MUTANTS.iter().filter(wanted).collect();
+    if mutants.is_empty() {
+        return Err(MutantsError::Unknown(only.unwrap_or_default().to_owned()));
+    }
+    let workspace = Workspace::copy(Path::new("."), &folder())?;
+    for mutant in &mutants {
+        workspace.changed(mutant)?;
+    }
+    if let End::Caught(what) = judged(&workspace, "the code as it is", flights)? {
+        return Err(MutantsError::Healthy(what));
+    }
+    let mut text = String::new();
+    let mut survivors = 0;
+    for mutant in &mutants {
+        let changed = workspace.changed(mutant)?;
+        workspace.put(&changed)?;
+        let end = judged(&workspace, mutant.name, flights);
+        workspace.restore(&changed)?;
+        let told = match end? {
+            End::Caught(what) => what,
+            End::Survived => {
+                survivors += 1;
+                format!("SURVIVED {flights} flights")
+            }
+        };
+        // One line as soon as it is known: all of them take a while.
+        let line = format!("{:<46}{told}", mutant.name);
+        _ = io::Write::write_all(&mut io::stderr(), format!("{line}\n").as_bytes());
+        _ = writeln!(text, "{line}");
+    }
+    _ = writeln!(text, "{} of {} mutants caught", mutants.len() - survivors, mutants.len());
+    Ok((text, survivors == 0))
+}
+
+/// Builds the workspace as it is and has it judged.
+fn judged(workspace: &Workspace, name: &str, flights: u64) -> Result<End, MutantsError> {
+    let built = cargo(workspace.root())
+        .args(["build", "--locked", "--quiet", "-p", "system-tests", "--example", "judge"])
+        .env("CARGO_TARGET_DIR", workspace.target())
+        // Nobody looks into a mutant with a debugger.
+        .env("CARGO_PROFILE_DEV_DEBUG", "false")
+        .output()
+        .map_err(in_file("cannot run", Path::new("cargo")))?;
+    if !built.status.success() {
+        let said = String::from_utf8_lossy(&built.stderr).into_owned();
+        return Err(MutantsError::Build { name: name.to_owned(), said });
+    }
+    let judge = workspace.target().join("debug/examples/judge");
+    let judged = Command::new(&judge).arg(flights.to_string()).output();
+    Ok(end(&judged.map_err(in_file("cannot run", &judge))?))
+}
+
+/// What the judge found; one that breaks off has found something too.
+fn end(output: &Output) -> End {
+    let said = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    match output.status.code() {
+        Some(0) => End::Survived,
+        Some(1) if !said.is_empty() => End::Caught(said),
+        _ => {
+            let panic = String::from_utf8_lossy(&output.stderr);
+            let mut lines = panic.lines().skip_while(|line| !line.contains("panicked at"));
+            let what: Vec<&str> = lines.by_ref().take(2).collect();
+            End::Caught(format!("{}: {}", output.status, what.join(" ")))
+        }
+    }
+}
+
+/// Runs `cargo mutants` as `.cargo/mutants.toml` says, on all mutants or on one shard of them, such as `2/20`. The
+/// second value is whether all were caught.
+pub(crate) fn all(shard: Option<&str>) -> Result<(String, bool), MutantsError> {
+    let there = cargo(Path::new(".")).args(["mutants", "--version"]).output();
+    if !there.is_ok_and(|output| output.status.success()) {
+        return Err(MutantsError::NoCargoMutants);
+    }
+    let output = folder();
+    std::fs::create_dir_all(&output).map_err(in_file("cannot make", &output))?;
+    let status = cargo(Path::new("."))
+        .args(["mutants", "--no-times", "--colors", "never", "--output"])
+        .arg(&output)
+        .args(shard.iter().flat_map(|shard| ["--shard", shard]))
+        .status()
+        .map_err(in_file("cannot run", Path::new("cargo")))?;
+    let lists = output.join("mutants.out");
+    Ok((format!("what survived is in {}\n", lists.join("missed.txt").display()), status.success()))
+}
+
+fn cargo(folder: &Path) -> Command {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(folder);
+    cargo
+}
+
+/// Where mutants are made and built.
+fn folder() -> PathBuf {
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
+    target.join("mutants")
+}
+
+fn in_file(what: &str, path: &Path) -> impl FnOnce(io::Error) -> MutantsError {
+    let what = format!("{what} {}", path.display());
+    move |source| MutantsError::Io { what, source }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_mutant_can_be_made() {
+        let workspace = Workspace::here(Path::new(".."));
+        for mutant in MUTANTS {
+            let changed = workspace.changed(mutant).unwrap_or_else(|error| panic!("{error}"));
+            for (file, text) in changed {
+                assert_ne!(text, std::fs::read_to_string(Path::new("..").join(file)).unwrap());
+            }
+        }
+    }
+}

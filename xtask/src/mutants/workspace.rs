@@ -1,0 +1,162 @@
+//! A copy of the workspace in which mistakes are made. It stays where it is, with its target folder, so that only
+//! what a mistake touches is built again.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::list::Mutant;
+use super::{MutantsError, in_file};
+
+/// The folder in which a copy is built.
+const TARGET: &str = "target";
+
+/// The workspace and its copy.
+#[derive(Debug)]
+pub(super) struct Workspace {
+    original: PathBuf,
+    copy: PathBuf,
+}
+
+/// Files with what stands in them in a mutant.
+pub(super) type Changed = BTreeMap<&'static str, String>;
+
+impl Workspace {
+    /// Copies the files of the workspace that git knows or would take. What is the same is not touched, since cargo
+    /// goes by the time of a file.
+    pub(super) fn copy(original: &Path, folder: &Path) -> Result<Self, MutantsError> {
+        let workspace = Self { original: original.to_owned(), copy: folder.join("workspace") };
+        let files = workspace.files()?;
+        for file in &files {
+            workspace.update(file)?;
+        }
+        workspace.remove_others(&workspace.copy, &files)?;
+        let copy = &workspace.copy;
+        let copy = copy.canonicalize().map_err(in_file("cannot find", copy))?;
+        Ok(Self { copy, ..workspace })
+    }
+
+    /// The workspace without a copy.
+    #[cfg(test)]
+    pub(super) fn here(original: &Path) -> Self {
+        Self { original: original.to_owned(), copy: original.to_owned() }
+    }
+
+    /// Where it is built.
+    pub(super) fn root(&self) -> &Path {
+        &self.copy
+    }
+
+    /// Where to.
+    pub(super) fn target(&self) -> PathBuf {
+        self.copy.join(TARGET)
+    }
+
+    /// What stands in a mutant's files.
+    ///
+    /// # Errors
+    /// [`MutantsError::Changed`] if the code is not what the mutant was made of.
+    pub(super) fn changed(&self, mutant: &Mutant) -> Result<Changed, MutantsError> {
+        let mut changed = Changed::new();
+        for edit in mutant.edits {
+            let text = if let Some(text) = changed.remove(edit.file) {
+                text
+            } else {
+                let path = self.original.join(edit.file);
+                std::fs::read_to_string(&path).map_err(in_file("cannot read", &path))?
+            };
+            let times = text.matches(edit.from).count();
+            if times != 1 {
+                return Err(MutantsError::Changed { name: mutant.name, file: edit.file, times });
+            }
+            changed.insert(edit.file, text.replacen(edit.from, edit.to, 1));
+        }
+        Ok(changed)
+    }
+
+    /// Makes the copy the mutant.
+    pub(super) fn put(&self, changed: &Changed) -> Result<(), MutantsError> {
+        for (file, text) in changed {
+            let path = self.copy.join(file);
+            std::fs::write(&path, text).map_err(in_file("cannot write", &path))?;
+        }
+        Ok(())
+    }
+
+    /// Makes the copy what the original is.
+    pub(super) fn restore(&self, changed: &Changed) -> Result<(), MutantsError> {
+        changed.keys().try_for_each(|file| self.update(Path::new(file)))
+    }
+
+    fn files(&self) -> Result<BTreeSet<PathBuf>, MutantsError> {
+        let git = Command::new("git")
+            .args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"])
+            .current_dir(&self.original)
+            .output()
+            .map_err(in_file("cannot run", Path::new("git")))?;
+        let names = String::from_utf8_lossy(&git.stdout).into_owned();
+        let files = names.split('\0').filter(|name| !name.is_empty()).map(PathBuf::from);
+        // One that was removed and not yet committed is none.
+        Ok(files.filter(|file| self.original.join(file).is_file()).collect())
+    }
+
+    fn update(&self, file: &Path) -> Result<(), MutantsError> {
+        let (from, to) = (self.original.join(file), self.copy.join(file));
+        let content = std::fs::read(&from).map_err(in_file("cannot read", &from))?;
+        if std::fs::read(&to).is_ok_and(|there| there == content) {
+            return Ok(());
+        }
+        if let Some(folder) = to.parent() {
+            std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
+        }
+        std::fs::write(&to, content).map_err(in_file("cannot write", &to))
+    }
+
+    /// Removes what the original has no more.
+    fn remove_others(&self, folder: &Path, files: &BTreeSet<PathBuf>) -> Result<(), MutantsError> {
+        let entries = std::fs::read_dir(folder).map_err(in_file("cannot read", folder))?;
+        for entry in entries {
+            let path = entry.map_err(in_file("cannot read", folder))?.path();
+            let Ok(own) = path.strip_prefix(&self.copy) else { continue };
+            if path.is_dir() {
+                if own != Path::new(TARGET) {
+                    self.remove_others(&path, files)?;
+                }
+            } else if !files.contains(own) {
+                std::fs::remove_file(&path).map_err(in_file("cannot remove", &path))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::list::Edit;
+    use super::*;
+
+    const TWICE: Mutant = Mutant {
+        name: "twice",
+        edits: &[
+            Edit { file: "clippy.toml", from: "allow-unwrap-in-tests", to: "a" },
+            Edit { file: "clippy.toml", from: "allow-expect-in-tests", to: "b" },
+        ],
+    };
+    const GONE: Mutant =
+        Mutant { name: "gone", edits: &[Edit { file: "clippy.toml", from: "no such", to: "" }] };
+    const MANY: Mutant =
+        Mutant { name: "many", edits: &[Edit { file: "clippy.toml", from: "allow-", to: "" }] };
+
+    #[test]
+    fn a_mutant_of_other_code_is_no_mutant() {
+        let workspace = Workspace::here(Path::new(".."));
+        let changed = workspace.changed(&TWICE).unwrap();
+        let text = &changed["clippy.toml"];
+        assert!(changed.len() == 1 && text.contains("a = true") && text.contains("b = true"));
+        for (mutant, expected) in [(GONE, 0), (MANY, 3)] {
+            let error = workspace.changed(&mutant).unwrap_err();
+            assert!(matches!(error, MutantsError::Changed { times, .. } if times == expected));
+            assert!(error.to_string().contains("mend the mutant"), "{error}");
+        }
+    }
+}
