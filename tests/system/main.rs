@@ -15,5 +15,6 @@ mod ports;
 mod processes;
 mod recording;
 mod safety;
+mod sequence;
 mod simulated;
 mod udp;
