@@ -7,6 +7,7 @@ mod fly;
 mod parallel;
 mod plot;
 mod score;
+mod soak;
 mod table;
 mod verify;
 
@@ -48,6 +49,9 @@ enum Command {
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
     },
+    /// Fly over UDP, as processes, with random faults, signals, floods and closed output; fails if a
+    /// drone was left in the air
+    Soak(soak::Arguments),
     /// Prove the properties of the shipped agent on a model and on its C, and measure what tests exercise
     Verify {
         /// Only prove, which is all that the shipped agent needs: no mutants, no coverage, no other agent, no report
@@ -66,6 +70,7 @@ fn main() -> ExitCode {
         Command::Campaign { flights, first } => {
             campaign::run(flights, first).map_err(|error| error.to_string())
         }
+        Command::Soak(arguments) => soak::run(&arguments).map_err(|error| error.to_string()),
         Command::Verify { only_proofs } => {
             verify::run(only_proofs).map_err(|error| error.to_string())
         }
