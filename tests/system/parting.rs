@@ -178,7 +178,9 @@ fn other_ends_land_as_control_c_does() {
             assert_eq!(relay.truth().phase, Phase::Landed, "{name}");
         })
     });
-    threads.into_iter().for_each(|thread| thread.join().unwrap());
+    for thread in threads {
+        thread.join().unwrap();
+    }
 }
 
 #[test]

@@ -65,8 +65,8 @@ impl fmt::Display for Trouble {
 /// The sockets to one drone.
 #[derive(Debug)]
 pub(super) struct Link {
-    at: Socket,
-    navdata: Socket,
+    at: Wire,
+    navdata: Wire,
     /// When a datagram last came.
     heard_at: Option<Duration>,
     /// Nothing can be received until the next tick.
@@ -80,8 +80,8 @@ impl Link {
     /// What the system says if no socket can be had.
     pub(super) fn new(host: IpAddr, drone: &DroneAddress) -> io::Result<Self> {
         Ok(Self {
-            at: Socket::new(Port::At, SocketAddr::new(host, drone.at_port))?,
-            navdata: Socket::new(Port::Navdata, SocketAddr::new(host, drone.navdata_port))?,
+            at: Wire::new(Port::At, SocketAddr::new(host, drone.at_port))?,
+            navdata: Wire::new(Port::Navdata, SocketAddr::new(host, drone.navdata_port))?,
             heard_at: None,
             rests: false,
             trouble: None,
@@ -166,7 +166,7 @@ impl Link {
         (self.at.health.errors() + self.navdata.health.errors(), self.bound_anew)
     }
 
-    fn socket(&mut self, port: Port) -> &mut Socket {
+    fn wire(&mut self, port: Port) -> &mut Wire {
         match port {
             Port::At => &mut self.at,
             Port::Navdata => &mut self.navdata,
@@ -175,7 +175,7 @@ impl Link {
 
     /// What came of a call, if it succeeded.
     fn judge(&mut self, port: Port, now: Duration, result: io::Result<usize>) -> Option<usize> {
-        let health = &mut self.socket(port).health;
+        let health = &mut self.wire(port).health;
         match result {
             Ok(length) => {
                 health.succeeded();
@@ -193,8 +193,8 @@ impl Link {
 
     /// Binds a socket anew if it needs that; returns whether it did.
     fn mend(&mut self, port: Port, now: Duration) -> bool {
-        let socket = self.socket(port);
-        let mended = socket.health.rebind_due(now) && socket.bind_anew();
+        let wire = self.wire(port);
+        let mended = wire.health.rebind_due(now) && wire.bind_anew();
         self.bound_anew += u64::from(mended);
         mended
     }
@@ -219,14 +219,14 @@ impl Link {
 
 /// A socket that hears only the drone: the system drops datagrams from anybody else.
 #[derive(Debug)]
-struct Socket {
+struct Wire {
     drone: SocketAddr,
     port: Port,
     socket: UdpSocket,
     health: SocketHealth,
 }
 
-impl Socket {
+impl Wire {
     fn new(port: Port, drone: SocketAddr) -> io::Result<Self> {
         let socket = connected(port, drone)?;
         Ok(Self { drone, port, socket, health: SocketHealth::default() })
@@ -310,7 +310,7 @@ mod tests {
         // Nobody listens: the system tells it with the next call.
         drop((at, navdata));
         link.wake_up(Duration::ZERO);
-        let start = std::time::Instant::now();
+        let start = crate::flight::clock();
         let time = Duration::from_millis(50);
         link.wait(time);
         let mut buffer = [0; 100];
