@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
 /// Flies until the time is over, and tells; the second value is whether nothing was left in the air.
 pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), BenchError> {
     let programs = Programs::build(arguments.pilot.clone())?;
-    let time = Duration::from_secs(60 * arguments.minutes);
+    let time = Duration::from_mins(arguments.minutes);
     let start = now();
     let next = AtomicU64::new(0);
     let done = Mutex::new(Vec::new());

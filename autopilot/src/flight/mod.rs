@@ -133,7 +133,7 @@ const PARTING_ORDERS: u32 = 10;
 const PARTING_TICKS: u32 = 3 * PARTING_ORDERS;
 /// Datagrams that a tick looks at: more than the system keeps.
 const DATAGRAMS_PER_TICK: u32 = 1000;
-/// So many of them even if the tick is late then.
+/// So many of them it looks at even if it is late.
 const DATAGRAMS_IF_LATE: u32 = 32;
 /// Datagrams that a tick records.
 const RECORDED_PER_TICK: u32 = 64;
@@ -270,11 +270,6 @@ struct Intake {
 impl Intake {
     const NOTHING: Self = Self { taken: 0, recorded: 0, refused: 0 };
 
-    /// Whether one more datagram may be looked at.
-    fn has_room(&self, late: bool) -> bool {
-        self.taken < if late { DATAGRAMS_IF_LATE } else { DATAGRAMS_PER_TICK }
-    }
-
     /// Whether a datagram may be recorded, which was `good` or meant nothing.
     fn records(&mut self, good: bool) -> bool {
         let room = self.recorded < RECORDED_PER_TICK && (good || self.refused < REFUSED_PER_TICK);
@@ -341,9 +336,7 @@ impl TickLoop {
                 self.link.wait(rest);
                 let woken = self.start.elapsed();
                 self.take_in_navdata();
-                let done = self.start.elapsed();
-                self.ticks.spend(Stage::Estimate, done.saturating_sub(woken));
-                held_up = woken < self.deadline && done >= self.deadline;
+                held_up = woken < self.deadline && self.start.elapsed() >= self.deadline;
                 continue;
             }
             let skipped = skip_missed(&mut self.deadline, now);
@@ -352,9 +345,8 @@ impl TickLoop {
             self.deadline += TICK;
             before(count);
             self.link.begin_tick();
-            // A tick that comes late finds the navdata that came before it.
-            self.take_in_navdata();
             self.intake = Intake::NOTHING;
+            self.take_in_late_navdata();
             self.take_in_services(now);
             self.tick()?;
             self.ticks.end();
@@ -392,36 +384,55 @@ impl TickLoop {
         Ok(())
     }
 
-    /// Takes what has come, as much as there is time for.
+    /// Takes in what has come until the next tick is due.
     fn take_in_navdata(&mut self) {
-        loop {
-            let now = self.start.elapsed();
-            let late = now >= self.deadline;
-            if !self.intake.has_room(late) {
-                if !late {
-                    // The rest of this tick belongs to others.
-                    self.link.rest();
-                    self.summary.flooded_ticks += 1;
-                    if !std::mem::replace(&mut self.flood_told, true) {
-                        self.warn(now, Trouble::Flood);
-                    }
+        let begun = self.start.elapsed();
+        let mut now = begun;
+        while now < self.deadline {
+            if self.intake.taken >= DATAGRAMS_PER_TICK {
+                // The rest of this tick belongs to others.
+                self.link.rest();
+                self.summary.flooded_ticks += 1;
+                if !std::mem::replace(&mut self.flood_told, true) {
+                    self.warn(now, Trouble::Flood);
                 }
-                return;
+                break;
             }
-            let Some(length) = self.link.receive(now, &mut self.buffer) else { return };
-            self.intake.taken += 1;
-            let packet = self.buffer.get(..length).unwrap_or_default();
-            let before = self.pilot.link_statistics().received;
-            self.pilot.handle_navdata(now, packet);
-            let good = self.pilot.link_statistics().received > before;
-            if let Some(recorder) = &mut self.recorder {
-                if self.intake.records(good) {
-                    recorder.navdata(now, packet);
-                } else {
-                    self.summary.unrecorded += 1;
-                }
+            if !self.take_in_datagram(now) {
+                break;
+            }
+            now = self.start.elapsed();
+        }
+        self.ticks.spend(Stage::Estimate, now.saturating_sub(begun));
+    }
+
+    /// A tick that comes late finds navdata that came before it: it does not overlook them.
+    fn take_in_late_navdata(&mut self) {
+        let now = self.start.elapsed();
+        for _ in 0..DATAGRAMS_IF_LATE {
+            if !self.take_in_datagram(now) {
+                break;
             }
         }
+        self.ticks.spend(Stage::Estimate, self.start.elapsed().saturating_sub(now));
+    }
+
+    /// Returns whether there was one.
+    fn take_in_datagram(&mut self, now: Duration) -> bool {
+        let Some(length) = self.link.receive(now, &mut self.buffer) else { return false };
+        self.intake.taken += 1;
+        let packet = self.buffer.get(..length).unwrap_or_default();
+        let before = self.pilot.link_statistics().received;
+        self.pilot.handle_navdata(now, packet);
+        let good = self.pilot.link_statistics().received > before;
+        if let Some(recorder) = &mut self.recorder {
+            if self.intake.records(good) {
+                recorder.navdata(now, packet);
+            } else {
+                self.summary.unrecorded += 1;
+            }
+        }
+        true
     }
 
     fn take_in_services(&mut self, now: Duration) {

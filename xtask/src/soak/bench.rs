@@ -36,7 +36,7 @@ pub(crate) struct Programs {
 /// Longer than any plan with everything that can delay it.
 const LONGEST_FLIGHT: Duration = Duration::from_secs(400);
 /// After the last thing that was done to it the pilot ends within this time, or is told so.
-const LONGEST_END: Duration = Duration::from_secs(60);
+const LONGEST_END: Duration = Duration::from_mins(1);
 /// The drone is watched for so long after the pilot's end.
 const WATCHED: Duration = Duration::from_secs(22);
 const LOOK: Duration = Duration::from_millis(10);
@@ -86,7 +86,7 @@ pub(crate) fn fly(programs: &Programs, script: &Script) -> Result<Verdict, Bench
     let folder = tempfile::tempdir()?;
     let truth = folder.path().join("truth.csv");
     let (mock, ports, drone_start) = start_mock(programs, script, folder.path(), &truth)?;
-    let pilot = start_pilot(programs, script, folder.path(), &ports)?;
+    let pilot = start_pilot(programs, script, folder.path(), ports)?;
     let mut flight = Flight {
         script,
         pilot,
@@ -149,7 +149,7 @@ fn start_pilot(
     programs: &Programs,
     script: &Script,
     folder: &Path,
-    ports: &Ports,
+    ports: Ports,
 ) -> Result<Process, BenchError> {
     let plan = folder.join("plan.txt");
     File::create(&plan)?.write_all(script.plan.as_bytes())?;
@@ -249,24 +249,23 @@ impl Flight<'_> {
     }
 
     fn end(&mut self, at: Duration) {
-        let due = at >= self.script.end_at;
-        match self.script.end {
-            End::Plan => {}
-            End::Once(sign) | End::Twice(sign, _) if due && self.times.signal.is_none() => {
-                self.pilot.signal(number(sign));
-                self.times.signal = Some(self.drone_start.elapsed());
-            }
-            End::Twice(sign, apart)
-                if at >= self.script.end_at + apart && self.times.second.is_none() =>
-            {
-                self.pilot.signal(number(sign));
-                self.times.second = Some(self.drone_start.elapsed());
-            }
-            End::Kill if due && self.times.signal.is_none() => {
-                self.pilot.signal(Signal::KILL);
-                self.times.signal = Some(self.drone_start.elapsed());
-            }
-            _ => {}
+        let apart = |time| at >= self.script.end_at + time;
+        let (first, second) = match self.script.end {
+            End::Plan => (None, None),
+            End::Once(sign) => (Some(number(sign)), None),
+            End::Twice(sign, time) => (Some(number(sign)), Some((number(sign), time))),
+            End::Kill => (Some(Signal::KILL), None),
+        };
+        if let Some(signal) = first.filter(|_| self.times.signal.is_none())
+            && apart(Duration::ZERO)
+        {
+            self.pilot.signal(signal);
+            self.times.signal = Some(self.drone_start.elapsed());
+        } else if let Some((signal, time)) = second.filter(|_| self.times.second.is_none())
+            && apart(time)
+        {
+            self.pilot.signal(signal);
+            self.times.second = Some(self.drone_start.elapsed());
         }
     }
 

@@ -79,7 +79,7 @@ pub(crate) struct Script {
 }
 
 fn seconds(random: &mut ChaCha8Rng, from: f64, to: f64) -> Duration {
-    Duration::from_millis((random.random_range(from..to) * 1000.0) as u64)
+    Duration::from_secs_f64(random.random_range(from..to))
 }
 
 impl Script {
