@@ -69,6 +69,8 @@ enum Request {
     FlatTrim,
     EmergencyStop,
     EmergencyReset,
+    #[cfg(test)]
+    Panic,
 }
 
 /// A drone that is talked to every 30 ms by a task of its own. Only datagrams from the drone's
@@ -263,6 +265,8 @@ impl Link {
             Input::Request(Request::FlatTrim) => self.session.request_flat_trim(),
             Input::Request(Request::EmergencyStop) => self.session.request_emergency_stop(),
             Input::Request(Request::EmergencyReset) => self.session.request_emergency_reset(),
+            #[cfg(test)]
+            Input::Request(Request::Panic) => panic!("something is wrong"),
             Input::Control(block) => self.session.handle_control(&block),
             Input::Navdata(received) => match self.navdata.judge(now, received) {
                 Some(length) => self.take_in(now, &buffer[..length]),
@@ -394,4 +398,43 @@ async fn connected(drone: SocketAddr) -> io::Result<UdpSocket> {
     let socket = UdpSocket::bind(any).await?;
     socket.connect(drone).await?;
     Ok(socket)
+}
+
+#[cfg(test)]
+mod tests {
+    use bytes::BytesMut;
+
+    use super::*;
+    use crate::at::{Command, Motion, Ref, decode};
+    use crate::navdata::{DroneState, PacketWriter};
+
+    #[tokio::test]
+    async fn a_panic_orders_the_landing() {
+        let bind = async || UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).await.unwrap();
+        let (at, navdata) = (bind().await, bind().await);
+        let port = |socket: &UdpSocket| socket.local_addr().unwrap().port();
+        let address = DroneAddress {
+            host: Ipv4Addr::LOCALHOST.to_string(),
+            at_port: port(&at),
+            navdata_port: port(&navdata),
+            ..DroneAddress::default()
+        };
+        let client = Client::start(&address, SessionConfig::default()).await.unwrap();
+        let mut buffer = [0; BUFFER_BYTES];
+        let (_, from) = navdata.recv_from(&mut buffer).await.unwrap();
+        let mut packet = BytesMut::new();
+        PacketWriter::new(&mut packet, DroneState::FLYING, 1, 0).finish();
+        navdata.send_to(&packet, from).await.unwrap();
+        // It is spoken to.
+        at.recv(&mut buffer).await.unwrap();
+        client.requests.send(Request::Panic).unwrap();
+        let mut landings = 0;
+        while let Ok(Ok(length)) = timeout(10 * TICK, at.recv(&mut buffer)).await {
+            let said: Vec<Command> =
+                decode(&buffer[..length]).map(|command| command.unwrap().1).collect();
+            landings += u32::from(said == [Command::Ref(Ref::Land), Command::Pcmd(Motion::Hover)]);
+        }
+        assert!(landings >= PARTING_ORDERS, "{landings}");
+        assert!(matches!(client.close().await, Err(ClientError::Task)));
+    }
 }

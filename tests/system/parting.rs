@@ -52,7 +52,7 @@ fn command(relay: &Relay, plan: &Path) -> Command {
     pilot
 }
 
-fn wait_until(what: &str, patience: Duration, so: impl Fn() -> bool) {
+pub(crate) fn wait_until(what: &str, patience: Duration, so: impl Fn() -> bool) {
     let start = Instant::now();
     while !so() {
         assert!(start.elapsed() < patience, "{what} did not come");
@@ -66,7 +66,7 @@ fn flying(relay: &Relay) {
     std::thread::sleep(Duration::from_secs(2));
 }
 
-fn ended_within(mut child: Child, patience: Duration) -> Option<i32> {
+pub(crate) fn ended_within(mut child: Child, patience: Duration) -> Option<i32> {
     let start = Instant::now();
     loop {
         if let Some(status) = child.try_wait().unwrap() {
@@ -212,7 +212,7 @@ fn a_flight_that_is_dropped_lands() {
 }
 
 /// A library that lets `send` of datagrams fail while a file is there, with the error that stands in it.
-fn refusing_library(folder: &Path) -> PathBuf {
+pub(crate) fn refusing_library(folder: &Path) -> PathBuf {
     let source = folder.join("refuse.c");
     std::fs::write(
         &source,
@@ -249,8 +249,18 @@ ssize_t send(int fd, const void *bytes, size_t length, int flags) {
     library
 }
 
-const EACCES: &str = "13";
+pub(crate) const EACCES: &str = "13";
 const EINVAL: &str = "22";
+
+/// Lets `send` fail for a while.
+pub(crate) fn refuse(refused: &Path, error: &str, time: Duration) {
+    // Written elsewhere first: it is never read half.
+    let new = refused.with_extension("new");
+    std::fs::write(&new, error).unwrap();
+    std::fs::rename(&new, refused).unwrap();
+    std::thread::sleep(time);
+    std::fs::remove_file(refused).unwrap();
+}
 
 /// Flies a plan while `send` is refused for a while; returns the exit status when the drone is down.
 fn flown_with(text: &str, error: &str, time: Duration) -> Option<i32> {
@@ -262,11 +272,7 @@ fn flown_with(text: &str, error: &str, time: Duration) -> Option<i32> {
     let mut pilot = pilot(&relay, plan.path());
     let child = pilot.env("LD_PRELOAD", &library).env("REFUSED", &refused).spawn().unwrap();
     flying(&relay);
-    // Written elsewhere first: it is never read half.
-    std::fs::write(folder.path().join("new"), error).unwrap();
-    std::fs::rename(folder.path().join("new"), &refused).unwrap();
-    std::thread::sleep(time);
-    std::fs::remove_file(&refused).unwrap();
+    refuse(&refused, error, time);
     let status = ended_within(child, Duration::from_secs(40));
     let down = || relay.truth().phase == Phase::Landed;
     wait_until("the ground", Duration::from_secs(10), down);
