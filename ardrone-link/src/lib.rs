@@ -6,6 +6,7 @@
 //! - [`settings`]: the configuration's keys with their types, units and ranges.
 //! - [`session`]: the client's side of the conversation as a pure state machine: wake-up,
 //!   configuration with acknowledge, sequence rules, watchdogs, loss and restart.
+//! - [`health`]: what the errors of a datagram socket mean.
 //!
 //! - `net`, with the feature of that name: a client on real sockets, by tokio.
 //!
@@ -24,6 +25,7 @@
 
 pub mod at;
 pub mod configuration;
+pub mod health;
 pub mod navdata;
 #[cfg(feature = "net")]
 pub mod net;

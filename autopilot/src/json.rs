@@ -56,6 +56,14 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "command": command,
             })
         }
+        Message::Trouble(at, trouble) => json!({
+            "type": "event",
+            "t_s": at.as_secs_f64(),
+            "warning": true,
+            "text": trouble.to_string(),
+            "step": null,
+            "command": null,
+        }),
         Message::Waypoint(waypoint) => json!({
             "type": "target",
             "t_s": waypoint.at.as_secs_f64(),

@@ -1,6 +1,7 @@
 //! `ardrone-link`'s own client against the mock drone, over UDP and TCP.
 
-use std::time::Duration;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use ardrone_link::DroneAddress;
 use ardrone_link::at::Identity;
@@ -11,6 +12,9 @@ use ardrone_link::settings::Setting;
 use mock_drone::firmware::Phase;
 use mock_drone::server::{MockDrone, Ports};
 use mock_drone::{DroneConfig, Tag27, WorldConfig};
+
+use crate::parting::{EACCES, ended_within, refuse, refusing_library, wait_until};
+use crate::relay::Relay;
 
 async fn start(mock: &MockDrone, config: SessionConfig) -> Client {
     let ports = mock.ports();
@@ -118,4 +122,66 @@ async fn an_emergency_stop_cuts_the_motors_and_can_be_cleared() {
     // The old order to take off is spent.
     tokio::time::sleep(Duration::from_millis(500)).await;
     assert_eq!(mock.truth().phase, Phase::Landed);
+}
+
+const PORTS: &str = "CLIENT_PORTS";
+
+/// The client of the test below.
+#[tokio::test]
+#[ignore = "flown by another test, in a process of its own"]
+async fn in_a_process_of_its_own() {
+    let ports = std::env::var(PORTS).unwrap();
+    let ports: Vec<u16> = ports.split(' ').map(|port| port.parse().unwrap()).collect();
+    let host = "127.0.0.1".to_owned();
+    let (at_port, navdata_port, control_port) = (ports[0], ports[1], ports[2]);
+    let address = DroneAddress { host, at_port, navdata_port, control_port };
+    let config = session(&[Setting::NavdataDemo(true)]);
+    let mut drone = Client::start(&address, config).await.unwrap();
+    events_until(&mut drone, &Event::Ready).await;
+    drone.order(Order { flight: FlightOrder::TakeOff, ..Order::default() });
+    events_until(&mut drone, &Event::Airborne).await;
+    tokio::time::sleep(Duration::from_secs(6)).await;
+    drone.close().await.unwrap();
+}
+
+#[test]
+fn a_refused_datagram_ends_no_client() {
+    let folder = tempfile::tempdir().unwrap();
+    let library = refusing_library(folder.path());
+    let refused = folder.path().join("refused");
+    let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+    let ports = mock.ports();
+    let mut client = Command::new(std::env::current_exe().unwrap());
+    client.args(["--ignored", "--exact", "client::in_a_process_of_its_own"]);
+    client.env(PORTS, format!("{} {} {}", ports.at, ports.navdata, ports.control));
+    client.env("LD_PRELOAD", library).env("REFUSED", &refused);
+    let child = client.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let flies = || mock.truth().phase == Phase::Flying;
+    wait_until("the flight", Duration::from_secs(20), flies);
+    refuse(&refused, EACCES, Duration::from_millis(100));
+    std::thread::sleep(Duration::from_secs(1));
+    assert!(flies(), "it goes on: {:?}", mock.truth());
+    assert_eq!(ended_within(child, Duration::from_secs(20)), Some(0));
+    assert_eq!(mock.truth().phase, Phase::Landing, "with the landing ordered");
+}
+
+#[tokio::test]
+async fn a_flood_delays_no_tick_of_a_client() {
+    let relay = Relay::start(&WorldConfig::default());
+    let config = session(&[Setting::NavdataDemo(true)]);
+    let mut drone = Client::start(relay.address(), config).await.unwrap();
+    events_until(&mut drone, &Event::Ready).await;
+    let begun = Instant::now();
+    relay.flood(1_000_000);
+    while relay.floods() {
+        tokio::time::sleep(Duration::from_millis(10)).await;
+    }
+    let ended = Instant::now();
+    let said = relay.said();
+    let meanwhile = said.windows(2).filter(|pair| pair[0].at >= begun && pair[1].at <= ended);
+    let gap = meanwhile.map(|pair| pair[1].at - pair[0].at).max().unwrap();
+    println!("flooded for {:?}, worst gap {gap:?}", ended - begun);
+    drone.close().await.unwrap();
+    // The machine may be busy with other things.
+    assert!(gap < Duration::from_millis(100), "{gap:?}");
 }

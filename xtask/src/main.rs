@@ -9,6 +9,7 @@ mod parallel;
 mod plot;
 mod score;
 mod sensors;
+mod soak;
 mod table;
 mod verify;
 
@@ -72,6 +73,9 @@ enum Command {
         #[arg(long, value_name = "K/N", requires = "all")]
         shard: Option<String>,
     },
+    /// Fly over UDP, as processes, with random faults, signals, floods and closed output; fails if a
+    /// drone was left in the air
+    Soak(soak::Arguments),
     /// Prove the properties of the shipped agent on a model and on its C, and measure what tests exercise
     Verify {
         /// Only prove, which is all that the shipped agent needs: no mutants, no coverage, no other agent, no report
@@ -97,6 +101,7 @@ fn main() -> ExitCode {
         Command::Mutants { flights, only, .. } => {
             mutants::by_hand(flights, only.as_deref()).map_err(|error| error.to_string())
         }
+        Command::Soak(arguments) => soak::run(&arguments).map_err(|error| error.to_string()),
         Command::Verify { only_proofs } => {
             verify::run(only_proofs).map_err(|error| error.to_string())
         }

@@ -49,13 +49,14 @@ impl Handshake {
         self.step == Step::Done
     }
 
-    /// Looks at the acknowledge bit of a new packet.
+    /// Looks at the acknowledge bit of a new packet; returns whether the drone has answered a key of
+    /// ours.
     pub(super) fn handle_state(
         &mut self,
         state: DroneState,
         config: &SessionConfig,
         events: &mut VecDeque<Event>,
-    ) {
+    ) -> bool {
         let acknowledged = state.contains(DroneState::COMMAND_ACKNOWLEDGE);
         match self.step {
             Step::Clear(key) if !acknowledged => {
@@ -72,9 +73,11 @@ impl Handshake {
                 let name = config.settings[key].key().to_owned();
                 events.push_back(Event::Configured { key: name });
                 self.enter(Step::Clear(key + 1));
+                return true;
             }
             _ => {}
         }
+        false
     }
 
     /// Collects a dump up to its NUL.

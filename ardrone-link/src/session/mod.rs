@@ -8,7 +8,10 @@
 //! - [`Session::poll_event`] tells what happened.
 //!
 //! Rules of the drone that are kept here (Parrot's developer guide, and what other clients found out):
-//! - REF and PCMD are levels and stand in every datagram; sequence numbers start at 1 and rise.
+//! - REF and PCMD are levels and stand in every datagram.
+//! - The drone takes number 1 always, and other numbers only if they are greater than the last. So
+//!   that any datagram may be lost, every one begins with number 1 until the drone shows that it
+//!   hears us; from then on numbers only rise, also after a loss and after a restart of the drone.
 //! - A drone that has restarted or was lost must never take off because of an old order: the
 //!   take-off bit is withheld until take-off is ordered anew.
 //! - Navdata whose sequence number is not higher than the last is dropped, unless the drone has
@@ -150,7 +153,7 @@ pub struct Session {
     config: SessionConfig,
     link: Link,
     handshake: Handshake,
-    next_sequence: u32,
+    sequence: SequenceNumbers,
     state: DroneState,
     last_navdata: Option<Heard>,
     last_wake_up: Option<Duration>,
@@ -168,6 +171,40 @@ enum Link {
     /// Nothing heard yet, or not since a loss.
     Silent,
     Alive,
+}
+
+/// Counts commands.
+#[derive(Debug, Clone, Copy)]
+struct SequenceNumbers {
+    next: u32,
+    /// The greatest number that was said.
+    greatest: u32,
+    /// The drone has shown that it hears us.
+    confirmed: bool,
+}
+
+impl SequenceNumbers {
+    const FIRST: u32 = 1;
+
+    fn new() -> Self {
+        Self { next: Self::FIRST, greatest: 0, confirmed: false }
+    }
+
+    /// A datagram begins. The drone may still count where another pilot has left it, far above us,
+    /// and the datagram that told it otherwise may be lost.
+    fn begin_datagram(&mut self) {
+        self.next = match self.greatest.checked_add(1) {
+            Some(next) if self.confirmed => next,
+            _ => Self::FIRST,
+        };
+    }
+
+    fn take(&mut self) -> u32 {
+        let number = self.next;
+        self.greatest = self.greatest.max(number);
+        self.next = number.saturating_add(1);
+        number
+    }
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -199,7 +236,7 @@ impl Session {
             config,
             link: Link::Silent,
             handshake,
-            next_sequence: 1,
+            sequence: SequenceNumbers::new(),
             state: DroneState::empty(),
             last_navdata: None,
             last_wake_up: None,
@@ -240,7 +277,9 @@ impl Session {
             self.events.push_back(Event::Connected);
         }
         self.watch_state(&navdata);
-        self.handshake.handle_state(navdata.state, &self.config, &mut self.events);
+        if self.handshake.handle_state(navdata.state, &self.config, &mut self.events) {
+            self.sequence.confirmed = true;
+        }
         Received::Navdata(navdata)
     }
 
@@ -262,7 +301,7 @@ impl Session {
         datagram: &mut Datagram,
     ) -> Result<(), EncodeError> {
         self.watch_silence(now);
-        datagram.clear();
+        self.begin(datagram);
         let take_off = self.take_off_bit(order.flight);
         self.watch_take_off(now, take_off);
         let emergency = self.state.contains(DroneState::EMERGENCY);
@@ -294,6 +333,30 @@ impl Session {
             self.push(datagram, &command)?;
         }
         Ok(())
+    }
+
+    /// Fills `datagram` with the last words of a pilot that leaves: land, with the sticks at rest. A cut
+    /// that was asked for goes on. It stays empty if nothing was ever said to this drone: it is not ours.
+    ///
+    /// # Errors
+    /// Never in practice, see [`Session::tick`].
+    pub fn part(&mut self, now: Duration, datagram: &mut Datagram) -> Result<(), EncodeError> {
+        datagram.clear();
+        if !self.has_spoken() {
+            return Ok(());
+        }
+        self.begin(datagram);
+        self.withhold_take_off();
+        let emergency = self.state.contains(DroneState::EMERGENCY);
+        let cut = self.emergency.level(now, emergency);
+        let reference = if cut { Ref::ToggleEmergency } else { Ref::Land };
+        self.push(datagram, &Command::Ref(reference))?;
+        self.push(datagram, &Command::Pcmd(Motion::Hover))
+    }
+
+    /// Whether anything was ever said to the drone.
+    pub fn has_spoken(&self) -> bool {
+        self.sequence.greatest > 0
     }
 
     /// Whether [`crate::WAKE_UP`] is to be sent to the navdata port now.
@@ -358,9 +421,12 @@ impl Session {
     }
 
     fn push(&mut self, datagram: &mut Datagram, command: &Command) -> Result<(), EncodeError> {
-        datagram.push(self.next_sequence, command)?;
-        self.next_sequence = self.next_sequence.checked_add(1).unwrap_or(1);
-        Ok(())
+        datagram.push(self.sequence.take(), command)
+    }
+
+    fn begin(&mut self, datagram: &mut Datagram) {
+        datagram.clear();
+        self.sequence.begin_datagram();
     }
 
     fn watch_state(&mut self, navdata: &Navdata) {
@@ -375,7 +441,11 @@ impl Session {
         }
         let flying = |state: DroneState| state.contains(DroneState::FLYING);
         match (flying(self.state), flying(navdata.state)) {
-            (false, true) => self.events.push_back(Event::Airborne),
+            (false, true) => {
+                // It does what it was told.
+                self.sequence.confirmed |= self.taking_off_since.is_some();
+                self.events.push_back(Event::Airborne);
+            }
             // With its motors cut it falls.
             (true, false) if !emergency(navdata.state) => self.events.push_back(Event::Landed),
             _ => {}
@@ -407,8 +477,6 @@ impl Session {
             self.events.push_back(Event::LinkLost);
             self.withhold_take_off();
             self.handshake = Handshake::new(self.config.settings.len());
-            // The drone starts counting anew after a loss.
-            self.next_sequence = 1;
         }
     }
 

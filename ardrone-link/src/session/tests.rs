@@ -327,3 +327,71 @@ fn a_drone_that_falls_or_has_restarted_has_not_landed() {
     assert!(events.contains(&Event::DroneRestarted), "{events:?}");
     assert!(!events.contains(&Event::Landed), "{events:?}");
 }
+
+/// The numbers of one tick's commands.
+fn numbers(bench: &mut Bench) -> Vec<u32> {
+    bench.now += TICK;
+    let mut datagram = Datagram::new();
+    bench.session.tick(bench.now, Order::default(), &mut datagram).unwrap();
+    decode(datagram.as_bytes()).map(|command| command.unwrap().0).collect()
+}
+
+#[test]
+fn every_datagram_begins_the_count_anew_until_the_drone_shows_that_it_hears() {
+    let mut bench = Bench::new(&[("general:navdata_demo", "TRUE")]);
+    bench.hear(1, DroneState::empty());
+    assert_eq!(numbers(&mut bench), [1, 2, 3]);
+    assert_eq!(numbers(&mut bench), [1, 2]);
+    // The key is acknowledged.
+    bench.hear(2, DroneState::COMMAND_ACKNOWLEDGE);
+    assert_eq!(numbers(&mut bench), [4, 5, 6]);
+    assert_eq!(numbers(&mut bench), [7, 8, 9]);
+}
+
+#[test]
+fn a_drone_that_flies_when_told_so_hears() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(1, DroneState::empty());
+    assert_eq!(numbers(&mut bench), [1, 2]);
+    bench.tick(FlightOrder::TakeOff);
+    bench.hear(2, DroneState::FLYING);
+    assert_eq!(numbers(&mut bench), [3, 4]);
+}
+
+#[test]
+fn the_count_goes_on_after_a_loss_and_after_a_restart() {
+    let mut bench = Bench::new(&[("general:navdata_demo", "TRUE")]);
+    bench.hear(100, DroneState::empty());
+    numbers(&mut bench);
+    bench.hear(101, DroneState::COMMAND_ACKNOWLEDGE);
+    let last = *numbers(&mut bench).last().unwrap();
+    bench.now += Duration::from_millis(2500);
+    assert_eq!(numbers(&mut bench)[0], last + 1);
+    assert!(!bench.session.is_alive());
+    bench.hear(1, DroneState::NAVDATA_BOOTSTRAP);
+    assert!(numbers(&mut bench)[0] > last + 1);
+}
+
+#[test]
+fn a_parting_says_land_and_nothing_else_and_only_to_a_drone_that_was_spoken_to() {
+    let part = |bench: &mut Bench| -> Vec<(u32, Command)> {
+        let mut datagram = Datagram::new();
+        bench.session.part(bench.now, &mut datagram).unwrap();
+        decode(datagram.as_bytes()).map(Result::unwrap).collect()
+    };
+    let mut bench = Bench::new(&[("general:navdata_demo", "TRUE")]);
+    bench.hear(1, DroneState::FLYING);
+    assert_eq!(part(&mut bench), []);
+    bench.tick(FlightOrder::Land);
+    bench.hear(2, DroneState::FLYING | DroneState::COMMAND_ACKNOWLEDGE);
+    bench.session.request_flat_trim();
+    let first = part(&mut bench);
+    let landing = [Command::Ref(Ref::Land), Command::Pcmd(Motion::Hover)];
+    assert_eq!(first.iter().map(|(_, command)| command.clone()).collect::<Vec<_>>(), landing);
+    assert_eq!(part(&mut bench)[0].0, first[1].0 + 1, "numbers go on");
+    // A cut is not taken back.
+    bench.session.request_emergency_stop();
+    assert_eq!(part(&mut bench)[0].1, Command::Ref(Ref::ToggleEmergency));
+    bench.hear(3, DroneState::EMERGENCY);
+    assert_eq!(part(&mut bench)[0].1, Command::Ref(Ref::Land));
+}

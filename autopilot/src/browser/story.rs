@@ -48,7 +48,7 @@ impl Story {
                 self.trail.add(status.pose.x_m, status.pose.y_m);
                 self.status = object.clone();
             }
-            Message::Event(..) => {
+            Message::Event(..) | Message::Trouble(..) => {
                 self.events.push_back(object.clone());
                 if self.events.len() > EVENTS {
                     self.events.pop_front();

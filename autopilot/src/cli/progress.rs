@@ -42,6 +42,7 @@ impl Progress {
                 let text = self.event_text(event);
                 self.say(&format!("{} {text}", time(*at)));
             }
+            Message::Trouble(at, trouble) => self.say(&format!("{} {trouble}", time(*at))),
             Message::Realtime(realtime) => self.say(&realtime.to_string()),
             Message::Waypoint(_) => {}
             Message::Status(at, status, _) => self.status(*at, status),

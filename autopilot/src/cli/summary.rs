@@ -5,7 +5,7 @@ use std::fmt;
 use mock_drone::Truth;
 use nalgebra::Vector2;
 
-use crate::flight::FinishedFlight;
+use crate::flight::{FinishedFlight, LinkSummary};
 use crate::pilot::Waypoint;
 use crate::recording::Recorded;
 
@@ -73,6 +73,19 @@ impl fmt::Display for Summary<'_> {
         if self.finished.lost_records > 0 {
             let lost = self.finished.lost_records;
             writeln!(f, "  not recorded    {lost} entries, for which the disk was too slow")?;
+        }
+        let LinkSummary { errors, bound_anew, flooded_ticks, unrecorded } = self.finished.link;
+        if errors > 0 {
+            writeln!(
+                f,
+                "  network         {errors} errors, sockets bound anew {bound_anew} times"
+            )?;
+        }
+        if flooded_ticks > 0 || unrecorded > 0 {
+            writeln!(
+                f,
+                "  flooded         in {flooded_ticks} ticks; {unrecorded} datagrams not recorded"
+            )?;
         }
         Ok(())
     }

@@ -4,22 +4,32 @@
 //! deadline, so navdata is taken in when it arrives and ticks don't drift. A missed deadline is
 //! counted and skipped, never caught up: the drone wants the newest command once. Everything slow
 //! (signals, the control port, whoever watches) is on other threads behind bounded channels that
-//! drop rather than block.
+//! drop rather than block; landing, cutting and stopping are counters, which cannot be full. The work
+//! of a tick is bounded, whatever arrives.
+//!
+//! Whatever ends a flight before the drone is down, an error, a panic or a second Ctrl-C, the last
+//! datagrams order the landing. No error of a socket ends it.
 
+mod link;
+mod orders;
 mod services;
 
 use std::io;
-use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _, UdpSocket};
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use ardrone_link::DroneAddress;
 use ardrone_link::at::{Datagram, EncodeError};
 use ardrone_link::settings::SettingError;
-use ardrone_link::{DroneAddress, WAKE_UP, is_passing};
 use crossbeam_channel::{Receiver, Sender, bounded};
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
-use self::services::{Input, Services};
+use self::link::{Link, sleep};
+pub use self::link::{Port, Trouble};
+pub use self::orders::Controls;
+use self::orders::Orders;
+use self::services::Services;
 use crate::outcome::Outcome;
 use crate::pilot::{
     FlightEvent, FlightReport, Pilot, PilotConfig, PilotOrder, Status, TICK, Waypoint,
@@ -39,8 +49,23 @@ pub enum Message {
     Event(Duration, FlightEvent),
     /// A target was reached and stayed at.
     Waypoint(Waypoint),
+    /// Something is wrong on this side of the link; the flight goes on.
+    Trouble(Duration, Trouble),
     /// Where things stand, some times a second.
     Status(Duration, Status, TickHealth),
+}
+
+/// How the link was on this side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct LinkSummary {
+    /// Datagrams that the system refused to send or to receive.
+    pub errors: u64,
+    /// How often a socket was bound anew because of that.
+    pub bound_anew: u64,
+    /// Ticks in which more datagrams came than are looked at.
+    pub flooded_ticks: u64,
+    /// Datagrams that were looked at and are not in the flight log, because too many came.
+    pub unrecorded: u64,
 }
 
 /// A flight that is over.
@@ -56,6 +81,8 @@ pub struct FinishedFlight {
     pub dropped_messages: u64,
     /// Entries of the flight log that the disk was too slow for.
     pub lost_records: u64,
+    /// How the link was on this side.
+    pub link: LinkSummary,
 }
 
 /// Why a flight could not be started or went wrong in a way that is no flight's fault.
@@ -69,7 +96,7 @@ pub enum FlightError {
         /// What the system says.
         source: io::Error,
     },
-    /// A socket failed.
+    /// No socket can be had.
     #[error("network: {0}")]
     Socket(#[source] io::Error),
     /// A thread could not be started.
@@ -82,34 +109,16 @@ pub enum FlightError {
     #[error(transparent)]
     Encode(#[from] EncodeError),
     /// The flight's thread panicked.
-    #[error("internal error: the flight thread panicked; the drone's own watchdog lands it")]
+    #[error("internal error: the flight thread panicked; its last datagrams ordered the landing")]
     Panicked,
 }
 
-/// A flight that goes on.
+/// A flight that goes on. When it is dropped it lands, and the drop waits for the ground.
 #[derive(Debug)]
 pub struct Flight {
     messages: Receiver<Message>,
     controls: Controls,
-    thread: JoinHandle<Result<FinishedFlight, FlightError>>,
-}
-
-/// The pilot's hand on a flight that goes on.
-#[derive(Debug, Clone)]
-pub struct Controls {
-    inputs: Sender<Input>,
-}
-
-impl Controls {
-    /// Orders something; returns whether the flight could be told. A flight that is over cannot.
-    pub fn order(&self, order: PilotOrder) -> bool {
-        self.inputs.try_send(Input::Order(order)).is_ok()
-    }
-
-    /// Does what Ctrl-C does: lands, and the second time leaves at once with the landing ordered.
-    pub fn stop(&self) -> bool {
-        self.inputs.try_send(Input::Stop).is_ok()
-    }
+    thread: Option<JoinHandle<Result<FinishedFlight, FlightError>>>,
 }
 
 /// How often whoever watches is told where things stand.
@@ -118,12 +127,29 @@ const STATUS_TICKS: u32 = 3;
 const MESSAGES: usize = 256;
 /// Longer than any navdata packet.
 const BUFFER_BYTES: usize = 8192;
-/// When the process ends in the air, the landing is ordered this many times.
+/// A flight that ends in the air orders the landing in so many ticks.
 const PARTING_ORDERS: u32 = 10;
+/// If the system refuses them, it goes on for so many ticks.
+const PARTING_TICKS: u32 = 3 * PARTING_ORDERS;
+/// Datagrams that a tick looks at: more than the system keeps.
+const DATAGRAMS_PER_TICK: u32 = 1000;
+/// So many of them it looks at even if it is late.
+const DATAGRAMS_IF_LATE: u32 = 32;
+/// Datagrams that a tick records.
+const RECORDED_PER_TICK: u32 = 64;
+/// So many of them may be such as mean nothing.
+const REFUSED_PER_TICK: u32 = 8;
+/// A flight that is dropped lands within this time, or is left with the landing ordered.
+const LANDING_PATIENCE: Duration = Duration::from_secs(45);
+/// So long a flight that was left takes at most to end.
+const PARTING_PATIENCE: Duration = Duration::from_secs(3);
+/// How often whoever drops a flight looks whether it has ended.
+const LOOK: Duration = Duration::from_millis(20);
 
 impl Flight {
-    /// Starts flying `plan`, and records it if there is a recorder. Ctrl-C, SIGTERM and a closed terminal land; a second one ends
-    /// the flight at once, with the landing ordered.
+    /// Starts flying `plan`, and records it if there is a recorder. Ctrl-C, any other signal that asks
+    /// for the end, and a closed terminal land; a second one ends the flight at once, with the landing
+    /// ordered.
     ///
     /// # Errors
     /// [`FlightError`] if the drone has no address or no socket or thread can be had.
@@ -135,29 +161,17 @@ impl Flight {
     ) -> Result<Self, FlightError> {
         let pilot = Pilot::new(plan, config)?;
         let address = resolve(&drone.host)?;
-        let connect = |port| connected_socket(SocketAddr::new(address, port));
-        let at = connect(drone.at_port).map_err(FlightError::Socket)?;
-        let navdata = connect(drone.navdata_port).map_err(FlightError::Socket)?;
-        let (services, inputs) = Services::start(SocketAddr::new(address, drone.control_port))?;
+        let link = Link::new(address, drone).map_err(FlightError::Socket)?;
+        let (orders, controls) = Orders::new();
+        let control_port = SocketAddr::new(address, drone.control_port);
+        let services = Services::start(control_port, controls.clone())?;
         let (sender, messages) = bounded(MESSAGES);
-        let mut tick = TickLoop {
-            pilot,
-            at,
-            navdata,
-            services,
-            recorder,
-            messages: sender,
-            dropped_messages: 0,
-            ticks: TickRecorder::default(),
-            realtime: Realtime::default(),
-            waypoints: 0,
-            stops: 0,
-        };
+        let tick = TickLoop::new(pilot, link, orders, services, recorder, sender);
         let thread = std::thread::Builder::new()
             .name("flight".to_owned())
-            .spawn(move || tick.run())
+            .spawn(move || tick.run(|_| {}))
             .map_err(FlightError::Thread)?;
-        Ok(Self { messages, controls: Controls { inputs }, thread })
+        Ok(Self { messages, controls, thread: Some(thread) })
     }
 
     /// What the flight tells; ends when the flight does.
@@ -174,8 +188,35 @@ impl Flight {
     ///
     /// # Errors
     /// [`FlightError`] if the flight's thread failed.
-    pub fn finish(self) -> Result<FinishedFlight, FlightError> {
-        self.thread.join().map_err(|_| FlightError::Panicked)?
+    pub fn finish(mut self) -> Result<FinishedFlight, FlightError> {
+        let Some(thread) = self.thread.take() else { return Err(FlightError::Panicked) };
+        thread.join().map_err(|_| FlightError::Panicked)?
+    }
+
+    /// Waits for the end, but not for ever; returns whether it has come.
+    fn ends_within(&self, patience: Duration) -> bool {
+        let start = clock();
+        let ended = || self.thread.as_ref().is_none_or(JoinHandle::is_finished);
+        while !ended() && start.elapsed() < patience {
+            sleep(LOOK);
+        }
+        ended()
+    }
+}
+
+impl Drop for Flight {
+    /// Whoever flies has failed: the drone is not left in the air.
+    fn drop(&mut self) {
+        if self.thread.is_none() {
+            return;
+        }
+        self.controls.order(PilotOrder::Land);
+        if !self.ends_within(LANDING_PATIENCE) {
+            // Twice: at once.
+            self.controls.stop();
+            self.controls.stop();
+            self.ends_within(PARTING_PATIENCE);
+        }
     }
 }
 
@@ -188,15 +229,6 @@ fn resolve(host: &str) -> Result<IpAddr, FlightError> {
         .ok_or_else(|| error(io::Error::new(io::ErrorKind::NotFound, "it has no IPv4 address")))
 }
 
-/// A socket that hears only the drone: the system drops datagrams from anybody else.
-fn connected_socket(drone: SocketAddr) -> io::Result<UdpSocket> {
-    #[allow(clippy::disallowed_methods, reason = "this is the shell")]
-    let socket = UdpSocket::bind(("0.0.0.0", 0))?;
-    socket.connect(drone)?;
-    socket.set_nonblocking(true)?;
-    Ok(socket)
-}
-
 /// The flight's clock.
 fn clock() -> Instant {
     #[allow(clippy::disallowed_methods, reason = "this is the shell")]
@@ -205,8 +237,8 @@ fn clock() -> Instant {
 
 struct TickLoop {
     pilot: Pilot,
-    at: UdpSocket,
-    navdata: UdpSocket,
+    link: Link,
+    orders: Orders,
     services: Services,
     recorder: Option<Recorder>,
     messages: Sender<Message>,
@@ -214,52 +246,126 @@ struct TickLoop {
     ticks: TickRecorder,
     realtime: Realtime,
     waypoints: usize,
-    /// How often the end was asked for.
-    stops: u32,
+    start: Instant,
+    /// Of the next tick.
+    deadline: Duration,
+    datagram: Datagram,
+    buffer: Vec<u8>,
+    intake: Intake,
+    summary: LinkSummary,
+    /// A flood has been told of.
+    flood_told: bool,
+    /// A first request to end the flight was obeyed.
+    stopping: bool,
+}
+
+/// What a tick may still take in.
+#[derive(Debug, Clone, Copy)]
+struct Intake {
+    taken: u32,
+    recorded: u32,
+    refused: u32,
+}
+
+impl Intake {
+    const NOTHING: Self = Self { taken: 0, recorded: 0, refused: 0 };
+
+    /// Whether a datagram may be recorded, which was `good` or meant nothing.
+    fn records(&mut self, good: bool) -> bool {
+        let room = self.recorded < RECORDED_PER_TICK && (good || self.refused < REFUSED_PER_TICK);
+        self.recorded += u32::from(room);
+        self.refused += u32::from(room && !good);
+        room
+    }
 }
 
 impl TickLoop {
-    fn run(&mut self) -> Result<FinishedFlight, FlightError> {
+    fn new(
+        pilot: Pilot,
+        link: Link,
+        orders: Orders,
+        services: Services,
+        recorder: Option<Recorder>,
+        messages: Sender<Message>,
+    ) -> Self {
+        Self {
+            pilot,
+            link,
+            orders,
+            services,
+            recorder,
+            messages,
+            dropped_messages: 0,
+            ticks: TickRecorder::default(),
+            realtime: Realtime::default(),
+            waypoints: 0,
+            start: clock(),
+            deadline: Duration::ZERO,
+            datagram: Datagram::new(),
+            buffer: vec![0_u8; BUFFER_BYTES],
+            intake: Intake::NOTHING,
+            summary: LinkSummary::default(),
+            flood_told: false,
+            stopping: false,
+        }
+    }
+
+    /// Flies to the end. Before each tick `before` is told its number.
+    ///
+    /// However the flight ends, the landing is the last word, unless the drone is down for sure.
+    fn run(mut self, before: impl FnMut(u32)) -> Result<FinishedFlight, FlightError> {
         self.realtime = Realtime::acquire();
         self.say(Message::Realtime(self.realtime));
-        let start = clock();
-        let mut datagram = Datagram::new();
-        let mut buffer = vec![0_u8; BUFFER_BYTES];
-        let mut deadline = Duration::ZERO;
+        self.start = clock();
+        // Parting needs nothing that a panic could have left half done.
+        let flown = catch_unwind(AssertUnwindSafe(|| self.fly(before)));
+        let end = flown.unwrap_or(Err(FlightError::Panicked));
+        let down = matches!(end, Ok(Outcome::Completed | Outcome::PreflightRefused { .. }));
+        if !down {
+            self.part();
+        }
+        end.map(|outcome| self.finished(outcome))
+    }
+
+    fn fly(&mut self, mut before: impl FnMut(u32)) -> Result<Outcome, FlightError> {
         let mut held_up = false;
         let mut count = 0_u32;
         loop {
-            let now = start.elapsed();
-            if let Some(rest) = deadline.checked_sub(now).filter(|rest| !rest.is_zero()) {
-                self.wait(rest)?;
-                let woken = start.elapsed();
-                self.take_in_navdata(start, &mut buffer)?;
-                let done = start.elapsed();
-                self.ticks.spend(Stage::Estimate, done.saturating_sub(woken));
-                held_up = woken < deadline && done >= deadline;
+            let now = self.start.elapsed();
+            if let Some(rest) = self.deadline.checked_sub(now).filter(|rest| !rest.is_zero()) {
+                self.link.wait(rest);
+                let woken = self.start.elapsed();
+                self.take_in_navdata();
+                held_up = woken < self.deadline && self.start.elapsed() >= self.deadline;
                 continue;
             }
-            let skipped = skip_missed(&mut deadline, now);
-            let late = now.saturating_sub(deadline);
-            self.ticks.begin(now, deadline, skipped, std::mem::take(&mut held_up));
-            deadline += TICK;
+            let skipped = skip_missed(&mut self.deadline, now);
+            let late = now.saturating_sub(self.deadline);
+            self.ticks.begin(now, self.deadline, skipped, std::mem::take(&mut held_up));
+            self.deadline += TICK;
+            before(count);
+            self.link.begin_tick();
+            self.intake = Intake::NOTHING;
+            self.take_in_late_navdata();
             self.take_in_services(now);
-            self.tick(start, &mut datagram)?;
+            self.tick()?;
             self.ticks.end();
-            self.record_tick(late, start.elapsed().saturating_sub(now), &datagram);
+            self.record_tick(late, self.start.elapsed().saturating_sub(now));
             self.tell(now, count.is_multiple_of(STATUS_TICKS));
             count = count.wrapping_add(1);
             if let Some(outcome) = self.pilot.outcome().cloned() {
-                return Ok(self.finished(start.elapsed(), outcome));
+                return Ok(outcome);
             }
-            if self.stops >= 2 {
-                return self.leave(start, &mut datagram);
+            // The second time nobody waits for the ground.
+            if self.orders.stops() >= 2 {
+                return Ok(Outcome::Interrupted);
             }
         }
     }
 
     /// Decides and sends, and takes the time of each stage.
-    fn tick(&mut self, start: Instant, datagram: &mut Datagram) -> Result<(), FlightError> {
+    fn tick(&mut self) -> Result<(), FlightError> {
+        let start = self.start;
         let now = start.elapsed();
         let mut last = now;
         let mut done = |ticks: &mut TickRecorder, stage| {
@@ -267,74 +373,88 @@ impl TickLoop {
             ticks.spend(stage, now.saturating_sub(last));
             last = now;
         };
-        self.pilot.tick_timed(now, datagram, |stage| done(&mut self.ticks, stage))?;
-        if !datagram.as_bytes().is_empty() {
-            tolerate(self.at.send(datagram.as_bytes()))?;
+        self.pilot.tick_timed(now, &mut self.datagram, |stage| done(&mut self.ticks, stage))?;
+        if !self.datagram.as_bytes().is_empty() {
+            self.link.send(now, self.datagram.as_bytes());
         }
         if self.pilot.wake_up_due(now) {
-            tolerate(self.navdata.send(&WAKE_UP))?;
+            self.link.wake_up(now);
         }
         done(&mut self.ticks, Stage::Send);
         Ok(())
     }
 
-    /// Sleeps until navdata arrives or the time is over.
-    fn wait(&self, time: Duration) -> Result<(), FlightError> {
-        let timeout = Timespec {
-            tv_sec: i64::try_from(time.as_secs()).unwrap_or(i64::MAX),
-            tv_nsec: i64::from(time.subsec_nanos()),
-        };
-        let mut sockets = [PollFd::new(&self.navdata, PollFlags::IN)];
-        match poll(&mut sockets, Some(&timeout)) {
-            Ok(_) | Err(rustix::io::Errno::INTR) => Ok(()),
-            Err(error) => Err(FlightError::Socket(error.into())),
+    /// Takes in what has come until the next tick is due.
+    fn take_in_navdata(&mut self) {
+        let begun = self.start.elapsed();
+        let mut now = begun;
+        while now < self.deadline {
+            if self.intake.taken >= DATAGRAMS_PER_TICK {
+                // The rest of this tick belongs to others.
+                self.link.rest();
+                self.summary.flooded_ticks += 1;
+                if !std::mem::replace(&mut self.flood_told, true) {
+                    self.warn(now, Trouble::Flood);
+                }
+                break;
+            }
+            if !self.take_in_datagram(now) {
+                break;
+            }
+            now = self.start.elapsed();
         }
+        self.ticks.spend(Stage::Estimate, now.saturating_sub(begun));
     }
 
-    fn take_in_navdata(&mut self, start: Instant, buffer: &mut [u8]) -> Result<(), FlightError> {
-        while let Some(length) = tolerate(self.navdata.recv(buffer))? {
-            let packet = buffer.get(..length).unwrap_or_default();
-            let now = start.elapsed();
-            self.pilot.handle_navdata(now, packet);
-            if let Some(recorder) = &mut self.recorder {
-                recorder.navdata(now, packet);
+    /// A tick that comes late finds navdata that came before it: it does not overlook them.
+    fn take_in_late_navdata(&mut self) {
+        let now = self.start.elapsed();
+        for _ in 0..DATAGRAMS_IF_LATE {
+            if !self.take_in_datagram(now) {
+                break;
             }
         }
-        Ok(())
+        self.ticks.spend(Stage::Estimate, self.start.elapsed().saturating_sub(now));
+    }
+
+    /// Returns whether there was one.
+    fn take_in_datagram(&mut self, now: Duration) -> bool {
+        let Some(length) = self.link.receive(now, &mut self.buffer) else { return false };
+        self.intake.taken += 1;
+        let packet = self.buffer.get(..length).unwrap_or_default();
+        let before = self.pilot.link_statistics().received;
+        self.pilot.handle_navdata(now, packet);
+        let good = self.pilot.link_statistics().received > before;
+        if let Some(recorder) = &mut self.recorder {
+            if self.intake.records(good) {
+                recorder.navdata(now, packet);
+            } else {
+                self.summary.unrecorded += 1;
+            }
+        }
+        true
     }
 
     fn take_in_services(&mut self, now: Duration) {
-        while let Some(input) = self.services.poll() {
-            match input {
-                Input::Control(bytes) => {
-                    self.pilot.handle_control(now, &bytes);
-                    if let Some(recorder) = &mut self.recorder {
-                        recorder.control(now, &bytes);
-                    }
-                }
-                Input::Order(order) => self.order(now, order),
-                Input::Stop => {
-                    self.stops += 1;
-                    if self.stops == 1 {
-                        self.order(now, PilotOrder::Land);
-                    }
-                }
+        for bytes in self.services.poll_control() {
+            self.pilot.handle_control(now, &bytes);
+            if let Some(recorder) = &mut self.recorder {
+                recorder.control(now, &bytes);
             }
         }
-    }
-
-    fn order(&mut self, now: Duration, order: PilotOrder) {
-        self.pilot.order(now, order);
-        if let Some(recorder) = &mut self.recorder {
-            recorder.order(now, order);
+        for order in self.orders.poll() {
+            obey(&mut self.pilot, self.recorder.as_mut(), now, order);
+        }
+        if self.orders.stops() > 0 && !std::mem::replace(&mut self.stopping, true) {
+            obey(&mut self.pilot, self.recorder.as_mut(), now, PilotOrder::Land);
         }
     }
 
-    fn record_tick(&mut self, late: Duration, work: Duration, datagram: &Datagram) {
+    fn record_tick(&mut self, late: Duration, work: Duration) {
         if let (Some(recorder), Some(decision)) = (&mut self.recorder, self.pilot.decision()) {
             let ms = |time: Duration| time.as_secs_f64() * 1e3;
             let timing = Timing { late_ms: ms(late), work_ms: ms(work) };
-            recorder.tick(*decision, timing, datagram.as_bytes());
+            recorder.tick(*decision, timing, self.datagram.as_bytes());
         }
     }
 
@@ -344,6 +464,9 @@ impl TickLoop {
                 recorder.event(now, event.clone());
             }
             self.say(Message::Event(now, event));
+        }
+        if let Some(trouble) = self.link.poll_trouble() {
+            self.warn(now, trouble);
         }
         while let Some(waypoint) = self.pilot.report().waypoints.get(self.waypoints).copied() {
             self.waypoints += 1;
@@ -361,31 +484,61 @@ impl TickLoop {
         }
     }
 
-    /// The second Ctrl-C: the landing is ordered a few times more, and nobody waits for it.
-    fn leave(
-        &mut self,
-        start: Instant,
-        datagram: &mut Datagram,
-    ) -> Result<FinishedFlight, FlightError> {
-        for _ in 0..PARTING_ORDERS {
-            self.tick(start, datagram)?;
-            self.record_tick(Duration::ZERO, Duration::ZERO, datagram);
-            self.wait(TICK)?;
+    /// Something is wrong that does not end the flight.
+    fn warn(&mut self, now: Duration, trouble: Trouble) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.note(now, trouble.to_string());
         }
-        Ok(self.finished(start.elapsed(), Outcome::Interrupted))
+        self.say(Message::Trouble(now, trouble));
     }
 
-    fn finished(&mut self, now: Duration, outcome: Outcome) -> FinishedFlight {
-        if let Some(recorder) = &mut self.recorder {
-            recorder.outcome(now, outcome.clone());
+    /// Orders the landing in ticks of its own, and waits for nothing. Only the session is asked, which
+    /// needs neither the agent nor the estimate.
+    fn part(&mut self) {
+        let mut parted = 0;
+        for _ in 0..PARTING_TICKS {
+            let now = self.start.elapsed();
+            skip_missed(&mut self.deadline, now);
+            sleep(self.deadline.saturating_sub(now));
+            self.deadline += TICK;
+            let now = self.start.elapsed();
+            let said = self.pilot.part(now, &mut self.datagram).is_ok();
+            if !said || self.datagram.as_bytes().is_empty() {
+                // The drone was never spoken to.
+                break;
+            }
+            parted += u32::from(self.link.send(now, self.datagram.as_bytes()));
+            if parted == PARTING_ORDERS {
+                break;
+            }
         }
+        if let (Some(recorder), 1..) = (&mut self.recorder, parted) {
+            let note = format!("the landing was ordered {parted} times more at the end");
+            recorder.note(self.start.elapsed(), note);
+        }
+    }
+
+    fn finished(&mut self, outcome: Outcome) -> FinishedFlight {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.outcome(self.start.elapsed(), outcome.clone());
+        }
+        let (errors, bound_anew) = self.link.failures();
         FinishedFlight {
             outcome,
             report: self.pilot.report().clone(),
             ticks: self.ticks.summary(self.realtime),
             dropped_messages: self.dropped_messages,
             lost_records: self.recorder.as_ref().map_or(0, Recorder::lost),
+            link: LinkSummary { errors, bound_anew, ..self.summary },
         }
+    }
+}
+
+/// The pilot's hand.
+fn obey(pilot: &mut Pilot, recorder: Option<&mut Recorder>, now: Duration, order: PilotOrder) {
+    pilot.order(now, order);
+    if let Some(recorder) = recorder {
+        recorder.order(now, order);
     }
 }
 
@@ -399,16 +552,12 @@ fn skip_missed(deadline: &mut Duration, now: Duration) -> u64 {
     skipped
 }
 
-/// A drone that is not there now does not end the flight.
-fn tolerate(result: io::Result<usize>) -> Result<Option<usize>, FlightError> {
-    match result {
-        Err(error) if is_passing(&error) => Ok(None),
-        result => result.map(Some).map_err(FlightError::Socket),
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use mock_drone::WorldConfig;
+    use mock_drone::firmware::Phase;
+    use mock_drone::server::{MockDrone, Ports};
+
     use super::*;
 
     #[test]
@@ -425,5 +574,45 @@ mod tests {
     fn a_drone_without_address_is_named() {
         let error = resolve("no such host").unwrap_err();
         assert!(error.to_string().contains("no such host"));
+    }
+
+    /// A tick loop that flies over a simulated drone.
+    fn over(mock: &MockDrone) -> (TickLoop, Controls, Receiver<Message>) {
+        let ports = mock.ports();
+        let address = DroneAddress {
+            host: ports.host.to_string(),
+            at_port: ports.at,
+            navdata_port: ports.navdata,
+            control_port: ports.control,
+        };
+        let plan = Plan::parse("plan", "takeoff\nsetStayTime 60\ngoto 0 1 0 0\nland\n").unwrap();
+        let pilot = Pilot::new(plan, &PilotConfig::default()).unwrap();
+        let link = Link::new(ports.host, &address).unwrap();
+        let (orders, controls) = Orders::new();
+        let control_port = SocketAddr::new(ports.host, ports.control);
+        let services = Services::start(control_port, controls.clone()).unwrap();
+        let (sender, messages) = bounded(MESSAGES);
+        (TickLoop::new(pilot, link, orders, services, None, sender), controls, messages)
+    }
+
+    #[test]
+    fn a_panic_in_the_air_orders_the_landing() {
+        let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+        let (tick, _controls, _messages) = over(&mock);
+        let mut flown = 0;
+        let result = tick.run(|_| {
+            flown += u32::from(mock.truth().phase == Phase::Flying);
+            assert!(flown < 30, "something is wrong");
+        });
+        assert!(matches!(result, Err(FlightError::Panicked)), "{result:?}");
+        assert!(matches!(mock.truth().phase, Phase::Landing | Phase::Landed), "{:?}", mock.truth());
+    }
+
+    #[test]
+    fn a_tick_records_what_matters_of_a_flood() {
+        let mut intake = Intake::NOTHING;
+        let garbage = (0..1000).filter(|_| intake.records(false)).count();
+        let packets = (0..1000).filter(|_| intake.records(true)).count();
+        assert_eq!((garbage, packets), (8, 56));
     }
 }

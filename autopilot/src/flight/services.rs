@@ -1,68 +1,60 @@
 //! What is slow and goes on beside the flight: signals and the control port.
 
 use std::net::SocketAddr;
+use std::task::{Context, Poll};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crossbeam_channel::{Receiver, Sender, bounded};
 use tokio::io::AsyncReadExt as _;
-use tokio::sync::oneshot;
+use tokio::signal::unix::{Signal, SignalKind, signal};
+use tokio::sync::{mpsc, oneshot};
 
-use super::FlightError;
-use crate::pilot::PilotOrder;
-
-/// What the slow side brings.
-#[derive(Debug)]
-pub(super) enum Input {
-    /// Bytes from the control port.
-    Control(Vec<u8>),
-    /// The person at the controls wants something.
-    Order(PilotOrder),
-    /// Ctrl-C, SIGTERM, or a terminal that is gone.
-    Stop,
-}
+use super::{Controls, FlightError};
 
 /// Signals and the control port, on a thread of their own; it ends with the flight.
+#[derive(Debug)]
 pub(super) struct Services {
-    inputs: Receiver<Input>,
+    control: mpsc::Receiver<Vec<u8>>,
     end: Option<oneshot::Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// Orders and blocks of the configuration dump that may wait for the tick.
-const INPUTS: usize = 64;
+/// Blocks of the configuration dump that may wait for the tick. The drone waits while there is no room.
+const BLOCKS: usize = 4;
+/// What a tick takes of them.
+const BLOCKS_PER_TICK: usize = 2;
 /// The control port is tried again after this time.
 const CONTROL_RETRY: Duration = Duration::from_millis(500);
 
 impl Services {
-    /// The services, and the way to them for whoever else has something to say.
-    pub(super) fn start(control: SocketAddr) -> Result<(Self, Sender<Input>), FlightError> {
+    /// Starts them; signals go to `controls`.
+    pub(super) fn start(address: SocketAddr, controls: Controls) -> Result<Self, FlightError> {
         let runtime = tokio::runtime::Builder::new_current_thread()
             .enable_all()
             .build()
             .map_err(FlightError::Thread)?;
-        let (sender, inputs) = bounded(INPUTS);
-        let others = sender.clone();
+        let (sender, control) = mpsc::channel(BLOCKS);
         let (end, ended) = oneshot::channel();
         let thread = std::thread::Builder::new()
             .name("services".to_owned())
             .spawn(move || {
                 runtime.block_on(async {
+                    // A task of its own: whatever happens to it, signals are heard.
+                    tokio::spawn(read_control_port(address, sender));
                     tokio::select! {
-                        () = forward_signals(&sender) => {}
-                        () = read_control_port(control, &sender) => {}
+                        () = forward_signals(&controls) => {}
                         // The flight is over.
                         _ = ended => {}
                     }
                 });
             })
             .map_err(FlightError::Thread)?;
-        Ok((Self { inputs, end: Some(end), thread: Some(thread) }, others))
+        Ok(Self { control, end: Some(end), thread: Some(thread) })
     }
 
-    /// What came in, oldest first; never waits.
-    pub(super) fn poll(&self) -> Option<Input> {
-        self.inputs.try_recv().ok()
+    /// What came in on the control port, oldest first, as much as a tick has time for; never waits.
+    pub(super) fn poll_control(&mut self) -> impl Iterator<Item = Vec<u8>> + '_ {
+        std::iter::from_fn(|| self.control.try_recv().ok()).take(BLOCKS_PER_TICK)
     }
 }
 
@@ -81,37 +73,49 @@ impl Drop for Services {
 }
 
 /// Never returns: without signals the flight goes on.
-async fn forward_signals(inputs: &Sender<Input>) {
-    use tokio::signal::unix::{SignalKind, signal};
-    let interrupt = signal(SignalKind::interrupt());
-    let terminate = signal(SignalKind::terminate());
-    let hang_up = signal(SignalKind::hangup());
-    let (Ok(mut interrupt), Ok(mut terminate), Ok(mut hang_up)) = (interrupt, terminate, hang_up)
-    else {
-        tracing::warn!("signals cannot be caught: Ctrl-C will not land the drone");
-        return std::future::pending().await;
-    };
+async fn forward_signals(controls: &Controls) {
+    let ends = [
+        SignalKind::interrupt(),
+        SignalKind::terminate(),
+        SignalKind::hangup(),
+        SignalKind::quit(),
+        SignalKind::alarm(),
+        SignalKind::user_defined1(),
+        SignalKind::user_defined2(),
+    ];
+    let mut signals: Vec<Signal> = ends.into_iter().filter_map(|kind| signal(kind).ok()).collect();
+    if signals.len() < ends.len() {
+        tracing::warn!("not all signals can be caught: Ctrl-C may not land the drone");
+    }
+    // A flight log that may not grow any more ends the log, not the process.
+    let _too_large = signal(SignalKind::from_raw(rustix::process::Signal::XFSZ.as_raw()));
     loop {
-        tokio::select! {
-            _ = interrupt.recv() => {}
-            _ = terminate.recv() => {}
-            _ = hang_up.recv() => {}
-        }
-        if inputs.try_send(Input::Stop).is_err() {
-            tracing::warn!("the flight is too busy to be told to land");
-        }
+        std::future::poll_fn(|context| next_signal(&mut signals, context)).await;
+        controls.stop();
     }
 }
 
-/// Never returns: a drone without control port can be flown all the same.
-async fn read_control_port(address: SocketAddr, inputs: &Sender<Input>) {
+/// Looks at all of them, so that each is waited for.
+fn next_signal(signals: &mut [Signal], context: &mut Context<'_>) -> Poll<()> {
+    let mut came = Poll::Pending;
+    for signal in signals {
+        if let Poll::Ready(Some(())) = signal.poll_recv(context) {
+            came = Poll::Ready(());
+        }
+    }
+    came
+}
+
+/// Reads the control port for as long as somebody listens: a drone without one can be flown all the same.
+async fn read_control_port(address: SocketAddr, out: mpsc::Sender<Vec<u8>>) {
     let mut buffer = vec![0_u8; 4096];
-    loop {
+    while !out.is_closed() {
         if let Ok(mut stream) = tokio::net::TcpStream::connect(address).await {
             while let Ok(length @ 1..) = stream.read(&mut buffer).await {
                 let bytes = buffer.get(..length).unwrap_or_default().to_vec();
-                // A full channel loses the dump; the session asks again.
-                _ = inputs.try_send(Input::Control(bytes));
+                if out.send(bytes).await.is_err() {
+                    return;
+                }
             }
         }
         tokio::time::sleep(CONTROL_RETRY).await;

@@ -339,6 +339,20 @@ impl Pilot {
         Ok(())
     }
 
+    /// Fills `datagram` with the last words of a pilot that leaves, by the session alone: whatever has
+    /// happened to the rest. See [`Session::part`].
+    ///
+    /// # Errors
+    /// See [`Session::part`].
+    pub fn part(&mut self, now: Duration, datagram: &mut Datagram) -> Result<(), EncodeError> {
+        self.session.part(now, datagram)
+    }
+
+    /// How many datagrams told something, and how many meant nothing.
+    pub fn link_statistics(&self) -> session::Statistics {
+        self.session.statistics()
+    }
+
     /// What happened, oldest first.
     pub fn poll_event(&mut self) -> Option<FlightEvent> {
         self.events.pop_front()

@@ -131,13 +131,39 @@ fn beliefs(writer: &mut Writer, program: &Program) {
     writer.line("");
 }
 
+/// What C carries through a step for the shims: a panic must not unwind through it.
+const LOAN: &str = r"/// The environment for one step, and the panic that C is carried past.
+struct Loan<'a> {
+    environment: &'a mut dyn Environment,
+    panic: Option<Box<dyn core::any::Any + Send>>,
+}
+
+impl Loan<'_> {
+    /// Asks the environment. Once it has panicked it is not asked again: C gets `idle` and comes to
+    /// its end.
+    fn ask<T>(&mut self, idle: T, ask: impl FnOnce(&mut dyn Environment) -> T) -> T {
+        if self.panic.is_some() {
+            return idle;
+        }
+        let asked = std::panic::AssertUnwindSafe(|| ask(&mut *self.environment));
+        std::panic::catch_unwind(asked).unwrap_or_else(|panic| {
+            self.panic = Some(panic);
+            idle
+        })
+    }
+}
+";
+
 fn shims(writer: &mut Writer, program: &Program) {
     let prefix = symbol_prefix(program);
+    for line in LOAN.lines() {
+        writer.line(line);
+    }
+    writer.line("");
     let recover = |writer: &mut Writer| {
         writer.line("// SAFETY: C passes back the pointer that `Agent::next_step` lent it for the");
-        writer.line("// duration of this very call; nothing else uses the environment meanwhile.");
-        writer
-            .line("let environment = unsafe { &mut *environment.cast::<&mut dyn Environment>() };");
+        writer.line("// duration of this very call; nothing else uses the loan meanwhile.");
+        writer.line("let loan = unsafe { &mut *environment.cast::<Loan<'_>>() };");
     };
     writer.line("#[unsafe(no_mangle)]");
     writer.line("#[allow(non_snake_case)]");
@@ -149,7 +175,7 @@ fn shims(writer: &mut Writer, program: &Program) {
         "// SAFETY: `next_step` passes its own state on and does not touch it before we return.",
     );
     writer.line("let state = unsafe { &mut *agent };");
-    writer.line("environment.update_beliefs(&mut Beliefs { state });");
+    writer.line("loan.ask((), |environment| environment.update_beliefs(&mut Beliefs { state }));");
     writer.close("}");
     for basic in &program.configuration.basics {
         writer.line("");
@@ -162,6 +188,9 @@ fn shims(writer: &mut Writer, program: &Program) {
             raw_parameters(&basic.parameters)
         ));
         recover(writer);
+        let idle = idle_result(writer, basic);
+        let semicolon = if result.is_empty() { ";" } else { "" };
+        writer.open_here(format!("loan.ask({idle}, |environment|"));
         for (index, ctype) in basic.parameters.iter().enumerate() {
             if ctype.kind == TypeKind::Text {
                 let name = argument(index);
@@ -171,15 +200,26 @@ fn shims(writer: &mut Writer, program: &Program) {
             }
         }
         let arguments: Vec<String> = (0..basic.parameters.len()).map(argument).collect();
-        let semicolon = if result.is_empty() { ";" } else { "" };
-        writer.line(format!(
-            "environment.{}({}){semicolon}",
-            snake_case(&basic.name.text),
-            arguments.join(", ")
-        ));
+        let method = snake_case(&basic.name.text);
+        writer.line(format!("environment.{method}({})", arguments.join(", ")));
+        writer.close(&format!("}}){semicolon}"));
         writer.close("}");
     }
     writer.line("");
+}
+
+/// What C gets of an environment that has panicked.
+fn idle_result(writer: &mut Writer, basic: &Basic) -> &'static str {
+    match basic.result.kind {
+        TypeKind::Void => "()",
+        TypeKind::Struct => {
+            writer.line("// SAFETY: every field is a number, a flag or a raw pointer.");
+            writer.line("let idle = unsafe { core::mem::zeroed() };");
+            "idle"
+        }
+        TypeKind::Text => "c\"\".as_ptr()",
+        _ => "Default::default()",
+    }
 }
 
 fn agent(writer: &mut Writer, program: &Program) {
@@ -188,6 +228,8 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("#[derive(Debug)]");
     writer.open_here("pub struct Agent");
     writer.line("state: State,");
+    writer.line("/// The environment has panicked: the state is that of a step that never was.");
+    writer.line("broken: bool,");
     writer.close("}");
     writer.line("");
     writer
@@ -209,21 +251,31 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("let mut state: State = unsafe { core::mem::zeroed() };");
     writer.line("// SAFETY: the state is exclusively ours, and `init` only writes to it.");
     writer.line(format!("unsafe {{ {prefix}init(&raw mut state, core::ptr::null_mut()) }};"));
-    writer.line("Self { state }");
+    writer.line("Self { state, broken: false }");
     writer.close("}");
     writer.line("");
     writer.line("/// One deliberation cycle: updates the beliefs, then runs at most one event.");
     writer.line("///");
-    writer.line("/// A panic in the environment aborts the process: it cannot unwind through C.");
-    writer.open_here("pub fn next_step(&mut self, environment: &mut dyn Environment)");
-    writer.line("let mut environment = environment;");
-    writer.line("self.state.environment = (&raw mut environment).cast();");
+    writer.line("/// # Panics");
     writer.line(
-        "// SAFETY: the state is initialised and exclusively borrowed; the environment lives",
+        "/// As the environment does: C comes to the end of its step, then the panic goes on. An",
     );
-    writer.line("// until the call returns, and the pointer to it is cleared then.");
+    writer.line("/// agent to which that has happened must not be run again, and panics.");
+    writer.open_here("pub fn next_step(&mut self, environment: &mut dyn Environment)");
+    writer.line("assert!(!self.broken, \"the agent's environment has panicked before\");");
+    writer.line("let mut loan = Loan { environment, panic: None };");
+    writer.line("self.state.environment = (&raw mut loan).cast();");
+    writer.line(
+        "// SAFETY: the state is initialised and exclusively borrowed; the loan lives until the",
+    );
+    writer
+        .line("// call returns, and the pointer to it is cleared then. Nothing unwinds through C.");
     writer.line(format!("unsafe {{ {prefix}next_step(&raw mut self.state) }};"));
     writer.line("self.state.environment = core::ptr::null_mut();");
+    writer.open_here("if let Some(panic) = loan.panic");
+    writer.line("self.broken = true;");
+    writer.line("std::panic::resume_unwind(panic);");
+    writer.close("}");
     writer.close("}");
     writer.line("");
     let query = |writer: &mut Writer, doc: &str, name: &str, result: &str| {

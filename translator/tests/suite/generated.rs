@@ -1,5 +1,7 @@
 //! What the generated text looks like, and that compilers accept it.
 
+use std::process::Command;
+
 use proptest::prelude::*;
 use translator::{parse_configuration, translate};
 
@@ -24,6 +26,60 @@ fn a_whole_agent_as_c_and_rust() {
     LAMP.compile();
 }
 
+/// A panic cannot unwind through C: it waits until C has come to the end of its step.
+#[test]
+fn a_panic_of_the_environment_is_carried_over_the_c() {
+    let folder = tempfile::tempdir().unwrap();
+    let translation = PANICKING.translate("instance = context; rust = bindings.rs;").unwrap();
+    for file in &translation.files {
+        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+    }
+    std::fs::write(folder.path().join("main.rs"), PANICKING_MAIN).unwrap();
+    let run = |program: &mut Command| {
+        let output = program.current_dir(folder.path()).output().unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{:?}: {errors}", output.status);
+        String::from_utf8(output.stdout).unwrap()
+    };
+    run(Command::new("cc").args(["-c", "agent.c"]));
+    run(Command::new("rustc").args(["--edition", "2024", "-C", "link-arg=agent.o", "main.rs"]));
+    let printed = run(&mut Command::new(folder.path().join("main")));
+    assert_eq!(printed, "asked\ncaught: it fell over\nasked 1 times\nnever again\n");
+}
+
+const PANICKING: Case = Case {
+    basics: "void say(const char *); double measure(void); void act(double);",
+    types: "go(void);",
+    sections: "",
+    agent: "!go.\n+!go : X = measure & X < 1 <- act(X); act(measure); say(\"done\"); !!go.\n-!go <- act(2); !!go.\n",
+};
+
+const PANICKING_MAIN: &str = r#"
+mod bindings { include!("bindings.rs"); }
+use bindings::{Agent, Beliefs, Environment};
+struct World { asked: u32 }
+impl Environment for World {
+    fn update_beliefs(&mut self, _: &mut Beliefs<'_>) {}
+    fn say(&mut self, _: &'static core::ffi::CStr) { self.asked += 1; }
+    fn act(&mut self, _: f64) { self.asked += 1; }
+    fn measure(&mut self) -> f64 {
+        self.asked += 1;
+        println!("asked");
+        panic!("it fell over")
+    }
+}
+fn main() {
+    let mut agent = Agent::new();
+    let mut world = World { asked: 0 };
+    let mut step = || std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| agent.next_step(&mut world)));
+    let panic = step().unwrap_err();
+    println!("caught: {}", panic.downcast_ref::<&str>().unwrap());
+    let again = step();
+    println!("asked {} times", world.asked);
+    println!("{}", if again.is_err() { "never again" } else { "it goes on" });
+}
+"#;
+
 #[test]
 fn the_autopilot_passes_strict_compilation() {
     let configuration = include_str!("../../../autopilot/agent/autopilot.conf");
@@ -35,7 +91,7 @@ fn the_autopilot_passes_strict_compilation() {
     for file in &translation.files {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
     }
-    let result = std::process::Command::new("cc")
+    let result = Command::new("cc")
         .current_dir(folder.path())
         .args(crate::harness::STRICT)
         .args(["-c", "autopilot.c"])
@@ -124,7 +180,7 @@ fn generated_c_passes_the_misra_addon() {
         for file in &translation.files {
             std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
         }
-        let result = std::process::Command::new("cppcheck")
+        let result = Command::new("cppcheck")
             .current_dir(folder.path())
             .args(["--addon=misra", "--enable=all", "--std=c99", "--quiet"])
             .args(["--suppress=missingIncludeSystem", "--suppress=unusedFunction"])
@@ -148,7 +204,7 @@ fn the_misra_addon_is_awake() {
         "int f(int x);\nint f(int x)\n{\n  if (x)\n    return 1;\n  return 0;\n}\n",
     )
     .unwrap();
-    let result = std::process::Command::new("cppcheck")
+    let result = Command::new("cppcheck")
         .current_dir(folder.path())
         .args(["--addon=misra", "--enable=all", "bad.c"])
         .output();

@@ -73,6 +73,10 @@ impl View {
         match message {
             Message::Realtime(realtime) => self.say(&realtime.to_string()),
             Message::Waypoint(_) => {}
+            Message::Trouble(at, trouble) => {
+                let line = format!("{:6.1} s {trouble}", at.as_secs_f64());
+                remember(&mut self.messages, (line, true));
+            }
             Message::Event(at, event) => {
                 let text = match event {
                     FlightEvent::StepStarted { step } => {

@@ -1,0 +1,224 @@
+//! A drone behind a relay that hears what the pilot says, floods it, or keeps its control port busy.
+
+use std::io::Write as _;
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, UdpSocket};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use ardrone_link::DroneAddress;
+use ardrone_link::at::{Command, Motion, Ref, decode};
+use mock_drone::server::{MockDrone, Ports};
+use mock_drone::{Truth, WorldConfig};
+
+/// What the pilot has said in one datagram.
+#[derive(Debug, Clone)]
+pub(crate) struct Said {
+    pub(crate) at: Instant,
+    pub(crate) commands: Vec<(u32, Command)>,
+}
+
+impl Said {
+    fn says(&self, wanted: &Command) -> bool {
+        self.commands.iter().any(|(_, command)| command == wanted)
+    }
+
+    /// Land, with the sticks at rest, and nothing else.
+    pub(crate) fn parts(&self) -> bool {
+        self.commands.len() == 2
+            && self.says(&Command::Ref(Ref::Land))
+            && self.says(&Command::Pcmd(Motion::Hover))
+    }
+}
+
+/// A simulated drone and the relay before it.
+pub(crate) struct Relay {
+    mock: MockDrone,
+    shared: Arc<Shared>,
+    address: DroneAddress,
+    threads: Vec<JoinHandle<()>>,
+}
+
+#[derive(Default)]
+struct Shared {
+    said: Mutex<Vec<Said>>,
+    /// Where the pilot's navdata go.
+    pilot: Mutex<Option<SocketAddr>>,
+    flood: AtomicU64,
+    busy: AtomicBool,
+    over: AtomicBool,
+}
+
+const LOOK: Duration = Duration::from_millis(20);
+
+fn socket() -> UdpSocket {
+    let socket = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    socket.set_read_timeout(Some(LOOK)).unwrap();
+    socket
+}
+
+impl Relay {
+    /// A drone in this world behind a relay.
+    pub(crate) fn start(world: &WorldConfig) -> Self {
+        let mock = MockDrone::start(world, Ports::LOOPBACK).unwrap();
+        let ports = mock.ports();
+        let shared = Arc::new(Shared::default());
+        let (at, navdata, drone) = (socket(), socket(), socket());
+        let control = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+        let address = DroneAddress {
+            host: ports.host.to_string(),
+            at_port: at.local_addr().unwrap().port(),
+            navdata_port: navdata.local_addr().unwrap().port(),
+            control_port: control.local_addr().unwrap().port(),
+        };
+        drone.connect((ports.host, ports.navdata)).unwrap();
+        let (navdata, drone) = (Arc::new(navdata), Arc::new(drone));
+        let spawn = |work: fn(&Shared, &UdpSocket, &UdpSocket), a: Arc<_>, b: Arc<_>| {
+            let shared = Arc::clone(&shared);
+            std::thread::spawn(move || work(&shared, &a, &b))
+        };
+        let out = socket();
+        out.connect((ports.host, ports.at)).unwrap();
+        let threads = vec![
+            spawn(relay_commands, Arc::new(at), Arc::new(out)),
+            spawn(relay_wake_up, Arc::clone(&navdata), Arc::clone(&drone)),
+            spawn(relay_navdata, Arc::clone(&navdata), Arc::clone(&drone)),
+            spawn(flood, navdata, drone),
+            {
+                let shared = Arc::clone(&shared);
+                std::thread::spawn(move || keep_busy(&shared, &control, ports.control))
+            },
+        ];
+        Self { mock, shared, address, threads }
+    }
+
+    /// Where the pilot finds the drone.
+    pub(crate) fn address(&self) -> &DroneAddress {
+        &self.address
+    }
+
+    pub(crate) fn truth(&self) -> Truth {
+        self.mock.truth()
+    }
+
+    /// Everything that was said.
+    pub(crate) fn said(&self) -> Vec<Said> {
+        self.shared.said.lock().unwrap().clone()
+    }
+
+    /// Sends the pilot so many datagrams that mean nothing, from the drone's address, as fast as it can.
+    pub(crate) fn flood(&self, datagrams: u64) {
+        self.shared.flood.store(datagrams, Ordering::Relaxed);
+    }
+
+    pub(crate) fn floods(&self) -> bool {
+        self.shared.flood.load(Ordering::Relaxed) > 0
+    }
+
+    /// The control port talks without end, from the next connection.
+    pub(crate) fn keep_control_port_busy(&self) {
+        self.shared.busy.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Drop for Relay {
+    fn drop(&mut self) {
+        self.shared.over.store(true, Ordering::Relaxed);
+        for thread in self.threads.drain(..) {
+            thread.join().unwrap();
+        }
+    }
+}
+
+impl Shared {
+    fn goes_on(&self) -> bool {
+        !self.over.load(Ordering::Relaxed)
+    }
+}
+
+fn relay_commands(shared: &Shared, at: &UdpSocket, drone: &UdpSocket) {
+    let mut buffer = [0; 2048];
+    while shared.goes_on() {
+        let Ok(length) = at.recv(&mut buffer) else { continue };
+        let said = Instant::now();
+        // A drone that is gone hears nothing.
+        _ = drone.send(&buffer[..length]);
+        let commands = decode(&buffer[..length]).map(Result::unwrap).collect();
+        shared.said.lock().unwrap().push(Said { at: said, commands });
+    }
+}
+
+fn relay_wake_up(shared: &Shared, pilot: &UdpSocket, drone: &UdpSocket) {
+    let mut buffer = [0; 2048];
+    while shared.goes_on() {
+        let Ok((length, from)) = pilot.recv_from(&mut buffer) else { continue };
+        *shared.pilot.lock().unwrap() = Some(from);
+        _ = drone.send(&buffer[..length]);
+    }
+}
+
+fn relay_navdata(shared: &Shared, pilot: &UdpSocket, drone: &UdpSocket) {
+    let mut buffer = [0; 8192];
+    while shared.goes_on() {
+        let Ok(length) = drone.recv(&mut buffer) else { continue };
+        let to = *shared.pilot.lock().unwrap();
+        if let Some(to) = to {
+            _ = pilot.send_to(&buffer[..length], to);
+        }
+    }
+}
+
+fn flood(shared: &Shared, pilot: &UdpSocket, _: &UdpSocket) {
+    while shared.goes_on() {
+        let to = *shared.pilot.lock().unwrap();
+        let (Some(to), 1..) = (to, shared.flood.load(Ordering::Relaxed)) else {
+            std::thread::sleep(LOOK);
+            continue;
+        };
+        while shared.flood.load(Ordering::Relaxed) > 0 {
+            _ = pilot.send_to(&[0x55; 400], to);
+            shared.flood.fetch_sub(1, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Passes the control port on, or talks without end.
+fn keep_busy(shared: &Shared, listener: &TcpListener, drone: u16) {
+    listener.set_nonblocking(true).unwrap();
+    while shared.goes_on() {
+        let Ok((mut pilot, _)) = listener.accept() else {
+            std::thread::sleep(LOOK);
+            continue;
+        };
+        pilot.set_nonblocking(false).unwrap();
+        pilot.set_write_timeout(Some(LOOK)).unwrap();
+        if shared.busy.load(Ordering::Relaxed) {
+            // Until the pilot is gone.
+            while shared.goes_on() {
+                match pilot.write_all(&[b'x'; 4096]) {
+                    Ok(()) => {}
+                    Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => {}
+                    Err(_) => break,
+                }
+            }
+            continue;
+        }
+        let Ok(mut drone) = std::net::TcpStream::connect((Ipv4Addr::LOCALHOST, drone)) else {
+            continue;
+        };
+        drone.set_read_timeout(Some(LOOK)).unwrap();
+        let mut buffer = [0; 4096];
+        while shared.goes_on() {
+            match std::io::Read::read(&mut drone, &mut buffer) {
+                Ok(0) => break,
+                Ok(length) => {
+                    if pilot.write_all(&buffer[..length]).is_err() {
+                        break;
+                    }
+                }
+                Err(_) => {}
+            }
+        }
+    }
+}

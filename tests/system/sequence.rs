@@ -1,0 +1,137 @@
+//! Sequence numbers: any one datagram may be lost, and the drone obeys the next.
+
+use std::time::Duration;
+
+use ardrone_link::at::{Command, Datagram, Motion, Ref};
+use ardrone_link::session::{FlightOrder, Order, Session, SessionConfig};
+use ardrone_link::settings::Setting;
+use mock_drone::firmware::Phase;
+use mock_drone::{Message, World, WorldConfig};
+
+const TICK: Duration = Duration::from_millis(30);
+
+/// A session with a simulated drone, tick by tick.
+struct Bench {
+    session: Session,
+    world: World,
+    now: Duration,
+    /// Ticks until the datagram that is lost.
+    lost: Option<u32>,
+    hears: bool,
+}
+
+impl Bench {
+    /// `lost` is the number of the datagram that is lost, from now on.
+    fn new() -> Self {
+        let settings = vec![Setting::NavdataDemo(true).config().unwrap()];
+        let config = SessionConfig { settings, ..SessionConfig::default() };
+        let mut world = World::new(&WorldConfig::default());
+        world.send_wake_up(Duration::ZERO, &ardrone_link::WAKE_UP);
+        Self { session: Session::new(config), world, now: TICK, lost: None, hears: true }
+    }
+
+    /// Another pilot has spoken just now, and counts far above us.
+    fn after_another_pilot(mut self) -> Self {
+        let mut datagram = Datagram::new();
+        datagram.push(5000, &Command::Ref(Ref::Land)).unwrap();
+        datagram.push(5001, &Command::Pcmd(Motion::Hover)).unwrap();
+        self.world.send_at(self.now, datagram.as_bytes());
+        self
+    }
+
+    fn tick(&mut self, flight: FlightOrder) {
+        self.now += TICK;
+        self.world.advance(self.now);
+        while let Some(message) = self.world.receive(self.now) {
+            if let (Message::Navdata(packet), true) = (message, self.hears) {
+                self.session.handle_navdata(self.now, &packet);
+            }
+        }
+        let mut datagram = Datagram::new();
+        let order = Order { flight, motion: Motion::Hover };
+        if self.session.silence(self.now).is_some() {
+            self.session.tick(self.now, order, &mut datagram).unwrap();
+            if self.lost != Some(0) {
+                self.world.send_at(self.now, datagram.as_bytes());
+            }
+            self.lost = self.lost.and_then(|lost| lost.checked_sub(1));
+        }
+        if self.session.wake_up_due(self.now) {
+            self.world.send_wake_up(self.now, &ardrone_link::WAKE_UP);
+        }
+    }
+
+    /// Ticks until it is so.
+    fn until(&mut self, flight: FlightOrder, so: impl Fn(&Self) -> bool) -> u32 {
+        for ticks in 0..1000 {
+            if so(self) {
+                return ticks;
+            }
+            self.tick(flight);
+        }
+        panic!("it never came: {:?}", self.world.truth());
+    }
+
+    fn phase(&self) -> Phase {
+        self.world.truth().phase
+    }
+}
+
+#[test]
+fn behind_another_pilot_no_single_loss_leaves_us_unheard() {
+    let ready = |bench: &Bench| bench.session.is_ready();
+    let usual = Bench::new().after_another_pilot().until(FlightOrder::Land, ready);
+    for lost in 0..=usual {
+        let mut bench = Bench { lost: Some(lost), ..Bench::new().after_another_pilot() };
+        let ticks = bench.until(FlightOrder::Land, ready);
+        // A key is said again after 150 ms.
+        assert!(
+            ticks <= usual + 10,
+            "datagram {lost} lost: ready after {ticks} ticks, not {usual}"
+        );
+    }
+}
+
+#[test]
+fn after_a_loss_no_single_datagram_delays_the_landing() {
+    // Lost from just before the session notices the loss to just behind it.
+    for lost in 0..12 {
+        let mut bench = Bench::new();
+        bench.until(FlightOrder::Land, |bench| bench.session.is_ready());
+        bench.until(FlightOrder::TakeOff, |bench| bench.phase() == Phase::Flying);
+        for _ in 0..30 {
+            bench.tick(FlightOrder::StayAirborne);
+        }
+        // The drone hears us, and we do not hear it.
+        bench.hears = false;
+        for _ in 0..62 {
+            bench.tick(FlightOrder::StayAirborne);
+        }
+        assert!(bench.session.is_alive());
+        bench.lost = Some(lost);
+        let alive = |bench: &Bench| bench.session.is_alive();
+        bench.until(FlightOrder::StayAirborne, |bench| !alive(bench));
+        let ticks = bench.until(FlightOrder::Land, |bench| bench.phase() == Phase::Landing);
+        assert!(ticks <= 2, "datagram {lost} lost: it lands {ticks} ticks after the order");
+    }
+}
+
+#[test]
+fn no_single_loss_delays_the_landing_of_a_pilot_that_leaves() {
+    for lost in 0..12 {
+        let mut bench = Bench::new().after_another_pilot();
+        bench.until(FlightOrder::Land, |bench| bench.session.is_ready());
+        bench.until(FlightOrder::TakeOff, |bench| bench.phase() == Phase::Flying);
+        let mut datagram = Datagram::new();
+        for parting in 0..10 {
+            bench.now += TICK;
+            bench.session.part(bench.now, &mut datagram).unwrap();
+            if parting != lost {
+                bench.world.send_at(bench.now, datagram.as_bytes());
+            }
+            let begun = parting + 1 - u32::from(lost <= parting);
+            bench.world.advance(bench.now + TICK / 2);
+            assert_eq!(bench.phase() == Phase::Landing, begun > 0, "{parting}");
+        }
+    }
+}
