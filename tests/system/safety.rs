@@ -10,9 +10,10 @@ use autopilot::plan::FlightLimits;
 use autopilot::safety::Veto;
 use autopilot::sim::{Moment, SimulatedFlight, Simulation};
 use autopilot::{Demand, Plan};
-use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
-use mock_drone::scenario::Scenario;
+use mock_drone::scenario::{Action, Scenario, When};
+use mock_drone::{Lie, WorldConfig};
+use nalgebra::Vector2;
 use system_tests::{SQUARE, campaign, plan};
 
 const SECOND: Duration = Duration::from_secs(1);
@@ -153,6 +154,25 @@ fn navdata_that_stay_frozen_or_lie_too_much_land_the_drone() {
         let flight = watched(text, 1, plan(SQUARE), Simulation::default(), |_| {});
         let ordered = FlightEvent::LandingOrdered(LandingReason::Distrust(trust));
         assert!(flight.events.iter().any(|(_, event)| *event == ordered), "{:?}", flight.events);
+    }
+}
+
+/// Whatever was wrong before: the motors do not spin up.
+#[test]
+fn a_drone_that_lies_from_the_first_packet_does_not_take_off() {
+    for lie in [
+        Lie { velocity_m_s: Vector2::new(20.0, 0.0), ..Lie::default() },
+        Lie { altitude_m: -5.0, ..Lie::default() },
+        Lie { yaw_deg: f64::NAN, ..Lie::default() },
+    ] {
+        let lies = Action::Lie(lie, 60 * SECOND);
+        let scenario = Scenario::default().and(When::SinceStart(Duration::ZERO), lies);
+        let world = WorldConfig { scenario, ..WorldConfig::default() };
+        let simulation = Simulation { world, ..Simulation::default() };
+        let mut rose = false;
+        let watch = |moment: &Moment| rose |= moment.truth.phase != Phase::Landed;
+        let flight = simulation.fly_watched(plan(SQUARE), watch).unwrap();
+        assert!(!rose, "{lie:?}: {:?}", flight.outcome);
     }
 }
 

@@ -340,6 +340,28 @@ impl Program {
         &self.beliefs[id.0]
     }
 
+    /// The one value of a belief that has it from the start and never gets another.
+    pub(crate) fn fixed(&self, id: BeliefId) -> Option<&Value> {
+        let belief = self.belief(id);
+        let [value] = belief.initial.as_deref()? else { return None };
+        let adds = |step: &Step| matches!(step, Step::Add { belief: other, .. } if *other == id);
+        let changes = belief.settable
+            || self.external.iter().any(|external| external.belief == Some(id))
+            || self.reachable_plans().any(|(_, _, plan)| plan.steps().any(adds));
+        (!changes).then_some(value)
+    }
+
+    /// Whether a plan or the environment can take a belief back.
+    pub(crate) fn is_deleted(&self, belief: &Belief) -> bool {
+        let deletes = |step: &Step| matches!(step, Step::Delete { belief: other, .. } if std::ptr::eq(self.belief(*other), belief));
+        let takes_back = |external: &External| {
+            (external.operator, external.kind) == (Operator::Delete, TriggerKind::Belief)
+                && external.name == belief.name
+        };
+        self.external.iter().any(takes_back)
+            || self.reachable_plans().any(|(_, _, plan)| plan.steps().any(deletes))
+    }
+
     pub(crate) fn handler(&self, id: HandlerId) -> &Handler {
         &self.handlers[id.0]
     }

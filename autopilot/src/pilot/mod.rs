@@ -33,7 +33,7 @@ use self::hand::Hand;
 pub use self::hand::PilotOrder;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
 use self::saturation::Saturation;
-use crate::agent::{Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
+use crate::agent::{Activity, Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
 use crate::mission::{AgentOrder, Due, Mission};
 use crate::outcome::Outcome;
 use crate::plan::{FlightLimits, Plan};
@@ -116,6 +116,7 @@ pub struct Pilot {
     law: Law,
     dead_time: Duration,
     agent: Agent,
+    activity: Activity,
     mission: Mission,
     /// How long the plan takes.
     expected_time: Duration,
@@ -134,11 +135,12 @@ pub struct Pilot {
     refusals: Vec<String>,
     /// Since when the drone reports a fault of its own.
     fault_since: Option<Duration>,
-    saturation: Saturation,
     /// What pushes the drone, gusts apart: right, forward.
     wind_m_s2: Vector2<f64>,
     /// What full tilt gives, if gravity alone made it.
     full_tilt_m_s2: f64,
+    /// Whether it can hold against that.
+    saturation: Saturation,
     target: Option<Pose>,
     last_tick: Option<Duration>,
     events: VecDeque<FlightEvent>,
@@ -195,6 +197,7 @@ impl Pilot {
             law: config.law,
             dead_time: config.estimator.dead_time,
             agent: Agent::new(),
+            activity: Activity::default(),
             expected_time,
             mission: Mission::new(plan, config.limits),
             settings,
@@ -296,13 +299,14 @@ impl Pilot {
         };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
         let senses = self.senses(now, &state);
-        let step = AgentStep::run(&mut self.agent, senses);
+        let step = AgentStep::run(&mut self.agent, &mut self.activity, senses);
         self.hand.pre_empts = false;
-        if let Some(report) = step.report {
-            self.order_ended(now, report);
-        }
+        // What is refused for a danger ends for that reason.
         if let Some(danger) = step.danger {
             self.endangered(now, danger);
+        }
+        if let Some(report) = step.report {
+            self.order_ended(now, report);
         }
         done(Stage::Agent);
         // An agent that asks for nothing gets a hover.
@@ -451,6 +455,7 @@ impl Pilot {
             battery_percent: self.battery_percent(),
             blind_for_ms: i64::try_from(self.blind_for(now).as_millis()).unwrap_or(i64::MAX),
             doubt_m: self.estimator.horizontal_deviation_m(now),
+            saturated_for_ms: self.saturation.for_ms(),
             wind: self.wind_m_s2.norm() / (self.full_tilt_m_s2 * self.least_thrust()),
             steering: self.hand.sticks(now).is_some(),
             settings: self.mission.settings(),

@@ -32,7 +32,8 @@ pub(super) fn constant(
     Some(text.map(|text| Value::Constant(text, ctype.clone())))
 }
 
-fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnostic> {
+/// A number as C of type `ctype`.
+pub(crate) fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnostic> {
     let error = |message: String| Err(Diagnostic::error(message, number.span.clone()));
     let integral = number.digits.bytes().all(|byte| byte.is_ascii_digit());
     let sign = if number.negative { "-" } else { "" };
@@ -86,8 +87,18 @@ fn c_integer(value: i128, bits: u32, signed: bool) -> String {
     format!("{value}{suffix}")
 }
 
+/// The number that a floating-point constant stands for.
+pub(crate) fn float(value: &Value) -> Option<f64> {
+    let Value::Constant(text, ctype) = value else { return None };
+    match ctype.kind {
+        TypeKind::Float64 => text.parse().ok(),
+        TypeKind::Float32 => text.trim_end_matches('F').parse::<f32>().ok().map(f64::from),
+        _ => None,
+    }
+}
+
 /// The number that an integer constant stands for.
-pub(super) fn integer(value: &Value) -> Option<i128> {
+pub(crate) fn integer(value: &Value) -> Option<i128> {
     let Value::Constant(text, ctype) = value else { return None };
     let (low, _) = ctype.integer_range()?;
     if text.starts_with('(') {

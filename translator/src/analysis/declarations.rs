@@ -5,7 +5,10 @@ use std::collections::HashMap;
 
 use diagnostic::{Diagnostic, Span, closest};
 
-use crate::configuration::{Basic, Cause, Comparison, Configuration, ExternalTrigger, Formula};
+use super::constants::c_number;
+use crate::configuration::{
+    Basic, Cause, Comparison, Configuration, ExternalTrigger, Formula, Operand,
+};
 use crate::program::BasicId;
 use crate::syntax::ast::{Atom, Name};
 use crate::types::{CType, TypeKind};
@@ -235,7 +238,7 @@ impl Declarations {
         }
     }
 
-    /// Both beliefs have one number of the same type.
+    /// What is compared are beliefs with one number of the same type, or numbers that fit it.
     fn check_comparison(&self, comparison: &Comparison, findings: &mut Vec<Diagnostic>) {
         let mut number = |name: &Name| {
             let Some(Declared::Predicate(types)) = self.find(&name.text) else {
@@ -252,12 +255,19 @@ impl Declarations {
             }
             number.cloned()
         };
-        let (left, right) = (number(&comparison.left), number(&comparison.right));
-        if let (Some(left), Some(right)) = (left, right)
-            && left != right
-        {
-            let message = format!("a `{}` is compared with a `{}`", left.name, right.name);
-            findings.push(Diagnostic::error(message, comparison.right.span.clone()));
+        let left = number(&comparison.left);
+        match &comparison.right {
+            Operand::Belief(belief) => {
+                if let (Some(left), Some(right)) = (left, number(belief))
+                    && left != right
+                {
+                    let message = format!("a `{}` is compared with a `{}`", left.name, right.name);
+                    findings.push(Diagnostic::error(message, belief.span.clone()));
+                }
+            }
+            Operand::Number(value) => {
+                findings.extend(left.and_then(|left| c_number(value, &left).err()));
+            }
         }
     }
 

@@ -4,7 +4,7 @@
 //! errors of a file are reported in one run.
 
 mod conditions;
-mod constants;
+pub(crate) mod constants;
 mod declarations;
 mod graph;
 mod plans;
@@ -410,7 +410,7 @@ impl Analysis<'_> {
             else {
                 continue;
             };
-            for name in [&comparison.left, &comparison.right] {
+            for name in comparison.beliefs() {
                 if self.declarations.is_predicate(&name.text)
                     && !self.belief_ids.contains_key(&name.text)
                 {

@@ -25,7 +25,7 @@ mod scanner;
 use diagnostic::Span;
 
 pub use parser::parse;
-pub use properties::{CallBound, Cause, Comparison, Formula, Property};
+pub use properties::{CallBound, Cause, Comparison, Formula, Operand, Property};
 
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 use crate::types::CType;

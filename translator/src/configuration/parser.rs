@@ -474,7 +474,7 @@ fn advice(word: &str, known: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::configuration::{CallBound, Cause, Formula};
+    use crate::configuration::{CallBound, Cause, Formula, Operand};
 
     const MINIMAL: &str =
         "settings { input = a.asl; output = my-a.c; header = a.h; basics = b.h; };";
@@ -531,6 +531,24 @@ mod tests {
     }
 
     #[test]
+    fn beliefs_are_compared_with_beliefs_and_numbers() {
+        let text = format!(
+            "{MINIMAL} properties {{ a: within(1, x <= y, z); b: within(1, x > -2.5, z); }};"
+        );
+        let (configuration, diagnostics) = parse(&text);
+        assert_eq!(diagnostics, []);
+        let compared = |index: usize| match &configuration.properties[index].formula {
+            Formula::Within { cause: Cause::Comparison(comparison), .. } => comparison.clone(),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(compared(0).beliefs().count(), 2);
+        assert_eq!(compared(1).beliefs().count(), 1);
+        let Operand::Number(number) = compared(1).right else { panic!() };
+        assert_eq!((number.digits.as_str(), number.negative), ("2.5", true));
+        assert_eq!(text[number.span], *"-2.5");
+    }
+
+    #[test]
     fn every_error_is_reported_with_its_place() {
         let text = format!(
             "{MINIMAL} basics {{ void (int); int f(void, int); }}; typs {{ }}; settables {{ 3; }}; \
@@ -569,6 +587,9 @@ mod tests {
             "properties { p: within(1, +!g, unless +!h); };",
             "properties { p: never(a); p: never(a); };",
             "properties { p [A B]: never(a); };",
+            "properties { p: within(1, x < 1.2.3, a); };",
+            "properties { p: within(1, x < 5., a); };",
+            "properties { p: within(1, x < -y, a); };",
             "properties { p: only_after(a); };",
             "/* open",
             "\0\u{fffd}}}{{",

@@ -5,7 +5,7 @@ use diagnostic::{Diagnostic, Span};
 use super::ExternalTrigger;
 use super::parser::Parser;
 use super::scanner::Parsed;
-use crate::syntax::ast::{Name, Relation};
+use crate::syntax::ast::{Name, Number, Relation};
 
 /// Something that must hold, whatever the environment does and however long the agent runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -76,19 +76,40 @@ pub enum Cause {
     Event(ExternalTrigger),
     /// The agent called an action.
     Action(Name),
-    /// Two beliefs compare so when a step begins.
+    /// A belief compares so when a step begins.
     Comparison(Comparison),
 }
 
-/// Both are believed, and their values compare so: `battery <= landingBattery`.
+/// What is compared is believed, and the values compare so: `battery <= landingBattery`,
+/// `blindFor > 2000`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Comparison {
     /// A belief with one value.
     pub left: Name,
     /// How they compare.
     pub relation: Relation,
+    /// With what.
+    pub right: Operand,
+}
+
+/// What a belief is compared with.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Operand {
     /// A belief with one value of the same type.
-    pub right: Name,
+    Belief(Name),
+    /// A number that fits the type.
+    Number(Number),
+}
+
+impl Comparison {
+    /// The beliefs that are compared.
+    pub fn beliefs(&self) -> impl Iterator<Item = &Name> {
+        let right = match &self.right {
+            Operand::Belief(name) => Some(name),
+            Operand::Number(_) => None,
+        };
+        std::iter::once(&self.left).chain(right)
+    }
 }
 
 const FORMULAS: &str = "`exactly_one`, `at_most_one`, `at_least_one`, `never`, `within`, `only_after` \
@@ -168,7 +189,7 @@ impl Parser<'_> {
             let name = self.scanner.word("an event, an action or a belief")?;
             match self.relation()? {
                 Some(relation) => {
-                    let right = self.scanner.word("a belief")?;
+                    let right = self.operand()?;
                     Cause::Comparison(Comparison { left: name, relation, right })
                 }
                 None => Cause::Action(name),
@@ -208,6 +229,27 @@ impl Parser<'_> {
         ];
         let found = known.into_iter().find(|(symbol, _)| self.scanner.take(symbol));
         Ok(found.map(|(_, relation)| relation))
+    }
+
+    /// A belief, or a number such as `2000` or `-0.5`.
+    fn operand(&mut self) -> Parsed<Operand> {
+        self.scanner.skip_blanks()?;
+        let start = self.scanner.position;
+        let negative = self.scanner.take("-");
+        let rest = self.scanner.rest();
+        if !negative && !rest.starts_with(|c: char| c.is_ascii_digit()) {
+            return Ok(Operand::Belief(self.scanner.word("a belief or a number")?));
+        }
+        let length = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        let digits = rest[..length].to_owned();
+        self.scanner.position += length;
+        let span = start..self.scanner.position;
+        let parts: Vec<&str> = digits.split('.').collect();
+        if parts.len() > 2 || parts.iter().any(|part| part.is_empty()) {
+            return Err(Diagnostic::error("malformed number", span)
+                .help("numbers are decimal: `12`, `-0.5`"));
+        }
+        Ok(Operand::Number(Number { digits, negative, span }))
     }
 
     fn only_after(&mut self) -> Parsed<Formula> {

@@ -176,6 +176,19 @@ fn the_comparisons_of_properties_are_remembered() {
     check("", sections, &watching.replace("X <= Y", "Y >= X"), lowers, true);
     check("", sections, &watching.replace("X <= Y", "not X > Y"), lowers, true);
     check("", sections, &watching.replace("X <= Y", "X < Y"), lowers, false);
+    // With numbers too, whatever the belief is that a plan compares with.
+    for below in ["within(1, level <= 5, on, idle)", "within(1, level < -2, on, idle)"] {
+        check("", sections, watching, below, true);
+        check("", sections, &watching.replace("limit(Y) & X <= Y", "X <= 5"), below, true);
+        check("", sections, &watching.replace("limit(5)", "limit(-3)"), below, false);
+    }
+    let adds = format!("{watching}+!dim(X) <- +limit(X); idle.");
+    check("", sections, &adds, "within(1, level <= 5, on, idle)", false);
+    check("", sections, watching, "within(1, level <= 6, on, idle)", false);
+    check("", "", "level(3).\n+!light <- on.", "within(1, level < 4, on)", false);
+    check("", "", "level(3).\n+!light <- on.", "within(1, level > 4, on)", true);
+    // What is believed from the start compares from the start.
+    check("", "", "level(3).\nlimit(5).\n+!light <- on.", "within(1, level <= limit, on)", false);
 }
 
 #[test]
@@ -207,6 +220,12 @@ fn what_cannot_be_checked_is_said() {
             "error: `flag` is no belief with one number",
             "error: `flag` is never believed",
         ]
+    );
+    let text = configuration("", "", WAITING, "within(1, level <= 2.5, on)");
+    let error =
+        model(parse_configuration("a.conf", &text).unwrap(), "!wait. +!wait : level(_) <- on.");
+    assert!(
+        error.unwrap_err().to_string().starts_with("error: a fraction where `int` is expected")
     );
     let text = configuration("", "", WAITING, "within(1, level <= limit, on)");
     let error =

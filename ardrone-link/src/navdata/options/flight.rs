@@ -47,13 +47,13 @@ option! {
 
 impl Demo {
     /// Whether the drone says that its camera sees nothing to measure its velocity by: minor state
-    /// `no_vision` of flying (ARDrone SDK 2, `control_states.h`).
+    /// `no_vision` of flying (SDK 2, `control_states.h`).
     pub fn has_lost_vision(&self) -> bool {
         self.control_state == ControlState::Flying && self.control_state_minor == 6
     }
 
     /// Whether the drone says that it does not know its altitude: minor states `lost_alt` of flying
-    /// and hovering, in all their kinds (ARDrone SDK 2, `control_states.h`).
+    /// and hovering, in all their kinds (SDK 2, `control_states.h`).
     pub fn has_lost_altitude(&self) -> bool {
         match self.control_state {
             ControlState::Flying => matches!(self.control_state_minor, 1 | 2),

@@ -10,10 +10,13 @@ mod invariant;
 use super::cycle::event_name;
 use super::names::{Names, argument_names, typed_arguments};
 use super::state::{Slot, belief_value, external_name, held, inbox_ring, pending};
+use crate::analysis::constants::c_number;
 use crate::backend::writer::Writer;
-use crate::configuration::{CallBound, Cause, Comparison, ExternalTrigger, Formula, Property};
+use crate::configuration::{
+    CallBound, Cause, Comparison, ExternalTrigger, Formula, Operand, Property,
+};
 use crate::program::{External, Program};
-use crate::syntax::ast::{Name, Relation};
+use crate::syntax::ast::{Name, Number, Relation};
 use crate::types::{CType, TypeKind};
 
 /// Defined as a number, the harness runs so many random transitions.
@@ -273,20 +276,27 @@ impl Builder<'_> {
         unless: &[ExternalTrigger],
     ) {
         let Comparison { left, relation, right } = comparison;
-        let believed = |belief: &Name| format!("self->{}", held(&belief.text));
         let value = |belief: &Name| format!("self->{}", belief_value(&belief.text, 0));
-        let condition = format!(
-            "({} && {} && ({} {} {}))",
-            believed(left),
-            believed(right),
-            value(left),
-            c_operator(*relation),
-            value(right)
-        );
+        let other = match right {
+            Operand::Belief(belief) => value(belief),
+            Operand::Number(number) => self.number(left, number),
+        };
+        let believed = comparison.beliefs().map(|belief| format!("self->{}", held(&belief.text)));
+        let compares = format!("({} {} {other})", value(left), c_operator(*relation));
+        let condition = believed.chain([compares]).collect::<Vec<_>>().join(" && ");
+        let condition = format!("({condition})");
         self.begin(writer, name, steps, &condition, unless);
         writer.open(format!("if (!{condition})"));
         writer.line(format!("due_{name} = 0U;"));
         writer.close("}");
+    }
+
+    /// A number of the type of the belief that it is compared with, as C.
+    fn number(&self, belief: &Name, number: &Number) -> String {
+        let believed = self.program.beliefs.iter().find(|other| other.name == belief.text);
+        believed
+            .and_then(|believed| c_number(number, believed.types.first()?).ok())
+            .expect("the analysis refuses comparisons of beliefs with numbers that do not fit")
     }
 
     fn external(&self, event: &ExternalTrigger) -> Option<&External> {

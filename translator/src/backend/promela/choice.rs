@@ -1,6 +1,7 @@
 //! When a context can hold and when it can fail, as far as the model knows.
 
-use crate::configuration::{Cause, Comparison, Formula};
+use super::scale::{Number, Scale};
+use crate::configuration::{Cause, Comparison, Formula, Operand};
 use crate::program::{BeliefId, Condition, Pattern, Plan, Program, Value, VariableId};
 use crate::syntax::ast::Relation;
 
@@ -45,7 +46,8 @@ pub(super) fn and(parts: &[String]) -> String {
     joined(parts, "&&", "true", "false")
 }
 
-fn or(parts: &[String]) -> String {
+/// The disjunction, without what is always false.
+pub(super) fn or(parts: &[String]) -> String {
     joined(parts, "||", "false", "true")
 }
 
@@ -66,7 +68,8 @@ fn joined(parts: &[String], operator: &str, neutral: &str, decisive: &str) -> St
     }
 }
 
-fn not(condition: &str) -> String {
+/// The negation of an expression that stands for itself.
+pub(super) fn not(condition: &str) -> String {
     match condition {
         "true" => "false".to_owned(),
         "false" => "true".to_owned(),
@@ -75,63 +78,128 @@ fn not(condition: &str) -> String {
 }
 
 /// The comparisons that properties speak of: the model remembers how they come out.
-pub(super) struct Comparisons(Vec<Comparison>);
+pub(super) struct Comparisons {
+    /// Of two beliefs.
+    pairs: Vec<Pair>,
+    /// Of beliefs with numbers.
+    scales: Vec<Scale>,
+}
 
-impl Comparisons {
-    pub(super) fn new(program: &Program) -> Self {
-        let mut known: Vec<Comparison> = Vec::new();
-        for property in &program.configuration.properties {
-            if let Formula::Within { cause: Cause::Comparison(comparison), .. } = &property.formula
-                && !known.iter().any(|other| same(other, comparison))
-            {
-                known.push(comparison.clone());
-            }
-        }
-        Self(known)
-    }
+/// Two beliefs, and how they compare.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Pair {
+    left: String,
+    relation: Relation,
+    right: String,
+}
 
-    pub(super) fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    /// The number of a property's comparison.
-    pub(super) fn number(&self, comparison: &Comparison) -> Option<usize> {
-        self.0.iter().position(|other| same(other, comparison))
-    }
-
-    /// Those in which a belief takes part.
-    pub(super) fn of(&self, belief: &str) -> Vec<usize> {
-        let about = |comparison: &Comparison| {
-            comparison.left.text == belief || comparison.right.text == belief
+impl Pair {
+    fn of(comparison: &Comparison) -> Option<Self> {
+        let Comparison { left, relation, right: Operand::Belief(right) } = comparison else {
+            return None;
         };
-        (0..self.0.len()).filter(|index| about(&self.0[*index])).collect()
-    }
-
-    /// How `left relation right` comes out. Integers that are not `<=` are `>`; numbers that are none are
-    /// neither.
-    fn choice(&self, left: &str, relation: Relation, right: &str, total: bool) -> Choice {
-        for (index, known) in self.0.iter().enumerate() {
-            let compared = || Choice::when(format!("compared_{index}"));
-            let (own, other) = (known.left.text.as_str(), known.right.text.as_str());
-            let relation = match (left, right) {
-                pair if pair == (own, other) => relation,
-                pair if pair == (other, own) => mirrored(relation),
-                _ => continue,
-            };
-            if relation == known.relation {
-                return compared();
-            }
-            if total && relation == opposite(known.relation) {
-                return compared().not();
-            }
-        }
-        Choice::free()
+        Some(Self { left: left.text.clone(), relation: *relation, right: right.text.clone() })
     }
 }
 
-fn same(left: &Comparison, right: &Comparison) -> bool {
-    (left.left.text.as_str(), left.relation, left.right.text.as_str())
-        == (right.left.text.as_str(), right.relation, right.right.text.as_str())
+/// One side of a comparison in a context, as far as it is known.
+#[derive(Debug, Clone, Copy)]
+struct Side<'a> {
+    /// The belief whose only value it is.
+    belief: Option<&'a str>,
+    /// The number that it always is.
+    number: Option<Number>,
+}
+
+impl Comparisons {
+    pub(super) fn new(program: &Program) -> Self {
+        let (mut pairs, mut scales) = (Vec::new(), Vec::<Scale>::new());
+        for (number, property) in (1..).zip(&program.configuration.properties) {
+            let Formula::Within { cause: Cause::Comparison(comparison), .. } = &property.formula
+            else {
+                continue;
+            };
+            pairs.extend(Pair::of(comparison).filter(|pair| !pairs.contains(pair)));
+            let Some(mark) = Scale::mark(program, comparison) else { continue };
+            let belief = &comparison.left.text;
+            match scales.iter_mut().find(|scale| scale.belief() == belief) {
+                Some(scale) => scale.add(number, mark),
+                None => scales.push(Scale::new(belief, number, mark)),
+            }
+        }
+        Self { pairs, scales }
+    }
+
+    /// How many pairs of beliefs are compared.
+    pub(super) fn len(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// Whether a property's comparison holds, if all of it is believed.
+    pub(super) fn holds(&self, program: &Program, comparison: &Comparison) -> Option<String> {
+        if let Some(pair) = Pair::of(comparison) {
+            let index = self.pairs.iter().position(|other| *other == pair)?;
+            return Some(format!("compared_{index}"));
+        }
+        let mark = Scale::mark(program, comparison)?;
+        Some(self.scale(&comparison.left.text)?.holds(comparison.relation, mark))
+    }
+
+    /// The pairs in which a belief takes part.
+    pub(super) fn of(&self, belief: &str) -> Vec<usize> {
+        let about = |pair: &Pair| pair.left == belief || pair.right == belief;
+        (0..self.pairs.len()).filter(|index| about(&self.pairs[*index])).collect()
+    }
+
+    /// The pairs of which both beliefs are so.
+    pub(super) fn between(&self, is_so: impl Fn(&str) -> bool) -> Vec<usize> {
+        let both = |pair: &Pair| is_so(&pair.left) && is_so(&pair.right);
+        (0..self.pairs.len()).filter(|index| both(&self.pairs[*index])).collect()
+    }
+
+    pub(super) fn scales(&self) -> &[Scale] {
+        &self.scales
+    }
+
+    /// The numbers with which a belief is compared.
+    pub(super) fn scale(&self, belief: &str) -> Option<&Scale> {
+        self.scales.iter().find(|scale| scale.belief() == belief)
+    }
+
+    /// How `left relation right` comes out.
+    fn choice(&self, left: Side<'_>, relation: Relation, right: Side<'_>, total: bool) -> Choice {
+        let scaled = |side: Side<'_>, relation, other: Side<'_>| {
+            let (holds, fails) = self.scale(side.belief?)?.outcomes(relation, other.number?);
+            Some(Choice { holds, fails })
+        };
+        self.paired(left, relation, right, total)
+            .or_else(|| scaled(left, relation, right))
+            .or_else(|| scaled(right, mirrored(relation), left))
+            .unwrap_or_else(Choice::free)
+    }
+
+    /// How two beliefs compare. Integers that are not `<=` are `>`; numbers that are none are neither.
+    fn paired(
+        &self,
+        left: Side<'_>,
+        relation: Relation,
+        right: Side<'_>,
+        total: bool,
+    ) -> Option<Choice> {
+        let compared = (left.belief?, right.belief?);
+        self.pairs.iter().enumerate().find_map(|(index, known)| {
+            let relation = match (known.left.as_str(), known.right.as_str()) {
+                pair if pair == compared => relation,
+                (own, other) if (other, own) == compared => mirrored(relation),
+                _ => return None,
+            };
+            let outcome = || Choice::when(format!("compared_{index}"));
+            if relation == known.relation {
+                return Some(outcome());
+            }
+            (total && relation == opposite(known.relation)).then(|| outcome().not())
+        })
+    }
 }
 
 fn mirrored(relation: Relation) -> Relation {
@@ -191,14 +259,8 @@ impl<'a> Reader<'a> {
             }
             Condition::Truth(_) => Choice::free(),
             Condition::Compare { relation, left, right, ctype } => {
-                match (self.origin(left), self.origin(right)) {
-                    (Some(left), Some(right)) => {
-                        let name = |id: BeliefId| self.program.belief(id).name.as_str();
-                        let total = !ctype.is_float();
-                        self.comparisons.choice(name(left), *relation, name(right), total)
-                    }
-                    _ => Choice::free(),
-                }
+                let total = !ctype.is_float();
+                self.comparisons.choice(self.side(left), *relation, self.side(right), total)
             }
             Condition::Bind { variable, value } => {
                 let origin = self.origin(value);
@@ -219,6 +281,15 @@ impl<'a> Reader<'a> {
 
     fn originate(&mut self, variable: VariableId, origin: Option<BeliefId>) {
         self.origins[variable.0] = origin;
+    }
+
+    fn side(&self, value: &Value) -> Side<'_> {
+        let origin = self.origin(value);
+        let fixed = origin.and_then(|id| self.program.fixed(id));
+        Side {
+            belief: origin.map(|id| self.program.belief(id).name.as_str()),
+            number: Number::of(fixed.unwrap_or(value)),
+        }
     }
 
     fn origin(&self, value: &Value) -> Option<BeliefId> {

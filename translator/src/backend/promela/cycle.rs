@@ -1,5 +1,7 @@
 //! The environment and the deliberation cycle.
 
+use super::choice::{not, or};
+use super::scale::Scale;
 use super::{Emission, Waiting};
 use crate::program::{BeliefId, HandlerId};
 use crate::syntax::ast::{Operator, TriggerKind};
@@ -25,13 +27,20 @@ impl Emission<'_> {
         }
         for (index, belief) in self.program.beliefs.iter().enumerate() {
             let id = BeliefId(index);
-            let watched =
-                belief.perceived.is_some() || !self.comparisons.of(&belief.name).is_empty();
-            let held = self.held(id);
-            if !belief.settable || (held == "true" && !watched) {
+            if !belief.settable {
                 continue;
             }
-            let guard = if watched { "true".to_owned() } else { format!("!({held})") };
+            let held = self.held(id);
+            // To believe it again changes nothing, unless it is watched.
+            let mut changes = vec![not(&held)];
+            if belief.perceived.is_some() || !self.comparisons.of(&belief.name).is_empty() {
+                changes.push("true".to_owned());
+            }
+            changes.extend(self.comparisons.scale(&belief.name).map(Scale::followed));
+            let guard = or(&changes);
+            if guard == "false" {
+                continue;
+            }
             self.writer.line(format!(":: {guard} ->"));
             if belief.perceived.is_some() {
                 // The same value again is no change.

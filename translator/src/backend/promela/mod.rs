@@ -3,7 +3,7 @@
 //! After Bordini, Fisher, Pardavila and Wooldridge, "Model checking AgentSpeak" (AAMAS 2003): the model has
 //! the agent's events, which beliefs are held, and its plans. What values are believed, what functions return
 //! and how values compare is a free choice each time, so what holds of the model holds in every environment.
-//! Only the comparisons that properties speak of are remembered.
+//! Only what a property compares is remembered: how two beliefs compare, or where a belief lies among numbers.
 //!
 //! Promela has no functions. A handler is a part of the one process that is jumped to; where it goes back
 //! to stands in a variable of its own, which is enough because no handler is called while it runs.
@@ -12,14 +12,14 @@ mod choice;
 mod cycle;
 mod monitor;
 mod plan;
+mod scale;
 
 use std::collections::BTreeMap;
 
 use self::choice::Comparisons;
 use super::writer::Writer;
 use crate::configuration::{ExternalTrigger, Property};
-use crate::program::{Belief, BeliefId, External, HandlerId, Program, Step};
-use crate::syntax::ast::{Operator, TriggerKind};
+use crate::program::{Belief, BeliefId, External, HandlerId, Program};
 
 /// Marks a line of a replay that says what the agent did.
 pub(crate) const MARK: &str = "@";
@@ -68,6 +68,7 @@ pub(crate) fn emit(program: &Program) -> String {
     emission.actions();
     emission.writer.open_here("active proctype agent()");
     emission.writer.line(format!("c_code {{ now.checked = atoi(getenv(\"{PROPERTY}\")); }};"));
+    emission.compare_initially();
     emission.writer.line("do");
     emission.writer.open_here(":: atomic");
     emission.environment();
@@ -111,6 +112,12 @@ impl Emission<'_> {
         }
         for index in 0..self.comparisons.len() {
             writer.line(format!("bool compared_{index};"));
+        }
+        for scale in self.comparisons.scales() {
+            let initial = program.beliefs.iter().find(|belief| belief.name == scale.belief());
+            let value = initial.and_then(|belief| belief.initial.as_ref()?.first());
+            let region = value.map_or(0, |value| scale.region(value));
+            writer.line(format!("byte {} = {region};", scale.variable()));
         }
         for (index, external) in program.external.iter().enumerate() {
             if external.preemptive {
@@ -186,10 +193,35 @@ impl Emission<'_> {
             self.writer.line(format!("held_{} = true;", belief.name));
         }
         for index in self.comparisons.of(&belief.name) {
+            self.compare(index);
+        }
+        if let Some(scale) = self.comparisons.scale(&belief.name) {
             self.writer.line("if");
-            self.writer.line(format!(":: compared_{index} = true"));
-            self.writer.line(format!(":: compared_{index} = false"));
+            self.writer.line(format!(":: !{} ->", scale.followed()));
+            self.writer.line(":: else ->");
+            self.writer.line("if");
+            for region in scale.regions() {
+                self.writer.line(format!(":: {} = {region}", scale.variable()));
+            }
+            self.writer.line("fi");
             self.writer.line("fi;");
+        }
+    }
+
+    /// Two beliefs may compare so or not.
+    fn compare(&mut self, index: usize) {
+        self.writer.line("if");
+        self.writer.line(format!(":: compared_{index} = true"));
+        self.writer.line(format!(":: compared_{index} = false"));
+        self.writer.line("fi;");
+    }
+
+    /// What is believed from the start compares from the start.
+    fn compare_initially(&mut self) {
+        let initial =
+            |name: &str| self.program.beliefs.iter().any(|b| b.name == name && b.initial.is_some());
+        for index in self.comparisons.between(initial) {
+            self.compare(index);
         }
     }
 
@@ -239,13 +271,5 @@ struct Queue {
 
 /// Whether a belief is held at some times and not at others.
 fn varies(program: &Program, belief: &Belief) -> bool {
-    let deleted = |step: &Step| matches!(step, Step::Delete { belief: other, .. } if std::ptr::eq(program.belief(*other), belief));
-    let taken_back = |external: &External| {
-        (external.operator, external.kind) == (Operator::Delete, TriggerKind::Belief)
-            && external.name == belief.name
-    };
-    belief.believable
-        && (belief.initial.is_none()
-            || program.external.iter().any(taken_back)
-            || program.reachable_plans().any(|(_, _, plan)| plan.steps().any(deleted)))
+    belief.believable && (belief.initial.is_none() || program.is_deleted(belief))
 }

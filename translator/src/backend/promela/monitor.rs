@@ -3,6 +3,7 @@
 use super::Emission;
 use crate::configuration::{CallBound, Cause, ExternalTrigger, Formula, Property};
 use crate::program::BeliefId;
+use crate::syntax::ast::Name;
 use crate::types::TypeKind;
 
 impl Emission<'_> {
@@ -100,17 +101,16 @@ impl Emission<'_> {
         else {
             return Vec::new();
         };
-        let Some(index) = self.comparisons.number(comparison) else { return Vec::new() };
+        let Some(compared) = self.comparisons.holds(self.program, comparison) else {
+            return Vec::new();
+        };
         let beliefs = &self.program.beliefs;
-        let held = |name: &str| {
-            let index = beliefs.iter().position(|belief| belief.name == name);
+        let held = |name: &Name| {
+            let index = beliefs.iter().position(|belief| belief.name == name.text);
             index.map_or("false".to_owned(), |index| self.held(BeliefId(index)))
         };
-        let holds = format!(
-            "({} && {} && compared_{index})",
-            held(&comparison.left.text),
-            held(&comparison.right.text)
-        );
+        let holds: Vec<String> = comparison.beliefs().map(held).chain([compared]).collect();
+        let holds = format!("({})", holds.join(" && "));
         let begin = when(self.begin(&holds, unless), format!("due = {steps}"));
         vec![begin, when(format!("!{holds}"), "due = 0")]
     }

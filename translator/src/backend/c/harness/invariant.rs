@@ -7,7 +7,7 @@ use crate::backend::c::state::{
     queued, rings,
 };
 use crate::configuration::{Cause, Formula, Property};
-use crate::program::Value;
+use crate::program::{Belief, Value};
 
 impl Builder<'_> {
     /// What may be invariant. Wrong guesses do no harm: they are dropped.
@@ -113,6 +113,14 @@ impl Builder<'_> {
                     }
                     let none = no_event(&self.names);
                     out.push(format!("((due_{name} != {due}U) || (self->posted != {none}))"));
+                }
+                if let Cause::Action(_) = cause {
+                    // The answer may follow from what the action's plan believes no more.
+                    let deleted = |belief: &&Belief| self.program.is_deleted(belief);
+                    for belief in self.program.beliefs.iter().filter(deleted) {
+                        let held = held(&belief.name);
+                        out.push(format!("((due_{name} == 0U) || !self->{held})"));
+                    }
                 }
                 if let Cause::Event(event) = cause {
                     out.push(format!("((due_{name} == 0U) || {})", self.waits(event)));
