@@ -131,7 +131,7 @@ impl Default for EstimatorConfig {
             attitude_delay: Duration::from_millis(20),
             velocity_gain_1_s: 10.0,
             disturbance_gain_1_s2: 5.0,
-            disturbance_max_m_s2: 1.0,
+            disturbance_max_m_s2: 2.0,
             identify: true,
         }
     }
@@ -187,6 +187,8 @@ pub struct Estimator {
     plausibility: Plausibility,
     response: Response,
     uncertainty: Uncertainty,
+    /// Since when the altitude is that of a drone on the floor, although it follows its sticks.
+    low_since_s: Option<f64>,
     airborne: bool,
     estimate: Estimate,
 }
@@ -209,6 +211,7 @@ const ALTITUDE_INTERVAL_S: f64 = 0.05;
 const CLEAR_OF_GROUND_M: f64 = 0.4;
 /// No drone flies this low by its sticks: it is on the floor, or its altitude is wrong.
 const ON_FLOOR_M: f64 = 0.1;
+const ON_FLOOR_S: f64 = 0.4;
 /// Nothing is predicted further than this beyond the newest sample.
 const MAX_PREDICTION_S: f64 = 0.6;
 
@@ -229,6 +232,7 @@ impl Estimator {
             plausibility: Plausibility::default(),
             response: Response::default(),
             uncertainty: Uncertainty::default(),
+            low_since_s: None,
             airborne: false,
             estimate: Estimate::default(),
             config,
@@ -257,13 +261,8 @@ impl Estimator {
         let believed = self.update_horizontal(made_s, sample);
         let floor_stepped = self.update_vertical(made_s, sample);
         let by_itself = self.orders.at(attitude_s) == Order::ByItself;
-        let on_floor = !by_itself && sample.airborne && sample.altitude_m < ON_FLOOR_M;
         let verdict = Verdict {
-            rejected: if believed {
-                on_floor.then_some(Quantity::Altitude)
-            } else {
-                Some(Quantity::Velocity)
-            },
+            rejected: (!believed).then_some(Quantity::Velocity),
             unresponsive: self.watch_response(attitude_s, sample),
             step: match (turned, floor_stepped) {
                 (true, _) => Some(Quantity::Heading),
@@ -312,7 +311,12 @@ impl Estimator {
             velocity_m_s: Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s),
             tilt_rad: Vector2::new(sample.roll_deg, -sample.pitch_deg).map(f64::to_radians),
         };
-        self.response.watch(&measured, &self.orders, &self.config.limits)
+        let by_sticks = self.orders.at(at_s) != Order::ByItself;
+        let is_low = by_sticks && sample.airborne && sample.altitude_m < ON_FLOOR_M;
+        self.low_since_s = is_low.then(|| self.low_since_s.unwrap_or(at_s));
+        let scrapes = self.low_since_s.is_some_and(|since_s| at_s - since_s >= ON_FLOOR_S);
+        let unresponsive = self.response.watch(&measured, &self.orders, &self.config.limits);
+        unresponsive.or(scrapes.then_some(Quantity::Altitude))
     }
 
     /// Whether the velocity was believed.

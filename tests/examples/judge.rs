@@ -46,7 +46,7 @@ impl Hunt {
             Ok(verdict) => {
                 let completed = verdict.outcome == Outcome::Completed;
                 self.completed.fetch_add(completed.into(), Ordering::Relaxed);
-                verdict.faults.first().map(ToString::to_string)
+                verdict.faults.first().map(|(_, fault)| fault.to_string())
             }
             Err(error) => Some(error.to_string()),
         }

@@ -21,7 +21,7 @@ impl Pilot {
     ) -> Order {
         self.target = None;
         if !matches!(command, AgentCommand::GoTo(_)) {
-            self.saturation.rest(step_s);
+            self.saturation.rest(state, step_s);
         }
         let mut told: Option<Demand> = None;
         let order = match command {
@@ -39,7 +39,8 @@ impl Pilot {
                 let limit = self.mission.max_control();
                 let demand = self.demand(now, &target, step_s);
                 let demand = self.guard.limit(&demand, limit);
-                self.saturation.watch(&demand, limit, state, &target, step_s);
+                let full_m_s2 = self.full_tilt_m_s2;
+                self.saturation.watch(&demand, limit, state, &target, full_m_s2, step_s);
                 told = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }

@@ -4,10 +4,12 @@
 //! A flow that is dead looks the same: full tilt, and no motion to be seen.
 //!
 //! How strong the wind is cannot be told well enough to decide by: an estimate of it also holds what
-//! is not known of the airframe. What matters is whether the place is held.
+//! is not known of the airframe. What matters is whether the place is held. Only a push that was not
+//! there after the take-off and is as strong as half of full tilt is a reason of its own: it is a storm,
+//! or a velocity that drifts, and of the second nothing else tells.
 
 use estimator::Prediction;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use pid::{Demand, Pose};
 
 /// Sticks beyond this share of their limit ask for all that there is.
@@ -19,10 +21,19 @@ const FAR_M: f64 = 0.5;
 /// Nearer than this no direction leads away, in metres.
 const HERE_M: f64 = 0.2;
 
+/// A push that changes by this share of full tilt is no breeze.
+const STORM_SHARE: f64 = 0.5;
+/// It is averaged over this time, and what is usual over the second.
+const GUST_TIME_S: f64 = 1.5;
+const USUAL_TIME_S: f64 = 30.0;
+
 /// How long the drone has been drifting off at the limit of its sticks.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Saturation {
     for_s: f64,
+    /// What pushes the drone, gusts apart, and what has pushed it for long.
+    push_m_s2: Vector2<f64>,
+    usual_m_s2: Vector2<f64>,
 }
 
 impl Saturation {
@@ -34,8 +45,13 @@ impl Saturation {
         limit: f64,
         state: &Prediction,
         target: &Pose,
+        full_tilt_m_s2: f64,
         step_s: f64,
     ) {
+        let push_m_s2 = state.disturbance_m_s2;
+        self.push_m_s2 += (push_m_s2 - self.push_m_s2) * (step_s / GUST_TIME_S).min(1.0);
+        self.usual_m_s2 += (push_m_s2 - self.usual_m_s2) * (step_s / USUAL_TIME_S).min(1.0);
+        let storm = (self.push_m_s2 - self.usual_m_s2).norm() > STORM_SHARE * full_tilt_m_s2;
         let away = state.position_m - Vector3::new(target.x_m, target.y_m, target.z_m);
         let across_m = away.xy().norm();
         let drift_m_s = state.velocity_m_s.xy().dot(&away.xy()) / across_m.max(f64::EPSILON);
@@ -47,12 +63,14 @@ impl Saturation {
         let up = is_full(demand.gaz)
             && (away.z.abs() > HERE_M && climbs_off_m_s > DRIFT_M_S
                 || away.z.abs() > FAR_M && climbs_off_m_s > -DRIFT_M_S);
-        let change_s = if across || up { step_s } else { -step_s };
+        let change_s = if across || up || storm { step_s } else { -step_s };
         self.for_s = (self.for_s + change_s).max(0.0);
     }
 
-    /// The drone is not being flown anywhere.
-    pub(super) fn rest(&mut self, step_s: f64) {
+    /// The drone holds its place by itself: as it leans then, it is pushed.
+    pub(super) fn rest(&mut self, state: &Prediction, step_s: f64) {
+        self.push_m_s2 = state.disturbance_m_s2;
+        self.usual_m_s2 = state.disturbance_m_s2;
         self.for_s = (self.for_s - step_s).max(0.0);
     }
 
@@ -79,7 +97,7 @@ mod tests {
         };
         let mut saturation = Saturation::default();
         for _ in 0..100 {
-            saturation.watch(&demand, 1.0, &state, &TARGET, 0.01);
+            saturation.watch(&demand, 1.0, &state, &TARGET, 2.0, 0.01);
         }
         saturation.for_ms()
     }
@@ -100,10 +118,31 @@ mod tests {
     }
 
     #[test]
+    fn a_push_that_was_not_there_before_is_a_storm_or_a_drift() {
+        let pushed = |m_s2| Prediction {
+            disturbance_m_s2: Vector2::new(m_s2, 0.0),
+            ..Prediction::default()
+        };
+        let lasts_ms = |before_m_s2, then_m_s2| {
+            let mut saturation = Saturation::default();
+            saturation.rest(&pushed(before_m_s2), 0.01);
+            let here = Pose { z_m: 0.0, ..TARGET };
+            for _ in 0..500 {
+                let state = pushed(then_m_s2);
+                saturation.watch(&Demand::default(), 1.0, &state, &here, 2.0, 0.01);
+            }
+            saturation.for_ms()
+        };
+        assert_eq!(lasts_ms(1.5, 1.5), 0, "it was there");
+        assert_eq!(lasts_ms(0.0, 0.8), 0, "a breeze");
+        assert!(lasts_ms(0.0, 1.5) > 2000);
+    }
+
+    #[test]
     fn what_passes_is_forgotten() {
-        let mut saturation = Saturation { for_s: 1.5 };
+        let mut saturation = Saturation { for_s: 1.5, ..Saturation::default() };
         for _ in 0..100 {
-            saturation.rest(0.02);
+            saturation.rest(&Prediction::default(), 0.02);
         }
         assert_eq!(saturation.for_ms(), 0);
     }
