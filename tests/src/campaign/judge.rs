@@ -215,7 +215,7 @@ impl Judge {
         self.watch_landing(moment, reached);
         self.watch_honesty(moment);
         self.watch_take_off(moment);
-        if truth.trims_in_flight > 0 && !stranger {
+        if truth.trims_in_flight > 0 {
             self.find(*now, Fault::TrimmedInFlight);
         }
         self.last = Some(*truth);

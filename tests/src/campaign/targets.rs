@@ -16,6 +16,7 @@ pub(super) struct Targets {
     limits: FlightLimits,
     /// Where the take-off ended, in the frame that healthy sensors span.
     origin_m: Vector3<f64>,
+    took_off: bool,
 }
 
 impl Targets {
@@ -24,12 +25,14 @@ impl Targets {
             let Command::GoTo(pose) = step.command else { return None };
             Some((index, Vector3::new(pose.x_m, pose.y_m, pose.z_m)))
         });
-        Self { wanted_m: wanted_m.collect(), limits, origin_m: Vector3::zeros() }
+        Self { wanted_m: wanted_m.collect(), limits, origin_m: Vector3::zeros(), took_off: false }
     }
 
     /// The last moment of the take-off is where its targets count from.
     pub(super) fn watch(&mut self, moment: &Moment) {
-        if moment.status.phase == "flying" && moment.status.step == Some(TAKE_OFF_STEP) {
+        self.took_off |= moment.status.step.is_some_and(|step| step > TAKE_OFF_STEP);
+        // A drone that is taken over in the air has taken off within the tick.
+        if moment.status.phase == "flying" && !self.took_off {
             self.origin_m = place_in_navdata_frame(&moment.truth);
         }
     }
