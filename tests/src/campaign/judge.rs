@@ -16,14 +16,14 @@ use super::fence::Fence;
 use super::flight::Flight;
 use super::injected::{Injected, is_airborne};
 use super::orders::Orders;
-use crate::true_error_m;
+use super::targets::Targets;
 
 /// Time between two moments.
 pub(super) const TICK: Duration = PILOT_TICK;
 /// An order may take so long to arrive.
 const ON_ITS_WAY: Duration = Duration::from_millis(500);
 /// Each plan begins with it.
-const TAKE_OFF_STEP: usize = 0;
+pub(super) const TAKE_OFF_STEP: usize = 0;
 /// No flight takes longer: its plan has at most seven targets.
 const LONGEST: Duration = Duration::from_mins(10);
 /// A drone that has taken a command within this time hears us.
@@ -126,6 +126,7 @@ pub(super) struct Judge {
     strongest_m_s: f64,
     pub(super) fence: Fence,
     orders: Orders,
+    targets: Targets,
     dangers: [DangerWatch; 7],
     /// What was found, and when.
     found: Vec<(Duration, Fault)>,
@@ -158,6 +159,7 @@ impl Judge {
                 limits,
                 flight.plan.steps().len().saturating_sub(1),
             ),
+            targets: Targets::of(&flight.plan, limits),
             dangers: [
                 Danger::Battery,
                 Danger::Blind,
@@ -198,6 +200,7 @@ impl Judge {
         if status.phase == "ended" {
             self.phase_at_end.get_or_insert(truth.phase);
         }
+        self.targets.watch(moment);
         let overpowered = self.is_overpowered(*now);
         self.fence.watch(moment, drone, &self.injected, overpowered);
         let heard = truth.heard_at.is_some_and(|at| now.saturating_sub(at) < HEARS);
@@ -212,7 +215,7 @@ impl Judge {
         self.watch_landing(moment, reached);
         self.watch_honesty(moment);
         self.watch_take_off(moment);
-        if truth.trims_in_flight > 0 && !stranger {
+        if truth.trims_in_flight > 0 {
             self.find(*now, Fault::TrimmedInFlight);
         }
         self.last = Some(*truth);
@@ -383,11 +386,14 @@ impl Judge {
             }
             return;
         }
-        if !self.flew || flown.report.steps_done < flown.report.steps {
+        let waypoints = &flown.report.waypoints;
+        let all_done = flown.report.steps_done >= flown.report.steps
+            && waypoints.len() == self.targets.count();
+        if !self.flew || !all_done {
             self.find(end, Fault::NotFlown);
         }
-        for (waypoint, truth) in flown.report.waypoints.iter().zip(&flown.truth_at_waypoints) {
-            let error_m = true_error_m(waypoint, truth);
+        for (waypoint, truth) in waypoints.iter().zip(&flown.truth_at_waypoints) {
+            let Some(error_m) = self.targets.error_m(waypoint.step, truth) else { continue };
             let lied = self.injected.has_lied(waypoint.at);
             let reached_m = if lied { REACHED_LYING_M } else { REACHED_M };
             let claimed_m = DEVIATIONS * waypoint.horizontal_deviation_m + TRIFLE_M;

@@ -10,6 +10,7 @@ mod flight;
 mod injected;
 mod judge;
 mod orders;
+mod targets;
 
 use std::time::Duration;
 
