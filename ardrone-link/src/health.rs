@@ -71,7 +71,7 @@ mod tests {
     fn a_refusal_is_told_once_and_one_that_lasts_asks_for_a_new_socket() {
         let mut health = SocketHealth::default();
         let refused = Error::from(ErrorKind::PermissionDenied);
-        assert!(health.failed(0 * MS, &refused));
+        assert!(health.failed(Duration::ZERO, &refused));
         for tick in 1..10 {
             assert!(!health.failed(30 * MS * tick, &refused));
             assert!(!health.rebind_due(30 * MS * tick));

@@ -319,7 +319,7 @@ fn a_flood_delays_no_tick_and_loses_no_tick_of_the_log() {
     println!("flooded for {:?}, worst gap {gap:?}\n{summary}", ended - begun);
     assert_eq!(relay.truth().phase, Phase::Landed);
     assert!(progress.contains("navdata come faster than they can be looked at"), "{progress}");
-    assert!(!summary.contains("not recorded"), "{summary}");
+    assert!(!summary.contains("the disk was too slow"), "{summary}");
     // The machine may be busy with other things.
     assert!(gap < Duration::from_millis(100), "{gap:?}");
 }
