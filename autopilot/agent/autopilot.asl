@@ -5,8 +5,10 @@
 // drone hears from us in every step.
 //
 // The environment tells where the drone is and how it is (`position`, `battery`, `blindFor`,
-// `doubt`, `wind`) and how orders are to be flown (`reachDistance`, `stayDistance`, `stayTime`); it
-// orders `takeOff`, `goTo`, `hold`, `steer` and `land`. The last three pre-empt whatever runs.
+// `doubt`, `saturatedFor`, `wind`), for how long it has been doing the same (`takingOffFor`,
+// `approachingFor`, `stayingFor`, `descendingFor`) and how orders are to be flown (`reachDistance`,
+// `stayDistance`, `stayTime`); it orders `takeOff`, `goTo`, `hold`, `steer` and `land`. The last
+// three pre-empt whatever runs.
 
 // ---- Limits. Change them with care.
 
@@ -18,10 +20,12 @@ holdWhenBlind(300).
 landWhenBlind(2000).
 // A place that is known no better than this is no place to fly by. Metres.
 largestDoubt(3.0).
-// Wind against which there is no holding: a share of what full tilt gives.
-strongestWind(0.7).
-// The drone's own landing drifts with the wind. Where it blows like this, we first come down by
-// ourselves to this height, in metres, but not for longer than this, in milliseconds.
+// The sticks are at their end and the drone is carried off all the same: it cannot hold against
+// this wind. Milliseconds.
+landWhenSaturated(2000).
+// The drone's own landing drifts with the wind. Where it blows like this (a share of what full tilt
+// gives), we first come down by ourselves to this height, in metres, but not for longer than this,
+// in milliseconds.
 landingWind(0.1).
 landingHeight(0.35).
 comingDownTime(8000).
@@ -30,10 +34,18 @@ comingDownTime(8000).
 takeOffTime(10000).
 approachTime(60000).
 
+// Nothing has lasted yet.
+saturatedFor(0).
+takingOffFor(0).
+approachingFor(0).
+stayingFor(0).
+descendingFor(0).
+
 !wait.
 
-// ---- Watching over the flight. Every plan in the air asks this first. Where flying on is no
-// longer safe, the reason is told and the plan fails: the failure plans land.
+// ---- Watching over the flight. Every plan that keeps the drone in the air asks this first. Where
+// that is no longer safe, the reason is told and the plan fails: its failure plan goes down, in the
+// same step.
 
 @empty_battery[req("SAF-4")]
 +!watch : battery(Percent) & landingBattery(Limit) & Percent <= Limit
@@ -45,14 +57,25 @@ approachTime(60000).
   <- tellBlind;
      ?airworthy.
 
+// A doubt that is no number is no small one.
 @lost[req("SAF-5")]
-+!watch : doubt(Metres) & largestDoubt(Limit) & Metres > Limit
++!watch : doubt(Metres) & largestDoubt(Limit) & not Metres <= Limit
   <- tellLost;
      ?airworthy.
 
-@strong_wind[req("SAF-5")]
-+!watch : wind(Share) & strongestWind(Limit) & Share > Limit
+@too_weak[req("SAF-5")]
++!watch : saturatedFor(Time) & landWhenSaturated(Limit) & Time > Limit
   <- tellWind;
+     ?airworthy.
+
+@not_up_in_time[req("SAF-7")]
++!watch : takingOffFor(Time) & takeOffTime(Limit) & Time > Limit
+  <- tellNoProgress;
+     ?airworthy.
+
+@not_there_in_time[req("SAF-7")]
++!watch : approachingFor(Time) & approachTime(Limit) & Time > Limit
+  <- tellNoProgress;
      ?airworthy.
 
 @low_battery[req("SAF-4")]
@@ -75,7 +98,7 @@ approachTime(60000).
 
 +!wait : target(X, Y, Z, Yaw)
   <- !watch;
-     sendGoto(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw);
      !!wait.
 
 +!wait
@@ -84,29 +107,30 @@ approachTime(60000).
      !!wait.
 
 @danger_waiting[req("SAF-4"), req("SAF-5")]
--!wait <- sendHover; !land.
+-!wait <- !goDown; !comeDown.
 
 // ---- Taking off. The drone climbs by itself; it is done when it says that it hovers.
 // The place where it then is becomes the target to hold.
 
-@no_charge_to_take_off[req("SAF-4")]
-+!takeOff : onGround & battery(Percent) & landingBattery(Limit) & Percent <= Limit
+@take_off[req("SAF-3")]
++!takeOff : onGround & position(_, _, _, _) & blindFor(Time) & holdWhenBlind(Limit) & Time <= Limit
+  <- !watch;
+     -target(_, _, _, _);
+     sendTakeOff;
+     !completeTakeOff.
+
+// Whose place is not known, or was long ago, stays on the ground.
+@no_trust_to_take_off[req("SAF-3")]
++!takeOff : onGround
   <- reportRefused;
      sendStandby;
      !!wait.
-
-@take_off[req("SAF-3")]
-+!takeOff : onGround
-  <- -target(_, _, _, _);
-     sendTakeOff;
-     Start = getCurrentTimeMS;
-     !completeTakeOff(Start).
 
 // In the air already: take over where the drone is.
 +!takeOff : position(X, Y, Z, Yaw)
   <- !watch;
      +target(X, Y, Z, Yaw);
-     sendGoto(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw);
      reportDone;
      !!wait.
 
@@ -117,29 +141,30 @@ approachTime(60000).
      reportFailed;
      !!wait.
 
-@danger_taking_over[req("SAF-4"), req("SAF-5")]
--!takeOff <- sendHover; !land.
+@danger_before_take_off[req("SAF-4"), req("SAF-5")]
+-!takeOff : onGround
+  <- reportRefused;
+     sendStandby;
+     !!wait.
 
-+!completeTakeOff(_) : hovering & position(X, Y, Z, Yaw)
+@danger_taking_over[req("SAF-4"), req("SAF-5")]
+-!takeOff <- !goDown; !comeDown.
+
++!completeTakeOff : hovering & position(X, Y, Z, Yaw)
   <- !watch;
      +target(X, Y, Z, Yaw);
-     sendGoto(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw);
      reportDone;
      !!wait.
 
-+!completeTakeOff(Start) : takeOffTime(Limit) & longEnough(Start, Limit)
-  <- sendLand;
-     reportFailed;
-     !completeLand.
-
 @still_taking_off[req("SAF-3")]
-+!completeTakeOff(Start)
++!completeTakeOff
   <- !watch;
-     sendTakeOff;
-     !completeTakeOff(Start).
+     sendTakeOffAgain;
+     !completeTakeOff.
 
-@danger_taking_off[req("SAF-4"), req("SAF-5")]
--!completeTakeOff(_) <- sendHover; !land.
+@danger_taking_off[req("SAF-4"), req("SAF-5"), req("SAF-7")]
+-!completeTakeOff <- !goDown; !comeDown.
 
 // ---- Going somewhere: approach until close enough, then stay a while.
 
@@ -149,81 +174,89 @@ approachTime(60000).
      !!wait.
 
 +!goTo(X, Y, Z, Yaw)
-  <- +target(X, Y, Z, Yaw);
+  <- !watch;
+     +target(X, Y, Z, Yaw);
      sendGoto(X, Y, Z, Yaw);
-     Start = getCurrentTimeMS;
-     !approach(Start).
+     !approach.
 
-+!approach(_) : onGround
+@danger_setting_out[req("SAF-4"), req("SAF-5")]
+-!goTo(_, _, _, _) <- !goDown; !comeDown.
+
++!approach : onGround
   <- sendStandby;
      reportFailed;
      !!wait.
 
-+!approach(Start) : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
++!approach : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
   <- !watch;
      sendHover;
-     !approach(Start).
+     !approach.
 
-+!approach(Start) : approachTime(Limit) & longEnough(Start, Limit)
-  <- -target(_, _, _, _);
-     tellNoProgress;
-     sendLand;
-     !completeLand.
-
-+!approach(Start) : target(X, Y, Z, Yaw) & reachDistance(Distance) & closeEnough(X, Y, Z, Yaw, Distance)
++!approach : target(X, Y, Z, Yaw) & reachDistance(Distance) & closeEnough(X, Y, Z, Yaw, Distance)
   <- !watch;
-     sendGoto(X, Y, Z, Yaw);
-     Arrival = getCurrentTimeMS;
-     !stay(Start, Arrival).
+     sendStay(X, Y, Z, Yaw);
+     !stay.
 
-+!approach(Start) : target(X, Y, Z, Yaw)
++!approach : target(X, Y, Z, Yaw)
   <- !watch;
-     sendGoto(X, Y, Z, Yaw);
-     !approach(Start).
+     sendGotoAgain(X, Y, Z, Yaw);
+     !approach.
 
-@danger_approaching[req("SAF-4"), req("SAF-5")]
--!approach(_) <- sendHover; !land.
+@danger_approaching[req("SAF-4"), req("SAF-5"), req("SAF-7")]
+-!approach <- !goDown; !comeDown.
 
-+!stay(Start, Arrival) : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
++!stay : onGround
+  <- sendStandby;
+     reportFailed;
+     !!wait.
+
++!stay : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
   <- !watch;
      sendHover;
-     !stay(Start, Arrival).
+     !stay.
 
-// Drifted off: approach again, and the stay begins anew.
-+!stay(Start, _) : target(X, Y, Z, Yaw) & stayDistance(Distance) & not closeEnough(X, Y, Z, Yaw, Distance)
+// Drifted off: approach again, and the stay begins anew. However long it was, only the time of
+// approaching counts against its limit.
++!stay : target(X, Y, Z, Yaw) & stayDistance(Distance) & not closeEnough(X, Y, Z, Yaw, Distance)
   <- !watch;
-     sendGoto(X, Y, Z, Yaw);
-     !approach(Start).
+     sendGotoAgain(X, Y, Z, Yaw);
+     !approach.
 
-+!stay(_, Arrival) : target(X, Y, Z, Yaw) & stayTime(Time) & longEnough(Arrival, Time)
++!stay : target(X, Y, Z, Yaw) & stayingFor(Time) & stayTime(Enough) & Time > Enough
   <- !watch;
-     sendGoto(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw);
      reportDone;
      !!wait.
 
-+!stay(Start, Arrival) : target(X, Y, Z, Yaw)
++!stay : target(X, Y, Z, Yaw)
   <- !watch;
-     sendGoto(X, Y, Z, Yaw);
-     !stay(Start, Arrival).
+     sendStay(X, Y, Z, Yaw);
+     !stay.
 
 @danger_staying[req("SAF-4"), req("SAF-5")]
--!stay(_, _) <- sendHover; !land.
+-!stay <- !goDown; !comeDown.
 
-// ---- The pilot's hand. Hold where we are, until told otherwise.
+// ---- The pilot's hand. Hold where we are, until told otherwise. In danger it does not keep the
+// drone in the air either.
 
 +!hold : onGround
   <- sendStandby;
      !!wait.
 
 +!hold : position(X, Y, Z, Yaw)
-  <- +target(X, Y, Z, Yaw);
-     sendGoto(X, Y, Z, Yaw);
+  <- !watch;
+     +target(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw);
      !!wait.
 
 +!hold
-  <- -target(_, _, _, _);
+  <- !watch;
+     -target(_, _, _, _);
      sendHover;
      !!wait.
+
+@danger_holding[req("SAF-4"), req("SAF-5")]
+-!hold <- !goDown; !comeDown.
 
 // As the sticks say, as long as they are moved.
 +!steer : onGround
@@ -243,7 +276,7 @@ approachTime(60000).
 +!steer : position(X, Y, Z, Yaw)
   <- !watch;
      +target(X, Y, Z, Yaw);
-     sendGoto(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw);
      !!wait.
 
 +!steer
@@ -252,9 +285,10 @@ approachTime(60000).
      !!wait.
 
 @danger_steering[req("SAF-4"), req("SAF-5")]
--!steer <- sendHover; !land.
+-!steer <- !goDown; !comeDown.
 
 // ---- Landing: where it blows by ourselves as far as we can, with eyes open; then by the drone.
+// While we come down by ourselves there is a target; the drone's own landing has none.
 
 @landed_already[req("SAF-2")]
 +!land : onGround
@@ -262,61 +296,56 @@ approachTime(60000).
      reportDone;
      !!wait.
 
-@land_in_wind[req("SAF-2")]
-+!land : wind(Share) & landingWind(Breeze) & Share > Breeze
-    & blindFor(Time) & holdWhenBlind(Patience) & Time <= Patience
+@land[req("SAF-2")]
++!land <- !goDown; !comeDown.
+
+// The first command of each way down.
+@go_down_in_wind[req("SAF-2")]
++!goDown : wind(Share) & landingWind(Breeze) & Share > Breeze
+    & blindFor(Blind) & holdWhenBlind(Patience) & Blind <= Patience
+    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit
     & position(X, Y, Z, Yaw) & landingHeight(Low) & Z > Low
   <- +target(X, Y, Low, Yaw);
-     sendDescent(X, Y, Low, Yaw);
-     Start = getCurrentTimeMS;
-     !descend(Start).
+     sendDescent(X, Y, Low, Yaw).
 
-@land[req("SAF-2")]
-+!land
+@go_down[req("SAF-2")]
++!goDown
   <- -target(_, _, _, _);
-     sendLand;
-     !completeLand.
+     sendLand.
 
-@landed_descending[req("SAF-2")]
-+!descend(_) : onGround
+@landed[req("SAF-2")]
++!comeDown : onGround
   <- sendStandby;
      reportDone;
      !!wait.
 
-@too_long_descending[req("SAF-2")]
-+!descend(Start) : comingDownTime(Limit) & longEnough(Start, Limit)
+@too_long_descending[req("SAF-2"), req("SAF-7")]
++!comeDown : descendingFor(Time) & comingDownTime(Limit) & Time > Limit
   <- -target(_, _, _, _);
      sendLand;
-     !completeLand.
+     !comeDown.
 
-// Blind for a moment, and charge enough to wait for it to pass.
+// Blind for a moment, and nothing else is wrong: wait for it to pass.
 @blind_descending[req("SAF-2")]
-+!descend(Start) : blindFor(Time) & holdWhenBlind(Patience) & Time > Patience
-    & landWhenBlind(Limit) & Time <= Limit
-    & not (battery(Percent) & landingBattery(Least) & Percent <= Least)
-  <- sendHover;
-     !descend(Start).
++!comeDown : target(_, _, _, _) & blindFor(Time) & holdWhenBlind(Patience) & Time > Patience
+  <- !watch;
+     sendPause;
+     !comeDown.
 
 @descend[req("SAF-2")]
-+!descend(Start) : blindFor(Time) & holdWhenBlind(Patience) & Time <= Patience
-    & target(X, Y, Z, Yaw) & position(_, _, Height, _) & Height > Z + 0.1
++!comeDown : target(X, Y, Z, Yaw) & position(_, _, Height, _) & Height > Z + 0.1
   <- sendDescent(X, Y, Z, Yaw);
-     !descend(Start).
-
-@low_enough[req("SAF-2")]
-+!descend(_)
-  <- -target(_, _, _, _);
-     sendLand;
-     !completeLand.
+     !comeDown.
 
 // The order is repeated until the drone says that it has landed.
-@landed[req("SAF-2")]
-+!completeLand : onGround
-  <- sendStandby;
-     reportDone;
-     !!wait.
-
 @still_landing[req("SAF-2")]
-+!completeLand
-  <- sendLand;
-     !completeLand.
++!comeDown
+  <- -target(_, _, _, _);
+     sendLand;
+     !comeDown.
+
+@danger_descending[req("SAF-4"), req("SAF-5")]
+-!comeDown
+  <- -target(_, _, _, _);
+     sendLand;
+     !comeDown.

@@ -63,6 +63,9 @@ pub struct Senses {
     pub blind_for_ms: i64,
     /// Standard deviation of the place.
     pub doubt_m: f64,
+    /// Milliseconds for which the sticks have been at their limit while the drone came no nearer to where
+    /// it is sent.
+    pub saturated_for_ms: i64,
     /// What pushes the drone, as a share of what full tilt gives.
     pub wind: f64,
     /// The pilot moves the sticks.
@@ -115,7 +118,7 @@ pub enum Danger {
     Lost,
     /// The wind is stronger than the drone.
     Wind,
-    /// A target was not reached in its time.
+    /// A take-off, or the way to a target, was not done in its time.
     NoProgress,
 }
 
@@ -130,10 +133,55 @@ pub enum Report {
     Failed,
 }
 
+/// What the agent makes the drone do that takes its time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Pursuit {
+    TakingOff,
+    Approaching,
+    Staying,
+    Descending,
+}
+
+/// What the agent has been making the drone do, and for how long: the agent is told that, and knows no
+/// other clock. That it hovers meanwhile does not end it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Activity {
+    /// And the milliseconds at its first command.
+    pursuit: Option<(Pursuit, i64)>,
+    /// How long the drone had approached its target before it last arrived there. A drone that arrives
+    /// and drifts off again and again would else never be given up.
+    approached_ms: i64,
+}
+
+impl Activity {
+    /// How long this has lasted, in milliseconds; 0 if something else goes on.
+    fn lasted_ms(self, pursuit: Pursuit, now_ms: i64) -> i64 {
+        let Some((current, since_ms)) = self.pursuit else { return 0 };
+        let lasted_ms = now_ms.saturating_sub(since_ms);
+        match pursuit {
+            _ if current != pursuit => 0,
+            Pursuit::Approaching => lasted_ms.saturating_add(self.approached_ms),
+            Pursuit::TakingOff | Pursuit::Staying | Pursuit::Descending => lasted_ms,
+        }
+    }
+
+    fn go_on(&mut self, pursuit: Pursuit, now_ms: i64) {
+        let current = self.pursuit.map(|(current, _)| current);
+        if current == Some(pursuit) {
+            return;
+        }
+        if current == Some(Pursuit::Approaching) {
+            self.approached_ms = self.lasted_ms(Pursuit::Approaching, now_ms);
+        }
+        self.pursuit = Some((pursuit, now_ms));
+    }
+}
+
 /// One step of the agent: what it senses, and what it decided.
 #[derive(Debug)]
 pub struct AgentStep {
     senses: Senses,
+    activity: Activity,
     /// What it wants the drone to do; the last word counts.
     pub command: Option<AgentCommand>,
     /// How many commands it issued; always one.
@@ -154,8 +202,8 @@ pub struct ChosenPlans {
 }
 
 impl ChosenPlans {
-    /// A step of this agent chooses at most three: for its event, to watch, and to mend. What is beyond
-    /// this is forgotten.
+    /// A step of this agent chooses at most four: for its event, to watch, to mend, and to go down. What is
+    /// beyond this is forgotten.
     const MOST: usize = 8;
 
     /// Their numbers.
@@ -178,10 +226,11 @@ impl ChosenPlans {
 }
 
 impl AgentStep {
-    /// Runs one deliberation cycle of `agent`.
-    pub fn run(agent: &mut Agent, senses: Senses) -> Self {
+    /// Runs one deliberation cycle of `agent`, which goes on with its `activity`.
+    pub fn run(agent: &mut Agent, activity: &mut Activity, senses: Senses) -> Self {
         let mut step = Self {
             senses,
+            activity: *activity,
             command: None,
             commands: 0,
             report: None,
@@ -189,12 +238,25 @@ impl AgentStep {
             plans: ChosenPlans::default(),
         };
         agent.next_step(&mut step);
+        *activity = step.activity;
         step
     }
 
     fn issue(&mut self, command: AgentCommand) {
         self.command = Some(command);
         self.commands += 1;
+    }
+
+    /// A command of something that takes its time.
+    fn pursue(&mut self, pursuit: Pursuit, command: AgentCommand) {
+        self.activity.go_on(pursuit, self.senses.now_ms);
+        self.issue(command);
+    }
+
+    /// A command that ends whatever went on.
+    fn end(&mut self, command: AgentCommand) {
+        self.activity = Activity::default();
+        self.issue(command);
     }
 }
 
@@ -208,7 +270,13 @@ impl Environment for AgentStep {
         }
         beliefs.set_blind_for(self.senses.blind_for_ms);
         beliefs.set_doubt(self.senses.doubt_m);
+        beliefs.set_saturated_for(self.senses.saturated_for_ms);
         beliefs.set_wind(self.senses.wind);
+        let lasted_ms = |pursuit| self.activity.lasted_ms(pursuit, self.senses.now_ms);
+        beliefs.set_taking_off_for(lasted_ms(Pursuit::TakingOff));
+        beliefs.set_approaching_for(lasted_ms(Pursuit::Approaching));
+        beliefs.set_staying_for(lasted_ms(Pursuit::Staying));
+        beliefs.set_descending_for(lasted_ms(Pursuit::Descending));
         let settings = self.senses.settings;
         beliefs.set_reach_distance(settings.reach_distance_m);
         beliefs.set_stay_distance(settings.stay_distance_m);
@@ -216,11 +284,15 @@ impl Environment for AgentStep {
     }
 
     fn send_standby(&mut self) {
-        self.issue(AgentCommand::Standby);
+        self.end(AgentCommand::Standby);
     }
 
     fn send_take_off(&mut self) {
-        self.issue(AgentCommand::TakeOff);
+        self.pursue(Pursuit::TakingOff, AgentCommand::TakeOff);
+    }
+
+    fn send_take_off_again(&mut self) {
+        self.pursue(Pursuit::TakingOff, AgentCommand::TakeOff);
     }
 
     fn send_hover(&mut self) {
@@ -228,19 +300,35 @@ impl Environment for AgentStep {
     }
 
     fn send_goto(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
-        self.issue(AgentCommand::GoTo(Pose { x_m, y_m, z_m, yaw_deg }));
+        self.activity = Activity::default();
+        self.send_goto_again(x_m, y_m, z_m, yaw_deg);
     }
 
-    fn send_descent(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
-        self.issue(AgentCommand::GoTo(Pose { x_m, y_m, z_m, yaw_deg }));
+    fn send_goto_again(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
+        let target = Pose { x_m, y_m, z_m, yaw_deg };
+        self.pursue(Pursuit::Approaching, AgentCommand::GoTo(target));
+    }
+
+    fn send_stay(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
+        let target = Pose { x_m, y_m, z_m, yaw_deg };
+        self.pursue(Pursuit::Staying, AgentCommand::GoTo(target));
     }
 
     fn send_sticks(&mut self) {
-        self.issue(AgentCommand::Sticks);
+        self.end(AgentCommand::Sticks);
+    }
+
+    fn send_descent(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
+        let target = Pose { x_m, y_m, z_m, yaw_deg };
+        self.pursue(Pursuit::Descending, AgentCommand::GoTo(target));
+    }
+
+    fn send_pause(&mut self) {
+        self.pursue(Pursuit::Descending, AgentCommand::Hover);
     }
 
     fn send_land(&mut self) {
-        self.issue(AgentCommand::Land);
+        self.end(AgentCommand::Land);
     }
 
     fn on_ground(&mut self) -> bool {
@@ -268,14 +356,6 @@ impl Environment for AgentStep {
             distance(&pose, &target) <= distance_m
                 && estimator::wrap_deg(yaw_deg - pose.yaw_deg).abs() <= REACH_ANGLE_DEG
         })
-    }
-
-    fn get_current_time_ms(&mut self) -> i64 {
-        self.senses.now_ms
-    }
-
-    fn long_enough(&mut self, since_ms: i64, time_ms: i64) -> bool {
-        self.senses.now_ms.saturating_sub(since_ms) > time_ms
     }
 
     fn report_done(&mut self) {

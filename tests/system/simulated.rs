@@ -134,6 +134,28 @@ fn a_heading_across_the_jump_is_reached() {
     }
 }
 
+/// The way back to a target has its own time, however long the stay was.
+#[test]
+fn a_push_late_in_a_long_stay_does_not_end_the_plan() {
+    for seed in 1..=3 {
+        let text = "+70 wind 3.5 0\n+71 wind 0 0";
+        let scenario = Scenario::parse("push", text).unwrap();
+        let drone = DroneConfig { seed, ..DroneConfig::default() };
+        let world = WorldConfig { scenario, drone, ..WorldConfig::default() };
+        let simulation = Simulation { world, ..Simulation::default() };
+        let mut pushed_m: f64 = 0.0;
+        let flight = simulation
+            .fly_watched(plan("takeoff\nsetStayTime 90\ngoto 0 0 1 0\nland"), |moment| {
+                if moment.now > 60 * SECOND {
+                    pushed_m = pushed_m.max(moment.truth.odometry_m.norm());
+                }
+            })
+            .unwrap();
+        assert!(pushed_m > 0.6, "{pushed_m:.2} m is no drift");
+        assert_eq!(flight.outcome, Outcome::Completed, "seed {seed}");
+    }
+}
+
 #[test]
 fn the_pilots_order_lands_in_the_middle_of_a_step() {
     let orders = vec![(8 * SECOND, PilotOrder::Land)];
@@ -229,10 +251,12 @@ fn an_empty_battery_is_refused_before_take_off_and_lands_in_flight() {
 
 #[test]
 fn a_step_that_makes_no_progress_is_given_up() {
-    // Nearer than the estimate's own noise: never reached for a whole stay.
+    // Nearer than the gusts let it stay: reached for a moment, and never for a whole stay.
     let text = "takeoff\nsetInitialReachDist 0.01\nsetStayWithinDist 0.01\nsetStayTime 30\n\
                 goto 0 1 0 0\nland";
-    let flight = fly(&Simulation::default(), text);
+    let scenario = Scenario::parse("gusts", "0 wind 0.5 0.5 gusts 0.4").unwrap();
+    let world = WorldConfig { scenario, ..WorldConfig::default() };
+    let flight = fly(&Simulation { world, ..Simulation::default() }, text);
     let reason = "step 5 was not done in its time".to_owned();
     assert_eq!(flight.outcome, Outcome::Failsafe { reason });
     assert_eq!(flight.final_truth.phase, Phase::Landed);

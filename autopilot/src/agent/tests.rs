@@ -10,6 +10,7 @@ const GROUND: Senses = Senses {
     battery_percent: Some(80),
     blind_for_ms: 0,
     doubt_m: 0.1,
+    saturated_for_ms: 0,
     wind: 0.0,
     steering: false,
     settings: ApproachSettings { reach_distance_m: 0.2, stay_distance_m: 0.5, stay_time_ms: 2000 },
@@ -18,18 +19,19 @@ const HOVERING: Senses = Senses { on_ground: false, hovering: true, ..GROUND };
 const TARGET: Pose = Pose { x_m: 1.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 };
 
 /// The state is all the memory that the agent uses; it must not grow unseen.
-const _: () = assert!(STATE_BYTES <= 512);
+const _: () = assert!(STATE_BYTES <= 544);
 
 /// An agent and what it senses.
 struct Bench {
     agent: Agent,
+    activity: Activity,
     senses: Senses,
 }
 
 impl Bench {
     /// An agent that already waits: its initial goal took the first step.
     fn new(senses: Senses) -> Self {
-        let mut bench = Self { agent: Agent::new(), senses };
+        let mut bench = Self { agent: Agent::new(), activity: Activity::default(), senses };
         bench.step();
         bench
     }
@@ -41,7 +43,7 @@ impl Bench {
     }
 
     fn run(&mut self) -> AgentStep {
-        let step = AgentStep::run(&mut self.agent, self.senses);
+        let step = AgentStep::run(&mut self.agent, &mut self.activity, self.senses);
         self.senses.now_ms += 30;
         step
     }
@@ -68,7 +70,7 @@ fn it_tells_which_plans_it_chose() {
     };
     assert_eq!(chosen(&bench.run()), ["+!wait", "+!watch"]);
     bench.senses.battery_percent = Some(5);
-    assert_eq!(chosen(&bench.run()), ["+!wait", "+!watch", "-!wait"]);
+    assert_eq!(chosen(&bench.run()), ["+!wait", "+!watch", "-!wait", "+!goDown"]);
 }
 
 #[test]
@@ -88,8 +90,38 @@ fn it_takes_off_until_the_drone_hovers_and_then_holds_the_place() {
 fn an_empty_battery_does_not_take_off() {
     let mut bench = Bench::new(Senses { battery_percent: Some(12), ..GROUND });
     assert!(bench.agent.achieve_take_off());
-    assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Refused)));
+    let step = bench.run();
+    assert_eq!((step.command, step.report), (Some(AgentCommand::Standby), Some(Report::Refused)));
+    assert_eq!(step.danger, Some(Danger::BatteryEmpty));
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), None));
+}
+
+#[test]
+fn a_drone_that_cannot_be_believed_does_not_take_off() {
+    for senses in [
+        Senses { blind_for_ms: 301, ..GROUND },
+        Senses { blind_for_ms: i64::MAX, ..GROUND },
+        Senses { pose: None, ..GROUND },
+        Senses { doubt_m: 3.1, ..GROUND },
+        Senses { doubt_m: f64::NAN, ..GROUND },
+    ] {
+        let mut bench = Bench::new(senses);
+        assert!(bench.agent.achieve_take_off());
+        let refused = (Some(AgentCommand::Standby), Some(Report::Refused));
+        assert_eq!(bench.step(), refused, "{senses:?}");
+        assert_eq!(bench.step(), (Some(AgentCommand::Standby), None));
+    }
+}
+
+#[test]
+fn a_take_off_that_becomes_blind_is_landed() {
+    let mut bench = Bench::new(GROUND);
+    assert!(bench.agent.achieve_take_off());
+    bench.step();
+    for (blind_for_ms, command) in [(2000, AgentCommand::TakeOff), (2001, AgentCommand::Land)] {
+        bench.senses = Senses { on_ground: false, blind_for_ms, ..bench.senses };
+        assert_eq!(bench.step(), (Some(command), None));
+    }
 }
 
 /// Without a place there is nothing to hold but still.
@@ -102,8 +134,22 @@ fn holding_and_steering_work_without_a_place() {
     assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
     bench.senses.battery_percent = Some(5);
     assert!(bench.agent.achieve_steer());
-    assert_eq!(bench.run().danger, Some(Danger::BatteryEmpty));
-    assert_eq!(bench.step().0, Some(AgentCommand::Land));
+    let step = bench.run();
+    assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::BatteryEmpty)));
+}
+
+/// A key that is held down says it again and again.
+#[test]
+fn the_pilots_hand_does_not_keep_a_drone_in_danger_in_the_air() {
+    for pose in [Some(TARGET), None] {
+        let mut bench = Bench::new(Senses { pose, blind_for_ms: 2001, ..HOVERING });
+        for _ in 0..3 {
+            assert!(bench.agent.achieve_hold());
+            assert_eq!(bench.step().0, Some(AgentCommand::Land));
+            assert!(bench.agent.achieve_steer());
+            assert_eq!(bench.step().0, Some(AgentCommand::Land));
+        }
+    }
 }
 
 /// Orders to take off do not keep the agent from looking around.
@@ -114,7 +160,7 @@ fn taking_over_in_the_air_looks_at_the_dangers() {
         assert!(bench.agent.achieve_take_off());
         bench.senses.battery_percent = Some(5);
         let step = bench.run();
-        assert_eq!((step.command, step.report), (Some(AgentCommand::Hover), None));
+        assert_eq!((step.command, step.report), (Some(AgentCommand::Land), None));
         assert_eq!(step.danger, Some(Danger::BatteryEmpty));
         assert!(bench.agent.achieve_take_off());
         assert_eq!(bench.step().0, Some(AgentCommand::Land));
@@ -127,7 +173,8 @@ fn a_take_off_that_does_not_succeed_is_given_up() {
     assert!(bench.agent.achieve_take_off());
     bench.step();
     bench.senses.now_ms = 10_031;
-    assert_eq!(bench.step(), (Some(AgentCommand::Land), Some(Report::Failed)));
+    let step = bench.run();
+    assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::NoProgress)));
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
 }
 
@@ -152,6 +199,62 @@ fn it_reaches_stays_and_reports() {
     bench.senses.now_ms += 200;
     assert_eq!(bench.step(), (approach.0, Some(Report::Done)));
     assert_eq!(bench.step(), approach);
+}
+
+/// However long the stay was: the way back is a new one.
+#[test]
+fn a_drone_that_drifts_off_late_has_its_time_to_come_back() {
+    let mut bench = Bench::new(HOVERING);
+    bench.senses.settings.stay_time_ms = 90_000;
+    bench.go_to(TARGET);
+    bench.step();
+    bench.senses.pose = Some(TARGET);
+    bench.step();
+    bench.senses.now_ms += 70_000;
+    let there = (Some(AgentCommand::GoTo(TARGET)), None);
+    assert_eq!(bench.step(), there);
+    bench.senses.pose = Some(Pose { x_m: 0.2, ..TARGET });
+    for _ in 0..100 {
+        assert_eq!(bench.step(), there);
+    }
+    bench.senses.pose = Some(TARGET);
+    assert_eq!(bench.step(), there);
+    bench.senses.now_ms += 90_001;
+    assert_eq!(bench.step(), (there.0, Some(Report::Done)));
+    // And not more than that.
+    bench.go_to(TARGET);
+    bench.senses.pose = Some(Pose { x_m: 0.2, ..TARGET });
+    bench.step();
+    bench.senses.now_ms += 60_001;
+    assert_eq!(bench.run().danger, Some(Danger::NoProgress));
+}
+
+/// Who arrives and drifts off again and again is given up too.
+#[test]
+fn arrivals_do_not_prolong_an_approach() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    let mut steps = 0;
+    while bench.run().danger.is_none() {
+        steps += 1;
+        let x_m = if steps % 4 == 0 { 0.0 } else { 1.0 };
+        bench.senses.pose = Some(Pose { x_m, ..TARGET });
+        assert!(steps < 8100, "a quarter of the steps");
+    }
+    assert!(steps > 2000);
+}
+
+/// An approach that is interrupted by blindness does not begin anew.
+#[test]
+fn a_flickering_view_does_not_prolong_an_approach() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    let mut steps = 0;
+    while bench.run().danger.is_none() {
+        steps += 1;
+        bench.senses.blind_for_ms = if steps % 2 == 0 { 0 } else { 400 };
+        assert!(steps < 2100, "60 s are 2000 steps");
+    }
 }
 
 #[test]
@@ -191,6 +294,12 @@ fn a_drone_that_lands_by_itself_is_not_lifted_again() {
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Failed)));
     bench.go_to(TARGET);
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Refused)));
+    let mut bench = Bench::new(Senses { pose: Some(TARGET), ..HOVERING });
+    bench.go_to(TARGET);
+    bench.step();
+    assert_eq!(bench.step(), (Some(AgentCommand::GoTo(TARGET)), None), "it has arrived");
+    bench.senses = Senses { now_ms: bench.senses.now_ms, ..GROUND };
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Failed)));
 }
 
 /// Brings a drone into the air by each goal that can run there.
@@ -229,6 +338,7 @@ fn each_danger_lands_whatever_runs_and_is_told() {
                 Danger::Lost => Senses { doubt_m: 3.1, ..senses },
                 // It comes down by itself first, unless it is low already.
                 _ => Senses {
+                    saturated_for_ms: 2001,
                     wind: 0.81,
                     pose: senses.pose.map(|pose| Pose { z_m: 0.3, ..pose }),
                     ..senses
@@ -236,12 +346,13 @@ fn each_danger_lands_whatever_runs_and_is_told() {
             };
             let step = bench.run();
             let said = (step.command, step.danger, step.commands);
-            assert_eq!(said, (Some(AgentCommand::Hover), Some(danger), 1), "{name}");
-            assert_eq!(bench.step().0, Some(AgentCommand::Land), "{name}");
+            assert_eq!(said, (Some(AgentCommand::Land), Some(danger), 1), "{name}");
             assert_eq!(bench.step().0, Some(AgentCommand::Land), "{name}");
         }
     }
     for (name, mut bench) in in_the_air() {
+        // Nor is a wind that it can hold against.
+        bench.senses = Senses { wind: 0.95, saturated_for_ms: 2000, ..bench.senses };
         assert_ne!(bench.step().0, Some(AgentCommand::Land), "{name}: nothing is wrong");
     }
 }
@@ -252,18 +363,21 @@ fn in_the_wind_it_comes_down_where_it_is_before_it_lands() {
     bench.go_to(TARGET);
     bench.step();
     let here = Pose { x_m: 0.3, z_m: 2.0, ..TARGET };
-    bench.senses = Senses { wind: 0.9, pose: Some(here), ..bench.senses };
+    let carried_off = Senses { wind: 0.9, saturated_for_ms: 2001, pose: Some(here), ..HOVERING };
+    bench.senses = carried_off;
     let down = Some(AgentCommand::GoTo(Pose { z_m: 0.35, ..here }));
-    assert_eq!(bench.step().0, Some(AgentCommand::Hover));
     assert_eq!(bench.step().0, down);
     assert_eq!(bench.step().0, down);
     bench.senses.pose = Some(Pose { z_m: 0.4, ..here });
     assert_eq!(bench.step().0, Some(AgentCommand::Land));
-    // Not for ever, and not blindly.
+    // Not for ever, not blindly, and a moment's blindness is not waited for in danger.
+    let mut bench = Bench::new(carried_off);
+    assert_eq!(bench.step().0, down);
+    bench.senses.blind_for_ms = 400;
+    assert_eq!(bench.step().0, Some(AgentCommand::Land));
     for (later_ms, blind_for_ms) in [(9000, 0), (30, 2001)] {
-        let mut bench = Bench::new(HOVERING);
-        bench.senses = Senses { wind: 0.9, pose: Some(here), ..bench.senses };
-        bench.step();
+        let mut bench = Bench::new(Senses { saturated_for_ms: 0, ..carried_off });
+        assert!(bench.agent.achieve_land());
         assert_eq!(bench.step().0, down);
         bench.senses.blind_for_ms = 400;
         assert_eq!(bench.step().0, Some(AgentCommand::Hover));
@@ -278,11 +392,24 @@ fn a_blind_descent_does_not_wait_with_an_empty_battery() {
     for (percent, command) in [(13, AgentCommand::Hover), (12, AgentCommand::Land)] {
         let here = Pose { z_m: 2.0, ..TARGET };
         let mut bench = Bench::new(Senses { wind: 0.9, pose: Some(here), ..HOVERING });
-        bench.step();
+        assert!(bench.agent.achieve_land());
         assert_ne!(bench.step().0, Some(AgentCommand::Land));
         bench.senses = Senses { blind_for_ms: 400, battery_percent: Some(percent), ..bench.senses };
         assert_eq!(bench.step().0, Some(command), "{percent} %");
     }
+}
+
+/// Whoever says `land` again and again does not prolong it.
+#[test]
+fn a_descent_that_is_ordered_again_ends_in_its_time() {
+    let here = Pose { z_m: 2.0, ..TARGET };
+    let mut bench = Bench::new(Senses { wind: 0.9, pose: Some(here), ..HOVERING });
+    let lands_after = (0..300).position(|_| {
+        assert!(bench.agent.achieve_land());
+        bench.step().0 == Some(AgentCommand::Land)
+    });
+    // 8 s of 30 ms each.
+    assert_eq!(lands_after, Some(267));
 }
 
 #[test]

@@ -14,6 +14,9 @@ impl Pilot {
     /// The agent's command as levels and sticks.
     pub(super) fn carry_out(&mut self, now: Duration, command: AgentCommand, step_s: f64) -> Order {
         self.target = None;
+        if !matches!(command, AgentCommand::GoTo(_)) {
+            self.saturation.let_go();
+        }
         let mut told: Option<Demand> = None;
         let order = match command {
             AgentCommand::Standby | AgentCommand::Land => {
@@ -28,7 +31,10 @@ impl Pilot {
             AgentCommand::GoTo(target) => {
                 self.target = Some(target);
                 let demand = self.demand(now, &target, step_s);
-                let demand = self.guard.limit(&demand, self.mission.max_control());
+                let limit = self.mission.max_control();
+                let demand = self.guard.limit(&demand, limit);
+                let pose = self.pose(now);
+                self.saturation.flown(now, &pose, &target, &demand, limit);
                 told = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }

@@ -11,6 +11,7 @@ mod flight_phase;
 mod hand;
 mod preflight;
 mod report;
+mod saturation;
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -31,7 +32,8 @@ pub use self::flight_phase::{FlightPhase, LandingReason};
 use self::hand::Hand;
 pub use self::hand::PilotOrder;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
-use crate::agent::{Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
+use self::saturation::Saturation;
+use crate::agent::{Activity, Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
 use crate::mission::{AgentOrder, Due, Mission};
 use crate::outcome::Outcome;
 use crate::plan::{FlightLimits, Plan};
@@ -112,6 +114,7 @@ pub struct Pilot {
     law: Law,
     dead_time: Duration,
     agent: Agent,
+    activity: Activity,
     mission: Mission,
     /// How long the plan takes.
     expected_time: Duration,
@@ -129,6 +132,8 @@ pub struct Pilot {
     wind_m_s2: Vector2<f64>,
     /// What full tilt gives, if gravity alone made it.
     full_tilt_m_s2: f64,
+    /// Whether it can hold against that.
+    saturation: Saturation,
     target: Option<Pose>,
     last_tick: Option<Duration>,
     events: VecDeque<FlightEvent>,
@@ -174,6 +179,7 @@ impl Pilot {
             law: config.law,
             dead_time: config.estimator.dead_time,
             agent: Agent::new(),
+            activity: Activity::default(),
             expected_time,
             mission: Mission::new(plan, config.limits),
             settings,
@@ -187,6 +193,7 @@ impl Pilot {
             seen_at: None,
             wind_m_s2: Vector2::zeros(),
             full_tilt_m_s2: GRAVITY_M_S2 * config.estimator.limits.tilt_rad.tan(),
+            saturation: Saturation::default(),
             target: None,
             last_tick: None,
             events: VecDeque::with_capacity(EVENTS),
@@ -274,13 +281,14 @@ impl Pilot {
         };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
         let senses = self.senses(now, &state);
-        let step = AgentStep::run(&mut self.agent, senses);
+        let step = AgentStep::run(&mut self.agent, &mut self.activity, senses);
         self.hand.pre_empts = false;
-        if let Some(report) = step.report {
-            self.order_ended(now, report);
-        }
+        // What is refused for a danger ends for that reason.
         if let Some(danger) = step.danger {
             self.endangered(now, danger);
+        }
+        if let Some(report) = step.report {
+            self.order_ended(now, report);
         }
         done(Stage::Agent);
         // An agent that asks for nothing gets a hover.
@@ -413,8 +421,12 @@ impl Pilot {
             on_ground: self.on_ground(),
             hovering: hovering && self.drone_state().contains(DroneState::FLYING),
             battery_percent: self.battery_percent(),
-            blind_for_ms: i64::try_from(self.blind_for(now).as_millis()).unwrap_or(i64::MAX),
+            // What was never believed has been unknown for ever.
+            blind_for_ms: self.seen_at.map_or(i64::MAX, |seen_at| {
+                i64::try_from(now.saturating_sub(seen_at).as_millis()).unwrap_or(i64::MAX)
+            }),
             doubt_m: self.estimator.horizontal_deviation_m(now),
+            saturated_for_ms: self.saturation.lasted_ms(now),
             wind: self.wind_m_s2.norm() / (self.full_tilt_m_s2 * self.least_thrust()),
             steering: self.hand.sticks(now).is_some(),
             settings: self.mission.settings(),
