@@ -54,11 +54,11 @@ const fn c(
 }
 
 /// All of them.
-pub(super) const MUTANTS: [Mutant; 25] = [
+pub(super) const MUTANTS: [Mutant; 46] = [
     agent(
         "a failure plan says nothing",
-        "-!wait <- sendHover; !land.",
-        "-!wait <- !land.",
+        "-!wait <- !goDown; !comeDown.",
+        "-!wait <- !comeDown.",
         "one_command",
     ),
     agent(
@@ -69,8 +69,8 @@ pub(super) const MUTANTS: [Mutant; 25] = [
     ),
     agent(
         "landing waits for the next order",
-        "+!land\n  <- -target(_, _, _, _);\n     sendLand;",
-        "+!land\n  <- -target(_, _, _, _);\n     sendHover;",
+        "+!goDown\n  <- -target(_, _, _, _);\n     sendLand.",
+        "+!goDown\n  <- -target(_, _, _, _);\n     sendHover.",
         "landing_is_honoured",
     ),
     Mutant {
@@ -82,20 +82,26 @@ pub(super) const MUTANTS: [Mutant; 25] = [
     },
     agent(
         "landing stops in the air",
-        "+!completeLand\n  <- sendLand;",
-        "+!completeLand\n  <- sendHover;",
+        "+!comeDown\n  <- -target(_, _, _, _);\n     sendLand;",
+        "+!comeDown\n  <- -target(_, _, _, _);\n     sendHover;",
         "landing_goes_on",
     ),
     agent(
         "the descent ends in holding",
-        "+!descend(Start) : comingDownTime(Limit) & longEnough(Start, Limit)\n  <- -target(_, _, _, _);\n     sendLand;\n     !completeLand.",
-        "+!descend(Start) : comingDownTime(Limit) & longEnough(Start, Limit)\n  <- sendGoto(0, 0, 1, 0);\n     !!wait.",
+        "+!comeDown : descendingFor(Time) & comingDownTime(Limit) & Time > Limit\n  <- -target(_, _, _, _);\n     sendLand;\n     !comeDown.",
+        "+!comeDown : descendingFor(Time) & comingDownTime(Limit) & Time > Limit\n  <- sendStay(0, 0, 1, 0);\n     !!wait.",
+        "descending_goes_on",
+    ),
+    agent(
+        "a pause of the descent is its end",
+        "sendPause;\n     !comeDown.",
+        "sendPause;\n     !!wait.",
         "descending_goes_on",
     ),
     agent(
         "holding is done by hand",
-        "+!hold\n  <- -target(_, _, _, _);\n     sendHover;",
-        "+!hold\n  <- -target(_, _, _, _);\n     sendSticks;",
+        "+!hold\n  <- !watch;\n     -target(_, _, _, _);\n     sendHover;",
+        "+!hold\n  <- !watch;\n     -target(_, _, _, _);\n     sendSticks;",
         "holding_is_honoured",
     ),
     agent(
@@ -109,6 +115,18 @@ pub(super) const MUTANTS: [Mutant; 25] = [
         "+!goTo(_, _, _, _) : onGround\n  <- reportRefused;\n     sendStandby;",
         "+!goTo(_, _, _, _) : onGround\n  <- reportRefused;\n     sendTakeOff;",
         "take_off_is_ordered",
+    ),
+    agent(
+        "a take-off without trust",
+        "+!takeOff : onGround & position(_, _, _, _) & blindFor(Time) & holdWhenBlind(Limit) & Time <= Limit",
+        "+!takeOff : onGround",
+        "take_off_is_not_blind",
+    ),
+    agent(
+        "a take-off after any blindness",
+        "holdWhenBlind(300).",
+        "holdWhenBlind(2000000000).",
+        "take_off_is_not_blind",
     ),
     agent(
         "an empty battery is told and flown on",
@@ -132,13 +150,145 @@ pub(super) const MUTANTS: [Mutant; 25] = [
         "strong wind is told and flown on",
         "tellWind;\n     ?airworthy.",
         "tellWind.",
-        "strong_wind_lands",
+        "saturation_lands",
+    ),
+    agent(
+        "a take-off that fails is told and flown on",
+        "takeOffTime(Limit) & Time > Limit\n  <- tellNoProgress;\n     ?airworthy.",
+        "takeOffTime(Limit) & Time > Limit\n  <- tellNoProgress.",
+        "a_take_off_ends",
+    ),
+    agent(
+        "a target out of reach is told and flown on",
+        "approachTime(Limit) & Time > Limit\n  <- tellNoProgress;\n     ?airworthy.",
+        "approachTime(Limit) & Time > Limit\n  <- tellNoProgress.",
+        "an_approach_ends",
+    ),
+    agent(
+        "no plan for an empty battery",
+        "@empty_battery[req(\"SAF-4\")]\n+!watch : battery(Percent) & landingBattery(Limit) & Percent <= Limit\n  <- tellBatteryEmpty;\n     ?airworthy.\n",
+        "",
+        "empty_battery_lands",
+    ),
+    agent(
+        "no plan for blindness",
+        "@blind[req(\"SAF-5\")]\n+!watch : blindFor(Time) & landWhenBlind(Limit) & Time > Limit\n  <- tellBlind;\n     ?airworthy.\n",
+        "",
+        "blindness_lands",
+    ),
+    agent(
+        "no plan for a lost place",
+        "@lost[req(\"SAF-5\")]\n+!watch : doubt(Metres) & largestDoubt(Limit) & not Metres <= Limit\n  <- tellLost;\n     ?airworthy.\n",
+        "",
+        "a_lost_place_lands",
+    ),
+    agent(
+        "no plan for sticks at their end",
+        "@too_weak[req(\"SAF-5\")]\n+!watch : saturatedFor(Time) & landWhenSaturated(Limit) & Time > Limit\n  <- tellWind;\n     ?airworthy.\n",
+        "",
+        "saturation_lands",
+    ),
+    agent(
+        "blindness for weeks is borne",
+        "landWhenBlind(2000).",
+        "landWhenBlind(2000000000).",
+        "blindness_lands",
+    ),
+    agent(
+        "a place known to a kilometre will do",
+        "largestDoubt(3.0).",
+        "largestDoubt(1000.0).",
+        "a_lost_place_lands",
+    ),
+    agent(
+        "it is carried off for weeks",
+        "landWhenSaturated(2000).",
+        "landWhenSaturated(2000000000).",
+        "saturation_lands",
+    ),
+    agent(
+        "a battery is flown to its end",
+        "landingBattery(12).",
+        "landingBattery(0).",
+        "empty_battery_lands",
+    ),
+    agent(
+        "a take-off may take weeks",
+        "takeOffTime(10000).",
+        "takeOffTime(2000000000).",
+        "a_take_off_ends",
+    ),
+    agent(
+        "an approach may take weeks",
+        "approachTime(60000).",
+        "approachTime(2000000000).",
+        "an_approach_ends",
+    ),
+    agent(
+        "a descent may take weeks",
+        "comingDownTime(8000).",
+        "comingDownTime(2000000000).",
+        "a_descent_ends",
+    ),
+    agent(
+        "each order to land begins a new descent",
+        "\n    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit",
+        "",
+        "a_descent_ends",
+    ),
+    agent(
+        "a limit is reversed",
+        "Time > Limit\n  <- tellBlind",
+        "Time < Limit\n  <- tellBlind",
+        "blindness_lands",
+    ),
+    agent(
+        "the last percent counts as charge",
+        "Percent <= Limit\n  <- tellBatteryEmpty",
+        "Percent < Limit\n  <- tellBatteryEmpty",
+        "empty_battery_lands",
     ),
     agent(
         "in danger an approach waits",
-        "-!approach(_) <- sendHover; !land.",
-        "-!approach(_) <- sendHover; !!wait.",
+        "-!approach <- !goDown; !comeDown.",
+        "-!approach <- sendHover; !!wait.",
         "blindness_lands",
+    ),
+    agent(
+        "holding looks at nothing",
+        "+!hold : position(X, Y, Z, Yaw)\n  <- !watch;",
+        "+!hold : position(X, Y, Z, Yaw)\n  <-",
+        "blindness_lands",
+    ),
+    agent(
+        "who holds again and again stays up",
+        "-!hold <- !goDown; !comeDown.",
+        "-!hold <- sendHover; !land.",
+        "a_lost_place_lands",
+    ),
+    agent(
+        "who steers again and again stays up",
+        "-!steer <- !goDown; !comeDown.",
+        "-!steer <- sendHover; !land.",
+        "saturation_lands",
+    ),
+    agent(
+        "a take-off that is complete looks at nothing",
+        "hovering & position(X, Y, Z, Yaw)\n  <- !watch;",
+        "hovering & position(X, Y, Z, Yaw)\n  <-",
+        "empty_battery_lands",
+    ),
+    agent(
+        "taking over looks at nothing",
+        "+!takeOff : position(X, Y, Z, Yaw)\n  <- !watch;",
+        "+!takeOff : position(X, Y, Z, Yaw)\n  <-",
+        "empty_battery_lands",
+    ),
+    agent(
+        "a blind descent waits with an empty battery",
+        "<- !watch;\n     sendPause;",
+        "<- sendPause;",
+        "empty_battery_lands",
     ),
     agent(
         "somebody believes in airworthiness",
@@ -148,45 +298,21 @@ pub(super) const MUTANTS: [Mutant; 25] = [
     ),
     agent(
         "an end is told twice",
-        "+!completeLand : onGround\n  <- sendStandby;\n     reportDone;",
-        "+!completeLand : onGround\n  <- sendStandby;\n     reportDone;\n     reportFailed;",
+        "+!comeDown : onGround\n  <- sendStandby;\n     reportDone;",
+        "+!comeDown : onGround\n  <- sendStandby;\n     reportDone;\n     reportFailed;",
         "one_report",
     ),
     agent(
         "steering in danger has no way out",
-        "@danger_steering[req(\"SAF-4\"), req(\"SAF-5\")]\n-!steer <- sendHover; !land.",
+        "@danger_steering[req(\"SAF-4\"), req(\"SAF-5\")]\n-!steer <- !goDown; !comeDown.",
         "",
         "nothing_is_lost",
     ),
     agent(
         "taking over in danger has no way out",
-        "@danger_taking_over[req(\"SAF-4\"), req(\"SAF-5\")]\n-!takeOff <- sendHover; !land.",
+        "@danger_taking_over[req(\"SAF-4\"), req(\"SAF-5\")]\n-!takeOff <- !goDown; !comeDown.",
         "",
         "nothing_is_lost",
-    ),
-    agent(
-        "the last percent counts as charge",
-        "Percent <= Limit\n  <- tellBatteryEmpty",
-        "Percent < Limit\n  <- tellBatteryEmpty",
-        "low_battery_lands",
-    ),
-    agent(
-        "a take-off that is complete looks at nothing",
-        "hovering & position(X, Y, Z, Yaw)\n  <- !watch;",
-        "hovering & position(X, Y, Z, Yaw)\n  <-",
-        "low_battery_lands",
-    ),
-    agent(
-        "taking over looks at nothing",
-        "+!takeOff : position(X, Y, Z, Yaw)\n  <- !watch;",
-        "+!takeOff : position(X, Y, Z, Yaw)\n  <-",
-        "low_battery_lands",
-    ),
-    agent(
-        "a blind descent waits with an empty battery",
-        "\n    & not (battery(Percent) & landingBattery(Least) & Percent <= Least)",
-        "",
-        "low_battery_lands",
     ),
     c(
         "the C forgets a landing order",

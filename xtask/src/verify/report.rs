@@ -217,7 +217,11 @@ is asked. Neither proof has a bound on the length of the flight.
   the first state or some transition breaks, until the rest proves itself. Frama-C's EVA follows the whole life of
   the same C from `init()` on.
 
-Properties stand in the configuration; [the language guide](agentspeak.md#properties) tells what they mean.
+Properties stand in the configuration; [the language guide](agentspeak.md#properties) tells what they mean. Those of
+dangers begin where the danger does, at what the agent is told, and have no excuse: a step that begins in danger commands
+the way down, whatever runs and whatever the pilot orders. Their numbers are the requirement's, not the agent's limits, so
+that a limit which is changed breaks them. That the way down then goes on to the ground is `descending_goes_on` and
+`landing_goes_on`, also when the danger has passed.
 
 ";
 
@@ -269,9 +273,18 @@ const LIMITS: &str = "
 - CBMC, Frama-C, SPIN, the C compiler and the Rust around the agent are trusted. What the environment does with an
   AT command is not part of the proof: that is the guard's, the session's and the drone's
   ([safety.md](safety.md)), and tested.
-- `low_battery_lands` speaks of the charge that the agent is told. That navdata are read rightly is tested.
-- The pilot's hand (`+!hold`, `+!steer`) overrides an automatic landing, each time anew: that is what `unless` says.
-- Time is free in the proofs: that a take-off is given up after 10 s is tested, not proved.
+- The properties of dangers speak of what the agent is told. That charge, blindness, doubt and saturation are measured
+  rightly is the estimator's and the flight program's, and tested. A doubt that is no number lands the drone too, which
+  a comparison cannot say: it is tested.
+- The agent has no clock. It is told for how long it has been taking off, approaching, holding a place and descending,
+  and in the proofs that may be any time in any step. So `a_take_off_ends` says: in the step in which the agent is told
+  that the take-off has lasted more than 10 s, it goes down. That what it is told grows as time does, and is not set back
+  by arriving for a moment or by a moment's blindness, is the work of 40 lines (`Activity` in `autopilot/src/agent.rs`),
+  and tested.
+- A stay has no limit but the plan's own time and the battery: who drifts off begins it anew, as often as there is time
+  left to approach.
+- The pilot's hand (`+!hold`, `+!steer`) takes back a landing in which there is no danger (or no more), each time anew:
+  that is what `unless` says. The flight program does not pass it on once a landing for a danger has begun.
 - The model knows no values, so it proves less than the C where values matter; here it proves the same.
 - Frama-C's WP with ACSL contracts is not used: what it would prove of single functions, CBMC proves of every
   path through all of them, and frames (what a function does not change) are part of the invariant.
