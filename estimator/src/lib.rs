@@ -375,7 +375,7 @@ impl Estimator {
     fn update_vertical(&mut self, made_s: f64, sample: &Sample) -> bool {
         let at_s = made_s - self.config.altitude_delay.as_secs_f64();
         if !sample.airborne {
-            self.altitude.stand(sample.altitude_m);
+            self.altitude.stand();
             self.altitude_at = Some((at_s, sample.altitude_m));
             return false;
         }

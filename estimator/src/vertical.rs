@@ -128,11 +128,11 @@ impl AltitudeFilter {
         Echo::Good
     }
 
-    /// The drone stands on the floor.
-    pub(crate) fn stand(&mut self, altitude_m: f64) {
+    /// The drone stands on the floor, whatever echo it hears there.
+    pub(crate) fn stand(&mut self) {
         self.floor_m = 0.0;
         self.rejected = 0;
-        self.state = Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 });
+        self.state = Some(Vertical::default());
     }
 }
 

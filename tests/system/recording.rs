@@ -271,9 +271,9 @@ fn a_report_answers_why() {
         assert!(!inside.contains(outside), "{outside}");
     }
     // The decision that ended the first stay, with the plan's line and its text.
-    let line =
-        1 + log.agent.lines().position(|line| line.starts_with("+!stay(_, Arrival)")).unwrap();
-    assert!(page.contains(&format!("<pre>{line}: +!stay(_, Arrival) : target(X, Y, Z, Yaw)")));
+    let plan = "+!stay : target(X, Y, Z, Yaw) & stayingFor(Time)";
+    let line = 1 + log.agent.lines().position(|line| line.starts_with(plan)).unwrap();
+    assert!(page.contains(&format!("<pre>{line}: {}", plan.replace('&', "&amp;"))));
     assert!(page.contains("last order: Done") && page.contains("plan flown to its end"));
     let steps = flight.report.steps_done;
     assert!(page.contains(&format!("<b>{steps}</b>steps done")), "{steps}");

@@ -10,10 +10,11 @@ use autopilot::plan::FlightLimits;
 use autopilot::safety::Veto;
 use autopilot::sim::{Moment, SimulatedFlight, Simulation};
 use autopilot::{Demand, Plan};
+use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
-use mock_drone::{Lie, WorldConfig};
-use nalgebra::Vector2;
+use mock_drone::sensors::SensorModel;
+use mock_drone::{DroneConfig, Quantity as Sensor, SensorFault, WorldConfig};
 use system_tests::{SQUARE, campaign, plan};
 
 const SECOND: Duration = Duration::from_secs(1);
@@ -160,19 +161,57 @@ fn navdata_that_stay_frozen_or_lie_too_much_land_the_drone() {
 /// Whatever was wrong before: the motors do not spin up.
 #[test]
 fn a_drone_that_lies_from_the_first_packet_does_not_take_off() {
-    for lie in [
-        Lie { velocity_m_s: Vector2::new(20.0, 0.0), ..Lie::default() },
-        Lie { altitude_m: -5.0, ..Lie::default() },
-        Lie { yaw_deg: f64::NAN, ..Lie::default() },
+    for (sensor, fault) in [
+        (Sensor::VelocityRight, SensorFault::Offset(20.0)),
+        (Sensor::Altitude, SensorFault::Offset(-5.0)),
+        (Sensor::Altitude, SensorFault::Offset(2.0)),
+        (Sensor::Yaw, SensorFault::NotANumber),
     ] {
-        let lies = Action::Lie(lie, 60 * SECOND);
+        let lies = Action::Sensor(sensor, fault, 60 * SECOND);
         let scenario = Scenario::default().and(When::SinceStart(Duration::ZERO), lies);
         let world = WorldConfig { scenario, ..WorldConfig::default() };
         let simulation = Simulation { world, ..Simulation::default() };
         let mut rose = false;
         let watch = |moment: &Moment| rose |= moment.truth.phase != Phase::Landed;
         let flight = simulation.fly_watched(plan(SQUARE), watch).unwrap();
-        assert!(!rose, "{lie:?}: {:?}", flight.outcome);
+        assert!(!rose, "{sensor:?} {fault:?}: {:?}", flight.outcome);
+    }
+}
+
+/// A flight of an airframe in a wind, and the furthest that it was from the start.
+fn in_the_wind(profile: Profile, seed: u64, text: &str, wind: &str) -> (SimulatedFlight, f64) {
+    let scenario = Scenario::parse("wind", wind).unwrap();
+    let sensors = SensorModel::hard();
+    let drone = DroneConfig { profile, sensors, seed, ..DroneConfig::default() };
+    let world = WorldConfig { scenario, drone, ..WorldConfig::default() };
+    let limits = FlightLimits { radius_m: 60.0, ..NEAR };
+    let pilot = PilotConfig { limits, ..PilotConfig::default() };
+    let mut away_m = 0.0;
+    let simulation = Simulation { world, pilot, ..Simulation::default() };
+    let flight = simulation.fly_watched(plan(text), |m| furthest_m(m, &mut away_m)).unwrap();
+    (flight, away_m)
+}
+
+/// However much of its tilt it takes: what counts is that the place is held.
+#[test]
+fn a_wind_that_can_be_held_against_lands_nobody() {
+    for seed in 1..=5 {
+        let flight = in_the_wind(Profile::leo(), seed, SQUARE, "0 wind 0.5 0 gusts 0.25").0;
+        assert_eq!(flight.outcome, Outcome::Completed, "seed {seed}");
+    }
+}
+
+/// What carries the drone off at full tilt does so until it stands: it is landed after two seconds of that.
+#[test]
+fn a_wind_that_cannot_be_held_against_lands_in_time() {
+    let long = "takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n";
+    let reason = LandingReason::Wind.to_string();
+    for (profile, wind) in [(Profile::rec(), "+10 wind 6 0"), (Profile::leo(), "+10 wind 4 0")] {
+        for seed in 1..=5 {
+            let (flight, away_m) = in_the_wind(profile, seed, long, wind);
+            assert_eq!(flight.outcome, Outcome::Failsafe { reason: reason.clone() }, "{wind}");
+            assert!(away_m < 25.0, "{wind}, seed {seed}: {away_m:.1} m");
+        }
     }
 }
 

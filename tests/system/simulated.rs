@@ -146,7 +146,7 @@ fn a_heading_across_the_jump_is_reached() {
 #[test]
 fn a_push_late_in_a_long_stay_does_not_end_the_plan() {
     for seed in 1..=3 {
-        let text = "+70 wind 4 0\n+71.5 wind 0 0";
+        let text = "+70 wind 3.5 0\n+71 wind 0 0";
         let scenario = Scenario::parse("push", text).unwrap();
         let drone = DroneConfig { seed, ..DroneConfig::default() };
         let world = WorldConfig { scenario, drone, ..WorldConfig::default() };

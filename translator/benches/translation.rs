@@ -23,27 +23,40 @@ const AUTOPILOT: [&str; 2] = [
 /// Random orders, places and times for the autopilot, with a state of its own like any environment.
 const ENVIRONMENT: &str = r"
 static uint32_t seed = 1U;
-static int64_t now_ms = 0;
 static uint32_t number(uint32_t below) { seed = seed * 1664525U + 1013904223U; return (seed >> 8) % below; }
 void autopilot_updateBeliefs(autopilot_agent_t *agent, void *environment)
 {
     (void)environment;
-    now_ms += 30;
     autopilot_set_position(agent, number(5U), number(5U), 1.0, 0.0);
+    autopilot_set_blindFor(agent, number(310U));
+    autopilot_set_wind(agent, number(20U) / 100.0);
+    autopilot_set_stayingFor(agent, number(600U));
 }
+void autopilot_tracePlan(void *e, uint32_t plan) { (void)e; (void)plan; }
 void autopilot_sendStandby(void *e) { (void)e; }
 void autopilot_sendTakeOff(void *e) { (void)e; }
+void autopilot_sendTakeOffAgain(void *e) { (void)e; }
 void autopilot_sendHover(void *e) { (void)e; }
-void autopilot_sendGoto(void *e, double x, double y, double z, double yaw) { (void)e; (void)x; (void)y; (void)z; (void)yaw; }
+void autopilot_sendSticks(void *e) { (void)e; }
+void autopilot_sendPause(void *e) { (void)e; }
 void autopilot_sendLand(void *e) { (void)e; }
+void autopilot_sendGoto(void *e, double x, double y, double z, double yaw) { (void)e; (void)x; (void)y; (void)z; (void)yaw; }
+void autopilot_sendGotoAgain(void *e, double x, double y, double z, double yaw) { (void)e; (void)x; (void)y; (void)z; (void)yaw; }
+void autopilot_sendStay(void *e, double x, double y, double z, double yaw) { (void)e; (void)x; (void)y; (void)z; (void)yaw; }
+void autopilot_sendDescent(void *e, double x, double y, double z, double yaw) { (void)e; (void)x; (void)y; (void)z; (void)yaw; }
 bool autopilot_onGround(void *e) { (void)e; return number(20U) == 0U; }
 bool autopilot_hovering(void *e) { (void)e; return number(5U) == 0U; }
+bool autopilot_steering(void *e) { (void)e; return number(5U) != 0U; }
 bool autopilot_closeEnough(void *e, double x, double y, double z, double yaw, double d) { (void)e; (void)x; (void)y; (void)z; (void)yaw; (void)d; return number(3U) == 0U; }
-int64_t autopilot_getCurrentTimeMS(void *e) { (void)e; return now_ms; }
-bool autopilot_longEnough(void *e, int64_t from, int64_t time) { (void)e; return now_ms - from > time; }
 void autopilot_reportDone(void *e) { (void)e; }
 void autopilot_reportRefused(void *e) { (void)e; }
 void autopilot_reportFailed(void *e) { (void)e; }
+void autopilot_tellBatteryLow(void *e) { (void)e; }
+void autopilot_tellBatteryEmpty(void *e) { (void)e; }
+void autopilot_tellBlind(void *e) { (void)e; }
+void autopilot_tellLost(void *e) { (void)e; }
+void autopilot_tellWind(void *e) { (void)e; }
+void autopilot_tellNoProgress(void *e) { (void)e; }
 int main(void)
 {
     static autopilot_agent_t agent;

@@ -261,7 +261,7 @@ impl Session {
         if let Some(last) = self.last_navdata.filter(|_| self.link == Link::Alive)
             && navdata.sequence <= last.sequence
         {
-            if !has_restarted(&navdata, last, now) {
+            if !has_restarted(&navdata, last) {
                 self.statistics.stale += 1;
                 return Received::Stale;
             }
@@ -528,17 +528,16 @@ fn custom_settings(identity: Identity) -> [Config; 3] {
 }
 
 /// A sequence number that does not rise means a late or repeated packet, unless the drone says
-/// that it is bootstrapping, or was silent for a second, or counts from the very start.
-fn has_restarted(navdata: &Navdata, last: Heard, now: Duration) -> bool {
+/// that it is bootstrapping, as a drone does that nobody has configured yet, or counts from the very
+/// start. That nothing came for a while means nothing: what comes then may have been held up.
+fn has_restarted(navdata: &Navdata, last: Heard) -> bool {
     const FIRST_PACKETS: u32 = 3;
-    const MAX_LATENESS: Duration = Duration::from_secs(1);
     if navdata.sequence == last.sequence {
         return false;
     }
-    let silent = now.saturating_sub(last.at) > MAX_LATENESS;
     let bootstrapping = navdata.state.contains(DroneState::NAVDATA_BOOTSTRAP);
     let from_the_start = navdata.sequence <= FIRST_PACKETS && last.sequence > 10 * FIRST_PACKETS;
-    silent || bootstrapping || from_the_start
+    bootstrapping || from_the_start
 }
 
 #[cfg(test)]

@@ -165,6 +165,11 @@ impl Pilot {
         if let Some(fault) = self.lasting_fault(now) {
             self.land(now, LandingReason::DroneFault(fault));
         }
+        // A hover would not show that it has come back.
+        let trust = self.estimator.trust();
+        if matches!(trust, Trust::Unresponsive(_)) {
+            self.land(now, LandingReason::Distrust(trust));
+        }
         if let Some(active) = self.due
             && active.due.order == AgentOrder::Land
             && now.saturating_sub(active.since) >= LANDING_TIMEOUT

@@ -99,6 +99,8 @@ impl Pilot {
             PilotOrder::GoTo { .. } => {}
             PilotOrder::Resume => {
                 if self.hand.holds_plan {
+                    // What the agent does for the hand ends unreported: its end is not the plan's.
+                    self.hold();
                     self.hand = Hand { pre_empts: self.hand.pre_empts, ..Hand::default() };
                     self.events.push_back(FlightEvent::Resumed);
                     // What the agent was told was pre-empted.

@@ -5,15 +5,15 @@
 //!
 //! How strong the wind is cannot be told well enough to decide by: an estimate of it also holds what
 //! is not known of the airframe. What matters is whether the place is held. Only a push that was not
-//! there after the take-off and is as strong as half of full tilt is a reason of its own: it is a storm,
+//! there after the take-off and takes four tenths of full tilt is a reason of its own: it is a storm,
 //! or a velocity that drifts, and of the second nothing else tells.
 
 use estimator::Prediction;
 use nalgebra::{Vector2, Vector3};
 use pid::{Demand, Pose};
 
-/// Sticks beyond this share of their limit ask for all that there is.
-const FULL: f64 = 0.95;
+/// Sticks beyond this share of their limit ask for all that there is: the law keeps a little back.
+const FULL: f64 = 0.8;
 /// Slower than this a drone does not drift off, in m/s.
 const DRIFT_M_S: f64 = 0.1;
 /// Further away than this, in metres, a drone at its limit must come nearer.
@@ -22,16 +22,15 @@ const FAR_M: f64 = 0.5;
 const HERE_M: f64 = 0.2;
 
 /// A push that changes by this share of full tilt is no breeze.
-const STORM_SHARE: f64 = 0.5;
-/// It is averaged over this time, and what is usual over the second.
+const STORM_SHARE: f64 = 0.4;
+/// It is averaged over this time.
 const GUST_TIME_S: f64 = 1.5;
-const USUAL_TIME_S: f64 = 30.0;
 
 /// How long the drone has been drifting off at the limit of its sticks.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Saturation {
     for_s: f64,
-    /// What pushes the drone, gusts apart, and what has pushed it for long.
+    /// What pushes the drone, gusts apart, and what pushed it when it last held its place by itself.
     push_m_s2: Vector2<f64>,
     usual_m_s2: Vector2<f64>,
 }
@@ -50,7 +49,6 @@ impl Saturation {
     ) {
         let push_m_s2 = state.disturbance_m_s2;
         self.push_m_s2 += (push_m_s2 - self.push_m_s2) * (step_s / GUST_TIME_S).min(1.0);
-        self.usual_m_s2 += (push_m_s2 - self.usual_m_s2) * (step_s / USUAL_TIME_S).min(1.0);
         let storm = (self.push_m_s2 - self.usual_m_s2).norm() > STORM_SHARE * full_tilt_m_s2;
         let away = state.position_m - Vector3::new(target.x_m, target.y_m, target.z_m);
         let across_m = away.xy().norm();
@@ -134,7 +132,7 @@ mod tests {
             saturation.for_ms()
         };
         assert_eq!(lasts_ms(1.5, 1.5), 0, "it was there");
-        assert_eq!(lasts_ms(0.0, 0.8), 0, "a breeze");
+        assert_eq!(lasts_ms(0.0, 0.7), 0, "a breeze");
         assert!(lasts_ms(0.0, 1.5) > 2000);
     }
 
