@@ -149,7 +149,8 @@ pub(crate) fn all(shard: Option<&str>) -> Result<(String, bool), MutantsError> {
     let status = cargo(Path::new("."))
         .args(["mutants", "--no-times", "--colors", "never", "--output"])
         .arg(&output)
-        .args(shard.iter().flat_map(|shard| ["--shard", shard]))
+        // Each shard is a sample of all.
+        .args(shard.iter().flat_map(|shard| ["--sharding", "round-robin", "--shard", shard]))
         .status()
         .map_err(in_file("cannot run", Path::new("cargo")))?;
     let lists = output.join("mutants.out");
