@@ -153,24 +153,24 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "agent without @blind",
         &[edit(
             AGENT,
-            "& landWhenBlind(Limit) & Time > Limit\n  <- tellBlind;",
-            "& landWhenBlind(Limit) & Time > Limit & Time < 0\n  <- tellBlind;",
+            "@blind[req(\"SAF-5\")]\n+!watch : ",
+            "@blind[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
         )],
     ),
     mutant(
         "agent without @lost",
         &[edit(
             AGENT,
-            "& largestDoubt(Limit) & Metres > Limit\n  <- tellLost;",
-            "& largestDoubt(Limit) & Metres > Limit & Metres < 0\n  <- tellLost;",
+            "@lost[req(\"SAF-5\")]\n+!watch : ",
+            "@lost[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
         )],
     ),
     mutant(
         "agent without @strong_wind",
         &[edit(
             AGENT,
-            "& strongestWind(Limit) & Share > Limit\n  <- tellWind;",
-            "& strongestWind(Limit) & Share > Limit & Share < 0\n  <- tellWind;",
+            "@strong_wind[req(\"SAF-5\")]\n+!watch : ",
+            "@strong_wind[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
         )],
     ),
     mutant(
@@ -212,8 +212,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "never blind",
         &[edit(
             PILOT,
-            "|seen_at| now.saturating_sub(seen_at)",
-            "|seen_at| now.saturating_sub(seen_at.max(now))",
+            "fn blind_for(&self, now: Duration) -> Duration {\n",
+            "fn blind_for(&self, now: Duration) -> Duration {\n        let now = now.min(Duration::ZERO);\n",
         )],
     ),
     mutant(

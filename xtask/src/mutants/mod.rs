@@ -130,9 +130,10 @@ fn end(output: &Output) -> End {
         Some(1) if !said.is_empty() => End::Caught(said),
         _ => {
             let panic = String::from_utf8_lossy(&output.stderr);
-            let mut lines = panic.lines().skip_while(|line| !line.contains("panicked at"));
-            let what: Vec<&str> = lines.by_ref().take(2).collect();
-            End::Caught(format!("{}: {}", output.status, what.join(" ")))
+            // The message stands below the thread and the place.
+            let what = panic.lines().skip_while(|line| !line.contains("panicked at")).nth(1);
+            let what = what.unwrap_or("the judge breaks off");
+            End::Caught(format!("{what} ({})", output.status))
         }
     }
 }
@@ -149,7 +150,8 @@ pub(crate) fn all(shard: Option<&str>) -> Result<(String, bool), MutantsError> {
     let status = cargo(Path::new("."))
         .args(["mutants", "--no-times", "--colors", "never", "--output"])
         .arg(&output)
-        .args(shard.iter().flat_map(|shard| ["--shard", shard]))
+        // Each shard is a sample of all.
+        .args(shard.iter().flat_map(|shard| ["--sharding", "round-robin", "--shard", shard]))
         .status()
         .map_err(in_file("cannot run", Path::new("cargo")))?;
     let lists = output.join("mutants.out");
@@ -177,6 +179,22 @@ fn in_file(what: &str, path: &Path) -> impl FnOnce(io::Error) -> MutantsError {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What a shell makes of being told so.
+    fn told(script: &str) -> End {
+        end(&Command::new("sh").args(["-c", script]).output().unwrap())
+    }
+
+    #[test]
+    fn only_a_judge_that_ends_and_finds_nothing_lets_a_mutant_live() {
+        assert_eq!(told("echo nothing"), End::Survived);
+        let caught = |what: &str| End::Caught(what.to_owned());
+        assert_eq!(told("echo seed 3: too far; exit 1"), caught("seed 3: too far"));
+        let panic = "echo \"thread 'main' panicked at x.rs:1:\nmin > max\" >&2; exit 101";
+        assert_eq!(told(panic), caught("min > max (exit status: 101)"));
+        let killed = told("kill -ABRT $$");
+        assert!(matches!(&killed, End::Caught(what) if what.contains("breaks off")), "{killed:?}");
+    }
 
     #[test]
     fn each_mutant_can_be_made() {
