@@ -30,6 +30,10 @@ const LOW_M: f64 = 0.15;
 const RETREAT: Duration = Duration::from_secs(10);
 /// And when navdata have been so old on its way.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
+/// Near the floor of its fence the drone sinks no faster than the slowest airframe stops: this fast at the
+/// floor, and so much faster for each metre above.
+const SINK_AT_FLOOR_M_S: f64 = 0.15;
+const SINK_1_S: f64 = 0.5;
 /// No stick jumps further within one tick.
 const LARGEST_JUMP: f64 = 1.0;
 
@@ -160,9 +164,12 @@ impl Guard {
         self.lands |= self.danger.is_some();
     }
 
-    /// The sticks within their limit, and no further from the last ones than they may jump.
-    pub fn limit(&mut self, demand: &Demand, most: f64) -> Demand {
+    /// The sticks within their limit, and no further from the last ones than they may jump. At a height
+    /// above the start, where full gaz sinks by `climb_m_s`, the drone stays able to stop above the floor.
+    pub fn limit(&mut self, demand: &Demand, most: f64, height_m: f64, climb_m_s: f64) -> Demand {
         let most = most.clamp(0.0, 1.0);
+        let room_m = (height_m - self.fence.floor_m).max(0.0);
+        let sink = (SINK_AT_FLOOR_M_S + SINK_1_S * room_m) / climb_m_s.max(f64::EPSILON);
         let within = |wanted: f64, last: f64| {
             let wanted = if wanted.is_finite() { wanted.clamp(-most, most) } else { 0.0 };
             wanted.clamp(last - LARGEST_JUMP, last + LARGEST_JUMP)
@@ -171,7 +178,7 @@ impl Guard {
         self.sticks = Demand {
             roll: within(demand.roll, last.roll),
             pitch: within(demand.pitch, last.pitch),
-            gaz: within(demand.gaz, last.gaz),
+            gaz: within(demand.gaz, last.gaz).max(-sink),
             yaw: within(demand.yaw, last.yaw),
         };
         self.sticks
@@ -340,6 +347,17 @@ mod tests {
     }
 
     #[test]
+    fn near_the_floor_the_drone_sinks_slowly() {
+        let down = Demand { gaz: -1.0, ..Demand::default() };
+        let gaz = |height_m| guard().limit(&down, 1.0, height_m, 0.7).gaz;
+        assert!((gaz(2.0) + 1.0).abs() < 1e-9);
+        assert!((-0.4..-0.3).contains(&gaz(0.5)), "{}", gaz(0.5));
+        assert!((-0.25..-0.2).contains(&gaz(0.1)), "{}", gaz(0.1));
+        let up = Demand { gaz: 1.0, ..Demand::default() };
+        assert!((guard().limit(&up, 1.0, 0.1, 0.7).gaz - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
     fn targets_outside_the_fence_are_not_flown_to() {
         let here = FINE.pose;
         for target in [
@@ -370,11 +388,11 @@ mod tests {
     fn sticks_are_limited_and_do_not_jump() {
         let mut guard = guard();
         let full = Demand { roll: 1.0, pitch: -3.0, gaz: f64::NAN, yaw: 0.2 };
-        let limited = guard.limit(&full, 0.6);
+        let limited = guard.limit(&full, 0.6, 2.0, 0.7);
         assert_eq!(limited, Demand { roll: 0.6, pitch: -0.6, gaz: 0.0, yaw: 0.2 });
-        let limited = guard.limit(&Demand { roll: -1.0, ..full }, 1.0);
+        let limited = guard.limit(&Demand { roll: -1.0, ..full }, 1.0, 2.0, 0.7);
         assert!((limited.roll + 0.4).abs() < 1e-12, "{limited:?}");
         guard.let_go();
-        assert!((guard.limit(&full, 1.0).roll - 1.0).abs() < 1e-12);
+        assert!((guard.limit(&full, 1.0, 2.0, 0.7).roll - 1.0).abs() < 1e-12);
     }
 }

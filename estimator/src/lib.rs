@@ -189,6 +189,7 @@ pub struct Estimator {
     uncertainty: Uncertainty,
     /// Since when the altitude is that of a drone on the floor, although it follows its sticks.
     low_since_s: Option<f64>,
+    airborne_since_s: Option<f64>,
     airborne: bool,
     estimate: Estimate,
 }
@@ -212,6 +213,8 @@ const CLEAR_OF_GROUND_M: f64 = 0.4;
 /// No drone flies this low by its sticks: it is on the floor, or its altitude is wrong.
 const ON_FLOOR_M: f64 = 0.1;
 const ON_FLOOR_S: f64 = 0.4;
+/// A take-off is clear of the ground after this time.
+const TAKE_OFF_S: f64 = 3.0;
 /// Nothing is predicted further than this beyond the newest sample.
 const MAX_PREDICTION_S: f64 = 0.6;
 
@@ -233,6 +236,7 @@ impl Estimator {
             response: Response::default(),
             uncertainty: Uncertainty::default(),
             low_since_s: None,
+            airborne_since_s: None,
             airborne: false,
             estimate: Estimate::default(),
             config,
@@ -255,12 +259,18 @@ impl Estimator {
             self.plausibility.watch(arrival_s, sample, &verdict);
             return;
         }
-        self.airborne = sample.airborne;
+        let was_airborne = std::mem::replace(&mut self.airborne, sample.airborne);
         let attitude_s = made_s - self.config.attitude_delay.as_secs_f64();
         let turned = self.update_attitude(attitude_s, sample);
-        let believed = self.update_horizontal(made_s, sample);
+        let believed = self.update_horizontal(made_s, sample, was_airborne);
         let floor_stepped = self.update_vertical(made_s, sample);
         let by_itself = self.orders.at(attitude_s) == Order::ByItself;
+        let is_low = sample.altitude_m < CLEAR_OF_GROUND_M;
+        let since_s = *self.airborne_since_s.get_or_insert(arrival_s);
+        if !sample.airborne {
+            self.airborne_since_s = None;
+        }
+        let takes_off = arrival_s - since_s < TAKE_OFF_S;
         let verdict = Verdict {
             rejected: (!believed).then_some(Quantity::Velocity),
             unresponsive: self.watch_response(attitude_s, sample),
@@ -269,7 +279,7 @@ impl Estimator {
                 (false, true) => Some(Quantity::Altitude),
                 (false, false) => None,
             },
-            near_ground: by_itself && sample.altitude_m < CLEAR_OF_GROUND_M,
+            near_ground: by_itself && is_low && takes_off,
             asked_rise_m: self.response.asked_rise_m(),
             asked_turn_deg: self.response.asked_turn_deg(),
             lateness_s,
@@ -320,7 +330,7 @@ impl Estimator {
     }
 
     /// Whether the velocity was believed.
-    fn update_horizontal(&mut self, made_s: f64, sample: &Sample) -> bool {
+    fn update_horizontal(&mut self, made_s: f64, sample: &Sample, was_airborne: bool) -> bool {
         let at_s = made_s - self.config.velocity_delay.as_secs_f64();
         let body = Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s);
         // The very same numbers are the last measurement once more: navdata come more often than the
@@ -332,6 +342,11 @@ impl Estimator {
         let step_s = (at_s - from_s).max(0.0);
         let order = self.orders.at(at_s);
         if !sample.airborne {
+            if was_airborne {
+                let before_m_s = self.horizontal.measured_m_s();
+                let unseen_s = (step_s - USUAL_STEP_S).max(0.0);
+                self.uncertainty.fly_unseen(unseen_s, before_m_s, Vector2::zeros());
+            }
             self.horizontal.correct(
                 Vector2::zeros(),
                 self.horizontal.position_m,

@@ -49,8 +49,8 @@ struct RateTolerance {
 const CLIMB: RateTolerance = RateTolerance {
     share: 0.5,
     slack: 0.03,
-    missing: 0.15,
-    missing_slowly: 0.4,
+    missing: 0.3,
+    missing_slowly: 0.5,
     jump: 0.1,
     jump_1_s: 1.0,
 };

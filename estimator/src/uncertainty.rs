@@ -17,6 +17,9 @@ const HEADING_DRIFT_DEG_S: f64 = 0.03;
 const UNSEEN_M_S: f64 = 0.15;
 const UNSEEN_SPEED: f64 = 0.2;
 const UNSEEN_CHANGE: f64 = 0.25;
+/// After so long a drone that hears nothing hovers and lands by itself, and drifts in the wind.
+const ALONE_AFTER_S: f64 = 2.0;
+const ALONE_M_S: f64 = 0.5;
 /// And it may be gaining: full tilt, which is a fifth of gravity, is the worst.
 const UNSEEN_M_S2: f64 = 0.3;
 /// Of the heading after each step of the compass.
@@ -57,7 +60,8 @@ impl Uncertainty {
         let speed_m_s = before_m_s.norm().max(after_m_s.norm());
         let change_m_s = (after_m_s - before_m_s).norm();
         let unseen_m_s = UNSEEN_M_S + UNSEEN_SPEED * speed_m_s + UNSEEN_CHANGE * change_m_s;
-        self.unseen_m2 += (unseen_m_s * gap_s).powi(2);
+        let alone_m = ALONE_M_S * (gap_s - ALONE_AFTER_S).max(0.0);
+        self.unseen_m2 += (unseen_m_s * gap_s + alone_m).powi(2);
     }
 
     /// A velocity was not believed that would have led elsewhere this fast.

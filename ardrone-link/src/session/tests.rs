@@ -34,6 +34,14 @@ impl Bench {
     }
 
     /// The commands of one tick.
+    /// The first packets of a drone that has started again, until there is no doubt.
+    fn hear_restart(&mut self, first: u32) {
+        for sequence in first..first + 4 {
+            self.hear(sequence, DroneState::NAVDATA_BOOTSTRAP);
+            self.now += Duration::from_millis(66);
+        }
+    }
+
     fn tick(&mut self, flight: FlightOrder) -> Vec<Command> {
         self.now += TICK;
         let mut datagram = Datagram::new();
@@ -122,7 +130,7 @@ fn the_configuration_is_read_back_in_pieces() {
 fn without_a_control_port_the_session_goes_on_and_says_so() {
     let mut bench = Bench::new(&[]);
     bench.session.config.read_back = true;
-    for sequence in 1..120 {
+    for sequence in 1..240 {
         bench.hear(sequence, DroneState::empty());
         bench.tick(FlightOrder::Land);
     }
@@ -187,7 +195,7 @@ fn a_drone_that_restarts_in_flight_does_not_take_off_again() {
     assert!(bench.takes_off(FlightOrder::TakeOff));
     bench.hear(501, DroneState::FLYING);
     assert!(bench.takes_off(FlightOrder::StayAirborne));
-    bench.hear(1, DroneState::NAVDATA_BOOTSTRAP);
+    bench.hear_restart(1);
     assert!(bench.events().contains(&Event::DroneRestarted));
     // Neither the order to stay in the air nor the one that is still being given counts.
     assert!(!bench.takes_off(FlightOrder::StayAirborne));
@@ -309,8 +317,21 @@ fn an_emergency_stop_beats_every_order_and_is_never_left_on() {
     }
     bench.session.request_emergency_reset();
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::ToggleEmergency);
-    bench.hear(3, DroneState::empty());
+    bench.hear(9, DroneState::empty());
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::Land);
+}
+
+/// Old packets, the first of all among them, that arrive again in a heap.
+#[test]
+fn a_heap_of_old_packets_is_no_restart() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(500, DroneState::FLYING);
+    bench.now += Duration::from_secs(2);
+    for sequence in 1..83 {
+        assert_eq!(bench.hear(sequence, DroneState::NAVDATA_BOOTSTRAP), Received::Stale);
+    }
+    bench.hear(501, DroneState::FLYING);
+    assert!(!bench.events().contains(&Event::DroneRestarted));
 }
 
 #[test]
@@ -322,7 +343,7 @@ fn a_drone_that_falls_or_has_restarted_has_not_landed() {
     assert!(events.contains(&Event::Emergency) && !events.contains(&Event::Landed), "{events:?}");
     let mut bench = Bench::new(&[]);
     bench.hear(500, DroneState::FLYING);
-    bench.hear(1, DroneState::NAVDATA_BOOTSTRAP);
+    bench.hear_restart(1);
     let events = bench.events();
     assert!(events.contains(&Event::DroneRestarted), "{events:?}");
     assert!(!events.contains(&Event::Landed), "{events:?}");

@@ -38,7 +38,7 @@ impl Pilot {
                 self.target = Some(target);
                 let limit = self.mission.max_control();
                 let demand = self.demand(now, &target, step_s);
-                let demand = self.guard.limit(&demand, limit);
+                let demand = self.guard.limit(&demand, limit, state.position_m.z, self.climb_m_s);
                 let full_m_s2 = self.full_tilt_m_s2;
                 self.saturation.watch(&demand, limit, state, &target, full_m_s2, step_s);
                 told = Some(demand);
@@ -47,7 +47,12 @@ impl Pilot {
             AgentCommand::Sticks => {
                 self.controller.rest();
                 let demand = self.hand.sticks(now).unwrap_or_default();
-                let demand = self.guard.limit(&demand, self.mission.max_control());
+                let demand = self.guard.limit(
+                    &demand,
+                    self.mission.max_control(),
+                    state.position_m.z,
+                    self.climb_m_s,
+                );
                 told = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }

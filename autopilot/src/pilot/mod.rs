@@ -139,6 +139,8 @@ pub struct Pilot {
     wind_m_s2: Vector2<f64>,
     /// What full tilt gives, if gravity alone made it.
     full_tilt_m_s2: f64,
+    /// What full gaz gives.
+    climb_m_s: f64,
     /// Whether it can hold against that.
     saturation: Saturation,
     target: Option<Pose>,
@@ -214,6 +216,7 @@ impl Pilot {
             fault_since: None,
             saturation: Saturation::default(),
             wind_m_s2: Vector2::zeros(),
+            climb_m_s: config.estimator.limits.climb_m_s,
             full_tilt_m_s2: GRAVITY_M_S2 * config.estimator.limits.tilt_rad.tan(),
             target: None,
             last_tick: None,

@@ -5,7 +5,7 @@
 //!
 //! How strong the wind is cannot be told well enough to decide by: an estimate of it also holds what
 //! is not known of the airframe. What matters is whether the place is held. Only a push that was not
-//! there after the take-off and takes four tenths of full tilt is a reason of its own: it is a storm,
+//! there after the take-off and takes half of full tilt is a reason of its own: it is a storm,
 //! or a velocity that drifts, and of the second nothing else tells.
 
 use estimator::Prediction;
@@ -13,16 +13,18 @@ use nalgebra::{Vector2, Vector3};
 use pid::{Demand, Pose};
 
 /// Sticks beyond this share of their limit ask for all that there is: the law keeps a little back.
-const FULL: f64 = 0.8;
+const FULL: f64 = 0.9;
 /// Slower than this a drone does not drift off, in m/s.
 const DRIFT_M_S: f64 = 0.1;
+/// Slower than this, in m/s, it comes no nearer.
+const STILL_M_S: f64 = 0.02;
 /// Further away than this, in metres, a drone at its limit must come nearer.
 const FAR_M: f64 = 0.5;
 /// Nearer than this no direction leads away, in metres.
 const HERE_M: f64 = 0.2;
 
 /// A push that changes by this share of full tilt is no breeze.
-const STORM_SHARE: f64 = 0.4;
+const STORM_SHARE: f64 = 0.5;
 /// It is averaged over this time.
 const GUST_TIME_S: f64 = 1.5;
 
@@ -54,13 +56,13 @@ impl Saturation {
         let across_m = away.xy().norm();
         let drift_m_s = state.velocity_m_s.xy().dot(&away.xy()) / across_m.max(f64::EPSILON);
         let is_full = |stick: f64| stick.abs() >= FULL * limit;
-        let across = (is_full(demand.roll) || is_full(demand.pitch))
+        let across = is_full(demand.roll.hypot(demand.pitch))
             && (across_m > HERE_M && drift_m_s > DRIFT_M_S
-                || across_m > FAR_M && drift_m_s > -DRIFT_M_S);
+                || across_m > FAR_M && drift_m_s > -STILL_M_S);
         let climbs_off_m_s = state.velocity_m_s.z * away.z.signum();
         let up = is_full(demand.gaz)
             && (away.z.abs() > HERE_M && climbs_off_m_s > DRIFT_M_S
-                || away.z.abs() > FAR_M && climbs_off_m_s > -DRIFT_M_S);
+                || away.z.abs() > FAR_M && climbs_off_m_s > -STILL_M_S);
         let change_s = if across || up || storm { step_s } else { -step_s };
         self.for_s = (self.for_s + change_s).max(0.0);
     }
@@ -132,7 +134,7 @@ mod tests {
             saturation.for_ms()
         };
         assert_eq!(lasts_ms(1.5, 1.5), 0, "it was there");
-        assert_eq!(lasts_ms(0.0, 0.7), 0, "a breeze");
+        assert_eq!(lasts_ms(0.0, 0.9), 0, "a breeze");
         assert!(lasts_ms(0.0, 1.5) > 2000);
     }
 

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use ardrone_link::navdata::DroneState;
 use autopilot::plan::FlightLimits;
 use autopilot::sim::Moment;
 use mock_drone::firmware::Phase;
@@ -39,6 +40,8 @@ pub(super) struct Fence {
     looked_at: Option<Duration>,
     out_of_hand_at: Option<Duration>,
     allowed_m: f64,
+    /// It was inside, as far as can be asked, when it began to land by itself.
+    within: bool,
     /// It may come down on the floor by itself.
     pub(super) may_meet_floor: bool,
     blown: bool,
@@ -56,6 +59,7 @@ impl Fence {
             looked_at: None,
             out_of_hand_at: None,
             allowed_m: 0.0,
+            within: true,
             may_meet_floor: false,
             blown: false,
             outside_m: 0.0,
@@ -97,7 +101,12 @@ impl Fence {
             return;
         }
         self.outside_m = self.outside_m.max(outside_m);
-        let margin_m = if injected.has_lied(*now) { LYING_MARGIN_M } else { MARGIN_M };
+        let margin_m = if injected.has_lied(*now) {
+            // A velocity that drifts cannot be told from a wind that rises.
+            LYING_MARGIN_M + injected.velocity_drift_m(*now)
+        } else {
+            MARGIN_M
+        };
         let allowed_m = self.allowed_m + margin_m;
         if outside_m <= allowed_m || !is_airborne(truth) {
             return;
@@ -117,7 +126,15 @@ impl Fence {
             || lands_by_itself
             || truth.phase == Phase::Emergency
             || truth.phase == Phase::Landed && truth.position_m.z > 0.0
-            || injected.second_pilot(now, Duration::ZERO);
+            || injected.second_pilot(now, Duration::ZERO)
+            // Where nothing can be believed the drone's own hover and landing are the right answer.
+            || injected.claims_no_floor(now)
+            || injected.claims(now, DroneState::ULTRASOUND_DEAF)
+            || injected.worthless_for(now) > Duration::ZERO;
+        // Its own landing drifts with the wind.
+        let unheard = unheard || truth.phase == Phase::Landing && self.within;
+        self.within = self.outside_m(truth) <= MARGIN_M && truth.phase != Phase::Landing
+            || self.within && truth.phase == Phase::Landing;
         let before = self.out_of_hand;
         self.out_of_hand = OutOfHand { unheard, unseen: injected.is_cut_down(now) };
         if self.out_of_hand == OutOfHand::default() {

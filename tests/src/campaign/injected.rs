@@ -111,6 +111,32 @@ impl Injected {
         self.begun(now).any(|(_, action)| matches!(action, Action::Sensor(..) | Action::Freeze(_)))
     }
 
+    /// How far a velocity that drifts by so much a second has led whoever believes it, and how far it goes
+    /// on until that speed is lost again.
+    pub(super) fn velocity_drift_m(&self, now: Duration) -> f64 {
+        const SLOWING_DOWN_S: f64 = 2.0;
+        const BLOWN_M_S: f64 = 1.5;
+        const BLOWN_S: f64 = 8.0;
+        let drift = |at: Duration, action: &Action| match action {
+            Action::Sensor(
+                Quantity::VelocityRight | Quantity::VelocityForward,
+                SensorFault::Ramp(a_second),
+                time,
+            ) => {
+                let drifts_s = now.saturating_sub(at).min(*time).as_secs_f64();
+                a_second.abs() * drifts_s * (drifts_s / 2.0 + SLOWING_DOWN_S)
+            }
+            // One that is dead but rattles shows when the drone tilts; till then it is blown along.
+            Action::Sensor(
+                Quantity::VelocityRight | Quantity::VelocityForward,
+                SensorFault::DeadAt(_),
+                time,
+            ) => BLOWN_M_S * now.saturating_sub(at).min(*time).as_secs_f64().min(BLOWN_S),
+            _ => 0.0,
+        };
+        self.begun(now).map(|(at, action)| drift(at, action)).sum()
+    }
+
     /// Whether the altitude is wrong, or was.
     pub(super) fn has_lied_of_height(&self, now: Duration) -> bool {
         self.begun(now).any(|(_, action)| {

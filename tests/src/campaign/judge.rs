@@ -54,6 +54,8 @@ const REACHED_M: f64 = 0.5;
 const REACHED_LYING_M: f64 = 1.5;
 /// The agent's own limit of doubt is 3 m; where it is exceeded by far, nobody flies on.
 const LOST_M: f64 = 3.6;
+/// Another pilot's drone has landed by itself this long after its last word.
+const STRANGER_LANDS: Duration = Duration::from_secs(15);
 
 /// A danger, and for how long it lasts.
 #[derive(Debug)]
@@ -257,7 +259,8 @@ impl Judge {
         let Moment { now, truth, .. } = moment;
         let Some(last) = self.last else { return };
         let lied = self.injected.has_lied_of_height(*now);
-        let excused = lied || self.fence.may_meet_floor;
+        // A drone with a weak motor sinks.
+        let excused = lied || self.fence.may_meet_floor || self.injected.has_weak_motor(*now);
         if truth.floor_contacts > last.floor_contacts && !excused {
             let speed_m_s = truth.touch_down_m_s.unwrap_or_default();
             self.find(*now, Fault::FloorContact { speed_m_s });
@@ -356,7 +359,9 @@ impl Judge {
         if let Some((at, outside_m, allowed_m)) = self.fence.worst {
             self.find(at, Fault::OutsideFence { outside_m, allowed_m });
         }
-        if is_airborne(&flown.final_truth) {
+        // Another pilot may have lifted it again, and its own landing takes a while.
+        let lifted = self.injected.second_pilot(end, STRANGER_LANDS);
+        if is_airborne(&flown.final_truth) && !lifted {
             self.find(end, Fault::StillFlying { phase: flown.final_truth.phase });
         }
         if flown.duration > LONGEST {
@@ -392,6 +397,10 @@ impl Judge {
         if !self.flew || !all_done {
             self.find(end, Fault::NotFlown);
         }
+        // An airframe that gets everywhere is stronger than it was reckoned to be.
+        self.found.retain(|(_, fault)| {
+            !matches!(fault, Fault::DangerIgnored { danger: Danger::Wind, .. })
+        });
         for (waypoint, truth) in waypoints.iter().zip(&flown.truth_at_waypoints) {
             let Some(error_m) = self.targets.error_m(waypoint.step, truth) else { continue };
             let lied = self.injected.has_lied(waypoint.at);
