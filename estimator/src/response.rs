@@ -69,10 +69,10 @@ const TURN: RateTolerance = RateTolerance {
 const LEAST_THRUST: f64 = 0.4;
 const LARGEST_DRAG_1_S: f64 = 1.95;
 /// Where its velocity would have swung this much in so many seconds...
-const AXIS_SWING_M_S: f64 = 0.22;
+const AXIS_SWING_M_S: f64 = 0.26;
 const AXIS_WINDOW_S: f64 = 3.0;
 /// ...a flow that works shows more than this share of it; noise of one that does not is less.
-const AXIS_SHARE: f64 = 0.3;
+const AXIS_SHARE: f64 = 0.25;
 const SMOOTHING_S: f64 = 0.2;
 const AXIS_INTERVAL_S: f64 = 0.05;
 const AXIS_MEMORY: usize = 64;
@@ -350,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drone_that_is_told_to_move_and_shows_no_motion_is_noticed_within_about_a_second() {
+    fn a_drone_that_is_told_to_move_and_shows_no_motion_is_noticed_within_two_seconds() {
         let none = Sticks::default();
         let cases = [
             (Sticks { up: 1.0, ..none }, Quantity::Altitude),
@@ -360,7 +360,7 @@ mod tests {
         for (sticks, quantity) in cases {
             let (at_s, which) = found(sticks, 5, still).unwrap();
             assert_eq!(which, quantity);
-            assert!(at_s < 1.4, "{quantity}: {at_s}");
+            assert!(at_s < 1.8, "{quantity}: {at_s}");
         }
         assert_eq!(found(none, 60, still), None);
     }
@@ -430,7 +430,7 @@ mod tests {
     fn a_slow_drift_of_the_altitude_is_noticed() {
         let sinking = Sticks { up: -0.15, ..Sticks::default() };
         let (at_s, which) = found(sinking, 20, still).unwrap();
-        assert!(which == Quantity::Altitude && at_s < 7.0, "{at_s}");
+        assert!(which == Quantity::Altitude && at_s < 9.0, "{at_s}");
     }
 
     #[test]

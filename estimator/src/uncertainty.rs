@@ -22,6 +22,8 @@ const ALONE_AFTER_S: f64 = 2.0;
 const ALONE_M_S: f64 = 0.5;
 /// And it may be gaining: full tilt, which is a fifth of gravity, is the worst.
 const UNSEEN_M_S2: f64 = 0.3;
+/// A velocity that was not believed counts up to this: more is hardly a drone's.
+const MAX_DISPUTED_M_S: f64 = 1.2;
 /// Of the heading after each step of the compass.
 const HEADING_STEP_DEG: f64 = 2.0;
 /// Of the place while navdata are late.
@@ -66,7 +68,7 @@ impl Uncertainty {
 
     /// A velocity was not believed that would have led elsewhere this fast.
     pub(crate) fn fly_disputed(&mut self, step_s: f64, surprise_m_s: f64) {
-        self.disputed_m += surprise_m_s * step_s;
+        self.disputed_m += surprise_m_s.min(MAX_DISPUTED_M_S) * step_s;
     }
 
     pub(crate) fn step_of_the_heading(&mut self) {

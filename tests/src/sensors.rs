@@ -24,6 +24,9 @@ use crate::alone;
 pub const MOST_OUTSIDE_M: f64 = 3.0;
 /// Nor further from where it was to hold, or from its way there.
 pub const MOST_AWAY_M: f64 = 1.5;
+/// Where the drone's own hover and landing drift further in the wind than that, nothing can do better:
+/// then by no more than this beyond them.
+pub const OWN_MARGIN_M: f64 = 0.3;
 /// Nor may it scrape along the floor for longer.
 pub const MOST_SCRAPING: Duration = Duration::from_secs(3);
 
@@ -124,6 +127,21 @@ pub struct Failure {
     pub faults: Vec<(Quantity, SensorFault)>,
 }
 
+impl Failure {
+    /// Whether navdata can show it. A velocity that drifts, or that is dead but rattles, cannot be told
+    /// from a wind that rises while the drone holds its place, and one that is late by half a second only
+    /// makes the control worse: how far these lead is told and not judged.
+    pub fn shows(&self) -> bool {
+        !self.faults.iter().all(|(quantity, fault)| {
+            matches!(quantity, Quantity::VelocityRight | Quantity::VelocityForward)
+                && matches!(
+                    fault,
+                    SensorFault::Ramp(_) | SensorFault::DeadAt(_) | SensorFault::Late(_)
+                )
+        })
+    }
+}
+
 /// Every quantity with every fault alone; then all that sensors read frozen, with the clock running
 /// and without.
 pub fn failures() -> Vec<Failure> {
@@ -192,10 +210,10 @@ pub struct Excursion {
 }
 
 impl Excursion {
-    /// Whether that was too much.
-    pub fn is_too_far(&self) -> bool {
+    /// Whether that was too much, where the drone's own hover and landing alone lead it as far as `own`.
+    pub fn is_too_far(&self, own: &Self) -> bool {
         self.outside_m > MOST_OUTSIDE_M
-            || self.away_m > MOST_AWAY_M
+            || self.away_m > MOST_AWAY_M.max(own.away_m + OWN_MARGIN_M)
             || self.scraping > MOST_SCRAPING
             || self.airborne
     }

@@ -157,8 +157,11 @@ fn a_busy_control_port_swallows_no_signal() {
     let relay = Relay::start(&WorldConfig::default());
     relay.keep_control_port_busy();
     let plan = plan_file(LONG);
-    // Without what is read there the drone is flown all the same.
-    let child = pilot(&relay, plan.path()).spawn().unwrap();
+    // Without what is read there the drone is flown only where the settings say so.
+    let settings = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(settings.path(), "[drone]\nread_back = false\n").unwrap();
+    let mut command = pilot(&relay, plan.path());
+    let child = command.arg("--config").arg(settings.path()).spawn().unwrap();
     flying(&relay);
     signal(&child, "-TERM");
     wait_until("the landing", Duration::from_secs(3), || relay.truth().phase == Phase::Landing);

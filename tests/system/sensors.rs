@@ -22,7 +22,7 @@ fn faults_on(Model { name, profile }: Model) -> Vec<String> {
         for seed in SEEDS {
             let siblings = fly(profile(), situation, seed, &failures).unwrap();
             for (failure, excursion) in failures.iter().zip(&siblings.flown) {
-                if excursion.is_too_far() {
+                if failure.shows() && excursion.is_too_far(&siblings.own) {
                     let failure = &failure.name;
                     found.push(format!("{name} {situation} {seed}: {failure}: {excursion:?}"));
                 }

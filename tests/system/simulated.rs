@@ -9,7 +9,8 @@ use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::sensors::SensorModel;
-use mock_drone::{DroneConfig, WorldConfig};
+use mock_drone::{DroneConfig, LinkFaults, WorldConfig};
+use nalgebra::Vector2;
 use system_tests::{SQUARE, plan, true_error_m};
 
 pub(crate) fn fly(simulation: &Simulation, text: &str) -> SimulatedFlight {
@@ -316,6 +317,33 @@ fn every_airframe_is_flown_without_going_far_beyond_a_target() {
                 .unwrap();
             assert_eq!(flight.outcome, Outcome::Completed, "{profile:?}");
             assert!(farthest_m < beyond_m, "{profile:?}: {farthest_m:.2} m");
+        }
+    }
+}
+
+/// Worse sensors with wrong echoes, wind with gusts, a level reference that is wrong, packets lost: the
+/// place is held all the same, whatever share of the tilt that takes.
+#[test]
+fn every_airframe_flies_every_plan_on_a_hard_day() {
+    let plans = ["square1x1", "xyz", "NikolausVertical"];
+    for profile in [Profile::rec(), Profile::tum(), Profile::tf(), Profile::leo()] {
+        for name in plans {
+            let text = std::fs::read_to_string(format!("../plans/{name}.txt")).unwrap();
+            for seed in 1..=3 {
+                let drone = DroneConfig {
+                    seed,
+                    profile,
+                    sensors: SensorModel::hard(),
+                    wind_m_s: Vector2::new(0.5, -0.4),
+                    gusts_m_s: 0.2,
+                    trim_error_deg: 0.6,
+                    ..DroneConfig::default()
+                };
+                let link = LinkFaults { loss: 0.03, ..LinkFaults::default() };
+                let world = WorldConfig { drone, link, ..WorldConfig::default() };
+                let flight = fly(&Simulation { world, ..Simulation::default() }, &text);
+                assert_eq!(flight.outcome, Outcome::Completed, "{name}, seed {seed}: {profile:?}");
+            }
         }
     }
 }

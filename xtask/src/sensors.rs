@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use autopilot::sim::SimulationError;
-use system_tests::sensors::{AIRFRAMES, Excursion, Situation, failures, fly};
+use system_tests::sensors::{AIRFRAMES, Excursion, Failure, Situation, failures, fly};
 
 use crate::parallel;
 
@@ -50,12 +50,19 @@ impl Row {
         }
     }
 
-    fn see(&mut self, excursion: &Excursion, situation: usize, airframe: usize, seed: u64) {
+    fn see(
+        &mut self,
+        excursion: &Excursion,
+        own: &Excursion,
+        situation: usize,
+        airframe: usize,
+        seed: u64,
+    ) {
         self.away[situation].see(excursion.away_m, airframe, seed);
         self.outside.see(excursion.outside_m, airframe, seed);
         self.scraping_s = self.scraping_s.max(excursion.scraping.as_secs_f64());
         self.airborne += usize::from(excursion.airborne);
-        self.too_far += usize::from(excursion.is_too_far());
+        self.too_far += usize::from(excursion.is_too_far(own));
         self.flights += 1;
     }
 }
@@ -74,16 +81,22 @@ pub(crate) fn run(seeds: u64) -> Result<(String, bool), SimulationError> {
         fly((AIRFRAMES[airframe].profile)(), Situation::ALL[situation], seed, &failures)
     })?;
     let mut own = Row::new("(its own hover and landing)");
-    let mut rows: Vec<Row> = failures.iter().map(|failure| Row::new(&failure.name)).collect();
+    let mut rows: Vec<Row> = failures.iter().map(row_of).collect();
     for ((seed, airframe, situation), siblings) in jobs.iter().zip(&flown) {
-        own.see(&siblings.own, *situation, *airframe, *seed);
+        own.see(&siblings.own, &siblings.own, *situation, *airframe, *seed);
         for (row, excursion) in rows.iter_mut().zip(&siblings.flown) {
-            row.see(excursion, *situation, *airframe, *seed);
+            row.see(excursion, &siblings.own, *situation, *airframe, *seed);
         }
     }
-    let good = rows.iter().all(|row| row.too_far == 0);
+    let judged = rows.iter().zip(&failures).filter(|(_, failure)| failure.shows());
+    let good = judged.into_iter().all(|(row, _)| row.too_far == 0);
     rows.push(own);
     Ok((table(&rows), good))
+}
+
+/// What navdata cannot show is marked: it is told and not judged.
+fn row_of(failure: &Failure) -> Row {
+    Row::new(&format!("{}{}", failure.name, if failure.shows() { "" } else { " *" }))
 }
 
 fn table(rows: &[Row]) -> String {

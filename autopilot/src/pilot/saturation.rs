@@ -13,7 +13,7 @@ use nalgebra::{Vector2, Vector3};
 use pid::{Demand, Pose};
 
 /// Sticks beyond this share of their limit ask for all that there is: the law keeps a little back.
-const FULL: f64 = 0.9;
+const FULL: f64 = 0.95;
 /// Slower than this a drone does not drift off, in m/s.
 const DRIFT_M_S: f64 = 0.1;
 /// Slower than this, in m/s, it comes no nearer.
@@ -63,7 +63,7 @@ impl Saturation {
         let up = is_full(demand.gaz)
             && (away.z.abs() > HERE_M && climbs_off_m_s > DRIFT_M_S
                 || away.z.abs() > FAR_M && climbs_off_m_s > -STILL_M_S);
-        let change_s = if across || up || storm { step_s } else { -step_s };
+        let change_s = if across || up || storm { step_s } else { -2.0 * step_s };
         self.for_s = (self.for_s + change_s).max(0.0);
     }
 

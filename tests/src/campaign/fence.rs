@@ -78,6 +78,11 @@ impl Fence {
         across_m.max(above_m) - truth.drift_m().norm()
     }
 
+    /// Whether it is outside in truth.
+    pub(super) fn is_outside(&self, truth: &Truth) -> bool {
+        self.outside_m(truth) > 0.0
+    }
+
     /// `overpowered`: the wind is stronger than the airframe.
     pub(super) fn watch(
         &mut self,

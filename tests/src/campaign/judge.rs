@@ -242,11 +242,13 @@ impl Judge {
                 Danger::Blind => status.navdata_age.is_some_and(|age| age > FRESH),
                 Danger::Worthless => self.injected.worthless_for(now) > Duration::ZERO,
                 Danger::Broken => self.injected.claims(now, broken),
+                Danger::NoFloor if truth.phase != Phase::Flying => false,
                 Danger::NoFloor => {
                     self.injected.claims(now, DroneState::ULTRASOUND_DEAF)
                         || self.injected.claims_no_floor(now)
                 }
-                Danger::Wind => overpowered,
+                // One that stays inside is stronger than it was reckoned to be.
+                Danger::Wind => overpowered && self.fence.is_outside(truth),
                 Danger::Lost => status.horizontal_deviation_m > LOST_M,
             };
             if let Some(fault) = self.dangers[index].watch(lasts, airborne, reached) {
@@ -313,6 +315,10 @@ impl Judge {
 
     fn watch_honesty(&mut self, moment: &Moment) {
         let Moment { now, truth, status } = moment;
+        // Before the first navdata there is nothing to be confident of.
+        if status.battery_percent.is_none() {
+            return;
+        }
         let fresh = status.navdata_age.is_some_and(|age| age < FRESH);
         let to_be_judged = fresh
             // Something has been told of the drone at all.
@@ -397,10 +403,6 @@ impl Judge {
         if !self.flew || !all_done {
             self.find(end, Fault::NotFlown);
         }
-        // An airframe that gets everywhere is stronger than it was reckoned to be.
-        self.found.retain(|(_, fault)| {
-            !matches!(fault, Fault::DangerIgnored { danger: Danger::Wind, .. })
-        });
         for (waypoint, truth) in waypoints.iter().zip(&flown.truth_at_waypoints) {
             let Some(error_m) = self.targets.error_m(waypoint.step, truth) else { continue };
             let lied = self.injected.has_lied(waypoint.at);
