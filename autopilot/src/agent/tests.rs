@@ -168,6 +168,16 @@ fn taking_over_in_the_air_looks_at_the_dangers() {
 }
 
 #[test]
+fn setting_out_looks_at_the_dangers() {
+    let mut bench = Bench::new(HOVERING);
+    bench.go_to(TARGET);
+    bench.senses.doubt_m = 3.1;
+    let step = bench.run();
+    assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::Lost)));
+    assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
+}
+
+#[test]
 fn a_take_off_that_does_not_succeed_is_given_up() {
     let mut bench = Bench::new(GROUND);
     assert!(bench.agent.achieve_take_off());
