@@ -20,7 +20,7 @@ const MARGIN_M: f64 = 0.35;
 /// What the drone flies on before it brakes, per metre a second, and how it brakes then,
 /// against the wind.
 const REACTION_S: f64 = 0.5;
-const BRAKING_M_S2: f64 = 0.8;
+const BRAKING_M_S2: f64 = 0.6;
 /// By hand the drone is stopped so far inside the fence, and sent no nearer to it: in the wind it would be
 /// blown over it, and that lands. One that left it is flown back that far, and
 /// down to so far above its floor, and is landed there.

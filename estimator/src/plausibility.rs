@@ -313,7 +313,8 @@ mod tests {
 
     #[test]
     fn one_quantity_that_repeats_its_value_is_frozen() {
-        let still: [(Quantity, fn(&mut Sample), f64); 6] = [
+        type Freeze = fn(&mut Sample);
+        let still: [(Quantity, Freeze, f64); 6] = [
             (Quantity::Velocity, |s| s.velocity_forward_m_s = 0.0, FROZEN_TIME_S),
             (Quantity::Velocity, |s| s.velocity_right_m_s = 1.2, FROZEN_TIME_S),
             (Quantity::Altitude, |s| s.altitude_m = 1.0, QUIET_FROZEN_TIME_S),
