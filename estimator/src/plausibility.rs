@@ -123,7 +123,9 @@ pub(crate) struct Plausibility {
     wrong: Option<(Quantity, f64)>,
     unresponsive: Option<(Quantity, f64)>,
     reported_since_s: Option<f64>,
+    /// How many steps are remembered, and what made the last one.
     steps: f64,
+    stepped: Option<Quantity>,
     last_s: Option<f64>,
     trust: Trust,
     sound_at_s: Option<f64>,
@@ -135,6 +137,7 @@ impl Plausibility {
         let step_s = self.last_s.replace(arrival_s).map_or(0.0, |last_s| arrival_s - last_s);
         self.steps = (self.steps - FORGET_STEPS_1_S * step_s).max(0.0);
         self.steps += f64::from(u8::from(verdict.step.is_some()));
+        self.stepped = verdict.step.or(self.stepped);
         let frozen = self.frozen(arrival_s, sample, verdict);
         let wrong = self.wrong(arrival_s, verdict);
         let reported = self.reported(arrival_s, sample);
@@ -149,10 +152,8 @@ impl Plausibility {
             Trust::Reported(quantity)
         } else if let Some((quantity, _)) = unresponsive {
             Trust::Unresponsive(quantity)
-        } else if let Some(quantity) = verdict.step.filter(|_| self.steps > FORGIVEN_STEPS) {
+        } else if let Some(quantity) = self.stepped.filter(|_| self.steps > FORGIVEN_STEPS) {
             Trust::Implausible(quantity)
-        } else if self.steps > FORGIVEN_STEPS {
-            self.trust
         } else {
             Trust::Sound
         };

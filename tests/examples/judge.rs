@@ -94,13 +94,13 @@ fn main() -> ExitCode {
         None if completed < flights / ONE_OF => {
             format!("only {completed} of {flights} plans were flown to their end")
         }
-        None => match astray() {
-            Some(astray) => format!("sensors: {astray}"),
-            None => {
+        None => {
+            let Some(astray) = astray() else {
                 println!("nothing in {flights} flights, {completed} plans were flown to their end");
                 return ExitCode::SUCCESS;
-            }
-        },
+            };
+            format!("sensors: {astray}")
+        }
     };
     println!("{told}");
     ExitCode::FAILURE
