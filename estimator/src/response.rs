@@ -39,6 +39,8 @@ struct RateTolerance {
     /// What may be missing in all: of what is asked for, and of what is asked for slowly.
     missing: f64,
     missing_slowly: f64,
+    /// What some airframes do of a negative rate, as a multiple.
+    most_down: f64,
     /// A measurement further than this from the expected one, and this much more a second, has
     /// jumped, which is judged elsewhere.
     jump: f64,
@@ -51,6 +53,7 @@ const CLIMB: RateTolerance = RateTolerance {
     slack: 0.03,
     missing: 0.3,
     missing_slowly: 0.5,
+    most_down: 1.7,
     jump: 0.1,
     jump_1_s: 1.0,
 };
@@ -60,6 +63,7 @@ const TURN: RateTolerance = RateTolerance {
     slack: 1.0,
     missing: 15.0,
     missing_slowly: 20.0,
+    most_down: 1.0,
     jump: 6.0,
     jump_1_s: 60.0,
 };
@@ -95,7 +99,8 @@ struct Rate {
     asked: f64,
     last: Option<f64>,
     missing: f64,
-    missing_slowly: f64,
+    /// With an ordinary answer to a negative rate, and with the most.
+    missing_slowly: [f64; 2],
     slow_for_s: f64,
     /// How long ago the drone was last told to move fast: down and up, or left and right.
     fast_ago_s: [f64; 2],
@@ -249,7 +254,7 @@ impl Rate {
             asked: 0.0,
             last: None,
             missing: 0.0,
-            missing_slowly: 0.0,
+            missing_slowly: [0.0; 2],
             slow_for_s: 0.0,
             fast_ago_s: [f64::INFINITY; 2],
             missing_for_s: 0.0,
@@ -274,7 +279,7 @@ impl Rate {
         difference: fn(f64) -> f64,
     ) {
         let Some(last) = self.last.replace(value) else { return };
-        let RateTolerance { share, slack, jump, jump_1_s, .. } = self.tolerance;
+        let RateTolerance { share, slack, jump, jump_1_s, most_down, .. } = self.tolerance;
         let moved = difference(value - last);
         if (moved - asked).abs() > jump + jump_1_s * step_s {
             return;
@@ -287,14 +292,20 @@ impl Rate {
         let other_ago_s = if asked > 0.0 { *down_ago_s } else { *up_ago_s };
         let lacking = if other_ago_s < BRAKING_TIME_S { 0.0 } else { lacking };
         self.missing = (self.missing * forgotten + lacking).max(0.0);
-        self.missing_slowly *= forgotten;
+        self.missing_slowly = self.missing_slowly.map(|missing| missing * forgotten);
         let is_slow = self.now.abs() < SLOW_SHARE * full;
         self.slow_for_s = if is_slow { self.slow_for_s + step_s } else { 0.0 };
         if self.slow_for_s > SLOW_TIME_S {
-            self.missing_slowly += asked - moved;
+            // A drone that sinks faster than it climbs needs more up than down to stay where it is.
+            let most = if asked < 0.0 { most_down * asked } else { asked };
+            self.missing_slowly[0] += asked - moved;
+            self.missing_slowly[1] += most - moved;
         }
         let RateTolerance { missing, missing_slowly, .. } = self.tolerance;
-        let is_missing = self.missing > missing || self.missing_slowly.abs() > missing_slowly;
+        let [ordinary, most] = self.missing_slowly;
+        let alike = ordinary.signum() == most.signum();
+        let slowly = alike && ordinary.abs().min(most.abs()) > missing_slowly;
+        let is_missing = self.missing > missing || slowly;
         self.missing_for_s = if is_missing { self.missing_for_s + step_s } else { 0.0 };
     }
 
@@ -306,7 +317,7 @@ impl Rate {
     fn rest(&mut self, value: f64) {
         self.now = 0.0;
         self.missing = 0.0;
-        self.missing_slowly = 0.0;
+        self.missing_slowly = [0.0; 2];
         self.slow_for_s = 0.0;
         self.fast_ago_s = [f64::INFINITY; 2];
         self.missing_for_s = 0.0;
