@@ -1,4 +1,5 @@
-//! Flies the fault campaign until it finds something: `cargo run -p system-tests --example judge -- 1000`.
+//! Flies the fault campaign, then one wrong sensor at a time, until something is found:
+//! `cargo run -p system-tests --example judge -- 1000`.
 //!
 //! `cargo xtask mutants` runs it on code with a mistake in it. The first fault is printed with its seed, and the exit
 //! status is 1; it is 0 if nothing was found. Hardly any plan flown to its end is a fault too: a drone that never flies
@@ -10,7 +11,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use autopilot::outcome::Outcome;
+use autopilot::sim::SimulationError;
 use system_tests::campaign;
+use system_tests::sensors::{AIRFRAMES, led_astray};
 
 /// Of so many flights of the campaign at least one is flown to its end; of the pilot as it is, two of five are.
 const ONE_OF: u64 = 5;
@@ -53,6 +56,22 @@ impl Hunt {
     }
 }
 
+/// What led a drone astray, if one wrong sensor did.
+fn astray() -> Option<String> {
+    const SEED: u64 = 1;
+    let flown = thread::scope(|scope| {
+        let threads = AIRFRAMES.map(|airframe| scope.spawn(move || led_astray(airframe, SEED)));
+        let flown = threads
+            .into_iter()
+            .map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        flown.collect::<Result<Vec<_>, SimulationError>>()
+    });
+    match flown {
+        Ok(found) => found.into_iter().flatten().next(),
+        Err(error) => Some(error.to_string()),
+    }
+}
+
 fn main() -> ExitCode {
     let Some(flights) = std::env::args().nth(1).and_then(|word| word.parse().ok()) else {
         println!("usage: judge FLIGHTS");
@@ -70,15 +89,17 @@ fn main() -> ExitCode {
         ends.flatten().min()
     });
     let completed = hunt.completed.into_inner();
-    match found {
-        Some((seed, fault)) => println!("seed {seed}: {fault}"),
+    let told = match found {
+        Some((seed, fault)) => Some(format!("seed {seed}: {fault}")),
         None if completed < flights / ONE_OF => {
-            println!("only {completed} of {flights} plans were flown to their end");
+            Some(format!("only {completed} of {flights} plans were flown to their end"))
         }
-        None => {
-            println!("nothing in {flights} flights, {completed} plans were flown to their end");
-            return ExitCode::SUCCESS;
-        }
-    }
+        None => astray().map(|astray| format!("sensors: {astray}")),
+    };
+    let Some(told) = told else {
+        println!("nothing in {flights} flights, {completed} plans were flown to their end");
+        return ExitCode::SUCCESS;
+    };
+    println!("{told}");
     ExitCode::FAILURE
 }

@@ -251,6 +251,28 @@ pub struct Siblings {
     pub flown: Vec<Excursion>,
 }
 
+/// Flies every situation with each of the failures, and tells which of those that show led the drone too far.
+///
+/// # Errors
+/// [`SimulationError`] if a flight never ends.
+///
+/// # Panics
+/// If a healthy flight does not come so far that a sensor could fail.
+pub fn led_astray(airframe: Model, seed: u64) -> Result<Vec<String>, SimulationError> {
+    let Model { name, profile } = airframe;
+    let failures = failures();
+    let mut found = Vec::new();
+    for situation in Situation::ALL {
+        let siblings = fly(profile(), situation, seed, &failures)?;
+        for (failure, excursion) in failures.iter().zip(&siblings.flown) {
+            if failure.shows() && excursion.is_too_far(&siblings.own) {
+                found.push(format!("{name} {situation} {seed}: {}: {excursion:?}", failure.name));
+            }
+        }
+    }
+    Ok(found)
+}
+
 /// Flies a situation with each of the failures.
 ///
 /// # Errors

@@ -166,11 +166,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
         )],
     ),
     mutant(
-        "agent without @strong_wind",
+        "agent without @too_weak",
         &[edit(
             AGENT,
-            "@strong_wind[req(\"SAF-5\")]\n+!watch : ",
-            "@strong_wind[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
+            "@too_weak[req(\"SAF-5\")]\n+!watch : ",
+            "@too_weak[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
         )],
     ),
     mutant(
