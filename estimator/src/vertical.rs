@@ -51,6 +51,8 @@ pub(crate) enum Echo {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct AltitudeFilter {
     state: Option<Vertical>,
+    /// One height was heard, of a drone that flew already, and none that agrees: it may be a wrong echo.
+    unconfirmed: bool,
     /// What the floor below is higher than the floor at the start.
     floor_m: f64,
     /// Heights in a row that were not believed, and the newest of them above the expected one.
@@ -93,11 +95,13 @@ impl AltitudeFilter {
         order: Order,
     ) -> Echo {
         if self.state.is_none() {
-            self.state = Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 });
-            return Echo::First;
+            return self.begin(altitude_m);
         }
         let surprise_m = altitude_m + self.floor_m - expected.height_m;
         let allowed_m = Self::MAX_JUMP_M + Self::MAX_JUMP_M_S * step_s;
+        if surprise_m.abs() > allowed_m && self.unconfirmed {
+            return self.begin(altitude_m);
+        }
         if surprise_m.abs() > allowed_m {
             let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M;
             self.rejected = if self.rejected > 0 && agrees { self.rejected + 1 } else { 1 };
@@ -111,6 +115,7 @@ impl AltitudeFilter {
             return Echo::FloorStep;
         }
         self.rejected = 0;
+        self.unconfirmed = false;
         if step_s <= 0.0 {
             return Echo::Good;
         }
@@ -128,10 +133,17 @@ impl AltitudeFilter {
         Echo::Good
     }
 
+    fn begin(&mut self, altitude_m: f64) -> Echo {
+        self.unconfirmed = true;
+        self.state = Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 });
+        Echo::First
+    }
+
     /// The drone stands on the floor, whatever echo it hears there.
     pub(crate) fn stand(&mut self) {
         self.floor_m = 0.0;
         self.rejected = 0;
+        self.unconfirmed = false;
         self.state = Some(Vertical::default());
     }
 }
@@ -184,6 +196,15 @@ mod tests {
         let echoes = run(&mut filter, [2.5, 1.0, 0.3, 0.7, 1.0]);
         assert_eq!(echoes, [Echo::Wrong, Echo::Good, Echo::Wrong, Echo::Wrong, Echo::Good]);
         assert!((filter.state().height_m - 1.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn a_wrong_echo_is_no_height_to_begin_with() {
+        let mut filter = AltitudeFilter::default();
+        run(&mut filter, [0.4, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0]);
+        let height_m = filter.state().height_m;
+        assert!((height_m - 2.0).abs() < 0.05, "{height_m}");
+        assert!((filter.above_floor_m(height_m) - 2.0).abs() < 0.05);
     }
 
     #[test]
