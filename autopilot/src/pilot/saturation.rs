@@ -28,6 +28,11 @@ const STORM_SHARE: f64 = 0.5;
 /// It is averaged over this time.
 const GUST_TIME_S: f64 = 1.5;
 
+/// A drone that is far from its target and comes no nearer by this much, in metres, in so many seconds makes
+/// no way, whatever its sticks: it is held by the wind, or its velocity is dead and it is flying away.
+const WAY_M: f64 = 0.05;
+const NO_WAY_S: f64 = 6.0;
+
 /// How long the drone has been drifting off at the limit of its sticks.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Saturation {
@@ -35,6 +40,26 @@ pub(super) struct Saturation {
     /// What pushes the drone, gusts apart, and what pushed it when it last held its place by itself.
     push_m_s2: Vector2<f64>,
     usual_m_s2: Vector2<f64>,
+    way: Way,
+}
+
+/// How near the drone has come to its target, and how long ago.
+#[derive(Debug, Clone, Copy, Default)]
+struct Way {
+    target: Pose,
+    nearest_m: f64,
+    for_s: f64,
+}
+
+impl Way {
+    /// Whether none is made.
+    fn is_blocked(&mut self, target: &Pose, distance_m: f64, step_s: f64) -> bool {
+        if *target != self.target || distance_m < self.nearest_m - WAY_M {
+            *self = Self { target: *target, nearest_m: distance_m, for_s: 0.0 };
+        }
+        self.for_s = if distance_m > FAR_M { self.for_s + step_s } else { 0.0 };
+        self.for_s > NO_WAY_S
+    }
 }
 
 impl Saturation {
@@ -63,7 +88,8 @@ impl Saturation {
         let up = is_full(demand.gaz)
             && (away.z.abs() > HERE_M && climbs_off_m_s > DRIFT_M_S
                 || away.z.abs() > FAR_M && climbs_off_m_s > -STILL_M_S);
-        let change_s = if across || up || storm { step_s } else { -2.0 * step_s };
+        let blocked = self.way.is_blocked(target, away.norm(), step_s);
+        let change_s = if across || up || storm || blocked { step_s } else { -2.0 * step_s };
         self.for_s = (self.for_s + change_s).max(0.0);
     }
 
@@ -71,6 +97,7 @@ impl Saturation {
     pub(super) fn rest(&mut self, state: &Prediction, step_s: f64) {
         self.push_m_s2 = state.disturbance_m_s2;
         self.usual_m_s2 = state.disturbance_m_s2;
+        self.way = Way::default();
         self.for_s = (self.for_s - step_s).max(0.0);
     }
 
@@ -136,6 +163,22 @@ mod tests {
         assert_eq!(lasts_ms(1.5, 1.5), 0, "it was there");
         assert_eq!(lasts_ms(0.0, 0.9), 0, "a breeze");
         assert!(lasts_ms(0.0, 1.5) > 2000);
+    }
+
+    #[test]
+    fn a_drone_that_makes_no_way_is_noticed_whatever_its_sticks() {
+        let lasts_ms = |speed_m_s: f64| {
+            let mut saturation = Saturation::default();
+            for step in 0..1000_u32 {
+                let x_m = 3.0 - speed_m_s * 0.01 * f64::from(step);
+                let position_m = Vector3::new(x_m, 0.0, 1.0);
+                let state = Prediction { position_m, ..Prediction::default() };
+                saturation.watch(&Demand::default(), 1.0, &state, &TARGET, 2.0, 0.01);
+            }
+            saturation.for_ms()
+        };
+        assert!(lasts_ms(0.0) > 2000, "{}", lasts_ms(0.0));
+        assert_eq!(lasts_ms(0.1), 0, "slowly, but it comes");
     }
 
     #[test]
