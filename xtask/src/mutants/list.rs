@@ -182,8 +182,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         &[
             edit(
                 AGENT,
-                "@still_landing[req(\"SAF-2\")]",
-                "+!completeLand : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit\n  <- sendHover;\n     !!wait.\n\n@still_landing[req(\"SAF-2\")]",
+                "@landed[req(\"SAF-2\")]\n",
+                "+!comeDown : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit\n  <- sendHover;\n     !!wait.\n\n@landed[req(\"SAF-2\")]\n",
             ),
             edit(GUARD, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
         ],

@@ -83,22 +83,32 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
     }
     let mut text = String::new();
     let mut survivors = 0;
+    let mut broken = None;
     for mutant in &mutants {
         let changed = workspace.changed(mutant)?;
         workspace.put(&changed)?;
         let end = judged(&workspace, mutant.name, flights);
         workspace.restore(&changed)?;
-        let told = match end? {
-            End::Caught(what) => what,
-            End::Survived => {
+        let told = match end {
+            Ok(End::Caught(what)) => what,
+            Ok(End::Survived) => {
                 survivors += 1;
                 format!("SURVIVED {flights} flights")
             }
+            // The others may have something to say all the same.
+            Err(error @ MutantsError::Build { .. }) => {
+                broken = Some(error);
+                "DOES NOT BUILD".to_owned()
+            }
+            Err(error) => return Err(error),
         };
         // One line as soon as it is known: all of them take a while.
         let line = format!("{:<46}{told}", mutant.name);
         _ = io::Write::write_all(&mut io::stderr(), format!("{line}\n").as_bytes());
         _ = writeln!(text, "{line}");
+    }
+    if let Some(error) = broken {
+        return Err(error);
     }
     _ = writeln!(text, "{} of {} mutants caught", mutants.len() - survivors, mutants.len());
     Ok((text, survivors == 0))
