@@ -66,9 +66,6 @@ const EVENTS: usize = 32;
 /// A drone that has been silent for so long is not heard.
 const UNHEARD: Duration = Duration::from_millis(300);
 
-/// For so long packets must say that the drone has started again, and none the contrary.
-const RESTART_TIME: Duration = Duration::from_millis(120);
-
 /// What the pilot wants in this tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Order {
@@ -159,8 +156,6 @@ pub struct Session {
     sequence: SequenceNumbers,
     state: DroneState,
     last_navdata: Option<Heard>,
-    /// Since when packets come that only a drone sends that has started again.
-    restarting_since: Option<Duration>,
     last_wake_up: Option<Duration>,
     flat_trim_due: bool,
     take_off: TakeOffLatch,
@@ -244,7 +239,6 @@ impl Session {
             sequence: SequenceNumbers::new(),
             state: DroneState::empty(),
             last_navdata: None,
-            restarting_since: None,
             last_wake_up: None,
             flat_trim_due: false,
             take_off: TakeOffLatch::Follow { airborne: false },
@@ -267,7 +261,7 @@ impl Session {
         if let Some(last) = self.last_navdata.filter(|_| self.link == Link::Alive)
             && navdata.sequence <= last.sequence
         {
-            if !self.is_surely_restarted(now, &navdata, last) {
+            if !has_restarted(&navdata, last) {
                 self.statistics.stale += 1;
                 return Received::Stale;
             }
@@ -276,7 +270,6 @@ impl Session {
             self.withhold_take_off();
             self.handshake = Handshake::new(self.config.settings.len());
         }
-        self.restarting_since = None;
         self.last_navdata = Some(Heard { at: now, sequence: navdata.sequence });
         self.statistics.received += 1;
         if self.link == Link::Silent {
@@ -288,16 +281,6 @@ impl Session {
             self.sequence.confirmed = true;
         }
         Received::Navdata(navdata)
-    }
-
-    /// A heap of old packets, the drone's first among them, looks like a restart too; but it comes at
-    /// once, and newer packets come behind it.
-    fn is_surely_restarted(&mut self, now: Duration, navdata: &Navdata, last: Heard) -> bool {
-        if !has_restarted(navdata, last) && self.restarting_since.is_none() {
-            return false;
-        }
-        let since = *self.restarting_since.get_or_insert(now);
-        now.saturating_sub(since) >= RESTART_TIME
     }
 
     /// Takes in bytes from the drone's control port.
@@ -325,8 +308,7 @@ impl Session {
         let reference = if self.emergency.level(now, emergency) {
             Some(Ref::ToggleEmergency)
         } else if take_off {
-            // Nor while it may have started again, which is not sure at its first packet.
-            (self.is_heard(now) && self.restarting_since.is_none()).then_some(Ref::TakeOff)
+            self.is_heard(now).then_some(Ref::TakeOff)
         } else {
             Some(Ref::Land)
         };

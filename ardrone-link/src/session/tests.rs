@@ -321,19 +321,6 @@ fn an_emergency_stop_beats_every_order_and_is_never_left_on() {
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::Land);
 }
 
-/// Old packets, the first of all among them, that arrive again in a heap.
-#[test]
-fn a_heap_of_old_packets_is_no_restart() {
-    let mut bench = Bench::new(&[]);
-    bench.hear(500, DroneState::FLYING);
-    bench.now += Duration::from_secs(2);
-    for sequence in 1..83 {
-        assert_eq!(bench.hear(sequence, DroneState::NAVDATA_BOOTSTRAP), Received::Stale);
-    }
-    bench.hear(501, DroneState::FLYING);
-    assert!(!bench.events().contains(&Event::DroneRestarted));
-}
-
 #[test]
 fn a_drone_that_falls_or_has_restarted_has_not_landed() {
     let mut bench = Bench::new(&[]);
