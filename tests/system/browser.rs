@@ -1,6 +1,6 @@
 //! The flight in a browser, end to end: a real Chromium, the program, the mock drone.
 
-use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::io::{BufRead as _, BufReader, ErrorKind, Read as _, Write as _};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Stdio};
@@ -110,7 +110,14 @@ impl Live {
     /// The next object of this type.
     fn next(&mut self, kind: &str) -> Value {
         loop {
-            let Message::Text(text) = self.0.read().unwrap() else { continue };
+            let message = match self.0.read() {
+                // A signal, which says nothing of the page.
+                Err(tungstenite::Error::Io(error)) if error.kind() == ErrorKind::Interrupted => {
+                    continue;
+                }
+                message => message.unwrap(),
+            };
+            let Message::Text(text) = message else { continue };
             let told: Value = serde_json::from_str(&text).unwrap();
             if told["type"] == kind {
                 return told;
