@@ -65,6 +65,9 @@ impl Default for SessionConfig {
 const EVENTS: usize = 32;
 /// A drone that has been silent for so long is not heard.
 const UNHEARD: Duration = Duration::from_millis(300);
+/// Packets that come within so long after a silence may all have been held up on their way, since before a
+/// restart.
+const HELD_UP: Duration = Duration::from_millis(100);
 
 /// What the pilot wants in this tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -211,6 +214,19 @@ impl SequenceNumbers {
 struct Heard {
     at: Duration,
     sequence: u32,
+    bootstrapping: bool,
+    /// When a silence ended, while what has come since may have been held up.
+    returned_at: Option<Duration>,
+}
+
+impl Heard {
+    /// The same of a packet that comes now.
+    fn returned_at(&self, now: Duration) -> Option<Duration> {
+        if now.saturating_sub(self.at) >= UNHEARD {
+            return Some(now);
+        }
+        self.returned_at.filter(|at| now.saturating_sub(*at) < HELD_UP)
+    }
 }
 
 /// Guards the take-off bit.
@@ -261,7 +277,7 @@ impl Session {
         if let Some(last) = self.last_navdata.filter(|_| self.link == Link::Alive)
             && navdata.sequence <= last.sequence
         {
-            if !has_restarted(&navdata, last) {
+            if !has_restarted(now, &navdata, last) {
                 self.statistics.stale += 1;
                 return Received::Stale;
             }
@@ -270,7 +286,10 @@ impl Session {
             self.withhold_take_off();
             self.handshake = Handshake::new(self.config.settings.len());
         }
-        self.last_navdata = Some(Heard { at: now, sequence: navdata.sequence });
+        let returned_at = self.last_navdata.and_then(|last| last.returned_at(now));
+        let bootstrapping = navdata.state.contains(DroneState::NAVDATA_BOOTSTRAP);
+        let sequence = navdata.sequence;
+        self.last_navdata = Some(Heard { at: now, sequence, bootstrapping, returned_at });
         self.statistics.received += 1;
         if self.link == Link::Silent {
             self.link = Link::Alive;
@@ -468,7 +487,9 @@ impl Session {
     /// A drone that is not heard may have started again, and stand on the ground: nothing that could
     /// lift it is sent. One that flies goes on as if a datagram had been lost.
     fn is_heard(&self, now: Duration) -> bool {
-        self.silence(now).is_some_and(|silence| silence < UNHEARD)
+        self.last_navdata.is_some_and(|heard| {
+            heard.returned_at.is_none() && now.saturating_sub(heard.at) < UNHEARD
+        })
     }
 
     fn watch_silence(&mut self, now: Duration) {
@@ -531,15 +552,21 @@ fn custom_settings(identity: Identity) -> [Config; 3] {
 
 /// A sequence number that does not rise means a late or repeated packet, unless the drone says
 /// that it is bootstrapping, as a drone does that nobody has configured yet, or counts from the very
-/// start. That nothing came for a while means nothing: what comes then may have been held up.
-fn has_restarted(navdata: &Navdata, last: Heard) -> bool {
+/// start, and there was a silence, as there is while a drone starts: old packets that come again amid new
+/// ones are old.
+fn has_restarted(now: Duration, navdata: &Navdata, last: Heard) -> bool {
     const FIRST_PACKETS: u32 = 3;
-    if navdata.sequence == last.sequence {
+    /// Packets overtake no more than so many others.
+    const OVERTAKEN: u32 = 32;
+    let behind = last.sequence - navdata.sequence;
+    if behind == 0 || last.returned_at(now).is_none() {
         return false;
     }
     let bootstrapping = navdata.state.contains(DroneState::NAVDATA_BOOTSTRAP);
+    // One that was bootstrapping already may just have been overtaken.
+    let is_new = !last.bootstrapping || behind > OVERTAKEN;
     let from_the_start = navdata.sequence <= FIRST_PACKETS && last.sequence > 10 * FIRST_PACKETS;
-    bootstrapping || from_the_start
+    bootstrapping && is_new || from_the_start
 }
 
 #[cfg(test)]

@@ -33,15 +33,16 @@ impl Bench {
         self.session.handle_navdata(self.now, &bytes)
     }
 
-    /// The commands of one tick.
-    /// The first packets of a drone that has started again, until there is no doubt.
+    /// The first packets of a drone that has started again, which takes its time.
     fn hear_restart(&mut self, first: u32) {
+        self.now += UNHEARD;
         for sequence in first..first + 4 {
             self.hear(sequence, DroneState::NAVDATA_BOOTSTRAP);
             self.now += Duration::from_millis(66);
         }
     }
 
+    /// The commands of one tick.
     fn tick(&mut self, flight: FlightOrder) -> Vec<Command> {
         self.now += TICK;
         let mut datagram = Datagram::new();
@@ -217,7 +218,65 @@ fn nothing_that_could_lift_the_drone_is_said_into_the_silence() {
     }
     assert_eq!(bench.tick(FlightOrder::Land)[0], Command::Ref(Ref::Land));
     bench.hear(510, DroneState::FLYING);
+    bench.now += HELD_UP;
+    bench.hear(511, DroneState::FLYING);
     assert!(bench.takes_off(FlightOrder::StayAirborne));
+}
+
+/// A drone needs longer to start than packets that come again.
+#[test]
+fn old_packets_that_come_again_are_no_restart() {
+    let mut bench = Bench::new(&[]);
+    let bootstrapping = DroneState::NAVDATA_BOOTSTRAP;
+    assert!(matches!(bench.hear(40, bootstrapping), Received::Navdata(_)));
+    bench.hear(100, DroneState::FLYING);
+    for old in [1, 2, 39, 40] {
+        assert_eq!(bench.hear(old, bootstrapping), Received::Stale, "amid new ones");
+    }
+    // The drone was lost, and waits to be configured again while it flies.
+    bench.now += UNHEARD;
+    bench.hear(140, bootstrapping | DroneState::FLYING);
+    assert_eq!(bench.hear(139, bootstrapping | DroneState::FLYING), Received::Stale, "overtaken");
+    assert!(matches!(bench.hear(1, bootstrapping), Received::Navdata(_)));
+    let restarts = bench.events().into_iter().filter(|event| *event == Event::DroneRestarted);
+    assert_eq!(restarts.count(), 1, "that was one");
+}
+
+/// What was said before a restart and was held up tells nothing of the drone as it is.
+#[test]
+fn packets_that_were_held_up_do_not_show_that_the_drone_still_flies() {
+    let mut bench = Bench::new(&[]);
+    let lifts = |commands: &[Command]| commands.contains(&Command::Ref(Ref::TakeOff));
+    for sequence in 100..110 {
+        bench.hear(sequence, DroneState::FLYING);
+        assert!(lifts(&bench.tick(FlightOrder::TakeOff)));
+    }
+    bench.now += UNHEARD;
+    for sequence in 110..113 {
+        bench.hear(sequence, DroneState::FLYING);
+        assert!(!lifts(&bench.tick(FlightOrder::StayAirborne)), "they came in a heap");
+    }
+    bench.now += HELD_UP;
+    bench.hear(113, DroneState::FLYING);
+    assert!(lifts(&bench.tick(FlightOrder::StayAirborne)), "it goes on telling");
+}
+
+/// The limits themselves: the drone is heard until just before, and again from just then.
+#[test]
+fn a_drone_is_heard_for_as_long_as_it_was_silent_for_less_than_the_limit() {
+    let millisecond = Duration::from_millis(1);
+    let heard = |at| Heard { at, sequence: 1, bootstrapping: false, returned_at: None };
+    let start = Duration::from_secs(5);
+    assert_eq!(heard(start).returned_at(start + UNHEARD - millisecond), None);
+    let back = start + UNHEARD;
+    assert_eq!(heard(start).returned_at(back), Some(back));
+    let returned = Heard { returned_at: Some(back), ..heard(back) };
+    assert_eq!(returned.returned_at(back + HELD_UP - millisecond), Some(back));
+    assert_eq!(returned.returned_at(back + HELD_UP), None);
+    let mut bench = Bench::new(&[]);
+    bench.hear(1, DroneState::empty());
+    assert!(bench.session.is_heard(UNHEARD - millisecond));
+    assert!(!bench.session.is_heard(UNHEARD));
 }
 
 #[test]
