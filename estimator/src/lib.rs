@@ -491,7 +491,7 @@ impl Estimator {
 
     /// Standard deviation of the height.
     pub fn vertical_deviation_m(&self, now: Duration) -> f64 {
-        self.uncertainty.vertical_m(self.silence_s(now))
+        self.uncertainty.vertical_m(self.silence_s(now)).hypot(self.altitude.disputed_m())
     }
 
     /// On the ground silence changes nothing.

@@ -36,9 +36,10 @@ const JUMP_M_S2: f64 = 4.0;
 const RETURN_SHARE: f64 = 0.5;
 /// A velocity further than this from the expected one is wrong, however it came there.
 const MAX_SURPRISE_M_S: f64 = 1.5;
-/// How long a quantity that did not follow the commands is not believed: the answer is a hover, in which
-/// nothing is asked for that it could follow.
-const UNRESPONSIVE_TIME_S: f64 = 4.0;
+/// How long a quantity that was disproved, by the commands or by a jump that lasted, is not believed. The
+/// answer is a hover, in which nothing is asked for that it could follow, and in which a velocity that lies is
+/// soon as small as the true one; and nobody knows how long it has lied.
+const DISPROVED_TIME_S: f64 = 4.0;
 /// Steps of the floor or of the heading that are forgiven, and how fast they are forgotten.
 const FORGIVEN_STEPS: f64 = 2.5;
 const FORGET_STEPS_1_S: f64 = 0.25;
@@ -121,6 +122,8 @@ pub(crate) struct Plausibility {
     heading: Repetition,
     attitude: [Repetition; 2],
     wrong: Option<(Quantity, f64)>,
+    /// What was wrong for so long that it was noticed; since when, and until when.
+    disproved: Option<(Quantity, f64, f64)>,
     unresponsive: Option<(Quantity, f64)>,
     reported_since_s: Option<f64>,
     /// How many steps are remembered, and what made the last one.
@@ -211,7 +214,13 @@ impl Plausibility {
             Some((_, since_s)) => (quantity, since_s),
             None => (quantity, arrival_s),
         });
-        self.wrong.filter(|(_, since_s)| arrival_s - since_s >= WRONG_TIME_S)
+        if let Some((_, since_s)) = self.wrong
+            && arrival_s - since_s >= WRONG_TIME_S
+        {
+            self.disproved = self.wrong.map(|(quantity, _)| (quantity, since_s, arrival_s));
+        }
+        let (quantity, since_s, last_s) = self.disproved?;
+        (arrival_s - last_s < DISPROVED_TIME_S).then_some((quantity, since_s))
     }
 
     fn unresponsive(&mut self, arrival_s: f64, verdict: &Verdict) -> Option<(Quantity, f64)> {
@@ -219,7 +228,7 @@ impl Plausibility {
             // It took a while to notice.
             self.unresponsive = Some((quantity, arrival_s - WRONG_TIME_S));
         }
-        self.unresponsive.filter(|(_, since_s)| arrival_s - since_s < UNRESPONSIVE_TIME_S)
+        self.unresponsive.filter(|(_, since_s)| arrival_s - since_s < DISPROVED_TIME_S)
     }
 
     fn reported(&mut self, arrival_s: f64, sample: &Sample) -> Option<Quantity> {
@@ -411,6 +420,10 @@ mod tests {
         let (at_s, trust) = first_distrust(&watch(100, flying, long)).unwrap();
         assert_eq!(trust, Trust::Implausible(Quantity::Velocity));
         assert!((at_s - 10.0 * PERIOD_S) < 0.5, "{at_s}");
+        let ends = |step| if (10..20).contains(&step) { bad } else { FINE };
+        let watched = watch(100, flying, ends);
+        assert_eq!(watched[50].1, trust, "nobody knows since when it had been wrong");
+        assert_eq!(watched[99].1, Trust::Sound);
     }
 
     #[test]

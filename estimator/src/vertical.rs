@@ -58,6 +58,8 @@ pub(crate) struct AltitudeFilter {
     /// Heights in a row that were not believed, and the newest of them above the expected one.
     rejected: u32,
     rejected_by_m: f64,
+    /// How long nothing was heard, beyond the usual, since the last height that was believed.
+    gap_s: f64,
 }
 
 impl AltitudeFilter {
@@ -70,6 +72,9 @@ impl AltitudeFilter {
     const MAX_JUMP_M: f64 = 0.15;
     /// ...and so much further for every second since the last one: the climb may have changed.
     const MAX_JUMP_M_S: f64 = 1.0;
+    /// Heights that are further apart than this leave a gap. What only the gap explains is believed when the
+    /// next one agrees: the first may be a wrong echo.
+    const USUAL_STEP_S: f64 = 0.1;
     /// So many that agree are a step of the floor.
     const AGREEING: u32 = 4;
     /// They agree within this.
@@ -98,22 +103,15 @@ impl AltitudeFilter {
             return self.begin(altitude_m);
         }
         let surprise_m = altitude_m + self.floor_m - expected.height_m;
-        let allowed_m = Self::MAX_JUMP_M + Self::MAX_JUMP_M_S * step_s;
-        if surprise_m.abs() > allowed_m && self.unconfirmed {
-            return self.begin(altitude_m);
-        }
+        let allowed_m = Self::MAX_JUMP_M + Self::MAX_JUMP_M_S * step_s.min(Self::USUAL_STEP_S);
+        self.gap_s += (step_s - Self::USUAL_STEP_S).max(0.0);
         if surprise_m.abs() > allowed_m {
-            let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M;
-            self.rejected = if self.rejected > 0 && agrees { self.rejected + 1 } else { 1 };
-            self.rejected_by_m = surprise_m;
-            self.state = Some(expected);
-            if self.rejected < Self::AGREEING {
-                return Echo::Wrong;
+            if self.unconfirmed {
+                return self.begin(altitude_m);
             }
-            self.rejected = 0;
-            self.floor_m -= surprise_m;
-            return Echo::FloorStep;
+            return self.reject(surprise_m, allowed_m, expected);
         }
+        self.gap_s = 0.0;
         self.rejected = 0;
         self.unconfirmed = false;
         if step_s <= 0.0 {
@@ -133,6 +131,34 @@ impl AltitudeFilter {
         Echo::Good
     }
 
+    /// A height that is not like the expected one: a wrong echo, until others agree with it.
+    fn reject(&mut self, surprise_m: f64, allowed_m: f64, expected: Vertical) -> Echo {
+        let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M;
+        self.rejected = if self.rejected > 0 && agrees { self.rejected + 1 } else { 1 };
+        self.rejected_by_m = surprise_m;
+        self.state = Some(expected);
+        let flown_unseen = surprise_m.abs() <= allowed_m + Self::MAX_JUMP_M_S * self.gap_s;
+        if self.rejected > 1 && flown_unseen {
+            self.rejected = 0;
+            self.gap_s = 0.0;
+            let height_m = expected.height_m + surprise_m;
+            self.state = Some(Vertical { height_m, ..expected });
+            return Echo::Good;
+        }
+        if self.rejected < Self::AGREEING {
+            return Echo::Wrong;
+        }
+        self.rejected = 0;
+        self.gap_s = 0.0;
+        self.floor_m -= surprise_m;
+        Echo::FloorStep
+    }
+
+    /// By how much the newest heights differ from the expected one, while it is open who is right.
+    pub(crate) fn disputed_m(&self) -> f64 {
+        if self.rejected > 0 { self.rejected_by_m.abs() } else { 0.0 }
+    }
+
     fn begin(&mut self, altitude_m: f64) -> Echo {
         self.unconfirmed = true;
         self.state = Some(Vertical { height_m: altitude_m, climb_m_s: 0.0 });
@@ -142,6 +168,7 @@ impl AltitudeFilter {
     /// The drone stands on the floor, whatever echo it hears there.
     pub(crate) fn stand(&mut self) {
         self.floor_m = 0.0;
+        self.gap_s = 0.0;
         self.rejected = 0;
         self.unconfirmed = false;
         self.state = Some(Vertical::default());
@@ -196,6 +223,35 @@ mod tests {
         let echoes = run(&mut filter, [2.5, 1.0, 0.3, 0.7, 1.0]);
         assert_eq!(echoes, [Echo::Wrong, Echo::Good, Echo::Wrong, Echo::Wrong, Echo::Good]);
         assert!((filter.state().height_m - 1.0).abs() < 0.01);
+    }
+
+    /// One echo from a filter that has heard nothing for so long.
+    fn after_a_gap(filter: &mut AltitudeFilter, gap_s: f64, altitude_m: f64) -> Echo {
+        let expected = filter.state();
+        filter.correct(altitude_m, expected, gap_s, Order::ByItself)
+    }
+
+    #[test]
+    fn a_wrong_echo_behind_a_gap_is_ignored_too() {
+        let mut filter = AltitudeFilter::default();
+        run(&mut filter, [1.0; 50]);
+        assert_eq!(after_a_gap(&mut filter, 0.4, 1.4), Echo::Wrong);
+        assert!((filter.disputed_m() - 0.4).abs() < 0.01, "nobody knows yet");
+        assert_eq!(run(&mut filter, [1.0; 10]), [Echo::Good; 10]);
+        assert!((filter.state().height_m - 1.0).abs() < 0.01);
+        assert!(filter.disputed_m().abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_was_climbed_in_a_gap_is_believed_with_the_second_echo() {
+        let mut filter = AltitudeFilter::default();
+        run(&mut filter, [1.0; 50]);
+        assert_eq!(after_a_gap(&mut filter, 0.4, 1.4), Echo::Wrong);
+        assert_eq!(run(&mut filter, [1.4; 5]), [Echo::Good; 5]);
+        let height_m = filter.state().height_m;
+        assert!((height_m - 1.4).abs() < 0.01, "{height_m}");
+        // Without a gap the same is a step of the floor.
+        assert!(run(&mut filter, [1.8; 5]).contains(&Echo::FloorStep));
     }
 
     #[test]

@@ -20,6 +20,9 @@ const LYING_MARGIN_M: f64 = 3.0;
 const REACTION: Duration = Duration::from_millis(500);
 /// What is beyond our control is looked at anew in this interval: the wind may have changed.
 const AGAIN: Duration = Duration::from_secs(1);
+/// Where a drone is left to itself it may meet the floor if it comes this near: what was said to it last may
+/// arrive a little later than is reckoned with here.
+const NEAR_FLOOR_M: f64 = 0.1;
 /// A drone that is in hand again gets so long to come to rest.
 const IN_HAND: Duration = Duration::from_secs(2);
 
@@ -155,7 +158,8 @@ impl Fence {
             let mut meets_floor = false;
             let mut see = |other: &Truth| {
                 furthest_m = furthest_m.max(self.outside_m(other));
-                meets_floor |= other.floor_contacts > truth.floor_contacts;
+                let is_near = other.phase == Phase::Flying && other.position_m.z < NEAR_FLOOR_M;
+                meets_floor |= other.floor_contacts > truth.floor_contacts || is_near;
             };
             alone::hovers_and_lands(drone, REACTION, &mut see);
             if unheard {
