@@ -72,14 +72,16 @@ const TURN: RateTolerance = RateTolerance {
 /// pull, and slow down by 0.45 to 1.95 of their speed each second.
 const LEAST_THRUST: f64 = 0.4;
 const LARGEST_DRAG_1_S: f64 = 1.95;
-/// Where its velocity would have swung this much in so many seconds...
-const AXIS_SWING_M_S: f64 = 0.26;
-const AXIS_WINDOW_S: f64 = 3.0;
-/// ...a flow that works shows more than this share of it; noise of one that does not is less.
-const AXIS_SHARE: f64 = 0.25;
+/// Where its velocity would have varied this much (standard deviation) in so many seconds, be it quickly or
+/// slowly...
+const AXIS_DEVIATION_M_S: f64 = 0.08;
+const AXIS_WINDOWS_S: [f64; 2] = [3.0, 8.0];
+/// ...a flow that works shows more than this share of it, also while the drone leans against gusts; noise of
+/// one that does not is less.
+const AXIS_SHARE: f64 = 0.3;
 const SMOOTHING_S: f64 = 0.2;
 const AXIS_INTERVAL_S: f64 = 0.05;
-const AXIS_MEMORY: usize = 64;
+const AXIS_MEMORY: usize = 176;
 
 /// Compares commands with what is measured.
 #[derive(Debug, Clone)]
@@ -222,12 +224,13 @@ impl Axis {
             }
             self.recent.push_back((at_s, self.least_m_s, self.measured_m_s));
         }
-        while self.recent.front().is_some_and(|(first_s, ..)| at_s - first_s > AXIS_WINDOW_S) {
-            self.recent.pop_front();
-        }
-        let expected_m_s = range(self.recent.iter().map(|(_, expected, _)| *expected));
-        let measured_m_s = range(self.recent.iter().map(|(.., measured)| *measured));
-        expected_m_s >= AXIS_SWING_M_S && measured_m_s < AXIS_SHARE * expected_m_s
+        AXIS_WINDOWS_S.iter().any(|window_s| {
+            let first = self.recent.partition_point(|(then_s, ..)| at_s - then_s > *window_s);
+            let recent = self.recent.range(first..);
+            let expected_m_s = deviation(recent.clone().map(|(_, expected, _)| *expected));
+            let measured_m_s = deviation(recent.map(|(.., measured)| *measured));
+            expected_m_s >= AXIS_DEVIATION_M_S && measured_m_s < AXIS_SHARE * expected_m_s
+        })
     }
 
     fn rest(&mut self) {
@@ -237,13 +240,11 @@ impl Axis {
     }
 }
 
-/// From the least to the greatest value.
-fn range(values: impl Iterator<Item = f64>) -> f64 {
-    let (least, greatest) = values
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
-    greatest - least
+/// Standard deviation.
+fn deviation(values: impl ExactSizeIterator<Item = f64> + Clone) -> f64 {
+    let count = values.len().max(1) as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    (values.map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
 impl Rate {
