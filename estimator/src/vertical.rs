@@ -60,6 +60,8 @@ pub(crate) struct AltitudeFilter {
     rejected_by_m: f64,
     /// How long nothing was heard, beyond the usual, since the last height that was believed.
     gap_s: f64,
+    /// The last height that was believed was hardly like the expected one: it may have been a wrong echo.
+    doubtful: bool,
 }
 
 impl AltitudeFilter {
@@ -112,6 +114,7 @@ impl AltitudeFilter {
             return self.reject(surprise_m, allowed_m, expected);
         }
         self.gap_s = 0.0;
+        self.doubtful = surprise_m.abs() > allowed_m / 2.0;
         self.rejected = 0;
         self.unconfirmed = false;
         if step_s <= 0.0 {
@@ -138,9 +141,10 @@ impl AltitudeFilter {
         self.rejected_by_m = surprise_m;
         self.state = Some(expected);
         let flown_unseen = surprise_m.abs() <= allowed_m + Self::MAX_JUMP_M_S * self.gap_s;
-        if self.rejected > 1 && flown_unseen {
+        if self.rejected > 1 && (flown_unseen || self.doubtful) {
             self.rejected = 0;
             self.gap_s = 0.0;
+            self.doubtful = false;
             let height_m = expected.height_m + surprise_m;
             self.state = Some(Vertical { height_m, ..expected });
             return Echo::Good;
@@ -169,6 +173,7 @@ impl AltitudeFilter {
     pub(crate) fn stand(&mut self) {
         self.floor_m = 0.0;
         self.gap_s = 0.0;
+        self.doubtful = false;
         self.rejected = 0;
         self.unconfirmed = false;
         self.state = Some(Vertical::default());
@@ -252,6 +257,19 @@ mod tests {
         assert!((height_m - 1.4).abs() < 0.01, "{height_m}");
         // Without a gap the same is a step of the floor.
         assert!(run(&mut filter, [1.8; 5]).contains(&Echo::FloorStep));
+    }
+
+    #[test]
+    fn a_wrong_echo_that_was_believed_does_not_make_a_floor_of_the_true_ones() {
+        let mut filter = AltitudeFilter::default();
+        run(&mut filter, [1.0; 50]);
+        assert_eq!(after_a_gap(&mut filter, 0.1, 1.24), Echo::Good, "just believed");
+        let expected = Vertical { height_m: 1.3, climb_m_s: 0.4 };
+        assert_eq!(filter.correct(1.0, expected, 0.1, Order::ByItself), Echo::Wrong);
+        assert_eq!(run(&mut filter, [1.0; 10]), [Echo::Good; 10]);
+        let height_m = filter.state().height_m;
+        assert!((filter.above_floor_m(height_m) - height_m).abs() < 1e-9);
+        assert!((height_m - 1.0).abs() < 0.1, "{height_m}");
     }
 
     #[test]
