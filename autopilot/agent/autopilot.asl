@@ -23,10 +23,11 @@ largestDoubt(3.0).
 // The sticks are at their end and the drone is carried off all the same: it cannot hold against
 // this wind. Milliseconds.
 landWhenSaturated(2000).
-// The drone's own landing drifts with the wind. Where it blows like this (a share of what full tilt
-// gives), we first come down by ourselves to this height, in metres, but not for longer than this,
-// in milliseconds.
-landingWind(0.1).
+// The drone's own landing drifts with the wind. Where it blows more than the first of these, but less
+// than the second (shares of what full tilt gives), we first come down by ourselves to this height,
+// in metres, but not for longer than this, in milliseconds. Where we cannot hold against it either,
+// every second in the air counts.
+landingWind(0.1, 0.8).
 landingHeight(0.35).
 comingDownTime(8000).
 // A take-off that takes longer than this has failed; a target that is not reached in this time is
@@ -301,7 +302,8 @@ descendingFor(0).
 
 // The first command of each way down.
 @go_down_in_wind[req("SAF-2")]
-+!goDown : wind(Share) & landingWind(Breeze) & Share > Breeze
++!goDown : wind(Share) & landingWind(Breeze, Storm) & Share > Breeze & Share < Storm
+    & saturatedFor(Weak) & landWhenSaturated(Most) & Weak <= Most
     & blindFor(Blind) & holdWhenBlind(Patience) & Blind <= Patience
     & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit
     & position(X, Y, Z, Yaw) & landingHeight(Low) & Z > Low

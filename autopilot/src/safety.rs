@@ -28,6 +28,9 @@ pub(crate) const INSIDE_M: f64 = 0.5;
 const LOW_M: f64 = 0.15;
 /// It is landed wherever it is after so long.
 const RETREAT: Duration = Duration::from_secs(10);
+/// And when it has come no nearer by so much for so long: it cannot hold against the wind.
+const NO_WAY_BACK: Duration = Duration::from_millis(1500);
+const WAY_BACK_M: f64 = 0.05;
 /// And when navdata have been so old on its way.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
 /// Near the floor of its fence the drone sinks no faster than the slowest airframe stops: this fast at the
@@ -91,6 +94,8 @@ pub struct Guard {
     danger: Option<Veto>,
     /// Until then it may be flown back first.
     retreats_until: Duration,
+    /// How near to the middle of the fence it has come on its way back, in metres, and when.
+    nearest: (f64, Duration),
     /// It has been told to land: in the air that is not taken back.
     lands: bool,
     sticks: Demand,
@@ -103,6 +108,7 @@ impl Guard {
             fence,
             danger: None,
             retreats_until: Duration::ZERO,
+            nearest: (f64::INFINITY, Duration::ZERO),
             lands: false,
             sticks: Demand::default(),
         }
@@ -140,6 +146,11 @@ impl Guard {
         if flies && self.danger.is_none() {
             self.danger = self.reason_to_land(now);
             self.retreats_until = now.now + RETREAT;
+            self.nearest = (f64::INFINITY, now.now);
+        }
+        let away_m = now.pose.x_m.hypot(now.pose.y_m);
+        if away_m < self.nearest.0 - WAY_BACK_M {
+            self.nearest = (away_m, now.now);
         }
         if let Some(danger) = self.danger {
             return (self.bring_down(danger, now), Some(danger));
@@ -191,9 +202,12 @@ impl Guard {
 
     /// The drone's own landing drifts: with eyes open it is flown back and down first.
     fn bring_down(&self, danger: Veto, now: &Circumstances) -> AgentCommand {
+        let (nearest_m, at) = self.nearest;
+        let carried_off = nearest_m > self.fence.radius_m && now.now >= at + NO_WAY_BACK;
         let retreats = danger == Veto::OutsideFence
             && now.blind_for <= BLIND_RETREAT
-            && now.now < self.retreats_until;
+            && now.now < self.retreats_until
+            && !carried_off;
         match self.retreat(&now.pose) {
             Some(target) if retreats && now.blind_for <= STALE => AgentCommand::GoTo(target),
             Some(_) if retreats => AgentCommand::Hover,
@@ -355,6 +369,26 @@ mod tests {
         assert!((-0.25..-0.2).contains(&gaz(0.1)), "{}", gaz(0.1));
         let up = Demand { gaz: 1.0, ..Demand::default() };
         assert!((guard().limit(&up, 1.0, 0.1, 0.7).gaz - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_drone_that_does_not_come_back_is_landed_where_it_is() {
+        let lands_after = |speed_m_s: f64| {
+            let mut guard = guard();
+            (0_u32..400).find(|tick| {
+                let time = Duration::from_millis(30) * *tick;
+                let x_m = 10.5 + speed_m_s * time.as_secs_f64();
+                let now =
+                    Circumstances { now: FINE.now + time, pose: Pose { x_m, ..FINE.pose }, ..FINE };
+                guard.check(GO_TO, &now).0 == AgentCommand::Land
+            })
+        };
+        let soon = NO_WAY_BACK.as_millis() as u32 / 30 + 2;
+        for blown_m_s in [0.0, 2.0] {
+            assert!(lands_after(blown_m_s).is_some_and(|tick| tick <= soon), "{blown_m_s}");
+        }
+        let late = RETREAT.as_millis() as u32 / 30 - 1;
+        assert!(lands_after(-0.1).is_some_and(|tick| tick > late), "slowly, but it comes back");
     }
 
     #[test]

@@ -20,6 +20,8 @@ const LYING_MARGIN_M: f64 = 3.0;
 const REACTION: Duration = Duration::from_millis(500);
 /// What is beyond our control is looked at anew in this interval: the wind may have changed.
 const AGAIN: Duration = Duration::from_secs(1);
+/// A wind that is too strong is to be noticed within this time, and the order to land to arrive.
+const RESISTS_FOR: Duration = Duration::from_secs(5);
 /// Where a drone is left to itself it may meet the floor if it comes this near: what was said to it last may
 /// arrive a little later than is reckoned with here.
 const NEAR_FLOOR_M: f64 = 0.1;
@@ -47,6 +49,7 @@ pub(super) struct Fence {
     within: bool,
     /// It may come down on the floor by itself.
     pub(super) may_meet_floor: bool,
+    /// In a wind that its airframe does not resist, or still outside because of one.
     blown: bool,
     /// Furthest outside, less what healthy sensors were wrong by.
     pub(super) outside_m: f64,
@@ -97,16 +100,22 @@ impl Fence {
         let Moment { now, truth, .. } = moment;
         self.look(*now, truth, drone, injected);
         let outside_m = self.outside_m(truth);
-        self.blown = overpowered || self.blown && outside_m > 0.0;
+        let blown = matches!(truth.phase, Phase::Flying | Phase::Landing)
+            && (overpowered || self.blown && outside_m > 0.0);
+        if blown && !self.blown {
+            // It is carried off: but no further than one that lands in time.
+            let alone = self.left_alone(drone, |see| {
+                alone::hovers_and_lands(drone, RESISTS_FOR, see);
+            });
+            self.allowed_m = self.allowed_m.max(alone.outside_m);
+        }
+        self.blown = blown;
         let in_hand = self.out_of_hand_at.is_none_or(|at| now.saturating_sub(at) > IN_HAND);
         if in_hand {
             self.may_meet_floor = false;
-            if outside_m <= 0.0 {
+            if outside_m <= 0.0 && !blown {
                 self.allowed_m = 0.0;
             }
-        }
-        if self.blown {
-            return;
         }
         self.outside_m = self.outside_m.max(outside_m);
         let margin_m = if injected.has_lied(*now) {
@@ -154,19 +163,33 @@ impl Fence {
         // What we do not hear we still command: later excursions are our own.
         if begins || unheard && again {
             self.looked_at = Some(now);
-            let mut furthest_m = 0.0_f64;
-            let mut meets_floor = false;
-            let mut see = |other: &Truth| {
-                furthest_m = furthest_m.max(self.outside_m(other));
-                let is_near = other.phase == Phase::Flying && other.position_m.z < NEAR_FLOOR_M;
-                meets_floor |= other.floor_contacts > truth.floor_contacts || is_near;
-            };
-            alone::hovers_and_lands(drone, REACTION, &mut see);
-            if unheard {
-                alone::unheard(drone, &mut see);
-            }
-            self.allowed_m = self.allowed_m.max(furthest_m);
-            self.may_meet_floor |= meets_floor;
+            let alone = self.left_alone(drone, |see| {
+                alone::hovers_and_lands(drone, REACTION, &mut *see);
+                if unheard {
+                    alone::unheard(drone, see);
+                }
+            });
+            self.allowed_m = self.allowed_m.max(alone.outside_m);
+            self.may_meet_floor |= alone.meets_floor;
         }
     }
+
+    /// How far a drone goes that is left to itself, in one way or several.
+    fn left_alone(&self, drone: &Drone, leave: impl FnOnce(&mut dyn FnMut(&Truth))) -> Alone {
+        let contacts = drone.truth().floor_contacts;
+        let mut alone = Alone::default();
+        leave(&mut |other: &Truth| {
+            alone.outside_m = alone.outside_m.max(self.outside_m(other));
+            let is_near = other.phase == Phase::Flying && other.position_m.z < NEAR_FLOOR_M;
+            alone.meets_floor |= other.floor_contacts > contacts || is_near;
+        });
+        alone
+    }
+}
+
+/// What becomes of a drone that is left to itself.
+#[derive(Debug, Clone, Copy, Default)]
+struct Alone {
+    outside_m: f64,
+    meets_floor: bool,
 }

@@ -224,7 +224,9 @@ impl Judge {
     }
 
     fn is_overpowered(&self, now: Duration) -> bool {
-        let wind_m_s = self.injected.wind_m_s(now).unwrap_or(self.wind_m_s);
+        // The drone feels it a tick later.
+        let wind_m_s =
+            self.injected.wind_m_s(now.saturating_sub(2 * TICK)).unwrap_or(self.wind_m_s);
         wind_m_s > 0.9 * self.strongest_m_s
     }
 
