@@ -407,6 +407,24 @@ mod tests {
     }
 
     #[test]
+    fn by_hand_the_drone_may_rest_at_the_floor_and_at_the_ceiling_of_its_fence() {
+        let FlightLimits { floor_m, ceiling_m, .. } = FlightLimits::default();
+        for (z_m, up_m_s, stays) in [
+            (floor_m, 0.0, true),
+            (ceiling_m, 0.0, true),
+            (floor_m, -0.1, false),
+            (floor_m - 0.1, 0.1, true),
+            (ceiling_m, 0.1, false),
+            (ceiling_m + 0.1, -0.1, true),
+        ] {
+            let pose = Pose { z_m, ..FINE.pose };
+            let now = Circumstances { pose, velocity_m_s: [0.0, 0.0, up_m_s], ..FINE };
+            let (_, veto) = guard().check(AgentCommand::Sticks, &now);
+            assert_eq!(veto, (!stays).then_some(Veto::NearFence), "{z_m} {up_m_s}");
+        }
+    }
+
+    #[test]
     fn the_pilots_hand_stops_before_the_fence_and_may_fly_back() {
         let near_the_fence = Pose { x_m: 9.0, ..FINE.pose };
         let moving =

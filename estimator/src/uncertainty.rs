@@ -166,7 +166,7 @@ mod tests {
             uncertainty.horizontal_m(0.0, 0.0, 0.0)
         };
         assert!(unseen_m(0.0, 0.0) < 0.2);
-        assert!(unseen_m(2.5, 2.5) > 0.5);
+        assert!((0.5..0.8).contains(&unseen_m(2.5, 2.5)), "it flew on");
         assert!(unseen_m(2.5, 0.0) > 1.0, "when it braked nobody knows");
         let silent_m = |speed_m_s| Uncertainty::default().horizontal_m(0.0, 1.0, speed_m_s);
         assert!(silent_m(2.5) > silent_m(0.0) + 0.4);
