@@ -284,7 +284,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "a drone that is not heard is told to fly",
         &[
-            edit(SESSION, "silence < UNHEARD", "silence < Duration::MAX"),
+            edit(
+                SESSION,
+                "heard.returned_at.is_none() && now.saturating_sub(heard.at) < UNHEARD",
+                "now.saturating_sub(heard.at) < Duration::MAX",
+            ),
             edit(
                 SESSION,
                 "self.take_off = TakeOffLatch::Withheld { landing_ordered: false };",
