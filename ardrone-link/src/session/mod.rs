@@ -558,7 +558,7 @@ fn has_restarted(now: Duration, navdata: &Navdata, last: Heard) -> bool {
     const FIRST_PACKETS: u32 = 3;
     /// Packets overtake no more than so many others.
     const OVERTAKEN: u32 = 32;
-    let behind = last.sequence - navdata.sequence;
+    let behind = last.sequence.saturating_sub(navdata.sequence);
     if behind == 0 || last.returned_at(now).is_none() {
         return false;
     }

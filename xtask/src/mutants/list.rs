@@ -224,6 +224,18 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "distance(&pose, &target) >= 0.0",
         )],
     ),
+    mutant(
+        "flown against a storm on the way down",
+        &[
+            edit(AGENT, "Share > Breeze & Share < Storm", "Share > Breeze & Storm > 0.0"),
+            edit(
+                AGENT,
+                "landWhenSaturated(Most) & Weak <= Most",
+                "landWhenSaturated(Most) & Weak >= 0 & Most >= 0",
+            ),
+            edit(GUARD, "&& !carried_off;", "&& (carried_off || !carried_off);"),
+        ],
+    ),
     // What is sent.
     mutant(
         "the roll stick is the wrong way round",
