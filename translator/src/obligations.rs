@@ -100,6 +100,17 @@ mod tests {
     }
 
     #[test]
+    fn calls_that_return_a_value_are_counted() {
+        let text = LAMP.replace("void on(void);", "bool on(void);");
+        let configuration = parse_configuration("a.conf", &text).unwrap();
+        let obligations = obligations(configuration, "+!light <- X = on; +lit(1).").unwrap();
+        let harness = &obligations.files.last().unwrap().text;
+        for part in ["calls_on = (calls_on < 2U)", "calls_on = 0U;", "return any_bool();"] {
+            assert!(harness.contains(part), "{part}:\n{harness}");
+        }
+    }
+
+    #[test]
     fn what_only_the_environment_knows_is_not_made_up() {
         let text = LAMP.replace("lit(int)", "lit(handle_t)");
         let configuration = parse_configuration("a.conf", &text).unwrap();

@@ -119,6 +119,27 @@ fn the_report_bounds_calls_over_all_paths() {
     insta::assert_snapshot!("bounded_report", case.translate("").unwrap().report);
 }
 
+/// An action is one, whatever it returns and wherever the call stands.
+#[test]
+fn the_report_counts_calls_that_return_a_value() {
+    let case = Case {
+        basics: "void a(int); bool try(void); int read(void); bool quiet(int);",
+        types: "g(void); b(int);",
+        sections: "classes { tries: try, quiet; }; triggerables { +!g; };",
+        agent: "+!g : quiet(1) <- X = try; a(read). +!g : b(_) <- try; +b(read + 1). +!g <- a(2).",
+    };
+    let report = case.translate("").unwrap().report.to_string();
+    let (_, calls) = report.split_once("calls in a step that handles an event").unwrap();
+    insta::assert_snapshot!(calls.trim_start_matches('\n'), @r"
+      a                         0 to 1
+      try                       0 to 1
+      read                      0 to 1
+
+    calls of any action of a class
+      tries                     0 to 2
+    ");
+}
+
 #[test]
 fn the_trace_matrix_leads_from_requirement_to_c_lines() {
     let case = Case {

@@ -103,6 +103,14 @@ impl Emission<'_> {
         }
         self.writer.line(format!(":: {} ->", guarded(&before, "posted != 0")));
         self.writer.line("event = posted; posted = 0;");
+        if let Some(clock) = self.program.deadline_clock().filter(|clock| self.is_watched(*clock)) {
+            self.writer.line("if");
+            self.writer.line(":: limited != 0 ->");
+            self.act(clock, 0);
+            self.writer.line("skip");
+            self.writer.line(":: else");
+            self.writer.line("fi;");
+        }
         self.writer.line("if");
         self.writer.line(":: true");
         // The clock may say that the time of a goal is over.
