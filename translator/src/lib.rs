@@ -28,14 +28,20 @@ mod model;
 mod obligations;
 mod program;
 mod report;
+mod reserved;
 pub mod syntax;
 pub mod types;
 
+use std::collections::HashSet;
+
+use backend::rust::{camel_case, snake_case};
 use configuration::{Configuration, Instance};
 use diagnostic::{Diagnostic, Severity, Source, render_all};
 pub use model::{Happening, Model};
 pub use obligations::{HARNESS, Obligations, Promise, RANDOM_TRANSITIONS};
 pub use report::Report;
+use reserved::is_rust_word;
+use syntax::ast::Name;
 use types::TypeKind;
 
 /// A configuration that was read without errors.
@@ -250,6 +256,7 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
                 .help("add `instance = context;` to the settings"),
         );
     }
+    check_rust_names(configuration, &mut findings);
     let mut check = |name: &str, kind: TypeKind, span: &diagnostic::Span| {
         if kind == TypeKind::Opaque {
             findings.push(
@@ -275,6 +282,41 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
         }
     }
     findings
+}
+
+/// Names in Rust are none of its words, and no two of ours become one.
+fn check_rust_names(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
+    let mut taken: HashSet<String> = HashSet::from(["Environment::update_beliefs".to_owned()]);
+    let mut check = |owner: &str, name: String, source: &Name, known: bool| {
+        let fresh = taken.insert(format!("{owner}::{name}"));
+        if !fresh || known || is_rust_word(&name) {
+            let message = format!("`{}` cannot be called `{name}` in Rust", source.text);
+            findings.push(
+                Diagnostic::error(message, source.span.clone())
+                    .help("Rust has this word, or something else is called so there; rename it"),
+            );
+        }
+    };
+    for basic in &configuration.basics {
+        check("Environment", snake_case(&basic.name.text), &basic.name, false);
+    }
+    for name in &configuration.settables {
+        check("Beliefs", format!("set_{}", snake_case(&name.text)), name, false);
+    }
+    for trigger in &configuration.triggerables {
+        let name = program::trigger_name(trigger.operator, trigger.kind, &trigger.name.text);
+        check("Agent", snake_case(&name), &trigger.name, false);
+    }
+    for declared in &configuration.structs {
+        const KNOWN: &str = "Agent Beliefs Environment State Loan Self Box Send Sync Copy Clone Debug PartialEq Default \
+            Option Some None Result Ok Err Drop Fn FnMut FnOnce Sized Vec String";
+        let name = camel_case(&declared.name.text);
+        let known = KNOWN.split_ascii_whitespace().any(|word| word == name);
+        check("", name, &declared.name, known);
+        for (field, _) in &declared.fields {
+            check(&declared.name.text, field.text.clone(), field, false);
+        }
+    }
 }
 
 fn append(text: &mut String, more: &str) {

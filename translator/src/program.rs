@@ -125,7 +125,7 @@ pub(crate) struct Plan {
 pub(crate) struct Variable {
     /// Its name in the agent.
     pub(crate) source: String,
-    /// The same, made unique within the plan.
+    /// Its name in C, which no other variable of the plan has.
     pub(crate) name: String,
     pub(crate) ctype: CType,
     /// Whether its value is used; a variable that is only bound is not generated.
@@ -530,7 +530,7 @@ pub(crate) fn trigger_name(operator: Operator, kind: TriggerKind, name: &str) ->
         (Operator::Add, TriggerKind::Belief) => "add",
         (Operator::Delete, TriggerKind::Belief) => "del",
         (Operator::Add, TriggerKind::Test) => "test",
-        (Operator::Delete, TriggerKind::Test) => "test_failed",
+        (Operator::Delete, TriggerKind::Test) => "untest",
     };
     format!("{verb}_{name}")
 }

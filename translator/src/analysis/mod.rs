@@ -73,6 +73,7 @@ pub(crate) fn analyse(
         test_triggers: HashSet::new(),
         waits: HashMap::new(),
     };
+    analysis.labels(agent);
     analysis.collect_triggers(agent);
     let graph = TriggerGraph::new(agent);
     analysis.initial_beliefs(agent);
@@ -158,6 +159,22 @@ impl Analysis<'_> {
 
     fn handler_id(&self, operator: Operator, kind: TriggerKind, name: &str) -> Option<HandlerId> {
         self.handler_ids.get(&(operator, kind, name.to_owned())).copied()
+    }
+
+    /// A label is the name of one plan.
+    fn labels(&mut self, agent: &Agent) {
+        let mut known: HashSet<&str> = HashSet::new();
+        for label in agent.plans.iter().filter_map(|plan| plan.label.as_ref()) {
+            if !known.insert(&label.text) {
+                self.error(
+                    Diagnostic::error(
+                        format!("a second plan `@{}`", label.text),
+                        label.span.clone(),
+                    )
+                    .help("a label is the name of one plan; requirements may be shared"),
+                );
+            }
+        }
     }
 
     /// One handler for each trigger that has plans, except those of test goals.

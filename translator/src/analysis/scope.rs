@@ -1,5 +1,7 @@
 //! The variables of the plan that is being resolved.
 
+use std::collections::HashMap;
+
 use diagnostic::{Diagnostic, Span};
 
 use crate::program::{Variable, VariableId};
@@ -10,6 +12,8 @@ use crate::types::CType;
 #[derive(Default)]
 pub(super) struct Scope {
     pub(super) variables: Vec<Variable>,
+    /// How often each name was bound.
+    times: HashMap<String, usize>,
     /// Where each variable is bound.
     bound_at: Vec<Span>,
     /// The variables that can be seen, innermost last.
@@ -32,10 +36,11 @@ impl Scope {
     }
 
     pub(super) fn bind(&mut self, name: &Name, ctype: &CType) -> VariableId {
-        let earlier = self.variables.iter().filter(|other| other.source == name.text).count();
-        // In C every variable of a plan has a name of its own.
-        let unique =
-            if earlier == 0 { name.text.clone() } else { format!("{}_{}", name.text, earlier + 1) };
+        let times = self.times.entry(name.text.clone()).or_default();
+        *times += 1;
+        // In C every variable of a plan has a name of its own: what is ours ends at the first underscore.
+        let number = if *times == 1 { String::new() } else { times.to_string() };
+        let unique = format!("var{number}_{}", name.text);
         let id = VariableId(self.variables.len());
         self.variables.push(Variable {
             source: name.text.clone(),
@@ -53,7 +58,7 @@ impl Scope {
         let id = VariableId(self.variables.len());
         self.variables.push(Variable {
             source: String::new(),
-            name: format!("unnamed{}", id.0 + 1),
+            name: format!("var_unnamed{}", id.0 + 1),
             ctype: ctype.clone(),
             used: false,
         });

@@ -12,6 +12,7 @@ mod conformance;
 mod generated;
 mod guide;
 mod harness;
+mod hostile;
 mod refused;
 mod validation;
 mod verification;

@@ -45,7 +45,7 @@ impl PlanEmitter<'_> {
         let variable = &plan.variables[variable.0];
         if variable.used {
             let text = self.value(value);
-            let declaration = constant(&variable.ctype, &variable_name(&variable.name));
+            let declaration = constant(&variable.ctype, &variable.name.clone());
             self.writer.line(format!("{declaration} = {text};"));
         } else if let Value::Call(call) = value {
             self.discard(call);
@@ -77,7 +77,7 @@ impl PlanEmitter<'_> {
         for (outer, _) in &alternatives.exports {
             let variable = &plan.variables[outer.0];
             if let Some(zero) = variable.ctype.zero().filter(|_| variable.used) {
-                let declaration = typed(&variable.ctype, &variable_name(&variable.name));
+                let declaration = typed(&variable.ctype, &variable.name.clone());
                 self.writer.line(format!("{declaration} = {zero};"));
             }
         }
@@ -114,7 +114,7 @@ impl PlanEmitter<'_> {
         for (outer, inner) in exports {
             let (outer, inner) = (&plan.variables[outer.0], &plan.variables[inner.0]);
             if outer.used {
-                let (to, from) = (variable_name(&outer.name), variable_name(&inner.name));
+                let (to, from) = (outer.name.clone(), inner.name.clone());
                 self.writer.line(format!("{to} = {from};"));
             }
         }
@@ -164,7 +164,7 @@ impl PlanEmitter<'_> {
                     let variable = &plan.variables[id.0];
                     if variable.used {
                         self.flush(&mut conditions);
-                        let declaration = constant(&variable.ctype, &variable_name(&variable.name));
+                        let declaration = constant(&variable.ctype, &variable.name.clone());
                         self.writer.line(format!("{declaration} = {field};"));
                     }
                 }
@@ -223,7 +223,7 @@ impl PlanEmitter<'_> {
     /// may have no result opens a block in which it has one.
     pub(super) fn value(&mut self, value: &Value) -> String {
         match value {
-            Value::Variable(id) => variable_name(&self.plan.variables[id.0].name),
+            Value::Variable(id) => self.plan.variables[id.0].name.clone(),
             Value::Constant(text, _) => text.clone(),
             Value::Call(call) => {
                 let result = self.program.basic(call.basic).result.clone();
@@ -280,11 +280,6 @@ impl PlanEmitter<'_> {
 /// A value that needs no statement before it.
 fn is_plain(value: &Value) -> bool {
     matches!(value, Value::Variable(_) | Value::Constant(..))
-}
-
-/// AgentSpeak variables get a prefix: `X` may be a macro of some included header.
-pub(super) fn variable_name(name: &str) -> String {
-    format!("var_{name}")
 }
 
 pub(super) fn conjunction(conditions: &[String]) -> String {

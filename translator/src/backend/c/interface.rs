@@ -247,14 +247,17 @@ fn set(
         .perceived
         .map(|handler| names.field(&pending(Slot::Perceived, &handler_name(program, handler))));
     if flag.is_some() {
-        let mut unchanged = vec![held.clone()];
-        for (index, ctype) in belief.types.iter().enumerate() {
-            unchanged.push(helpers.equality(ctype, &field(index), &argument(index)));
-        }
         // What cannot be compared always counts as changed.
         let comparable = belief.types.iter().all(CType::has_equality);
-        let condition =
-            if comparable { format!("!({})", conjunction(&unchanged)) } else { "true".to_owned() };
+        let condition = if comparable {
+            let mut unchanged = vec![held.clone()];
+            for (index, ctype) in belief.types.iter().enumerate() {
+                unchanged.push(helpers.equality(ctype, &field(index), &argument(index)));
+            }
+            format!("!({})", conjunction(&unchanged))
+        } else {
+            "true".to_owned()
+        };
         writer.line(format!("const bool changed = {condition};"));
         writer.line("");
     }

@@ -1,6 +1,6 @@
 //! What one plan does, as the body of its C function.
 
-use super::expression::{conjunction, parenthesised, variable_name};
+use super::expression::{conjunction, parenthesised};
 use super::helpers::Helpers;
 use super::names::{Names, argument, constant, typed};
 use super::state::{belief_value, handler_name, held, limited_types};
@@ -8,6 +8,7 @@ use crate::backend::writer::Writer;
 use crate::program::{
     BeliefId, Handler, HandlerId, Pattern, Plan, Program, Raise, Step, Value, VariableId,
 };
+use crate::types::CType;
 
 /// Writes one plan. Each condition and each formula that can fail opens a block that stays open to
 /// the end of the plan, so that every variable is a constant initialised where it is bound.
@@ -75,7 +76,7 @@ impl<'a> PlanEmitter<'a> {
             let ctype = &handler.types[index];
             match pattern {
                 Pattern::Bind(id) if plan.variables[id.0].used => {
-                    let variable = variable_name(&plan.variables[id.0].name);
+                    let variable = plan.variables[id.0].name.clone();
                     parameters[first + index] = typed(ctype, &variable);
                 }
                 // The answer to what is asked for is stored at the end.
@@ -111,7 +112,7 @@ impl<'a> PlanEmitter<'a> {
             self.step(step);
         }
         for (index, id) in &plan.outputs {
-            let variable = variable_name(&plan.variables[id.0].name);
+            let variable = plan.variables[id.0].name.clone();
             self.writer.line(format!("*{} = {variable};", argument(*index)));
         }
         self.writer.line("outcome = OUTCOME_ACHIEVED;");
@@ -166,7 +167,7 @@ impl<'a> PlanEmitter<'a> {
     fn bind(&mut self, id: VariableId, text: &str) {
         let variable = &self.plan.variables[id.0];
         if variable.used {
-            let declaration = constant(&variable.ctype, &variable_name(&variable.name));
+            let declaration = constant(&variable.ctype, &variable.name.clone());
             self.writer.line(format!("{declaration} = {text};"));
         }
     }
@@ -221,11 +222,10 @@ impl<'a> PlanEmitter<'a> {
         let held = self.names.field(&held(&declared.name));
         let values = self.values(values);
         let mut unchanged = vec![held.clone()];
-        let mut comparable = true;
+        let comparable = declared.types.iter().all(CType::has_equality);
         for (index, value) in values.iter().enumerate() {
             let ctype = &declared.types[index];
-            comparable &= ctype.has_equality();
-            if raise != Raise::Nothing && ctype.has_equality() {
+            if raise != Raise::Nothing && comparable {
                 let field = self.names.field(&belief_value(&declared.name, index));
                 unchanged.push(self.equal(ctype, &field, value));
             }

@@ -2,6 +2,7 @@
 
 use crate::configuration::Instance;
 use crate::program::{BasicId, Belief, External, HandlerId, Program, trigger_name};
+use crate::syntax::ast::TriggerKind;
 use crate::types::CType;
 
 /// All fields of the agent's state, in order, and the events that it can hold.
@@ -285,15 +286,16 @@ pub(super) fn event(slot: Slot, trigger: &str) -> String {
     format!("EVENT_{}_{trigger}", slot.name().to_uppercase())
 }
 
-/// `achieve_goto`; for test goals with a letter for each argument, `i` given and `o` asked for.
+/// `achieve_goto`; for test goals with a letter for each argument, `i` given and `o` asked for: `test_io_twice`.
+/// What is a user's comes last, so that no two triggers have one name.
 pub(crate) fn handler_name(program: &Program, id: HandlerId) -> String {
     let handler = program.handler(id);
-    let name = trigger_name(handler.operator, handler.kind, &handler.name);
-    if handler.holes.is_empty() {
-        return name;
+    if handler.kind != TriggerKind::Test {
+        return trigger_name(handler.operator, handler.kind, &handler.name);
     }
-    let mode: String = handler.holes.iter().map(|hole| if *hole { 'o' } else { 'i' }).collect();
-    format!("{name}_{mode}")
+    let mode = handler.holes.iter().map(|hole| if *hole { 'o' } else { 'i' });
+    let mode = if handler.holes.is_empty() { "n".to_owned() } else { mode.collect() };
+    trigger_name(handler.operator, handler.kind, &format!("{mode}_{}", handler.name))
 }
 
 /// `achieve_goto`

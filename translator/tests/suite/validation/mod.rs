@@ -11,14 +11,11 @@ mod interpreted;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 
 use self::generate::Choices;
+use crate::harness::from_environment;
 
 /// Each agent is run through this many sequences of events.
 const SEQUENCES: usize = 10;
 const USUAL_AGENTS: u32 = 150;
-
-fn from_environment(variable: &str, usual: u32) -> u32 {
-    std::env::var(variable).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
-}
 
 /// Runs one agent both ways; says whether it was one that translates.
 fn validate(choices: &[u8]) -> Result<bool, TestCaseError> {
