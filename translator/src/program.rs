@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use diagnostic::Span;
 
-use crate::configuration::{Basic, Configuration};
+use crate::configuration::{Basic, Configuration, Settings};
 use crate::syntax::ast::{Arithmetic, Operator, Relation, TriggerKind};
 use crate::types::CType;
 
@@ -25,6 +25,9 @@ pub(crate) struct Program {
     pub(crate) posted_by_plans: Vec<HandlerId>,
     /// Handlers whose goals a plan can post with `!!`: each has one slot.
     pub(crate) deferred: Vec<HandlerId>,
+    /// How many goals posted with `!!` can wait among external events, in queue mode: as many as those, and one
+    /// for each `!!` that the agent has.
+    pub(crate) deferred_room: usize,
     /// Handlers whose goals a plan gives a deadline.
     pub(crate) limited: Vec<HandlerId>,
     /// The function that tells the time, and the type of its times.
@@ -444,6 +447,14 @@ impl Pattern {
 pub(crate) struct Call {
     pub(crate) basic: BasicId,
     pub(crate) arguments: Vec<Value>,
+}
+
+/// More `!!` than this get no more room in the queue.
+const MOST_DEFERRED: usize = 64;
+
+/// The room of [`Program::deferred_room`], for an agent with so many `!!`.
+pub(crate) fn deferred_room(settings: &Settings, formulae: usize) -> usize {
+    settings.inbox as usize + formulae.min(MOST_DEFERRED)
 }
 
 impl Program {

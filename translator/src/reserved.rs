@@ -131,9 +131,7 @@ pub(crate) fn is_library(name: &str) -> bool {
     let is_in = |words: &str, name: &str| words.split_ascii_whitespace().any(|word| word == name);
     let variant =
         |ending: &&str| name.strip_suffix(ending).is_some_and(|stem| is_in(MATHEMATICS, stem));
-    is_in(MATHEMATICS, name)
-        || is_in(LIBRARY, name)
-        || VARIANTS.iter().any(|ending| variant(ending))
+    is_in(MATHEMATICS, name) || is_in(LIBRARY, name) || VARIANTS.iter().any(variant)
 }
 
 /// `int32_t`, `uint_fast8_t`, `intptr_t`: C has all names that begin and end so.

@@ -25,8 +25,10 @@ use self::reach::{
 };
 use self::time::{Clock, find_clock};
 use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula};
-use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Program, Value};
-use crate::syntax::ast::{Agent, Atom, Operator, TriggerKind};
+use crate::program::{
+    Belief, BeliefId, External, Handler, HandlerId, Program, Value, deferred_room,
+};
+use crate::syntax::ast::{self, Agent, Atom, Operator, TriggerKind};
 use crate::types::CType;
 
 /// What was found wrong, by the file it is wrong in.
@@ -113,7 +115,10 @@ pub(crate) fn analyse(
     mark_believable(&mut beliefs, &handlers, &external);
     warn_never_believed(&beliefs, &mut findings.agent);
     warn_without_plan(&handlers, &events, &mut findings.agent);
+    let formulae = agent.plans.iter().flat_map(|plan| &plan.body);
+    let defers = formulae.filter(|formula| matches!(formula, ast::Formula::Defer(_))).count();
     let program = Program {
+        deferred_room: deferred_room(&configuration.settings, defers),
         configuration,
         beliefs,
         handlers,

@@ -126,7 +126,9 @@ fn figures(program: &Program, costs: &[Cost], events: &[HandlerId]) -> Vec<(&'st
     figures.push(("state", format!("{} bytes on a 64-bit machine", state_bytes(program))));
     figures.push(("posted events", at_most(1)));
     figures.push(("external events waiting", at_most(settings.inbox as usize)));
-    figures.push(("deferred goals waiting", at_most(program.deferred.len())));
+    let deferred = program.deferred.len();
+    let room = if settings.queue && deferred > 0 { program.deferred_room } else { deferred };
+    figures.push(("deferred goals waiting", at_most(room)));
     let preemptive = program.external.iter().filter(|external| external.preemptive).count();
     figures.push(("pre-empting events", preemptive.to_string()));
     figures

@@ -159,7 +159,9 @@ impl Emission<'_> {
                 }
                 Waiting::External(index) => self.handle_external(index),
                 Waiting::Deferred(id) => {
-                    self.writer.line(format!("deferred_{} = false;", id.0));
+                    if !self.program.configuration.settings.queue {
+                        self.writer.line(format!("deferred_{} = false;", id.0));
+                    }
                     self.run(id);
                 }
             }

@@ -139,7 +139,7 @@ impl Emission<'_> {
         }
         let writer = &mut self.writer;
         writer.line("byte raised; /* external events that wait among deferred goals */");
-        for id in &program.deferred {
+        for id in program.deferred.iter().filter(|_| !program.configuration.settings.queue) {
             writer.line(format!("bool deferred_{};", id.0));
         }
         writer.line("byte outcome; /* 0 achieved, 1 no plan applies, 2 failed */");
@@ -156,24 +156,18 @@ impl Emission<'_> {
     fn queues(&self) -> Vec<Queue> {
         let program = self.program;
         let settings = &program.configuration.settings;
-        let inbox = program.external.iter().any(|external| !external.preemptive);
+        let external = program.external.iter().any(|external| !external.preemptive);
+        let external = if external { settings.inbox as usize } else { 0 };
         let deferred = program.deferred.len();
-        let shared = settings.queue && inbox;
+        let shared = if settings.queue && deferred > 0 { program.deferred_room } else { 0 };
         let mut queues = Vec::new();
-        if inbox {
-            let room = if shared { deferred } else { 0 };
-            queues.push(Queue { name: "inbox", length: settings.inbox as usize + room });
+        if external + shared > 0 {
+            queues.push(Queue { name: "inbox", length: external + shared });
         }
-        if deferred > 0 && !shared {
+        if deferred > 0 && !settings.queue {
             queues.push(Queue { name: "deferred", length: deferred });
         }
         queues
-    }
-
-    /// The queue of deferred goals.
-    fn deferred_queue(&self) -> &'static str {
-        let names: Vec<&str> = self.queues().iter().map(|queue| queue.name).collect();
-        if names.contains(&"deferred") { "deferred" } else { "inbox" }
     }
 
     /// Whether a belief is held, as an expression.

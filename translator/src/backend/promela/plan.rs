@@ -172,11 +172,16 @@ impl Emission<'_> {
             }
             Step::Defer { handler, .. } => {
                 let number = self.number(Waiting::Deferred(*handler));
-                let queue = self.deferred_queue();
                 let flag = format!("deferred_{}", handler.0);
                 self.writer.line("if");
-                self.writer.line(format!(":: !{flag} -> {flag} = true; {queue}!{number}"));
-                self.writer.line(":: else");
+                if self.program.configuration.settings.queue {
+                    let room = self.program.deferred_room;
+                    self.writer.line(format!(":: len(inbox) - raised < {room} -> inbox!{number}"));
+                    self.writer.line(":: else -> lost = true");
+                } else {
+                    self.writer.line(format!(":: !{flag} -> {flag} = true; deferred!{number}"));
+                    self.writer.line(":: else");
+                }
                 self.writer.line("fi;");
             }
             Step::Ask { belief, patterns, plans } => {
