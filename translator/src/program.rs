@@ -175,6 +175,7 @@ pub(crate) struct Alternatives {
 #[derive(Debug)]
 pub(crate) struct Placed {
     pub(crate) line: usize,
+    pub(crate) span: Span,
     pub(crate) step: Step,
 }
 

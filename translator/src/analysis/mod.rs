@@ -10,10 +10,11 @@ mod graph;
 mod plans;
 mod reach;
 mod scope;
+mod tail;
 mod time;
 mod values;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{HashMap, HashSet, VecDeque};
 
 use diagnostic::{Diagnostic, Severity};
 
@@ -23,6 +24,7 @@ use self::graph::TriggerGraph;
 use self::reach::{
     Reached, mark_believable, reach, warn_never_believed, warn_unreachable, warn_without_plan,
 };
+use self::tail::warn_unseen;
 use self::time::{Clock, find_clock};
 use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula};
 use crate::program::{
@@ -73,6 +75,7 @@ pub(crate) fn analyse(
         handlers: Vec::new(),
         test_handlers: HashMap::new(),
         test_triggers: HashSet::new(),
+        open_tests: VecDeque::new(),
         waits: HashMap::new(),
     };
     analysis.labels(agent);
@@ -115,6 +118,7 @@ pub(crate) fn analyse(
     mark_believable(&mut beliefs, &handlers, &external);
     warn_never_believed(&beliefs, &mut findings.agent);
     warn_without_plan(&handlers, &events, &mut findings.agent);
+    warn_unseen(&handlers, &mut findings.agent);
     let formulae = agent.plans.iter().flat_map(|plan| &plan.body);
     let defers = formulae.filter(|formula| matches!(formula, ast::Formula::Defer(_))).count();
     let program = Program {
@@ -148,13 +152,18 @@ struct Analysis<'a> {
     test_handlers: HashMap<(TriggerKey, Vec<bool>), HandlerId>,
     /// Test goals that have plans.
     test_triggers: HashSet<TriggerKey>,
+    /// Handlers of test goals whose plans are not looked at yet.
+    open_tests: VecDeque<(HandlerId, TriggerKey, Vec<bool>)>,
     /// How many waits of each goal or belief have a name.
     waits: HashMap<String, usize>,
 }
 
 impl Analysis<'_> {
     fn error(&mut self, diagnostic: Diagnostic) {
-        self.findings.agent.push(diagnostic);
+        // What follows from another error is not said.
+        if !diagnostic.message.is_empty() {
+            self.findings.agent.push(diagnostic);
+        }
     }
 
     /// The line that a byte of the source stands in, from 1.

@@ -1,17 +1,19 @@
 //! The variables of the plan that is being resolved.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use diagnostic::{Diagnostic, Span};
 
 use crate::program::{Variable, VariableId};
-use crate::syntax::ast::Name;
+use crate::syntax::ast::{Expression, Name};
 use crate::types::CType;
 
 /// Which variables there are, and which can be seen.
 #[derive(Default)]
 pub(super) struct Scope {
     pub(super) variables: Vec<Variable>,
+    /// Names whose value could not be resolved: of that it is said once.
+    broken: HashSet<String>,
     /// How often each name was bound.
     times: HashMap<String, usize>,
     /// Where each variable is bound.
@@ -24,6 +26,11 @@ pub(super) struct Scope {
     hidden: Vec<String>,
     /// Variables that every branch of an alternative binds: the one seen afterwards, and theirs.
     exports: Vec<(VariableId, Vec<VariableId>)>,
+}
+
+/// An error that needs no word, because it follows from another.
+pub(super) fn said_already() -> Diagnostic {
+    Diagnostic::error(String::new(), 0..0)
 }
 
 /// How much was visible when a negation or an alternative began.
@@ -78,6 +85,9 @@ impl Scope {
         if let Some(id) = self.lookup(&name.text) {
             return Ok(id);
         }
+        if self.broken.contains(&name.text) {
+            return Err(said_already());
+        }
         // Somebody wanted to use it: it is no idle variable.
         for variable in self.variables.iter_mut().filter(|other| other.source == name.text) {
             variable.used = true;
@@ -89,6 +99,20 @@ impl Scope {
         } else {
             error.help("bind it in the trigger, in the context, by `?b(X)` or by `X = value`")
         })
+    }
+
+    /// The variable would have a value if that could be resolved.
+    pub(super) fn break_variable(&mut self, name: &Name) {
+        self.broken.insert(name.text.clone());
+    }
+
+    /// Whether a value could be resolved if that of a variable in it could.
+    pub(super) fn is_broken(&self, expression: &Expression) -> bool {
+        let mut broken = false;
+        expression.for_each_variable(&mut |name| {
+            broken |= self.broken.contains(&name.text) && self.lookup(&name.text).is_none();
+        });
+        broken
     }
 
     pub(super) fn mark(&self) -> Mark {

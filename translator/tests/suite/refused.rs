@@ -50,6 +50,67 @@ fn an_error_shows_its_line_a_caret_and_what_to_do() {
     ");
 }
 
+/// The first lines of all errors of an agent.
+fn errors(agent: &'static str) -> Vec<String> {
+    let case = Case {
+        basics: "void act(int); bool flag(int); int count(void); void take(handle_t);",
+        types: "g(void); gi(int); b(int); d(double); h(handle_t); c(void); p(int, int); h2(handle_t, int);",
+        sections: "settables { h; };",
+        agent,
+    };
+    let text = case.translate("").map_or_else(|error| error.to_string(), |_| String::new());
+    text.lines().filter_map(|line| line.strip_prefix("error: ")).map(str::to_owned).collect()
+}
+
+#[test]
+fn plans_of_test_goals_that_nobody_asks_are_checked() {
+    assert_eq!(errors("!g. +!g. +?b(X) <- fly(X)."), ["`fly` is not declared"]);
+    assert_eq!(errors("!g. +!g. +?b(X, Y) <- act(X)."), ["`b` takes 1 arguments, not 2"]);
+    assert_eq!(errors("!g. +!g. +?b(X) <- act(X, 1)."), ["`act` takes 1 arguments, not 2"]);
+    assert_eq!(errors("!g. +!g. +?b(X) <- ?b(X)."), ["`?b` leads back to itself"]);
+    assert_eq!(
+        errors("!g. +!g. +?b(X) <- ?d(Y); X = 1. +?d(Y) <- ?b(_); Y = 1.0."),
+        ["`?d` leads back to itself", "`?b` leads back to itself"]
+    );
+    assert_eq!(
+        errors("!g. +!g. +?b(X) <- ?p(X, _). +?p(X, Y) <- fly(X); Y = 1."),
+        ["`fly` is not declared"]
+    );
+    assert_eq!(errors("!g. +!g. -?b(X) <- X = 1."), ["`-?b` can never run: no plan for `+?b`"]);
+    assert_eq!(
+        errors("!g. +!g <- ?b(X); act(X). -?b(X) <- X = 1."),
+        ["`-?b` can never run: no plan for `+?b`"]
+    );
+    assert_eq!(errors("!g. +!g. +?b(X) : c <- X = Y."), ["`Y` has no value here"]);
+    // In whatever way they are meant to be asked.
+    for agent in [
+        "!g. +!g. +?b(X) <- X = 1.",
+        "!g. +!g. +?b(X) <- act(X).",
+        "!g. +!g. +?b(3) <- act(3).",
+        "!g. +!g. +?p(X, Y) <- Y = X * 2.",
+        "!g. +!g. +?p(X, X) <- act(X).",
+        "!g. +!g. +?h(X) : h(X).",
+        "!g. +!g. +?h2(X, Y) : h(X) & Y = count.",
+        "!g. +!g. +?h(X) <- take(X).",
+        "!g. +!g. +?b(X) : not (X = 3 & flag(X)) & p(X, _).",
+    ] {
+        assert_eq!(errors(agent), [""; 0], "{agent}");
+    }
+}
+
+#[test]
+fn one_mistake_is_said_once() {
+    let only = |agent| assert_eq!(errors(agent), ["`fly` is not declared"], "{agent}");
+    only("!g. +!g <- X = fly(1); act(X); Y = X + 1; act(Y + X); !gi(Y); +b(X); -b(X); act(-X).");
+    only("!g. +!g : X = fly(1) & X > 3 & Y = X & not (Y == X) <- act(Y).");
+    only("!g. +!g <- ?b(X); act(X). +?b(X) <- X = fly(1).");
+    // Another mistake is said as well.
+    assert_eq!(
+        errors("!g. +!g <- X = fly(1); act(X); act(Z)."),
+        ["`fly` is not declared", "`Z` has no value here"]
+    );
+}
+
 #[test]
 fn a_clock_is_a_function_that_tells_a_time() {
     for (clock, expected) in [
@@ -235,6 +296,68 @@ fn a_goal_that_may_find_no_plan_is_warned_of_unless_every_case_is_covered() {
     assert_eq!(warnings("!g. +!g : c | b(_) <- act(1). +!g : not (b(_) | c) <- act(2)."), [""; 0]);
     // A function may answer differently the next time.
     assert_eq!(warnings("!g. +!g : flag <- act(1). +!g : not flag <- act(2)."), may("+!g"));
+}
+
+#[test]
+fn a_failure_that_does_not_go_outward_is_warned_of() {
+    let unseen = |guard: &str, goal: &str| {
+        vec![format!("`{guard}` does not see it if `{goal}` fails later")]
+    };
+    let may = |goal: &str| format!("`{goal}` may find no plan");
+    // `k` goes on in later steps, and fails there.
+    let tail = warnings("!g. +!g <- !k. -!g <- act(1). +!k : c <- !k.");
+    assert_eq!(tail, [unseen("-!g", "+!k"), vec![may("+!k")]].concat());
+    assert_eq!(
+        warnings("!g. +!g <- !k. -!g <- act(1). +!k <- ?b(X); act(X); !k."),
+        unseen("-!g", "+!k")
+    );
+    assert_eq!(
+        warnings("!g. +!g <- !k. -!g <- act(1). +!k <- ?b(X); act(X); !k. -!k <- act(2)."),
+        [""; 0]
+    );
+    // Mended in part is not mended; nor are those that lead there by several steps.
+    assert_eq!(
+        warnings("!g. +!g <- !k. -!g <- act(1). +!k <- ?b(X); act(X); !k. -!k : c <- act(2)."),
+        unseen("-!g", "+!k")
+    );
+    assert_eq!(
+        warnings("!g. +!g <- !k. -!g <- act(1). +!k <- !h(1). +!h(X) <- ?b(X); !k."),
+        unseen("-!g", "+!h")
+    );
+    assert_eq!(
+        warnings(
+            "!g. +!g <- !k. -!g <- act(1). +!k <- ?c; !k. -!k <- !h(1). +!h(X) <- ?b(X); !h(X)."
+        ),
+        unseen("-!g", "+!h")
+    );
+    // A goal that posts itself sees its own failures, and what cannot fail needs nobody.
+    assert_eq!(warnings("!g. +!g <- ?c; !g. -!g <- act(1)."), [""; 0]);
+    assert_eq!(warnings("!g. +!g <- !k. -!g <- act(1). +!k <- act(2); !g."), [""; 0]);
+    // A percept is posted too.
+    assert_eq!(
+        warnings("!g. +!g <- +b(1). -!g <- act(1). +b(X) : X > 0 <- ?c; !g."),
+        unseen("-!g", "+b")
+    );
+}
+
+#[test]
+fn a_deadline_that_nobody_sees_is_warned_of() {
+    let case = Case {
+        basics: "void act(int); int64_t now(void);",
+        types: "g(void); k(void);",
+        sections: "",
+        agent: "!g. +!g <- !k[deadline(5)]. -!g <- act(1). +!k <- act(2); !k.",
+    };
+    let warnings = case.translate("clock = now;").unwrap().warnings;
+    assert!(
+        warnings.starts_with("warning: `-!g` does not see it if `+!k` fails later"),
+        "{warnings}"
+    );
+    let mended = Case {
+        agent: "!g. +!g <- !k[deadline(5)]. -!g <- act(1). +!k <- act(2); !k. -!k <- act(3).",
+        ..case
+    };
+    assert_eq!(mended.translate("clock = now;").unwrap().warnings, "");
 }
 
 #[test]

@@ -302,7 +302,7 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
         let mut values = slot_values(program, names, Slot::Deferred, *id);
         if program.configuration.settings.queue {
             let taken = names.field("inbox_taken");
-            values.iter_mut().for_each(|value| value.push_str(&format!("[{taken}]")));
+            values = values.iter().map(|value| format!("{value}[{taken}]")).collect();
         } else {
             writer.line(format!("{} = false;", names.field(&pending(Slot::Deferred, &trigger))));
         }

@@ -159,7 +159,9 @@ fn nothing_is_left(writer: &mut Writer, program: &Program, names: &Names) {
     }
     for (length, lines) in arrays {
         writer.open(format!("for (uint32_t slot = 0U; slot < {length}U; slot++)"));
-        lines.iter().for_each(|line| writer.line(line));
+        for line in lines {
+            writer.line(line);
+        }
         writer.close("}");
     }
 }

@@ -148,7 +148,7 @@ impl Emission<'_> {
 
     /// One formula.
     fn placed(&mut self, id: HandlerId, placed: &Placed) {
-        let Placed { line, step } = placed;
+        let Placed { line, step, .. } = placed;
         self.effects(id, step, *line);
         match step {
             // What they call they have called.
