@@ -92,7 +92,7 @@ fn plans_of_test_goals_that_nobody_asks_are_checked() {
         "!g. +!g. +?h(X) : h(X).",
         "!g. +!g. +?h2(X, Y) : h(X) & Y = count.",
         "!g. +!g. +?h(X) <- take(X).",
-        "!g. +!g. +?b(X) : not (X = 3 & flag(X)) & p(X, _).",
+        "!g. +!g. +?b(X) : not (X = count & flag(X)) & p(X, _).",
     ] {
         assert_eq!(errors(agent), [""; 0], "{agent}");
     }

@@ -69,6 +69,12 @@ fn validation_of_random_agents() {
     assert!(translated * 2 > cases, "most agents should translate, {translated} of {cases} did");
 }
 
+/// Goals that do nothing but defer others and say that they run.
+const QUEUEING: &str = "+!p(N) : N > 3 <- !!z(N); !!y(N, 1); !!z(N + 1).\n+!p(N) : N > 1 <- !!y(N, 2).\n+!p(N) <- a(N, 0).\n\
+    +!z(N) : N mod 3 == 0 <- !!z(N + 1); a(N, 1).\n+!z(N) <- a(N, 2).\n+!y(N, M) <- a(N, M + 2).\n";
+/// Five `!!` stand in the agent.
+const DEFERS: usize = 5;
+
 /// A queue that knows nothing of agents: what waits is a list, and the first of it is next.
 #[test]
 fn queues_are_first_in_first_out() {
@@ -80,10 +86,6 @@ fn queues_are_first_in_first_out() {
              triggerables {{ +!p; +!z; }};\n"
         )
     };
-    const AGENT: &str = "+!p(N) : N > 3 <- !!z(N); !!y(N, 1); !!z(N + 1).\n+!p(N) : N > 1 <- !!y(N, 2).\n+!p(N) <- a(N, 0).\n\
-        +!z(N) : N mod 3 == 0 <- !!z(N + 1); a(N, 1).\n+!z(N) <- a(N, 2).\n+!y(N, M) <- a(N, M + 2).\n";
-    /// Five `!!` stand in the agent.
-    const DEFERS: usize = 5;
     let commands = proptest::collection::vec((0..3_u8, 0..9_i32), 5..60);
     let config = Config { cases, failure_persistence: None, ..Config::default() };
     TestRunner::new(config)
@@ -125,7 +127,7 @@ fn queues_are_first_in_first_out() {
                 expected.push(format!("|{lost}"));
             }
             let parsed = translator::parse_configuration("a.conf", &configuration(room)).unwrap();
-            let translation = translator::translate(parsed, AGENT).unwrap();
+            let translation = translator::translate(parsed, QUEUEING).unwrap();
             let environment = format!(
                 "#include <stdio.h>\nvoid updateBeliefs(void) {{ }}\n\
                  void a(int x, int y) {{ printf(\"%d,%d\\n\", x, y); }}\nint main(void) {{ init(); {script} return 0; }}\n"
