@@ -58,6 +58,14 @@ impl ParsedConfiguration {
         &self.configuration.settings.input
     }
 
+    /// An error at the value of a setting: what is wrong with it, and what to do.
+    pub fn refuse(&self, setting: &str, message: &str, help: &str) -> TranslateError {
+        let place = self.configuration.settings.places.get(setting).cloned().unwrap_or_default();
+        let diagnostic = Diagnostic::error(message, place).help(help);
+        let source = Source { name: &self.name, text: &self.text };
+        TranslateError::Configuration { rendered: diagnostic.render(&source) }
+    }
+
     fn promises(&self) -> Vec<Promise> {
         let properties = self.configuration.properties.iter();
         properties
@@ -93,6 +101,8 @@ pub struct GeneratedFile {
     pub name: String,
     /// Its text.
     pub text: String,
+    /// The setting that names it; empty for what no setting names.
+    pub setting: &'static str,
 }
 
 /// Why nothing was translated.
@@ -152,13 +162,14 @@ pub fn translate(
     let mut files = c_files(&program);
     if let Some(rust) = &settings.rust {
         let text = backend::rust::emit(&program, &settings.input);
-        files.push(GeneratedFile { name: rust.text.clone(), text });
+        files.push(GeneratedFile { name: rust.text.clone(), text, setting: "rust" });
     }
     if let Some(name) = &settings.matrix {
         let matrix = backend::matrix::emit(&program, &settings.input, &files[0].text)
             .map_err(|source| TranslateError::Matrix { problem: source.to_string() })?;
-        files.push(GeneratedFile { name: format!("{name}.csv"), text: matrix.csv });
-        files.push(GeneratedFile { name: format!("{name}.json"), text: matrix.json });
+        for (ending, text) in [("csv", matrix.csv), ("json", matrix.json)] {
+            files.push(GeneratedFile { name: format!("{name}.{ending}"), text, setting: "matrix" });
+        }
     }
     Ok(Translation { files, warnings, report: Report::new(&program) })
 }
@@ -184,7 +195,7 @@ pub fn obligations(
     let harness = backend::c::harness(&program);
     let prefix = backend::c::symbol_prefix(&program);
     let mut files = c_files(&program);
-    files.push(GeneratedFile { name: HARNESS.to_owned(), text: harness.source });
+    files.push(GeneratedFile { name: HARNESS.to_owned(), text: harness.source, setting: "" });
     Ok(Obligations {
         files,
         entry: format!("{prefix}next_step"),
@@ -212,9 +223,9 @@ fn c_files(program: &program::Program) -> Vec<GeneratedFile> {
     let settings = &program.configuration.settings;
     let c = backend::c::emit(program, &settings.input);
     vec![
-        GeneratedFile { name: settings.output.clone(), text: c.source },
-        GeneratedFile { name: settings.header.clone(), text: c.header },
-        GeneratedFile { name: settings.basics.clone(), text: c.basics },
+        GeneratedFile { name: settings.output.clone(), text: c.source, setting: "output" },
+        GeneratedFile { name: settings.header.clone(), text: c.header, setting: "header" },
+        GeneratedFile { name: settings.basics.clone(), text: c.basics, setting: "basics" },
     ]
 }
 

@@ -1,6 +1,7 @@
 //! `asl2c`: translates an AgentSpeak agent to C.
 #![forbid(unsafe_code)]
 
+mod output;
 mod path;
 mod spin;
 mod stack;
@@ -27,8 +28,9 @@ use translator::{
     version,
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
-    after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, or a property \
-                  that does not hold; 2 usage."
+    after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, not printed, or a \
+                  property that does not hold; 2 usage; 3 nothing is known of some property, for want of a tool, \
+                  of memory, or of properties."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -77,6 +79,10 @@ enum CommandError {
     Translate(#[from] TranslateError),
     #[error("error: {0}")]
     Verify(#[from] verify::VerifyError),
+    #[error("{0}")]
+    Output(#[from] output::OutputError),
+    #[error("cannot print {what}: {source}")]
+    Print { what: &'static str, source: std::io::Error },
 }
 
 fn main() -> ExitCode {
@@ -93,14 +99,36 @@ fn carry_out(task: &Task) -> Result<ExitCode, CommandError> {
     let Task::Verify { configuration, only, json, model } = task;
     let (parsed, agent) = read_agent(configuration)?;
     let checked = translator::model(parsed, &agent)?;
-    if *model { Ok(verify::print(&checked)) } else { Ok(verify::run(&checked, only, *json)?) }
+    if *model {
+        print("the model", &checked.promela())?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let (text, status) = verify::run(&checked, only, *json)?;
+    print("what was found", &text)?;
+    Ok(status)
 }
 
 fn complain(error: &CommandError) -> ExitCode {
-    let prefix = if matches!(error, CommandError::File { .. }) { "error: " } else { "" };
+    let ours = matches!(
+        error,
+        CommandError::File { .. }
+            | CommandError::Print { .. }
+            | CommandError::Output(output::OutputError::Write { .. })
+    );
+    let prefix = if ours { "error: " } else { "" };
     // A message that cannot be printed has nowhere else to go.
     _ = writeln!(std::io::stderr(), "{prefix}{error}");
-    ExitCode::FAILURE
+    if matches!(error, CommandError::Verify(_)) { NOT_CHECKED.into() } else { ExitCode::FAILURE }
+}
+
+/// The exit status if nothing is known of what should be checked.
+pub(crate) const NOT_CHECKED: u8 = 3;
+
+/// Prints what was asked for.
+fn print(what: &'static str, text: &str) -> Result<(), CommandError> {
+    let mut stdout = std::io::stdout().lock();
+    let printed = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+    printed.map_err(|source| CommandError::Print { what, source })
 }
 
 /// Adds what a compiler makes of the C, and what that costs; says what cannot be known.
@@ -138,7 +166,10 @@ fn translate_files(arguments: &Arguments, path: &Path) -> ExitCode {
             }
             if arguments.report {
                 measure(&mut translation, path, &mut stderr);
-                _ = write!(std::io::stdout(), "{}", translation.report);
+                drop(stderr);
+                if let Err(error) = print("the report", &translation.report.to_string()) {
+                    return complain(&error);
+                }
             }
             ExitCode::SUCCESS
         }
@@ -159,17 +190,11 @@ fn read_agent(path: &Path) -> Result<(ParsedConfiguration, String), CommandError
 
 fn run(arguments: &Arguments, path: &Path) -> Result<Translation, CommandError> {
     let (configuration, agent) = read_agent(path)?;
-    let translation = translate(configuration, &agent)?;
+    let agent_path = path.parent().unwrap_or(Path::new("")).join(configuration.input());
+    let translation = translate(configuration.clone(), &agent)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let output = arguments.output.as_deref().unwrap_or(folder);
-    for file in &translation.files {
-        let path = output.join(&file.name);
-        std::fs::write(&path, &file.text).map_err(|source| CommandError::File {
-            action: "write",
-            path,
-            source,
-        })?;
-    }
+    output::write(&configuration, &translation.files, output, &[&agent_path, path])?;
     Ok(translation)
 }
 

@@ -61,7 +61,7 @@ impl Obligations {
             _ = writeln!(text, "    __CPROVER_assert({candidate}, \"candidate {index}\");");
         }
         text += "}\n";
-        GeneratedFile { name: "invariant.h".to_owned(), text }
+        GeneratedFile { name: "invariant.h".to_owned(), text, setting: "" }
     }
 
     fn open(&self, text: &mut String, function: &str) {

@@ -9,6 +9,7 @@
 
 mod behaviour;
 mod conformance;
+mod files;
 mod generated;
 mod guide;
 mod harness;
