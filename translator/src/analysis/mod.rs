@@ -76,6 +76,7 @@ pub(crate) fn analyse(
         test_handlers: HashMap::new(),
         test_triggers: HashSet::new(),
         open_tests: VecDeque::new(),
+        covered: HashSet::new(),
         waits: HashMap::new(),
     };
     analysis.labels(agent);
@@ -154,6 +155,8 @@ struct Analysis<'a> {
     test_triggers: HashSet<TriggerKey>,
     /// Handlers of test goals whose plans are not looked at yet.
     open_tests: VecDeque<(HandlerId, TriggerKey, Vec<bool>)>,
+    /// Handlers that have a plan which fits every event.
+    covered: HashSet<HandlerId>,
     /// How many waits of each goal or belief have a name.
     waits: HashMap<String, usize>,
 }

@@ -114,6 +114,7 @@ impl Analysis<'_> {
             first.get_or_insert(found);
             // As if it had not been looked at so.
             self.handlers.truncate(handlers);
+            self.covered.retain(|id| id.0 < handlers);
             self.test_handlers.retain(|_, id| id.0 < handlers);
             self.open_tests.truncate(waiting);
         }
@@ -201,13 +202,13 @@ impl Analysis<'_> {
                     .help("write `_` if any value will do");
             self.findings.agent.push(warning);
         }
-        if self.handlers[handler.0].plans.iter().any(Plan::always_applies) {
+        if self.covered.contains(&handler) {
             let warning = Diagnostic::warning("this plan is never tried", trigger.span.clone())
                 .help("an earlier plan of the same trigger fits every event");
             self.findings.agent.push(warning);
         }
         let lines = (self.line(plan.span.start), self.line(plan.span.end));
-        self.handlers[handler.0].plans.push(Plan {
+        let resolved = Plan {
             lines,
             source: self.text[plan.span.clone()].to_owned(),
             variables: scope.variables,
@@ -217,7 +218,11 @@ impl Analysis<'_> {
             outputs,
             label: plan.label.as_ref().map(|label| label.text.clone()),
             requirements: plan.requirements.clone(),
-        });
+        };
+        if resolved.always_applies() {
+            self.covered.insert(handler);
+        }
+        self.handlers[handler.0].plans.push(resolved);
     }
 
     /// What the trigger's arguments must look like, and which names answer which holes.

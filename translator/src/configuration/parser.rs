@@ -38,6 +38,8 @@ const SETTINGS: [&str; 11] = [
 ];
 /// More waiting events than this is a mistake: each costs memory and makes commands stale.
 const MAX_INBOX: u32 = 64;
+/// C99 promises 127 parameters, of which some are ours.
+const MOST_PARAMETERS: usize = 100;
 
 /// The configuration in `text` and everything that is wrong with it.
 pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
@@ -399,6 +401,12 @@ impl<'a> Parser<'a> {
                 .help("`(void)` alone says that there is none"));
             }
             parameters.push(parameter);
+            if parameters.len() > MOST_PARAMETERS {
+                return Err(Diagnostic::error("too many arguments", start..self.scanner.position)
+                    .help(format!(
+                        "C promises room for 127; at most {MOST_PARAMETERS} are translated"
+                    )));
+            }
             self.scanner.skip_blanks()?;
             if self.scanner.take(")") {
                 return Ok(parameters);

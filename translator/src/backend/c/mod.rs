@@ -11,6 +11,7 @@ mod harness;
 mod header;
 mod helpers;
 mod interface;
+mod locals;
 mod names;
 mod plan;
 mod state;
