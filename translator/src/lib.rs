@@ -23,6 +23,7 @@ mod analysis;
 mod backend;
 pub mod configuration;
 mod coverage;
+mod finding;
 pub mod interpreter;
 mod model;
 mod obligations;
@@ -36,7 +37,9 @@ use std::collections::HashSet;
 
 use backend::rust::{camel_case, snake_case};
 use configuration::{Configuration, Instance};
-use diagnostic::{Diagnostic, Severity, Source, render_all};
+use diagnostic::{Diagnostic, Severity, Source};
+use finding::gather;
+pub use finding::{CODES, Finding};
 pub use model::{Happening, Model};
 pub use obligations::{HARNESS, Obligations, Promise, RANDOM_TRANSITIONS};
 pub use report::Report;
@@ -63,7 +66,8 @@ impl ParsedConfiguration {
         let place = self.configuration.settings.places.get(setting).cloned().unwrap_or_default();
         let diagnostic = Diagnostic::error(message, place).help(help);
         let source = Source { name: &self.name, text: &self.text };
-        TranslateError::Configuration { rendered: diagnostic.render(&source) }
+        let (rendered, findings) = gather(&[(&[diagnostic], source)]);
+        TranslateError::Configuration { rendered, findings }
     }
 
     fn promises(&self) -> Vec<Promise> {
@@ -90,6 +94,8 @@ pub struct Translation {
     pub files: Vec<GeneratedFile>,
     /// Warnings, rendered.
     pub warnings: String,
+    /// The same one by one, the most important first.
+    pub findings: Vec<Finding>,
     /// What the agent costs: memory, call depth, calls of each action in a step.
     pub report: Report,
 }
@@ -113,12 +119,16 @@ pub enum TranslateError {
     Configuration {
         /// All errors with line, column and caret.
         rendered: String,
+        /// The same one by one.
+        findings: Vec<Finding>,
     },
     /// The agent has errors, perhaps the configuration too.
     #[error("{rendered}")]
     Agent {
         /// All errors with line, column and caret.
         rendered: String,
+        /// The same one by one.
+        findings: Vec<Finding>,
     },
     /// A proof would have to make up values that only the environment knows.
     #[error("values of type `{name}` cannot be made up: nothing can be proved of this agent")]
@@ -144,8 +154,8 @@ pub fn parse_configuration(name: &str, text: &str) -> Result<ParsedConfiguration
         let (name, text) = (name.to_owned(), text.to_owned());
         return Ok(ParsedConfiguration { name, text, configuration });
     }
-    let rendered = render_all(&diagnostics, &Source { name, text });
-    Err(TranslateError::Configuration { rendered })
+    let (rendered, findings) = gather(&[(&diagnostics, Source { name, text })]);
+    Err(TranslateError::Configuration { rendered, findings })
 }
 
 /// Translates the agent in `agent_text`, the content of the configuration's input file.
@@ -157,7 +167,7 @@ pub fn translate(
     configuration: ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Translation, TranslateError> {
-    let (program, warnings) = check(configuration, agent_text)?;
+    let (program, warnings, findings) = check(configuration, agent_text)?;
     let settings = &program.configuration.settings;
     let mut files = c_files(&program);
     if let Some(rust) = &settings.rust {
@@ -171,7 +181,7 @@ pub fn translate(
             files.push(GeneratedFile { name: format!("{name}.{ending}"), text, setting: "matrix" });
         }
     }
-    Ok(Translation { files, warnings, report: Report::new(&program) })
+    Ok(Translation { files, warnings, findings, report: Report::new(&program) })
 }
 
 /// What a model checker needs to prove the properties of an agent on its C.
@@ -188,7 +198,7 @@ pub fn obligations(
     let mut configuration = configuration;
     configuration.configuration.settings.instance = Instance::Context;
     let properties = configuration.promises();
-    let (program, _) = check(configuration, agent_text)?;
+    let (program, ..) = check(configuration, agent_text)?;
     if let Some(name) = backend::c::unknown_type(&program) {
         return Err(TranslateError::Unprovable { name });
     }
@@ -214,7 +224,7 @@ pub fn model(
     agent_text: &str,
 ) -> Result<Model, TranslateError> {
     let properties = configuration.promises();
-    let (program, _) = check(configuration, agent_text)?;
+    let (program, ..) = check(configuration, agent_text)?;
     Ok(Model::new(program, properties))
 }
 
@@ -229,11 +239,11 @@ fn c_files(program: &program::Program) -> Vec<GeneratedFile> {
     ]
 }
 
-/// The checked program and the warnings, rendered.
+/// The checked program and the warnings, rendered and one by one.
 fn check(
     configuration: ParsedConfiguration,
     agent_text: &str,
-) -> Result<(program::Program, String), TranslateError> {
+) -> Result<(program::Program, String, Vec<Finding>), TranslateError> {
     let ParsedConfiguration { name, text, configuration } = configuration;
     let input = configuration.settings.input.clone();
     let configuration_source = Source { name: &name, text: &text };
@@ -243,17 +253,18 @@ fn check(
     let (agent, diagnostics) = syntax::parse(agent_text);
     if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
         // What cannot be read cannot be checked either.
-        let mut rendered = render_all(&diagnostics, &agent_source);
-        append(&mut rendered, &render_all(&boundary, &configuration_source));
-        return Err(TranslateError::Agent { rendered });
+        let (rendered, findings) =
+            gather(&[(&diagnostics, agent_source), (&boundary, configuration_source)]);
+        return Err(TranslateError::Agent { rendered, findings });
     }
     let (program, mut findings) = analysis::analyse(configuration, &agent, agent_text);
     findings.configuration.extend(boundary);
-    let mut rendered = render_all(&findings.configuration, &configuration_source);
-    append(&mut rendered, &render_all(&findings.agent, &agent_source));
-    match program.filter(|_| !findings.has_errors()) {
-        Some(program) => Ok((program, rendered)),
-        None => Err(TranslateError::Agent { rendered }),
+    let refused = findings.has_errors();
+    let (rendered, findings) =
+        gather(&[(&findings.configuration, configuration_source), (&findings.agent, agent_source)]);
+    match program.filter(|_| !refused) {
+        Some(program) => Ok((program, rendered, findings)),
+        None => Err(TranslateError::Agent { rendered, findings }),
     }
 }
 
@@ -328,11 +339,4 @@ fn check_rust_names(configuration: &Configuration, findings: &mut Vec<Diagnostic
             check(&declared.name.text, field.text.clone(), field, false);
         }
     }
-}
-
-fn append(text: &mut String, more: &str) {
-    if !text.is_empty() && !more.is_empty() {
-        text.push_str("\n\n");
-    }
-    text.push_str(more);
 }

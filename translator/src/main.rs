@@ -1,6 +1,7 @@
 //! `asl2c`: translates an AgentSpeak agent to C.
 #![forbid(unsafe_code)]
 
+mod new;
 mod output;
 mod path;
 mod spin;
@@ -13,8 +14,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use serde_json::json;
 use translator::{
-    ParsedConfiguration, TranslateError, Translation, parse_configuration, translate,
+    CODES, Finding, ParsedConfiguration, TranslateError, Translation, parse_configuration,
+    translate,
 };
 
 /// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
@@ -46,10 +49,53 @@ struct Arguments {
     /// are there
     #[arg(long)]
     report: bool,
+    /// Print errors only
+    #[arg(short, long)]
+    quiet: bool,
+    /// Do not warn of this: a warning's code, or `all`; may be given more than once
+    #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = code("all"))]
+    allow: Vec<String>,
+    /// Warn of this, whatever `-A` says
+    #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = code("all"))]
+    warn: Vec<String>,
+    /// Refuse agents with this: a warning's code, or `warnings` for all that are not allowed
+    #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = code("warnings"))]
+    deny: Vec<String>,
+    /// How errors and warnings are printed: for people, or each as a line of JSON
+    #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
+    message_format: String,
+}
+
+impl Arguments {
+    /// Whether a warning is printed.
+    fn is_wanted(&self, code: &str) -> bool {
+        let named = |list: &[String]| list.iter().any(|other| other == code || other == "all");
+        named(&self.warn) || !named(&self.allow) || self.deny.iter().any(|other| other == code)
+    }
+
+    /// Whether a warning that is printed forbids translation.
+    fn is_denied(&self, code: &str) -> bool {
+        self.deny.iter().any(|other| other == code || other == "warnings")
+    }
+
+    fn is_json(&self) -> bool {
+        self.message_format == "json"
+    }
+}
+
+/// Codes of warnings, and a word for all of them.
+fn code(all: &'static str) -> clap::builder::PossibleValuesParser {
+    clap::builder::PossibleValuesParser::new(CODES.into_iter().chain([all]))
 }
 
 #[derive(Debug, Subcommand)]
 enum Task {
+    /// Make a folder with an agent, its configuration, a main program, and a Makefile that builds and runs all
+    New {
+        /// The agent's name, and the folder's: a word of lower-case letters, digits and `_`
+        #[arg(value_name = "NAME")]
+        name: String,
+    },
     /// Check the configuration's properties with SPIN, on a model of the agent in any environment
     ///
     /// A property that does not hold is told as a way to its failure in the agent's own terms: what the
@@ -81,6 +127,10 @@ enum CommandError {
     Verify(#[from] verify::VerifyError),
     #[error("{0}")]
     Output(#[from] output::OutputError),
+    #[error("{0}")]
+    New(#[from] new::NewError),
+    #[error("{0}")]
+    Denied(String),
     #[error("cannot print {what}: {source}")]
     Print { what: &'static str, source: std::io::Error },
 }
@@ -96,7 +146,13 @@ fn main() -> ExitCode {
 }
 
 fn carry_out(task: &Task) -> Result<ExitCode, CommandError> {
-    let Task::Verify { configuration, only, json, model } = task;
+    let (configuration, only, json, model) = match task {
+        Task::New { name } => {
+            print("what was made", &new::make(name)?)?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        Task::Verify { configuration, only, json, model } => (configuration, only, json, model),
+    };
     let (parsed, agent) = read_agent(configuration)?;
     let checked = translator::model(parsed, &agent)?;
     if *model {
@@ -113,6 +169,7 @@ fn complain(error: &CommandError) -> ExitCode {
         error,
         CommandError::File { .. }
             | CommandError::Print { .. }
+            | CommandError::New(_)
             | CommandError::Output(output::OutputError::Write { .. })
     );
     let prefix = if ours { "error: " } else { "" };
@@ -160,9 +217,9 @@ fn translate_files(arguments: &Arguments, path: &Path) -> ExitCode {
     let mut stderr = std::io::stderr().lock();
     // A message that cannot be printed has nowhere else to go.
     match run(arguments, path) {
-        Ok(mut translation) => {
-            if !translation.warnings.is_empty() {
-                _ = writeln!(stderr, "{}", translation.warnings);
+        Ok((mut translation, warnings)) => {
+            if !warnings.is_empty() && !arguments.quiet {
+                _ = writeln!(stderr, "{warnings}");
             }
             if arguments.report {
                 measure(&mut translation, path, &mut stderr);
@@ -173,11 +230,58 @@ fn translate_files(arguments: &Arguments, path: &Path) -> ExitCode {
             }
             ExitCode::SUCCESS
         }
+        Err(error) if arguments.is_json() => {
+            _ = writeln!(stderr, "{}", as_json(&error));
+            ExitCode::FAILURE
+        }
         Err(error) => {
             drop(stderr);
             complain(&error)
         }
     }
+}
+
+/// An error as lines of JSON.
+fn as_json(error: &CommandError) -> String {
+    let refused = match error {
+        CommandError::Translate(error)
+        | CommandError::Output(output::OutputError::Refused(error)) => error,
+        CommandError::Denied(lines) => return lines.clone(),
+        other => return json!({ "severity": "error", "message": other.to_string() }).to_string(),
+    };
+    match refused {
+        TranslateError::Configuration { findings, .. } | TranslateError::Agent { findings, .. } => {
+            lines(findings)
+        }
+        other => json!({ "severity": "error", "message": other.to_string() }).to_string(),
+    }
+}
+
+/// Findings as lines of JSON.
+fn lines<'a>(findings: impl IntoIterator<Item = &'a Finding>) -> String {
+    let lines = findings.into_iter().map(|finding| json!(finding).to_string());
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// The warnings that are wanted, as they are printed; an error if one is denied.
+fn warnings(arguments: &Arguments, translation: &Translation) -> Result<String, CommandError> {
+    let wanted: Vec<&Finding> =
+        translation.findings.iter().filter(|finding| arguments.is_wanted(finding.code)).collect();
+    let denied = wanted.iter().filter(|finding| arguments.is_denied(finding.code)).count();
+    let text = if arguments.is_json() {
+        lines(wanted.iter().copied())
+    } else {
+        wanted.iter().map(|finding| finding.rendered.trim_end()).collect::<Vec<_>>().join("\n\n")
+    };
+    if denied == 0 {
+        return Ok(text);
+    }
+    let message = format!("{denied} of these are denied: nothing is translated");
+    Err(CommandError::Denied(if arguments.is_json() {
+        format!("{text}\n{}", json!({ "severity": "error", "message": message }))
+    } else {
+        format!("{text}\n\nerror: {message}")
+    }))
 }
 
 /// The configuration, and the text of its agent.
@@ -188,14 +292,15 @@ fn read_agent(path: &Path) -> Result<(ParsedConfiguration, String), CommandError
     Ok((configuration, agent))
 }
 
-fn run(arguments: &Arguments, path: &Path) -> Result<Translation, CommandError> {
+fn run(arguments: &Arguments, path: &Path) -> Result<(Translation, String), CommandError> {
     let (configuration, agent) = read_agent(path)?;
     let agent_path = path.parent().unwrap_or(Path::new("")).join(configuration.input());
     let translation = translate(configuration.clone(), &agent)?;
+    let warnings = warnings(arguments, &translation)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let output = arguments.output.as_deref().unwrap_or(folder);
     output::write(&configuration, &translation.files, output, &[&agent_path, path])?;
-    Ok(translation)
+    Ok((translation, warnings))
 }
 
 fn read(path: &Path) -> Result<String, CommandError> {

@@ -225,11 +225,25 @@ impl Declarations {
             })
             .collect();
         unused.sort_by_key(|(_, declaration)| declaration.span.start);
-        findings.extend(unused.into_iter().map(|(name, declaration)| {
-            let message = format!("`{name}` is declared and never used");
-            Diagnostic::warning(message, declaration.span.clone())
+        let (basics, others): (Vec<_>, Vec<_>) =
+            unused.into_iter().partition(|(_, d)| matches!(d.declared, Declared::Basic(_)));
+        let warning = |message: String, span: &Span| {
+            Diagnostic::warning(message, span.clone()).code("unused-declaration")
+        };
+        let single = |(name, declaration): &(&String, &Declaration)| {
+            warning(format!("`{name}` is declared and never used"), &declaration.span)
                 .help("take it out, or use it in the agent")
-        }));
+        };
+        if let [(_, first), _, _, _, ..] = basics.as_slice() {
+            // A library of actions serves several agents.
+            let names: Vec<&str> = basics.iter().map(|(name, _)| name.as_str()).collect();
+            let message = format!("{} actions and functions are never used", names.len());
+            findings
+                .push(warning(message, &first.span).help(format!("these: {}", names.join(", "))));
+        } else {
+            findings.extend(basics.iter().map(single));
+        }
+        findings.extend(others.iter().map(single));
     }
 
     pub(super) fn is_basic(&self, name: &str) -> bool {

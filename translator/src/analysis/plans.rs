@@ -57,6 +57,7 @@ impl Analysis<'_> {
                 let text = format!("nothing ever asks `?{name}`");
                 self.error(
                     Diagnostic::warning(text, trigger.span.clone())
+                        .code("never-asked")
                         .help("its plans are left out; ask it in a body: `?b(X)`"),
                 );
                 self.unasked_plan(plan, graph);
@@ -199,11 +200,13 @@ impl Analysis<'_> {
         for (name, span) in scope.unused() {
             let warning =
                 Diagnostic::warning(format!("variable `{name}` is never used"), span.clone())
+                    .code("unused-variable")
                     .help("write `_` if any value will do");
             self.findings.agent.push(warning);
         }
         if self.covered.contains(&handler) {
             let warning = Diagnostic::warning("this plan is never tried", trigger.span.clone())
+                .code("never-tried")
                 .help("an earlier plan of the same trigger fits every event");
             self.findings.agent.push(warning);
         }

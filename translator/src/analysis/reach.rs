@@ -65,6 +65,7 @@ pub(super) fn warn_unreachable(handlers: &[Handler], findings: &mut Vec<Diagnost
         let text = handler.text();
         findings.push(
             Diagnostic::warning(format!("nothing ever triggers `{text}`"), handler.span.clone())
+                .code("never-triggered")
                 .help("its plans are left out; list it in `triggerables` or let a plan post it"),
         );
     }
@@ -92,7 +93,7 @@ pub(super) fn warn_never_believed(beliefs: &[Belief], findings: &mut Vec<Diagnos
         if let Some(span) = &belief.asked_at {
             let message = format!("`{}` is never believed", belief.name);
             findings.push(
-                Diagnostic::warning(message, span.clone()).help(
+                Diagnostic::warning(message, span.clone()).code("never-believed").help(
                     "no initial belief, no plan, no event and no `set_` function makes it true",
                 ),
             );
@@ -127,6 +128,7 @@ pub(super) fn warn_without_plan(
         let failure = text.replacen('+', "-", 1);
         findings.push(
             Diagnostic::warning(format!("`{text}` may find no plan"), handler.span.clone())
+                .code("no-plan")
                 .label("then it fails, and nothing mends that")
                 .help(format!(
                     "add a plan without context behind its others, or one for `{failure}`"

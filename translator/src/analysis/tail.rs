@@ -42,6 +42,7 @@ pub(super) fn warn_unseen(handlers: &[Handler], findings: &mut Vec<Diagnostic>) 
                     format!("`{guard}` does not see it if `{text}` fails later"),
                     placed.span.clone(),
                 )
+                .code("unseen-failure")
                 .label("posted for the next step: with that this plan has succeeded")
                 .help(mend),
             );

@@ -356,6 +356,13 @@ impl<'a> Parser<'a> {
     fn predicate(&mut self) -> Parsed<()> {
         let start = self.scanner.position;
         let name = self.scanner.word("a belief or a goal")?;
+        self.scanner.skip_blanks()?;
+        if self.scanner.rest().starts_with(';') {
+            return Err(self
+                .scanner
+                .unexpected("`(`")
+                .help(format!("without arguments it is `{}(void)`", name.text)));
+        }
         let parameters = self.parameters()?;
         let span = start..self.scanner.position;
         self.scanner.expect(";")?;

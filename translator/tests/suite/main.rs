@@ -15,5 +15,6 @@ mod guide;
 mod harness;
 mod hostile;
 mod refused;
+mod tool;
 mod validation;
 mod verification;

@@ -24,14 +24,6 @@ fn refused_in(settings: &str, sections: &'static str, agent: &'static str) -> St
 #[test]
 fn an_error_shows_its_line_a_caret_and_what_to_do() {
     insta::assert_snapshot!(refused("!g.\n+!g : b(X) & not b(Y)\n  <- act(Y); fly(1)."), @r"
-    warning: variable `X` is never used
-     --> agent.asl:2:9
-      |
-    2 | +!g : b(X) & not b(Y)
-      |         ^
-      |
-      = help: write `_` if any value will do
-
     error: `Y` has no value here
      --> agent.asl:3:10
       |
@@ -47,6 +39,14 @@ fn an_error_shows_its_line_a_caret_and_what_to_do() {
       |              ^^^
       |
       = help: declare it in the section `basics` of the configuration
+
+    warning[unused-variable]: variable `X` is never used
+     --> agent.asl:2:9
+      |
+    2 | +!g : b(X) & not b(Y)
+      |         ^
+      |
+      = help: write `_` if any value will do
     ");
 }
 
@@ -243,21 +243,21 @@ fn what_cannot_happen_is_warned_of() {
         agent: "!g(1).\n+!g(1) : b(X) & not c <- act(X).\n+!g(X) <- act(X).\n+!g(2) : c <- act(2).\n",
     };
     insta::assert_snapshot!(case.translate("").unwrap().warnings, @r"
-    warning: `b` is never believed
-     --> agent.asl:2:10
-      |
-    2 | +!g(1) : b(X) & not c <- act(X).
-      |          ^^^^
-      |
-      = help: no initial belief, no plan, no event and no `set_` function makes it true
-
-    warning: this plan is never tried
+    warning[never-tried]: this plan is never tried
      --> agent.asl:4:1
       |
     4 | +!g(2) : c <- act(2).
       | ^^^^^^
       |
       = help: an earlier plan of the same trigger fits every event
+
+    warning[never-believed]: `b` is never believed
+     --> agent.asl:2:10
+      |
+    2 | +!g(1) : b(X) & not c <- act(X).
+      |          ^^^^
+      |
+      = help: no initial belief, no plan, no event and no `set_` function makes it true
     ");
 }
 
@@ -270,7 +270,9 @@ fn warnings(agent: &'static str) -> Vec<String> {
         agent,
     };
     let warnings = case.translate("").unwrap().warnings;
-    let about_agent = warnings.lines().filter_map(|line| line.strip_prefix("warning: "));
+    let about_agent = warnings
+        .lines()
+        .filter_map(|line| Some(line.strip_prefix("warning[")?.split_once("]: ")?.1));
     about_agent.filter(|line| !line.contains("declared and never")).map(str::to_owned).collect()
 }
 
@@ -350,7 +352,7 @@ fn a_deadline_that_nobody_sees_is_warned_of() {
     };
     let warnings = case.translate("clock = now;").unwrap().warnings;
     assert!(
-        warnings.starts_with("warning: `-!g` does not see it if `+!k` fails later"),
+        warnings.starts_with("warning[unseen-failure]: `-!g` does not see it if `+!k` fails later"),
         "{warnings}"
     );
     let mended = Case {
@@ -369,7 +371,7 @@ fn what_is_declared_and_never_used_is_warned_of() {
         agent: "!g. +!g <- act(1).",
     };
     insta::assert_snapshot!(case.translate("clock = now;").unwrap().warnings, @r"
-    warning: `flag` is declared and never used
+    warning[unused-declaration]: `flag` is declared and never used
      --> agent.conf:2:30
       |
     2 | basics { void act(int); bool flag(void); int now(void); };
@@ -377,7 +379,7 @@ fn what_is_declared_and_never_used_is_warned_of() {
       |
       = help: take it out, or use it in the agent
 
-    warning: `b` is declared and never used
+    warning[unused-declaration]: `b` is declared and never used
      --> agent.conf:3:18
       |
     3 | types { g(void); b(int); };
