@@ -8,6 +8,7 @@
 mod compiled;
 mod generate;
 mod interpreted;
+mod proved;
 
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 
