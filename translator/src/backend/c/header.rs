@@ -73,7 +73,12 @@ pub(super) fn agent_header(
     for belief in program.beliefs.iter().filter(|belief| belief.settable) {
         let name = names.interface(&format!("set_{}", belief.name));
         let parameters = names.parameters(&belief.types);
-        declare(&mut writer, "Believed at once; no event.", format!("void {name}({parameters})"));
+        let comment = if belief.perceived.is_some() {
+            "Believed at once; a change raises an event, one however often it changes."
+        } else {
+            "Believed at once; no event."
+        };
+        declare(&mut writer, comment, format!("void {name}({parameters})"));
     }
     writer.line(format!("#endif /* {guard} */"));
     writer.finish()
