@@ -25,16 +25,16 @@ fn compile(translation: &Translation) -> Result<(), String> {
     let main = format!("#include \"{}\"\n#include \"{}\"\n", basics.name, header.name);
     std::fs::write(folder.path().join("both.c"), main + "int unused;\n").unwrap();
     for compiler in ["gcc", "clang"] {
-        let mut command = Command::new(compiler);
-        command.current_dir(folder.path()).args(STRICT).args([
-            "-fsyntax-only",
-            &source.name,
-            "both.c",
-        ]);
-        let Ok(output) = command.output() else { continue };
-        if !output.status.success() {
-            let message = String::from_utf8_lossy(&output.stderr);
-            return Err(format!("{compiler}: {message}\n{}", source.text));
+        // What is not used is only told by a compiler that comes to its end.
+        for unit in [source.name.as_str(), "both.c"] {
+            let mut command = Command::new(compiler);
+            command.current_dir(folder.path()).args(STRICT);
+            command.args(["-O1", "-c", "-o", "unit.o", unit]);
+            let Ok(output) = command.output() else { continue };
+            if !output.status.success() {
+                let message = String::from_utf8_lossy(&output.stderr);
+                return Err(format!("{compiler}: {message}\n{}", source.text));
+            }
         }
     }
     Ok(())
@@ -345,6 +345,98 @@ fn what_is_not_compared_needs_no_helper() {
             assert_eq!(compile(&translation), Ok(()));
         }
     }
+}
+
+/// Agents that are nearly those of the conformance suite: words taken out, doubled, exchanged, put in.
+/// `ASL2C_FUZZ=1800` goes on for so many seconds.
+#[test]
+#[allow(clippy::disallowed_methods, reason = "it ends when the time is over")]
+fn whatever_is_accepted_compiles() {
+    let seconds = u64::from(from_environment("ASL2C_FUZZ", 3));
+    let mut random = u64::from(from_environment("ASL2C_FUZZ_SEED", 1)) | 0x5851_F42D_4C95_7F2D;
+    let mut below = |count: usize| {
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        usize::try_from((random >> 11) % count as u64).unwrap()
+    };
+    let agents = crate::conformance::agents();
+    let split = |text: &str| -> Vec<String> {
+        let mut words: Vec<String> = Vec::new();
+        for character in text.chars() {
+            let word = character.is_ascii_alphanumeric() || character == '_' || character == '"';
+            match words.last_mut() {
+                Some(last)
+                    if word && last.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_') =>
+                {
+                    last.push(character);
+                }
+                _ => words.push(character.to_string()),
+            }
+        }
+        words
+    };
+    let pool: Vec<String> = agents.iter().flat_map(|agent| split(agent)).collect();
+    let sections = [
+        "",
+        "settables { b; p; };",
+        "settables { b; }; perceived { b; };",
+        "structs { p_t { int x; float y; }; };",
+    ];
+    let begin = std::time::Instant::now();
+    let (mut tried, mut accepted) = (0_u32, 0_u32);
+    while begin.elapsed().as_secs() < seconds {
+        tried += 1;
+        let mut words = split(&agents[below(agents.len())]);
+        for _ in 0..=below(4) {
+            let place = below(words.len());
+            match below(5) {
+                0 => _ = words.remove(place),
+                1 => words.insert(place, words[place].clone()),
+                2 => words.insert(place, pool[below(pool.len())].clone()),
+                3 => words[place] = pool[below(pool.len())].clone(),
+                _ => {
+                    let other = below(words.len());
+                    words.swap(place, other);
+                }
+            }
+            if words.is_empty() {
+                break;
+            }
+        }
+        let agent = words.concat();
+        let settings = [
+            "inbox = 2;",
+            "max_events = 2;",
+            "instance = context;",
+            "instance = context; max_events = 1;",
+        ];
+        let raised: Vec<&str> = ["+!g", "+!gi", "+b", "-b", "+!h"]
+            .into_iter()
+            .filter(|event| {
+                !event.contains('!')
+                    || agent.contains(&format!("{event}("))
+                    || agent.contains(&format!("{event} "))
+            })
+            .collect();
+        let configuration = format!(
+            "settings {{ input = a.asl; output = a.c; header = a.h; basics = b.h; clock = now; {} }};\n\
+             basics {{ {} }};\ntypes {{ {} }};\n{}\ntriggerables {{ {}; }};\n",
+            settings[below(settings.len())],
+            crate::conformance::BASICS,
+            crate::conformance::TYPES,
+            sections[below(sections.len())],
+            raised.join("; ")
+        );
+        if let Ok(translation) = translated(&configuration, &agent) {
+            accepted += 1;
+            if let Err(error) = compile(&translation) {
+                panic!("{configuration}\n{agent}\n{error}");
+            }
+        }
+    }
+    assert!(accepted > 0 && accepted < tried);
+    println!("{accepted} of {tried} accepted in {seconds} s, and compiled");
 }
 
 /// Names that clash with something, or nearly.
