@@ -59,6 +59,8 @@ pub struct Diagnostic {
     pub label: String,
     /// What to do about it.
     pub help: Option<String>,
+    /// What it is called by who wants more or less of it; may be empty.
+    pub code: &'static str,
 }
 
 impl Diagnostic {
@@ -70,6 +72,7 @@ impl Diagnostic {
             span,
             label: String::new(),
             help: None,
+            code: "",
         }
     }
 
@@ -92,6 +95,13 @@ impl Diagnostic {
         self
     }
 
+    /// Sets the name by which such messages are silenced; it is shown behind `warning`.
+    #[must_use]
+    pub fn code(mut self, code: &'static str) -> Self {
+        self.code = code;
+        self
+    }
+
     /// The message with file, line, column, source line and caret, as rustc prints it, without
     /// colours, and [printable](printable_lines) whatever the text holds. A span outside the text is moved to
     /// its nearest place inside.
@@ -104,9 +114,12 @@ impl Diagnostic {
         if !self.label.is_empty() {
             annotation = annotation.label(self.label.as_str());
         }
-        let mut group = level
-            .primary_title(self.message.as_str())
-            .element(Snippet::source(source.text).path(source.name).annotation(annotation));
+        let mut title = level.primary_title(self.message.as_str());
+        if !self.code.is_empty() {
+            title = title.id(self.code);
+        }
+        let mut group =
+            title.element(Snippet::source(source.text).path(source.name).annotation(annotation));
         if let Some(help) = &self.help {
             group = group.element(Level::HELP.message(help.as_str()));
         }

@@ -93,6 +93,15 @@ fn main() {
         let each = time * 1000.0 / plans as f64;
         println!("{plans:>7} plans        {time:>9.3} ms   {each:.1} µs a plan");
     }
+    for (what, [few, many]) in LARGE {
+        for size in [few, many] {
+            let (configuration, agent) = large(what, size);
+            let time = milliseconds(&timed(&configuration, &agent, 1));
+            #[allow(clippy::cast_precision_loss, reason = "a count is small")]
+            let each = time * 1000.0 / size as f64;
+            println!("{size:>7} {what:<12} {time:>9.3} ms   {each:.1} µs each");
+        }
+    }
     let parsed = parse_configuration("autopilot.conf", configuration).unwrap();
     let translation = translate(parsed, agent).unwrap();
     for optimisation in ["-O0", "-Os", "-O2"] {
@@ -104,6 +113,28 @@ fn main() {
             None => println!("next_step() {optimisation}      not counted: no cc or no valgrind"),
         }
     }
+}
+
+/// What can be long in one place: formulae that can fail, conditions, plans of one trigger.
+const LARGE: [(&str, [usize; 2]); 3] = [
+    ("formulae", [3_000, 30_000]),
+    ("conditions", [3_000, 30_000]),
+    ("of a trigger", [20_000, 330_000]),
+];
+
+/// An agent that is large in this way.
+fn large(what: &str, size: usize) -> (String, String) {
+    let parts = |part: &dyn Fn(usize) -> String, between: &str| {
+        (0..size).map(part).collect::<Vec<_>>().join(between)
+    };
+    let agent = match what {
+        "formulae" => format!("+!g(X) <- {}.\n", parts(&|n| format!("act(X + {n})"), "; ")),
+        "conditions" => format!("+!g(X) : {} <- act(X).\n", parts(&|n| format!("b({n})"), " & ")),
+        _ => parts(&|n| format!("+!g({n}) <- act({n}).\n"), ""),
+    };
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+        basics { void act(int); };\ntypes { g(int); b(int); };\ntriggerables { +!g; };\nsettables { b; };\n";
+    (configuration.to_owned(), agent)
 }
 
 /// The shortest time of several translations.

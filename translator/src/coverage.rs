@@ -29,12 +29,14 @@ pub(crate) fn always_finds_a_plan(handler: &Handler) -> bool {
 /// Reachable plans that can never be chosen: an earlier one always applies, or they need what is
 /// never believed.
 pub(crate) fn never_applicable(program: &Program) -> impl Iterator<Item = &Plan> {
-    program.reachable_plans().filter_map(|(id, number, plan)| {
-        let earlier = &program.handler(id).plans[..number];
+    let mut covered = false;
+    program.reachable_plans().filter_map(move |(_, number, plan)| {
+        covered &= number > 0;
         let impossible = |condition: &Condition| {
             matches!(condition, Condition::Holds { belief, .. } if !program.belief(*belief).believable)
         };
-        let never = earlier.iter().any(Plan::always_applies) || plan.context.iter().any(impossible);
+        let never = covered || plan.context.iter().any(impossible);
+        covered |= plan.always_applies();
         never.then_some(plan)
     })
 }

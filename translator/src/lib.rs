@@ -23,19 +23,28 @@ mod analysis;
 mod backend;
 pub mod configuration;
 mod coverage;
+mod finding;
 pub mod interpreter;
 mod model;
 mod obligations;
 mod program;
 mod report;
+mod reserved;
 pub mod syntax;
 pub mod types;
 
+use std::collections::HashSet;
+
+use backend::rust::{camel_case, snake_case};
 use configuration::{Configuration, Instance};
-use diagnostic::{Diagnostic, Severity, Source, render_all};
+use diagnostic::{Diagnostic, Severity, Source};
+use finding::gather;
+pub use finding::{CODES, Finding};
 pub use model::{Happening, Model};
 pub use obligations::{HARNESS, Obligations, Promise, RANDOM_TRANSITIONS};
 pub use report::Report;
+use reserved::is_rust_word;
+use syntax::ast::Name;
 use types::TypeKind;
 
 /// A configuration that was read without errors.
@@ -50,6 +59,15 @@ impl ParsedConfiguration {
     /// The AgentSpeak source's name, relative to the configuration.
     pub fn input(&self) -> &str {
         &self.configuration.settings.input
+    }
+
+    /// An error at the value of a setting: what is wrong with it, and what to do.
+    pub fn refuse(&self, setting: &str, message: &str, help: &str) -> TranslateError {
+        let place = self.configuration.settings.places.get(setting).cloned().unwrap_or_default();
+        let diagnostic = Diagnostic::error(message, place).help(help);
+        let source = Source { name: &self.name, text: &self.text };
+        let (rendered, findings) = gather(&[(&[diagnostic], source)]);
+        TranslateError::Configuration { rendered, findings }
     }
 
     fn promises(&self) -> Vec<Promise> {
@@ -76,6 +94,8 @@ pub struct Translation {
     pub files: Vec<GeneratedFile>,
     /// Warnings, rendered.
     pub warnings: String,
+    /// The same one by one, the most important first.
+    pub findings: Vec<Finding>,
     /// What the agent costs: memory, call depth, calls of each action in a step.
     pub report: Report,
 }
@@ -87,6 +107,8 @@ pub struct GeneratedFile {
     pub name: String,
     /// Its text.
     pub text: String,
+    /// The setting that names it; empty for what no setting names.
+    pub setting: &'static str,
 }
 
 /// Why nothing was translated.
@@ -97,12 +119,16 @@ pub enum TranslateError {
     Configuration {
         /// All errors with line, column and caret.
         rendered: String,
+        /// The same one by one.
+        findings: Vec<Finding>,
     },
     /// The agent has errors, perhaps the configuration too.
     #[error("{rendered}")]
     Agent {
         /// All errors with line, column and caret.
         rendered: String,
+        /// The same one by one.
+        findings: Vec<Finding>,
     },
     /// A proof would have to make up values that only the environment knows.
     #[error("values of type `{name}` cannot be made up: nothing can be proved of this agent")]
@@ -128,8 +154,8 @@ pub fn parse_configuration(name: &str, text: &str) -> Result<ParsedConfiguration
         let (name, text) = (name.to_owned(), text.to_owned());
         return Ok(ParsedConfiguration { name, text, configuration });
     }
-    let rendered = render_all(&diagnostics, &Source { name, text });
-    Err(TranslateError::Configuration { rendered })
+    let (rendered, findings) = gather(&[(&diagnostics, Source { name, text })]);
+    Err(TranslateError::Configuration { rendered, findings })
 }
 
 /// Translates the agent in `agent_text`, the content of the configuration's input file.
@@ -141,20 +167,21 @@ pub fn translate(
     configuration: ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Translation, TranslateError> {
-    let (program, warnings) = check(configuration, agent_text)?;
+    let (program, warnings, findings) = check(configuration, agent_text)?;
     let settings = &program.configuration.settings;
     let mut files = c_files(&program);
     if let Some(rust) = &settings.rust {
         let text = backend::rust::emit(&program, &settings.input);
-        files.push(GeneratedFile { name: rust.text.clone(), text });
+        files.push(GeneratedFile { name: rust.text.clone(), text, setting: "rust" });
     }
     if let Some(name) = &settings.matrix {
         let matrix = backend::matrix::emit(&program, &settings.input, &files[0].text)
             .map_err(|source| TranslateError::Matrix { problem: source.to_string() })?;
-        files.push(GeneratedFile { name: format!("{name}.csv"), text: matrix.csv });
-        files.push(GeneratedFile { name: format!("{name}.json"), text: matrix.json });
+        for (ending, text) in [("csv", matrix.csv), ("json", matrix.json)] {
+            files.push(GeneratedFile { name: format!("{name}.{ending}"), text, setting: "matrix" });
+        }
     }
-    Ok(Translation { files, warnings, report: Report::new(&program) })
+    Ok(Translation { files, warnings, findings, report: Report::new(&program) })
 }
 
 /// What a model checker needs to prove the properties of an agent on its C.
@@ -171,14 +198,14 @@ pub fn obligations(
     let mut configuration = configuration;
     configuration.configuration.settings.instance = Instance::Context;
     let properties = configuration.promises();
-    let (program, _) = check(configuration, agent_text)?;
+    let (program, ..) = check(configuration, agent_text)?;
     if let Some(name) = backend::c::unknown_type(&program) {
         return Err(TranslateError::Unprovable { name });
     }
     let harness = backend::c::harness(&program);
     let prefix = backend::c::symbol_prefix(&program);
     let mut files = c_files(&program);
-    files.push(GeneratedFile { name: HARNESS.to_owned(), text: harness.source });
+    files.push(GeneratedFile { name: HARNESS.to_owned(), text: harness.source, setting: "" });
     Ok(Obligations {
         files,
         entry: format!("{prefix}next_step"),
@@ -197,7 +224,7 @@ pub fn model(
     agent_text: &str,
 ) -> Result<Model, TranslateError> {
     let properties = configuration.promises();
-    let (program, _) = check(configuration, agent_text)?;
+    let (program, ..) = check(configuration, agent_text)?;
     Ok(Model::new(program, properties))
 }
 
@@ -206,17 +233,17 @@ fn c_files(program: &program::Program) -> Vec<GeneratedFile> {
     let settings = &program.configuration.settings;
     let c = backend::c::emit(program, &settings.input);
     vec![
-        GeneratedFile { name: settings.output.clone(), text: c.source },
-        GeneratedFile { name: settings.header.clone(), text: c.header },
-        GeneratedFile { name: settings.basics.clone(), text: c.basics },
+        GeneratedFile { name: settings.output.clone(), text: c.source, setting: "output" },
+        GeneratedFile { name: settings.header.clone(), text: c.header, setting: "header" },
+        GeneratedFile { name: settings.basics.clone(), text: c.basics, setting: "basics" },
     ]
 }
 
-/// The checked program and the warnings, rendered.
+/// The checked program and the warnings, rendered and one by one.
 fn check(
     configuration: ParsedConfiguration,
     agent_text: &str,
-) -> Result<(program::Program, String), TranslateError> {
+) -> Result<(program::Program, String, Vec<Finding>), TranslateError> {
     let ParsedConfiguration { name, text, configuration } = configuration;
     let input = configuration.settings.input.clone();
     let configuration_source = Source { name: &name, text: &text };
@@ -226,17 +253,18 @@ fn check(
     let (agent, diagnostics) = syntax::parse(agent_text);
     if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
         // What cannot be read cannot be checked either.
-        let mut rendered = render_all(&diagnostics, &agent_source);
-        append(&mut rendered, &render_all(&boundary, &configuration_source));
-        return Err(TranslateError::Agent { rendered });
+        let (rendered, findings) =
+            gather(&[(&diagnostics, agent_source), (&boundary, configuration_source)]);
+        return Err(TranslateError::Agent { rendered, findings });
     }
     let (program, mut findings) = analysis::analyse(configuration, &agent, agent_text);
     findings.configuration.extend(boundary);
-    let mut rendered = render_all(&findings.configuration, &configuration_source);
-    append(&mut rendered, &render_all(&findings.agent, &agent_source));
-    match program.filter(|_| !findings.has_errors()) {
-        Some(program) => Ok((program, rendered)),
-        None => Err(TranslateError::Agent { rendered }),
+    let refused = findings.has_errors();
+    let (rendered, findings) =
+        gather(&[(&findings.configuration, configuration_source), (&findings.agent, agent_source)]);
+    match program.filter(|_| !refused) {
+        Some(program) => Ok((program, rendered, findings)),
+        None => Err(TranslateError::Agent { rendered, findings }),
     }
 }
 
@@ -250,6 +278,7 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
                 .help("add `instance = context;` to the settings"),
         );
     }
+    check_rust_names(configuration, &mut findings);
     let mut check = |name: &str, kind: TypeKind, span: &diagnostic::Span| {
         if kind == TypeKind::Opaque {
             findings.push(
@@ -277,9 +306,37 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
     findings
 }
 
-fn append(text: &mut String, more: &str) {
-    if !text.is_empty() && !more.is_empty() {
-        text.push_str("\n\n");
+/// Names in Rust are none of its words, and no two of ours become one.
+fn check_rust_names(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
+    let mut taken: HashSet<String> = HashSet::from(["Environment::update_beliefs".to_owned()]);
+    let mut check = |owner: &str, name: String, source: &Name, known: bool| {
+        let fresh = taken.insert(format!("{owner}::{name}"));
+        if !fresh || known || is_rust_word(&name) {
+            let message = format!("`{}` cannot be called `{name}` in Rust", source.text);
+            findings.push(
+                Diagnostic::error(message, source.span.clone())
+                    .help("Rust has this word, or something else is called so there; rename it"),
+            );
+        }
+    };
+    for basic in &configuration.basics {
+        check("Environment", snake_case(&basic.name.text), &basic.name, false);
     }
-    text.push_str(more);
+    for name in &configuration.settables {
+        check("Beliefs", format!("set_{}", snake_case(&name.text)), name, false);
+    }
+    for trigger in &configuration.triggerables {
+        let name = program::trigger_name(trigger.operator, trigger.kind, &trigger.name.text);
+        check("Agent", snake_case(&name), &trigger.name, false);
+    }
+    for declared in &configuration.structs {
+        const KNOWN: &str = "Agent Beliefs Environment State Loan Self Box Send Sync Copy Clone Debug PartialEq Default \
+            Option Some None Result Ok Err Drop Fn FnMut FnOnce Sized Vec String";
+        let name = camel_case(&declared.name.text);
+        let known = KNOWN.split_ascii_whitespace().any(|word| word == name);
+        check("", name, &declared.name, known);
+        for (field, _) in &declared.fields {
+            check(&declared.name.text, field.text.clone(), field, false);
+        }
+    }
 }

@@ -1,6 +1,8 @@
 //! `asl2c`: translates an AgentSpeak agent to C.
 #![forbid(unsafe_code)]
 
+mod new;
+mod output;
 mod path;
 mod spin;
 mod stack;
@@ -12,8 +14,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use serde_json::json;
 use translator::{
-    ParsedConfiguration, TranslateError, Translation, parse_configuration, translate,
+    CODES, Finding, ParsedConfiguration, TranslateError, Translation, parse_configuration,
+    translate,
 };
 
 /// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
@@ -27,8 +31,9 @@ use translator::{
     version,
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
-    after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, or a property \
-                  that does not hold; 2 usage."
+    after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, not printed, or a \
+                  property that does not hold; 2 usage; 3 nothing is known of some property, for want of a tool, \
+                  of memory, or of properties."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -44,10 +49,53 @@ struct Arguments {
     /// are there
     #[arg(long)]
     report: bool,
+    /// Print errors only
+    #[arg(short, long)]
+    quiet: bool,
+    /// Do not warn of this: a warning's code, or `all`; may be given more than once
+    #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = code("all"))]
+    allow: Vec<String>,
+    /// Warn of this, whatever `-A` says
+    #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = code("all"))]
+    warn: Vec<String>,
+    /// Refuse agents with this: a warning's code, or `warnings` for all that are not allowed
+    #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = code("warnings"))]
+    deny: Vec<String>,
+    /// How errors and warnings are printed: for people, or each as a line of JSON
+    #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
+    message_format: String,
+}
+
+impl Arguments {
+    /// Whether a warning is printed.
+    fn is_wanted(&self, code: &str) -> bool {
+        let named = |list: &[String]| list.iter().any(|other| other == code || other == "all");
+        named(&self.warn) || !named(&self.allow) || self.deny.iter().any(|other| other == code)
+    }
+
+    /// Whether a warning that is printed forbids translation.
+    fn is_denied(&self, code: &str) -> bool {
+        self.deny.iter().any(|other| other == code || other == "warnings")
+    }
+
+    fn is_json(&self) -> bool {
+        self.message_format == "json"
+    }
+}
+
+/// Codes of warnings, and a word for all of them.
+fn code(all: &'static str) -> clap::builder::PossibleValuesParser {
+    clap::builder::PossibleValuesParser::new(CODES.into_iter().chain([all]))
 }
 
 #[derive(Debug, Subcommand)]
 enum Task {
+    /// Make a folder with an agent, its configuration, a main program, and a Makefile that builds and runs all
+    New {
+        /// The agent's name, and the folder's: a word of lower-case letters, digits and `_`
+        #[arg(value_name = "NAME")]
+        name: String,
+    },
     /// Check the configuration's properties with SPIN, on a model of the agent in any environment
     ///
     /// A property that does not hold is told as a way to its failure in the agent's own terms: what the
@@ -77,6 +125,14 @@ enum CommandError {
     Translate(#[from] TranslateError),
     #[error("error: {0}")]
     Verify(#[from] verify::VerifyError),
+    #[error("{0}")]
+    Output(#[from] output::OutputError),
+    #[error("{0}")]
+    New(#[from] new::NewError),
+    #[error("{0}")]
+    Denied(String),
+    #[error("cannot print {what}: {source}")]
+    Print { what: &'static str, source: std::io::Error },
 }
 
 fn main() -> ExitCode {
@@ -90,17 +146,46 @@ fn main() -> ExitCode {
 }
 
 fn carry_out(task: &Task) -> Result<ExitCode, CommandError> {
-    let Task::Verify { configuration, only, json, model } = task;
+    let (configuration, only, json, model) = match task {
+        Task::New { name } => {
+            print("what was made", &new::make(name)?)?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        Task::Verify { configuration, only, json, model } => (configuration, only, json, model),
+    };
     let (parsed, agent) = read_agent(configuration)?;
     let checked = translator::model(parsed, &agent)?;
-    if *model { Ok(verify::print(&checked)) } else { Ok(verify::run(&checked, only, *json)?) }
+    if *model {
+        print("the model", &checked.promela())?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let (text, status) = verify::run(&checked, only, *json)?;
+    print("what was found", &text)?;
+    Ok(status)
 }
 
 fn complain(error: &CommandError) -> ExitCode {
-    let prefix = if matches!(error, CommandError::File { .. }) { "error: " } else { "" };
+    let ours = matches!(
+        error,
+        CommandError::File { .. }
+            | CommandError::Print { .. }
+            | CommandError::New(_)
+            | CommandError::Output(output::OutputError::Write { .. })
+    );
+    let prefix = if ours { "error: " } else { "" };
     // A message that cannot be printed has nowhere else to go.
     _ = writeln!(std::io::stderr(), "{prefix}{error}");
-    ExitCode::FAILURE
+    if matches!(error, CommandError::Verify(_)) { NOT_CHECKED.into() } else { ExitCode::FAILURE }
+}
+
+/// The exit status if nothing is known of what should be checked.
+pub(crate) const NOT_CHECKED: u8 = 3;
+
+/// Prints what was asked for.
+fn print(what: &'static str, text: &str) -> Result<(), CommandError> {
+    let mut stdout = std::io::stdout().lock();
+    let printed = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
+    printed.map_err(|source| CommandError::Print { what, source })
 }
 
 /// Adds what a compiler makes of the C, and what that costs; says what cannot be known.
@@ -132,21 +217,71 @@ fn translate_files(arguments: &Arguments, path: &Path) -> ExitCode {
     let mut stderr = std::io::stderr().lock();
     // A message that cannot be printed has nowhere else to go.
     match run(arguments, path) {
-        Ok(mut translation) => {
-            if !translation.warnings.is_empty() {
-                _ = writeln!(stderr, "{}", translation.warnings);
+        Ok((mut translation, warnings)) => {
+            if !warnings.is_empty() && !arguments.quiet {
+                _ = writeln!(stderr, "{warnings}");
             }
             if arguments.report {
                 measure(&mut translation, path, &mut stderr);
-                _ = write!(std::io::stdout(), "{}", translation.report);
+                drop(stderr);
+                if let Err(error) = print("the report", &translation.report.to_string()) {
+                    return complain(&error);
+                }
             }
             ExitCode::SUCCESS
+        }
+        Err(error) if arguments.is_json() => {
+            _ = writeln!(stderr, "{}", as_json(&error));
+            ExitCode::FAILURE
         }
         Err(error) => {
             drop(stderr);
             complain(&error)
         }
     }
+}
+
+/// An error as lines of JSON.
+fn as_json(error: &CommandError) -> String {
+    let refused = match error {
+        CommandError::Translate(error)
+        | CommandError::Output(output::OutputError::Refused(error)) => error,
+        CommandError::Denied(lines) => return lines.clone(),
+        other => return json!({ "severity": "error", "message": other.to_string() }).to_string(),
+    };
+    match refused {
+        TranslateError::Configuration { findings, .. } | TranslateError::Agent { findings, .. } => {
+            lines(findings)
+        }
+        other => json!({ "severity": "error", "message": other.to_string() }).to_string(),
+    }
+}
+
+/// Findings as lines of JSON.
+fn lines<'a>(findings: impl IntoIterator<Item = &'a Finding>) -> String {
+    let lines = findings.into_iter().map(|finding| json!(finding).to_string());
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// The warnings that are wanted, as they are printed; an error if one is denied.
+fn warnings(arguments: &Arguments, translation: &Translation) -> Result<String, CommandError> {
+    let wanted: Vec<&Finding> =
+        translation.findings.iter().filter(|finding| arguments.is_wanted(finding.code)).collect();
+    let denied = wanted.iter().filter(|finding| arguments.is_denied(finding.code)).count();
+    let text = if arguments.is_json() {
+        lines(wanted.iter().copied())
+    } else {
+        wanted.iter().map(|finding| finding.rendered.trim_end()).collect::<Vec<_>>().join("\n\n")
+    };
+    if denied == 0 {
+        return Ok(text);
+    }
+    let message = format!("{denied} of these are denied: nothing is translated");
+    Err(CommandError::Denied(if arguments.is_json() {
+        format!("{text}\n{}", json!({ "severity": "error", "message": message }))
+    } else {
+        format!("{text}\n\nerror: {message}")
+    }))
 }
 
 /// The configuration, and the text of its agent.
@@ -157,20 +292,15 @@ fn read_agent(path: &Path) -> Result<(ParsedConfiguration, String), CommandError
     Ok((configuration, agent))
 }
 
-fn run(arguments: &Arguments, path: &Path) -> Result<Translation, CommandError> {
+fn run(arguments: &Arguments, path: &Path) -> Result<(Translation, String), CommandError> {
     let (configuration, agent) = read_agent(path)?;
-    let translation = translate(configuration, &agent)?;
+    let agent_path = path.parent().unwrap_or(Path::new("")).join(configuration.input());
+    let translation = translate(configuration.clone(), &agent)?;
+    let warnings = warnings(arguments, &translation)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let output = arguments.output.as_deref().unwrap_or(folder);
-    for file in &translation.files {
-        let path = output.join(&file.name);
-        std::fs::write(&path, &file.text).map_err(|source| CommandError::File {
-            action: "write",
-            path,
-            source,
-        })?;
-    }
-    Ok(translation)
+    output::write(&configuration, &translation.files, output, &[&agent_path, path])?;
+    Ok((translation, warnings))
 }
 
 fn read(path: &Path) -> Result<String, CommandError> {

@@ -113,7 +113,7 @@ impl Model {
             }
             "action" => {
                 let basic = self.program.configuration.basics.get(first?)?;
-                at(2, numbers.get(1).copied(), basic.name.text.clone())
+                at(2, numbers.get(1).copied().filter(|line| *line > 0), basic.name.text.clone())
             }
             "fails" => at(2, first, "fails".to_owned()),
             "unplanned" => {

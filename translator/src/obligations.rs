@@ -61,7 +61,7 @@ impl Obligations {
             _ = writeln!(text, "    __CPROVER_assert({candidate}, \"candidate {index}\");");
         }
         text += "}\n";
-        GeneratedFile { name: "invariant.h".to_owned(), text }
+        GeneratedFile { name: "invariant.h".to_owned(), text, setting: "" }
     }
 
     fn open(&self, text: &mut String, function: &str) {
@@ -97,6 +97,17 @@ mod tests {
         assert!(obligations.candidates().len() > 5);
         let invariant = obligations.invariant(&[0, 999]);
         assert!(invariant.text.contains("\"candidate 0\"") && !invariant.text.contains("999"));
+    }
+
+    #[test]
+    fn calls_that_return_a_value_are_counted() {
+        let text = LAMP.replace("void on(void);", "bool on(void);");
+        let configuration = parse_configuration("a.conf", &text).unwrap();
+        let obligations = obligations(configuration, "+!light <- X = on; +lit(1).").unwrap();
+        let harness = &obligations.files.last().unwrap().text;
+        for part in ["calls_on = (calls_on < 2U)", "calls_on = 0U;", "return any_bool();"] {
+            assert!(harness.contains(part), "{part}:\n{harness}");
+        }
     }
 
     #[test]

@@ -4,9 +4,11 @@
 //! names are declared, arities and types fit, each variable is bound before it is used, and no
 //! call can be recursive. Everything is resolved to indices.
 
+use std::collections::BTreeSet;
+
 use diagnostic::Span;
 
-use crate::configuration::{Basic, Configuration};
+use crate::configuration::{Basic, Configuration, Settings};
 use crate::syntax::ast::{Arithmetic, Operator, Relation, TriggerKind};
 use crate::types::CType;
 
@@ -23,6 +25,9 @@ pub(crate) struct Program {
     pub(crate) posted_by_plans: Vec<HandlerId>,
     /// Handlers whose goals a plan can post with `!!`: each has one slot.
     pub(crate) deferred: Vec<HandlerId>,
+    /// How many goals posted with `!!` can wait among external events, in queue mode: as many as those, and one
+    /// for each `!!` that the agent has.
+    pub(crate) deferred_room: usize,
     /// Handlers whose goals a plan gives a deadline.
     pub(crate) limited: Vec<HandlerId>,
     /// The function that tells the time, and the type of its times.
@@ -45,7 +50,7 @@ pub(crate) struct BeliefId(pub(crate) usize);
 pub(crate) struct VariableId(pub(crate) usize);
 
 /// Index into the configuration's basics.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct BasicId(pub(crate) usize);
 
 /// A predicate that the belief base can hold, at most one instance of it.
@@ -123,7 +128,7 @@ pub(crate) struct Plan {
 pub(crate) struct Variable {
     /// Its name in the agent.
     pub(crate) source: String,
-    /// The same, made unique within the plan.
+    /// Its name in C, which no other variable of the plan has.
     pub(crate) name: String,
     pub(crate) ctype: CType,
     /// Whether its value is used; a variable that is only bound is not generated.
@@ -170,6 +175,7 @@ pub(crate) struct Alternatives {
 #[derive(Debug)]
 pub(crate) struct Placed {
     pub(crate) line: usize,
+    pub(crate) span: Span,
     pub(crate) step: Step,
 }
 
@@ -268,6 +274,15 @@ impl Plan {
         self.body.iter().map(|placed| &placed.step)
     }
 
+    /// The calls that finding out whether the plan applies can make, in order.
+    pub(crate) fn context_calls(&self) -> Vec<ContextCall> {
+        let (mut effects, mut calls) = (Vec::new(), Vec::new());
+        pattern_effects(&self.patterns, &mut effects);
+        push_calls(&effects, true, &mut calls);
+        self.context.iter().for_each(|condition| condition.calls(true, &mut calls));
+        calls
+    }
+
     /// Whether the plan fits every event of its trigger.
     pub(crate) fn always_applies(&self) -> bool {
         self.context.is_empty()
@@ -289,7 +304,107 @@ impl Value {
     }
 }
 
+/// What evaluating values does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Effect {
+    /// A basic action or function is called.
+    Call(BasicId),
+    /// There may be no result; then nothing that follows happens.
+    MayFail,
+}
+
+impl Value {
+    /// What evaluating it does, in order.
+    fn effects(&self, effects: &mut Vec<Effect>) {
+        match self {
+            Self::Variable(_) | Self::Constant(..) => {}
+            Self::Call(call) => call.effects(effects),
+            Self::Negate(operand) => operand.effects(effects),
+            Self::Arithmetic(operation) => {
+                operation.left.effects(effects);
+                operation.right.effects(effects);
+                if operation.can_fail() {
+                    effects.push(Effect::MayFail);
+                }
+            }
+        }
+    }
+}
+
+impl Call {
+    fn effects(&self, effects: &mut Vec<Effect>) {
+        self.arguments.iter().for_each(|argument| argument.effects(effects));
+        effects.push(Effect::Call(self.basic));
+    }
+}
+
+fn pattern_effects(patterns: &[Pattern], effects: &mut Vec<Effect>) {
+    for pattern in patterns {
+        if let Pattern::Equal(value) = pattern {
+            value.effects(effects);
+        }
+    }
+}
+
+/// A call that choosing a plan may make.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ContextCall {
+    pub(crate) basic: BasicId,
+    /// Whether it is made whenever the plan applies.
+    pub(crate) certain: bool,
+}
+
+impl Condition {
+    fn calls(&self, certain: bool, calls: &mut Vec<ContextCall>) {
+        let mut effects = Vec::new();
+        match self {
+            Self::Holds { patterns, .. } => pattern_effects(patterns, &mut effects),
+            Self::Truth(value) | Self::Bind { value, .. } => value.effects(&mut effects),
+            Self::Compare { left, right, .. } => {
+                left.effects(&mut effects);
+                right.effects(&mut effects);
+            }
+            Self::Not(inner) => inner.iter().for_each(|condition| condition.calls(false, calls)),
+            Self::Any(alternatives) => {
+                let conditions = alternatives.branches.iter().flatten();
+                conditions.for_each(|condition| condition.calls(false, calls));
+            }
+        }
+        push_calls(&effects, certain, calls);
+    }
+}
+
+fn push_calls(effects: &[Effect], certain: bool, calls: &mut Vec<ContextCall>) {
+    calls.extend(effects.iter().filter_map(|effect| match effect {
+        Effect::Call(basic) => Some(ContextCall { basic: *basic, certain }),
+        Effect::MayFail => None,
+    }));
+}
+
 impl Step {
+    /// What evaluating the values in it does, in order, before its own effect; an action is a value too.
+    pub(crate) fn effects(&self) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        match self {
+            Self::Action(call) => call.effects(&mut effects),
+            Self::Assign { value, .. } => value.effects(&mut effects),
+            Self::Add { values, .. }
+            | Self::Achieve { values, .. }
+            | Self::Defer { values, .. } => {
+                for value in values {
+                    value.effects(&mut effects);
+                }
+            }
+            Self::Post { values, deadline, .. } => {
+                values.iter().chain(deadline).for_each(|value| value.effects(&mut effects));
+            }
+            Self::Ask { patterns, .. } | Self::Delete { patterns, .. } => {
+                pattern_effects(patterns, &mut effects);
+            }
+        }
+        effects
+    }
+
     /// Whether the body can end here, before the formulae behind this one.
     pub(crate) fn can_fail(&self) -> bool {
         let calls = match self {
@@ -333,6 +448,14 @@ impl Pattern {
 pub(crate) struct Call {
     pub(crate) basic: BasicId,
     pub(crate) arguments: Vec<Value>,
+}
+
+/// More `!!` than this get no more room in the queue.
+const MOST_DEFERRED: usize = 64;
+
+/// The room of [`Program::deferred_room`], for an agent with so many `!!`.
+pub(crate) fn deferred_room(settings: &Settings, formulae: usize) -> usize {
+    settings.inbox as usize + formulae.min(MOST_DEFERRED)
 }
 
 impl Program {
@@ -385,6 +508,30 @@ impl Program {
     pub(crate) fn basic(&self, id: BasicId) -> &Basic {
         &self.configuration.basics[id.0]
     }
+
+    /// The function that is told which plan was chosen.
+    pub(crate) fn trace(&self) -> Option<BasicId> {
+        let name = self.configuration.settings.trace.as_ref()?;
+        let mut basics = self.configuration.basics.iter();
+        basics.position(|basic| basic.name.text == name.text).map(BasicId)
+    }
+
+    /// The function that every step asks whether the deadline of what runs has passed.
+    pub(crate) fn deadline_clock(&self) -> Option<BasicId> {
+        self.clock.as_ref().filter(|_| !self.limited.is_empty()).map(|(basic, _)| *basic)
+    }
+
+    /// What plans call in their bodies, not only to find out whether they apply.
+    pub(crate) fn called_in_bodies(&self) -> BTreeSet<BasicId> {
+        let steps = self.reachable_plans().flat_map(|(_, _, plan)| plan.steps());
+        let effects = steps.flat_map(Step::effects);
+        effects
+            .filter_map(|effect| match effect {
+                Effect::Call(basic) => Some(basic),
+                Effect::MayFail => None,
+            })
+            .collect()
+    }
 }
 
 /// `achieve_goto`, `add_battery`: how a trigger is called in generated names.
@@ -395,7 +542,7 @@ pub(crate) fn trigger_name(operator: Operator, kind: TriggerKind, name: &str) ->
         (Operator::Add, TriggerKind::Belief) => "add",
         (Operator::Delete, TriggerKind::Belief) => "del",
         (Operator::Add, TriggerKind::Test) => "test",
-        (Operator::Delete, TriggerKind::Test) => "test_failed",
+        (Operator::Delete, TriggerKind::Test) => "untest",
     };
     format!("{verb}_{name}")
 }

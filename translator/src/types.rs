@@ -1,5 +1,27 @@
 //! What the translator knows of C types.
 
+/// Words that C types of numbers begin with, also of those that the translator does not calculate with.
+pub(crate) const C_NUMBERS: [&str; 18] = [
+    "bool",
+    "char",
+    "short",
+    "int",
+    "long",
+    "signed",
+    "unsigned",
+    "float",
+    "double",
+    "size_t",
+    "ptrdiff_t",
+    "wchar_t",
+    "intptr_t",
+    "uintptr_t",
+    "intmax_t",
+    "uintmax_t",
+    "time_t",
+    "clock_t",
+];
+
 /// A C type as the configuration names it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CType {
@@ -45,19 +67,38 @@ impl CType {
             "void" => TypeKind::Void,
             "bool" | "_Bool" => TypeKind::Bool,
             "int8_t" | "signed char" => TypeKind::Signed { bits: 8 },
-            "int16_t" | "short" | "short int" => TypeKind::Signed { bits: 16 },
+            "int16_t" | "short" | "short int" | "signed short" | "signed short int" => {
+                TypeKind::Signed { bits: 16 }
+            }
             "int32_t" | "int" | "signed" | "signed int" => TypeKind::Signed { bits: 32 },
-            "int64_t" | "long long" | "long long int" => TypeKind::Signed { bits: 64 },
+            "int64_t"
+            | "long long"
+            | "long long int"
+            | "signed long long"
+            | "signed long long int" => TypeKind::Signed { bits: 64 },
             "uint8_t" | "unsigned char" => TypeKind::Unsigned { bits: 8 },
-            "uint16_t" | "unsigned short" => TypeKind::Unsigned { bits: 16 },
+            "uint16_t" | "unsigned short" | "unsigned short int" => TypeKind::Unsigned { bits: 16 },
             "uint32_t" | "unsigned" | "unsigned int" => TypeKind::Unsigned { bits: 32 },
-            "uint64_t" | "unsigned long long" => TypeKind::Unsigned { bits: 64 },
+            "uint64_t" | "unsigned long long" | "unsigned long long int" => {
+                TypeKind::Unsigned { bits: 64 }
+            }
             "float" => TypeKind::Float32,
             "double" => TypeKind::Float64,
             "const char *" | "char const *" => TypeKind::Text,
             _ => TypeKind::Opaque,
         };
         Self { name: name.to_owned(), kind }
+    }
+
+    /// Whether the type may be one of strings, for all that its name tells: `name_t`, `char *`.
+    pub fn may_be_text(&self) -> bool {
+        let mut words = self.name.split(' ').filter(|word| *word != "const");
+        match (words.next(), self.name.matches('*').count()) {
+            (Some("char" | "void"), 1) => true,
+            (Some("struct" | "union" | "enum" | "void" | "char"), _) => false,
+            (Some(name), 0) => !C_NUMBERS.contains(&name),
+            _ => false,
+        }
     }
 
     /// Whether two values can be compared.
@@ -98,8 +139,9 @@ impl CType {
             TypeKind::Float32 => Some("0.0F"),
             TypeKind::Float64 => Some("0.0"),
             TypeKind::Text => Some("\"\""),
-            TypeKind::Struct => Some("{ 0 }"),
-            TypeKind::Void | TypeKind::Opaque => None,
+            // C lets any type begin so.
+            TypeKind::Struct | TypeKind::Opaque => Some("{ 0 }"),
+            TypeKind::Void => None,
         }
     }
 

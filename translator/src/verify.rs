@@ -1,12 +1,12 @@
 //! `asl2c verify`: tells which properties hold in every environment.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::process::ExitCode;
 
 use serde_json::{Value, json};
 use translator::{Model, Promise};
 
+use crate::NOT_CHECKED;
 use crate::spin::{self, SpinError, Verdict};
 
 /// Why nothing was checked.
@@ -14,24 +14,32 @@ use crate::spin::{self, SpinError, Verdict};
 pub(crate) enum VerifyError {
     #[error(transparent)]
     Spin(#[from] SpinError),
+    #[error("the configuration has no properties: there is nothing to check")]
+    Nothing,
     #[error("the configuration has no property `{name}`")]
     Unknown { name: String },
 }
 
-/// Prints the model.
-pub(crate) fn print(model: &Model) -> ExitCode {
-    // What cannot be printed has nowhere else to go.
-    _ = write!(std::io::stdout(), "{}", model.promela());
-    ExitCode::SUCCESS
-}
-
-/// Checks and prints; fails unless everything holds.
-pub(crate) fn run(model: &Model, only: &[String], as_json: bool) -> Result<ExitCode, VerifyError> {
+/// Checks, and says what was found and how to exit: well only if everything holds.
+pub(crate) fn run(
+    model: &Model,
+    only: &[String],
+    as_json: bool,
+) -> Result<(String, ExitCode), VerifyError> {
+    if model.properties.is_empty() {
+        return Err(VerifyError::Nothing);
+    }
     let verdicts = spin::check(model, &numbers(model, only)?)?;
     let text = if as_json { json(&verdicts) } else { text(model, &verdicts) };
-    _ = write!(std::io::stdout(), "{text}");
-    let holds = verdicts.iter().all(|(_, verdict)| matches!(verdict, Verdict::Holds));
-    Ok(if holds { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    let any = |wanted: fn(&Verdict) -> bool| verdicts.iter().any(|(_, verdict)| wanted(verdict));
+    let status = if any(|verdict| matches!(verdict, Verdict::Fails(_))) {
+        ExitCode::FAILURE
+    } else if any(|verdict| matches!(verdict, Verdict::Undecided(_))) {
+        NOT_CHECKED.into()
+    } else {
+        ExitCode::SUCCESS
+    };
+    Ok((text, status))
 }
 
 /// The numbers of the properties to check: of all, unless some are named.
@@ -47,9 +55,6 @@ fn numbers(model: &Model, only: &[String]) -> Result<Vec<usize>, VerifyError> {
 }
 
 fn text(model: &Model, verdicts: &[(Promise, Verdict)]) -> String {
-    if verdicts.is_empty() {
-        return "the configuration has no properties\n".to_owned();
-    }
     let mut text = String::new();
     // Writing to a string cannot fail.
     for (promise, verdict) in verdicts {

@@ -4,7 +4,7 @@ use diagnostic::{Diagnostic, Span};
 
 use super::Analysis;
 use super::constants::integer;
-use super::scope::{Mark, Scope};
+use super::scope::{Mark, Scope, said_already};
 use super::values::{Resolved, check_equality, check_numeric};
 use crate::program::{Alternatives, Condition, Value, VariableId};
 use crate::syntax::ast::{Atom, Expression, Name, Relation};
@@ -48,6 +48,9 @@ impl Analysis<'_> {
             Expression::Compare { operator, left, right, span } => {
                 let inferred = self.infer(left, scope).or_else(|| self.infer(right, scope));
                 let Some(ctype) = inferred else {
+                    if scope.is_broken(left) || scope.is_broken(right) {
+                        return Err(said_already());
+                    }
                     // An unbound variable is the likelier mistake.
                     for side in [left, right] {
                         if let Expression::Variable(name) = side.as_ref() {
@@ -67,7 +70,11 @@ impl Analysis<'_> {
                 Ok(Condition::Compare { relation: *operator, left, right, ctype })
             }
             Expression::Bind { variable, value, .. } => {
-                let (value, ctype) = self.typed_value(value, None, scope)?;
+                let resolved = self.typed_value(value, None, scope);
+                if resolved.is_err() {
+                    scope.break_variable(variable);
+                }
+                let (value, ctype) = resolved?;
                 check_fresh(variable, scope)?;
                 Ok(Condition::Bind { variable: scope.bind(variable, &ctype), value })
             }

@@ -24,7 +24,8 @@ pub(super) fn constant(
             _ => wrong("`true` or `false`", span),
         },
         Expression::Text { text, span } => match ctype.kind {
-            TypeKind::Text | TypeKind::Opaque => Ok(c_string(text)),
+            TypeKind::Text => Ok(c_string(text)),
+            TypeKind::Opaque if ctype.may_be_text() => Ok(c_string(text)),
             _ => wrong("a string", span),
         },
         _ => return None,
@@ -39,11 +40,14 @@ pub(crate) fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnos
     let sign = if number.negative { "-" } else { "" };
     match ctype.kind {
         TypeKind::Float64 | TypeKind::Float32 => {
-            let finite = match ctype.kind {
-                TypeKind::Float64 => number.digits.parse().is_ok_and(f64::is_finite),
-                _ => number.digits.parse().is_ok_and(f32::is_finite),
+            let value = match ctype.kind {
+                TypeKind::Float64 => number.digits.parse().unwrap_or(f64::INFINITY),
+                _ => number.digits.parse().map_or(f64::INFINITY, |value: f32| value.into()),
             };
-            if !finite {
+            let mantissa = number.digits.split(['e', 'E']).next().unwrap_or_default();
+            let is_zero = mantissa.bytes().all(|byte| matches!(byte, b'0' | b'.'));
+            // What is too small would be zero in silence.
+            if !value.is_finite() || (value == 0.0 && !is_zero) {
                 return error(format!("number out of the range of `{}`", ctype.name));
             }
             let fraction = if integral { ".0" } else { "" };
@@ -168,6 +172,8 @@ mod tests {
             ("256", "uint8_t"),
             ("1e999", "double"),
             ("1e39", "float"),
+            ("1e-400", "double"),
+            ("-1e-50", "float"),
             ("1", "bool"),
             ("1", "positiont"),
             ("999999999999999999999999999999999999999999", "int64_t"),

@@ -1,7 +1,7 @@
 //! What the configuration declares, by name.
 
 use std::cell::Cell;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use diagnostic::{Diagnostic, Span, closest};
 
@@ -10,100 +10,11 @@ use crate::configuration::{
     Basic, Cause, Comparison, Configuration, ExternalTrigger, Formula, Operand,
 };
 use crate::program::BasicId;
+use crate::reserved::{
+    INTERFACE, VERBS, described, is_c, is_c_word, is_generated, is_generated_prefix, is_library,
+};
 use crate::syntax::ast::{Atom, Name};
 use crate::types::{CType, TypeKind};
-
-/// C99 keywords and the `<stdbool.h>` names: no basic action can be called so.
-const C_WORDS: [&str; 42] = [
-    "auto",
-    "break",
-    "case",
-    "char",
-    "const",
-    "continue",
-    "default",
-    "do",
-    "double",
-    "else",
-    "enum",
-    "extern",
-    "float",
-    "for",
-    "goto",
-    "if",
-    "inline",
-    "int",
-    "long",
-    "register",
-    "restrict",
-    "return",
-    "short",
-    "signed",
-    "sizeof",
-    "static",
-    "struct",
-    "switch",
-    "typedef",
-    "union",
-    "unsigned",
-    "void",
-    "volatile",
-    "while",
-    "_Bool",
-    "_Complex",
-    "_Imaginary",
-    "bool",
-    "true",
-    "false",
-    "main",
-    "errno",
-];
-
-/// Names that the generated interface uses itself.
-const INTERFACE: [&str; 12] = [
-    "init",
-    "next_step",
-    "can_add_event",
-    "take_event",
-    "handle_event",
-    "unhandled_events",
-    "refused_events",
-    "aborted_events",
-    "clear",
-    "forget_events",
-    "updateBeliefs",
-    "agent",
-];
-
-/// Prefixes of generated functions and variables.
-const PREFIXES: [&str; 12] = [
-    "achieve_", "add_", "del_", "set_", "run_", "plan", "equal_", "checked_", "post_", "defer_",
-    "limit_", "var_",
-];
-
-/// Generated local variables; most of them are numbered.
-const LOCALS: [&str; 13] = [
-    "accepted",
-    "answer",
-    "answered",
-    "argument",
-    "changed",
-    "current_time",
-    "event",
-    "handled",
-    "holds",
-    "outcome",
-    "round",
-    "slot",
-    "value",
-];
-
-/// Whether generated C may use the name for something of its own.
-fn is_generated(name: &str) -> bool {
-    INTERFACE.contains(&name)
-        || PREFIXES.iter().any(|prefix| name.starts_with(prefix))
-        || LOCALS.contains(&name.trim_end_matches(|c: char| c.is_ascii_digit()))
-}
 
 #[derive(Debug, Clone)]
 enum Declared {
@@ -129,55 +40,21 @@ impl Declarations {
     pub(super) fn new(configuration: &Configuration, findings: &mut Vec<Diagnostic>) -> Self {
         let mut declarations = Self { names: HashMap::new(), basics: configuration.basics.clone() };
         for (index, basic) in configuration.basics.iter().enumerate() {
-            let name = &basic.name.text;
-            if C_WORDS.contains(&name.as_str()) || name.starts_with('_') {
-                findings.push(
-                    Diagnostic::error(
-                        format!("`{name}` cannot be the name of a C function"),
-                        basic.name.span.clone(),
-                    )
-                    .help("C reserves this word; rename the basic action"),
-                );
-            } else if is_generated(name) {
-                findings.push(
-                    Diagnostic::error(
-                        format!("`{name}` may clash with a generated function"),
-                        basic.name.span.clone(),
-                    )
-                    .help(format!(
-                        "generated names are {}, {} and those that start with {}",
-                        INTERFACE.join(", "),
-                        LOCALS.join(", "),
-                        PREFIXES.join(", ")
-                    )),
-                );
-            }
+            findings.extend(check_basic_name(basic, &configuration.settings.symbol_prefix()));
             declarations.declare(&basic.name, Declared::Basic(BasicId(index)), findings);
         }
-        for (index, declared) in configuration.structs.iter().enumerate() {
-            let name = &declared.name.text;
-            let known = CType::named(name).kind != TypeKind::Opaque;
-            let twice = configuration.structs[..index].iter().any(|s| s.name.text == *name);
-            if known || twice || C_WORDS.contains(&name.as_str()) || name.starts_with('_') {
-                findings.push(
-                    Diagnostic::error(
-                        format!("`{name}` cannot be the name of a struct"),
-                        declared.name.span.clone(),
-                    )
-                    .help("another type has this name, or C reserves it"),
-                );
-            }
-            for (field, _) in &declared.fields {
-                if C_WORDS.contains(&field.text.as_str()) || field.text.starts_with('_') {
-                    let message = format!("`{}` cannot be the name of a field", field.text);
-                    findings.push(Diagnostic::error(message, field.span.clone()));
-                }
-            }
-        }
+        check_types(configuration, findings);
         for (index, class) in configuration.classes.iter().enumerate() {
             if configuration.classes[..index].iter().any(|c| c.name.text == class.name.text) {
                 let message = format!("a second class `{}`", class.name.text);
                 findings.push(Diagnostic::error(message, class.name.span.clone()));
+            }
+            if declarations.is_basic(&class.name.text) {
+                let message = format!("`{}` is an action, not a class", class.name.text);
+                findings.push(
+                    Diagnostic::error(message, class.name.span.clone())
+                        .help("a property could not tell them apart: give the class another name"),
+                );
             }
             for action in class.actions.iter().filter(|action| !declarations.is_basic(&action.text))
             {
@@ -348,11 +225,25 @@ impl Declarations {
             })
             .collect();
         unused.sort_by_key(|(_, declaration)| declaration.span.start);
-        findings.extend(unused.into_iter().map(|(name, declaration)| {
-            let message = format!("`{name}` is declared and never used");
-            Diagnostic::warning(message, declaration.span.clone())
+        let (basics, others): (Vec<_>, Vec<_>) =
+            unused.into_iter().partition(|(_, d)| matches!(d.declared, Declared::Basic(_)));
+        let warning = |message: String, span: &Span| {
+            Diagnostic::warning(message, span.clone()).code("unused-declaration")
+        };
+        let single = |(name, declaration): &(&String, &Declaration)| {
+            warning(format!("`{name}` is declared and never used"), &declaration.span)
                 .help("take it out, or use it in the agent")
-        }));
+        };
+        if let [(_, first), _, _, _, ..] = basics.as_slice() {
+            // A library of actions serves several agents.
+            let names: Vec<&str> = basics.iter().map(|(name, _)| name.as_str()).collect();
+            let message = format!("{} actions and functions are never used", names.len());
+            findings
+                .push(warning(message, &first.span).help(format!("these: {}", names.join(", "))));
+        } else {
+            findings.extend(basics.iter().map(single));
+        }
+        findings.extend(others.iter().map(single));
     }
 
     pub(super) fn is_basic(&self, name: &str) -> bool {
@@ -369,6 +260,89 @@ impl Declarations {
             None => format!("declare it in the section `{section}` of the configuration"),
         };
         Diagnostic::error(format!("`{}` is not declared", name.text), name.span.clone()).help(help)
+    }
+}
+
+/// A basic action is a C function, whose name nobody else may have.
+fn check_basic_name(basic: &Basic, prefix: &str) -> Option<Diagnostic> {
+    let name = &basic.name.text;
+    let symbol = format!("{prefix}{name}");
+    if is_c_word(name) || is_c(&symbol) {
+        let message = format!("`{name}` cannot be the name of a C function");
+        return Some(
+            Diagnostic::error(message, basic.name.span.clone())
+                .help("C reserves this word; rename the basic action"),
+        );
+    }
+    (is_generated(name) || is_generated(&symbol)).then(|| {
+        let message = format!("`{name}` may clash with a generated function");
+        Diagnostic::error(message, basic.name.span.clone()).help(described())
+    })
+}
+
+/// Types have names that no function has, and none that generated C has for something of its own.
+fn check_types(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
+    let settings = &configuration.settings;
+    let prefix = settings.symbol_prefix();
+    if is_generated_prefix(&prefix) && !prefix.is_empty() {
+        let place = settings.places.get("output").cloned().unwrap_or_default();
+        let message = format!("names that begin with `{prefix}` may clash with generated ones");
+        findings
+            .push(Diagnostic::error(message, place).help(
+                "with `instance = context` the file's name begins all names; choose another",
+            ));
+    }
+    let mut symbols: HashSet<String> =
+        configuration.basics.iter().map(|basic| format!("{prefix}{}", basic.name.text)).collect();
+    symbols.extend(INTERFACE.iter().map(|name| format!("{prefix}{name}")));
+    for predicate in &configuration.predicates {
+        symbols.extend(VERBS.iter().map(|verb| format!("{prefix}{verb}_{}", predicate.name.text)));
+    }
+    let own = |name: &str| {
+        let unprefixed = name.strip_prefix(prefix.as_str()).unwrap_or(name);
+        let upper = prefix.to_uppercase();
+        let constant = name.strip_prefix(upper.as_str()).unwrap_or(name);
+        is_generated(name)
+            || ["agent_t", "event_t"].contains(&unprefixed)
+            || constant.starts_with("EVENT_")
+            || symbols.contains(name)
+    };
+    for (index, declared) in configuration.structs.iter().enumerate() {
+        let name = &declared.name.text;
+        let known = CType::named(name).kind != TypeKind::Opaque;
+        let twice = configuration.structs[..index].iter().any(|s| s.name.text == *name);
+        if known || twice || is_c(name) || own(name) {
+            findings.push(
+                Diagnostic::error(
+                    format!("`{name}` cannot be the name of a struct"),
+                    declared.name.span.clone(),
+                )
+                .help("another type or a function has this name, or C or generated C reserves it"),
+            );
+        }
+        for (field, _) in &declared.fields {
+            if is_c_word(&field.text) || field.text.starts_with("ASL2C_") {
+                let message = format!("`{}` cannot be the name of a field", field.text);
+                findings.push(Diagnostic::error(message, field.span.clone()));
+            }
+        }
+    }
+    let in_basics = configuration.basics.iter().flat_map(|basic| {
+        basic.parameters.iter().chain([&basic.result]).map(move |ctype| (ctype, &basic.span))
+    });
+    let in_types = configuration
+        .predicates
+        .iter()
+        .flat_map(|declared| declared.parameters.iter().map(move |ctype| (ctype, &declared.span)));
+    let mut told: HashSet<&str> = HashSet::new();
+    for (ctype, span) in
+        in_basics.chain(in_types).filter(|(ctype, _)| ctype.kind == TypeKind::Opaque)
+    {
+        let clash = ctype.name.split(' ').any(|word| own(word) || is_library(word));
+        if clash && told.insert(&ctype.name) {
+            let message = format!("the type `{}` may clash with a generated name", ctype.name);
+            findings.push(Diagnostic::error(message, span.clone()).help(described()));
+        }
     }
 }
 

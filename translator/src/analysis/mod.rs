@@ -10,10 +10,11 @@ mod graph;
 mod plans;
 mod reach;
 mod scope;
+mod tail;
 mod time;
 mod values;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{HashMap, HashSet, VecDeque};
 
 use diagnostic::{Diagnostic, Severity};
 
@@ -23,10 +24,13 @@ use self::graph::TriggerGraph;
 use self::reach::{
     Reached, mark_believable, reach, warn_never_believed, warn_unreachable, warn_without_plan,
 };
+use self::tail::warn_unseen;
 use self::time::{Clock, find_clock};
 use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula};
-use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Program, Value};
-use crate::syntax::ast::{Agent, Atom, Operator, TriggerKind};
+use crate::program::{
+    Belief, BeliefId, External, Handler, HandlerId, Program, Value, deferred_room,
+};
+use crate::syntax::ast::{self, Agent, Atom, Operator, TriggerKind};
 use crate::types::CType;
 
 /// What was found wrong, by the file it is wrong in.
@@ -71,8 +75,11 @@ pub(crate) fn analyse(
         handlers: Vec::new(),
         test_handlers: HashMap::new(),
         test_triggers: HashSet::new(),
+        open_tests: VecDeque::new(),
+        covered: HashSet::new(),
         waits: HashMap::new(),
     };
+    analysis.labels(agent);
     analysis.collect_triggers(agent);
     let graph = TriggerGraph::new(agent);
     analysis.initial_beliefs(agent);
@@ -112,7 +119,11 @@ pub(crate) fn analyse(
     mark_believable(&mut beliefs, &handlers, &external);
     warn_never_believed(&beliefs, &mut findings.agent);
     warn_without_plan(&handlers, &events, &mut findings.agent);
+    warn_unseen(&handlers, &mut findings.agent);
+    let formulae = agent.plans.iter().flat_map(|plan| &plan.body);
+    let defers = formulae.filter(|formula| matches!(formula, ast::Formula::Defer(_))).count();
     let program = Program {
+        deferred_room: deferred_room(&configuration.settings, defers),
         configuration,
         beliefs,
         handlers,
@@ -142,13 +153,20 @@ struct Analysis<'a> {
     test_handlers: HashMap<(TriggerKey, Vec<bool>), HandlerId>,
     /// Test goals that have plans.
     test_triggers: HashSet<TriggerKey>,
+    /// Handlers of test goals whose plans are not looked at yet.
+    open_tests: VecDeque<(HandlerId, TriggerKey, Vec<bool>)>,
+    /// Handlers that have a plan which fits every event.
+    covered: HashSet<HandlerId>,
     /// How many waits of each goal or belief have a name.
     waits: HashMap<String, usize>,
 }
 
 impl Analysis<'_> {
     fn error(&mut self, diagnostic: Diagnostic) {
-        self.findings.agent.push(diagnostic);
+        // What follows from another error is not said.
+        if !diagnostic.message.is_empty() {
+            self.findings.agent.push(diagnostic);
+        }
     }
 
     /// The line that a byte of the source stands in, from 1.
@@ -158,6 +176,22 @@ impl Analysis<'_> {
 
     fn handler_id(&self, operator: Operator, kind: TriggerKind, name: &str) -> Option<HandlerId> {
         self.handler_ids.get(&(operator, kind, name.to_owned())).copied()
+    }
+
+    /// A label is the name of one plan.
+    fn labels(&mut self, agent: &Agent) {
+        let mut known: HashSet<&str> = HashSet::new();
+        for label in agent.plans.iter().filter_map(|plan| plan.label.as_ref()) {
+            if !known.insert(&label.text) {
+                self.error(
+                    Diagnostic::error(
+                        format!("a second plan `@{}`", label.text),
+                        label.span.clone(),
+                    )
+                    .help("a label is the name of one plan; requirements may be shared"),
+                );
+            }
+        }
     }
 
     /// One handler for each trigger that has plans, except those of test goals.

@@ -1,6 +1,8 @@
 //! Resolves plans: every variable bound before it is used, every type as declared.
 
-use diagnostic::Diagnostic;
+use std::collections::{HashMap, HashSet};
+
+use diagnostic::{Diagnostic, Severity};
 
 use super::conditions::check_fresh;
 use super::graph::TriggerGraph;
@@ -27,42 +29,97 @@ impl Analysis<'_> {
     /// Resolves the plans of test goals, once for each way that somebody asks; asking can make
     /// plans that ask again.
     pub(super) fn test_plans(&mut self, agent: &Agent, graph: &TriggerGraph) {
-        let mut done = 0;
-        loop {
-            let mut open: Vec<(HandlerId, TriggerKey, Vec<bool>)> = self
-                .test_handlers
-                .iter()
-                .filter(|(_, id)| id.0 >= done)
-                .map(|((key, holes), id)| (*id, key.clone(), holes.clone()))
-                .collect();
-            if open.is_empty() {
-                break;
-            }
-            open.sort_by_key(|(id, ..)| *id);
-            done = self.handlers.len();
-            for (id, (operator, _, name), holes) in open {
-                let plans = agent.plans.iter().filter(|plan| {
-                    let trigger = &plan.trigger;
-                    (trigger.operator, trigger.kind) == (operator, TriggerKind::Test)
-                        && trigger.atom.name.text == name
-                });
-                for plan in plans {
-                    self.plan_of(id, plan, &holes, graph);
-                }
-            }
-        }
-        for plan in &agent.plans {
+        let mut plans: HashMap<TriggerKey, Vec<&ast::Plan>> = HashMap::new();
+        for plan in agent.plans.iter().filter(|plan| plan.trigger.kind == TriggerKind::Test) {
             let trigger = &plan.trigger;
-            let asked =
-                self.test_handlers.keys().any(|((_, _, name), _)| *name == trigger.atom.name.text);
-            if trigger.kind == TriggerKind::Test && !asked {
-                let text = format!("nothing ever asks `?{}`", trigger.atom.name.text);
+            let key = (trigger.operator, trigger.kind, trigger.atom.name.text.clone());
+            plans.entry(key).or_default().push(plan);
+        }
+        self.asked_plans(&plans, graph);
+        let asked: HashSet<String> =
+            self.test_handlers.keys().map(|((_, _, name), _)| name.clone()).collect();
+        let is_asked = |plan: &ast::Plan| asked.contains(&plan.trigger.atom.name.text);
+        let tests = agent.plans.iter().filter(|plan| plan.trigger.kind == TriggerKind::Test);
+        for plan in tests {
+            let trigger = &plan.trigger;
+            let name = &trigger.atom.name.text;
+            let answered = (Operator::Add, TriggerKind::Test, name.clone());
+            if trigger.operator == Operator::Delete && !self.test_triggers.contains(&answered) {
                 self.error(
-                    Diagnostic::warning(text, trigger.span.clone())
-                        .help("its plans are left out; ask it in a body: `?b(X)`"),
+                    Diagnostic::error(
+                        format!("`-?{name}` can never run: no plan for `+?{name}`"),
+                        trigger.span.clone(),
+                    )
+                    .help("a failure plan runs when a plan of its test goal fails"),
                 );
             }
+            if !is_asked(plan) {
+                let text = format!("nothing ever asks `?{name}`");
+                self.error(
+                    Diagnostic::warning(text, trigger.span.clone())
+                        .code("never-asked")
+                        .help("its plans are left out; ask it in a body: `?b(X)`"),
+                );
+                self.unasked_plan(plan, graph);
+            }
         }
+        // What these ask in turn is looked at too.
+        self.asked_plans(&plans, graph);
+    }
+
+    /// Resolves plans of those handlers of test goals that have none yet.
+    fn asked_plans(&mut self, plans: &HashMap<TriggerKey, Vec<&ast::Plan>>, graph: &TriggerGraph) {
+        while let Some((id, key, holes)) = self.open_tests.pop_front() {
+            for plan in plans.get(&key).into_iter().flatten() {
+                self.plan_of(id, plan, &holes, graph);
+            }
+        }
+    }
+
+    /// Looks at a plan of a test goal that nobody asks, as if somebody did in a way that fits it.
+    fn unasked_plan(&mut self, plan: &ast::Plan, graph: &TriggerGraph) {
+        let Some(types) = self.predicate_types(&plan.trigger.atom) else { return };
+        let fresh = fresh_variables(&plan.trigger.atom);
+        let mut assigned: HashSet<&str> = HashSet::new();
+        if let Some(context) = &plan.context {
+            context.for_each_assigned(&mut |name| {
+                assigned.insert(name.text.as_str());
+            });
+        }
+        for formula in &plan.body {
+            if let Formula::Assign { variable, .. } = formula {
+                assigned.insert(&variable.text);
+            }
+        }
+        let mode = |is_hole: &dyn Fn(&str, &CType) -> bool| -> Vec<bool> {
+            let pairs = fresh.iter().zip(&types);
+            pairs.map(|(name, ctype)| name.is_some_and(|name| is_hole(name, ctype))).collect()
+        };
+        let modes = [
+            mode(&|name, ctype| assigned.contains(name) || !ctype.has_equality()),
+            mode(&|name, _| assigned.contains(name)),
+            mode(&|_, _| true),
+        ];
+        let (findings, handlers) = (self.findings.agent.len(), self.handlers.len());
+        let waiting = self.open_tests.len();
+        let mut first = None;
+        for holes in modes {
+            let id =
+                self.new_test_handler(plan.trigger.operator, &plan.trigger.atom, &types, &holes);
+            self.plan_of(id, plan, &holes, graph);
+            let found = self.findings.agent.split_off(findings);
+            if !found.iter().any(|found| found.severity == Severity::Error) {
+                self.findings.agent.extend(found);
+                return;
+            }
+            first.get_or_insert(found);
+            // As if it had not been looked at so.
+            self.handlers.truncate(handlers);
+            self.covered.retain(|id| id.0 < handlers);
+            self.test_handlers.retain(|_, id| id.0 < handlers);
+            self.open_tests.truncate(waiting);
+        }
+        self.findings.agent.extend(first.into_iter().flatten());
     }
 
     /// The handler of a test goal that is asked with these holes, if it has plans.
@@ -81,12 +138,28 @@ impl Analysis<'_> {
         if !self.test_triggers.contains(&key) {
             return None;
         }
+        let id = self.new_test_handler(operator, atom, types, holes);
+        self.test_handlers.insert((key.clone(), holes.to_vec()), id);
+        self.open_tests.push_back((id, key, holes.to_vec()));
+        if operator == Operator::Add {
+            let failure = self.test_handler(Operator::Delete, atom, types, holes);
+            self.handlers[id.0].failure = failure;
+        }
+        Some(id)
+    }
+
+    fn new_test_handler(
+        &mut self,
+        operator: Operator,
+        atom: &Atom,
+        types: &[CType],
+        holes: &[bool],
+    ) -> HandlerId {
         let id = HandlerId(self.handlers.len());
-        self.test_handlers.insert((key, holes.to_vec()), id);
         self.handlers.push(Handler {
             operator,
             kind: TriggerKind::Test,
-            name: name.clone(),
+            name: atom.name.text.clone(),
             types: types.to_vec(),
             plans: Vec::new(),
             failure: None,
@@ -95,11 +168,7 @@ impl Analysis<'_> {
             holes: holes.to_vec(),
             resumed: false,
         });
-        if operator == Operator::Add {
-            let failure = self.test_handler(Operator::Delete, atom, types, holes);
-            self.handlers[id.0].failure = failure;
-        }
-        Some(id)
+        id
     }
 
     fn plan_of(
@@ -131,16 +200,18 @@ impl Analysis<'_> {
         for (name, span) in scope.unused() {
             let warning =
                 Diagnostic::warning(format!("variable `{name}` is never used"), span.clone())
+                    .code("unused-variable")
                     .help("write `_` if any value will do");
             self.findings.agent.push(warning);
         }
-        if self.handlers[handler.0].plans.iter().any(Plan::always_applies) {
+        if self.covered.contains(&handler) {
             let warning = Diagnostic::warning("this plan is never tried", trigger.span.clone())
+                .code("never-tried")
                 .help("an earlier plan of the same trigger fits every event");
             self.findings.agent.push(warning);
         }
         let lines = (self.line(plan.span.start), self.line(plan.span.end));
-        self.handlers[handler.0].plans.push(Plan {
+        let resolved = Plan {
             lines,
             source: self.text[plan.span.clone()].to_owned(),
             variables: scope.variables,
@@ -150,7 +221,11 @@ impl Analysis<'_> {
             outputs,
             label: plan.label.as_ref().map(|label| label.text.clone()),
             requirements: plan.requirements.clone(),
-        });
+        };
+        if resolved.always_applies() {
+            self.covered.insert(handler);
+        }
+        self.handlers[handler.0].plans.push(resolved);
     }
 
     /// What the trigger's arguments must look like, and which names answer which holes.
@@ -200,6 +275,7 @@ impl Analysis<'_> {
             match self.value(&value, &types[*index], scope) {
                 Ok(Value::Variable(id)) => outputs.push((*index, id)),
                 Ok(_) => {}
+                Err(_) if scope.is_broken(&value) => {}
                 Err(_) => self.error(
                     Diagnostic::error(
                         format!("`{}` is asked for and never gets a value", name.text),
@@ -222,14 +298,16 @@ impl Analysis<'_> {
         let mut body = Vec::new();
         for (index, formula) in formulae.iter().enumerate() {
             let rest = &formulae[index + 1..];
-            let line = self.line(formula.span().start);
+            let span = formula.span();
+            let line = self.line(span.start);
             if let Formula::Wait { duration, span } = formula {
                 let step = self.wait(place, duration, span, rest, scope);
-                body.extend(self.report(step).map(|step| Placed { line, step }));
+                let span = span.clone();
+                body.extend(self.report(step).map(|step| Placed { line, span, step }));
                 break;
             }
             let step = self.step(formula, rest.is_empty(), place.graph, scope);
-            body.extend(self.report(step).map(|step| Placed { line, step }));
+            body.extend(self.report(step).map(|step| Placed { line, span, step }));
         }
         body
     }
@@ -250,7 +328,11 @@ impl Analysis<'_> {
             Formula::Assign { variable, value } => {
                 let mut asked = scope.asked.iter().filter(|(name, _)| *name == variable.text);
                 let expected = asked.next().map(|(_, ctype)| ctype.clone());
-                let (value, ctype) = self.typed_value(value, expected, scope)?;
+                let resolved = self.typed_value(value, expected, scope);
+                if resolved.is_err() {
+                    scope.break_variable(variable);
+                }
+                let (value, ctype) = resolved?;
                 check_fresh(variable, scope)?;
                 Ok(Step::Assign { variable: scope.bind(variable, &ctype), value })
             }
@@ -380,6 +462,18 @@ impl Analysis<'_> {
             Ok(Raise::Call(handler))
         }
     }
+}
+
+/// The arguments that are variables which do not stand before in the trigger.
+fn fresh_variables(atom: &Atom) -> Vec<Option<&str>> {
+    let mut known: HashSet<&str> = HashSet::new();
+    let arguments = atom.arguments.iter();
+    arguments
+        .map(|argument| match argument {
+            Expression::Variable(name) if known.insert(&name.text) => Some(name.text.as_str()),
+            _ => None,
+        })
+        .collect()
 }
 
 /// A variable that is asked for gets one answer.

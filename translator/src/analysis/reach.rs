@@ -57,10 +57,15 @@ pub(super) fn reach(handlers: &mut [Handler], roots: &[HandlerId]) -> Reached {
 }
 
 pub(super) fn warn_unreachable(handlers: &[Handler], findings: &mut Vec<Diagnostic>) {
-    for handler in handlers.iter().filter(|handler| !handler.reachable && !handler.resumed) {
+    // Of test goals that nobody asks it is said where they stand.
+    let idle = |handler: &&Handler| {
+        !handler.reachable && !handler.resumed && handler.kind != TriggerKind::Test
+    };
+    for handler in handlers.iter().filter(idle) {
         let text = handler.text();
         findings.push(
             Diagnostic::warning(format!("nothing ever triggers `{text}`"), handler.span.clone())
+                .code("never-triggered")
                 .help("its plans are left out; list it in `triggerables` or let a plan post it"),
         );
     }
@@ -88,7 +93,7 @@ pub(super) fn warn_never_believed(beliefs: &[Belief], findings: &mut Vec<Diagnos
         if let Some(span) = &belief.asked_at {
             let message = format!("`{}` is never believed", belief.name);
             findings.push(
-                Diagnostic::warning(message, span.clone()).help(
+                Diagnostic::warning(message, span.clone()).code("never-believed").help(
                     "no initial belief, no plan, no event and no `set_` function makes it true",
                 ),
             );
@@ -123,6 +128,7 @@ pub(super) fn warn_without_plan(
         let failure = text.replacen('+', "-", 1);
         findings.push(
             Diagnostic::warning(format!("`{text}` may find no plan"), handler.span.clone())
+                .code("no-plan")
                 .label("then it fails, and nothing mends that")
                 .help(format!(
                     "add a plan without context behind its others, or one for `{failure}`"

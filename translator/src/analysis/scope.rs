@@ -1,15 +1,21 @@
 //! The variables of the plan that is being resolved.
 
+use std::collections::{HashMap, HashSet};
+
 use diagnostic::{Diagnostic, Span};
 
 use crate::program::{Variable, VariableId};
-use crate::syntax::ast::Name;
+use crate::syntax::ast::{Expression, Name};
 use crate::types::CType;
 
 /// Which variables there are, and which can be seen.
 #[derive(Default)]
 pub(super) struct Scope {
     pub(super) variables: Vec<Variable>,
+    /// Names whose value could not be resolved: of that it is said once.
+    broken: HashSet<String>,
+    /// How often each name was bound.
+    times: HashMap<String, usize>,
     /// Where each variable is bound.
     bound_at: Vec<Span>,
     /// The variables that can be seen, innermost last.
@@ -22,6 +28,11 @@ pub(super) struct Scope {
     exports: Vec<(VariableId, Vec<VariableId>)>,
 }
 
+/// An error that needs no word, because it follows from another.
+pub(super) fn said_already() -> Diagnostic {
+    Diagnostic::error(String::new(), 0..0)
+}
+
 /// How much was visible when a negation or an alternative began.
 #[derive(Clone, Copy)]
 pub(super) struct Mark(usize);
@@ -32,10 +43,11 @@ impl Scope {
     }
 
     pub(super) fn bind(&mut self, name: &Name, ctype: &CType) -> VariableId {
-        let earlier = self.variables.iter().filter(|other| other.source == name.text).count();
-        // In C every variable of a plan has a name of its own.
-        let unique =
-            if earlier == 0 { name.text.clone() } else { format!("{}_{}", name.text, earlier + 1) };
+        let times = self.times.entry(name.text.clone()).or_default();
+        *times += 1;
+        // In C every variable of a plan has a name of its own: what is ours ends at the first underscore.
+        let number = if *times == 1 { String::new() } else { times.to_string() };
+        let unique = format!("var{number}_{}", name.text);
         let id = VariableId(self.variables.len());
         self.variables.push(Variable {
             source: name.text.clone(),
@@ -53,7 +65,7 @@ impl Scope {
         let id = VariableId(self.variables.len());
         self.variables.push(Variable {
             source: String::new(),
-            name: format!("unnamed{}", id.0 + 1),
+            name: format!("var_unnamed{}", id.0 + 1),
             ctype: ctype.clone(),
             used: false,
         });
@@ -73,6 +85,9 @@ impl Scope {
         if let Some(id) = self.lookup(&name.text) {
             return Ok(id);
         }
+        if self.broken.contains(&name.text) {
+            return Err(said_already());
+        }
         // Somebody wanted to use it: it is no idle variable.
         for variable in self.variables.iter_mut().filter(|other| other.source == name.text) {
             variable.used = true;
@@ -84,6 +99,20 @@ impl Scope {
         } else {
             error.help("bind it in the trigger, in the context, by `?b(X)` or by `X = value`")
         })
+    }
+
+    /// The variable would have a value if that could be resolved.
+    pub(super) fn break_variable(&mut self, name: &Name) {
+        self.broken.insert(name.text.clone());
+    }
+
+    /// Whether a value could be resolved if that of a variable in it could.
+    pub(super) fn is_broken(&self, expression: &Expression) -> bool {
+        let mut broken = false;
+        expression.for_each_variable(&mut |name| {
+            broken |= self.broken.contains(&name.text) && self.lookup(&name.text).is_none();
+        });
+        broken
     }
 
     pub(super) fn mark(&self) -> Mark {

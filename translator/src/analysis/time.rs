@@ -218,7 +218,7 @@ impl Analysis<'_> {
             source: self.text[span.clone()].to_owned(),
             patterns: ids.into_iter().map(Pattern::Bind).collect(),
             context: too_early,
-            body: vec![Placed { line: self.line(span.start), step }],
+            body: vec![Placed { line: self.line(span.start), span: span.clone(), step }],
             variables: scope.variables,
             outputs: Vec::new(),
             label: place.plan.label.as_ref().map(|label| label.text.clone()),

@@ -5,7 +5,7 @@ use diagnostic::{Diagnostic, Span};
 use super::Analysis;
 use super::constants::constant;
 use super::declarations::check_value_result;
-use super::scope::Scope;
+use super::scope::{Scope, said_already};
 use crate::program::{Call, Operation, Pattern, Value};
 use crate::syntax::ast::{Arithmetic, Atom, Expression};
 use crate::types::CType;
@@ -116,6 +116,9 @@ impl Analysis<'_> {
             scope.bound(name)?;
         }
         let Some(ctype) = self.infer(expression, scope).or(expected) else {
+            if scope.is_broken(expression) {
+                return Err(said_already());
+            }
             return Err(Diagnostic::error("the type of this value is unknown", expression.span())
                 .help("write the constant where it is used, or calculate with a variable"));
         };

@@ -22,6 +22,8 @@ mod parser;
 mod properties;
 mod scanner;
 
+use std::collections::BTreeMap;
+
 use diagnostic::Span;
 
 pub use parser::parse;
@@ -82,6 +84,38 @@ pub struct Settings {
     pub inbox: u32,
     /// Whether deferred goals wait in the same queue as external events, the paper's `max_events`.
     pub queue: bool,
+    /// Where the value of each setting stands.
+    pub places: BTreeMap<String, Span>,
+}
+
+impl Settings {
+    /// The files that are written, with the setting that names each.
+    pub fn outputs(&self) -> Vec<(&'static str, String)> {
+        let mut outputs = vec![
+            ("output", self.output.clone()),
+            ("header", self.header.clone()),
+            ("basics", self.basics.clone()),
+        ];
+        outputs.extend(self.rust.iter().map(|rust| ("rust", rust.text.clone())));
+        let matrix =
+            self.matrix.iter().flat_map(|name| [format!("{name}.csv"), format!("{name}.json")]);
+        outputs.extend(matrix.map(|name| ("matrix", name)));
+        outputs
+    }
+
+    /// What stands before every external symbol: with `instance = context` several agents can be linked into one
+    /// program.
+    pub(crate) fn symbol_prefix(&self) -> String {
+        if self.instance == Instance::Static {
+            return String::new();
+        }
+        let file = self.output.rsplit('/').next().unwrap_or_default();
+        let stem = file.split('.').next().unwrap_or_default();
+        let stem: String =
+            stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+        let stem = stem.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_');
+        if stem.is_empty() { "agent_".to_owned() } else { format!("{stem}_") }
+    }
 }
 
 impl Default for Settings {
@@ -98,6 +132,7 @@ impl Default for Settings {
             instance: Instance::Static,
             inbox: 1,
             queue: false,
+            places: BTreeMap::new(),
         }
     }
 }

@@ -1,11 +1,14 @@
 //! Reads a configuration.
 
-use diagnostic::Diagnostic;
+use diagnostic::{Diagnostic, Span, is_printable};
 
 use super::scanner::{Parsed, Scanner, is_word, is_word_start};
-use super::{ActionClass, Basic, Configuration, ExternalTrigger, Instance, Predicate, Struct};
+use super::{
+    ActionClass, Basic, Configuration, ExternalTrigger, Instance, Predicate, Settings, Struct,
+};
+use crate::reserved::is_c_word;
 use crate::syntax::ast::{Name, Operator, TriggerKind};
-use crate::types::{CType, TypeKind};
+use crate::types::{C_NUMBERS, CType, TypeKind};
 
 const SECTIONS: [&str; 11] = [
     "settings",
@@ -35,13 +38,18 @@ const SETTINGS: [&str; 11] = [
 ];
 /// More waiting events than this is a mistake: each costs memory and makes commands stale.
 const MAX_INBOX: u32 = 64;
+/// C99 promises 127 parameters, of which some are ours.
+const MOST_PARAMETERS: usize = 100;
 
 /// The configuration in `text` and everything that is wrong with it.
 pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
+    const BYTE_ORDER_MARK: char = '\u{feff}';
+    let position = if text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len_utf8() } else { 0 };
     let mut parser = Parser {
-        scanner: Scanner { text, position: 0 },
+        scanner: Scanner { text, position },
         configuration: Configuration::default(),
         seen: Vec::new(),
+        settings: text.len()..text.len(),
         diagnostics: Vec::new(),
     };
     parser.run();
@@ -52,6 +60,8 @@ pub(super) struct Parser<'a> {
     pub(super) scanner: Scanner<'a>,
     pub(super) configuration: Configuration,
     seen: Vec<&'a str>,
+    /// Where the section `settings` begins, or would have to.
+    settings: Span,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -75,6 +85,7 @@ impl<'a> Parser<'a> {
         self.resolve_structs();
         if self.diagnostics.is_empty() {
             self.check_settings();
+            self.check_outputs();
         }
     }
 
@@ -97,6 +108,9 @@ impl<'a> Parser<'a> {
                 .help("put its entries into the first one"));
         }
         self.seen.push(section);
+        if section == "settings" {
+            self.settings = name.span;
+        }
         self.scanner.expect("{")?;
         if section == "includes" {
             return self.includes().map(|()| true);
@@ -125,12 +139,14 @@ impl<'a> Parser<'a> {
             "settables" => {
                 let name = self.scanner.word("a belief")?;
                 self.scanner.expect(";")?;
+                listed_once(&self.configuration.settables, &name)?;
                 self.configuration.settables.push(name);
                 Ok(())
             }
             "perceived" => {
                 let name = self.scanner.word("a belief")?;
                 self.scanner.expect(";")?;
+                listed_once(&self.configuration.perceived, &name)?;
                 self.configuration.perceived.push(name);
                 Ok(())
             }
@@ -141,6 +157,13 @@ impl<'a> Parser<'a> {
             }
             "preemptive" => {
                 let trigger = self.declared_trigger()?;
+                let same = |other: &ExternalTrigger| {
+                    (other.operator, other.kind, &other.name.text)
+                        == (trigger.operator, trigger.kind, &trigger.name.text)
+                };
+                if self.configuration.preemptive.iter().any(same) {
+                    return Err(Diagnostic::error("this trigger is listed twice", trigger.span));
+                }
                 self.configuration.preemptive.push(trigger);
                 Ok(())
             }
@@ -154,6 +177,18 @@ impl<'a> Parser<'a> {
         let value = self.setting_value()?;
         self.scanner.expect(";")?;
         let settings = &mut self.configuration.settings;
+        if settings.places.contains_key(&key.text) {
+            let message = format!("a second setting `{}`", key.text);
+            return Err(Diagnostic::error(message, key.span).help("only one of them could count"));
+        }
+        let same = |other: &str| settings.places.contains_key(other);
+        if matches!(key.text.as_str(), "inbox" | "max_events")
+            && (same("inbox") || same("max_events"))
+        {
+            return Err(Diagnostic::error("`inbox` and `max_events` exclude each other", key.span)
+                .help("both tell how many external events can wait"));
+        }
+        settings.places.insert(key.text.clone(), value.span.clone());
         match key.text.as_str() {
             "input" => settings.input = value.text,
             "output" => settings.output = value.text,
@@ -194,28 +229,38 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
+    /// A word, a number or a file's name, which may stand in quotes. Comments may follow.
     fn setting_value(&mut self) -> Parsed<Name> {
         self.scanner.skip_blanks()?;
-        let length =
-            self.scanner.rest().find([';', '\n', '}']).unwrap_or(self.scanner.rest().len());
-        let raw = &self.scanner.rest()[..length];
-        let trimmed = raw.trim_end();
+        let rest = self.scanner.rest();
         let start = self.scanner.position;
-        self.scanner.position += length;
-        let span = start..start + trimmed.len();
-        let unquoted = trimmed
-            .strip_prefix('"')
-            .and_then(|rest| rest.strip_suffix('"'))
-            .unwrap_or(trimmed)
-            .to_owned();
-        if unquoted.is_empty() {
+        let (text, length) = if let Some(quoted) = rest.strip_prefix('"') {
+            match quoted.find(['"', '\n']).filter(|end| quoted[*end..].starts_with('"')) {
+                Some(end) => (&quoted[..end], end + 2),
+                None => {
+                    return Err(Diagnostic::error(
+                        "value with a quote or backslash",
+                        start..start + 1,
+                    )
+                    .help("close the quote on the same line"));
+                }
+            }
+        } else {
+            let end = rest.find([';', '\n', '}']).unwrap_or(rest.len());
+            let comment = ["/*", "//"].iter().filter_map(|open| rest[..end].find(open)).min();
+            let text = rest[..comment.unwrap_or(end)].trim_end();
+            (text, text.len())
+        };
+        let span = start..start + length;
+        self.scanner.position = span.end;
+        if text.is_empty() {
             return Err(Diagnostic::error("setting without a value", start..start + 1));
         }
-        if unquoted.contains(['"', '\\']) || unquoted.chars().any(char::is_control) {
+        if text.contains(['"', '\\']) || text.chars().any(char::is_control) {
             return Err(Diagnostic::error("value with a quote or backslash", span)
                 .help("generated C includes files by these names"));
         }
-        Ok(Name { text: unquoted, span })
+        Ok(Name { text: text.to_owned(), span })
     }
 
     fn basic(&mut self) -> Parsed<()> {
@@ -311,6 +356,13 @@ impl<'a> Parser<'a> {
     fn predicate(&mut self) -> Parsed<()> {
         let start = self.scanner.position;
         let name = self.scanner.word("a belief or a goal")?;
+        self.scanner.skip_blanks()?;
+        if self.scanner.rest().starts_with(';') {
+            return Err(self
+                .scanner
+                .unexpected("`(`")
+                .help(format!("without arguments it is `{}(void)`", name.text)));
+        }
         let parameters = self.parameters()?;
         let span = start..self.scanner.position;
         self.scanner.expect(";")?;
@@ -325,6 +377,7 @@ impl<'a> Parser<'a> {
             Some(name) if !words.is_empty() && name.text != "*" => name,
             _ => return Err(self.scanner.unexpected("a result type and a function name")),
         };
+        check_type(&words)?;
         Ok((c_type(&words), name))
     }
 
@@ -341,6 +394,7 @@ impl<'a> Parser<'a> {
             if words.is_empty() {
                 return Err(self.scanner.unexpected("a type"));
             }
+            check_type(&words)?;
             let parameter = c_type(&words);
             if parameter.name == "void" {
                 self.scanner.skip_blanks()?;
@@ -354,6 +408,12 @@ impl<'a> Parser<'a> {
                 .help("`(void)` alone says that there is none"));
             }
             parameters.push(parameter);
+            if parameters.len() > MOST_PARAMETERS {
+                return Err(Diagnostic::error("too many arguments", start..self.scanner.position)
+                    .help(format!(
+                        "C promises room for 127; at most {MOST_PARAMETERS} are translated"
+                    )));
+            }
             self.scanner.skip_blanks()?;
             if self.scanner.take(")") {
                 return Ok(parameters);
@@ -437,6 +497,13 @@ impl<'a> Parser<'a> {
                     start..self.scanner.position - 1,
                 ));
             }
+            let odd = |c: char| c == '\\' || !is_printable(c);
+            if file.contains(odd) || ["??", "/*", "//"].iter().any(|mark| file.contains(mark)) {
+                return Err(Diagnostic::error(
+                    "this is no name of a file that C includes",
+                    start..self.scanner.position,
+                ));
+            }
             self.configuration.includes.push(format!("#include {file}"));
         }
     }
@@ -451,12 +518,138 @@ impl<'a> Parser<'a> {
         ] {
             if value.is_empty() {
                 self.diagnostics.push(
-                    Diagnostic::error(format!("the setting `{key}` is missing"), 0..0)
-                        .help(format!("add `{key} = FILE;` to the section `settings`")),
+                    Diagnostic::error(
+                        format!("the setting `{key}` is missing"),
+                        self.settings.clone(),
+                    )
+                    .help(format!("add `{key} = FILE;` to the section `settings`")),
                 );
             }
         }
     }
+
+    /// What is written has names that C can include, stays in its folder, and is no other output.
+    fn check_outputs(&mut self) {
+        let outputs = self.configuration.settings.outputs();
+        let place =
+            |settings: &Settings, key: &str| settings.places.get(key).cloned().unwrap_or_default();
+        let mut findings = Vec::new();
+        for (index, (key, name)) in outputs.iter().enumerate() {
+            let span = place(&self.configuration.settings, key);
+            let odd = |c: char| "'\"\\*?<>|".contains(c) || !is_printable(c);
+            if name.contains(odd) {
+                findings.push(
+                    Diagnostic::error(
+                        format!("`{key}` is no name for a file that C includes"),
+                        span,
+                    )
+                    .help("letters, digits, `_`, `-`, `.` and `/` do"),
+                );
+            } else if name.starts_with('/') || name.split('/').any(|part| part == "..") {
+                findings.push(
+                    Diagnostic::error(format!("`{key}` leads out of the output's folder"), span)
+                        .help("name a file in the configuration's folder or below; `-o DIR` puts all elsewhere"),
+                );
+            } else if name.split('/').any(|part| matches!(part, "" | ".")) {
+                findings.push(
+                    Diagnostic::error(format!("`{key}` is no plain name of a file"), span)
+                        .help("write it without `./` and `//`"),
+                );
+            } else if ["harness.c", "invariant.h"].contains(&name.as_str()) {
+                findings.push(
+                    Diagnostic::error(format!("`{name}` is a file of the proofs"), span)
+                        .help("choose another name"),
+                );
+            } else if let Some((other, _)) =
+                outputs[..index].iter().find(|(_, other)| other == name)
+            {
+                findings.push(
+                    Diagnostic::error(format!("`{key}` and `{other}` are one file"), span)
+                        .help("the second would overwrite the first"),
+                );
+            }
+        }
+        // A name that ends in two files is refused once.
+        findings.dedup_by(|one, other| one.message == other.message);
+        self.diagnostics.extend(findings);
+    }
+}
+
+fn listed_once(list: &[Name], name: &Name) -> Parsed<()> {
+    if list.iter().any(|other| other.text == name.text) {
+        let message = format!("`{}` is listed twice", name.text);
+        return Err(Diagnostic::error(message, name.span.clone()));
+    }
+    Ok(())
+}
+
+/// Refuses what is no type of a parameter, a result or a field in C, with the reason.
+fn check_type(words: &[Name]) -> Parsed<()> {
+    let (Some(first), Some(last)) = (words.first(), words.last()) else { return Ok(()) };
+    let span = first.span.start..last.span.end;
+    let error =
+        |message: &str, help: &str| Err(Diagnostic::error(message, span.clone()).help(help));
+    let stars = words.iter().position(|word| word.text == "*").unwrap_or(words.len());
+    let (base, pointer) = words.split_at(stars);
+    if pointer.iter().any(|word| word.text != "*") {
+        return error(
+            "this is no type",
+            "the translator knows `name`, `struct name`, `const name *` and numbers",
+        );
+    }
+    let is_const = |word: &&Name| word.text == "const";
+    let constant = base.iter().filter(is_const).count();
+    if constant > 0 && pointer.is_empty() {
+        return error("a value needs no `const`", "what is passed is a copy: leave `const` out");
+    }
+    let base: Vec<&str> =
+        base.iter().filter(|word| !is_const(word)).map(|word| word.text.as_str()).collect();
+    let known = match base.as_slice() {
+        ["struct" | "union" | "enum", name] => !is_c_word(name),
+        ["void"] => true,
+        [name] if C_NUMBERS.contains(name) || *name == "_Bool" => true,
+        [name] => {
+            !is_c_word(name)
+                || CType::named(name).kind != TypeKind::Opaque
+                || name.ends_with("_t")
+                || *name == "FILE"
+        }
+        several => is_number(several),
+    };
+    if !known || constant > 1 {
+        return error(
+            "this is no type",
+            "a parameter is written without its name: `int`, not `int x`",
+        );
+    }
+    Ok(())
+}
+
+/// Whether these words are a type of numbers in C.
+fn is_number(words: &[&str]) -> bool {
+    const KNOWN: [&str; 18] = [
+        "short int",
+        "signed short",
+        "signed short int",
+        "unsigned short",
+        "unsigned short int",
+        "signed int",
+        "unsigned int",
+        "signed char",
+        "unsigned char",
+        "long int",
+        "signed long",
+        "signed long int",
+        "unsigned long",
+        "unsigned long int",
+        "long long",
+        "long long int",
+        "unsigned long long",
+        "long double",
+    ];
+    let text = words.join(" ");
+    let rarer = ["signed long long", "signed long long int", "unsigned long long int"];
+    KNOWN.contains(&text.as_str()) || rarer.contains(&text.as_str())
 }
 
 fn c_type(words: &[Name]) -> CType {

@@ -310,17 +310,24 @@ impl Interpreter {
     }
 
     fn defer(&mut self, key: Key, arguments: Vec<Value>) {
-        // In queue mode deferred goals wait among the external events.
-        let queue = self.configuration.settings.queue && self.has_inbox();
-        let waiting = if queue { &mut self.inbox } else { &mut self.deferred };
-        match waiting.iter_mut().find(|event| event.key == key && !event.is_external()) {
-            Some(waiting) => waiting.arguments = arguments,
-            None => waiting.push_back(Event { key, arguments, origin: Origin::Agent }),
+        let event = Event { key, arguments, origin: Origin::Agent };
+        if self.configuration.settings.queue {
+            // Each by itself among the external events, as long as there is room: as much as for those, and for
+            // each `!!` of the agent, up to 64, one more.
+            let ours = self.inbox.iter().filter(|event| !event.is_external()).count();
+            let formulae = self.agent.plans.iter().flat_map(|plan| &plan.body);
+            let defers = formulae.filter(|formula| matches!(formula, Formula::Defer(_))).count();
+            if ours < self.configuration.settings.inbox as usize + defers.min(64) {
+                self.inbox.push_back(event);
+            } else {
+                self.unhandled = self.unhandled.saturating_add(1);
+            }
+            return;
         }
-    }
-
-    fn has_inbox(&self) -> bool {
-        self.configuration.triggerables.len() > self.configuration.preemptive.len()
+        match self.deferred.iter_mut().find(|waiting| waiting.key == event.key) {
+            Some(waiting) => waiting.arguments = event.arguments,
+            None => self.deferred.push_back(event),
+        }
     }
 
     fn constants(&self, atom: &Atom) -> Vec<Value> {

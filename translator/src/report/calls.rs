@@ -1,7 +1,7 @@
 //! How often a step can call each action, at least and at most, over all paths.
 
 use crate::coverage::always_finds_a_plan;
-use crate::program::{Call, HandlerId, Plan, Program, Raise, Step};
+use crate::program::{BasicId, ContextCall, Effect, HandlerId, Plan, Program, Raise, Step};
 
 /// Fewest and most calls of each basic action, then of each class of actions.
 type Bounds = Vec<(u32, u32)>;
@@ -47,6 +47,8 @@ struct Counted {
     counters: Vec<Vec<usize>>,
     /// The number of counters.
     count: usize,
+    /// What is called whenever a plan is chosen.
+    trace: Option<BasicId>,
 }
 
 impl Counted {
@@ -59,12 +61,34 @@ impl Counted {
             });
             std::iter::once(index).chain(classes.map(|(class, _)| basics + class)).collect()
         });
-        Self { counters: counters.collect(), count: basics + configuration.classes.len() }
+        Self {
+            counters: counters.collect(),
+            count: basics + configuration.classes.len(),
+            trace: program.trace(),
+        }
     }
 
     fn nothing(&self) -> Bounds {
         vec![(0, 0); self.count]
     }
+
+    /// Counts a call that is certain, or one that may be made.
+    fn call(&self, basic: BasicId, certain: bool, bounds: &mut Bounds) {
+        for counter in &self.counters[basic.0] {
+            let (fewest, most) = bounds[*counter];
+            bounds[*counter] = (fewest.saturating_add(u32::from(certain)), most.saturating_add(1));
+        }
+    }
+}
+
+/// What each counter can count besides what plans call.
+pub(super) fn besides(program: &Program) -> Bounds {
+    let counted = Counted::new(program);
+    let mut bounds = counted.nothing();
+    if let Some(clock) = program.deadline_clock() {
+        counted.call(clock, false, &mut bounds);
+    }
+    bounds
 }
 
 /// Handlers that a step can begin with.
@@ -131,14 +155,19 @@ fn handler_cost(
     let handler = program.handler(id);
     let known = |id: HandlerId| costs[id.0].as_ref();
     let (mut succeeds, mut fails) = (None, None);
+    // What earlier plans have called to find out that they do not apply.
+    let mut before = counted.nothing();
     for plan in &handler.plans {
-        let outcome = plan_outcome(plan, counted, &known);
+        let outcome = plan_outcome(plan, counted, &before, &known);
         succeeds = either(succeeds, Some(outcome.0));
         fails = either(fails, outcome.1);
+        for ContextCall { basic, .. } in plan.context_calls() {
+            counted.call(basic, false, &mut before);
+        }
     }
-    // Without a plan that always applies, nothing may be called at all.
+    // Without a plan that always applies, nothing else may be called.
     if !always_finds_a_plan(handler) {
-        fails = either(fails, Some(counted.nothing()));
+        fails = either(fails, Some(before));
     }
     // A goal that its failure plans mend is achieved after all.
     if let (Some(failed), Some(failure)) = (&fails, handler.failure.and_then(known)) {
@@ -153,17 +182,22 @@ fn handler_cost(
 fn plan_outcome<'a>(
     plan: &Plan,
     counted: &Counted,
+    before: &Bounds,
     known: &impl Fn(HandlerId) -> Option<&'a Cost>,
 ) -> (Bounds, Option<Bounds>) {
-    let mut now = counted.nothing();
+    let mut now = before.clone();
+    for ContextCall { basic, certain } in plan.context_calls() {
+        counted.call(basic, certain, &mut now);
+    }
+    if let Some(trace) = counted.trace {
+        counted.call(trace, true, &mut now);
+    }
     let mut fails: Option<Bounds> = None;
     for step in plan.steps() {
-        if step.values_can_fail() {
-            fails = either(fails, Some(now.clone()));
-        }
-        if let Step::Action(Call { basic, .. }) = step {
-            for counter in &counted.counters[basic.0] {
-                now[*counter] = (now[*counter].0 + 1, now[*counter].1 + 1);
+        for effect in step.effects() {
+            match effect {
+                Effect::MayFail => fails = either(fails, Some(now.clone())),
+                Effect::Call(basic) => counted.call(basic, true, &mut now),
             }
         }
         let called = callee(step).and_then(known);

@@ -6,11 +6,11 @@ mod memory;
 use std::collections::HashMap;
 use std::fmt;
 
-use self::calls::{Cost, costs, events};
+use self::calls::{Cost, besides, costs, events};
 use self::memory::{Frames, state_bytes};
 use crate::backend::c::symbol_prefix;
 use crate::coverage::never_applicable;
-use crate::program::{HandlerId, Program};
+use crate::program::{BasicId, HandlerId, Program};
 use crate::types::TypeKind;
 
 /// What an agent costs. It is written out by its `Display`.
@@ -34,15 +34,23 @@ impl Report {
         let costs = costs(program);
         let events = events(program);
         let configuration = &program.configuration;
+        let besides = besides(program);
         let bounds = |counter: usize| {
             let bounds = events.iter().map(|id| costs[id.0].calls()[counter]);
-            bounds.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1))).unwrap_or((0, 0))
+            let (fewest, most) = bounds
+                .reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)))
+                .unwrap_or((0, 0));
+            (fewest.saturating_add(besides[counter].0), most.saturating_add(besides[counter].1))
         };
         let actions = configuration.basics.iter().enumerate();
-        // Which plan is chosen is told by the plans themselves.
-        let trace = configuration.settings.trace.as_ref().map(|name| name.text.as_str());
-        let actions = actions.filter(|(_, basic)| {
-            basic.result.kind == TypeKind::Void && Some(basic.name.text.as_str()) != trace
+        // Functions that only contexts call do nothing; the clock and the trace function are asked by ourselves.
+        let called = program.called_in_bodies();
+        let settings = &configuration.settings;
+        let ours: Vec<&str> =
+            settings.clock.iter().chain(&settings.trace).map(|name| name.text.as_str()).collect();
+        let actions = actions.filter(|(index, basic)| {
+            let acts = basic.result.kind == TypeKind::Void || called.contains(&BasicId(*index));
+            acts && !ours.contains(&basic.name.text.as_str())
         });
         let count = configuration.basics.len();
         let with_bounds = |name: &str, counter: usize| {
@@ -118,7 +126,9 @@ fn figures(program: &Program, costs: &[Cost], events: &[HandlerId]) -> Vec<(&'st
     figures.push(("state", format!("{} bytes on a 64-bit machine", state_bytes(program))));
     figures.push(("posted events", at_most(1)));
     figures.push(("external events waiting", at_most(settings.inbox as usize)));
-    figures.push(("deferred goals waiting", at_most(program.deferred.len())));
+    let deferred = program.deferred.len();
+    let room = if settings.queue && deferred > 0 { program.deferred_room } else { deferred };
+    figures.push(("deferred goals waiting", at_most(room)));
     let preemptive = program.external.iter().filter(|external| external.preemptive).count();
     figures.push(("pre-empting events", preemptive.to_string()));
     figures

@@ -135,7 +135,7 @@ impl Expression {
 
 impl Expression {
     /// Every variable that stands in the expression; its depth is bounded by the parser.
-    fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
+    pub(crate) fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
         match self {
             Self::Variable(name) => visit(name),
             Self::Atom(atom) => atom.arguments.iter().for_each(|a| a.for_each_variable(visit)),
@@ -156,6 +156,22 @@ impl Expression {
                 }
             }
             Self::Unnamed(_) | Self::Number(_) | Self::Boolean { .. } | Self::Text { .. } => {}
+        }
+    }
+}
+
+impl Expression {
+    /// Every variable that `=` gives a value in a condition.
+    pub(crate) fn for_each_assigned<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
+        match self {
+            Self::Bind { variable, .. } => visit(variable),
+            Self::Not { operand, .. } => operand.for_each_assigned(visit),
+            Self::And(parts) | Self::Or(parts) => {
+                for part in parts {
+                    part.for_each_assigned(visit);
+                }
+            }
+            _ => {}
         }
     }
 }

@@ -56,7 +56,14 @@ impl Parser<'_> {
             TokenKind::Bang => {
                 let start = self.next().span.start;
                 let goal = self.atom(0)?;
-                self.expect(&TokenKind::Dot, "`.` after the initial goal")?;
+                if let Err(error) = self.expect(&TokenKind::Dot, "`.` after the initial goal") {
+                    let plan = matches!(self.peek(), TokenKind::Arrow | TokenKind::Colon);
+                    let help = format!(
+                        "a plan begins with its trigger: did you mean `+!{}`?",
+                        goal.name.text
+                    );
+                    return Err(if plan { error.help(help) } else { error });
+                }
                 let span = start..goal.span.end;
                 if agent.goal.is_some() {
                     return Err(Diagnostic::error("a second initial goal", span)
@@ -67,7 +74,14 @@ impl Parser<'_> {
             }
             TokenKind::Atom => {
                 let belief = self.atom(0)?;
-                self.expect(&TokenKind::Dot, "`.` after the initial belief")?;
+                if let Err(error) = self.expect(&TokenKind::Dot, "`.` after the initial belief") {
+                    let plan = matches!(self.peek(), TokenKind::Arrow | TokenKind::Colon);
+                    let name = &belief.name.text;
+                    let help = format!(
+                        "a plan begins with its trigger: did you mean `+!{name}` or `+{name}`?"
+                    );
+                    return Err(if plan { error.help(help) } else { error });
+                }
                 self.refuse_after_plans(agent, belief.span.clone(), "an initial belief");
                 agent.beliefs.push(belief);
             }
@@ -99,7 +113,21 @@ impl Parser<'_> {
         if self.take(&TokenKind::Arrow) {
             body = self.body()?;
         }
-        let end = self.expect(&TokenKind::Dot, "`.` at the end of the plan")?.end;
+        let end = match self.expect(&TokenKind::Dot, "`.` at the end of the plan") {
+            Ok(dot) => dot.end,
+            Err(error) => {
+                return Err(match self.peek() {
+                    TokenKind::Comma | TokenKind::Ampersand if !body.is_empty() => {
+                        error.help("formulae of a body are separated by `;`")
+                    }
+                    TokenKind::Comma => error.help("conditions of a context are joined by `&`"),
+                    TokenKind::Plus | TokenKind::Minus | TokenKind::At => {
+                        error.help("the plan before this one needs a full stop at its end")
+                    }
+                    _ => error,
+                });
+            }
+        };
         Ok(Plan { label, requirements, trigger, context, body, span: start..end })
     }
 

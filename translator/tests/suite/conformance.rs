@@ -154,10 +154,10 @@ const RULES: [&str; 121] = [
 ];
 
 /// What every agent of the suite can use. Actions and functions print their call.
-const BASICS: &str = "void a(void); void act(int); void pair(int, int); void real(double); \
+pub(crate) const BASICS: &str = "void a(void); void act(int); void pair(int, int); void real(double); \
     void say(const char *); bool yes(int); bool no(int); bool flip(bool); int twice(int); \
     int count(void); int now(void);";
-const TYPES: &str = "g(void); h(void); k(void); land(void); c(void); gi(int); h2(int); b(int); \
+pub(crate) const TYPES: &str = "g(void); h(void); k(void); land(void); c(void); gi(int); h2(int); b(int); \
     gd(double); d(double); go2(int, int); p(int, int); s(const char *); on(bool);";
 
 /// The same in C.
@@ -427,6 +427,12 @@ fn case(text: &str) -> Case {
         _ => panic!("{title}: either a trace or a refusal"),
     };
     Case { title, rule, sections, settings, agent, expected }
+}
+
+/// The agents that are accepted.
+pub(crate) fn agents() -> Vec<String> {
+    let accepted = |case: &Case| matches!(case.expected, Expected::Trace { .. });
+    cases().into_iter().filter(accepted).map(|case| case.agent).collect()
 }
 
 #[test]

@@ -119,6 +119,27 @@ fn the_report_bounds_calls_over_all_paths() {
     insta::assert_snapshot!("bounded_report", case.translate("").unwrap().report);
 }
 
+/// An action is one, whatever it returns and wherever the call stands.
+#[test]
+fn the_report_counts_calls_that_return_a_value() {
+    let case = Case {
+        basics: "void a(int); bool try(void); int read(void); bool quiet(int);",
+        types: "g(void); b(int);",
+        sections: "classes { tries: try, quiet; }; triggerables { +!g; };",
+        agent: "+!g : quiet(1) <- X = try; a(read). +!g : b(_) <- try; +b(read + 1). +!g <- a(2).",
+    };
+    let report = case.translate("").unwrap().report.to_string();
+    let (_, calls) = report.split_once("calls in a step that handles an event").unwrap();
+    insta::assert_snapshot!(calls.trim_start_matches('\n'), @r"
+      a                         0 to 1
+      try                       0 to 1
+      read                      0 to 1
+
+    calls of any action of a class
+      tries                     0 to 2
+    ");
+}
+
 #[test]
 fn the_trace_matrix_leads_from_requirement_to_c_lines() {
     let case = Case {
@@ -139,6 +160,97 @@ fn the_trace_matrix_leads_from_requirement_to_c_lines() {
     let line = |field: &str| lines[field.parse::<usize>().unwrap() - 1];
     assert_eq!(line(fields[9]), "static outcome_t plan1_achieve_h(void)");
     assert_eq!(line(fields[10]), "}");
+}
+
+/// How deep the braces of a C text are nested.
+fn depth(text: &str) -> usize {
+    let mut depth = 0_usize;
+    let mut deepest = 0;
+    for character in text.chars() {
+        match character {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => {}
+        }
+        deepest = deepest.max(depth);
+    }
+    deepest
+}
+
+/// The trace of an agent with the goal `g(X)` and the belief `b(3)`, whose C must be no deeper than C99 promises, and
+/// the length of that.
+fn trace_of(agent: &str) -> (String, usize) {
+    let configuration = "settings { input = a; output = a.c; header = a.h; basics = b.h; };\n\
+        basics { void act(int); bool yes(int); };\ntypes { g(int); b(int); c(int); };";
+    let translation =
+        translate(parse_configuration("a.conf", configuration).unwrap(), agent).unwrap();
+    let source = &translation.files[0].text;
+    assert!(depth(source) <= 127, "{}", depth(source));
+    let environment = "#include <stdio.h>\nvoid updateBeliefs(void) {}\n\
+        void act(int x) { printf(\"%d\\n\", x); }\nbool yes(int x) { return x > 0; }\n\
+        int main(void) { init(); next_step(); printf(\"%u\\n\", unhandled_events()); return 0; }\n";
+    (crate::harness::compile_and_run(&translation, environment), source.len())
+}
+
+#[test]
+fn nesting_is_bounded_however_long_a_plan() {
+    // What each formula binds is used at the end.
+    let body = |count: usize, last: &str| {
+        let binds: Vec<String> = (0..count).map(|n| format!("V{n} = X + {n}")).collect();
+        let uses: Vec<String> = (0..count).step_by(50).map(|n| format!("act(V{n})")).collect();
+        format!("b(3). !g(1).\n+!g(X) <- {}; {}; act({last}).\n", binds.join("; "), uses.join("; "))
+    };
+    let (trace, short) = trace_of(&body(300, "X"));
+    assert_eq!(trace, "1 51 101 151 201 251 1 0");
+    let (trace, long) = trace_of(&body(3000, "V2999 / (V2999 - V2999)"));
+    assert!(trace.starts_with("1 51 101 ") && trace.ends_with(" 2951 1"), "{trace}");
+    assert!(long < 12 * short, "{short} {long}");
+    // Contexts too, and the fate of one condition in the middle is that of all.
+    let context = |count: usize, odd: usize| {
+        let parts: Vec<String> = (0..count)
+            .map(
+                |n| if n == odd { "b(2)".to_owned() } else { format!("b(V{n}) & yes(V{n} + {n})") },
+            )
+            .collect();
+        format!(
+            "b(3). !g(1).\n+!g(_) : {} <- act(V0 + V250).\n+!g(X) <- act(X).\n",
+            parts.join(" & ")
+        )
+    };
+    assert_eq!(trace_of(&context(300, 999)).0, "6 0");
+    assert_eq!(trace_of(&context(300, 150)).0, "1 0");
+    // Alternatives and negations as deep as the language has them, with several conditions on each level.
+    let level = "b(A) & yes(A) & yes(A + 1) & (b(2) & yes(1) | ";
+    let deep = format!("{}b(3) & yes(4){}", level.repeat(30), ")".repeat(30));
+    assert_eq!(
+        trace_of(&format!("b(3). !g(1).\n+!g(_) : {deep} <- act(7).\n+!g(X) <- act(X).\n")).0,
+        "7 0"
+    );
+    let level = "not (b(A) & yes(A) & yes(A + 1) & yes(A + 2) & ";
+    let deep = format!("{}b(3){}", level.repeat(14), ")".repeat(14));
+    assert_eq!(
+        trace_of(&format!("b(3). !g(1).\n+!g(_) : {deep} <- act(7).\n+!g(X) <- act(X).\n")).0,
+        "7 0"
+    );
+}
+
+#[test]
+fn size_grows_with_the_agent() {
+    let plans = |count: usize| -> String {
+        let plans = (0..count).map(|n| format!("+!g(X) : c(X) & X > {n} <- act({n}).\n"));
+        format!("b(1). !g(1).\n{}+!g(X) : b({count}) <- act(X).\n", plans.collect::<String>())
+    };
+    let configuration = "settings { input = a; output = a.c; header = a.h; basics = b.h; };\n\
+        basics { void act(int); };\ntypes { g(int); b(int); c(int); }; settables { c; };\n\
+        properties { p: never(act); };";
+    let sizes = |count: usize| {
+        let parsed = || parse_configuration("a.conf", configuration).unwrap();
+        let agent = plans(count);
+        let model = translator::model(parsed(), &agent).unwrap().promela().len();
+        [translate(parsed(), &agent).unwrap().files[0].text.len(), model]
+    };
+    let (few, many) = (sizes(200), sizes(4000));
+    assert!(few.iter().zip(many).all(|(few, many)| many < 25 * few), "{few:?} {many:?}");
 }
 
 /// What [`EVERYTHING`] tells the time by.

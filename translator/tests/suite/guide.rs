@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use translator::{obligations, parse_configuration, translate};
+use translator::{Translation, obligations, parse_configuration, translate};
 
 use crate::harness::{run_program, skip};
 
@@ -32,6 +32,21 @@ fn blocks() -> Vec<(&'static str, String)> {
         }
     }
     blocks
+}
+
+/// What a program prints that is compiled beside the agent's C, as the guide says.
+fn runs_alone(translation: &Translation, main: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    for file in &translation.files {
+        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
+    }
+    std::fs::write(folder.path().join("main.c"), main).unwrap();
+    let mut compile = Command::new("gcc");
+    compile.args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-o", "pilot", "main.c", "pilot.c"]);
+    let output = compile.current_dir(folder.path()).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = Command::new(folder.path().join("pilot")).output().unwrap();
+    String::from_utf8(output.stdout).unwrap()
 }
 
 /// Runs `asl2c` as a terminal shows it; without SPIN it is [skipped](skip).
@@ -76,6 +91,21 @@ fn every_example_of_the_guide_does_what_it_says() {
                 assert_eq!(error.trim_end(), content.trim_end());
                 checked += 1;
             }
+            "warned" => {
+                let parsed = parse_configuration("a.conf", &configuration).unwrap();
+                let warnings = translate(parsed, &agent).unwrap().warnings;
+                let warnings = warnings.replace("pilot.asl", "a.asl");
+                assert!(warnings.starts_with(content.trim_end()), "{warnings}");
+                checked += 1;
+            }
+            // A whole program around the agent: it compiles and runs.
+            "c" => {
+                let parsed = parse_configuration("a.conf", &configuration).unwrap();
+                let translation = translate(parsed, &agent).unwrap();
+                assert_eq!(runs_alone(&translation, &content), "land\n");
+                checked += 1;
+            }
+            "sh" => {}
             "properties" => {
                 let parsed = parse_configuration("a.conf", &format!("{DRONE}{content}")).unwrap();
                 let agent = "+!land <- sendLand. +!takeOff <- sendTakeOff; sendHover; sendStandby.";

@@ -7,16 +7,23 @@ use std::process::Command;
 use translator::{TranslateError, Translation, parse_configuration, translate};
 
 /// The compilers' flags that generated C must pass.
-pub(crate) const STRICT: [&str; 8] = [
+pub(crate) const STRICT: [&str; 10] = [
     "-std=c99",
     "-Wall",
     "-Wextra",
     "-Wconversion",
     "-Wfloat-equal",
     "-Wshadow",
+    "-Wstrict-prototypes",
+    "-Wcast-qual",
     "-pedantic",
     "-Werror",
 ];
+
+/// A number that an environment variable tells, or the usual one.
+pub(crate) fn from_environment(variable: &str, usual: u32) -> u32 {
+    std::env::var(variable).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
 
 /// Says that something is not tested for want of a tool. In CI that is a failure: what was not tested must not look as
 /// if it was.

@@ -9,9 +9,12 @@
 
 mod behaviour;
 mod conformance;
+mod files;
 mod generated;
 mod guide;
 mod harness;
+mod hostile;
 mod refused;
+mod tool;
 mod validation;
 mod verification;

@@ -24,14 +24,6 @@ fn refused_in(settings: &str, sections: &'static str, agent: &'static str) -> St
 #[test]
 fn an_error_shows_its_line_a_caret_and_what_to_do() {
     insta::assert_snapshot!(refused("!g.\n+!g : b(X) & not b(Y)\n  <- act(Y); fly(1)."), @r"
-    warning: variable `X` is never used
-     --> agent.asl:2:9
-      |
-    2 | +!g : b(X) & not b(Y)
-      |         ^
-      |
-      = help: write `_` if any value will do
-
     error: `Y` has no value here
      --> agent.asl:3:10
       |
@@ -47,7 +39,76 @@ fn an_error_shows_its_line_a_caret_and_what_to_do() {
       |              ^^^
       |
       = help: declare it in the section `basics` of the configuration
+
+    warning[unused-variable]: variable `X` is never used
+     --> agent.asl:2:9
+      |
+    2 | +!g : b(X) & not b(Y)
+      |         ^
+      |
+      = help: write `_` if any value will do
     ");
+}
+
+/// The first lines of all errors of an agent.
+fn errors(agent: &'static str) -> Vec<String> {
+    let case = Case {
+        basics: "void act(int); bool flag(int); int count(void); void take(handle_t);",
+        types: "g(void); gi(int); b(int); d(double); h(handle_t); c(void); p(int, int); h2(handle_t, int);",
+        sections: "settables { h; };",
+        agent,
+    };
+    let text = case.translate("").map_or_else(|error| error.to_string(), |_| String::new());
+    text.lines().filter_map(|line| line.strip_prefix("error: ")).map(str::to_owned).collect()
+}
+
+#[test]
+fn plans_of_test_goals_that_nobody_asks_are_checked() {
+    assert_eq!(errors("!g. +!g. +?b(X) <- fly(X)."), ["`fly` is not declared"]);
+    assert_eq!(errors("!g. +!g. +?b(X, Y) <- act(X)."), ["`b` takes 1 arguments, not 2"]);
+    assert_eq!(errors("!g. +!g. +?b(X) <- act(X, 1)."), ["`act` takes 1 arguments, not 2"]);
+    assert_eq!(errors("!g. +!g. +?b(X) <- ?b(X)."), ["`?b` leads back to itself"]);
+    assert_eq!(
+        errors("!g. +!g. +?b(X) <- ?d(Y); X = 1. +?d(Y) <- ?b(_); Y = 1.0."),
+        ["`?d` leads back to itself", "`?b` leads back to itself"]
+    );
+    assert_eq!(
+        errors("!g. +!g. +?b(X) <- ?p(X, _). +?p(X, Y) <- fly(X); Y = 1."),
+        ["`fly` is not declared"]
+    );
+    assert_eq!(errors("!g. +!g. -?b(X) <- X = 1."), ["`-?b` can never run: no plan for `+?b`"]);
+    assert_eq!(
+        errors("!g. +!g <- ?b(X); act(X). -?b(X) <- X = 1."),
+        ["`-?b` can never run: no plan for `+?b`"]
+    );
+    assert_eq!(errors("!g. +!g. +?b(X) : c <- X = Y."), ["`Y` has no value here"]);
+    // In whatever way they are meant to be asked.
+    for agent in [
+        "!g. +!g. +?b(X) <- X = 1.",
+        "!g. +!g. +?b(X) <- act(X).",
+        "!g. +!g. +?b(3) <- act(3).",
+        "!g. +!g. +?p(X, Y) <- Y = X * 2.",
+        "!g. +!g. +?p(X, X) <- act(X).",
+        "!g. +!g. +?h(X) : h(X).",
+        "!g. +!g. +?h2(X, Y) : h(X) & Y = count.",
+        "!g. +!g. +?h(X) <- take(X).",
+        "!g. +!g. +?b(X) : not (X = count & flag(X)) & p(X, _).",
+    ] {
+        assert_eq!(errors(agent), [""; 0], "{agent}");
+    }
+}
+
+#[test]
+fn one_mistake_is_said_once() {
+    let only = |agent| assert_eq!(errors(agent), ["`fly` is not declared"], "{agent}");
+    only("!g. +!g <- X = fly(1); act(X); Y = X + 1; act(Y + X); !gi(Y); +b(X); -b(X); act(-X).");
+    only("!g. +!g : X = fly(1) & X > 3 & Y = X & not (Y == X) <- act(Y).");
+    only("!g. +!g <- ?b(X); act(X). +?b(X) <- X = fly(1).");
+    // Another mistake is said as well.
+    assert_eq!(
+        errors("!g. +!g <- X = fly(1); act(X); act(Z)."),
+        ["`fly` is not declared", "`Z` has no value here"]
+    );
 }
 
 #[test]
@@ -182,21 +243,21 @@ fn what_cannot_happen_is_warned_of() {
         agent: "!g(1).\n+!g(1) : b(X) & not c <- act(X).\n+!g(X) <- act(X).\n+!g(2) : c <- act(2).\n",
     };
     insta::assert_snapshot!(case.translate("").unwrap().warnings, @r"
-    warning: `b` is never believed
-     --> agent.asl:2:10
-      |
-    2 | +!g(1) : b(X) & not c <- act(X).
-      |          ^^^^
-      |
-      = help: no initial belief, no plan, no event and no `set_` function makes it true
-
-    warning: this plan is never tried
+    warning[never-tried]: this plan is never tried
      --> agent.asl:4:1
       |
     4 | +!g(2) : c <- act(2).
       | ^^^^^^
       |
       = help: an earlier plan of the same trigger fits every event
+
+    warning[never-believed]: `b` is never believed
+     --> agent.asl:2:10
+      |
+    2 | +!g(1) : b(X) & not c <- act(X).
+      |          ^^^^
+      |
+      = help: no initial belief, no plan, no event and no `set_` function makes it true
     ");
 }
 
@@ -209,7 +270,9 @@ fn warnings(agent: &'static str) -> Vec<String> {
         agent,
     };
     let warnings = case.translate("").unwrap().warnings;
-    let about_agent = warnings.lines().filter_map(|line| line.strip_prefix("warning: "));
+    let about_agent = warnings
+        .lines()
+        .filter_map(|line| Some(line.strip_prefix("warning[")?.split_once("]: ")?.1));
     about_agent.filter(|line| !line.contains("declared and never")).map(str::to_owned).collect()
 }
 
@@ -238,6 +301,68 @@ fn a_goal_that_may_find_no_plan_is_warned_of_unless_every_case_is_covered() {
 }
 
 #[test]
+fn a_failure_that_does_not_go_outward_is_warned_of() {
+    let unseen = |guard: &str, goal: &str| {
+        vec![format!("`{guard}` does not see it if `{goal}` fails later")]
+    };
+    let may = |goal: &str| format!("`{goal}` may find no plan");
+    // `k` goes on in later steps, and fails there.
+    let tail = warnings("!g. +!g <- !k. -!g <- act(1). +!k : c <- !k.");
+    assert_eq!(tail, [unseen("-!g", "+!k"), vec![may("+!k")]].concat());
+    assert_eq!(
+        warnings("!g. +!g <- !k. -!g <- act(1). +!k <- ?b(X); act(X); !k."),
+        unseen("-!g", "+!k")
+    );
+    assert_eq!(
+        warnings("!g. +!g <- !k. -!g <- act(1). +!k <- ?b(X); act(X); !k. -!k <- act(2)."),
+        [""; 0]
+    );
+    // Mended in part is not mended; nor are those that lead there by several steps.
+    assert_eq!(
+        warnings("!g. +!g <- !k. -!g <- act(1). +!k <- ?b(X); act(X); !k. -!k : c <- act(2)."),
+        unseen("-!g", "+!k")
+    );
+    assert_eq!(
+        warnings("!g. +!g <- !k. -!g <- act(1). +!k <- !h(1). +!h(X) <- ?b(X); !k."),
+        unseen("-!g", "+!h")
+    );
+    assert_eq!(
+        warnings(
+            "!g. +!g <- !k. -!g <- act(1). +!k <- ?c; !k. -!k <- !h(1). +!h(X) <- ?b(X); !h(X)."
+        ),
+        unseen("-!g", "+!h")
+    );
+    // A goal that posts itself sees its own failures, and what cannot fail needs nobody.
+    assert_eq!(warnings("!g. +!g <- ?c; !g. -!g <- act(1)."), [""; 0]);
+    assert_eq!(warnings("!g. +!g <- !k. -!g <- act(1). +!k <- act(2); !g."), [""; 0]);
+    // A percept is posted too.
+    assert_eq!(
+        warnings("!g. +!g <- +b(1). -!g <- act(1). +b(X) : X > 0 <- ?c; !g."),
+        unseen("-!g", "+b")
+    );
+}
+
+#[test]
+fn a_deadline_that_nobody_sees_is_warned_of() {
+    let case = Case {
+        basics: "void act(int); int64_t now(void);",
+        types: "g(void); k(void);",
+        sections: "",
+        agent: "!g. +!g <- !k[deadline(5)]. -!g <- act(1). +!k <- act(2); !k.",
+    };
+    let warnings = case.translate("clock = now;").unwrap().warnings;
+    assert!(
+        warnings.starts_with("warning[unseen-failure]: `-!g` does not see it if `+!k` fails later"),
+        "{warnings}"
+    );
+    let mended = Case {
+        agent: "!g. +!g <- !k[deadline(5)]. -!g <- act(1). +!k <- act(2); !k. -!k <- act(3).",
+        ..case
+    };
+    assert_eq!(mended.translate("clock = now;").unwrap().warnings, "");
+}
+
+#[test]
 fn what_is_declared_and_never_used_is_warned_of() {
     let case = Case {
         basics: "void act(int); bool flag(void); int now(void);",
@@ -246,7 +371,7 @@ fn what_is_declared_and_never_used_is_warned_of() {
         agent: "!g. +!g <- act(1).",
     };
     insta::assert_snapshot!(case.translate("clock = now;").unwrap().warnings, @r"
-    warning: `flag` is declared and never used
+    warning[unused-declaration]: `flag` is declared and never used
      --> agent.conf:2:30
       |
     2 | basics { void act(int); bool flag(void); int now(void); };
@@ -254,7 +379,7 @@ fn what_is_declared_and_never_used_is_warned_of() {
       |
       = help: take it out, or use it in the agent
 
-    warning: `b` is declared and never used
+    warning[unused-declaration]: `b` is declared and never used
      --> agent.conf:3:18
       |
     3 | types { g(void); b(int); };

@@ -14,8 +14,10 @@ fn configuration(settings: &str, sections: &str, agent: &str, property: &str) ->
     let raised: String = raised.map(|event| format!("{event}; ")).collect();
     format!(
         "settings {{ input = a.asl; output = a.c; header = a.h; basics = b.h; {settings} }};\n\
-         basics {{ void on(void); void off(void); void idle(void); bool dark(void); int64_t now(void); }};\n\
-         types {{ light(void); dim(int); level(int); limit(int); asked(int); flag(void); wait(void); inner(void); }};\n\
+         basics {{ void on(void); void off(void); void idle(void); bool dark(void); int64_t now(void); \
+         bool flash(int); int read(void); }};\n\
+         classes {{ shows: on, flash; }};\n\
+         types {{ light(void); dim(int); level(int); limit(int); asked(int); flag(void); wait(void); inner(void); inner2(int); }};\n\
          triggerables {{ {raised}}};\n{sections}\n\
          properties {{ p [R-1]: {property}; }};\n"
     )
@@ -189,6 +191,83 @@ fn the_comparisons_of_properties_are_remembered() {
     check("", "", "level(3).\n+!light <- on.", "within(1, level > 4, on)", true);
     // What is believed from the start compares from the start.
     check("", "", "level(3).\nlimit(5).\n+!light <- on.", "within(1, level <= limit, on)", false);
+}
+
+/// Whatever returns a value is an action all the same, wherever the call stands.
+#[test]
+fn calls_that_return_a_value_are_counted() {
+    for (plans, holds) in [
+        ("+!light <- flash(1).", false),
+        ("+!light <- X = flash(1); on.", false),
+        ("+!light : flash(1) <- on.", false),
+        ("+!light : flag & not (dark & flash(1)) <- on. +flag.", false),
+        ("+!light : dark | flash(1) <- on.", false),
+        ("+!light : X = flash(1) <- on.", false),
+        ("+!dim(X) : dark <- on. +!dim(X) : flash(X) <- off. +!light.", false),
+        ("+!light <- off.", true),
+    ] {
+        check("", "", plans, "never(flash)", holds);
+    }
+    for (plans, holds) in [
+        ("+!dim(X) <- +level(read).", false),
+        ("+!dim(X) <- +level(X + read / 2).", false),
+        ("+!dim(X) <- !inner2(read). +!inner2(_) <- on.", false),
+        ("+!dim(X) <- !!dim(read).", false),
+        ("+!dim(X) <- ?level(read).", false),
+        ("level(1). +!dim(X) <- -level(read).", false),
+        ("+!dim(read) <- on.", false),
+        ("+!dim(X) : level(read) <- on. +!light <- +level(1).", false),
+        ("+!dim(X) : X > read <- on.", false),
+        ("+!dim(X) <- flash(read).", false),
+        ("+!dim(X) <- on.", true),
+    ] {
+        check("", "", plans, "never(read)", holds);
+    }
+    // By their class too, and as cause, answer and end of a permission.
+    check("", "", "+!light <- on; X = flash(1); idle.", "at_most_one(shows)", false);
+    check("", "", "+!light <- X = flash(1); idle.", "at_most_one(shows)", true);
+    check("", "", "+!light <- X = flash(1); !!light.", "within(1, flash, shows, idle)", true);
+    check("", "", "+!light <- X = flash(1); off.", "within(1, off, on)", false);
+    check("", "", "+!light <- flash(1).", "within(2, +!light, flash)", true);
+    check(
+        "",
+        "",
+        "+!light <- off; flash(1). +!dim(_) <- on.",
+        "only_after(off, +!light, until flash)",
+        true,
+    );
+    check(
+        "",
+        "",
+        "+!light <- off; flash(1). +!dim(_) <- off.",
+        "only_after(off, +!light, until flash)",
+        false,
+    );
+    // What fails before the call calls nothing.
+    check("", "", "+!dim(X) <- flash(1 / X). +!light.", "at_most_one(flash)", true);
+}
+
+/// The clock and the trace function are called by what is translated, not by what is written.
+#[test]
+fn calls_of_our_own_are_counted() {
+    let limited =
+        "+!light <- !dim(1)[deadline(10)]. +!dim(X) <- !dim(X)[deadline(5)]. -!dim(_) <- on.";
+    check("clock = now;", "", limited, "at_most_one(now)", false);
+    check("clock = now;", "", "+!light <- .wait(3); on.", "never(now)", false);
+    check("trace = told;", "", "+!light <- on.", "never(told)", false);
+    check("trace = told;", "", "+!light <- on.", "at_most_one(told)", true);
+}
+
+/// What is asked of the beliefs alone, since they always answer, needs no plans.
+#[test]
+fn plans_of_what_is_always_believed_are_never_asked() {
+    check(
+        "",
+        "",
+        "level(1). +!light <- ?level(X); on. +?level(X) <- X = 2; off.",
+        "never(off)",
+        true,
+    );
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use super::names::{Names, argument};
 use super::state::{
-    Slot, belief_value, deferred_ring, event, external_count, external_name, handler_name, held,
-    inbox_ring, limited_types, limits, pending, perceived, queued, rings, slot_value,
+    Ring, Slot, belief_value, deferred_ring, event, external_count, external_name, handler_name,
+    held, inbox_ring, limited_types, limits, pending, perceived, queued, rings, slot_value,
 };
 use crate::backend::writer::Writer;
 use crate::program::{External, HandlerId, Program};
@@ -70,6 +70,10 @@ fn deferring(writer: &mut Writer, program: &Program, names: &Names, id: HandlerI
     let trigger = handler_name(program, id);
     let types = &program.handler(id).types;
     let Some(ring) = deferred_ring(program) else { return };
+    if program.configuration.settings.queue {
+        queueing(writer, program, names, &trigger, types, &ring);
+        return;
+    }
     let flag = names.field(&pending(Slot::Deferred, &trigger));
     writer.line("/* One slot for this goal: posted again, it keeps its place. */");
     writer.open(format!("static void defer_{trigger}({})", names.parameters(types)));
@@ -86,6 +90,42 @@ fn deferring(writer: &mut Writer, program: &Program, names: &Names, id: HandlerI
         event_name(names, Slot::Deferred, &trigger)
     ));
     writer.line(format!("{count} = {count} + 1U;"));
+    writer.close("}");
+    writer.close("}");
+    writer.line("");
+}
+
+/// The function that posts a goal with `!!` where all wait in one queue, each by itself.
+fn queueing(
+    writer: &mut Writer,
+    program: &Program,
+    names: &Names,
+    trigger: &str,
+    types: &[CType],
+    ring: &Ring,
+) {
+    let field = |part: &str| names.field(&ring.field(part));
+    let (first, count) = (field("first"), field("count"));
+    let external = names.field(external_count(program));
+    let unhandled = names.field("unhandled");
+    writer.line(
+        "/* Behind all that waits. What finds no room is counted: no plan will handle it. */",
+    );
+    writer.open(format!("static void defer_{trigger}({})", names.parameters(types)));
+    writer.open(format!("if (({count} - {external}) < {}U)", program.deferred_room));
+    let slot = wrapped(&format!("{first} + {count}"), ring.length);
+    writer.line(format!("const uint32_t slot = {slot};"));
+    writer.line("");
+    store(writer, names, Slot::Deferred, trigger, types, "[slot]");
+    let event = event_name(names, Slot::Deferred, trigger);
+    writer.line(format!("{}[slot] = {event};", field("queue")));
+    writer.line(format!("{count} = {count} + 1U;"));
+    writer.close("}");
+    writer.open(format!("else if ({unhandled} < UINT32_MAX)"));
+    writer.line(format!("{unhandled} = {unhandled} + 1U;"));
+    writer.close("}");
+    writer.open("else");
+    writer.line("/* The count stays at its highest value. */");
     writer.close("}");
     writer.close("}");
     writer.line("");
@@ -259,8 +299,14 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
     for id in &program.deferred {
         let trigger = handler_name(program, *id);
         open_case(writer, names, Slot::Deferred, &trigger);
-        writer.line(format!("{} = false;", names.field(&pending(Slot::Deferred, &trigger))));
-        run(writer, program, names, *id, &slot_values(program, names, Slot::Deferred, *id));
+        let mut values = slot_values(program, names, Slot::Deferred, *id);
+        if program.configuration.settings.queue {
+            let taken = names.field("inbox_taken");
+            values = values.iter().map(|value| format!("{value}[{taken}]")).collect();
+        } else {
+            writer.line(format!("{} = false;", names.field(&pending(Slot::Deferred, &trigger))));
+        }
+        run(writer, program, names, *id, &values);
         close_case(writer);
     }
     writer.line(format!("case {}:", no_event(names)));

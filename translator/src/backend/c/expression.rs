@@ -4,7 +4,6 @@
 //! the plan or of the alternative it belongs to.
 
 use super::helpers::symbol;
-use super::names::{constant, typed};
 use super::plan::PlanEmitter;
 use super::state::{belief_value, held};
 use crate::program::{
@@ -45,8 +44,7 @@ impl PlanEmitter<'_> {
         let variable = &plan.variables[variable.0];
         if variable.used {
             let text = self.value(value);
-            let declaration = constant(&variable.ctype, &variable_name(&variable.name));
-            self.writer.line(format!("{declaration} = {text};"));
+            self.constant(&variable.ctype, &variable.name, &text);
         } else if let Value::Call(call) = value {
             self.discard(call);
         } else {
@@ -64,7 +62,7 @@ impl PlanEmitter<'_> {
             return;
         }
         let holds = self.temporary("holds");
-        self.writer.line(format!("bool {holds} = false;"));
+        self.variable("bool", &holds, "false");
         self.writer.line("");
         self.nested(inner, &holds, &[]);
         self.open(&format!("!{holds}"));
@@ -73,12 +71,11 @@ impl PlanEmitter<'_> {
     fn any(&mut self, alternatives: &Alternatives) {
         let plan = self.plan;
         let holds = self.temporary("holds");
-        self.writer.line(format!("bool {holds} = false;"));
+        self.variable("bool", &holds, "false");
         for (outer, _) in &alternatives.exports {
             let variable = &plan.variables[outer.0];
             if let Some(zero) = variable.ctype.zero().filter(|_| variable.used) {
-                let declaration = typed(&variable.ctype, &variable_name(&variable.name));
-                self.writer.line(format!("{declaration} = {zero};"));
+                self.variable(&variable.ctype.name, &variable.name, zero);
             }
         }
         self.writer.line("");
@@ -106,7 +103,11 @@ impl PlanEmitter<'_> {
         holds: &str,
         exports: &[(VariableId, VariableId)],
     ) {
+        if self.level > 0 && self.blocks > 1 {
+            self.flatten();
+        }
         let outer_blocks = std::mem::take(&mut self.blocks);
+        self.level += 1;
         // A block of its own: what is bound here must not clash with what follows.
         self.writer.open_bare();
         self.conditions(conditions);
@@ -114,13 +115,14 @@ impl PlanEmitter<'_> {
         for (outer, inner) in exports {
             let (outer, inner) = (&plan.variables[outer.0], &plan.variables[inner.0]);
             if outer.used {
-                let (to, from) = (variable_name(&outer.name), variable_name(&inner.name));
+                let (to, from) = (outer.name.clone(), inner.name.clone());
                 self.writer.line(format!("{to} = {from};"));
             }
         }
         self.writer.line(format!("{holds} = true;"));
         self.close_blocks();
         self.writer.close("}");
+        self.level -= 1;
         self.blocks = outer_blocks;
     }
 
@@ -164,8 +166,7 @@ impl PlanEmitter<'_> {
                     let variable = &plan.variables[id.0];
                     if variable.used {
                         self.flush(&mut conditions);
-                        let declaration = constant(&variable.ctype, &variable_name(&variable.name));
-                        self.writer.line(format!("{declaration} = {field};"));
+                        self.constant(&variable.ctype, &variable.name, &field);
                     }
                 }
                 Pattern::Equal(value) => {
@@ -223,13 +224,13 @@ impl PlanEmitter<'_> {
     /// may have no result opens a block in which it has one.
     pub(super) fn value(&mut self, value: &Value) -> String {
         match value {
-            Value::Variable(id) => variable_name(&self.plan.variables[id.0].name),
+            Value::Variable(id) => self.plan.variables[id.0].name.clone(),
             Value::Constant(text, _) => text.clone(),
             Value::Call(call) => {
                 let result = self.program.basic(call.basic).result.clone();
                 let text = self.call(call);
                 let name = self.temporary("value");
-                self.writer.line(format!("{} = {text};", constant(&result, &name)));
+                self.constant(&result, &name, &text);
                 name
             }
             Value::Negate(operand) => {
@@ -251,7 +252,7 @@ impl PlanEmitter<'_> {
         let function = self.helpers.checked(*operator, ctype);
         let result = self.temporary("value");
         let zero = ctype.zero().unwrap_or("0");
-        self.writer.line(format!("{} = {zero};", typed(ctype, &result)));
+        self.variable(&ctype.name, &result, zero);
         self.writer.line("");
         self.open(&format!("{function}({left}, {right}, &{result})"));
         result
@@ -280,11 +281,6 @@ impl PlanEmitter<'_> {
 /// A value that needs no statement before it.
 fn is_plain(value: &Value) -> bool {
     matches!(value, Value::Variable(_) | Value::Constant(..))
-}
-
-/// AgentSpeak variables get a prefix: `X` may be a macro of some included header.
-pub(super) fn variable_name(name: &str) -> String {
-    format!("var_{name}")
 }
 
 pub(super) fn conjunction(conditions: &[String]) -> String {

@@ -124,10 +124,7 @@ impl Builder<'_> {
         let update = self.names.interface("updateBeliefs");
         for basic in &self.program.configuration.basics {
             let action = self.names.action(basic);
-            let is_action = basic.result.kind == TypeKind::Void;
-            if is_action {
-                writer.line(format!("static uint32_t {};", calls(&basic.name.text)));
-            }
+            writer.line(format!("static uint32_t {};", calls(&basic.name.text)));
             let mut parameters = vec!["void *environment".to_owned()];
             parameters.extend(typed_arguments(&basic.parameters));
             let parameters = parameters.join(", ");
@@ -136,11 +133,10 @@ impl Builder<'_> {
             for argument in argument_names(&basic.parameters) {
                 writer.line(format!("(void){argument};"));
             }
-            if is_action {
-                let calls = calls(&basic.name.text);
-                // Two are already one too many: the count stays there.
-                writer.line(format!("{calls} = ({calls} < 2U) ? ({calls} + 1U) : 2U;"));
-            } else {
+            let calls = calls(&basic.name.text);
+            // Two are already one too many: the count stays there.
+            writer.line(format!("{calls} = ({calls} < 2U) ? ({calls} + 1U) : 2U;"));
+            if basic.result.kind != TypeKind::Void {
                 writer.line(format!("return {};", anything(&basic.result.name)));
             }
             writer.close("}");
@@ -185,9 +181,7 @@ impl Builder<'_> {
         writer.open(format!("static void step({state} *self)"));
         writer.line("const uint32_t unhandled = self->unhandled;");
         for basic in &self.program.configuration.basics {
-            if basic.result.kind == TypeKind::Void {
-                writer.line(format!("{} = 0U;", calls(&basic.name.text)));
-            }
+            writer.line(format!("{} = 0U;", calls(&basic.name.text)));
         }
         for property in self.properties() {
             if let Formula::Within { steps, cause: Cause::Comparison(comparison), unless, .. } =

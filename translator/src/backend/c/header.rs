@@ -1,6 +1,6 @@
 //! The generated headers and the types at the head of the C file.
 
-use super::names::{Names, comment_safe, typed};
+use super::names::{Names, comment_safe, include_path, typed};
 use super::state::{Counter, FieldType, StateLayout, counters, external_name};
 use crate::backend::writer::Writer;
 use crate::configuration::Basic;
@@ -73,7 +73,12 @@ pub(super) fn agent_header(
     for belief in program.beliefs.iter().filter(|belief| belief.settable) {
         let name = names.interface(&format!("set_{}", belief.name));
         let parameters = names.parameters(&belief.types);
-        declare(&mut writer, "Believed at once; no event.", format!("void {name}({parameters})"));
+        let comment = if belief.perceived.is_some() {
+            "Believed at once; a change raises an event, one however often it changes."
+        } else {
+            "Believed at once; no event."
+        };
+        declare(&mut writer, comment, format!("void {name}({parameters})"));
     }
     writer.line(format!("#endif /* {guard} */"));
     writer.finish()
@@ -86,7 +91,7 @@ pub(super) fn basics_header(program: &Program, names: &Names, input: &str) -> St
     banner(&mut writer, program, input);
     let guard = open_guard(&mut writer, &settings.basics);
     if names.is_context() || !program.configuration.structs.is_empty() {
-        writer.line(format!("#include \"{}\"", settings.header));
+        writer.line(format!("#include \"{}\"", include_path(&settings.basics, &settings.header)));
         writer.line("");
     } else {
         includes(&mut writer, program);
@@ -211,14 +216,48 @@ fn includes(writer: &mut Writer, program: &Program) {
 }
 
 fn open_guard(writer: &mut Writer, file: &str) -> String {
-    let file = file.rsplit('/').next().unwrap_or(file);
-    let guard: String = file
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' })
-        .collect();
-    let guard = format!("ASL2C_{guard}");
+    let guard = guard(file);
     writer.line(format!("#ifndef {guard}"));
     writer.line(format!("#define {guard}"));
     writer.line("");
     guard
+}
+
+/// The macro that guards a file: no two files have the same. Plain names can be read in it; others are spelt
+/// besides, byte by byte.
+fn guard(file: &str) -> String {
+    let upper: String = file
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' })
+        .collect();
+    let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    let plain = file.strip_suffix(".h").is_some_and(|stem| stem.chars().all(is_plain));
+    if plain {
+        return format!("ASL2C_{upper}");
+    }
+    file.bytes().fold(format!("ASL2C_{upper}_"), |text, byte| text + &format!("{byte:02x}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::guard;
+
+    #[test]
+    fn no_two_files_have_one_guard() {
+        let files = [
+            "a.h",
+            "A.h",
+            "my-agent.h",
+            "my_agent.h",
+            "my.agent.h",
+            "x/a.h",
+            "x_a.h",
+            "a_h",
+            "a.hpp",
+            "\u{e4}.h",
+        ];
+        let guards: std::collections::BTreeSet<String> = files.iter().map(|f| guard(f)).collect();
+        assert_eq!(guards.len(), files.len());
+        assert_eq!(guard("my_agent.h"), "ASL2C_MY_AGENT_H");
+    }
 }

@@ -1,5 +1,7 @@
 //! The functions that the environment calls.
 
+use std::collections::{BTreeMap, HashSet};
+
 use super::cycle::{event_name, no_event, store, wrapped};
 use super::expression::conjunction;
 use super::header::init_prototype;
@@ -90,7 +92,8 @@ fn forget_events(writer: &mut Writer, program: &Program, names: &Names) {
         let flag = pending(Slot::Perceived, &handler_name(program, handler));
         writer.line(format!("{} = false;", names.field(&flag)));
     }
-    for id in &program.deferred {
+    let queue = program.configuration.settings.queue;
+    for id in program.deferred.iter().filter(|_| !queue) {
         let flag = pending(Slot::Deferred, &handler_name(program, *id));
         writer.line(format!("{} = false;", names.field(&flag)));
     }
@@ -133,6 +136,7 @@ fn init(writer: &mut Writer, program: &Program, names: &Names) {
 fn nothing_is_left(writer: &mut Writer, program: &Program, names: &Names) {
     let initial = initial_fields(program);
     let fields = layout(program).fields;
+    let mut arrays: BTreeMap<usize, Vec<String>> = BTreeMap::new();
     for field in fields.iter().filter(|field| !initial.contains(&field.name)) {
         let nothing = match &field.content {
             FieldType::Value(ctype) => match zero(ctype) {
@@ -146,20 +150,26 @@ fn nothing_is_left(writer: &mut Writer, program: &Program, names: &Names) {
         };
         let place = names.field(&field.name);
         match field.length {
+            Some(1) => writer.line(format!("{place}[0] = {nothing};")),
             Some(length) => {
-                for slot in 0..length {
-                    writer.line(format!("{place}[{slot}] = {nothing};"));
-                }
+                arrays.entry(length).or_default().push(format!("{place}[slot] = {nothing};"));
             }
             None => writer.line(format!("{place} = {nothing};")),
         }
     }
+    for (length, lines) in arrays {
+        writer.open(format!("for (uint32_t slot = 0U; slot < {length}U; slot++)"));
+        for line in lines {
+            writer.line(line);
+        }
+        writer.close("}");
+    }
 }
 
 /// Fields that initial beliefs and the initial goal set.
-fn initial_fields(program: &Program) -> Vec<String> {
+fn initial_fields(program: &Program) -> HashSet<String> {
     let beliefs = program.beliefs.iter().filter(|belief| belief.initial.is_some());
-    let mut fields: Vec<String> = beliefs
+    let mut fields: HashSet<String> = beliefs
         .flat_map(|belief| (0..belief.types.len()).map(|index| belief_value(&belief.name, index)))
         .collect();
     if let Some((handler, values)) = &program.initial_goal {
@@ -247,14 +257,17 @@ fn set(
         .perceived
         .map(|handler| names.field(&pending(Slot::Perceived, &handler_name(program, handler))));
     if flag.is_some() {
-        let mut unchanged = vec![held.clone()];
-        for (index, ctype) in belief.types.iter().enumerate() {
-            unchanged.push(helpers.equality(ctype, &field(index), &argument(index)));
-        }
         // What cannot be compared always counts as changed.
         let comparable = belief.types.iter().all(CType::has_equality);
-        let condition =
-            if comparable { format!("!({})", conjunction(&unchanged)) } else { "true".to_owned() };
+        let condition = if comparable {
+            let mut unchanged = vec![held.clone()];
+            for (index, ctype) in belief.types.iter().enumerate() {
+                unchanged.push(helpers.equality(ctype, &field(index), &argument(index)));
+            }
+            format!("!({})", conjunction(&unchanged))
+        } else {
+            "true".to_owned()
+        };
         writer.line(format!("const bool changed = {condition};"));
         writer.line("");
     }

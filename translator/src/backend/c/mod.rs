@@ -11,11 +11,12 @@ mod harness;
 mod header;
 mod helpers;
 mod interface;
+mod locals;
 mod names;
 mod plan;
 mod state;
 
-use self::names::Names;
+use self::names::{Names, include_path};
 use self::state::StateLayout;
 use super::writer::Writer;
 use crate::program::Program;
@@ -23,7 +24,7 @@ use crate::program::Program;
 pub(crate) use self::handlers::plan_name;
 pub use self::harness::RANDOM_TRANSITIONS;
 pub(crate) use self::harness::{harness, unknown_type};
-pub(crate) use self::names::{action_symbol, symbol_prefix};
+pub(crate) use self::names::{action_symbol, comment_safe, symbol_prefix};
 pub(crate) use self::state::{Counter, Field, FieldType, counters, handler_name, layout};
 
 /// The generated C texts.
@@ -56,8 +57,10 @@ fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -
     let mut writer = Writer::default();
     header::banner(&mut writer, program, input);
     writer.line("");
-    writer.line(format!("#include \"{}\"", program.configuration.settings.header));
-    writer.line(format!("#include \"{}\"", program.configuration.settings.basics));
+    let settings = &program.configuration.settings;
+    for included in [&settings.header, &settings.basics] {
+        writer.line(format!("#include \"{}\"", include_path(&settings.output, included)));
+    }
     writer.line("");
     header::private_types(&mut writer, names, layout);
     handlers::prototypes(&mut writer, program, names);

@@ -1,5 +1,7 @@
 //! How things are called in the generated C.
 
+use diagnostic::is_printable;
+
 use crate::configuration::Basic;
 use crate::configuration::Instance;
 use crate::program::Program;
@@ -71,17 +73,7 @@ impl Names {
 /// What stands before every external symbol: with `instance = context` several agents can be
 /// linked into one program.
 pub(crate) fn symbol_prefix(program: &Program) -> String {
-    let settings = &program.configuration.settings;
-    match settings.instance {
-        Instance::Static => String::new(),
-        Instance::Context => {
-            let file = settings.output.rsplit('/').next().unwrap_or_default();
-            let stem = file.split('.').next().unwrap_or_default();
-            let stem: String =
-                stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-            format!("{}_", stem.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_'))
-        }
-    }
+    program.configuration.settings.symbol_prefix()
 }
 
 /// The linker's name of a basic action.
@@ -122,7 +114,69 @@ pub(super) fn constant(ctype: &CType, name: &str) -> String {
     }
 }
 
-/// Text that can stand inside a C comment.
-pub(super) fn comment_safe(text: &str) -> String {
-    text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?").replace('\\', "/")
+/// Text that can stand inside a comment, of C or of Rust. Nothing in it can end the comment or begin another,
+/// join lines, or be shown as something else.
+pub(crate) fn comment_safe(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    let mut last = ' ';
+    for character in text.chars() {
+        let character = match character {
+            // At the end of a line it would join the next.
+            '\\' => '/',
+            '\n' => '\n',
+            other if is_printable(other) => other,
+            _ => ' ',
+        };
+        // Looked at as it comes out: what is replaced can make up no pair either.
+        if matches!((last, character), ('*' | '/', '/') | ('/', '*') | ('?', '?')) {
+            safe.push(' ');
+        }
+        safe.push(character);
+        last = character;
+    }
+    safe
+}
+
+/// The path from the folder of one output to another, as `#include` wants it.
+pub(super) fn include_path(from: &str, to: &str) -> String {
+    let folder: Vec<&str> = from.split('/').collect();
+    let folder = &folder[..folder.len() - 1];
+    let target: Vec<&str> = to.split('/').collect();
+    let common = folder.iter().zip(&target[..target.len() - 1]).take_while(|(a, b)| a == b).count();
+    let up = std::iter::repeat_n("..", folder.len() - common);
+    up.chain(target[common..].iter().copied()).collect::<Vec<_>>().join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_comment_ends_begins_or_joins_lines() {
+        for (text, expected) in [
+            ("see *\\ int f(void){} \\*", "see * / int f(void){} / *"),
+            ("*/ /* //", "* / / * / /"),
+            ("???/", "? ? ?/"),
+            ("\\*/", "/ * /"),
+            ("/*/", "/ * /"),
+            ("a\\\nb", "a/\nb"),
+            ("x\u{202e}y\r\u{0}", "x y  "),
+            ("X \\== Y", "X /== Y"),
+        ] {
+            assert_eq!(comment_safe(text), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn includes_find_their_way() {
+        for (from, to, expected) in [
+            ("a.c", "a.h", "a.h"),
+            ("gen/a.c", "gen/a.h", "a.h"),
+            ("gen/a.c", "a.h", "../a.h"),
+            ("a.c", "inc/a.h", "inc/a.h"),
+            ("src/x/a.c", "src/inc/a.h", "../inc/a.h"),
+        ] {
+            assert_eq!(include_path(from, to), expected);
+        }
+    }
 }

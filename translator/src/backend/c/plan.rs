@@ -1,13 +1,15 @@
 //! What one plan does, as the body of its C function.
 
-use super::expression::{conjunction, parenthesised, variable_name};
+use super::expression::{conjunction, parenthesised};
 use super::helpers::Helpers;
+use super::locals::{Local, Locals};
 use super::names::{Names, argument, constant, typed};
 use super::state::{belief_value, handler_name, held, limited_types};
 use crate::backend::writer::Writer;
 use crate::program::{
     BeliefId, Handler, HandlerId, Pattern, Plan, Program, Raise, Step, Value, VariableId,
 };
+use crate::types::{CType, TypeKind};
 
 /// Writes one plan. Each condition and each formula that can fail opens a block that stays open to
 /// the end of the plan, so that every variable is a constant initialised where it is bound.
@@ -17,9 +19,19 @@ pub(super) struct PlanEmitter<'a> {
     pub(super) helpers: &'a mut Helpers,
     pub(super) plan: &'a Plan,
     pub(super) writer: Writer,
+    /// Blocks that are open here: in the plan, or in the alternative or negation.
     pub(super) blocks: usize,
+    /// Alternatives and negations around.
+    pub(super) level: usize,
     temporaries: usize,
+    locals: Locals,
 }
+
+/// So many blocks may stand inside each other before all are closed; C99 promises 127 of all kinds, of which
+/// alternatives and negations can take three each.
+const MOST_BLOCKS: usize = 16;
+/// The same inside an alternative or a negation.
+const MOST_BLOCKS_WITHIN: usize = 3;
 
 impl<'a> PlanEmitter<'a> {
     pub(super) fn new(
@@ -30,7 +42,8 @@ impl<'a> PlanEmitter<'a> {
     ) -> Self {
         let mut writer = Writer::default();
         writer.indent();
-        Self { program, names, helpers, plan, writer, blocks: 0, temporaries: 0 }
+        let locals = Locals::default();
+        Self { program, names, helpers, plan, writer, blocks: 0, level: 0, temporaries: 0, locals }
     }
 
     /// The text of the function's body between its first and last line. A parameter that binds a
@@ -47,12 +60,57 @@ impl<'a> PlanEmitter<'a> {
         self.trace(number);
         self.body();
         self.close_blocks();
-        self.writer.finish()
+        self.locals.resolve(&self.writer.finish())
     }
 
+    /// A block that stays open, in which a condition holds.
     pub(super) fn open(&mut self, condition: &str) {
+        let most = if self.level == 0 { MOST_BLOCKS } else { MOST_BLOCKS_WITHIN };
+        if self.blocks >= most {
+            self.flatten();
+        }
         self.writer.open(format!("if {}", parenthesised(condition)));
         self.blocks += 1;
+    }
+
+    /// Closes all blocks and goes on in one, in which all their conditions held.
+    pub(super) fn flatten(&mut self) {
+        let reached = self.temporary("reached");
+        self.writer.line(format!("{reached} = true;"));
+        self.close_blocks();
+        self.locals.before(format!("bool {reached} = false;"));
+        self.writer.open(format!("if ({reached})"));
+        self.blocks = 1;
+    }
+
+    /// A local that gets its value here and never another.
+    pub(super) fn constant(&mut self, ctype: &CType, name: &str, value: &str) {
+        let local = Local {
+            name: name.to_owned(),
+            constant: constant(ctype, name),
+            plain: typed(ctype, name),
+            start: ctype.zero().unwrap_or("{ 0 }").to_owned(),
+            value: Some(value.to_owned()),
+        };
+        self.local(local);
+    }
+
+    /// A local that begins so and is changed later.
+    pub(super) fn variable(&mut self, ctype: &str, name: &str, start: &str) {
+        let ctype = CType { name: ctype.to_owned(), kind: TypeKind::Opaque };
+        let local = Local {
+            name: name.to_owned(),
+            constant: String::new(),
+            plain: typed(&ctype, name),
+            start: start.to_owned(),
+            value: None,
+        };
+        self.local(local);
+    }
+
+    fn local(&mut self, local: Local) {
+        let line = self.locals.add(local);
+        self.writer.line(line);
     }
 
     pub(super) fn close_blocks(&mut self) {
@@ -75,7 +133,7 @@ impl<'a> PlanEmitter<'a> {
             let ctype = &handler.types[index];
             match pattern {
                 Pattern::Bind(id) if plan.variables[id.0].used => {
-                    let variable = variable_name(&plan.variables[id.0].name);
+                    let variable = plan.variables[id.0].name.clone();
                     parameters[first + index] = typed(ctype, &variable);
                 }
                 // The answer to what is asked for is stored at the end.
@@ -111,7 +169,7 @@ impl<'a> PlanEmitter<'a> {
             self.step(step);
         }
         for (index, id) in &plan.outputs {
-            let variable = variable_name(&plan.variables[id.0].name);
+            let variable = plan.variables[id.0].name.clone();
             self.writer.line(format!("*{} = {variable};", argument(*index)));
         }
         self.writer.line("outcome = OUTCOME_ACHIEVED;");
@@ -166,8 +224,7 @@ impl<'a> PlanEmitter<'a> {
     fn bind(&mut self, id: VariableId, text: &str) {
         let variable = &self.plan.variables[id.0];
         if variable.used {
-            let declaration = constant(&variable.ctype, &variable_name(&variable.name));
-            self.writer.line(format!("{declaration} = {text};"));
+            self.constant(&variable.ctype, &variable.name, text);
         }
     }
 
@@ -189,12 +246,12 @@ impl<'a> PlanEmitter<'a> {
             } else {
                 let answer = self.temporary("answer");
                 let zero = ctype.zero().unwrap_or("0");
-                self.writer.line(format!("{} = {zero};", typed(ctype, &answer)));
+                self.variable(&ctype.name, &answer, zero);
                 arguments.push(format!("&{answer}"));
                 answers.push((index, answer, field));
             }
         }
-        self.writer.line(format!("bool {answered} = false;"));
+        self.variable("bool", &answered, "false");
         self.writer.line("");
         self.writer.open(format!("if {}", parenthesised(&conjunction(&matching))));
         for (_, answer, field) in &answers {
@@ -221,11 +278,10 @@ impl<'a> PlanEmitter<'a> {
         let held = self.names.field(&held(&declared.name));
         let values = self.values(values);
         let mut unchanged = vec![held.clone()];
-        let mut comparable = true;
+        let comparable = declared.types.iter().all(CType::has_equality);
         for (index, value) in values.iter().enumerate() {
             let ctype = &declared.types[index];
-            comparable &= ctype.has_equality();
-            if raise != Raise::Nothing && ctype.has_equality() {
+            if raise != Raise::Nothing && comparable {
                 let field = self.names.field(&belief_value(&declared.name, index));
                 unchanged.push(self.equal(ctype, &field, value));
             }
@@ -239,7 +295,7 @@ impl<'a> PlanEmitter<'a> {
             } else {
                 "true".to_owned()
             };
-            self.writer.line(format!("const bool {changed} = {condition};"));
+            self.constant(&CType::named("bool"), &changed, &condition);
             changed
         };
         for (index, value) in values.iter().enumerate() {
@@ -266,7 +322,7 @@ impl<'a> PlanEmitter<'a> {
             return;
         }
         let changed = self.temporary("changed");
-        self.writer.line(format!("const bool {changed} = {};", conjunction(&conditions)));
+        self.constant(&CType::named("bool"), &changed, &conjunction(&conditions));
         self.writer.open(format!("if ({changed})"));
         self.writer.line(format!("{held} = false;"));
         self.writer.close("}");
@@ -289,7 +345,7 @@ impl<'a> PlanEmitter<'a> {
                 let outcome = self.temporary("outcome");
                 let arguments = self.names.arguments(values);
                 let trigger = handler_name(self.program, handler);
-                self.writer.line(format!("outcome_t {outcome} = OUTCOME_ACHIEVED;"));
+                self.variable("outcome_t", &outcome, "OUTCOME_ACHIEVED");
                 self.writer.open(format!("if ({changed})"));
                 self.writer.line(format!("{outcome} = run_{trigger}({arguments});"));
                 self.writer.close("}");

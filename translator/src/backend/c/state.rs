@@ -2,6 +2,7 @@
 
 use crate::configuration::Instance;
 use crate::program::{BasicId, Belief, External, HandlerId, Program, trigger_name};
+use crate::syntax::ast::TriggerKind;
 use crate::types::CType;
 
 /// All fields of the agent's state, in order, and the events that it can hold.
@@ -128,9 +129,18 @@ impl StateLayout {
     }
 
     fn deferred(&mut self, program: &Program) {
+        let queue = program.configuration.settings.queue;
         for id in &program.deferred {
             let trigger = handler_name(program, *id);
             self.events.push(event(Slot::Deferred, &trigger));
+            if let Some(ring) = deferred_ring(program).filter(|_| queue) {
+                // Each that waits has arguments of its own.
+                for (index, ctype) in program.handler(*id).types.iter().enumerate() {
+                    let name = slot_value(Slot::Deferred, &trigger, index);
+                    self.field(name, FieldType::Value(ctype.clone()), Some(ring.length));
+                }
+                continue;
+            }
             self.field(pending(Slot::Deferred, &trigger), FieldType::Flag, None);
             self.values(program, Slot::Deferred, *id);
         }
@@ -224,19 +234,20 @@ impl Ring {
     }
 }
 
-/// Where external events wait. In queue mode there is room for every deferred goal besides.
+/// Where external events wait; in queue mode deferred goals too.
 pub(super) fn inbox_ring(program: &Program) -> Option<Ring> {
     let settings = &program.configuration.settings;
-    queued(program).next()?;
-    let shared = if settings.queue { program.deferred.len() } else { 0 };
-    Some(Ring { name: "inbox", length: settings.inbox as usize + shared })
+    let external = if queued(program).next().is_some() { settings.inbox as usize } else { 0 };
+    let shared = settings.queue && !program.deferred.is_empty();
+    let length = external + if shared { program.deferred_room } else { 0 };
+    (length > 0).then_some(Ring { name: "inbox", length })
 }
 
 /// Where deferred goals wait: by themselves, or in queue mode among the external events.
 pub(super) fn deferred_ring(program: &Program) -> Option<Ring> {
-    let inbox = inbox_ring(program).filter(|_| program.configuration.settings.queue);
-    let own = || Ring { name: "deferred", length: program.deferred.len() };
-    (!program.deferred.is_empty()).then(|| inbox.unwrap_or_else(own))
+    let own = || Some(Ring { name: "deferred", length: program.deferred.len() });
+    let queue = program.configuration.settings.queue;
+    (!program.deferred.is_empty()).then(|| if queue { inbox_ring(program) } else { own() })?
 }
 
 /// All rings, in the order in which they are served.
@@ -285,15 +296,16 @@ pub(super) fn event(slot: Slot, trigger: &str) -> String {
     format!("EVENT_{}_{trigger}", slot.name().to_uppercase())
 }
 
-/// `achieve_goto`; for test goals with a letter for each argument, `i` given and `o` asked for.
+/// `achieve_goto`; for test goals with a letter for each argument, `i` given and `o` asked for: `test_io_twice`.
+/// What is a user's comes last, so that no two triggers have one name.
 pub(crate) fn handler_name(program: &Program, id: HandlerId) -> String {
     let handler = program.handler(id);
-    let name = trigger_name(handler.operator, handler.kind, &handler.name);
-    if handler.holes.is_empty() {
-        return name;
+    if handler.kind != TriggerKind::Test {
+        return trigger_name(handler.operator, handler.kind, &handler.name);
     }
-    let mode: String = handler.holes.iter().map(|hole| if *hole { 'o' } else { 'i' }).collect();
-    format!("{name}_{mode}")
+    let mode = handler.holes.iter().map(|hole| if *hole { 'o' } else { 'i' });
+    let mode = if handler.holes.is_empty() { "n".to_owned() } else { mode.collect() };
+    trigger_name(handler.operator, handler.kind, &format!("{mode}_{}", handler.name))
 }
 
 /// `achieve_goto`

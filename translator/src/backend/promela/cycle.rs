@@ -103,6 +103,14 @@ impl Emission<'_> {
         }
         self.writer.line(format!(":: {} ->", guarded(&before, "posted != 0")));
         self.writer.line("event = posted; posted = 0;");
+        if let Some(clock) = self.program.deadline_clock().filter(|clock| self.is_watched(*clock)) {
+            self.writer.line("if");
+            self.writer.line(":: limited != 0 ->");
+            self.act(clock, 0);
+            self.writer.line("skip");
+            self.writer.line(":: else");
+            self.writer.line("fi;");
+        }
         self.writer.line("if");
         self.writer.line(":: true");
         // The clock may say that the time of a goal is over.
@@ -151,7 +159,9 @@ impl Emission<'_> {
                 }
                 Waiting::External(index) => self.handle_external(index),
                 Waiting::Deferred(id) => {
-                    self.writer.line(format!("deferred_{} = false;", id.0));
+                    if !self.program.configuration.settings.queue {
+                        self.writer.line(format!("deferred_{} = false;", id.0));
+                    }
                     self.run(id);
                 }
             }

@@ -2,15 +2,15 @@
 
 use super::Emission;
 use crate::configuration::{CallBound, Cause, ExternalTrigger, Formula, Property};
-use crate::program::BeliefId;
+use crate::program::{BasicId, BeliefId};
 use crate::syntax::ast::Name;
 use crate::types::TypeKind;
 
 impl Emission<'_> {
     /// What an action means to each property.
     pub(super) fn actions(&mut self) {
-        for basic in &self.program.configuration.basics {
-            if basic.result.kind != TypeKind::Void {
+        for (index, basic) in self.program.configuration.basics.iter().enumerate() {
+            if !self.is_told(BasicId(index)) {
                 continue;
             }
             let name = &basic.name.text;
@@ -40,6 +40,20 @@ impl Emission<'_> {
             self.writer.close("}");
         }
         self.writer.line("");
+    }
+
+    /// Whether calls are told and counted: those of actions, and of functions that properties speak of.
+    pub(super) fn is_told(&self, id: BasicId) -> bool {
+        self.program.basic(id).result.kind == TypeKind::Void || self.is_watched(id)
+    }
+
+    /// Whether a property speaks of an action.
+    pub(super) fn is_watched(&self, id: BasicId) -> bool {
+        let name = &self.program.basic(id).name.text;
+        let roles = [Role::Main, Role::Cause, Role::Until];
+        let watches =
+            |property: &Property| roles.iter().any(|role| self.plays(property, *role, name));
+        self.properties().iter().any(watches)
     }
 
     /// Whether an action is one of those that a property gives a role.

@@ -3,8 +3,12 @@
 use super::choice::{Choice, Reader, and, matches};
 use super::{Emission, Waiting};
 use crate::coverage::always_finds_a_plan;
-use crate::program::{BeliefId, Handler, HandlerId, Placed, Raise, Step};
-use crate::types::TypeKind;
+use crate::program::{
+    BasicId, BeliefId, ContextCall, Effect, Handler, HandlerId, Placed, Plan, Raise, Step,
+};
+
+/// Plans of more than so many are tried one by one.
+const MOST_AT_ONCE: usize = 64;
 
 impl Emission<'_> {
     /// All handlers, each a part that is jumped to.
@@ -16,6 +20,9 @@ impl Emission<'_> {
                 self.writer.line(format!("plan_{}_{index}:", id.0));
                 self.say(&format!("plan {number}"));
                 number += 1;
+                if let Some(trace) = self.program.trace().filter(|trace| self.is_watched(*trace)) {
+                    self.act(trace, plan.lines.0);
+                }
                 for placed in &plan.body {
                     self.placed(id, placed);
                 }
@@ -40,36 +47,112 @@ impl Emission<'_> {
         let mut reader = Reader::new(self.program, &self.comparisons, &held);
         let choices: Vec<Choice> = handler.plans.iter().map(|plan| reader.applies(plan)).collect();
         self.writer.line(format!("run_{}:", id.0));
+        if choices.len() > MOST_AT_ONCE {
+            self.select_one_by_one(id, handler, choices);
+            return;
+        }
         self.writer.line("if");
         let mut earlier = "true".to_owned();
         for (index, choice) in choices.into_iter().enumerate() {
             let guard = and(&[earlier.clone(), choice.holds]);
-            self.writer.line(format!(":: {guard} -> goto plan_{}_{index}", id.0));
+            self.writer.line(format!(":: {guard} ->"));
+            handler.plans[..index].iter().for_each(|plan| self.rejected(plan));
+            self.chosen(&handler.plans[index]);
+            self.writer.line(format!("goto plan_{}_{index}", id.0));
             earlier = and(&[earlier, choice.fails]);
         }
         if !always_finds_a_plan(handler) {
             self.writer.line(format!(":: {earlier} ->"));
-            self.say(&format!("unplanned {}", id.0));
-            self.writer.line(format!("outcome = 1; goto end_{}", id.0));
+            handler.plans.iter().for_each(|plan| self.rejected(plan));
+            self.unplanned(id);
         }
         self.writer.line("fi;");
     }
 
+    /// The same for very many plans: each is tried by itself, so that the text grows with their number only.
+    fn select_one_by_one(&mut self, id: HandlerId, handler: &Handler, choices: Vec<Choice>) {
+        for (index, choice) in choices.into_iter().enumerate() {
+            self.writer.line("if");
+            self.writer.line(format!(":: {} ->", choice.holds));
+            self.chosen(&handler.plans[index]);
+            self.writer.line(format!("goto plan_{}_{index}", id.0));
+            self.writer.line(format!(":: {} ->", choice.fails));
+            self.rejected(&handler.plans[index]);
+            self.writer.line("skip");
+            self.writer.line("fi;");
+        }
+        if always_finds_a_plan(handler) {
+            // That none applies cannot be: what is let through instead can only break more.
+            self.writer.line(format!("goto plan_{}_{};", id.0, handler.plans.len() - 1));
+        } else {
+            self.unplanned(id);
+            self.writer.line(";");
+        }
+    }
+
+    fn unplanned(&mut self, id: HandlerId) {
+        self.say(&format!("unplanned {}", id.0));
+        self.writer.line(format!("outcome = 1; goto end_{}", id.0));
+    }
+
+    /// A plan applies: what it asked for was called.
+    fn chosen(&mut self, plan: &Plan) {
+        for ContextCall { basic, certain } in plan.context_calls() {
+            if certain {
+                self.act(basic, plan.lines.0);
+            } else {
+                self.may_act(basic, plan.lines.0);
+            }
+        }
+    }
+
+    /// A plan does not apply: some of what it asks for was called.
+    fn rejected(&mut self, plan: &Plan) {
+        for ContextCall { basic, .. } in plan.context_calls() {
+            self.may_act(basic, plan.lines.0);
+        }
+    }
+
+    /// An action or function is called.
+    pub(super) fn act(&mut self, basic: BasicId, line: usize) {
+        if self.is_told(basic) {
+            self.say(&format!("action {} {line}", basic.0));
+            self.writer.line(format!("act_{}();", self.program.basic(basic).name.text));
+        }
+    }
+
+    fn may_act(&mut self, basic: BasicId, line: usize) {
+        if self.is_told(basic) {
+            self.writer.line("if");
+            self.writer.line(":: true ->");
+            self.act(basic, line);
+            self.writer.line("skip");
+            self.writer.line(":: true");
+            self.writer.line("fi;");
+        }
+    }
+
+    /// What evaluating the values of a formula does.
+    fn effects(&mut self, id: HandlerId, step: &Step, line: usize) {
+        let mut failed = false;
+        for effect in step.effects() {
+            match effect {
+                // To fail twice in a row is to fail once.
+                Effect::MayFail if failed => {}
+                Effect::MayFail => self.may_fail(id, line),
+                Effect::Call(basic) => self.act(basic, line),
+            }
+            failed = effect == Effect::MayFail;
+        }
+    }
+
     /// One formula.
     fn placed(&mut self, id: HandlerId, placed: &Placed) {
-        let Placed { line, step } = placed;
-        if step.values_can_fail() {
-            self.may_fail(id, *line);
-        }
+        let Placed { line, step, .. } = placed;
+        self.effects(id, step, *line);
         match step {
-            Step::Action(call) => {
-                let basic = self.program.basic(call.basic);
-                if basic.result.kind == TypeKind::Void {
-                    self.say(&format!("action {} {line}", call.basic.0));
-                    self.writer.line(format!("act_{}();", basic.name.text));
-                }
-            }
-            Step::Assign { .. } => {}
+            // What they call they have called.
+            Step::Action(_) | Step::Assign { .. } => {}
             Step::Add { belief, raise, .. } => self.add(id, *belief, *raise, *line),
             Step::Delete { belief, patterns, raise } => {
                 let matching = Choice { holds: self.held(*belief), fails: matches(patterns).fails };
@@ -89,11 +172,16 @@ impl Emission<'_> {
             }
             Step::Defer { handler, .. } => {
                 let number = self.number(Waiting::Deferred(*handler));
-                let queue = self.deferred_queue();
                 let flag = format!("deferred_{}", handler.0);
                 self.writer.line("if");
-                self.writer.line(format!(":: !{flag} -> {flag} = true; {queue}!{number}"));
-                self.writer.line(":: else");
+                if self.program.configuration.settings.queue {
+                    let room = self.program.deferred_room;
+                    self.writer.line(format!(":: len(inbox) - raised < {room} -> inbox!{number}"));
+                    self.writer.line(":: else -> lost = true");
+                } else {
+                    self.writer.line(format!(":: !{flag} -> {flag} = true; deferred!{number}"));
+                    self.writer.line(":: else");
+                }
                 self.writer.line("fi;");
             }
             Step::Ask { belief, patterns, plans } => {
@@ -202,6 +290,11 @@ impl Emission<'_> {
         for (id, _) in self.program.reachable_handlers() {
             let calls = self.calls.get(&id).copied().unwrap_or_default();
             self.writer.line(format!("done_{}:", id.0));
+            if calls == 0 {
+                // Nothing jumps to it: a belief that always holds is never asked of the plans.
+                self.writer.line("goto finished;");
+                continue;
+            }
             self.writer.line("if");
             for call in 1..=calls {
                 self.writer.line(format!(

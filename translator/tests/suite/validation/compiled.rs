@@ -52,10 +52,15 @@ pub(super) fn run(agent: &RandomAgent, sequences: &[Vec<Command>]) -> Result<Str
     // One compilation unit: compiling is what takes the time.
     let main = format!("#include \"agent.c\"\n{PRELUDE}{}{main}", basics());
     std::fs::write(folder.path().join("main.c"), main).map_err(|error| error.to_string())?;
-    let compiled = Process::new("cc")
+    // Another compiler may be faster, `tcc`, and know less of warnings.
+    let compiler = std::env::var("ASL2C_CC").unwrap_or_else(|_| "cc".to_owned());
+    let mut compile = Process::new(&compiler);
+    if compiler == "cc" {
+        compile.args(STRICT).args(["-O1", "-pipe"]);
+    }
+    let compiled = compile
         .current_dir(folder.path())
-        .args(STRICT)
-        .args(["-O1", "-pipe", "-o", "agent", "main.c"])
+        .args(["-o", "agent", "main.c"])
         .output()
         .map_err(|error| error.to_string())?;
     if !compiled.status.success() {

@@ -241,7 +241,12 @@ struct Scope {
 impl Scope {
     fn fresh(&mut self) -> String {
         self.made += 1;
-        format!("V{}", self.made)
+        // Some look as if they were another, bound a second time.
+        match self.made % 4 {
+            0 => format!("V{}_2", self.made - 1),
+            3 => format!("Var_V{}", self.made - 2),
+            _ => format!("V{}", self.made),
+        }
     }
 
     fn of_type(&self, ctype: Type) -> Vec<&str> {
@@ -374,7 +379,10 @@ fn literal(choices: &mut Choices<'_>, scope: &mut Scope, depth: usize) -> String
         6 => {
             let mut inner = scope.clone();
             let text = context(choices, &mut inner, depth - 1);
-            scope.made = inner.made;
+            // What is bound in there may be bound again, or not.
+            if choices.chance(50) {
+                scope.made = inner.made;
+            }
             format!("not ({text})")
         }
         7 => {
@@ -402,7 +410,8 @@ fn literal(choices: &mut Choices<'_>, scope: &mut Scope, depth: usize) -> String
 }
 
 fn body(choices: &mut Choices<'_>, scope: &mut Scope, place: Place) -> String {
-    let length = choices.pick(5);
+    // Now and then one that is longer than blocks may be nested.
+    let length = if choices.chance(4) { 20 + choices.pick(20) } else { choices.pick(5) };
     let mut formulae: Vec<String> = (0..length).map(|_| formula(choices, scope, place)).collect();
     // The first goals may wait, and lead back to each other as the last formula.
     if let Place::Goal(level @ 0..RECURSIVE_GOALS) = place {
@@ -430,6 +439,11 @@ fn formula(choices: &mut Choices<'_>, scope: &mut Scope, place: Place) -> String
         types.iter().map(|ctype| value(choices, scope, *ctype, 2)).collect()
     };
     match (choices.pick(10), place) {
+        (0, _) if choices.chance(25) => {
+            // What it returns is not wanted.
+            let (name, types, _) = FUNCTIONS[choices.pick(FUNCTIONS.len())];
+            call(name, &values(choices, scope, types))
+        }
         (0..3, _) => {
             let (name, types) = ACTIONS[choices.pick(ACTIONS.len())];
             call(name, &values(choices, scope, types))

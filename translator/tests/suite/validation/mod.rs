@@ -2,23 +2,22 @@
 //!
 //! Both must leave the same trace, to the last bit. An agent and its events follow from a list of
 //! choices, which is what shrinks when they don't. `ASL2C_VALIDATION=20000 cargo test --release -p
-//! translator validation` runs more agents than usual, `ASL2C_VALIDATION_SEED` other ones.
+//! translator validation` runs more agents than usual, `ASL2C_VALIDATION_SEED` other ones; `ASL2C_CC=tcc` takes
+//! another compiler, which is twenty times as fast.
 
 mod compiled;
 mod generate;
 mod interpreted;
+mod proved;
 
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 
 use self::generate::Choices;
+use crate::harness::from_environment;
 
 /// Each agent is run through this many sequences of events.
 const SEQUENCES: usize = 10;
 const USUAL_AGENTS: u32 = 150;
-
-fn from_environment(variable: &str, usual: u32) -> u32 {
-    std::env::var(variable).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
-}
 
 /// Runs one agent both ways; says whether it was one that translates.
 fn validate(choices: &[u8]) -> Result<bool, TestCaseError> {
@@ -70,4 +69,76 @@ fn validation_of_random_agents() {
     let translated: u32 = threads.into_iter().map(|thread| thread.join().unwrap()).sum();
     println!("{translated} of {cases} agents translated, {SEQUENCES} sequences each: all agree");
     assert!(translated * 2 > cases, "most agents should translate, {translated} of {cases} did");
+}
+
+/// Goals that do nothing but defer others and say that they run.
+const QUEUEING: &str = "+!p(N) : N > 3 <- !!z(N); !!y(N, 1); !!z(N + 1).\n+!p(N) : N > 1 <- !!y(N, 2).\n+!p(N) <- a(N, 0).\n\
+    +!z(N) : N mod 3 == 0 <- !!z(N + 1); a(N, 1).\n+!z(N) <- a(N, 2).\n+!y(N, M) <- a(N, M + 2).\n";
+/// Five `!!` stand in the agent.
+const DEFERS: usize = 5;
+
+/// A queue that knows nothing of agents: what waits is a list, and the first of it is next.
+#[test]
+fn queues_are_first_in_first_out() {
+    let cases = from_environment("ASL2C_QUEUES", 60);
+    let configuration = |room: usize| {
+        format!(
+            "settings {{ input = agent.asl; output = agent.c; header = agent.h; basics = actions.h; max_events = {room}; }};\n\
+             basics {{ void a(int, int); }};\ntypes {{ p(int); z(int); y(int, int); }};\n\
+             triggerables {{ +!p; +!z; }};\n"
+        )
+    };
+    let commands = proptest::collection::vec((0..3_u8, 0..9_i32), 5..60);
+    let config = Config { cases, failure_persistence: None, ..Config::default() };
+    TestRunner::new(config)
+        .run(&(1..4_usize, commands), |(room, commands)| {
+            let mut queue: std::collections::VecDeque<(char, i32, i32, bool)> = std::collections::VecDeque::new();
+            let (mut expected, mut script, mut lost) = (Vec::new(), String::new(), 0);
+            for (command, number) in commands {
+                let goal = if command == 1 { 'p' } else { 'z' };
+                if command > 0 {
+                    script.push_str(&format!("printf(\"%d\\n\", (int)achieve_{goal}({number}));"));
+                    let accepted = queue.iter().filter(|event| event.3).count() < room;
+                    expected.push(i32::from(accepted).to_string());
+                    if accepted {
+                        queue.push_back((goal, number, 0, true));
+                    }
+                    continue;
+                }
+                script.push_str("next_step(); printf(\"|%u\\n\", unhandled_events());");
+                let mut defer = |queue: &mut std::collections::VecDeque<_>, goal, n, m| {
+                    let ours = queue.iter().filter(|event: &&(char, i32, i32, bool)| !event.3).count();
+                    if ours < room + DEFERS { queue.push_back((goal, n, m, false)) } else { lost += 1 }
+                };
+                match queue.pop_front() {
+                    Some(('p', n, ..)) if n > 3 => {
+                        defer(&mut queue, 'z', n, 0);
+                        defer(&mut queue, 'y', n, 1);
+                        defer(&mut queue, 'z', n + 1, 0);
+                    }
+                    Some(('p', n, ..)) if n > 1 => defer(&mut queue, 'y', n, 2),
+                    Some(('p', n, ..)) => expected.push(format!("{n},0")),
+                    Some(('z', n, ..)) if n % 3 == 0 => {
+                        defer(&mut queue, 'z', n + 1, 0);
+                        expected.push(format!("{n},1"));
+                    }
+                    Some(('z', n, ..)) => expected.push(format!("{n},2")),
+                    Some((_, n, m, _)) => expected.push(format!("{n},{}", m + 2)),
+                    None => {}
+                }
+                expected.push(format!("|{lost}"));
+            }
+            let parsed = translator::parse_configuration("a.conf", &configuration(room)).unwrap();
+            let translation = translator::translate(parsed, QUEUEING).unwrap();
+            let environment = format!(
+                "#include <stdio.h>\nvoid updateBeliefs(void) {{ }}\n\
+                 void a(int x, int y) {{ printf(\"%d,%d\\n\", x, y); }}\nint main(void) {{ init(); {script} return 0; }}\n"
+            );
+            let trace = crate::harness::compile_and_run(&translation, &environment);
+            if trace == expected.join(" ") {
+                return Ok(());
+            }
+            Err(TestCaseError::fail(format!("{script}\nexpected {}\ngot      {trace}", expected.join(" "))))
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
 }

@@ -3,8 +3,8 @@
 use super::{Builder, occupied};
 use crate::backend::c::cycle::{event_name, no_event};
 use crate::backend::c::state::{
-    Slot, belief_value, deferred_ring, external_name, handler_name, held, pending, perceived,
-    queued, rings,
+    Slot, belief_value, deferred_ring, external_count, external_name, handler_name, held, pending,
+    perceived, queued, rings,
 };
 use crate::configuration::{Cause, Formula, Property};
 use crate::program::{Belief, Value};
@@ -64,11 +64,18 @@ impl Builder<'_> {
                 events.extend(self.program.deferred.iter().map(|id| {
                     event_name(&self.names, Slot::Deferred, &handler_name(self.program, *id))
                 }));
-                let flags: Vec<String> = (self.program.deferred.iter())
-                    .map(|id| pending(Slot::Deferred, &handler_name(self.program, *id)))
-                    .map(|flag| format!("(self->{flag} ? 1U : 0U)"))
-                    .collect();
-                candidates.push(format!("(self->{count} == ({}))", flags.join(" + ")));
+                if self.program.configuration.settings.queue {
+                    let room = self.program.deferred_room;
+                    let external = external_count(self.program);
+                    candidates.push(format!("(self->{external} <= self->{count})"));
+                    candidates.push(format!("((self->{count} - self->{external}) <= {room}U)"));
+                } else {
+                    let flags: Vec<String> = (self.program.deferred.iter())
+                        .map(|id| pending(Slot::Deferred, &handler_name(self.program, *id)))
+                        .map(|flag| format!("(self->{flag} ? 1U : 0U)"))
+                        .collect();
+                    candidates.push(format!("(self->{count} == ({}))", flags.join(" + ")));
+                }
             }
             for slot in 0..length {
                 let free = format!("!{}", occupied(&name, slot, length));

@@ -1,0 +1,135 @@
+//! `asl2c new`: an agent to begin with, which builds and runs at once.
+
+use std::path::Path;
+
+/// Why nothing was made.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum NewError {
+    #[error(
+        "`{name}` is no name for an agent: write a lower-case letter, then letters, digits and `_`"
+    )]
+    Name { name: String },
+    #[error("cannot make {path}: {source}")]
+    File { path: String, source: std::io::Error },
+}
+
+const CONFIGURATION: &str = "\
+settings { input = NAME.asl; output = NAME.c; header = NAME.h; basics = actions.h; };
+
+// Your C functions: what the agent can do, and ask.
+basics {
+  void sendHover(void);
+  void sendLand(void);
+  bool onGround(void);
+};
+
+// Beliefs and goals, with the types of their arguments.
+types { wait(void); land(void); completeLand(void); battery(int32_t); };
+
+// Beliefs that your program sets, and events that it raises.
+settables { battery; };
+triggerables { +!land; };
+preemptive { +!land; };
+
+properties { landing_is_honoured: within(1, +!land, sendLand); };
+";
+
+const AGENT: &str = "\
+// What the agent does first: it hovers until something is wanted of it.
+!wait.
+
++!wait : battery(B) & B < 20 <- sendLand; !completeLand.
++!wait <- sendHover; !!wait.
+
++!land <- sendLand; !completeLand.
+
+// A goal that leads back to itself is the event of the next step.
++!completeLand : onGround <- !!wait.
++!completeLand <- sendLand; !completeLand.
+";
+
+const MAIN: &str = "\
+#include <stdio.h>
+#include \"NAME.h\"
+#include \"actions.h\"
+
+static int height = 3;
+
+/* The basic actions, as actions.h declares them. */
+void sendHover(void) { printf(\"  hover\\n\"); }
+void sendLand(void)
+{
+    printf(\"  land\\n\");
+    if (height > 0) { height--; }
+}
+bool onGround(void) { return height == 0; }
+
+/* Called at the start of each step: tell the agent what is known. */
+void updateBeliefs(void) { set_battery(80); }
+
+int main(void)
+{
+    init();
+    for (int step = 1; step <= 8; step++)
+    {
+        printf(\"step %d\\n\", step);
+        if (step == 3)
+        {
+            /* Whether the event was accepted. */
+            if (!achieve_land()) { printf(\"refused\\n\"); }
+        }
+        next_step();
+    }
+    return 0;
+}
+";
+
+const MAKEFILE: &str = "\
+CFLAGS ?= -std=c99 -Wall -Wextra -O2
+ASL2C ?= asl2c
+
+run: NAME
+\t./NAME
+
+NAME: main.c NAME.c
+\t$(CC) $(CFLAGS) -o $@ main.c NAME.c
+
+main.c: NAME.c
+NAME.c: NAME.asl NAME.conf
+\t$(ASL2C) NAME.conf
+
+verify:
+\t$(ASL2C) verify NAME.conf
+
+clean:
+\trm -f NAME NAME.c NAME.h actions.h
+
+.PHONY: run verify clean
+";
+
+/// Makes the folder `name`, and says what to do next.
+pub(crate) fn make(name: &str) -> Result<String, NewError> {
+    let word = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    // What is built is called so too, and must overwrite nothing.
+    let taken = ["actions", "main", "run", "verify", "clean"].contains(&name);
+    if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(word) || taken {
+        return Err(NewError::Name { name: name.to_owned() });
+    }
+    let failed = |path: &Path| {
+        let path = path.display().to_string();
+        |source| NewError::File { path, source }
+    };
+    let folder = Path::new(name);
+    // A folder that is there already is not touched.
+    std::fs::create_dir(folder).map_err(failed(folder))?;
+    for (file, text) in [
+        (format!("{name}.conf"), CONFIGURATION),
+        (format!("{name}.asl"), AGENT),
+        ("main.c".to_owned(), MAIN),
+        ("Makefile".to_owned(), MAKEFILE),
+    ] {
+        let path = folder.join(file);
+        std::fs::write(&path, text.replace("NAME", name)).map_err(failed(&path))?;
+    }
+    Ok(format!("{name}/ holds an agent; `make -C {name}` translates, builds and runs it\n"))
+}

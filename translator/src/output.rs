@@ -1,0 +1,120 @@
+//! Writes all files of a translation, or none.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile, TempPath};
+use translator::{GeneratedFile, ParsedConfiguration, TranslateError};
+
+/// Why nothing was written.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum OutputError {
+    /// Something that is read, or another output, has this name too.
+    #[error(transparent)]
+    Refused(#[from] TranslateError),
+    #[error("cannot write {path}: {source}; nothing is changed")]
+    Write { path: PathBuf, source: std::io::Error },
+}
+
+/// A file that is written beside the one it will replace.
+struct Prepared {
+    target: PathBuf,
+    new: NamedTempFile,
+    /// The old file by another name, if there is one.
+    old: Option<TempPath>,
+}
+
+/// Writes `files` to `folder`. Until all are written whole none is in its place, and if one cannot take its place
+/// the others give theirs back. `read` are the files that the translation was made from.
+pub(crate) fn write(
+    configuration: &ParsedConfiguration,
+    files: &[GeneratedFile],
+    folder: &Path,
+    read: &[&Path],
+) -> Result<(), OutputError> {
+    let mut prepared: Vec<Prepared> = Vec::new();
+    for file in files {
+        let path = folder.join(&file.name);
+        let target = path.canonicalize().unwrap_or_else(|_| path.clone());
+        if let Some(source) = read.iter().find(|source| is_same(&target, source)) {
+            let message = format!("this is {}, which is translated", source.display());
+            let help = "it would be overwritten: choose another name, or another folder with `-o`";
+            return Err(configuration.refuse(file.setting, &message, help).into());
+        }
+        if let Some(other) = prepared.iter().find(|other| is_same(&target, &other.target)) {
+            let message = format!("this is {}, which is written too", other.target.display());
+            let help = "a link leads from one to the other: choose another name";
+            return Err(configuration.refuse(file.setting, &message, help).into());
+        }
+        let new = prepare(&target, &file.text);
+        prepared.push(new.map_err(|source| OutputError::Write { path, source })?);
+    }
+    replace(prepared)
+}
+
+/// Whether two names lead to one file.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let canonical = |path: &Path| path.canonicalize().ok();
+    if canonical(one).is_some_and(|one| Some(one) == canonical(other)) {
+        return true;
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt as _;
+        let inode = |path: &Path| std::fs::metadata(path).ok().map(|data| (data.dev(), data.ino()));
+        inode(one).is_some_and(|one| Some(one) == inode(other))
+    }
+    #[cfg(not(unix))]
+    false
+}
+
+fn prepare(target: &Path, text: &str) -> std::io::Result<Prepared> {
+    let parent = target.parent().filter(|parent| *parent != Path::new(""));
+    let parent = parent.unwrap_or(Path::new("."));
+    let existing = std::fs::metadata(target).ok();
+    if let Some(existing) = &existing {
+        if !existing.is_file() {
+            return Err(std::io::Error::other("this is no file"));
+        }
+        if existing.permissions().readonly() {
+            return Err(std::io::ErrorKind::PermissionDenied.into());
+        }
+    }
+    let mut builder = Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // As for any new file: the user's mask has its say.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    let mut new = builder.tempfile_in(parent)?;
+    new.write_all(text.as_bytes())?;
+    new.as_file().sync_all()?;
+    let mut old = None;
+    if let Some(existing) = existing {
+        std::fs::set_permissions(new.path(), existing.permissions())?;
+        let kept = Builder::new().make_in(parent, |path| {
+            std::fs::hard_link(target, path).or_else(|_| std::fs::copy(target, path).map(|_| ()))
+        })?;
+        old = Some(kept.into_temp_path());
+    }
+    Ok(Prepared { target: target.to_owned(), new, old })
+}
+
+fn replace(prepared: Vec<Prepared>) -> Result<(), OutputError> {
+    let mut replaced: Vec<(PathBuf, Option<TempPath>)> = Vec::new();
+    for Prepared { target, new, old } in prepared {
+        if let Err(error) = new.persist(&target) {
+            for (path, old) in replaced.into_iter().rev() {
+                // What cannot be undone cannot be done otherwise either: the error that is told comes first.
+                _ = match old {
+                    Some(old) => old.persist(&path).map_err(|error| error.error),
+                    None => std::fs::remove_file(&path),
+                };
+            }
+            return Err(OutputError::Write { path: target, source: error.error });
+        }
+        replaced.push((target, old));
+    }
+    Ok(())
+}

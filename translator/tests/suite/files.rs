@@ -1,0 +1,175 @@
+//! What `asl2c` writes, and what it leaves alone.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+const AGENT: &str = "+!light <- on.\n";
+
+fn configuration(settings: &str) -> String {
+    format!(
+        "settings {{ {settings} }};\nbasics {{ void on(void); }};\ntypes {{ light(void); }};\ntriggerables {{ +!light; }};\n"
+    )
+}
+
+fn folder(settings: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.conf"), configuration(settings)).unwrap();
+    std::fs::write(folder.path().join("a.asl"), AGENT).unwrap();
+    folder
+}
+
+fn asl2c(folder: &Path, options: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_asl2c"))
+        .args(options)
+        .arg("a.conf")
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+/// All files of a folder with their texts.
+fn contents(folder: &Path) -> Vec<(String, String)> {
+    let mut contents: Vec<(String, String)> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap())
+        .map(|entry| {
+            (
+                entry.file_name().into_string().unwrap(),
+                std::fs::read_to_string(entry.path()).unwrap_or_default(),
+            )
+        })
+        .collect();
+    contents.sort();
+    contents
+}
+
+#[track_caller]
+fn refused(folder: &Path, options: &[&str], expected: &[&str]) {
+    let before = contents(folder);
+    let output = asl2c(folder, options);
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    for part in expected {
+        assert!(text.contains(part), "{text}");
+    }
+    assert_eq!(contents(folder), before, "{text}");
+}
+
+#[test]
+fn what_is_read_is_not_overwritten() {
+    for (settings, setting) in [
+        ("input = a.asl; output = a.asl; header = a.h; basics = b.h;", "a.conf:1:36"),
+        ("input = a.asl; output = a.c; header = a.conf; basics = b.h;", "a.conf:1:50"),
+        ("input = ./a.asl; output = a.asl; header = a.h; basics = b.h;", "a.conf:1:38"),
+        ("input = a.asl; output = link.c; header = a.h; basics = b.h;", "a.conf:1:36"),
+        ("input = a.asl; output = a.c; header = hard.h; basics = b.h;", "a.conf:1:50"),
+        (
+            "input = a.asl; output = a.c; header = a.h; basics = b.h; instance = context; rust = a.asl;",
+            "a.conf:1:96",
+        ),
+    ] {
+        let folder = folder(settings);
+        #[cfg(unix)]
+        std::os::unix::fs::symlink("a.asl", folder.path().join("link.c")).unwrap();
+        std::fs::hard_link(folder.path().join("a.conf"), folder.path().join("hard.h")).unwrap();
+        refused(folder.path(), &[], &[setting, "which is translated"]);
+    }
+    let folder = folder("input = a.asl; output = a.c; header = a.h; basics = b.h; matrix = a;");
+    std::fs::hard_link(folder.path().join("a.asl"), folder.path().join("a.csv")).unwrap();
+    refused(folder.path(), &["-o", "."], &["a.conf:1:78", "which is translated"]);
+}
+
+#[test]
+fn links_between_outputs_are_noticed() {
+    let folder = folder("input = a.asl; output = a.c; header = a.h; basics = b.h;");
+    std::fs::write(folder.path().join("a.h"), "old").unwrap();
+    std::fs::hard_link(folder.path().join("a.h"), folder.path().join("b.h")).unwrap();
+    refused(folder.path(), &[], &["a.conf:1:64", "which is written too"]);
+}
+
+#[test]
+fn all_is_written_or_nothing() {
+    let files = "input = a.asl; output = a.c; header = a.h; basics = b.h; matrix = m;";
+    let old = |folder: &Path| {
+        for name in ["a.c", "a.h"] {
+            std::fs::write(folder.join(name), "old").unwrap();
+        }
+    };
+    // One cannot be written: there is a folder of its name, or no folder to hold it.
+    let place = folder(files);
+    old(place.path());
+    std::fs::create_dir(place.path().join("m.json")).unwrap();
+    refused(place.path(), &[], &["m.json", "nothing is changed"]);
+    let place = folder(&files.replace("b.h", "sub/b.h"));
+    old(place.path());
+    refused(place.path(), &[], &["sub/b.h", "nothing is changed"]);
+    // One may not be written.
+    let place = folder(files);
+    old(place.path());
+    std::fs::write(place.path().join("b.h"), "mine").unwrap();
+    let mut permissions = std::fs::metadata(place.path().join("b.h")).unwrap().permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(place.path().join("b.h"), permissions).unwrap();
+    refused(place.path(), &[], &["b.h", "nothing is changed"]);
+}
+
+/// No file grows larger than a block: as on a full disk, writing fails in the middle.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_changes_nothing() {
+    let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h;");
+    for name in ["a.c", "a.h", "b.h"] {
+        std::fs::write(place.path().join(name), "old").unwrap();
+    }
+    let before = contents(place.path());
+    let command =
+        format!("trap '' XFSZ; ulimit -f 1; exec '{}' a.conf", env!("CARGO_BIN_EXE_asl2c"));
+    let output =
+        Command::new("sh").args(["-c", &command]).current_dir(place.path()).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("a.c") && text.contains("nothing is changed"), "{text}");
+    assert_eq!(contents(place.path()), before);
+}
+
+#[test]
+fn what_is_written_replaces_what_was() {
+    let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h;");
+    std::fs::write(place.path().join("a.c"), "old").unwrap();
+    std::fs::create_dir(place.path().join("real")).unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("real/a.h", place.path().join("a.h")).unwrap();
+    std::fs::write(place.path().join("real/a.h"), "old").unwrap();
+    let output = asl2c(place.path(), &[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let names: Vec<String> = contents(place.path()).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["a.asl", "a.c", "a.conf", "a.h", "b.h", "real"]);
+    let read = |name: &str| std::fs::read_to_string(place.path().join(name)).unwrap();
+    assert!(read("a.c").contains("next_step"));
+    // A link stays one.
+    #[cfg(unix)]
+    assert!(place.path().join("a.h").is_symlink() && read("real/a.h").contains("ASL2C_A_H"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_report_that_cannot_be_printed_is_an_error() {
+    let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h;");
+    for options in [&["--report"][..], &["verify", "--model"][..]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        command.args(options).arg("a.conf").current_dir(place.path()).stdout(full);
+        let output = command.output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.contains("cannot print"), "{text}");
+    }
+}
+
+#[test]
+fn without_properties_nothing_is_verified() {
+    let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h;");
+    let output = asl2c(place.path(), &["verify"]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("has no properties"));
+}

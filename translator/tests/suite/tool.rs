@@ -1,0 +1,160 @@
+//! The command line: warnings and who wants them, JSON, new agents, hints.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use translator::{parse_configuration, translate};
+
+const CONFIGURATION: &str = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+    basics { void on(void); void x1(void); void x2(void); void x3(void); int x4(void); };\n\
+    types { light(void); level(int); idle(int); };\nsettables { level; };\ntriggerables { +!light; };\n";
+const AGENT: &str = "+!light : level(X) <- on.\n";
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.conf"), CONFIGURATION).unwrap();
+    std::fs::write(folder.path().join("a.asl"), AGENT).unwrap();
+    folder
+}
+
+fn asl2c(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_asl2c")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// The first lines of what is printed of warnings.
+fn warned(output: &Output) -> Vec<String> {
+    let text = String::from_utf8_lossy(&output.stderr);
+    text.lines()
+        .filter(|l| l.starts_with("warning") || l.starts_with("error"))
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn warnings_have_codes_and_come_in_order() {
+    let folder = folder();
+    let no_plan = "warning[no-plan]: `+!light` may find no plan";
+    let variable = "warning[unused-variable]: variable `X` is never used";
+    let unused = "warning[unused-declaration]: 4 actions and functions are never used";
+    let idle = "warning[unused-declaration]: `idle` is declared and never used";
+    for (arguments, expected) in [
+        (&[][..], &[no_plan, variable, unused, idle][..]),
+        (&["-A", "unused-declaration"], &[no_plan, variable]),
+        (&["-A", "all", "-W", "no-plan"], &[no_plan]),
+        (&["-A", "all"], &[]),
+        (&["--quiet"], &[]),
+    ] {
+        let output = asl2c(folder.path(), &[&["a.conf"], arguments].concat());
+        assert_eq!(warned(&output), expected);
+        assert!(output.status.success());
+    }
+    assert_eq!(asl2c(folder.path(), &["a.conf", "-A", "no-plans"]).status.code(), Some(2));
+}
+
+#[test]
+fn what_is_denied_is_not_translated() {
+    for (arguments, denied) in [
+        (&["-D", "warnings"][..], true),
+        (&["-D", "warnings", "-A", "all"], false),
+        (&["-D", "no-plan", "-A", "all"], true),
+        (&["-D", "never-tried"], false),
+        (&["-D", "warnings", "--message-format", "json"], true),
+    ] {
+        let folder = folder();
+        let output = asl2c(folder.path(), &[arguments, &["a.conf"]].concat());
+        assert_eq!(output.status.success(), !denied, "{arguments:?}");
+        assert_eq!(folder.path().join("a.c").exists(), !denied);
+        assert_eq!(String::from_utf8_lossy(&output.stderr).contains("are denied"), denied);
+    }
+}
+
+#[test]
+fn each_finding_is_a_line_of_json() {
+    let folder = folder();
+    let findings = |output: Output| -> Vec<serde_json::Value> {
+        let text = String::from_utf8(output.stderr).unwrap();
+        text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    };
+    let warnings = findings(asl2c(folder.path(), &["a.conf", "--message-format", "json"]));
+    assert_eq!(warnings.len(), 4);
+    assert_eq!(
+        (&warnings[1]["code"], &warnings[1]["line"]),
+        (&"unused-variable".into(), &1.into())
+    );
+    assert_eq!((&warnings[1]["column"], &warnings[1]["end_column"]), (&17.into(), &18.into()));
+    std::fs::write(folder.path().join("a.asl"), "+!light <- off; +level(true).").unwrap();
+    let errors = findings(asl2c(folder.path(), &["a.conf", "--message-format", "json"]));
+    let said: Vec<&str> = errors.iter().filter_map(|error| error["message"].as_str()).collect();
+    assert_eq!(
+        said,
+        ["`off` is not declared", "`true` or `false` where a value of type `int` is expected"]
+    );
+    std::fs::remove_file(folder.path().join("a.asl")).unwrap();
+    let missing = findings(asl2c(folder.path(), &["a.conf", "--message-format", "json"]));
+    assert!(missing[0]["message"].as_str().unwrap().contains("cannot read"));
+}
+
+#[test]
+fn a_new_agent_builds_and_runs_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = asl2c(folder.path(), &["new", "pilot"]);
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let mut make = Command::new("make");
+    make.args(["-s", "-C", "pilot", "CFLAGS=-std=c99 -Wall -Wextra -Werror"]);
+    make.env("ASL2C", env!("CARGO_BIN_EXE_asl2c")).current_dir(folder.path());
+    let output = make.output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    let printed = String::from_utf8(output.stdout).unwrap();
+    let steps: Vec<&str> = printed.split("step ").skip(1).map(|step| step[1..].trim()).collect();
+    assert_eq!(steps, ["hover", "hover", "land", "land", "land", "", "hover", "hover"]);
+    // What is there is not touched, and names are names.
+    assert_eq!(asl2c(folder.path(), &["new", "pilot"]).status.code(), Some(1));
+    for name in ["../x", "Pilot", "main", "a b", ""] {
+        assert_eq!(asl2c(folder.path(), &["new", name]).status.code(), Some(1), "{name}");
+    }
+}
+
+#[test]
+fn slips_of_the_pen_are_understood() {
+    for (agent, help) in [
+        ("!light <- on.", "did you mean `+!light`?"),
+        ("!light : level(_) <- on.", "did you mean `+!light`?"),
+        ("light <- on.", "did you mean `+!light` or `+light`?"),
+        ("+!light <- on, on.", "separated by `;`"),
+        ("+!light <- on & on.", "separated by `;`"),
+        ("+!light : level(_), level(_) <- on.", "joined by `&`"),
+        ("+!light <- on\n+!light <- on.", "needs a full stop"),
+    ] {
+        let error =
+            translate(parse_configuration("a.conf", CONFIGURATION).unwrap(), agent).unwrap_err();
+        assert!(error.to_string().contains(help), "{agent}\n{error}");
+    }
+    let error = parse_configuration("a.conf", &CONFIGURATION.replace("light(void);", "light;"))
+        .unwrap_err();
+    assert!(error.to_string().contains("without arguments it is `light(void)`"), "{error}");
+}
+
+/// The answer may be of any type that can be passed on.
+#[test]
+fn test_goals_are_for_every_type() {
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+        includes { #include \"types.h\" };\n\
+        basics { void say(name_t); void go(place_t); place_t here(void); handle_t *get(void); void use(handle_t *); };\n\
+        types { g(void); who(name_t); at(place_t); by(handle_t *); known(name_t); };";
+    let agent = "known(\"me\"). !g.\n+!g <- ?who(N); say(N); ?at(P); go(P); ?by(H); use(H).\n\
+        +?who(N) : known(N). +?at(P) <- P = here. +?by(H) <- H = get.\n\
+        -?who(N) : known(N) | who(N).\n";
+    let mut translation =
+        translate(parse_configuration("a.conf", configuration).unwrap(), agent).unwrap();
+    let mut types = translation.files[1].clone();
+    types.name = "types.h".to_owned();
+    types.text = "#ifndef T\n#define T\ntypedef const char *name_t;\ntypedef struct { struct { int x; } inner; } place_t;\n\
+        typedef struct handle handle_t;\n#endif\n".to_owned();
+    translation.files.push(types);
+    let environment = "#include <stdio.h>\nvoid updateBeliefs(void) {}\nvoid say(name_t n) { puts(n); }\n\
+        void go(place_t p) { printf(\"%d\\n\", p.inner.x); }\n\
+        place_t here(void) { place_t p; p.inner.x = 7; return p; }\nhandle_t *get(void) { return 0; }\n\
+        void use(handle_t *h) { puts(h ? \"some\" : \"none\"); }\n\
+        int main(void) { init(); next_step(); return (int)unhandled_events(); }\n";
+    assert_eq!(crate::harness::compile_and_run(&translation, environment), "me 7 none");
+}

@@ -1,0 +1,450 @@
+//! Proofs against runs: what `asl2c verify` says to hold in every environment must hold in each run of the
+//! reference interpreter, whatever the environment does there.
+//!
+//! The monitors here are made from the guide, and share nothing with those of the model and the harness.
+//! `ASL2C_PROVED=2000` checks more agents than usual, `ASL2C_PROVED_SEED` other ones.
+
+use std::collections::BTreeMap;
+use std::process::Command;
+
+use translator::interpreter::{Environment, Interpreter, Value};
+use translator::parse_configuration;
+use translator::syntax::ast::{Operator, TriggerKind};
+use translator::types::{CType, TypeKind};
+
+use crate::harness::{from_environment, skip};
+
+/// Marsaglia's xorshift.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, count: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        usize::try_from((self.0 >> 11) % count as u64).unwrap()
+    }
+
+    fn chance(&mut self, percent: usize) -> bool {
+        self.below(100) < percent
+    }
+
+    fn of<T: Copy>(&mut self, list: &[T]) -> T {
+        list[self.below(list.len())]
+    }
+}
+
+const BASICS: &str = "void on(void); void off(void); void idle(void); bool flash(int); int read(void); bool dark(void); int64_t now(void);";
+/// What properties count.
+const COUNTED: [&str; 8] = ["on", "off", "idle", "flash", "read", "dark", "now", "shows"];
+
+/// The basic actions that a name stands for.
+fn members(name: &str) -> &[&str] {
+    match name {
+        "on" => &["on"],
+        "off" => &["off"],
+        "idle" => &["idle"],
+        "flash" => &["flash"],
+        "read" => &["read"],
+        "dark" => &["dark"],
+        "now" => &["now"],
+        _ => &["on", "flash"],
+    }
+}
+
+fn value(random: &mut Random) -> String {
+    random.of(&["1", "3", "X", "read", "X + 1", "6 / X", "X + read"]).to_owned()
+}
+
+fn condition(random: &mut Random) -> String {
+    let value = value(random);
+    match random.below(11) {
+        0 => "flag".to_owned(),
+        1 => "not flag".to_owned(),
+        2 => "dark".to_owned(),
+        3 => format!("flash({value})"),
+        4 => format!(
+            "level(L) & L {} {}",
+            random.of(&["<", "<=", ">", "=="]),
+            random.of(&["2", "5", "X"])
+        ),
+        5 => format!("X > {value}"),
+        6 => format!(
+            "not ({} & {})",
+            random.of(&["dark", "flag"]),
+            random.of(&["flash(1)", "level(_)", "X > read"])
+        ),
+        7 => format!(
+            "({} | {})",
+            random.of(&["dark", "flag", "level(3)"]),
+            random.of(&["flash(2)", "not flag", "read == 1"])
+        ),
+        8 => format!("store({})", random.of(&["_", "1", "read"])),
+        9 => "not store(_)".to_owned(),
+        _ => "level(_)".to_owned(),
+    }
+}
+
+/// A formula; without goals to call it changes no belief either, so that nothing leads back to itself.
+fn formula(random: &mut Random, goals: &[&str]) -> String {
+    let value = value(random);
+    match random.below(if goals.is_empty() { 8 } else { 16 }) {
+        0 | 1 => "on".to_owned(),
+        2 => "off".to_owned(),
+        3 => "idle".to_owned(),
+        4 => format!("flash({value})"),
+        5 => format!("F{} = flash({value})", random.below(1000)),
+        6 => format!("?store({})", random.of(&["_", "1"])),
+        7 => "?flag".to_owned(),
+        8 => "+flag".to_owned(),
+        9 => "-flag".to_owned(),
+        10 => format!("+store({value})"),
+        11 => format!("-store({})", random.of(&["_", "1", "read"])),
+        12 => format!("?asked(A{})", random.below(1000)),
+        13 => format!("!!{}", random.of(&["light", "dim(1)", "dim(X)", "wait"])),
+        _ => format!("!{}", random.of(goals)),
+    }
+}
+
+fn plan(random: &mut Random, trigger: &str, goals: &[&str], posts: &[&str]) -> String {
+    let conditions: Vec<String> = (0..random.below(3)).map(|_| condition(random)).collect();
+    let context = if conditions.is_empty() {
+        String::new()
+    } else {
+        format!(" : {}", conditions.join(" & "))
+    };
+    let mut body: Vec<String> = (0..random.below(4)).map(|_| formula(random, goals)).collect();
+    if !posts.is_empty() && random.chance(40) {
+        let deadline = if random.chance(20) { "[deadline(5)]" } else { "" };
+        body.push(format!("!{}{deadline}", random.of(posts)));
+    }
+    if body.is_empty() {
+        body.push("true".to_owned());
+    }
+    // Without an argument of its own a plan has another number.
+    let text = format!("{trigger}{context} <- {}.\n", body.join("; "));
+    if trigger.contains('X') { text } else { text.replace('X', "2") }
+}
+
+fn agent(random: &mut Random) -> String {
+    let mut text = String::new();
+    if random.chance(30) {
+        text.push_str("flag.\n");
+    }
+    if random.chance(30) {
+        text.push_str("store(1).\n");
+    }
+    text.push_str("!wait.\n");
+    let inner = &["inner", "deep(1)", "deep(X)"];
+    let deep = &["deep(2)"];
+    for (trigger, goals, posts) in [
+        ("+!wait", &inner[..], &["light", "wait"][..]),
+        ("+!light", inner, &["light", "dim(3)"]),
+        ("+!dim(X)", inner, &["dim(X)", "wait"]),
+        ("+!inner", deep, &[]),
+        ("+!deep(X)", &[], &[]),
+        ("-!light", deep, &[]),
+        ("-!dim(X)", inner, &[]),
+        ("-!inner", &[], &[]),
+        ("+store(X)", &[], &[]),
+        ("-flag", &[], &[]),
+    ] {
+        let optional = trigger.starts_with('-') || trigger == "+store(X)";
+        if optional && random.chance(60) {
+            continue;
+        }
+        for _ in 0..=random.below(2) {
+            let plan = plan(random, trigger, goals, posts);
+            text.push_str(&plan);
+        }
+    }
+    if random.chance(60) {
+        text.push_str(random.of(&[
+            "+?asked(X) <- X = read.\n",
+            "+?asked(X) : level(X).\n",
+            "+?asked(X) : dark <- X = 3; on.\n-?asked(X) : store(X).\n",
+        ]));
+    }
+    text
+}
+
+/// A property, as it is written and as runs are judged.
+enum Promise {
+    Count(&'static str, &'static str),
+    Within(u32, Cause, &'static str),
+    OnlyAfter(&'static str, &'static str),
+    AllHandled,
+}
+
+#[derive(Clone, Copy)]
+enum Cause {
+    Raised(&'static str),
+    Called(&'static str),
+    /// The level is at most so.
+    Low(i128),
+}
+
+impl Promise {
+    fn random(random: &mut Random) -> Self {
+        let action = random.of(&COUNTED);
+        match random.below(9) {
+            0..4 => Self::Count(
+                random.of(&["never", "at_most_one", "at_least_one", "exactly_one", "never"]),
+                action,
+            ),
+            4 => Self::Within(
+                1 + u32::try_from(random.below(3)).unwrap(),
+                Cause::Raised(random.of(&["light", "dim"])),
+                action,
+            ),
+            5 => Self::Within(
+                1 + u32::try_from(random.below(3)).unwrap(),
+                Cause::Called(random.of(&COUNTED)),
+                action,
+            ),
+            6 => Self::Within(
+                1 + u32::try_from(random.below(2)).unwrap(),
+                Cause::Low(random.of(&[2, 5])),
+                action,
+            ),
+            7 => Self::OnlyAfter(action, random.of(&["light", "dim"])),
+            _ => Self::AllHandled,
+        }
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Count(bound, action) => format!("{bound}({action})"),
+            Self::Within(steps, cause, action) => {
+                let cause = match cause {
+                    Cause::Raised(goal) => format!("+!{goal}"),
+                    Cause::Called(action) => (*action).to_owned(),
+                    Cause::Low(limit) => format!("level <= {limit}"),
+                };
+                format!("within({steps}, {cause}, {action})")
+            }
+            Self::OnlyAfter(action, goal) => format!("only_after({action}, +!{goal})"),
+            Self::AllHandled => "all_handled".to_owned(),
+        }
+    }
+}
+
+/// What a run has shown of a property.
+#[derive(Default, Clone)]
+struct Monitor {
+    due: u32,
+    allowed: bool,
+    broken: bool,
+}
+
+impl Monitor {
+    fn raised(&mut self, promise: &Promise, goal: &str) {
+        match promise {
+            Promise::Within(steps, Cause::Raised(cause), _) if *cause == goal && self.due == 0 => {
+                self.due = *steps;
+            }
+            Promise::OnlyAfter(_, event) if *event == goal => self.allowed = true,
+            _ => {}
+        }
+    }
+
+    /// A step has ended; it began with this level, and this is how often it called what.
+    fn stepped(
+        &mut self,
+        promise: &Promise,
+        level: Option<i128>,
+        calls: &BTreeMap<String, u32>,
+        lost: bool,
+    ) {
+        let count = |name: &str| -> u32 {
+            members(name).iter().filter_map(|action| calls.get(*action)).sum()
+        };
+        match promise {
+            Promise::Count(bound, action) => {
+                let calls = count(action);
+                self.broken |= match *bound {
+                    "never" => calls > 0,
+                    "at_most_one" => calls > 1,
+                    "at_least_one" => calls < 1,
+                    _ => calls != 1,
+                };
+            }
+            Promise::Within(steps, cause, action) => {
+                if let Cause::Low(limit) = cause {
+                    let low = level.is_some_and(|level| level <= *limit);
+                    self.due = if !low {
+                        0
+                    } else if self.due == 0 {
+                        *steps
+                    } else {
+                        self.due
+                    };
+                }
+                if self.due > 0 {
+                    let answered = count(action) > 0;
+                    self.due = if answered { 0 } else { self.due - 1 };
+                    self.broken |= !answered && self.due == 0;
+                }
+                if let Cause::Called(cause) = cause
+                    && count(cause) > 0
+                    && self.due == 0
+                {
+                    self.due = *steps;
+                }
+            }
+            Promise::OnlyAfter(action, _) => self.broken |= count(action) > 0 && !self.allowed,
+            Promise::AllHandled => self.broken |= lost,
+        }
+    }
+}
+
+struct World<'a> {
+    random: &'a mut Random,
+    level: Option<i128>,
+    tells: bool,
+    now: i128,
+    calls: BTreeMap<String, u32>,
+}
+
+impl Environment for World<'_> {
+    fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)> {
+        let level = self.level.filter(|_| std::mem::take(&mut self.tells));
+        level.map(|level| ("level".to_owned(), vec![Value::Integer(level)])).into_iter().collect()
+    }
+
+    fn call(&mut self, name: &str, _: &[Value], result: &CType) -> Option<Value> {
+        *self.calls.entry(name.to_owned()).or_default() += 1;
+        match result.kind {
+            TypeKind::Void => None,
+            TypeKind::Bool => Some(Value::Bool(self.random.chance(50))),
+            _ if name == "now" => {
+                self.now += i128::try_from(self.random.below(4)).unwrap();
+                Some(Value::Integer(self.now))
+            }
+            _ => Some(Value::Integer(i128::try_from(self.random.below(4)).unwrap())),
+        }
+    }
+}
+
+/// Runs an agent; says which promises are broken.
+fn runs(
+    random: &mut Random,
+    configuration: &str,
+    agent: &str,
+    promises: &[Promise],
+) -> Option<Vec<bool>> {
+    let parsed =
+        parse_configuration("a.conf", configuration).unwrap_or_else(|error| panic!("{error}"));
+    let mut interpreter = Interpreter::new(&parsed, agent).ok()?;
+    let mut broken = vec![false; promises.len()];
+    for _ in 0..120 {
+        interpreter.init();
+        let mut world = World { random, level: None, tells: false, now: 0, calls: BTreeMap::new() };
+        let mut monitors = vec![Monitor::default(); promises.len()];
+        for _ in 0..25 {
+            match world.random.below(6) {
+                number @ (0 | 1) => {
+                    let (goal, arguments) = if number == 0 {
+                        ("light", Vec::new())
+                    } else {
+                        (
+                            "dim",
+                            vec![Value::Integer(i128::try_from(world.random.below(4)).unwrap())],
+                        )
+                    };
+                    if interpreter
+                        .raise(Operator::Add, TriggerKind::Achieve, goal, arguments)
+                        .is_ok()
+                    {
+                        let pairs = monitors.iter_mut().zip(promises);
+                        pairs.for_each(|(monitor, promise)| monitor.raised(promise, goal));
+                    }
+                }
+                2 => {
+                    world.level = Some(i128::try_from(world.random.below(8)).unwrap());
+                    world.tells = true;
+                }
+                _ => {
+                    world.calls.clear();
+                    let before = interpreter.unhandled_events();
+                    let level = world.level;
+                    interpreter.next_step(&mut world);
+                    let lost = interpreter.unhandled_events() != before;
+                    for (monitor, promise) in monitors.iter_mut().zip(promises) {
+                        monitor.stepped(promise, level, &world.calls, lost);
+                    }
+                }
+            }
+        }
+        for (broken, monitor) in broken.iter_mut().zip(monitors) {
+            *broken |= monitor.broken;
+        }
+        world.random.below(2);
+    }
+    Some(broken)
+}
+
+/// What `asl2c verify` says of each property.
+fn verdicts(configuration: &str, agent: &str) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.conf"), configuration).unwrap();
+    std::fs::write(folder.path().join("a.asl"), agent).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    let output =
+        command.args(["verify", "--json", "a.conf"]).current_dir(folder.path()).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap_or_else(|_| {
+        panic!("{configuration}\n{agent}\n{}", String::from_utf8_lossy(&output.stderr))
+    });
+    let properties = json["properties"].as_array().unwrap();
+    properties.iter().map(|property| property["verdict"].as_str().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn nothing_that_a_run_breaks_is_proved() {
+    if Command::new("spin").arg("-V").output().is_err() {
+        skip("spin");
+        return;
+    }
+    let agents = from_environment("ASL2C_PROVED", 8);
+    let mut random =
+        Random(0x9E37_79B9_7F4A_7C15 ^ u64::from(from_environment("ASL2C_PROVED_SEED", 1)));
+    let (mut checked, mut proved, mut broken_in_runs, mut undecided) = (0, 0, 0, 0);
+    while checked < agents {
+        let text = agent(&mut random);
+        let promises: Vec<Promise> = (0..5).map(|_| Promise::random(&mut random)).collect();
+        let properties: String = promises
+            .iter()
+            .enumerate()
+            .map(|(n, promise)| format!("p{n}: {}; ", promise.text()))
+            .collect();
+        let events = random.of(&["inbox = 1;", "inbox = 2;", "max_events = 1;"]);
+        let preemptive = random.of(&["", "+!light;"]);
+        let configuration = format!(
+            "settings {{ input = a.asl; output = a.c; header = a.h; basics = b.h; clock = now; {events} }};\n\
+             basics {{ {BASICS} }};\nclasses {{ shows: on, flash; }};\n\
+             types {{ wait(void); light(void); dim(int); inner(void); deep(int); flag(void); level(int); store(int); asked(int); }};\n\
+             settables {{ level; }};\ntriggerables {{ +!light; +!dim; }};\npreemptive {{ {preemptive} }};\n\
+             properties {{ {properties} }};\n"
+        );
+        let Some(broken) = runs(&mut random, &configuration, &text, &promises) else { continue };
+        checked += 1;
+        let verdicts = verdicts(&configuration, &text);
+        assert_eq!(verdicts.len(), promises.len());
+        for ((promise, broken), verdict) in promises.iter().zip(broken).zip(verdicts) {
+            assert!(
+                !(broken && verdict == "holds"),
+                "{} is proved, and a run breaks it\n{configuration}\n{text}",
+                promise.text()
+            );
+            proved += u32::from(verdict == "holds");
+            undecided += u32::from(verdict == "undecided");
+            broken_in_runs += u32::from(broken);
+        }
+    }
+    println!(
+        "{checked} agents, {} properties: {proved} proved, {broken_in_runs} broken by runs, {undecided} not decided",
+        checked * 5
+    );
+    assert!(proved > 0 && broken_in_runs > 0);
+}
