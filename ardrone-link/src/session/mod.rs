@@ -69,6 +69,9 @@ const UNHEARD: Duration = Duration::from_millis(300);
 /// restart.
 const HELD_UP: Duration = Duration::from_millis(100);
 
+/// A drone that is told to land begins to within this time, if it hears.
+const DISOBEYED: Duration = Duration::from_millis(500);
+
 /// What the pilot wants in this tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Order {
@@ -164,6 +167,9 @@ pub struct Session {
     take_off: TakeOffLatch,
     /// Since when take-off is ordered of a drone that stands.
     taking_off_since: Option<Duration>,
+    /// Since when landing is ordered of a drone that flies, and whether it does.
+    landing_since: Option<Duration>,
+    lands: bool,
     emergency: EmergencySwitch,
     events: VecDeque<Event>,
     statistics: Statistics,
@@ -259,6 +265,8 @@ impl Session {
             flat_trim_due: false,
             take_off: TakeOffLatch::Follow { airborne: false },
             taking_off_since: None,
+            landing_since: None,
+            lands: false,
             emergency: EmergencySwitch::default(),
             events: VecDeque::with_capacity(EVENTS),
             statistics: Statistics::default(),
@@ -296,6 +304,11 @@ impl Session {
             self.events.push_back(Event::Connected);
         }
         self.watch_state(&navdata);
+        if bootstrapping && self.handshake.is_done() {
+            // It has lost us, and waits to be configured again.
+            self.withhold_take_off();
+            self.handshake = Handshake::new(self.config.settings.len());
+        }
         if self.handshake.handle_state(navdata.state, &self.config, &mut self.events) {
             self.sequence.confirmed = true;
         }
@@ -320,8 +333,9 @@ impl Session {
         datagram: &mut Datagram,
     ) -> Result<(), EncodeError> {
         self.watch_silence(now);
-        self.begin(datagram);
         let take_off = self.take_off_bit(order.flight);
+        self.watch_landing(now, take_off);
+        self.begin(datagram);
         self.watch_take_off(now, take_off);
         let emergency = self.state.contains(DroneState::EMERGENCY);
         let reference = if self.emergency.level(now, emergency) {
@@ -366,6 +380,8 @@ impl Session {
         if !self.has_spoken() {
             return Ok(());
         }
+        // Whoever else speaks to the drone may have counted further.
+        self.sequence.confirmed = false;
         self.begin(datagram);
         self.withhold_take_off();
         let emergency = self.state.contains(DroneState::EMERGENCY);
@@ -472,6 +488,7 @@ impl Session {
             _ => {}
         }
         self.state = navdata.state;
+        self.lands = navdata.demo.is_some_and(|demo| demo.control_state == ControlState::Landing);
         if let TakeOffLatch::Follow { airborne } = self.take_off {
             let landed =
                 navdata.demo.is_some_and(|demo| demo.control_state == ControlState::Landed);
@@ -514,6 +531,19 @@ impl Session {
             self.taking_off_since = None;
             self.events.push_back(Event::TakeOffTimedOut);
             self.withhold_take_off();
+        }
+    }
+
+    /// A drone that flies on although it is told to land may obey somebody who has counted further: number 1
+    /// is always heard.
+    fn watch_landing(&mut self, now: Duration, take_off: bool) {
+        if take_off || !self.state.contains(DroneState::FLYING) || self.lands {
+            self.landing_since = None;
+            return;
+        }
+        let since = *self.landing_since.get_or_insert(now);
+        if now.saturating_sub(since) >= DISOBEYED {
+            self.sequence.confirmed = false;
         }
     }
 

@@ -455,10 +455,52 @@ fn a_parting_says_land_and_nothing_else_and_only_to_a_drone_that_was_spoken_to()
     let first = part(&mut bench);
     let landing = [Command::Ref(Ref::Land), Command::Pcmd(Motion::Hover)];
     assert_eq!(first.iter().map(|(_, command)| command.clone()).collect::<Vec<_>>(), landing);
-    assert_eq!(part(&mut bench)[0].0, first[1].0 + 1, "numbers go on");
+    assert_eq!((first[0].0, part(&mut bench)[0].0), (1, 1), "which is always heard");
     // A cut is not taken back.
     bench.session.request_emergency_stop();
     assert_eq!(part(&mut bench)[0].1, Command::Ref(Ref::ToggleEmergency));
     bench.hear(3, DroneState::EMERGENCY);
     assert_eq!(part(&mut bench)[0].1, Command::Ref(Ref::Land));
+}
+
+/// Another client may have counted on, far above us.
+#[test]
+fn a_landing_that_is_not_obeyed_begins_the_count_anew() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(1, DroneState::empty());
+    bench.tick(FlightOrder::TakeOff);
+    bench.hear(2, DroneState::FLYING);
+    assert!(numbers(&mut bench)[0] > 1, "it hears us");
+    let mut sequence = 3;
+    let mut first_number = |bench: &mut Bench| {
+        bench.hear(sequence, DroneState::FLYING);
+        sequence += 1;
+        bench.now += TICK;
+        let mut datagram = Datagram::new();
+        bench.session.tick(bench.now, Order::default(), &mut datagram).unwrap();
+        decode(datagram.as_bytes()).next().unwrap().unwrap().0
+    };
+    assert!(first_number(&mut bench) > 1, "it may be on its way");
+    let anew = (0..30).position(|_| first_number(&mut bench) == 1);
+    assert!(anew.is_some_and(|tick| (15..18).contains(&tick)), "{anew:?}");
+    assert_eq!(first_number(&mut bench), 1, "until it lands");
+}
+
+/// It does so after two seconds in which it has not heard us, although we may have heard it.
+#[test]
+fn a_drone_that_waits_to_be_configured_again_is() {
+    let mut bench = Bench::new(&[("general:navdata_demo", "TRUE")]);
+    bench.hear(1, DroneState::empty());
+    bench.tick(FlightOrder::Land);
+    bench.hear(2, DroneState::COMMAND_ACKNOWLEDGE);
+    bench.hear(3, DroneState::empty());
+    assert!(bench.session.is_ready());
+    bench.tick(FlightOrder::TakeOff);
+    bench.hear(4, DroneState::FLYING);
+    assert!(bench.takes_off(FlightOrder::StayAirborne));
+    bench.hear(5, DroneState::FLYING | DroneState::NAVDATA_BOOTSTRAP);
+    assert!(!bench.session.is_ready());
+    let demo = Command::Config(Config::new("general:navdata_demo", "TRUE").unwrap());
+    let commands = bench.tick(FlightOrder::StayAirborne);
+    assert!(commands.contains(&demo) && commands[0] == Command::Ref(Ref::Land), "{commands:?}");
 }

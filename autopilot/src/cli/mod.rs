@@ -3,6 +3,7 @@
 mod arguments;
 mod check;
 mod keys;
+mod leave;
 mod progress;
 mod screen;
 mod summary;
@@ -220,6 +221,10 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let screen = || Screen::start(&plan, &config.limits, warnings);
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
     let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
+    // The drone may be flying already.
+    if let Err(error) = leave::on_second_signal(flight.controls()) {
+        progress.say(&format!("warning: a second Ctrl-C waits for whoever reads: {error}"));
+    }
     let open = |door: Door| door.open(&name, &plan, &config.limits, flight.controls());
     let browser = door.map(open).transpose().unwrap_or_else(|error| {
         // The drone may be flying already.

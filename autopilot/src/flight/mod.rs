@@ -29,6 +29,7 @@ use self::link::{Link, sleep};
 pub use self::link::{Port, Trouble};
 pub use self::orders::Controls;
 use self::orders::Orders;
+pub(crate) use self::services::EndSignals;
 use self::services::Services;
 use crate::outcome::Outcome;
 use crate::pilot::{

@@ -28,6 +28,11 @@ impl Controls {
         }
     }
 
+    /// Whether the flight is over.
+    pub fn is_over(&self) -> bool {
+        self.urgent.over.load(Ordering::Relaxed)
+    }
+
     /// Does what Ctrl-C does: lands, and the second time leaves at once with the landing ordered.
     /// Returns whether the flight will hear of it.
     pub fn stop(&self) -> bool {
@@ -112,9 +117,11 @@ mod tests {
     #[test]
     fn a_flight_that_is_over_hears_nothing() {
         let (orders, controls) = Orders::new();
+        assert!(!controls.is_over());
         drop(orders);
         assert!(!controls.order(PilotOrder::Land));
         assert!(!controls.order(PilotOrder::Hold));
         assert!(!controls.stop());
+        assert!(controls.is_over());
     }
 }

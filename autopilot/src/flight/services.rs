@@ -74,36 +74,53 @@ impl Drop for Services {
 
 /// Never returns: without signals the flight goes on.
 async fn forward_signals(controls: &Controls) {
-    let ends = [
-        SignalKind::interrupt(),
-        SignalKind::terminate(),
-        SignalKind::hangup(),
-        SignalKind::quit(),
-        SignalKind::alarm(),
-        SignalKind::user_defined1(),
-        SignalKind::user_defined2(),
-    ];
-    let mut signals: Vec<Signal> = ends.into_iter().filter_map(|kind| signal(kind).ok()).collect();
-    if signals.len() < ends.len() {
-        tracing::warn!("not all signals can be caught: Ctrl-C may not land the drone");
-    }
+    let mut signals = EndSignals::new();
     // A flight log that may not grow any more ends the log, not the process.
     let _too_large = signal(SignalKind::from_raw(rustix::process::Signal::XFSZ.as_raw()));
     loop {
-        std::future::poll_fn(|context| next_signal(&mut signals, context)).await;
+        signals.next().await;
         controls.stop();
     }
 }
 
-/// Looks at all of them, so that each is waited for.
-fn next_signal(signals: &mut [Signal], context: &mut Context<'_>) -> Poll<()> {
-    let mut came = Poll::Pending;
-    for signal in signals {
-        if let Poll::Ready(Some(())) = signal.poll_recv(context) {
-            came = Poll::Ready(());
+/// All signals that ask for the end.
+#[derive(Debug)]
+pub(crate) struct EndSignals(Vec<Signal>);
+
+impl EndSignals {
+    /// From now on. To be made where a runtime of tokio runs.
+    pub(crate) fn new() -> Self {
+        let ends = [
+            SignalKind::interrupt(),
+            SignalKind::terminate(),
+            SignalKind::hangup(),
+            SignalKind::quit(),
+            SignalKind::alarm(),
+            SignalKind::user_defined1(),
+            SignalKind::user_defined2(),
+        ];
+        let signals: Vec<Signal> = ends.into_iter().filter_map(|kind| signal(kind).ok()).collect();
+        if signals.len() < ends.len() {
+            tracing::warn!("not all signals can be caught: Ctrl-C may not land the drone");
         }
+        Self(signals)
     }
-    came
+
+    /// Waits for the next one.
+    pub(crate) async fn next(&mut self) {
+        std::future::poll_fn(|context| self.poll(context)).await;
+    }
+
+    /// Looks at all of them, so that each is waited for.
+    fn poll(&mut self, context: &mut Context<'_>) -> Poll<()> {
+        let mut came = Poll::Pending;
+        for signal in &mut self.0 {
+            if let Poll::Ready(Some(())) = signal.poll_recv(context) {
+                came = Poll::Ready(());
+            }
+        }
+        came
+    }
 }
 
 /// Reads the control port for as long as somebody listens: a drone without one can be flown all the same.

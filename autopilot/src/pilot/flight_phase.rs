@@ -62,6 +62,9 @@ impl FlightPhase {
     }
 }
 
+/// An order takes at most so long to arrive, and its effect to be told.
+const ON_ITS_WAY: Duration = Duration::from_millis(600);
+
 /// Why the drone is landed before the plan's end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LandingReason {
@@ -233,7 +236,8 @@ impl Pilot {
     fn watch_landing(&mut self, now: Duration, since: Duration) {
         let elapsed = now.saturating_sub(since);
         let blind = !self.session.is_alive();
-        let landed = !blind && self.on_ground();
+        // A take-off that was ordered just before may be on its way.
+        let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;
         // A drone that has restarted is heard before it says where it is.
         let known = self.demo().is_some();
         if landed && known {
@@ -262,6 +266,10 @@ impl Pilot {
     /// Gives up the plan and lands. The first reason counts; on the ground the flight just ends.
     pub(super) fn land(&mut self, now: Duration, reason: LandingReason) {
         if self.landing.is_some() || matches!(self.phase, FlightPhase::Ended(_)) {
+            return;
+        }
+        if self.authority == Authority::None && self.navdata.is_some() {
+            self.refuse(now, vec![Refusal::NotLanded.to_string()]);
             return;
         }
         let before_flight = !matches!(self.phase, FlightPhase::Flying);

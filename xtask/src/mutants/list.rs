@@ -283,7 +283,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "the flight ends before the drone is down",
-        &[edit(PHASE, "let landed = !blind && self.on_ground();", "let landed = !blind;")],
+        &[edit(
+            PHASE,
+            "let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;",
+            "let landed = !blind;",
+        )],
     ),
     mutant(
         "the take-off latch is ignored",
