@@ -264,18 +264,18 @@ fn packets_that_were_held_up_do_not_show_that_the_drone_still_flies() {
 /// The limits themselves: the drone is heard until just before, and again from just then.
 #[test]
 fn a_drone_is_heard_for_as_long_as_it_was_silent_for_less_than_the_limit() {
-    let millisecond = Duration::from_millis(1);
+    let just_before = |limit: Duration| limit.saturating_sub(Duration::from_millis(1));
     let heard = |at| Heard { at, sequence: 1, bootstrapping: false, returned_at: None };
     let start = Duration::from_secs(5);
-    assert_eq!(heard(start).returned_at(start + UNHEARD - millisecond), None);
+    assert_eq!(heard(start).returned_at(start + just_before(UNHEARD)), None);
     let back = start + UNHEARD;
     assert_eq!(heard(start).returned_at(back), Some(back));
     let returned = Heard { returned_at: Some(back), ..heard(back) };
-    assert_eq!(returned.returned_at(back + HELD_UP - millisecond), Some(back));
+    assert_eq!(returned.returned_at(back + just_before(HELD_UP)), Some(back));
     assert_eq!(returned.returned_at(back + HELD_UP), None);
     let mut bench = Bench::new(&[]);
     bench.hear(1, DroneState::empty());
-    assert!(bench.session.is_heard(UNHEARD - millisecond));
+    assert!(bench.session.is_heard(just_before(UNHEARD)));
     assert!(!bench.session.is_heard(UNHEARD));
 }
 
