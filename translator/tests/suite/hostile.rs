@@ -308,6 +308,18 @@ fn words_of_rust_are_refused() {
     }
 }
 
+/// Text that looks like the state is not the state.
+#[test]
+fn a_plan_that_speaks_of_self_need_not_use_it() {
+    let configuration = format!(
+        "settings {{ {FILES} instance = context; }};\nbasics {{ void say(const char *); bool ask(int); }};\n\
+         types {{ g(int); }}; triggerables {{ +!g; }};"
+    );
+    let agent = "+!g(Myself) : Myself > 3 <- true.\n+!g(1) <- +h.\n+!g(_) <- say(\"self->x\").\n";
+    let configuration = configuration.replace("g(int);", "g(int); h(void);");
+    assert_eq!(compile(&translated(&configuration, agent).unwrap()), Ok(()));
+}
+
 /// What cannot be compared needs no function that compares.
 #[test]
 fn what_is_not_compared_needs_no_helper() {
