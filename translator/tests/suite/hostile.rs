@@ -153,7 +153,6 @@ fn names_of_c_and_of_ours_are_refused() {
         "size_t",
         "plan1_x",
         "var_X",
-        "left",
         "self",
     ] {
         let expected = format!("`{name}` ");
