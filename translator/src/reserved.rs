@@ -70,7 +70,7 @@ const FIRST_WORDS: [&str; 12] = [
 ];
 
 /// Other generated names: of functions, types, variables, parameters.
-const OWN: [&str; 20] = [
+const OWN: [&str; 9] = [
     "take_event",
     "handle_event",
     "forget_events",
@@ -80,10 +80,10 @@ const OWN: [&str; 20] = [
     "agent",
     "self",
     "environment",
-    "left",
-    "right",
-    "result",
-    "valid",
+];
+
+/// Functions of proofs, where actions have the agent's prefix: no type may be called so.
+const PROOFS: [&str; 7] = [
     "base",
     "induction",
     "step",
@@ -165,6 +165,11 @@ pub(crate) fn is_generated_prefix(prefix: &str) -> bool {
     FIRST_WORDS.contains(&first) || CONSTANTS.iter().any(|start| prefix.starts_with(start))
 }
 
+/// Whether a type of this name could not be told from a function of a proof.
+pub(crate) fn is_of_proofs(name: &str) -> bool {
+    PROOFS.contains(&name)
+}
+
 /// What generated names are, for those who have to choose others.
 pub(crate) fn described() -> String {
     let listed = |words: &[&str]| words.join(", ");
@@ -172,7 +177,7 @@ pub(crate) fn described() -> String {
         "generated names are {}, {}, {} also with a number behind them, and those that start with {} or {} and an \
          underscore",
         listed(&INTERFACE),
-        listed(&OWN[..13]),
+        listed(&OWN),
         listed(&LOCALS),
         listed(&VERBS),
         listed(&FIRST_WORDS[..8])
@@ -226,11 +231,13 @@ mod tests {
             "var2_X",
             "achieve_g",
             "outcome",
-            "left",
         ] {
             assert!(is_generated(name), "{name}");
         }
-        for name in ["runner", "planner", "variance", "sendLand", "valued", "leftover", "adder"] {
+        for name in [
+            "left", "step", "runner", "planner", "variance", "sendLand", "valued", "leftover",
+            "adder",
+        ] {
             assert!(!is_generated(name), "{name}");
         }
         assert!(is_generated_prefix("run_") && is_generated_prefix("plan1_x_"));

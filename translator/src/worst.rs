@@ -18,7 +18,8 @@ pub(crate) fn costliest(obligations: &Obligations) -> Result<u64, String> {
     let invariant = obligations.invariant(&[]);
     for file in obligations.files.iter().chain([&invariant]) {
         let path = folder.join(&file.name);
-        std::fs::write(&path, &file.text)
+        let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+        made.and_then(|()| std::fs::write(&path, &file.text))
             .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     }
     let agent = &obligations.files.first().ok_or("there is no C")?.name;

@@ -12,6 +12,7 @@ use crate::configuration::{
 use crate::program::BasicId;
 use crate::reserved::{
     INTERFACE, VERBS, described, is_c, is_c_word, is_generated, is_generated_prefix, is_library,
+    is_of_proofs,
 };
 use crate::syntax::ast::{Atom, Name};
 use crate::types::{CType, TypeKind};
@@ -303,6 +304,7 @@ fn check_types(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
         let upper = prefix.to_uppercase();
         let constant = name.strip_prefix(upper.as_str()).unwrap_or(name);
         is_generated(name)
+            || is_of_proofs(name)
             || ["agent_t", "event_t"].contains(&unprefixed)
             || constant.starts_with("EVENT_")
             || symbols.contains(name)

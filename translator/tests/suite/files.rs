@@ -166,6 +166,26 @@ fn a_report_that_cannot_be_printed_is_an_error() {
     }
 }
 
+/// What is in folders finds each other, and is measured as anything else.
+#[test]
+fn outputs_may_be_in_folders() {
+    for instance in ["static", "context"] {
+        let place = folder(&format!(
+            "input = a.asl; output = gen/a.c; header = include/a.h; basics = b.h; instance = {instance};"
+        ));
+        for name in ["gen", "include"] {
+            std::fs::create_dir(place.path().join(name)).unwrap();
+        }
+        let output = asl2c(place.path(), &["--report"]);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success() && !text.contains("cannot write"), "{text}");
+        let mut compile = Command::new("cc");
+        compile.args(["-std=c99", "-Wall", "-Werror", "-c", "gen/a.c"]).current_dir(place.path());
+        let output = compile.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
 #[test]
 fn without_properties_nothing_is_verified() {
     let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h;");

@@ -153,7 +153,6 @@ fn names_of_c_and_of_ours_are_refused() {
         "size_t",
         "plan1_x",
         "var_X",
-        "left",
         "self",
     ] {
         let expected = format!("`{name}` ");
@@ -306,6 +305,18 @@ fn words_of_rust_are_refused() {
     ] {
         refused(&rust, sections, expected);
     }
+}
+
+/// Text that looks like the state is not the state.
+#[test]
+fn a_plan_that_speaks_of_self_need_not_use_it() {
+    let configuration = format!(
+        "settings {{ {FILES} instance = context; }};\nbasics {{ void say(const char *); bool ask(int); }};\n\
+         types {{ g(int); }}; triggerables {{ +!g; }};"
+    );
+    let agent = "+!g(Myself) : Myself > 3 <- true.\n+!g(1) <- +h.\n+!g(_) <- say(\"self->x\").\n";
+    let configuration = configuration.replace("g(int);", "g(int); h(void);");
+    assert_eq!(compile(&translated(&configuration, agent).unwrap()), Ok(()));
 }
 
 /// What cannot be compared needs no function that compares.

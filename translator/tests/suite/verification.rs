@@ -258,6 +258,21 @@ fn calls_of_our_own_are_counted() {
     check("trace = told;", "", "+!light <- on.", "at_most_one(told)", true);
 }
 
+/// What finds no room in the queue is lost, and the model knows it.
+#[test]
+fn a_full_queue_loses_goals() {
+    let queue = "max_events = 1;";
+    check(
+        queue,
+        "",
+        "+!light <- !!dim(1); !!dim(2); !!light. +!dim(_) <- on.",
+        "all_handled",
+        false,
+    );
+    check(queue, "", "+!light <- !!dim(1); !!dim(2). +!dim(_) <- on.", "all_handled", true);
+    check("", "", "+!light <- !!dim(1); !!dim(2); !!light. +!dim(_) <- on.", "all_handled", true);
+}
+
 /// What is asked of the beliefs alone, since they always answer, needs no plans.
 #[test]
 fn plans_of_what_is_always_believed_are_never_asked() {

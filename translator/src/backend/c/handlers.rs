@@ -114,7 +114,8 @@ impl Emission<'_> {
         writer.open(format!("static outcome_t {name}({})", parameters.join(", ")));
         writer.line("outcome_t outcome = OUTCOME_NOT_APPLICABLE;");
         writer.line("");
-        if names.is_context() && !body.contains("self") {
+        if names.is_context() {
+            // Not every plan needs the state.
             writer.line("(void)self;");
         }
         for line in body.lines() {

@@ -11,7 +11,7 @@ use crate::types::{CType, TypeKind};
 #[derive(Debug, Default)]
 pub(super) struct Helpers {
     equal: Vec<CType>,
-    /// Comparisons of structs: the type's name and the condition on `left` and `right`.
+    /// Comparisons of structs: the type's name and the condition on `argument1` and `argument2`.
     structs: Vec<(String, String)>,
     checked: Vec<(Arithmetic, CType)>,
 }
@@ -51,7 +51,11 @@ impl Helpers {
                 .iter()
                 .map(|(field, ctype)| {
                     let name = &field.text;
-                    self.equality(ctype, &format!("left->{name}"), &format!("right->{name}"))
+                    self.equality(
+                        ctype,
+                        &format!("argument1->{name}"),
+                        &format!("argument2->{name}"),
+                    )
                 })
                 .collect();
             self.structs.push((declared.name.text.clone(), conjunction(&fields)));
@@ -59,15 +63,16 @@ impl Helpers {
         for ctype in self.equal.iter().filter(|ctype| ctype.is_float()) {
             let (name, stem) = (&ctype.name, identifier(ctype));
             writer.line("/* Exact equality; a NaN equals nothing. */");
-            writer.open(format!("static bool equal_{stem}({name} left, {name} right)"));
-            writer.line("return (left <= right) && (left >= right);");
+            writer.open(format!("static bool equal_{stem}({name} argument1, {name} argument2)"));
+            writer.line("return (argument1 <= argument2) && (argument1 >= argument2);");
             writer.close("}");
             writer.line("");
         }
         for (name, condition) in &self.structs {
             writer.line("/* Equal in every field. */");
-            writer
-                .open(format!("static bool equal_{name}(const {name} *left, const {name} *right)"));
+            writer.open(format!(
+                "static bool equal_{name}(const {name} *argument1, const {name} *argument2)"
+            ));
             writer.line(format!("return {condition};"));
             writer.close("}");
             writer.line("");
@@ -93,10 +98,12 @@ fn emit_checked(writer: &mut Writer, operator: Arithmetic, ctype: &CType) {
     let name = &ctype.name;
     let function = checked_name(operator, ctype);
     writer.line("/* Stores the result and returns true, or returns false if there is none. */");
-    writer.open(format!("static bool {function}({name} left, {name} right, {name} *result)"));
-    writer.line(format!("const bool valid = {};", valid(operator, ctype)));
+    writer.open(format!(
+        "static bool {function}({name} argument1, {name} argument2, {name} *answer)"
+    ));
+    writer.line(format!("const bool accepted = {};", valid(operator, ctype)));
     writer.line("");
-    writer.open("if (valid)");
+    writer.open("if (accepted)");
     let symbol = symbol(operator);
     // Narrow types are promoted; said aloud, so that the only cast narrows a plain value.
     let wide = match ctype.integer_bits() {
@@ -105,13 +112,13 @@ fn emit_checked(writer: &mut Writer, operator: Arithmetic, ctype: &CType) {
         _ => None,
     };
     if let Some(wide) = wide {
-        writer.line(format!("const {wide} value = ({wide})left {symbol} ({wide})right;"));
-        writer.line(format!("*result = ({name})value;"));
+        writer.line(format!("const {wide} value = ({wide})argument1 {symbol} ({wide})argument2;"));
+        writer.line(format!("*answer = ({name})value;"));
     } else {
-        writer.line(format!("*result = left {symbol} right;"));
+        writer.line(format!("*answer = argument1 {symbol} argument2;"));
     }
     writer.close("}");
-    writer.line("return valid;");
+    writer.line("return accepted;");
     writer.close("}");
     writer.line("");
 }
@@ -131,34 +138,36 @@ pub(super) fn symbol(operator: Arithmetic) -> &'static str {
 fn valid(operator: Arithmetic, ctype: &CType) -> String {
     let Some((bits, signed)) = ctype.integer_bits() else {
         // Of floating-point operations only division is checked.
-        return "(right < 0) || (right > 0)".replace('0', ctype.zero().unwrap_or("0"));
+        return "(argument2 < 0) || (argument2 > 0)".replace('0', ctype.zero().unwrap_or("0"));
     };
     if !signed {
         let max = unsigned_max(bits);
         return match operator {
-            Arithmetic::Add => format!("left <= ({max} - right)"),
-            Arithmetic::Subtract => "left >= right".to_owned(),
-            Arithmetic::Multiply => format!("(right == 0U) || (left <= ({max} / right))"),
-            Arithmetic::Divide | Arithmetic::Remainder => "right != 0U".to_owned(),
+            Arithmetic::Add => format!("argument1 <= ({max} - argument2)"),
+            Arithmetic::Subtract => "argument1 >= argument2".to_owned(),
+            Arithmetic::Multiply => {
+                format!("(argument2 == 0U) || (argument1 <= ({max} / argument2))")
+            }
+            Arithmetic::Divide | Arithmetic::Remainder => "argument2 != 0U".to_owned(),
         };
     }
     let (min, max) = signed_limits(bits);
     match operator {
         Arithmetic::Add => format!(
-            "((right >= 0) && (left <= ({max} - right))) || ((right < 0) && (left >= ({min} - right)))"
+            "((argument2 >= 0) && (argument1 <= ({max} - argument2))) || ((argument2 < 0) && (argument1 >= ({min} - argument2)))"
         ),
         Arithmetic::Subtract => format!(
-            "((right >= 0) && (left >= ({min} + right))) || ((right < 0) && (left <= ({max} + right)))"
+            "((argument2 >= 0) && (argument1 >= ({min} + argument2))) || ((argument2 < 0) && (argument1 <= ({max} + argument2)))"
         ),
         Arithmetic::Multiply => format!(
-            "(left == 0) || (right == 0) \
-             || ((left > 0) && (right > 0) && (left <= ({max} / right))) \
-             || ((left < 0) && (right < 0) && (left >= ({max} / right))) \
-             || ((left > 0) && (right < 0) && (right >= ({min} / left))) \
-             || ((left < 0) && (right > 0) && (left >= ({min} / right)))"
+            "(argument1 == 0) || (argument2 == 0) \
+             || ((argument1 > 0) && (argument2 > 0) && (argument1 <= ({max} / argument2))) \
+             || ((argument1 < 0) && (argument2 < 0) && (argument1 >= ({max} / argument2))) \
+             || ((argument1 > 0) && (argument2 < 0) && (argument2 >= ({min} / argument1))) \
+             || ((argument1 < 0) && (argument2 > 0) && (argument1 >= ({min} / argument2)))"
         ),
         Arithmetic::Divide | Arithmetic::Remainder => {
-            format!("(right != 0) && ((left != {min}) || (right != -1))")
+            format!("(argument2 != 0) && ((argument1 != {min}) || (argument2 != -1))")
         }
     }
 }

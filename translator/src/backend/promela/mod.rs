@@ -131,11 +131,12 @@ impl Emission<'_> {
         }
         let goal = program.initial_goal.as_ref().map(|(id, _)| Waiting::Posted(*id));
         let goal = goal.map_or(0, |goal| self.number(goal));
+        let number = self.number_type();
         let writer = &mut self.writer;
-        writer.line(format!("short event; short posted = {goal}; short limited;"));
+        writer.line(format!("{number} event; {number} posted = {goal}; {number} limited;"));
         for queue in self.queues() {
             let Queue { name, length } = queue;
-            self.writer.line(format!("chan {name} = [{length}] of {{ short }};"));
+            self.writer.line(format!("chan {name} = [{length}] of {{ {number} }};"));
         }
         let writer = &mut self.writer;
         writer.line("byte raised; /* external events that wait among deferred goals */");
@@ -144,12 +145,19 @@ impl Emission<'_> {
         }
         writer.line("byte outcome; /* 0 achieved, 1 no plan applies, 2 failed */");
         for (id, _) in program.reachable_handlers() {
-            writer.line(format!("short return_{};", id.0));
+            writer.line(format!("{number} return_{};", id.0));
         }
         writer
             .line("byte main_calls, cause_calls, until_calls; /* of the property, in this step */");
         writer.line("short due; bool allowed; bool lost;");
         writer.line("");
+    }
+
+    /// What holds the number of any event, and of any call of a handler.
+    fn number_type(&self) -> &'static str {
+        let formulae: usize =
+            self.program.reachable_plans().map(|(_, _, plan)| plan.body.len()).sum();
+        if self.events.len() + formulae < 30_000 { "short" } else { "int" }
     }
 
     /// Where external events wait, and deferred goals unless they wait there too.
