@@ -29,7 +29,7 @@ const LOW_M: f64 = 0.15;
 /// It is landed wherever it is after so long.
 const RETREAT: Duration = Duration::from_secs(10);
 /// And when it has come no nearer by so much for so long: it cannot hold against the wind.
-const NO_WAY_BACK: Duration = Duration::from_millis(1500);
+const NO_WAY_BACK: Duration = Duration::from_millis(2500);
 const WAY_BACK_M: f64 = 0.05;
 /// And when navdata have been so old on its way.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
@@ -94,8 +94,8 @@ pub struct Guard {
     danger: Option<Veto>,
     /// Until then it may be flown back first.
     retreats_until: Duration,
-    /// How near to the middle of the fence it has come on its way back, in metres, and when.
-    nearest: (f64, Duration),
+    /// How far from the middle of the fence it is or was last, in metres, and when it last came nearer.
+    way_back: (f64, Duration),
     /// It has been told to land: in the air that is not taken back.
     lands: bool,
     sticks: Demand,
@@ -108,7 +108,7 @@ impl Guard {
             fence,
             danger: None,
             retreats_until: Duration::ZERO,
-            nearest: (f64::INFINITY, Duration::ZERO),
+            way_back: (0.0, Duration::ZERO),
             lands: false,
             sticks: Demand::default(),
         }
@@ -146,12 +146,13 @@ impl Guard {
         if flies && self.danger.is_none() {
             self.danger = self.reason_to_land(now);
             self.retreats_until = now.now + RETREAT;
-            self.nearest = (f64::INFINITY, now.now);
+            self.way_back = (0.0, now.now);
         }
         let away_m = now.pose.x_m.hypot(now.pose.y_m);
-        if away_m < self.nearest.0 - WAY_BACK_M {
-            self.nearest = (away_m, now.now);
+        if away_m < self.way_back.0 - WAY_BACK_M {
+            self.way_back = (away_m, now.now);
         }
+        self.way_back.0 = self.way_back.0.max(away_m);
         if let Some(danger) = self.danger {
             return (self.bring_down(danger, now), Some(danger));
         }
@@ -202,8 +203,8 @@ impl Guard {
 
     /// The drone's own landing drifts: with eyes open it is flown back and down first.
     fn bring_down(&self, danger: Veto, now: &Circumstances) -> AgentCommand {
-        let (nearest_m, at) = self.nearest;
-        let carried_off = nearest_m > self.fence.radius_m && now.now >= at + NO_WAY_BACK;
+        let (away_m, at) = self.way_back;
+        let carried_off = away_m > self.fence.radius_m && now.now >= at + NO_WAY_BACK;
         let retreats = danger == Veto::OutsideFence
             && now.blind_for <= BLIND_RETREAT
             && now.now < self.retreats_until

@@ -31,7 +31,7 @@ const FROZEN_PACKETS: u32 = 5;
 /// A velocity changes from one measurement to the next by no more than this beyond what the model
 /// foresees: by noise (m/s), and by gusts and an airframe that is not known yet (m/s²).
 const JUMP_M_S: f64 = 0.2;
-const JUMP_M_S2: f64 = 3.0;
+const JUMP_M_S2: f64 = 4.0;
 /// Once it has jumped it must come back to this share of that.
 const RETURN_SHARE: f64 = 0.5;
 /// A velocity further than this from the expected one is wrong, however it came there.

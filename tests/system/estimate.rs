@@ -160,17 +160,18 @@ fn distrust(scenario: &str) -> Vec<(f64, Trust)> {
 
 #[test]
 fn frozen_and_impossible_navdata_are_noticed_and_sound_ones_are_not() {
-    for (scenario, why) in [
-        ("+6 freeze 1.5", Trust::Frozen(Quantity::Velocity)),
-        ("+6 lie velocity 4 0 for 1.5", Trust::Implausible(Quantity::Velocity)),
-        ("+6 lie velocity 20 0 for 1.5", Trust::Implausible(Quantity::Velocity)),
+    // A velocity that has lied so long is not believed for four seconds more.
+    for (scenario, why, until_s) in [
+        ("+6 freeze 1.5", Trust::Frozen(Quantity::Velocity), 7.0),
+        ("+6 lie velocity 4 0 for 1.5", Trust::Implausible(Quantity::Velocity), 10.5),
+        ("+6 lie velocity 20 0 for 1.5", Trust::Implausible(Quantity::Velocity), 10.5),
     ] {
         let distrusted = distrust(scenario);
         let (first_s, first) = distrusted.first().copied().unwrap_or_default();
         let (last_s, _) = distrusted.last().copied().unwrap_or_default();
         assert_eq!(first, why, "{scenario}");
         assert!((6.3..7.2).contains(&first_s), "{scenario}: {first_s}");
-        assert!((7.0..8.2).contains(&last_s), "{scenario}: {last_s}");
+        assert!((until_s..until_s + 1.5).contains(&last_s), "{scenario}: {last_s}");
     }
     for scenario in ["", "+3 wind 1 1 gusts 0.5", "0 loss 20\n0 duplicate 20\n0 jitter 50"] {
         let scenario = scenario.replace("jitter", "delay 10 jitter");
