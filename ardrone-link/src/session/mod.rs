@@ -170,6 +170,8 @@ pub struct Session {
     /// Since when landing is ordered of a drone that flies, and whether it does.
     landing_since: Option<Duration>,
     lands: bool,
+    /// The last words have begun.
+    parts: bool,
     emergency: EmergencySwitch,
     events: VecDeque<Event>,
     statistics: Statistics,
@@ -206,6 +208,13 @@ impl SequenceNumbers {
             Some(next) if self.confirmed => next,
             _ => Self::FIRST,
         };
+    }
+
+    /// Beyond whatever another client may have counted to. Number 1 would be heard as well, but behind it
+    /// so would any old datagram that is still under way.
+    fn leap(&mut self) {
+        const FAR: u32 = 1 << 20;
+        self.greatest = self.greatest.saturating_add(FAR);
     }
 
     fn take(&mut self) -> u32 {
@@ -267,6 +276,7 @@ impl Session {
             taking_off_since: None,
             landing_since: None,
             lands: false,
+            parts: false,
             emergency: EmergencySwitch::default(),
             events: VecDeque::with_capacity(EVENTS),
             statistics: Statistics::default(),
@@ -380,8 +390,9 @@ impl Session {
         if !self.has_spoken() {
             return Ok(());
         }
-        // Whoever else speaks to the drone may have counted further.
-        self.sequence.confirmed = false;
+        if !std::mem::replace(&mut self.parts, true) {
+            self.sequence.leap();
+        }
         self.begin(datagram);
         self.withhold_take_off();
         let emergency = self.state.contains(DroneState::EMERGENCY);
@@ -534,8 +545,7 @@ impl Session {
         }
     }
 
-    /// A drone that flies on although it is told to land may obey somebody who has counted further: number 1
-    /// is always heard.
+    /// A drone that flies on although it is told to land may obey somebody who has counted further.
     fn watch_landing(&mut self, now: Duration, take_off: bool) {
         if take_off || !self.state.contains(DroneState::FLYING) || self.lands {
             self.landing_since = None;
@@ -543,7 +553,8 @@ impl Session {
         }
         let since = *self.landing_since.get_or_insert(now);
         if now.saturating_sub(since) >= DISOBEYED {
-            self.sequence.confirmed = false;
+            self.landing_since = Some(now);
+            self.sequence.leap();
         }
     }
 
