@@ -1,5 +1,6 @@
 //! Whatever ends a pilot, its last words are the landing, and the drone comes down.
 
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -150,6 +151,23 @@ fn a_second_control_c_at_any_moment_leaves_with_the_landing_ordered() {
     for (moment, thread) in threads {
         assert!(thread.join().is_ok(), "{moment:?}");
     }
+}
+
+/// Nobody reads what it says, and the pipe is full.
+#[test]
+fn a_second_signal_ends_a_pilot_whose_output_is_stuck() {
+    /// What a pipe of Linux holds.
+    const PIPE_BYTES: usize = 65_536;
+    let (_reader, mut writer) = std::io::pipe().unwrap();
+    writer.write_all(&[b'x'; PIPE_BYTES]).unwrap();
+    let relay = Relay::start(&WorldConfig::default());
+    let plan = plan_file(LONG);
+    let child = pilot(&relay, plan.path()).arg("--json").stdout(writer).spawn().unwrap();
+    flying(&relay);
+    signal(&child, "-INT");
+    wait_until("the ground", Duration::from_secs(20), || relay.truth().phase == Phase::Landed);
+    signal(&child, "-TERM");
+    assert_eq!(ended_within(child, Duration::from_secs(10)), Some(130));
 }
 
 #[test]
