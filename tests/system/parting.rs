@@ -159,7 +159,7 @@ fn a_second_signal_ends_a_pilot_whose_output_is_stuck() {
     /// What a pipe of Linux holds.
     const PIPE_BYTES: usize = 65_536;
     let (_reader, mut writer) = std::io::pipe().unwrap();
-    writer.write_all(&[b'x'; PIPE_BYTES]).unwrap();
+    writer.write_all(&vec![b'x'; PIPE_BYTES]).unwrap();
     let relay = Relay::start(&WorldConfig::default());
     let plan = plan_file(LONG);
     let child = pilot(&relay, plan.path()).arg("--json").stdout(writer).spawn().unwrap();
