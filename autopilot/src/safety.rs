@@ -28,9 +28,11 @@ pub(crate) const INSIDE_M: f64 = 0.5;
 const LOW_M: f64 = 0.15;
 /// It is landed wherever it is after so long.
 const RETREAT: Duration = Duration::from_secs(10);
-/// And when it has come no nearer by so much for so long: it cannot hold against the wind.
-const NO_WAY_BACK: Duration = Duration::from_millis(2500);
+/// And when it has come no nearer by so much for so long, or the wind pushes it outward by this share of all
+/// that it can lean against it: it cannot hold.
+const NO_WAY_BACK: Duration = Duration::from_millis(1500);
 const WAY_BACK_M: f64 = 0.05;
+const TOO_STRONG: f64 = 1.0;
 /// And when navdata have been so old on its way.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
 /// Near the floor of its fence the drone sinks no faster than the slowest airframe stops: this fast at the
@@ -84,6 +86,8 @@ pub struct Circumstances {
     pub pose: Pose,
     /// How it moves: right, forward, up.
     pub velocity_m_s: [f64; 3],
+    /// How the wind pushes it towards right and forward, as a share of what it can lean against.
+    pub wind: [f64; 2],
 }
 
 /// The last word before the wire.
@@ -204,11 +208,17 @@ impl Guard {
     /// The drone's own landing drifts: with eyes open it is flown back and down first.
     fn bring_down(&self, danger: Veto, now: &Circumstances) -> AgentCommand {
         let (away_m, at) = self.way_back;
-        let carried_off = away_m > self.fence.radius_m && now.now >= at + NO_WAY_BACK;
+        let Pose { x_m, y_m, .. } = now.pose;
+        let here_m = x_m.hypot(y_m);
+        let [right, forward] = now.wind;
+        let outward = (right * x_m + forward * y_m) / here_m.max(f64::EPSILON);
+        let too_strong = here_m > self.fence.radius_m && outward > TOO_STRONG;
+        let no_nearer = away_m > self.fence.radius_m && now.now >= at + NO_WAY_BACK;
         let retreats = danger == Veto::OutsideFence
             && now.blind_for <= BLIND_RETREAT
             && now.now < self.retreats_until
-            && !carried_off;
+            && !too_strong
+            && !no_nearer;
         match self.retreat(&now.pose) {
             Some(target) if retreats && now.blind_for <= STALE => AgentCommand::GoTo(target),
             Some(_) if retreats => AgentCommand::Hover,
@@ -276,6 +286,7 @@ mod tests {
         landing: false,
         pose: Pose { x_m: 0.0, y_m: 0.0, z_m: 1.0, yaw_deg: 0.0 },
         velocity_m_s: [0.0; 3],
+        wind: [0.0; 2],
     };
     const TARGET: Pose = Pose { x_m: 1.0, ..FINE.pose };
     const GO_TO: AgentCommand = AgentCommand::GoTo(TARGET);
@@ -391,6 +402,18 @@ mod tests {
             assert!(lands_after(blown_m_s).is_some_and(|time| time <= soon), "{blown_m_s}");
         }
         assert!(lands_after(-0.1).is_some_and(|time| time >= RETREAT), "slowly, but it comes back");
+    }
+
+    #[test]
+    fn a_drone_is_not_flown_back_against_a_wind_that_is_stronger_than_it() {
+        let first = |wind: [f64; 2]| {
+            let outside = Pose { y_m: -10.5, ..FINE.pose };
+            guard().check(GO_TO, &Circumstances { pose: outside, wind, ..FINE }).0
+        };
+        assert_eq!(first([0.0, -1.1]), AgentCommand::Land);
+        for bearable in [[0.0, -0.9], [0.0, 1.1], [1.1, 0.0]] {
+            assert!(matches!(first(bearable), AgentCommand::GoTo(_)), "{bearable:?}");
+        }
     }
 
     #[test]

@@ -75,7 +75,7 @@ const LARGEST_DRAG_1_S: f64 = 1.95;
 /// Where its velocity would have varied this much (standard deviation) in so many seconds, be it quickly or
 /// slowly...
 const AXIS_DEVIATION_M_S: f64 = 0.08;
-const AXIS_WINDOWS_S: [f64; 2] = [3.0, 8.0];
+const AXIS_WINDOWS_S: [f64; 3] = [1.5, 3.0, 8.0];
 /// ...a flow that works shows more than this share of it, also while the drone leans against gusts; noise of
 /// one that does not is less.
 const AXIS_SHARE: f64 = 0.3;

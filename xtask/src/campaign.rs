@@ -77,7 +77,7 @@ fn table(verdicts: &[Verdict]) -> String {
 /// What must never happen and did: how often, and on which flights first.
 fn faults(verdicts: &[Verdict]) -> String {
     /// So many flights of a kind are named.
-    const NAMED: usize = 5;
+    const NAMED: usize = 20;
     let mut by_kind: BTreeMap<String, Vec<(u64, &Fault)>> = BTreeMap::new();
     for verdict in verdicts {
         for (_, fault) in &verdict.faults {

@@ -459,7 +459,7 @@ impl Pilot {
             blind_for_ms: i64::try_from(self.blind_for(now).as_millis()).unwrap_or(i64::MAX),
             doubt_m: self.estimator.horizontal_deviation_m(now),
             saturated_for_ms: self.saturation.for_ms(),
-            wind: self.wind_m_s2.norm() / (self.full_tilt_m_s2 * self.least_thrust()),
+            wind: self.wind().norm(),
             steering: self.hand.sticks(now).is_some(),
             settings: self.mission.settings(),
         }
@@ -482,6 +482,11 @@ impl Pilot {
         self.estimator.airframe().thrust_gain.amin()
     }
 
+    /// The wind's push as a share of what the drone can lean against.
+    fn wind(&self) -> Vector2<f64> {
+        self.wind_m_s2 / (self.full_tilt_m_s2 * self.least_thrust())
+    }
+
     fn feel_wind(&mut self, push_m_s2: Vector2<f64>, step_s: f64) {
         let push_m_s2 = if self.on_ground() { Vector2::zeros() } else { push_m_s2 };
         self.wind_m_s2 += (push_m_s2 - self.wind_m_s2) * (step_s / WIND_TIME_S);
@@ -496,6 +501,7 @@ impl Pilot {
             landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
             pose: pose(state),
             velocity_m_s: state.velocity_m_s.into(),
+            wind: self.wind().into(),
         }
     }
 

@@ -103,8 +103,10 @@ impl Fence {
         let blown = matches!(truth.phase, Phase::Flying | Phase::Landing)
             && (overpowered || self.blown && outside_m > 0.0);
         if blown && !self.blown {
-            // It is carried off: but no further than one that lands in time.
+            // It is carried off: but no further than one that lands in time, whether it flies on by its last
+            // sticks till then or hovers.
             let alone = self.left_alone(drone, |see| {
+                alone::flies_on_and_lands(drone, RESISTS_FOR, &mut *see);
                 alone::hovers_and_lands(drone, RESISTS_FOR, see);
             });
             self.allowed_m = self.allowed_m.max(alone.outside_m);
@@ -164,7 +166,7 @@ impl Fence {
         if begins || unheard && again {
             self.looked_at = Some(now);
             let alone = self.left_alone(drone, |see| {
-                alone::hovers_and_lands(drone, REACTION, &mut *see);
+                alone::flies_on_and_lands(drone, REACTION, &mut *see);
                 if unheard {
                     alone::unheard(drone, see);
                 }
