@@ -102,6 +102,9 @@ pub struct Guard {
     way_back: (f64, Duration),
     /// It has been told to land: in the air that is not taken back.
     lands: bool,
+    /// It was last told to stay on the ground: seen in the air it has risen on an order that was still on its
+    /// way, and any order to fly would keep it there.
+    stays_down: bool,
     sticks: Demand,
 }
 
@@ -114,6 +117,7 @@ impl Guard {
             retreats_until: Duration::ZERO,
             way_back: (0.0, Duration::ZERO),
             lands: false,
+            stays_down: false,
             sticks: Demand::default(),
         }
     }
@@ -127,6 +131,11 @@ impl Guard {
         let flies = !matches!(command, AgentCommand::Standby | AgentCommand::Land);
         if now.emergency && flies {
             return (AgentCommand::Standby, Some(Veto::Emergency));
+        }
+        match command {
+            AgentCommand::Standby => self.stays_down = true,
+            AgentCommand::TakeOff => self.stays_down = false,
+            _ => {}
         }
         if !now.airborne {
             self.danger = None;
@@ -144,7 +153,7 @@ impl Guard {
         flies: bool,
         now: &Circumstances,
     ) -> (AgentCommand, Option<Veto>) {
-        if self.lands || now.landing {
+        if self.lands || now.landing || self.stays_down {
             return (AgentCommand::Land, flies.then(|| self.danger.unwrap_or(Veto::Landing)));
         }
         if flies && self.danger.is_none() {
@@ -327,6 +336,20 @@ mod tests {
         assert_ne!(guard.check(GO_TO, &outside).0, AgentCommand::Land);
         let command = guard.check(AgentCommand::Land, &Circumstances { landing: true, ..outside });
         assert_eq!(command, (AgentCommand::Land, None), "no retreat any more");
+    }
+
+    #[test]
+    fn a_drone_that_rises_after_its_landing_is_landed_again() {
+        let mut guard = guard();
+        let on_ground = Circumstances { airborne: false, ..FINE };
+        guard.check(AgentCommand::TakeOff, &on_ground);
+        guard.check(AgentCommand::Standby, &on_ground);
+        assert_eq!(guard.check(AgentCommand::Hover, &on_ground).0, AgentCommand::Hover);
+        let lands = (AgentCommand::Land, Some(Veto::Landing));
+        assert_eq!(guard.check(AgentCommand::Hover, &FINE), lands);
+        let landed = (AgentCommand::TakeOff, None);
+        assert_eq!(guard.check(AgentCommand::TakeOff, &on_ground), landed);
+        assert_eq!(guard.check(AgentCommand::Hover, &FINE), (AgentCommand::Hover, None));
     }
 
     #[test]

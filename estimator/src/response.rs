@@ -75,10 +75,19 @@ const LARGEST_DRAG_1_S: f64 = 1.95;
 /// Where its velocity would have varied this much (standard deviation) in so many seconds, be it quickly or
 /// slowly...
 const AXIS_DEVIATION_M_S: f64 = 0.08;
-const AXIS_WINDOWS_S: [f64; 3] = [1.5, 3.0, 8.0];
+const AXIS_WINDOWS_S: [f64; 2] = [3.0, 8.0];
 /// ...a flow that works shows more than this share of it, also while the drone leans against gusts; noise of
 /// one that does not is less.
 const AXIS_SHARE: f64 = 0.3;
+/// A drone that begins to lean by this share of full tilt, and does so for a while, gathers speed or brakes.
+/// Where it seems to stand as still as this (standard deviation, and mean), its flow is dead. One that has
+/// leant for longer may hold its place in the wind.
+const LEANS_SHARE: f64 = 0.8;
+const LEANS_S: f64 = 2.0;
+const LEVEL_SHARE: f64 = 0.0;
+const LEVEL_S: f64 = 5.0;
+const STILL_DEVIATION_M_S: f64 = 0.02;
+const STILL_M_S: f64 = 0.04;
 const SMOOTHING_S: f64 = 0.2;
 const AXIS_INTERVAL_S: f64 = 0.05;
 const AXIS_MEMORY: usize = 176;
@@ -116,8 +125,16 @@ struct Axis {
     least_m_s: f64,
     /// The measured velocity, smoothed.
     measured_m_s: f64,
-    /// Both of the last seconds, with their times.
-    recent: VecDeque<(f64, f64, f64)>,
+    recent: VecDeque<Moment>,
+}
+
+/// What an axis did at one moment of the last seconds.
+#[derive(Debug, Clone, Copy)]
+struct Moment {
+    at_s: f64,
+    tilt_rad: f64,
+    least_m_s: f64,
+    measured_m_s: f64,
 }
 
 /// What was measured, at one moment.
@@ -176,9 +193,9 @@ impl Response {
         self.turn.compare(measured.yaw_deg, turn_deg, step_s, turn_deg_s, wrap_deg);
         let [right, forward] = &mut self.axes;
         let (velocity_m_s, tilt_rad) = (measured.velocity_m_s, measured.tilt_rad);
-        let right = right.is_dead(measured.at_s, step_s, velocity_m_s.x, tilt_rad.x);
-        let forward = forward.is_dead(measured.at_s, step_s, velocity_m_s.y, tilt_rad.y);
-        if right || forward {
+        right.watch(measured.at_s, step_s, velocity_m_s.x, tilt_rad.x);
+        forward.watch(measured.at_s, step_s, velocity_m_s.y, tilt_rad.y);
+        if self.axes.iter().any(|axis| axis.is_dead(measured.at_s, limits.tilt_rad)) {
             Some(Quantity::Velocity)
         } else if self.climb.is_missing() {
             Some(Quantity::Altitude)
@@ -212,25 +229,53 @@ impl Axis {
         Self { least_m_s: 0.0, measured_m_s: 0.0, recent: VecDeque::with_capacity(AXIS_MEMORY) }
     }
 
-    /// The tilt swings, and the velocity does not. A steady wind moves neither.
-    fn is_dead(&mut self, at_s: f64, step_s: f64, velocity_m_s: f64, tilt_rad: f64) -> bool {
+    fn watch(&mut self, at_s: f64, step_s: f64, velocity_m_s: f64, tilt_rad: f64) {
         let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * tilt_rad.tan();
         self.least_m_s += (pull_m_s2 - LARGEST_DRAG_1_S * self.least_m_s) * step_s;
         let share = 1.0 - (-step_s / SMOOTHING_S).exp();
         self.measured_m_s += (velocity_m_s - self.measured_m_s) * share;
-        if self.recent.back().is_none_or(|(last_s, ..)| at_s - last_s >= AXIS_INTERVAL_S) {
+        if self.recent.back().is_none_or(|last| at_s - last.at_s >= AXIS_INTERVAL_S) {
             if self.recent.len() == AXIS_MEMORY {
                 self.recent.pop_front();
             }
-            self.recent.push_back((at_s, self.least_m_s, self.measured_m_s));
+            let Self { least_m_s, measured_m_s, .. } = *self;
+            self.recent.push_back(Moment { at_s, tilt_rad, least_m_s, measured_m_s });
         }
+    }
+
+    /// What it did in the last so many seconds.
+    fn within(&self, at_s: f64, window_s: f64) -> impl ExactSizeIterator<Item = &Moment> + Clone {
+        let first = self.recent.partition_point(|then| at_s - then.at_s > window_s);
+        self.recent.range(first..)
+    }
+
+    /// Whether the tilt moves the drone, and the velocity does not show it.
+    fn is_dead(&self, at_s: f64, full_tilt_rad: f64) -> bool {
+        self.misses_swings(at_s) || self.stands_while_leaning(at_s, full_tilt_rad)
+    }
+
+    /// The tilt swings, and the velocity does not. A steady wind moves neither.
+    fn misses_swings(&self, at_s: f64) -> bool {
         AXIS_WINDOWS_S.iter().any(|window_s| {
-            let first = self.recent.partition_point(|(then_s, ..)| at_s - then_s > *window_s);
-            let recent = self.recent.range(first..);
-            let expected_m_s = deviation(recent.clone().map(|(_, expected, _)| *expected));
-            let measured_m_s = deviation(recent.map(|(.., measured)| *measured));
+            let recent = self.within(at_s, *window_s);
+            let expected_m_s = deviation(recent.clone().map(|moment| moment.least_m_s));
+            let measured_m_s = deviation(recent.map(|moment| moment.measured_m_s));
             expected_m_s >= AXIS_DEVIATION_M_S && measured_m_s < AXIS_SHARE * expected_m_s
         })
+    }
+
+    /// It has begun to lean, and does not move.
+    fn stands_while_leaning(&self, at_s: f64, full_tilt_rad: f64) -> bool {
+        let recent = self.within(at_s, LEANS_S);
+        let Some(first) = recent.clone().next() else { return false };
+        let lasts = at_s - first.at_s >= LEANS_S - 2.0 * AXIS_INTERVAL_S;
+        let lean = |moment: &Moment| moment.tilt_rad * first.tilt_rad.signum() / full_tilt_rad;
+        let leans = recent.clone().all(|moment| lean(moment) >= LEANS_SHARE);
+        let was_level = self.within(at_s, LEVEL_S).any(|moment| lean(moment) <= LEVEL_SHARE);
+        let measured = recent.map(|moment| moment.measured_m_s);
+        let stands =
+            mean(measured.clone()).abs() < STILL_M_S && deviation(measured) < STILL_DEVIATION_M_S;
+        lasts && leans && was_level && stands
     }
 
     fn rest(&mut self) {
@@ -240,10 +285,15 @@ impl Axis {
     }
 }
 
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len().max(1) as f64;
+    values.sum::<f64>() / count
+}
+
 /// Standard deviation.
 fn deviation(values: impl ExactSizeIterator<Item = f64> + Clone) -> f64 {
     let count = values.len().max(1) as f64;
-    let mean = values.clone().sum::<f64>() / count;
+    let mean = mean(values.clone());
     (values.map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 

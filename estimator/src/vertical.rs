@@ -58,6 +58,8 @@ pub(crate) struct AltitudeFilter {
     /// Heights in a row that were not believed, and the newest of them above the expected one.
     rejected: u32,
     rejected_by_m: f64,
+    /// The newest of them above the floor at the start.
+    rejected_m: f64,
     /// How long nothing was heard, beyond the usual, since the last height that was believed.
     gap_s: f64,
     /// The last height that was believed was hardly like the expected one: it may have been a wrong echo.
@@ -79,7 +81,8 @@ impl AltitudeFilter {
     const USUAL_STEP_S: f64 = 0.1;
     /// So many that agree are a step of the floor.
     const AGREEING: u32 = 4;
-    /// They agree within this.
+    /// They agree within this, as heights or in what they are above the expected ones: the drone may hold its
+    /// height, or go on as expected.
     const AGREEMENT_M: f64 = 0.1;
 
     /// The state at the last measurement; at rest on the floor before the first.
@@ -136,16 +139,18 @@ impl AltitudeFilter {
 
     /// A height that is not like the expected one: a wrong echo, until others agree with it.
     fn reject(&mut self, surprise_m: f64, allowed_m: f64, expected: Vertical) -> Echo {
-        let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M;
+        let height_m = expected.height_m + surprise_m;
+        let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M
+            || (height_m - self.rejected_m).abs() <= Self::AGREEMENT_M;
         self.rejected = if self.rejected > 0 && agrees { self.rejected + 1 } else { 1 };
         self.rejected_by_m = surprise_m;
+        self.rejected_m = height_m;
         self.state = Some(expected);
         let flown_unseen = surprise_m.abs() <= allowed_m + Self::MAX_JUMP_M_S * self.gap_s;
         if self.rejected > 1 && (flown_unseen || self.doubtful) {
             self.rejected = 0;
             self.gap_s = 0.0;
             self.doubtful = false;
-            let height_m = expected.height_m + surprise_m;
             self.state = Some(Vertical { height_m, ..expected });
             return Echo::Good;
         }
@@ -257,6 +262,21 @@ mod tests {
         assert!((height_m - 1.4).abs() < 0.01, "{height_m}");
         // Without a gap the same is a step of the floor.
         assert!(run(&mut filter, [1.8; 5]).contains(&Echo::FloorStep));
+    }
+
+    #[test]
+    fn a_descent_that_began_in_a_gap_is_believed() {
+        let mut filter = AltitudeFilter::default();
+        run(&mut filter, (0..50).map(|i| 0.5 * 0.066 * f64::from(i)));
+        let top_m = filter.state().height_m;
+        // The model climbs on; the drone has turned and sinks.
+        let expected = Vertical { height_m: top_m + 0.2, climb_m_s: 0.5 };
+        assert_eq!(filter.correct(top_m - 0.1, expected, 0.4, Order::ByItself), Echo::Wrong);
+        let sinks = (1..20).map(|i| top_m - 0.1 - 0.4 * 0.066 * f64::from(i));
+        let echoes = run(&mut filter, sinks);
+        assert!(!echoes.contains(&Echo::FloorStep), "{echoes:?}");
+        let state = filter.state();
+        assert!((state.height_m - (top_m - 0.1 - 0.4 * 0.066 * 19.0)).abs() < 0.1, "{state:?}");
     }
 
     #[test]

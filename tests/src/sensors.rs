@@ -304,7 +304,9 @@ pub fn fly(
     let mut own = Excursion::default();
     healthy.fly_in_world(plan.clone(), |moment, world| {
         if moment.now >= at && moment.now < at + TICK {
-            alone::flies_on_and_lands(world.drone(), Duration::ZERO, |truth| own.see(truth, between));
+            alone::flies_on_and_lands(world.drone(), Duration::ZERO, |truth| {
+                own.see(truth, between)
+            });
         }
     })?;
     let flown = failures.iter().map(|failure| {
