@@ -28,11 +28,16 @@ pub(crate) const INSIDE_M: f64 = 0.5;
 const LOW_M: f64 = 0.15;
 /// It is landed wherever it is after so long.
 const RETREAT: Duration = Duration::from_secs(10);
-/// And when it has come no nearer by so much for so long, or the wind pushes it outward by this share of all
-/// that it can lean against it: it cannot hold.
+/// And when it has come no nearer by so much for so long: it cannot hold against the wind.
 const NO_WAY_BACK: Duration = Duration::from_millis(1500);
 const WAY_BACK_M: f64 = 0.05;
+/// Or at once where the wind pushes it outward by this share of all that it can lean against.
 const TOO_STRONG: f64 = 1.0;
+/// Neither holds while a gust may last, nor of a drone that has just lost so much of its speed: a gust had
+/// thrown it out, and it brakes.
+const GUST: Duration = Duration::from_millis(1200);
+const BRAKES: Duration = Duration::from_millis(600);
+const BRAKES_M_S: f64 = 0.5;
 /// And when navdata have been so old on its way.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
 /// Near the floor of its fence the drone sinks no faster than the slowest airframe stops: this fast at the
@@ -98,8 +103,7 @@ pub struct Guard {
     danger: Option<Veto>,
     /// Until then it may be flown back first.
     retreats_until: Duration,
-    /// How far from the middle of the fence it is or was last, in metres, and when it last came nearer.
-    way_back: (f64, Duration),
+    way_back: WayBack,
     /// It has been told to land: in the air that is not taken back.
     lands: bool,
     /// It was last told to stay on the ground: seen in the air it has risen on an order that was still on its
@@ -115,7 +119,7 @@ impl Guard {
             fence,
             danger: None,
             retreats_until: Duration::ZERO,
-            way_back: (0.0, Duration::ZERO),
+            way_back: WayBack::default(),
             lands: false,
             stays_down: false,
             sticks: Demand::default(),
@@ -159,13 +163,9 @@ impl Guard {
         if flies && self.danger.is_none() {
             self.danger = self.reason_to_land(now);
             self.retreats_until = now.now + RETREAT;
-            self.way_back = (0.0, now.now);
+            self.way_back = WayBack::begin(now.now);
         }
-        let away_m = now.pose.x_m.hypot(now.pose.y_m);
-        if away_m < self.way_back.0 - WAY_BACK_M {
-            self.way_back = (away_m, now.now);
-        }
-        self.way_back.0 = self.way_back.0.max(away_m);
+        self.way_back.see(now);
         if let Some(danger) = self.danger {
             return (self.bring_down(danger, now), Some(danger));
         }
@@ -216,18 +216,11 @@ impl Guard {
 
     /// The drone's own landing drifts: with eyes open it is flown back and down first.
     fn bring_down(&self, danger: Veto, now: &Circumstances) -> AgentCommand {
-        let (away_m, at) = self.way_back;
-        let Pose { x_m, y_m, .. } = now.pose;
-        let here_m = x_m.hypot(y_m);
-        let [right, forward] = now.wind;
-        let outward = (right * x_m + forward * y_m) / here_m.max(f64::EPSILON);
-        let too_strong = here_m > self.fence.radius_m && outward > TOO_STRONG;
-        let no_nearer = away_m > self.fence.radius_m && now.now >= at + NO_WAY_BACK;
+        let is_across = now.pose.x_m.hypot(now.pose.y_m) > self.fence.radius_m;
         let retreats = danger == Veto::OutsideFence
             && now.blind_for <= BLIND_RETREAT
             && now.now < self.retreats_until
-            && !too_strong
-            && !no_nearer;
+            && !(is_across && self.way_back.is_none(now));
         match self.retreat(&now.pose) {
             Some(target) if retreats && now.blind_for <= STALE => AgentCommand::GoTo(target),
             Some(_) if retreats => AgentCommand::Hover,
@@ -271,6 +264,50 @@ impl Guard {
             && (end.z_m <= self.fence.ceiling_m || end.z_m < here.z_m)
             && (end.z_m >= self.fence.floor_m || end.z_m > here.z_m)
     }
+}
+
+/// Whether a drone outside its fence is on its way back.
+#[derive(Debug, Clone, Copy, Default)]
+struct WayBack {
+    /// How far from the middle of the fence it is or was, and when it last came nearer.
+    away_m: f64,
+    nearer_at: Duration,
+    /// How fast it goes or went away, and until when it is waited for it because it has lost much of that.
+    away_m_s: f64,
+    brakes_until: Duration,
+}
+
+impl WayBack {
+    fn begin(now: Duration) -> Self {
+        Self { nearer_at: now, brakes_until: now + GUST, ..Self::default() }
+    }
+
+    fn see(&mut self, now: &Circumstances) {
+        let away_m = now.pose.x_m.hypot(now.pose.y_m);
+        let [right_m_s, forward_m_s, _] = now.velocity_m_s;
+        let away_m_s = outward(now, [right_m_s, forward_m_s]);
+        if away_m < self.away_m - WAY_BACK_M {
+            (self.away_m, self.nearer_at) = (away_m, now.now);
+        }
+        if away_m_s < self.away_m_s - BRAKES_M_S {
+            self.away_m_s = away_m_s;
+            self.brakes_until = self.brakes_until.max(now.now + BRAKES);
+        }
+        self.away_m = self.away_m.max(away_m);
+        self.away_m_s = self.away_m_s.max(away_m_s);
+    }
+
+    fn is_none(&self, now: &Circumstances) -> bool {
+        let no_nearer = now.now >= self.nearer_at + NO_WAY_BACK;
+        let too_strong = outward(now, now.wind) > TOO_STRONG;
+        (no_nearer || too_strong) && now.now >= self.brakes_until
+    }
+}
+
+/// The part of (right, forward) that leads away from the middle of the fence.
+fn outward(now: &Circumstances, [right, forward]: [f64; 2]) -> f64 {
+    let Pose { x_m, y_m, .. } = now.pose;
+    (right * x_m + forward * y_m) / x_m.hypot(y_m).max(f64::EPSILON)
 }
 
 /// Where the drone comes to rest if it begins to brake now.
@@ -429,13 +466,27 @@ mod tests {
 
     #[test]
     fn a_drone_is_not_flown_back_against_a_wind_that_is_stronger_than_it() {
-        let first = |wind: [f64; 2]| {
-            let outside = Pose { y_m: -10.5, ..FINE.pose };
-            guard().check(GO_TO, &Circumstances { pose: outside, wind, ..FINE }).0
+        // It leaves the fence at 3 m/s, and loses of that what it does.
+        let lands_after = |wind: [f64; 2], brakes_m_s2: f64| {
+            let mut guard = guard();
+            (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
+                let away_m_s = (3.0 - brakes_m_s2 * time.as_secs_f64()).max(0.1);
+                let now = Circumstances {
+                    now: FINE.now + *time,
+                    pose: Pose { y_m: -10.5 - away_m_s, ..FINE.pose },
+                    velocity_m_s: [0.0, -away_m_s, 0.0],
+                    wind,
+                    ..FINE
+                };
+                guard.check(GO_TO, &now).0 == AgentCommand::Land
+            })
         };
-        assert_eq!(first([0.0, -1.1]), AgentCommand::Land);
+        let within = |time: Option<Duration>, most: Duration| time.is_some_and(|time| time <= most);
+        let tick = Duration::from_millis(30);
+        assert!(within(lands_after([0.0, -1.1], 0.0), GUST + tick), "a storm");
+        assert!(!within(lands_after([0.0, -1.1], 1.5), GUST + 5 * tick), "it was a gust");
         for bearable in [[0.0, -0.9], [0.0, 1.1], [1.1, 0.0]] {
-            assert!(matches!(first(bearable), AgentCommand::GoTo(_)), "{bearable:?}");
+            assert!(!within(lands_after(bearable, 0.0), GUST + 5 * tick), "{bearable:?}");
         }
     }
 

@@ -501,7 +501,7 @@ impl Pilot {
             landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
             pose: pose(state),
             velocity_m_s: state.velocity_m_s.into(),
-            wind: self.wind().into(),
+            wind: (state.disturbance_m_s2 / (self.full_tilt_m_s2 * self.least_thrust())).into(),
         }
     }
 
