@@ -23,8 +23,10 @@ pub enum Outcome {
     },
     /// The drone cut its motors.
     Emergency,
-    /// The pilot ordered the landing.
+    /// The pilot ordered the landing, and the drone has landed.
     Interrupted,
+    /// The pilot ordered the landing, and nobody waited any longer for the drone to confirm it.
+    LeftLanding,
 }
 
 impl Outcome {
@@ -36,7 +38,7 @@ impl Outcome {
             Self::PreflightRefused { .. } => 30,
             Self::Failsafe { .. } => 40,
             Self::Emergency => 50,
-            Self::Interrupted => 130,
+            Self::Interrupted | Self::LeftLanding => 130,
         }
     }
 }
@@ -57,6 +59,9 @@ impl fmt::Display for Outcome {
             Self::Failsafe { reason } => write!(f, "landed by a failsafe: {reason}"),
             Self::Emergency => f.write_str("emergency: the drone has cut its motors"),
             Self::Interrupted => f.write_str("landed on the pilot's order"),
+            Self::LeftLanding => f.write_str(
+                "left while the drone was landing on the pilot's order: it has not confirmed that it is down",
+            ),
         }
     }
 }

@@ -305,7 +305,7 @@ pub fn fly(
     healthy.fly_in_world(plan.clone(), |moment, world| {
         if moment.now >= at && moment.now < at + TICK {
             alone::flies_on_and_lands(world.drone(), Duration::ZERO, |truth| {
-                own.see(truth, between)
+                own.see(truth, between);
             });
         }
     })?;

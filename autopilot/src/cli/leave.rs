@@ -30,7 +30,7 @@ pub(super) fn on_second_signal(controls: Controls) -> io::Result<()> {
             tokio::time::sleep(LOOK).await;
         }
         tokio::time::sleep(GRACE).await;
-        std::process::exit(Outcome::Interrupted.exit_status().into());
+        std::process::exit(Outcome::LeftLanding.exit_status().into());
     };
     std::thread::Builder::new()
         .name("leave".to_owned())

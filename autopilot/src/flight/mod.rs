@@ -359,7 +359,7 @@ impl TickLoop {
             }
             // The second time nobody waits for the ground.
             if self.orders.stops() >= 2 {
-                return Ok(Outcome::Interrupted);
+                return Ok(Outcome::LeftLanding);
             }
         }
     }

@@ -246,7 +246,8 @@ impl Pilot {
             return;
         }
         let outcome = match self.landing {
-            Some(LandingReason::Pilot) => Outcome::Interrupted,
+            Some(LandingReason::Pilot) if landed => Outcome::Interrupted,
+            Some(LandingReason::Pilot) => Outcome::LeftLanding,
             Some(LandingReason::LinkLost) => Outcome::LinkLost,
             Some(LandingReason::TakeOverRefused) => {
                 Outcome::PreflightRefused { reasons: std::mem::take(&mut self.refusals) }

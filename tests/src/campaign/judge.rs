@@ -383,7 +383,11 @@ impl Judge {
     fn judge_outcome(&mut self, flight: &Flight, flown: &SimulatedFlight) {
         let end = flown.duration;
         let says_down = match &flown.outcome {
-            Outcome::Completed | Outcome::Interrupted | Outcome::Emergency => true,
+            // Nobody leaves early here: a landing that is not confirmed was ordered in vain.
+            Outcome::Completed
+            | Outcome::Interrupted
+            | Outcome::LeftLanding
+            | Outcome::Emergency => true,
             Outcome::Failsafe { reason } => !reason.contains("did not confirm"),
             Outcome::NoDrone | Outcome::LinkLost | Outcome::PreflightRefused { .. } => false,
         };
