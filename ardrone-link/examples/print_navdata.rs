@@ -1,7 +1,11 @@
 //! Prints every option of the drone's full navdata, once a second.
 //!
 //! `cargo run -p ardrone-link --features net --example print_navdata [HOST] [SECONDS]`
-#![allow(clippy::print_stdout, reason = "it shows what happens")]
+#![allow(
+    clippy::print_stdout,
+    clippy::disallowed_methods,
+    reason = "it shows what happens, once a second"
+)]
 
 use std::error::Error;
 use std::time::Duration;

@@ -28,6 +28,7 @@ pub mod configuration;
 pub mod health;
 pub mod navdata;
 #[cfg(feature = "net")]
+#[expect(clippy::disallowed_methods, reason = "the client has sockets and a clock")]
 pub mod net;
 pub mod session;
 pub mod settings;

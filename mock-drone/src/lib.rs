@@ -20,6 +20,7 @@ mod link;
 pub mod scenario;
 mod second_pilot;
 pub mod sensors;
+#[expect(clippy::disallowed_methods, reason = "the server has sockets and a clock")]
 pub mod server;
 mod telemetry;
 mod truth_log;

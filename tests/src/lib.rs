@@ -4,6 +4,7 @@
 mod alone;
 pub mod campaign;
 pub mod sensors;
+pub mod sim;
 
 use autopilot::Plan;
 use autopilot::pilot::Waypoint;

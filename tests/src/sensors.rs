@@ -6,10 +6,10 @@
 use std::fmt;
 use std::time::Duration;
 
+use crate::sim::{Simulation, SimulationError};
 use autopilot::Plan;
 use autopilot::pilot::{FlightEvent, PilotConfig};
 use autopilot::plan::{FlightLimits, ZOrigin};
-use autopilot::sim::{Simulation, SimulationError};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use allocation_counter::measure;
 use ardrone_link::at::Datagram;
+use ardrone_pilot::recording::{Header, Recorder, Timing};
 use autopilot::pilot::{NavdataRate, PilotConfig, PilotOrder, TICK};
-use autopilot::recording::{Header, Recorder, Timing};
 use autopilot::{Demand, Pilot};
 use mock_drone::{Message, World, WorldConfig};
 use system_tests::{SQUARE, plan};

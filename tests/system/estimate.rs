@@ -4,12 +4,12 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::pilot::{Airframe, Quantity, Trust};
-use autopilot::sim::{Moment, Simulation};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, WorldConfig};
+use system_tests::sim::{Moment, Simulation};
 use system_tests::{SQUARE, place_in_navdata_frame, plan};
 
 const VERTICAL: &str = include_str!("../../plans/NikolausVertical.txt");

@@ -8,10 +8,10 @@ use ardrone_link::at::{Config, Datagram};
 use ardrone_link::session::{Order, Received, Session, SessionConfig};
 use autopilot::outcome::Outcome;
 use autopilot::pilot::{FlightEvent, LandingReason};
-use autopilot::sim::{SimulatedFlight, Simulation};
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;
 use mock_drone::{Message, World, WorldConfig};
+use system_tests::sim::{SimulatedFlight, Simulation};
 
 use system_tests::SQUARE;
 

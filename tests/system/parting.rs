@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use ardrone_pilot::flight::Flight;
 use autopilot::PilotConfig;
-use autopilot::flight::Flight;
 use mock_drone::firmware::Phase;
 use mock_drone::{DroneConfig, WorldConfig};
 use nalgebra::Vector2;

@@ -7,7 +7,7 @@ use std::process::{Child, Command, ExitStatus, Output, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use autopilot::recording::Log;
+use ardrone_pilot::recording::Log;
 use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::server::{MockDrone, Ports};
@@ -17,7 +17,16 @@ pub(crate) fn program(name: &str) -> Command {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     let folder = FOLDER.get_or_init(|| {
         let mut build = Command::new(env!("CARGO"));
-        build.args(["build", "--quiet", "-p", "autopilot", "-p", "mock-drone", "-p", "translator"]);
+        build.args([
+            "build",
+            "--quiet",
+            "-p",
+            "ardrone-pilot",
+            "-p",
+            "mock-drone",
+            "-p",
+            "translator",
+        ]);
         build.arg("--bins");
         if !cfg!(debug_assertions) {
             build.arg("--release");

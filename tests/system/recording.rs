@@ -3,14 +3,14 @@
 use std::io::Cursor;
 use std::time::Duration;
 
+use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter};
+use ardrone_pilot::replay::Replay;
+use ardrone_pilot::report;
+use ardrone_pilot::settings;
 use autopilot::pilot::{FlightEvent, NavdataRate, PilotConfig, PilotOrder};
 use autopilot::plan::ZOrigin;
-use autopilot::recording::{Entry, Header, Log, LogError, LogWriter};
-use autopilot::replay::Replay;
-use autopilot::report;
-use autopilot::settings;
-use autopilot::sim::{SimulatedFlight, Simulation};
 use serde_json::{Value, json};
+use system_tests::sim::{SimulatedFlight, Simulation};
 use system_tests::{SQUARE, plan};
 
 fn header(text: &str) -> Header {

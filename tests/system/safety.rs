@@ -8,13 +8,13 @@ use autopilot::outcome::Outcome;
 use autopilot::pilot::{FlightEvent, LandingReason, PilotConfig, PilotOrder, Quantity, Trust};
 use autopilot::plan::FlightLimits;
 use autopilot::safety::Veto;
-use autopilot::sim::{Moment, SimulatedFlight, Simulation};
 use autopilot::{Demand, Plan};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, Quantity as Sensor, SensorFault, WorldConfig};
+use system_tests::sim::{Moment, SimulatedFlight, Simulation};
 use system_tests::{SQUARE, campaign, plan};
 
 const SECOND: Duration = Duration::from_secs(1);

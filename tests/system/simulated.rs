@@ -4,13 +4,13 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::pilot::{FlightEvent, LandingReason, PilotOrder};
-use autopilot::sim::{SimulatedFlight, Simulation};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, LinkFaults, WorldConfig};
 use nalgebra::Vector2;
+use system_tests::sim::{SimulatedFlight, Simulation};
 use system_tests::{SQUARE, plan, true_error_m};
 
 pub(crate) fn fly(simulation: &Simulation, text: &str) -> SimulatedFlight {

@@ -1,14 +1,14 @@
 //! The same flight over real sockets.
 
 use ardrone_link::DroneAddress;
+use ardrone_pilot::flight::{Flight, Message};
 use autopilot::PilotConfig;
-use autopilot::flight::{Flight, Message};
 use autopilot::outcome::Outcome;
-use autopilot::sim::Simulation;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;
 use mock_drone::server::{MockDrone, Ports};
 use mock_drone::{Truth, WorldConfig};
+use system_tests::sim::Simulation;
 use system_tests::{SQUARE, place_in_navdata_frame, plan, true_error_m};
 
 /// The address of a drone that runs in this process.

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 
 use autopilot::outcome::Outcome;
 use autopilot::pilot::LandingReason;
-use autopilot::sim::SimulationError;
 use system_tests::campaign::{Fault, Verdict, fly};
+use system_tests::sim::SimulationError;
 
 use crate::parallel;
 

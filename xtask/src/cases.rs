@@ -3,11 +3,11 @@
 use std::time::Duration;
 
 use autopilot::pilot::{Law, NavdataRate, PilotConfig};
-use autopilot::sim::Simulation;
 use mock_drone::airframe::Profile;
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, LinkFaults, WorldConfig};
 use nalgebra::Vector2;
+use system_tests::sim::Simulation;
 
 /// A plan and how long it stays at each target.
 #[derive(Debug, Clone, Copy)]

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use autopilot::Plan;
-use autopilot::sim::{Moment, SimulatedFlight, SimulationError};
+use system_tests::sim::{Moment, SimulatedFlight, SimulationError};
 
 use crate::cases::{CASES, LAWS};
 use crate::parallel;

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::pilot::FlightEvent;
-use autopilot::sim::{Moment, SimulatedFlight};
 use nalgebra::{Vector2, Vector3};
+use system_tests::sim::{Moment, SimulatedFlight};
 
 /// The figures of one flight.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use autopilot::sim::SimulationError;
 use system_tests::sensors::{AIRFRAMES, Excursion, Failure, Situation, failures, fly};
+use system_tests::sim::SimulationError;
 
 use crate::parallel;
 

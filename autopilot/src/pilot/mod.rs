@@ -12,6 +12,7 @@ mod hand;
 mod preflight;
 mod report;
 mod saturation;
+mod stage;
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -33,12 +34,12 @@ use self::hand::Hand;
 pub use self::hand::PilotOrder;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
 use self::saturation::Saturation;
+pub use self::stage::Stage;
 use crate::agent::{Activity, Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
 use crate::mission::{AgentOrder, Due, Mission};
 use crate::outcome::Outcome;
 use crate::plan::{FlightLimits, Plan};
 use crate::safety::{Circumstances, Guard, Veto};
-use crate::timing::Stage;
 
 /// The time between two ticks.
 pub const TICK: Duration = Duration::from_millis(30);

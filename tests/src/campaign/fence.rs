@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
+use crate::sim::Moment;
 use ardrone_link::navdata::DroneState;
 use autopilot::plan::FlightLimits;
-use autopilot::sim::Moment;
 use mock_drone::firmware::Phase;
 use mock_drone::{Drone, Truth};
 

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
+use crate::sim::Simulation;
 use ardrone_link::navdata::DroneState;
 use autopilot::pilot::{PilotConfig, PilotOrder};
 use autopilot::plan::{FlightLimits, ZOrigin};
-use autopilot::sim::Simulation;
 use autopilot::{Demand, Plan};
 use mock_drone::airframe::{Profile, ThrustLaw};
 use mock_drone::scenario::{Action, Direction, When};

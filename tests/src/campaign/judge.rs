@@ -3,11 +3,11 @@
 
 use std::time::Duration;
 
+use crate::sim::{Moment, SimulatedFlight};
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::DroneState;
 use autopilot::outcome::Outcome;
 use autopilot::pilot::TICK as PILOT_TICK;
-use autopilot::sim::{Moment, SimulatedFlight};
 use mock_drone::firmware::Phase;
 use mock_drone::{Drone, Truth};
 

@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
+use crate::sim::Moment;
 use autopilot::pilot::PilotOrder;
 use autopilot::plan::FlightLimits;
-use autopilot::sim::Moment;
 use mock_drone::firmware::Phase;
 use nalgebra::Vector2;
 

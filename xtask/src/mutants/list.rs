@@ -233,7 +233,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "landWhenSaturated(Most) & Weak <= Most",
                 "landWhenSaturated(Most) & Weak >= 0 & Most >= 0",
             ),
-            edit(GUARD, "&& !carried_off;", "&& (carried_off || !carried_off);"),
+            edit(
+                GUARD,
+                "&& !(is_across && self.way_back.is_none(now));",
+                "&& now.blind_for < Duration::MAX;",
+            ),
         ],
     ),
     // What is sent.

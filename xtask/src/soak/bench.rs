@@ -49,7 +49,7 @@ impl Programs {
     /// Builds both programs like this one.
     pub(crate) fn build(pilot: Option<PathBuf>) -> Result<Self, BenchError> {
         let mut build = Command::new(env!("CARGO"));
-        build.args(["build", "--quiet", "-p", "autopilot", "-p", "mock-drone", "--bins"]);
+        build.args(["build", "--quiet", "-p", "ardrone-pilot", "-p", "mock-drone", "--bins"]);
         if !cfg!(debug_assertions) {
             build.arg("--release");
         }

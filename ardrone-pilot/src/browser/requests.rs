@@ -1,0 +1,163 @@
+//! What a browser may ask for: JSON objects like `{"order":"hold"}`.
+
+use std::time::Duration;
+
+use serde::Deserialize;
+
+use autopilot::pilot::PilotOrder;
+
+/// The motors are cut within this time after it was asked whether that is meant.
+const CUT_AGAIN: Duration = Duration::from_secs(3);
+/// Nobody clicks faster than this.
+const LEAST_APART: Duration = Duration::from_millis(20);
+/// So many requests of no meaning are forgiven.
+const FORGIVEN: u32 = 10;
+
+/// What a page sends.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(tag = "order", rename_all = "lowercase", deny_unknown_fields)]
+enum Request {
+    Hold,
+    Resume,
+    Land,
+    GoTo {
+        x_m: f64,
+        y_m: f64,
+    },
+    /// The first half of a cut.
+    Arm,
+    Cut,
+}
+
+/// Why a request is not carried out.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub(super) enum RequestError {
+    /// Not one of [`Request`].
+    #[error("not understood: {0}")]
+    Meaningless(String),
+    /// Orders come faster than anybody clicks.
+    #[error("too fast")]
+    TooFast,
+    /// A cut that was not announced, or too long ago.
+    #[error("press twice to cut the motors: the drone will fall")]
+    NotArmed,
+}
+
+/// One browser's requests.
+#[derive(Debug, Default)]
+pub(super) struct Requests {
+    armed: Option<Duration>,
+    last: Option<Duration>,
+    meaningless: u32,
+}
+
+impl Requests {
+    /// What is to be done about a request that came at `now`; nothing for the first half of a cut.
+    ///
+    /// # Errors
+    /// Why nothing is.
+    pub(super) fn order(
+        &mut self,
+        now: Duration,
+        text: &str,
+    ) -> Result<Option<PilotOrder>, RequestError> {
+        let last = self.last.replace(now);
+        if last.is_some_and(|last| now.saturating_sub(last) < LEAST_APART) {
+            self.meaningless += 1;
+            return Err(RequestError::TooFast);
+        }
+        let armed = self.armed.take();
+        let request = serde_json::from_str(text).map_err(|error| {
+            self.meaningless += 1;
+            RequestError::Meaningless(error.to_string())
+        })?;
+        Ok(Some(match request {
+            Request::Hold => PilotOrder::Hold,
+            Request::Resume => PilotOrder::Resume,
+            Request::Land => PilotOrder::Land,
+            Request::GoTo { x_m, y_m } => PilotOrder::GoTo { x_m, y_m },
+            Request::Arm => {
+                self.armed = Some(now);
+                return Ok(None);
+            }
+            Request::Cut if armed.is_some_and(|at| now.saturating_sub(at) < CUT_AGAIN) => {
+                PilotOrder::Cut
+            }
+            Request::Cut => return Err(RequestError::NotArmed),
+        }))
+    }
+
+    /// Whether this is no page of ours.
+    pub(super) fn is_garbage(&self) -> bool {
+        self.meaningless > FORGIVEN
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const SECOND: Duration = Duration::from_secs(1);
+
+    #[test]
+    fn requests_are_orders() {
+        let order = |text| Requests::default().order(Duration::ZERO, text);
+        assert_eq!(order(r#"{"order":"hold"}"#), Ok(Some(PilotOrder::Hold)));
+        assert_eq!(order(r#"{"order":"resume"}"#), Ok(Some(PilotOrder::Resume)));
+        assert_eq!(order(r#"{"order":"land"}"#), Ok(Some(PilotOrder::Land)));
+        let go_to = PilotOrder::GoTo { x_m: 1.5, y_m: -2.0 };
+        assert_eq!(order(r#"{"order":"goto","x_m":1.5,"y_m":-2}"#), Ok(Some(go_to)));
+        for text in [
+            "",
+            "land",
+            "{}",
+            r#"{"order":"loop"}"#,
+            r#"{"order":"goto"}"#,
+            r#"{"order":"goto","x_m":1.5,"y_m":null}"#,
+            r#"{"order":"goto","x_m":1e999,"y_m":0}"#,
+            r#"{"order":"goto","x_m":1,"y_m":0,"z_m":1}"#,
+        ] {
+            assert!(matches!(order(text), Err(RequestError::Meaningless(_))), "{text}");
+        }
+    }
+
+    #[test]
+    fn one_press_cuts_nothing() {
+        const ARM: &str = r#"{"order":"arm"}"#;
+        const CUT: &str = r#"{"order":"cut"}"#;
+        let mut requests = Requests::default();
+        let mut order = |tenths, text| requests.order(SECOND / 10 * tenths, text);
+        assert_eq!(order(0, CUT), Err(RequestError::NotArmed));
+        assert_eq!(order(10, ARM), Ok(None));
+        assert_eq!(order(39, CUT), Ok(Some(PilotOrder::Cut)));
+        // Once is once; too late; something else between.
+        assert_eq!(order(40, CUT), Err(RequestError::NotArmed));
+        assert_eq!(order(50, ARM), Ok(None));
+        assert_eq!(order(81, CUT), Err(RequestError::NotArmed));
+        assert_eq!(order(90, ARM), Ok(None));
+        assert_eq!(order(91, r#"{"order":"hold"}"#), Ok(Some(PilotOrder::Hold)));
+        assert_eq!(order(92, CUT), Err(RequestError::NotArmed));
+    }
+
+    #[test]
+    fn floods_and_garbage_are_noticed() {
+        let mut requests = Requests::default();
+        let land = r#"{"order":"land"}"#;
+        assert!(requests.order(SECOND, land).is_ok());
+        assert_eq!(requests.order(SECOND + SECOND / 100, land), Err(RequestError::TooFast));
+        assert!(!requests.is_garbage());
+        for count in 0..FORGIVEN {
+            assert!(requests.order(SECOND * (count + 2), "?").is_err());
+        }
+        assert!(requests.is_garbage());
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_panics(text in ".{0,200}") {
+            prop_assert!(Requests::default().order(SECOND, &text).is_err());
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! What can be typed.
+
+use std::net::{Ipv4Addr, SocketAddr, ToSocketAddrs as _};
+use std::path::PathBuf;
+
+use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+use autopilot::pilot::Law;
+use autopilot::plan;
+
+const EXIT_STATUS: &str = "\
+Exit status:
+    0  the plan was flown to its end and the drone has landed
+    1  anything else that went wrong
+    2  usage
+   10  no drone answered, or the link was lost
+   20  the plan or the settings are invalid or cannot be read
+   30  the pre-flight check refused to take off
+   40  a failsafe landed the drone
+   50  emergency: the drone cut its motors
+  130  the pilot landed it (Ctrl-C)
+
+Ctrl-C lands the drone and waits for the ground; a second one leaves at once, with the
+landing ordered. SIGTERM and a closed terminal do the same.
+
+Keys, in a terminal:
+    space     hold the place; the plan waits
+    r         resume the plan
+    l         land
+    q         land and quit, as Ctrl-C
+    w a s d   fly forward, left, back, right by hand, as long as pressed
+    arrows    climb, sink, turn
+    e e       cut the motors: the drone falls";
+
+/// Fly an AR.Drone 2.0 along a plan.
+///
+/// Without a drone, add --mock: a simulated one is started and flown over the same protocol.
+#[derive(Debug, Parser)]
+#[command(
+    name = "ardrone-pilot",
+    version,
+    after_help = EXIT_STATUS,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
+)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+    #[command(flatten)]
+    pub(super) fly: Option<Fly>,
+}
+
+/// What else there is to do than to fly.
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Check a plan: each step with its target, time and charge, and everything that is wrong or unwise
+    Check(CheckPlan),
+    /// Make a page about a recorded flight: plots, and why the agent did what it did
+    Report {
+        /// A flight log
+        #[arg(value_name = "LOG")]
+        log: PathBuf,
+        /// The page [default: the log's name with .html]
+        #[arg(short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+    /// Fly a recorded flight again, and show where today's code decides otherwise: exit status 1 if it does
+    Replay {
+        /// A flight log
+        #[arg(value_name = "LOG")]
+        log: PathBuf,
+    },
+    /// Print what a shell needs to complete the command line
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL")]
+        shell: Shell,
+    },
+    /// Print the manual page
+    Man,
+    /// Print the settings that hold: the documented defaults, or those of a file
+    Config {
+        /// A `pilot.toml`
+        #[arg(long, value_name = "FILE")]
+        config: Option<PathBuf>,
+    },
+}
+
+/// A plan to be checked.
+#[derive(Debug, Args)]
+pub(super) struct CheckPlan {
+    /// The flight plan
+    #[arg(value_name = "PLAN")]
+    pub(super) plan: PathBuf,
+    /// Settings other than the defaults, for the fence
+    #[arg(long, value_name = "FILE")]
+    pub(super) config: Option<PathBuf>,
+    /// Where z = 0 of the plan is
+    #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
+    pub(super) z_origin: ZOrigin,
+    /// Draw the way from above and its height to this file
+    #[arg(long, value_name = "FILE")]
+    pub(super) svg: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// A flight.
+#[derive(Debug, Args)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag that can be given")]
+pub(super) struct Fly {
+    /// The flight plan
+    #[arg(long, value_name = "FILE")]
+    pub(super) plan: PathBuf,
+    /// Settings other than the defaults; `ardrone-pilot config` shows them
+    #[arg(long, value_name = "FILE")]
+    pub(super) config: Option<PathBuf>,
+    /// Fly a simulated drone, started on free loopback ports
+    #[arg(long, conflicts_with_all = ["drone", "at_port", "navdata_port", "control_port"])]
+    pub(super) mock: bool,
+    /// The drone's address
+    #[arg(long, value_name = "HOST", default_value = DRONE_HOST)]
+    pub(super) drone: String,
+    /// The drone's UDP port for AT commands
+    #[arg(long, value_name = "PORT", default_value_t = AT_PORT)]
+    pub(super) at_port: u16,
+    /// The drone's UDP port for navdata
+    #[arg(long, value_name = "PORT", default_value_t = NAVDATA_PORT)]
+    pub(super) navdata_port: u16,
+    /// The drone's TCP port for its configuration
+    #[arg(long, value_name = "PORT", default_value_t = CONTROL_PORT)]
+    pub(super) control_port: u16,
+    /// Where z = 0 of the plan is
+    #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
+    z_origin: ZOrigin,
+    /// How targets are approached and held; `cascade` unless the settings say otherwise
+    #[arg(long, value_enum, value_name = "LAW")]
+    law: Option<LawName>,
+    /// Record the flight to this file [default: flights/DATE.mcap]
+    #[arg(long, value_name = "FILE")]
+    pub(super) log: Option<PathBuf>,
+    /// Do not record the flight
+    #[arg(long, conflicts_with = "log")]
+    pub(super) no_log: bool,
+    /// Show the flight in a browser, and take orders from it; at an address that others can reach, with
+    /// a token
+    #[arg(
+        long,
+        value_name = "ADDRESS",
+        num_args = 0..=1,
+        default_missing_value = "127.0.0.1:8080",
+        value_parser = page_address
+    )]
+    pub(super) ui: Option<SocketAddr>,
+    /// Print how regular the ticks were and what they cost
+    #[arg(long)]
+    pub(super) timing: bool,
+    /// Plain lines, no terminal tricks
+    #[arg(long)]
+    pub(super) plain: bool,
+    /// Print one JSON object a line: status, events, targets reached, and the end
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LawName {
+    /// Reference, feed-forward, and feedback on the predicted state
+    Cascade,
+    /// That of TUM's autopilot, for comparison
+    Tum,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ZOrigin {
+    /// Where the drone hovers after take-off
+    Hover,
+    /// On the floor
+    Floor,
+}
+
+impl Fly {
+    pub(super) fn law(&self) -> Option<Law> {
+        self.law.map(|law| match law {
+            LawName::Cascade => Law::Cascade,
+            LawName::Tum => Law::Tum,
+        })
+    }
+
+    pub(super) fn z_origin(&self) -> plan::ZOrigin {
+        self.z_origin.into()
+    }
+}
+
+impl From<ZOrigin> for plan::ZOrigin {
+    fn from(origin: ZOrigin) -> Self {
+        match origin {
+            ZOrigin::Hover => Self::Hover,
+            ZOrigin::Floor => Self::Floor,
+        }
+    }
+}
+
+/// An address and a port, or a port of the loopback.
+fn page_address(text: &str) -> Result<SocketAddr, String> {
+    if let Ok(port) = text.parse() {
+        return Ok((Ipv4Addr::LOCALHOST, port).into());
+    }
+    let wanted = "expected an address and a port, as 127.0.0.1:8080";
+    let mut addresses = text.to_socket_addrs().map_err(|error| format!("{error}; {wanted}"))?;
+    addresses.next().ok_or_else(|| wanted.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn a_page_has_an_address() {
+        let ui = |words: &[&str]| {
+            let words = ["ardrone-pilot", "--plan", "p", "--ui"].iter().chain(words);
+            Arguments::try_parse_from(words).map(|arguments| arguments.fly.unwrap().ui.unwrap())
+        };
+        assert_eq!(ui(&[]).unwrap(), "127.0.0.1:8080".parse().unwrap());
+        assert_eq!(ui(&["9000"]).unwrap(), "127.0.0.1:9000".parse().unwrap());
+        assert_eq!(ui(&["0.0.0.0:80"]).unwrap(), "0.0.0.0:80".parse().unwrap());
+        assert!(ui(&["nowhere"]).unwrap_err().to_string().contains("as 127.0.0.1:8080"));
+    }
+
+    #[test]
+    fn help_lists_the_exit_statuses() {
+        let help = Arguments::command().render_long_help().to_string();
+        for status in ["0", "1", "2", "10", "20", "30", "40", "50", "130"] {
+            assert!(help.lines().any(|line| line.split_whitespace().next() == Some(status)));
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! `ardrone-pilot check`: what a plan will do, and what is wrong or unwise in it.
+
+use std::fmt;
+use std::time::Duration;
+
+use diagnostic::{Diagnostic, Severity, Source, line_column, render_all};
+use pid::Pose;
+use serde_json::{Value, json};
+
+use super::arguments::CheckPlan;
+use super::{CommandError, terminal};
+use crate::json;
+use crate::picture;
+use crate::recording::Place;
+use autopilot::plan::{Expectation, FlightLimits, Plan, battery_percent};
+
+/// Checks a plan, prints what was found, and draws it if asked to. The status is 20 for a plan that cannot be
+/// flown.
+pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
+    let settings = super::read_settings(arguments.config.as_deref())?;
+    let limits = settings.pilot_config(arguments.z_origin.into()).limits;
+    let text = super::read("the plan", &arguments.plan)?;
+    let name = arguments.plan.display().to_string();
+    let source = Source { name: &name, text: &text };
+    let (plan, mut diagnostics) = Plan::review(&text, &limits);
+    diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
+    let checked = plan.as_ref().map(|plan| Checked::new(plan, &limits));
+    let printed = if arguments.json {
+        let problems: Vec<Value> =
+            diagnostics.iter().map(|diagnostic| problem(diagnostic, &text)).collect();
+        let steps = checked.as_ref().map(Checked::json);
+        let object = json!({ "plan": name, "steps": steps, "problems": problems });
+        json::text_in_lines(&object) + "\n"
+    } else {
+        let table = checked.map(|checked| checked.to_string()).unwrap_or_default();
+        let problems = render_all(&diagnostics, &source);
+        let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
+        let verdict = match (errors, diagnostics.len()) {
+            (0, 0) => format!("{name} can be flown"),
+            (0, 1) => format!("{name} can be flown; 1 warning"),
+            (0, warnings) => format!("{name} can be flown; {warnings} warnings"),
+            (1, _) => format!("{name} cannot be flown: 1 error"),
+            (errors, _) => format!("{name} cannot be flown: {errors} errors"),
+        };
+        let parts = [table, problems, verdict];
+        let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        parts.join("\n\n") + "\n"
+    };
+    terminal::print(printed);
+    let Some(plan) = plan else { return Ok(20) };
+    if let Some(path) = &arguments.svg {
+        let drawing = picture::svg(&name, &plan, &limits)?;
+        std::fs::write(path, drawing).map_err(|source| CommandError::Write {
+            what: "the picture",
+            path: path.display().to_string(),
+            source,
+        })?;
+    }
+    Ok(0)
+}
+
+/// An error or a warning for programs.
+fn problem(diagnostic: &Diagnostic, text: &str) -> Value {
+    let (line, column) = line_column(text, diagnostic.span.start);
+    let severity = match diagnostic.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+    };
+    json!({
+        "severity": severity,
+        "line": line,
+        "column": column,
+        "message": diagnostic.message,
+        "help": diagnostic.help,
+    })
+}
+
+/// A plan with what is expected of it.
+struct Checked<'a> {
+    plan: &'a Plan,
+    expectations: Vec<Expectation>,
+}
+
+impl<'a> Checked<'a> {
+    fn new(plan: &'a Plan, limits: &FlightLimits) -> Self {
+        Self { plan, expectations: plan.expectations(limits) }
+    }
+
+    fn json(&self) -> Vec<Value> {
+        let steps = self.plan.steps().iter().zip(&self.expectations);
+        steps
+            .map(|(step, expected)| {
+                json!({
+                    "line": (step.line > 0).then_some(step.line),
+                    "command": step.text,
+                    "target": expected.target.map(|pose| Place::from(&pose)),
+                    "leg_m": expected.leg_m,
+                    "time_s": expected.time.as_secs_f64(),
+                    "battery_percent": battery_percent(expected.time),
+                })
+            })
+            .collect()
+    }
+}
+
+impl fmt::Display for Checked<'_> {
+    /// A table, the total below.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let steps = || self.plan.steps().iter().zip(&self.expectations);
+        let width = steps().map(|(step, _)| step.text.chars().count()).max().unwrap_or(0).max(7);
+        writeln!(
+            f,
+            "line  {:<width$}  {:>7} {:>7} {:>7} {:>6}  {:>6} {:>7} {:>7}",
+            "command", "x", "y", "z", "yaw", "leg", "time", "battery"
+        )?;
+        for (step, expected) in steps() {
+            let line = if step.line == 0 { "-".to_owned() } else { step.line.to_string() };
+            let target = expected.target.map(|Pose { x_m, y_m, z_m, yaw_deg }| {
+                format!("{x_m:>7.2} {y_m:>7.2} {z_m:>7.2} {yaw_deg:>6.0}")
+            });
+            let cost = (expected.time > Duration::ZERO).then(|| {
+                let (seconds, percent) =
+                    (expected.time.as_secs_f64(), battery_percent(expected.time));
+                format!("{:>4.1} m {seconds:>5.1} s {percent:>5.1} %", expected.leg_m)
+            });
+            let (target, cost) = (target.unwrap_or_default(), cost.unwrap_or_default());
+            let row = format!("{line:>4}  {:<width$}  {target:>30}  {cost}", step.text);
+            writeln!(f, "{}", row.trim_end())?;
+        }
+        let leg_m: f64 = self.expectations.iter().map(|expected| expected.leg_m).sum();
+        let time: Duration = self.expectations.iter().map(|expected| expected.time).sum();
+        write!(
+            f,
+            "      {:<width$}  {:>30}  {leg_m:>4.1} m {:>5.1} s {:>5.1} %",
+            "together",
+            "",
+            time.as_secs_f64(),
+            battery_percent(time)
+        )?;
+        write!(
+            f,
+            "\n\nm above the floor, right and forward of the take-off; yaw in degrees, clockwise; of a new battery"
+        )?;
+        for note in self.plan.notes() {
+            write!(f, "\nnote: {note}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,179 @@
+//! What a person sees while the drone flies.
+
+use std::io::stderr;
+use std::time::Duration;
+
+use rustix::termios::tcgetwinsize;
+
+use super::terminal;
+use crate::flight::Message;
+use autopilot::pilot::{FlightEvent, Status, TICK};
+use autopilot::plan::{Plan, Step};
+
+/// In plain mode, a line of status this often.
+const PLAIN_STATUS_INTERVAL: Duration = Duration::from_secs(1);
+
+/// Prints events as lines, and the status on a line that is overwritten, or in plain mode as a
+/// line a second. All of it goes to standard error: people read it.
+pub(super) struct Progress {
+    steps: Vec<Step>,
+    plain: bool,
+    status_shown: bool,
+    next_plain_status: Duration,
+}
+
+impl Progress {
+    pub(super) fn new(plan: &Plan, plain: bool) -> Self {
+        let mut progress = Self {
+            steps: plan.steps().to_vec(),
+            plain,
+            status_shown: false,
+            next_plain_status: Duration::ZERO,
+        };
+        for note in plan.notes() {
+            progress.say(&format!("note: {note}"));
+        }
+        progress
+    }
+
+    pub(super) fn show(&mut self, message: &Message) {
+        match message {
+            Message::Event(at, event) => {
+                let text = self.event_text(event);
+                self.say(&format!("{} {text}", time(*at)));
+            }
+            Message::Trouble(at, trouble) => self.say(&format!("{} {trouble}", time(*at))),
+            Message::Realtime(realtime) => self.say(&realtime.to_string()),
+            Message::Waypoint(_) => {}
+            Message::Status(at, status, _) => self.status(*at, status),
+        }
+    }
+
+    /// One line.
+    pub(super) fn say(&mut self, line: &str) {
+        if std::mem::take(&mut self.status_shown) {
+            terminal::tell_over(line);
+        } else {
+            terminal::tell(line);
+        }
+    }
+
+    /// The flight is over: the status line makes room.
+    pub(super) fn end(&mut self) {
+        if std::mem::take(&mut self.status_shown) {
+            terminal::clear();
+        }
+    }
+
+    fn event_text(&self, event: &FlightEvent) -> String {
+        match event {
+            FlightEvent::StepStarted { step } => {
+                let text = self.steps.get(*step).map_or("", |step| step.text.as_str());
+                format!("step {}/{}: {text}", step + 1, self.steps.len())
+            }
+            other => other.to_string(),
+        }
+    }
+
+    fn status(&mut self, at: Duration, status: &Status) {
+        let line = status_line(at, status);
+        if !self.plain {
+            terminal::show(shortened(&line, terminal_columns()));
+            self.status_shown = true;
+        } else if at + TICK > self.next_plain_status {
+            self.next_plain_status = at + PLAIN_STATUS_INTERVAL;
+            self.say(&line);
+        }
+    }
+}
+
+fn status_line(at: Duration, status: &Status) -> String {
+    let mut parts = vec![format!("{} {:<11}", time(at), status.phase)];
+    if let Some(step) = status.step {
+        parts.push(format!("{}/{}", step + 1, status.steps));
+    }
+    let pose = &status.pose;
+    parts.push(format!(
+        " at {:+.2} {:+.2} {:.2} m {:+.0}°",
+        pose.x_m,
+        pose.y_m,
+        pose.z_m,
+        // Without the sign of a zero.
+        pose.yaw_deg.round() + 0.0
+    ));
+    if let (Some(target), Some(distance_m)) = (status.target, status.distance_m) {
+        parts.push(format!(
+            " to {:+.2} {:+.2} {:.2} m, {distance_m:.2} m away",
+            target.x_m, target.y_m, target.z_m
+        ));
+    }
+    if let Some(battery_percent) = status.battery_percent {
+        parts.push(format!(" battery {battery_percent} %"));
+    }
+    match status.navdata_age {
+        Some(age) if age > Duration::from_millis(300) => {
+            parts.push(format!(" NO NAVDATA for {:.1} s", age.as_secs_f64()));
+        }
+        Some(_) => {}
+        None => parts.push(" no navdata yet".to_owned()),
+    }
+    parts.join(" ")
+}
+
+/// A line that is overwritten must not wrap.
+fn shortened(line: &str, columns: usize) -> &str {
+    let end = line.char_indices().nth(columns.saturating_sub(1)).map(|(index, _)| index);
+    &line[..end.unwrap_or(line.len())]
+}
+
+fn terminal_columns() -> usize {
+    const USUAL: usize = 80;
+    tcgetwinsize(stderr()).map_or(USUAL, |size| usize::from(size.ws_col).max(1))
+}
+
+fn time(at: Duration) -> String {
+    format!("{:6.1} s", at.as_secs_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use pid::Pose;
+
+    use super::*;
+    use autopilot::agent::ChosenPlans;
+    use autopilot::pilot::{Airframe, Trust};
+
+    #[test]
+    fn a_status_line_does_not_wrap() {
+        assert_eq!(shortened("12°45", 4), "12°");
+        assert_eq!(shortened("12°45", 80), "12°45");
+        assert_eq!(shortened("", 1), "");
+    }
+
+    #[test]
+    fn the_status_line_says_where_and_where_to() {
+        let status = Status {
+            phase: "flying",
+            step: Some(2),
+            steps: 6,
+            plan_waits: false,
+            pose: Pose { x_m: 0.12, y_m: 0.98, z_m: 0.85, yaw_deg: -1.0 },
+            target: Some(Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 }),
+            distance_m: Some(0.88),
+            battery_percent: Some(87),
+            horizontal_deviation_m: 0.1,
+            vertical_deviation_m: 0.02,
+            trust: Trust::Sound,
+            airframe: Airframe::default(),
+            navdata_age: Some(Duration::from_millis(40)),
+            navdata_hz: 15.0,
+            attitude_deg: None,
+            plans: ChosenPlans::default(),
+            command: None,
+        };
+        assert_eq!(
+            status_line(Duration::from_millis(12_340), &status),
+            "  12.3 s flying      3/6  at +0.12 +0.98 0.85 m -1°  to +1.00 +1.00 0.85 m, 0.88 m away  battery 87 %"
+        );
+    }
+}

@@ -1,0 +1,158 @@
+//! The flight on a whole terminal: where the drone is, what it does and why.
+
+mod view;
+
+use std::collections::VecDeque;
+use std::io::{self, Stderr, stderr};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crossterm::cursor::Show;
+use crossterm::execute;
+use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, size};
+use ratatui::Terminal;
+use ratatui::backend::CrosstermBackend;
+use tracing_subscriber::fmt::MakeWriter;
+
+use self::view::View;
+use super::terminal;
+use crate::flight::Message;
+use autopilot::plan::{FlightLimits, Plan};
+
+/// Smaller terminals get lines.
+const LEAST: (u16, u16) = (70, 20);
+
+/// Draws a flight; gives the terminal back as it was.
+pub(super) struct Screen {
+    terminal: Terminal<CrosstermBackend<Stderr>>,
+    view: View,
+    warnings: Warnings,
+}
+
+impl Screen {
+    /// Takes the terminal; nothing if it is too small or refuses.
+    pub(super) fn start(plan: &Plan, limits: &FlightLimits, warnings: &Warnings) -> Option<Self> {
+        let (columns, rows) = size().ok()?;
+        if columns < LEAST.0 || rows < LEAST.1 {
+            return None;
+        }
+        let terminal = Terminal::new(CrosstermBackend::new(stderr())).ok()?;
+        execute!(stderr(), EnterAlternateScreen).ok()?;
+        warnings.keep(true);
+        let before = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            leave();
+            before(panic);
+        }));
+        let mut screen =
+            Self { terminal, view: View::new(plan, limits), warnings: warnings.clone() };
+        screen.draw();
+        Some(screen)
+    }
+
+    /// Something to be read by people.
+    pub(super) fn say(&mut self, line: &str) {
+        self.view.say(line);
+        self.draw();
+    }
+
+    /// Shows what the flight tells.
+    pub(super) fn show(&mut self, message: &Message) {
+        for warning in self.warnings.take() {
+            self.view.say(&warning);
+        }
+        self.view.take_in(message);
+        // What did not happen between two looks needs no drawing of its own.
+        if matches!(message, Message::Status(..)) {
+            self.draw();
+        }
+    }
+
+    /// Gives the terminal back, and returns what somebody should have read.
+    pub(super) fn end(self) -> Vec<String> {
+        self.view.warnings()
+    }
+
+    fn draw(&mut self) {
+        // A terminal that is gone is told to the flight by the system.
+        _ = self.terminal.draw(|frame| view::draw(frame, &self.view));
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        leave();
+        self.warnings.keep(false);
+    }
+}
+
+fn leave() {
+    // A terminal that is gone needs nothing back.
+    _ = execute!(stderr(), LeaveAlternateScreen, Show);
+}
+
+/// Where warnings go: to standard error, or to the screen while there is one.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Warnings {
+    kept: Arc<Mutex<Option<VecDeque<String>>>>,
+}
+
+impl Warnings {
+    fn keep(&self, keep: bool) {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let left = std::mem::replace(&mut *kept, keep.then(VecDeque::new));
+        for warning in left.into_iter().flatten() {
+            terminal::tell(warning);
+        }
+    }
+
+    fn take(&self) -> Vec<String> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.as_mut().map(|kept| kept.drain(..).collect()).unwrap_or_default()
+    }
+}
+
+impl io::Write for Warnings {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        match kept.as_mut() {
+            Some(kept) => {
+                kept.push_back(without_colours(String::from_utf8_lossy(bytes).trim()));
+                Ok(bytes.len())
+            }
+            None => stderr().write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        stderr().flush()
+    }
+}
+
+/// A line without the sequences that colour it: the screen has colours of its own.
+fn without_colours(line: &str) -> String {
+    let mut parts = line.split('\x1b');
+    let mut plain = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        plain += part.split_once('m').map_or("", |(_, rest)| rest);
+    }
+    plain.trim().to_owned()
+}
+
+impl MakeWriter<'_> for Warnings {
+    type Writer = Self;
+
+    fn make_writer(&self) -> Self {
+        self.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn colours_are_taken_away() {
+        let line = "\x1b[33m WARN\x1b[0m press \x1b[1me\x1b[0m again";
+        assert_eq!(super::without_colours(line), "WARN press e again");
+        assert_eq!(super::without_colours("plain"), "plain");
+        assert_eq!(super::without_colours("\x1b"), "");
+    }
+}

@@ -1,0 +1,366 @@
+//! What the screen shows, and how.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use diagnostic::printable;
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::symbols::Marker;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::canvas::{Canvas, Circle, Line as Segment, Points};
+use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
+
+use crate::flight::Message;
+use crate::timing::TickHealth;
+use crate::trail::Trail;
+use autopilot::pilot::{FlightEvent, Status};
+use autopilot::plan::{FlightLimits, Plan};
+
+/// Lines that are remembered.
+const REMEMBERED: usize = 50;
+
+const HERE: Color = Color::Cyan;
+const TARGET: Color = Color::Yellow;
+const WARNING: Color = Color::LightRed;
+
+/// All that is shown.
+#[derive(Debug)]
+pub(super) struct View {
+    steps: Vec<String>,
+    limits: FlightLimits,
+    at: Duration,
+    status: Option<Status>,
+    ticks: TickHealth,
+    trail: Trail,
+    /// When, and what the agent then decided otherwise.
+    decisions: VecDeque<(Duration, String)>,
+    /// What was told, and whether it is a warning.
+    messages: VecDeque<(String, bool)>,
+}
+
+impl View {
+    pub(super) fn new(plan: &Plan, limits: &FlightLimits) -> Self {
+        let mut view = Self {
+            steps: plan.steps().iter().map(|step| step.text.clone()).collect(),
+            limits: *limits,
+            at: Duration::ZERO,
+            status: None,
+            ticks: TickHealth::default(),
+            trail: Trail::default(),
+            decisions: VecDeque::new(),
+            messages: VecDeque::new(),
+        };
+        for note in plan.notes() {
+            view.say(&format!("note: {note}"));
+        }
+        view
+    }
+
+    pub(super) fn say(&mut self, line: &str) {
+        let warns = line.contains("WARN") || line.starts_with("warning");
+        remember(&mut self.messages, (printable(line).into_owned(), warns));
+    }
+
+    /// Everything that was a warning.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let warnings = self.messages.iter().filter(|(_, warns)| *warns);
+        warnings.map(|(text, _)| text.clone()).collect()
+    }
+
+    pub(super) fn take_in(&mut self, message: &Message) {
+        match message {
+            Message::Realtime(realtime) => self.say(&realtime.to_string()),
+            Message::Waypoint(_) => {}
+            Message::Trouble(at, trouble) => {
+                let line = format!("{:6.1} s {trouble}", at.as_secs_f64());
+                remember(&mut self.messages, (line, true));
+            }
+            Message::Event(at, event) => {
+                let text = match event {
+                    FlightEvent::StepStarted { step } => {
+                        let text = self.steps.get(*step).map_or("", String::as_str);
+                        format!("step {}: {text}", step + 1)
+                    }
+                    other => other.to_string(),
+                };
+                let line = format!("{:6.1} s {}", at.as_secs_f64(), printable(&text));
+                remember(&mut self.messages, (line, event.warns()));
+            }
+            Message::Status(at, status, ticks) => {
+                self.ticks = *ticks;
+                self.look(*at, status);
+            }
+        }
+    }
+
+    fn look(&mut self, at: Duration, status: &Status) {
+        self.trail.add(status.pose.x_m, status.pose.y_m);
+        let decision = decision(status);
+        if !decision.is_empty() && self.decisions.back().is_none_or(|(_, last)| *last != decision) {
+            remember(&mut self.decisions, (at, decision));
+        }
+        self.at = at;
+        self.status = Some(*status);
+    }
+}
+
+fn remember<T>(lines: &mut VecDeque<T>, line: T) {
+    lines.push_back(line);
+    if lines.len() > REMEMBERED {
+        lines.pop_front();
+    }
+}
+
+/// What the agent ordered, and by which of its plans.
+fn decision(status: &Status) -> String {
+    let plans = status.plans.places().map(|(line, trigger)| format!("{trigger} {line}"));
+    let plans: Vec<String> = plans.collect();
+    match status.command {
+        Some(command) => format!("{command}: {}", plans.join(", ")),
+        None => String::new(),
+    }
+}
+
+/// Draws everything.
+pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
+    let [head, body, foot, keys] = Layout::vertical([
+        Constraint::Length(1),
+        Constraint::Min(10),
+        Constraint::Length(7),
+        Constraint::Length(1),
+    ])
+    .areas(frame.area());
+    let [map, side] =
+        Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).areas(body);
+    let [gauges, steps] = Layout::vertical([Constraint::Length(8), Constraint::Min(3)]).areas(side);
+    let [decisions, messages] =
+        Layout::horizontal([Constraint::Percentage(50), Constraint::Percentage(50)]).areas(foot);
+    frame.render_widget(headline(view), head);
+    draw_map(frame, map, view);
+    draw_gauges(frame, gauges, view);
+    draw_steps(frame, steps, view);
+    let shown =
+        |lines: usize, area: Rect| lines.saturating_sub(usize::from(area.height.saturating_sub(2)));
+    let skipped = shown(view.decisions.len(), decisions);
+    let lines = view.decisions.iter().skip(skipped);
+    let lines: Vec<ListItem<'_>> = lines
+        .map(|(at, text)| ListItem::new(format!("{:6.1} s {text}", at.as_secs_f64())))
+        .collect();
+    frame.render_widget(
+        List::new(lines).block(Block::bordered().title("decisions: plans and their lines")),
+        decisions,
+    );
+    let skipped = shown(view.messages.len(), messages);
+    let lines = view.messages.iter().skip(skipped);
+    let lines: Vec<ListItem<'_>> = lines
+        .map(|(text, warns)| {
+            let style = if *warns { Style::new().fg(WARNING) } else { Style::new() };
+            ListItem::new(text.as_str()).style(style)
+        })
+        .collect();
+    frame.render_widget(List::new(lines).block(Block::bordered().title("messages")), messages);
+    frame.render_widget(
+        Paragraph::new(
+            "space hold  r resume  l land  q quit  wasd, arrows by hand  e e cut  Ctrl-C land",
+        )
+        .style(Style::new().add_modifier(Modifier::DIM)),
+        keys,
+    );
+}
+
+/// Phase, step, charge and link on one line.
+fn headline(view: &View) -> Paragraph<'_> {
+    let Some(status) = &view.status else { return Paragraph::new("looking for the drone") };
+    let mut parts = vec![Span::styled(
+        format!(" {:.1} s  {} ", view.at.as_secs_f64(), status.phase),
+        Style::new().add_modifier(Modifier::REVERSED),
+    )];
+    if let Some(step) = status.step {
+        let waits = if status.plan_waits { ", waits" } else { "" };
+        parts.push(Span::raw(format!("  step {}/{}{waits}", step + 1, status.steps)));
+    }
+    let charge = status.battery_percent.map_or("-".to_owned(), |percent| format!("{percent} %"));
+    let low = status.battery_percent.is_some_and(|percent| percent <= 20);
+    let style = if low { Style::new().fg(WARNING) } else { Style::new() };
+    parts.push(Span::styled(format!("  battery {charge}"), style));
+    let (link, style) = match status.navdata_age {
+        Some(age) if age > Duration::from_millis(300) => {
+            let text = format!("  NO NAVDATA for {:.1} s", age.as_secs_f64());
+            (text, Style::new().fg(WARNING))
+        }
+        Some(age) => {
+            let text =
+                format!("  navdata {:.0} a second, {} ms old", status.navdata_hz, age.as_millis());
+            (text, Style::new())
+        }
+        None => ("  no navdata yet".to_owned(), Style::new().fg(WARNING)),
+    };
+    parts.push(Span::styled(link, style));
+    Paragraph::new(Line::from(parts))
+}
+
+/// From above: the fence, the way so far, the drone with its nose, the target.
+fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
+    let pose = view.status.map(|status| status.pose).unwrap_or_default();
+    let target = view.status.and_then(|status| status.target);
+    let places = view.trail.places_m().chain(target.map(|target| (target.x_m, target.y_m)));
+    let (mut x, mut y) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
+    for place in places {
+        x = (x.0.min(place.0), x.1.max(place.0));
+        y = (y.0.min(place.1), y.1.max(place.1));
+    }
+    let (columns, rows) = (f64::from(area.width.max(3)), f64::from(area.height.max(3)));
+    // A character is about twice as high as it is wide.
+    let wide = columns / (2.0 * rows);
+    let half_m = ((y.1 - y.0) / 2.0).max((x.1 - x.0) / 2.0 / wide).max(0.7) * 1.2;
+    let middle = (f64::midpoint(x.0, x.1), f64::midpoint(y.0, y.1));
+    let trail: Vec<(f64, f64)> = view.trail.places_m().collect();
+    let title = format!("from above, {:.1} m high", 2.0 * half_m);
+    let canvas = Canvas::default()
+        .block(Block::bordered().title(title))
+        .marker(Marker::Braille)
+        .x_bounds([middle.0 - half_m * wide, middle.0 + half_m * wide])
+        .y_bounds([middle.1 - half_m, middle.1 + half_m])
+        .paint(|context| {
+            context.draw(&Circle { x: 0.0, y: 0.0, radius: view.limits.radius_m, color: WARNING });
+            context.draw(&Points { coords: &trail, color: Color::DarkGray });
+            context.print(0.0, 0.0, "·");
+            if let Some(target) = target {
+                context.print(target.x_m, target.y_m, Span::styled("o", Style::new().fg(TARGET)));
+            }
+            let yaw_rad = pose.yaw_deg.to_radians();
+            let nose_m = half_m * 0.15;
+            context.draw(&Segment {
+                x1: pose.x_m,
+                y1: pose.y_m,
+                x2: pose.x_m + nose_m * yaw_rad.sin(),
+                y2: pose.y_m + nose_m * yaw_rad.cos(),
+                color: HERE,
+            });
+            context.print(pose.x_m, pose.y_m, Span::styled("X", Style::new().fg(HERE)));
+        });
+    frame.render_widget(canvas, area);
+}
+
+/// Height, attitude, place and target.
+fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
+    let block = Block::bordered().title("drone");
+    let inside = block.inner(area);
+    frame.render_widget(block, area);
+    let Some(status) = &view.status else { return };
+    let [height, text] =
+        Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(inside);
+    let share = (status.pose.z_m / view.limits.ceiling_m).clamp(0.0, 1.0);
+    let share = if share.is_nan() { 0.0 } else { share };
+    frame.render_widget(
+        Gauge::default()
+            .ratio(share)
+            .gauge_style(Style::new().fg(HERE))
+            .label(format!("height {:.2} of {} m", status.pose.z_m, view.limits.ceiling_m)),
+        height,
+    );
+    let pose = &status.pose;
+    let mut lines = vec![
+        format!(
+            "at      {:+.2} {:+.2} {:.2} m {:+.0}°",
+            pose.x_m,
+            pose.y_m,
+            pose.z_m,
+            pose.yaw_deg.round() + 0.0
+        ),
+        match (status.target, status.distance_m) {
+            (Some(target), Some(distance_m)) => format!(
+                "target  {:+.2} {:+.2} {:.2} m, {distance_m:.2} m off",
+                target.x_m, target.y_m, target.z_m
+            ),
+            _ => "target  -".to_owned(),
+        },
+        format!("known   to {:.2} m", status.horizontal_deviation_m),
+        ticks(&view.ticks),
+    ];
+    if let Some([roll_deg, pitch_deg]) = status.attitude_deg {
+        lines.push(format!("leans   {roll_deg:+.1}° right, {:+.1}° forward", -pitch_deg));
+    }
+    frame.render_widget(Paragraph::new(lines.join("\n")), text);
+}
+
+fn ticks(health: &TickHealth) -> String {
+    let late_ms = health.lateness.as_secs_f64() * 1e3;
+    format!("ticks   {late_ms:.1} ms late, {} skipped", health.skipped)
+}
+
+/// The plan, with the step that is flown.
+fn draw_steps(frame: &mut Frame<'_>, area: Rect, view: &View) {
+    let current = view.status.and_then(|status| status.step);
+    let rows = usize::from(area.height.saturating_sub(2));
+    let first = current.unwrap_or(0).saturating_sub(rows / 2);
+    let first = first.min(view.steps.len().saturating_sub(rows));
+    let steps = view.steps.iter().enumerate().skip(first);
+    let steps: Vec<ListItem<'_>> = steps
+        .map(|(index, text)| {
+            let (mark, style) = if Some(index) == current {
+                (">", Style::new().fg(TARGET).add_modifier(Modifier::BOLD))
+            } else {
+                (" ", Style::new())
+            };
+            ListItem::new(format!("{mark} {:>3} {text}", index + 1)).style(style)
+        })
+        .collect();
+    frame.render_widget(List::new(steps).block(Block::bordered().title("plan")), area);
+}
+
+#[cfg(test)]
+mod tests {
+    use pid::Pose;
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+
+    use super::*;
+    use autopilot::agent::ChosenPlans;
+    use autopilot::pilot::{Airframe, Trust};
+
+    #[test]
+    fn the_screen_shows_the_flight() {
+        let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\ngoto 1 1 0 0\nland\n").unwrap();
+        let mut view = View::new(&plan, &FlightLimits::default());
+        let target = Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 };
+        for tick in 0..40_u32 {
+            let share = f64::from(tick) / 40.0;
+            let status = Status {
+                phase: "flying",
+                step: Some(2),
+                steps: 4,
+                plan_waits: false,
+                pose: Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 },
+                target: Some(target),
+                distance_m: Some(1.0 - share),
+                battery_percent: Some(87),
+                horizontal_deviation_m: 0.12,
+                vertical_deviation_m: 0.02,
+                trust: Trust::Sound,
+                airframe: Airframe::default(),
+                navdata_age: Some(Duration::from_millis(40)),
+                navdata_hz: 15.0,
+                attitude_deg: Some([2.5, -1.0]),
+                plans: ChosenPlans::default(),
+                command: Some("Goto"),
+            };
+            let ticks = TickHealth { lateness: Duration::from_micros(230), skipped: 1 };
+            let at = Duration::from_millis(u64::from(tick) * 90);
+            view.take_in(&Message::Status(at, status, ticks));
+        }
+        let started = FlightEvent::StepStarted { step: 2 };
+        view.take_in(&Message::Event(Duration::from_secs(3), started));
+        view.take_in(&Message::Event(Duration::from_secs(4), FlightEvent::LinkLost));
+        let mut terminal = Terminal::new(TestBackend::new(90, 26)).unwrap();
+        terminal.draw(|frame| draw(frame, &view)).unwrap();
+        insta::assert_snapshot!(terminal.backend());
+        // Any size is drawn, whatever fits.
+        for (columns, rows) in [(1, 1), (20, 5), (300, 80)] {
+            let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
+            terminal.draw(|frame| draw(frame, &view)).unwrap();
+        }
+    }
+}

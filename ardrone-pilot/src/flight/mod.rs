@@ -1,0 +1,618 @@
+//! Flights in real time, over UDP.
+//!
+//! The tick has a thread of its own that sleeps in `ppoll` on the navdata socket until an absolute
+//! deadline, so navdata is taken in when it arrives and ticks don't drift. A missed deadline is
+//! counted and skipped, never caught up: the drone wants the newest command once. Everything slow
+//! (signals, the control port, whoever watches) is on other threads behind bounded channels that
+//! drop rather than block; landing, cutting and stopping are counters, which cannot be full. The work
+//! of a tick is bounded, whatever arrives.
+//!
+//! Whatever ends a flight before the drone is down, an error, a panic or a second Ctrl-C, the last
+//! datagrams order the landing. No error of a socket ends it.
+
+mod link;
+mod orders;
+mod services;
+
+use std::io;
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use ardrone_link::DroneAddress;
+use ardrone_link::at::{Datagram, EncodeError};
+use ardrone_link::settings::SettingError;
+use crossbeam_channel::{Receiver, Sender, bounded};
+
+use self::link::{Link, sleep};
+pub use self::link::{Port, Trouble};
+pub use self::orders::Controls;
+use self::orders::Orders;
+pub(crate) use self::services::EndSignals;
+use self::services::Services;
+use crate::realtime::Realtime;
+use crate::recording::{Recorder, Timing};
+use crate::timing::{TickHealth, TickRecorder, TickSummary};
+use autopilot::outcome::Outcome;
+use autopilot::pilot::{
+    FlightEvent, FlightReport, Pilot, PilotConfig, PilotOrder, Stage, Status, TICK, Waypoint,
+};
+use autopilot::plan::Plan;
+
+/// What the flight tells while it lasts.
+#[derive(Debug, Clone, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a box would be asked for in flight")]
+pub enum Message {
+    /// What the system gives the flight's thread.
+    Realtime(Realtime),
+    /// Something happened.
+    Event(Duration, FlightEvent),
+    /// A target was reached and stayed at.
+    Waypoint(Waypoint),
+    /// Something is wrong on this side of the link; the flight goes on.
+    Trouble(Duration, Trouble),
+    /// Where things stand, some times a second.
+    Status(Duration, Status, TickHealth),
+}
+
+/// How the link was on this side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct LinkSummary {
+    /// Datagrams that the system refused to send or to receive.
+    pub errors: u64,
+    /// How often a socket was bound anew because of that.
+    pub bound_anew: u64,
+    /// Ticks in which more datagrams came than are looked at.
+    pub flooded_ticks: u64,
+    /// Datagrams that were looked at and are not in the flight log, because too many came.
+    pub unrecorded: u64,
+}
+
+/// A flight that is over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FinishedFlight {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// What the pilot says of it.
+    pub report: FlightReport,
+    /// How regular the ticks were.
+    pub ticks: TickSummary,
+    /// Messages that were dropped because nobody took them in time.
+    pub dropped_messages: u64,
+    /// Entries of the flight log that the disk was too slow for.
+    pub lost_records: u64,
+    /// How the link was on this side.
+    pub link: LinkSummary,
+}
+
+/// Why a flight could not be started or went wrong in a way that is no flight's fault.
+#[derive(Debug, thiserror::Error)]
+pub enum FlightError {
+    /// The drone's name has no address.
+    #[error("cannot find the drone `{host}`: {source}")]
+    Address {
+        /// What was asked for.
+        host: String,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// No socket can be had.
+    #[error("network: {0}")]
+    Socket(#[source] io::Error),
+    /// A thread could not be started.
+    #[error("cannot start a thread: {0}")]
+    Thread(#[source] io::Error),
+    /// The limits cannot be sent to a drone.
+    #[error(transparent)]
+    Config(#[from] SettingError),
+    /// See [`Pilot::tick`].
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+    /// The flight's thread panicked.
+    #[error("internal error: the flight thread panicked; its last datagrams ordered the landing")]
+    Panicked,
+}
+
+/// A flight that goes on. When it is dropped it lands, and the drop waits for the ground.
+#[derive(Debug)]
+pub struct Flight {
+    messages: Receiver<Message>,
+    controls: Controls,
+    thread: Option<JoinHandle<Result<FinishedFlight, FlightError>>>,
+}
+
+/// How often whoever watches is told where things stand.
+const STATUS_TICKS: u32 = 3;
+/// Messages that may wait for whoever watches.
+const MESSAGES: usize = 256;
+/// Longer than any navdata packet.
+const BUFFER_BYTES: usize = 8192;
+/// A flight that ends in the air orders the landing in so many ticks.
+const PARTING_ORDERS: u32 = 10;
+/// If the system refuses them, it goes on for so many ticks.
+const PARTING_TICKS: u32 = 3 * PARTING_ORDERS;
+/// Datagrams that a tick looks at: more than the system keeps.
+const DATAGRAMS_PER_TICK: u32 = 1000;
+/// So many of them it looks at even if it is late.
+const DATAGRAMS_IF_LATE: u32 = 32;
+/// Datagrams that a tick records.
+const RECORDED_PER_TICK: u32 = 64;
+/// So many of them may be such as mean nothing.
+const REFUSED_PER_TICK: u32 = 8;
+/// A flight that is dropped lands within this time, or is left with the landing ordered.
+const LANDING_PATIENCE: Duration = Duration::from_secs(45);
+/// So long a flight that was left takes at most to end.
+const PARTING_PATIENCE: Duration = Duration::from_secs(3);
+/// How often whoever drops a flight looks whether it has ended.
+const LOOK: Duration = Duration::from_millis(20);
+
+impl Flight {
+    /// Starts flying `plan`, and records it if there is a recorder. Ctrl-C, any other signal that asks
+    /// for the end, and a closed terminal land; a second one ends the flight at once, with the landing
+    /// ordered.
+    ///
+    /// # Errors
+    /// [`FlightError`] if the drone has no address or no socket or thread can be had.
+    pub fn start(
+        plan: Plan,
+        config: &PilotConfig,
+        drone: &DroneAddress,
+        recorder: Option<Recorder>,
+    ) -> Result<Self, FlightError> {
+        let pilot = Pilot::new(plan, config)?;
+        let address = resolve(&drone.host)?;
+        let link = Link::new(address, drone).map_err(FlightError::Socket)?;
+        let (orders, controls) = Orders::new();
+        let control_port = SocketAddr::new(address, drone.control_port);
+        let services = Services::start(control_port, controls.clone())?;
+        let (sender, messages) = bounded(MESSAGES);
+        let tick = TickLoop::new(pilot, link, orders, services, recorder, sender);
+        let thread = std::thread::Builder::new()
+            .name("flight".to_owned())
+            .spawn(move || tick.run(|_| {}))
+            .map_err(FlightError::Thread)?;
+        Ok(Self { messages, controls, thread: Some(thread) })
+    }
+
+    /// What the flight tells; ends when the flight does.
+    pub fn messages(&self) -> impl Iterator<Item = Message> + '_ {
+        self.messages.iter()
+    }
+
+    /// What orders this flight, from any thread.
+    pub fn controls(&self) -> Controls {
+        self.controls.clone()
+    }
+
+    /// Waits for the end.
+    ///
+    /// # Errors
+    /// [`FlightError`] if the flight's thread failed.
+    pub fn finish(mut self) -> Result<FinishedFlight, FlightError> {
+        let Some(thread) = self.thread.take() else { return Err(FlightError::Panicked) };
+        thread.join().map_err(|_| FlightError::Panicked)?
+    }
+
+    /// Waits for the end, but not for ever; returns whether it has come.
+    fn ends_within(&self, patience: Duration) -> bool {
+        let start = clock();
+        let ended = || self.thread.as_ref().is_none_or(JoinHandle::is_finished);
+        while !ended() && start.elapsed() < patience {
+            sleep(LOOK);
+        }
+        ended()
+    }
+}
+
+impl Drop for Flight {
+    /// Whoever flies has failed: the drone is not left in the air.
+    fn drop(&mut self) {
+        if self.thread.is_none() {
+            return;
+        }
+        self.controls.order(PilotOrder::Land);
+        if !self.ends_within(LANDING_PATIENCE) {
+            // Twice: at once.
+            self.controls.stop();
+            self.controls.stop();
+            self.ends_within(PARTING_PATIENCE);
+        }
+    }
+}
+
+fn resolve(host: &str) -> Result<IpAddr, FlightError> {
+    let error = |source| FlightError::Address { host: host.to_owned(), source };
+    let mut addresses = (host, 0).to_socket_addrs().map_err(error)?;
+    let address = addresses.find(SocketAddr::is_ipv4);
+    address
+        .map(|address| address.ip())
+        .ok_or_else(|| error(io::Error::new(io::ErrorKind::NotFound, "it has no IPv4 address")))
+}
+
+/// The flight's clock.
+fn clock() -> Instant {
+    Instant::now()
+}
+
+struct TickLoop {
+    pilot: Pilot,
+    link: Link,
+    orders: Orders,
+    services: Services,
+    recorder: Option<Recorder>,
+    messages: Sender<Message>,
+    dropped_messages: u64,
+    ticks: TickRecorder,
+    realtime: Realtime,
+    waypoints: usize,
+    start: Instant,
+    /// Of the next tick.
+    deadline: Duration,
+    datagram: Datagram,
+    buffer: Vec<u8>,
+    intake: Intake,
+    summary: LinkSummary,
+    /// A flood has been told of.
+    flood_told: bool,
+    /// A first request to end the flight was obeyed.
+    stopping: bool,
+}
+
+/// What a tick may still take in.
+#[derive(Debug, Clone, Copy)]
+struct Intake {
+    taken: u32,
+    recorded: u32,
+    refused: u32,
+}
+
+impl Intake {
+    const NOTHING: Self = Self { taken: 0, recorded: 0, refused: 0 };
+
+    /// Whether a datagram may be recorded, which was `good` or meant nothing.
+    fn records(&mut self, good: bool) -> bool {
+        let room = self.recorded < RECORDED_PER_TICK && (good || self.refused < REFUSED_PER_TICK);
+        self.recorded += u32::from(room);
+        self.refused += u32::from(room && !good);
+        room
+    }
+}
+
+impl TickLoop {
+    fn new(
+        pilot: Pilot,
+        link: Link,
+        orders: Orders,
+        services: Services,
+        recorder: Option<Recorder>,
+        messages: Sender<Message>,
+    ) -> Self {
+        Self {
+            pilot,
+            link,
+            orders,
+            services,
+            recorder,
+            messages,
+            dropped_messages: 0,
+            ticks: TickRecorder::default(),
+            realtime: Realtime::default(),
+            waypoints: 0,
+            start: clock(),
+            deadline: Duration::ZERO,
+            datagram: Datagram::new(),
+            buffer: vec![0_u8; BUFFER_BYTES],
+            intake: Intake::NOTHING,
+            summary: LinkSummary::default(),
+            flood_told: false,
+            stopping: false,
+        }
+    }
+
+    /// Flies to the end. Before each tick `before` is told its number.
+    ///
+    /// However the flight ends, the landing is the last word, unless the drone is down for sure.
+    fn run(mut self, before: impl FnMut(u32)) -> Result<FinishedFlight, FlightError> {
+        self.realtime = Realtime::acquire();
+        self.say(Message::Realtime(self.realtime));
+        self.start = clock();
+        // Parting needs nothing that a panic could have left half done.
+        let flown = catch_unwind(AssertUnwindSafe(|| self.fly(before)));
+        let end = flown.unwrap_or(Err(FlightError::Panicked));
+        let down = matches!(end, Ok(Outcome::Completed | Outcome::PreflightRefused { .. }));
+        if !down {
+            self.part();
+        }
+        end.map(|outcome| self.finished(outcome))
+    }
+
+    fn fly(&mut self, mut before: impl FnMut(u32)) -> Result<Outcome, FlightError> {
+        let mut held_up = false;
+        let mut count = 0_u32;
+        loop {
+            let now = self.start.elapsed();
+            if let Some(rest) = self.deadline.checked_sub(now).filter(|rest| !rest.is_zero()) {
+                self.link.wait(rest);
+                let woken = self.start.elapsed();
+                self.take_in_navdata();
+                held_up = woken < self.deadline && self.start.elapsed() >= self.deadline;
+                continue;
+            }
+            let skipped = skip_missed(&mut self.deadline, now);
+            let late = now.saturating_sub(self.deadline);
+            self.ticks.begin(now, self.deadline, skipped, std::mem::take(&mut held_up));
+            self.deadline += TICK;
+            before(count);
+            self.link.begin_tick();
+            self.intake = Intake::NOTHING;
+            self.take_in_late_navdata();
+            self.take_in_services(now);
+            self.tick()?;
+            self.ticks.end();
+            self.record_tick(late, self.start.elapsed().saturating_sub(now));
+            self.tell(now, count.is_multiple_of(STATUS_TICKS));
+            count = count.wrapping_add(1);
+            if let Some(outcome) = self.pilot.outcome().cloned() {
+                return Ok(outcome);
+            }
+            // The second time nobody waits for the ground.
+            if self.orders.stops() >= 2 {
+                return Ok(Outcome::LeftLanding);
+            }
+        }
+    }
+
+    /// Decides and sends, and takes the time of each stage.
+    fn tick(&mut self) -> Result<(), FlightError> {
+        let start = self.start;
+        let now = start.elapsed();
+        let mut last = now;
+        let mut done = |ticks: &mut TickRecorder, stage| {
+            let now = start.elapsed();
+            ticks.spend(stage, now.saturating_sub(last));
+            last = now;
+        };
+        self.pilot.tick_timed(now, &mut self.datagram, |stage| done(&mut self.ticks, stage))?;
+        if !self.datagram.as_bytes().is_empty() {
+            self.link.send(now, self.datagram.as_bytes());
+        }
+        if self.pilot.wake_up_due(now) {
+            self.link.wake_up(now);
+        }
+        done(&mut self.ticks, Stage::Send);
+        Ok(())
+    }
+
+    /// Takes in what has come until the next tick is due.
+    fn take_in_navdata(&mut self) {
+        let begun = self.start.elapsed();
+        let mut now = begun;
+        while now < self.deadline {
+            if self.intake.taken >= DATAGRAMS_PER_TICK {
+                // The rest of this tick belongs to others.
+                self.link.rest();
+                self.summary.flooded_ticks += 1;
+                if !std::mem::replace(&mut self.flood_told, true) {
+                    self.warn(now, Trouble::Flood);
+                }
+                break;
+            }
+            if !self.take_in_datagram(now) {
+                break;
+            }
+            now = self.start.elapsed();
+        }
+        self.ticks.spend(Stage::Estimate, now.saturating_sub(begun));
+    }
+
+    /// A tick that comes late finds navdata that came before it: it does not overlook them.
+    fn take_in_late_navdata(&mut self) {
+        let now = self.start.elapsed();
+        for _ in 0..DATAGRAMS_IF_LATE {
+            if !self.take_in_datagram(now) {
+                break;
+            }
+        }
+        self.ticks.spend(Stage::Estimate, self.start.elapsed().saturating_sub(now));
+    }
+
+    /// Returns whether there was one.
+    fn take_in_datagram(&mut self, now: Duration) -> bool {
+        let Some(length) = self.link.receive(now, &mut self.buffer) else { return false };
+        self.intake.taken += 1;
+        let packet = self.buffer.get(..length).unwrap_or_default();
+        let before = self.pilot.link_statistics().received;
+        self.pilot.handle_navdata(now, packet);
+        let good = self.pilot.link_statistics().received > before;
+        if let Some(recorder) = &mut self.recorder {
+            if self.intake.records(good) {
+                recorder.navdata(now, packet);
+            } else {
+                self.summary.unrecorded += 1;
+            }
+        }
+        true
+    }
+
+    fn take_in_services(&mut self, now: Duration) {
+        for bytes in self.services.poll_control() {
+            self.pilot.handle_control(now, &bytes);
+            if let Some(recorder) = &mut self.recorder {
+                recorder.control(now, &bytes);
+            }
+        }
+        for order in self.orders.poll() {
+            obey(&mut self.pilot, self.recorder.as_mut(), now, order);
+        }
+        if self.orders.stops() > 0 && !std::mem::replace(&mut self.stopping, true) {
+            obey(&mut self.pilot, self.recorder.as_mut(), now, PilotOrder::Land);
+        }
+    }
+
+    fn record_tick(&mut self, late: Duration, work: Duration) {
+        if let (Some(recorder), Some(decision)) = (&mut self.recorder, self.pilot.decision()) {
+            let ms = |time: Duration| time.as_secs_f64() * 1e3;
+            let timing = Timing { late_ms: ms(late), work_ms: ms(work) };
+            recorder.tick(*decision, timing, self.datagram.as_bytes());
+        }
+    }
+
+    fn tell(&mut self, now: Duration, with_status: bool) {
+        while let Some(event) = self.pilot.poll_event() {
+            if let Some(recorder) = &mut self.recorder {
+                recorder.event(now, event.clone());
+            }
+            self.say(Message::Event(now, event));
+        }
+        if let Some(trouble) = self.link.poll_trouble() {
+            self.warn(now, trouble);
+        }
+        while let Some(waypoint) = self.pilot.report().waypoints.get(self.waypoints).copied() {
+            self.waypoints += 1;
+            self.say(Message::Waypoint(waypoint));
+        }
+        if with_status {
+            let health = self.ticks.health();
+            self.say(Message::Status(now, self.pilot.status(now), health));
+        }
+    }
+
+    fn say(&mut self, message: Message) {
+        if self.messages.try_send(message).is_err() {
+            self.dropped_messages += 1;
+        }
+    }
+
+    /// Something is wrong that does not end the flight.
+    fn warn(&mut self, now: Duration, trouble: Trouble) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.note(now, trouble.to_string());
+        }
+        self.say(Message::Trouble(now, trouble));
+    }
+
+    /// Orders the landing in ticks of its own, and waits for nothing. Only the session is asked, which
+    /// needs neither the agent nor the estimate.
+    fn part(&mut self) {
+        let mut parted = 0;
+        for _ in 0..PARTING_TICKS {
+            let now = self.start.elapsed();
+            skip_missed(&mut self.deadline, now);
+            sleep(self.deadline.saturating_sub(now));
+            self.deadline += TICK;
+            let now = self.start.elapsed();
+            let said = self.pilot.part(now, &mut self.datagram).is_ok();
+            if !said || self.datagram.as_bytes().is_empty() {
+                // The drone was never spoken to.
+                break;
+            }
+            parted += u32::from(self.link.send(now, self.datagram.as_bytes()));
+            if parted == PARTING_ORDERS {
+                break;
+            }
+        }
+        if let (Some(recorder), 1..) = (&mut self.recorder, parted) {
+            let note = format!("the landing was ordered {parted} times more at the end");
+            recorder.note(self.start.elapsed(), note);
+        }
+    }
+
+    fn finished(&mut self, outcome: Outcome) -> FinishedFlight {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.outcome(self.start.elapsed(), outcome.clone());
+        }
+        let (errors, bound_anew) = self.link.failures();
+        FinishedFlight {
+            outcome,
+            report: self.pilot.report().clone(),
+            ticks: self.ticks.summary(self.realtime),
+            dropped_messages: self.dropped_messages,
+            lost_records: self.recorder.as_ref().map_or(0, Recorder::lost),
+            link: LinkSummary { errors, bound_anew, ..self.summary },
+        }
+    }
+}
+
+/// The pilot's hand.
+fn obey(pilot: &mut Pilot, recorder: Option<&mut Recorder>, now: Duration, order: PilotOrder) {
+    pilot.order(now, order);
+    if let Some(recorder) = recorder {
+        recorder.order(now, order);
+    }
+}
+
+/// Moves the deadline to the last one that has passed; returns how many were missed before it.
+fn skip_missed(deadline: &mut Duration, now: Duration) -> u64 {
+    let mut skipped = 0;
+    while *deadline + TICK <= now {
+        *deadline += TICK;
+        skipped += 1;
+    }
+    skipped
+}
+
+#[cfg(test)]
+mod tests {
+    use mock_drone::WorldConfig;
+    use mock_drone::firmware::Phase;
+    use mock_drone::server::{MockDrone, Ports};
+
+    use super::*;
+
+    #[test]
+    fn missed_deadlines_are_counted_and_skipped() {
+        let ms = Duration::from_millis;
+        let mut deadline = ms(30);
+        assert_eq!(skip_missed(&mut deadline, ms(59)), 0);
+        assert_eq!(deadline, ms(30));
+        assert_eq!(skip_missed(&mut deadline, ms(125)), 3);
+        assert_eq!(deadline, ms(120));
+    }
+
+    #[test]
+    fn a_drone_without_address_is_named() {
+        let error = resolve("no such host").unwrap_err();
+        assert!(error.to_string().contains("no such host"));
+    }
+
+    /// A tick loop that flies over a simulated drone.
+    fn over(mock: &MockDrone) -> (TickLoop, Controls, Receiver<Message>) {
+        let ports = mock.ports();
+        let address = DroneAddress {
+            host: ports.host.to_string(),
+            at_port: ports.at,
+            navdata_port: ports.navdata,
+            control_port: ports.control,
+        };
+        let plan = Plan::parse("plan", "takeoff\nsetStayTime 60\ngoto 0 1 0 0\nland\n").unwrap();
+        let pilot = Pilot::new(plan, &PilotConfig::default()).unwrap();
+        let link = Link::new(ports.host, &address).unwrap();
+        let (orders, controls) = Orders::new();
+        let control_port = SocketAddr::new(ports.host, ports.control);
+        let services = Services::start(control_port, controls.clone()).unwrap();
+        let (sender, messages) = bounded(MESSAGES);
+        (TickLoop::new(pilot, link, orders, services, None, sender), controls, messages)
+    }
+
+    #[test]
+    fn a_panic_in_the_air_orders_the_landing() {
+        let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+        let (tick, _controls, _messages) = over(&mock);
+        let mut flown = 0;
+        let result = tick.run(|_| {
+            flown += u32::from(mock.truth().phase == Phase::Flying);
+            assert!(flown < 30, "something is wrong");
+        });
+        assert!(matches!(result, Err(FlightError::Panicked)), "{result:?}");
+        assert!(matches!(mock.truth().phase, Phase::Landing | Phase::Landed), "{:?}", mock.truth());
+    }
+
+    #[test]
+    fn a_tick_records_what_matters_of_a_flood() {
+        let mut intake = Intake::NOTHING;
+        let garbage = (0..1000).filter(|_| intake.records(false)).count();
+        let packets = (0..1000).filter(|_| intake.records(true)).count();
+        assert_eq!((garbage, packets), (8, 56));
+    }
+}

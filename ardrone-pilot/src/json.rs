@@ -1,0 +1,134 @@
+//! What programs and browsers are told of a flight: JSON objects, each with its `type`.
+
+use std::fmt::Write as _;
+
+use diagnostic::is_printable;
+use serde_json::{Value, json};
+
+use crate::flight::{FinishedFlight, Message};
+use crate::recording::{Place, Recorded};
+use autopilot::pilot::{FlightEvent, Status};
+use autopilot::plan::Step;
+
+/// The text of a value, which can stand anywhere: on a terminal, in a page, in a script. What could be obeyed
+/// there is written as `\u003c`, which means the same to whoever reads JSON.
+pub(crate) fn text(value: &Value) -> String {
+    escaped(&value.to_string())
+}
+
+/// Like [`text`], on many lines.
+pub(crate) fn text_in_lines(value: &Value) -> String {
+    escaped(&format!("{value:#}"))
+}
+
+/// Outside strings JSON has none of these characters but line feeds, which in strings are escaped already.
+fn escaped(json: &str) -> String {
+    let mut text = String::with_capacity(json.len());
+    for character in json.chars() {
+        if matches!(character, '<' | '>' | '&') || (character != '\n' && !is_printable(character)) {
+            for unit in character.encode_utf16(&mut [0; 2]) {
+                // Writing to a string cannot fail.
+                _ = write!(text, "\\u{unit:04x}");
+            }
+        } else {
+            text.push(character);
+        }
+    }
+    text
+}
+
+/// What the flight tells while it lasts.
+pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
+    match message {
+        Message::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
+        Message::Event(at, event) => {
+            let step = match event {
+                FlightEvent::StepStarted { step } | FlightEvent::StepDone { step } => Some(*step),
+                _ => None,
+            };
+            let command = step.and_then(|step| steps.get(step)).map(|step| step.text.as_str());
+            json!({
+                "type": "event",
+                "t_s": at.as_secs_f64(),
+                "warning": event.warns(),
+                "text": event.to_string(),
+                "step": step,
+                "command": command,
+            })
+        }
+        Message::Trouble(at, trouble) => json!({
+            "type": "event",
+            "t_s": at.as_secs_f64(),
+            "warning": true,
+            "text": trouble.to_string(),
+            "step": null,
+            "command": null,
+        }),
+        Message::Waypoint(waypoint) => json!({
+            "type": "target",
+            "t_s": waypoint.at.as_secs_f64(),
+            "step": waypoint.step,
+            "target": Place::from(&waypoint.target),
+            "reached": Place::from(&waypoint.pose),
+            "error_m": waypoint.error_m(),
+        }),
+        Message::Status(at, status, ticks) => {
+            let Status { phase, step, steps, target, distance_m, battery_percent, .. } = status;
+            json!({
+                "type": "status",
+                "t_s": at.as_secs_f64(),
+                "phase": phase,
+                "step": step,
+                "steps": steps,
+                "plan_waits": status.plan_waits,
+                "pose": Place::from(&status.pose),
+                "target": target.map(|target| Place::from(&target)),
+                "distance_m": distance_m,
+                "battery_percent": battery_percent,
+                "horizontal_deviation_m": status.horizontal_deviation_m,
+                "vertical_deviation_m": status.vertical_deviation_m,
+                "attitude_deg": status.attitude_deg,
+                "navdata_hz": status.navdata_hz,
+                "navdata_age_s": status.navdata_age.map(|age| age.as_secs_f64()),
+                "tick_late_s": ticks.lateness.as_secs_f64(),
+                "ticks_skipped": ticks.skipped,
+                "order": status.command,
+                "plans": status.plans.places().map(|(line, _)| line).collect::<Vec<_>>(),
+            })
+        }
+    }
+}
+
+/// How it ended.
+pub(crate) fn end(finished: &FinishedFlight, recorded: Option<&Recorded>) -> Value {
+    let report = &finished.report;
+    json!({
+        "type": "end",
+        "outcome": finished.outcome.to_string(),
+        "exit_status": finished.outcome.exit_status(),
+        "steps": report.steps,
+        "steps_done": report.steps_done,
+        "flight_time_s": report.flight_time().map(|time| time.as_secs_f64()),
+        "final_error_m": report.final_error_m(),
+        "log": recorded.map(|recorded| recorded.path.display().to_string()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_text_can_stand_anywhere_and_means_the_same() {
+        let foreign = "</script><!--<script>&\u{2028}\u{2029}\x1b[2J\u{9b}\u{7f}\u{202e}\n\"\\\u{e0041}\u{b0}";
+        let value = json!({ "text": [foreign, 1.5] });
+        for text in [text(&value), text_in_lines(&value)] {
+            let odd =
+                text.chars().find(|c| "<>&".contains(*c) || (*c != '\n' && !is_printable(*c)));
+            assert_eq!(odd, None, "{text:?}");
+            assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), value);
+        }
+        assert_eq!(text(&json!("<\u{b0}\u{e0041}")), "\"\\u003c\u{b0}\\udb40\\udc41\"");
+        assert!(!text(&value).contains('\n'));
+    }
+}

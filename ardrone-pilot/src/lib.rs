@@ -1,0 +1,27 @@
+//! The program `ardrone-pilot`: everything around the pure pilot of the crate `autopilot`.
+//!
+//! - [`flight`] runs the pilot in real time over UDP. [`realtime`] and [`timing`] say what the system gives the
+//!   tick, and how regular it was.
+//! - [`recording`] is the flight log, [`replay`] flies a log again, [`report`] makes a page of it, [`picture`] draws
+//!   a plan.
+//! - [`browser`] shows the flight in a browser, [`cli`] in the terminal.
+//! - [`settings`] reads `pilot.toml`.
+#![forbid(unsafe_code)]
+#![expect(
+    clippy::disallowed_methods,
+    reason = "this crate has the clock, the sockets and the files"
+)]
+
+pub mod browser;
+pub mod cli;
+mod drawing;
+pub mod flight;
+mod json;
+pub mod picture;
+pub mod realtime;
+pub mod recording;
+pub mod replay;
+pub mod report;
+pub mod settings;
+pub mod timing;
+mod trail;

@@ -1,0 +1,159 @@
+//! A plan as a picture: the way from above, and its height over time.
+
+use std::f64::consts::TAU;
+
+use diagnostic::printable;
+use plotters::prelude::*;
+
+use crate::drawing::{self, Drawing, Drawn, FONT};
+use autopilot::plan::{FlightLimits, Plan};
+use pid::Pose;
+
+const SIZE: (u32, u32) = (960, 500);
+const WAY: RGBColor = RGBColor(25, 95, 170);
+const FENCE: RGBColor = RGBColor(190, 60, 40);
+const GROUND: RGBColor = RGBColor(110, 110, 110);
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot draw the plan: {0}")]
+pub struct PictureError(String);
+
+/// A place on the way, and when the drone is expected there.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    pose: Pose,
+    arrival_s: f64,
+    /// It stays there until then.
+    departure_s: f64,
+    /// Its number among the targets; nothing for take-offs and landings.
+    target: Option<usize>,
+}
+
+/// The plan as SVG.
+///
+/// # Errors
+/// [`PictureError`] if the drawing library gives up.
+pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, PictureError> {
+    let places = places(plan, limits);
+    drawing::svg(SIZE, |area| {
+        let (left, right) = area.split_horizontally(SIZE.1);
+        from_above(&left, name, &places, limits)?;
+        over_time(&right, &places, limits)
+    })
+    .map_err(|error| PictureError(error.to_string()))
+}
+
+fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
+    let mut places =
+        vec![Place { pose: Pose::default(), arrival_s: 0.0, departure_s: 0.0, target: None }];
+    let (mut now_s, mut targets) = (0.0, 0);
+    for expected in plan.expectations(limits) {
+        let time_s = expected.time.as_secs_f64();
+        now_s += time_s;
+        if expected.leg_m == 0.0 && expected.target.is_none() {
+            continue;
+        }
+        targets += usize::from(expected.target.is_some());
+        places.push(Place {
+            pose: expected.place,
+            arrival_s: now_s - expected.stay.as_secs_f64(),
+            departure_s: now_s,
+            target: expected.target.map(|_| targets),
+        });
+    }
+    places
+}
+
+/// The way from above, in one scale for both axes.
+fn from_above(area: &Drawing<'_>, name: &str, places: &[Place], limits: &FlightLimits) -> Drawn {
+    let extent = |value: fn(&Pose) -> f64| {
+        let values = places.iter().map(|place| value(&place.pose));
+        values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
+    };
+    let (x, y) = (extent(|pose| pose.x_m), extent(|pose| pose.y_m));
+    let half_m = ((x.1 - x.0).max(y.1 - y.0) * 0.55 + 0.5).max(1.0);
+    let (x, y) = (f64::midpoint(x.0, x.1), f64::midpoint(y.0, y.1));
+    let mut chart = ChartBuilder::on(area)
+        .caption(printable(name), (FONT, 18))
+        .margin(12)
+        .x_label_area_size(36)
+        .y_label_area_size(44)
+        .build_cartesian_2d(x - half_m..x + half_m, y - half_m..y + half_m)?;
+    chart
+        .configure_mesh()
+        .x_desc("right (m)")
+        .y_desc("forward (m)")
+        .label_style((FONT, 13))
+        .light_line_style(WHITE)
+        .bold_line_style(BLACK.mix(0.1))
+        .draw()?;
+    let corner = |part: u32| {
+        let angle = TAU * f64::from(part) / 360.0;
+        (limits.radius_m * angle.sin(), limits.radius_m * angle.cos())
+    };
+    // What is outside the picture would be drawn along its edge.
+    let inside = |(at_x, at_y): (f64, f64)| (at_x - x).abs() < half_m && (at_y - y).abs() < half_m;
+    let fence = (0..360).map(|part| [corner(part), corner(part + 1)]);
+    let fence = fence.filter(|[from, to]| inside(*from) && inside(*to));
+    chart.draw_series(fence.map(|part| PathElement::new(part, FENCE.stroke_width(2))))?;
+    let way = places.iter().map(|place| (place.pose.x_m, place.pose.y_m));
+    chart.draw_series(LineSeries::new(way, WAY.stroke_width(2)))?;
+    chart.draw_series([TriangleMarker::new((0.0, 0.0), 9, GROUND.filled())])?;
+    let targets = places.iter().filter_map(|place| Some((place.target?, place.pose)));
+    let mut labels: Vec<(Pose, Vec<String>)> = Vec::new();
+    for (number, pose) in targets {
+        // Targets at one place share a label.
+        let near =
+            |other: &Pose| (other.x_m - pose.x_m).hypot(other.y_m - pose.y_m) < half_m / 40.0;
+        match labels.iter_mut().find(|(other, _)| near(other)) {
+            Some((_, numbers)) => numbers.push(number.to_string()),
+            None => labels.push((pose, vec![number.to_string()])),
+        }
+        let nose_m = half_m / 12.0;
+        let yaw_rad = pose.yaw_deg.to_radians();
+        let nose = (pose.x_m + nose_m * yaw_rad.sin(), pose.y_m + nose_m * yaw_rad.cos());
+        chart
+            .draw_series([PathElement::new([(pose.x_m, pose.y_m), nose], BLACK.stroke_width(2))])?;
+        chart.draw_series([Circle::new((pose.x_m, pose.y_m), 4, WAY.filled())])?;
+    }
+    chart.draw_series(labels.into_iter().map(|(pose, numbers)| {
+        EmptyElement::at((pose.x_m, pose.y_m)) + Text::new(numbers.join(", "), (7, 6), (FONT, 14))
+    }))?;
+    Ok(())
+}
+
+/// The height over time, between floor and ceiling.
+fn over_time(area: &Drawing<'_>, places: &[Place], limits: &FlightLimits) -> Drawn {
+    let end_s = places.last().map_or(1.0, |place| place.departure_s).max(1.0);
+    let top_m = limits.ceiling_m + 0.3;
+    let mut chart = ChartBuilder::on(area)
+        .caption("height over expected time", (FONT, 18))
+        .margin(12)
+        .x_label_area_size(36)
+        .y_label_area_size(44)
+        .build_cartesian_2d(0.0..end_s * 1.02, 0.0..top_m)?;
+    chart
+        .configure_mesh()
+        .x_desc("s")
+        .y_desc("above the floor (m)")
+        .label_style((FONT, 13))
+        .light_line_style(WHITE)
+        .bold_line_style(BLACK.mix(0.1))
+        .draw()?;
+    for limit_m in [limits.floor_m, limits.ceiling_m] {
+        let line = [(0.0, limit_m), (end_s * 1.02, limit_m)];
+        chart.draw_series(DashedLineSeries::new(line, 6, 4, FENCE.into()))?;
+    }
+    let heights = places
+        .iter()
+        .flat_map(|place| [(place.arrival_s, place.pose.z_m), (place.departure_s, place.pose.z_m)]);
+    chart.draw_series(LineSeries::new(heights, WAY.stroke_width(2)))?;
+    let targets = places.iter().filter_map(|place| Some((place.target?, place)));
+    chart.draw_series(targets.map(|(number, place)| {
+        EmptyElement::at((place.arrival_s, place.pose.z_m))
+            + Circle::new((0, 0), 3, WAY.filled())
+            + Text::new(number.to_string(), (-3, -16), (FONT, 13))
+    }))?;
+    Ok(())
+}

@@ -1,0 +1,304 @@
+//! What stands in a flight log: one JSON object a message, with the same names in the file and here.
+
+use ardrone_link::at::Motion;
+use ardrone_link::navdata::Navdata;
+use ardrone_link::session::FlightOrder;
+use pid::{Demand, Pose};
+use serde::{Deserialize, Serialize};
+
+use autopilot::pilot::{Decision, PilotOrder};
+
+/// A tick: what was known, decided and sent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Tick {
+    /// What the flight was doing, in one word.
+    pub phase: String,
+    /// The step of the plan, from 0.
+    pub step: Option<usize>,
+    /// Where the drone was.
+    pub estimate: Estimate,
+    /// Where it was sent.
+    pub target: Option<Place>,
+    /// What it was told.
+    pub command: Command,
+    /// What the agent decided, and why.
+    pub agent: Agent,
+    /// Why something else was done.
+    pub veto: Option<String>,
+    /// How the tick went.
+    pub timing: Timing,
+    /// The datagram that was sent.
+    pub datagram: String,
+}
+
+/// A place and a heading.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// Right of the take-off.
+    pub x_m: f64,
+    /// Forward of it.
+    pub y_m: f64,
+    /// Above the floor.
+    pub z_m: f64,
+    /// Clockwise.
+    pub yaw_deg: f64,
+}
+
+/// The state that was decided on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// Right of the take-off.
+    pub x_m: f64,
+    /// Forward of it.
+    pub y_m: f64,
+    /// Above the floor.
+    pub z_m: f64,
+    /// Clockwise.
+    pub yaw_deg: f64,
+    /// To the right.
+    pub vx_m_s: f64,
+    /// Forward.
+    pub vy_m_s: f64,
+    /// Up.
+    pub vz_m_s: f64,
+    /// Standard deviation of the place on each horizontal axis.
+    pub horizontal_deviation_m: f64,
+    /// Standard deviation of the height.
+    pub vertical_deviation_m: f64,
+}
+
+/// REF and PCMD as fractions of the limits, with the drone's signs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Command {
+    /// `land`, `take off` or `stay`.
+    pub flight: String,
+    /// Positive flies right.
+    pub roll: f64,
+    /// Positive flies backward.
+    pub pitch: f64,
+    /// Positive climbs.
+    pub gaz: f64,
+    /// Positive turns clockwise.
+    pub yaw: f64,
+    /// The drone is to hold still by itself.
+    pub hover: bool,
+}
+
+/// A step of the agent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Agent {
+    /// The plans that it chose, the event's first.
+    pub plans: Vec<ChosenPlan>,
+    /// What it wanted.
+    pub command: String,
+    /// What it said of its last order.
+    pub report: Option<String>,
+    /// What it said of the flight.
+    pub danger: Option<String>,
+    /// Charge in percent.
+    pub battery_percent: Option<u32>,
+    /// Since the newest navdata that could be believed.
+    pub blind_for_ms: i64,
+    /// What pushes the drone, as a share of what full tilt gives.
+    pub wind: f64,
+    /// The drone said that it has landed.
+    pub on_ground: bool,
+}
+
+/// A plan of the agent.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ChosenPlan {
+    /// Its trigger.
+    pub trigger: String,
+    /// Its first line in the agent's source, which is attached to the log.
+    pub line: u32,
+}
+
+/// How a tick went.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Timing {
+    /// After its deadline.
+    pub late_ms: f64,
+    /// From its begin until the datagram was sent.
+    pub work_ms: f64,
+}
+
+/// What a navdata packet said.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DecodedNavdata {
+    /// Counts packets.
+    pub sequence: u32,
+    /// State bits of the header.
+    pub state: u32,
+    /// What the drone says it does.
+    pub control_state: Option<String>,
+    /// Charge.
+    pub battery_percent: Option<u32>,
+    /// By the ultrasound.
+    pub altitude_m: Option<f64>,
+    /// Forward, right, down.
+    pub velocity_m_s: Option<[f64; 3]>,
+    /// Roll, pitch, yaw as the drone tells them.
+    pub attitude_deg: Option<[f64; 3]>,
+}
+
+/// Bytes of a packet or of the control port, in base 64.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Bytes {
+    /// The bytes.
+    pub data: String,
+}
+
+/// The pilot's hand.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "order", rename_all = "lowercase")]
+pub enum Hand {
+    /// Stay where the drone is.
+    Hold,
+    /// Go on with the plan.
+    Resume,
+    /// Fly so, for a moment.
+    Steer {
+        /// Positive flies right.
+        roll: f64,
+        /// Positive flies backward.
+        pitch: f64,
+        /// Positive climbs.
+        gaz: f64,
+        /// Positive turns clockwise.
+        yaw: f64,
+    },
+    /// Fly to this place and stay there.
+    GoTo {
+        /// To the right of the start.
+        x_m: f64,
+        /// Before the start.
+        y_m: f64,
+    },
+    /// Land.
+    Land,
+    /// Cut the motors.
+    Cut,
+}
+
+impl Tick {
+    /// The tick as it stands in a log.
+    pub fn new(decision: &Decision, timing: Timing, datagram: &[u8]) -> Self {
+        let Decision { state, senses, .. } = decision;
+        let Pose { x_m, y_m, z_m, yaw_deg } = senses.pose.unwrap_or_default();
+        Self {
+            phase: decision.phase.to_owned(),
+            step: decision.step,
+            estimate: Estimate {
+                x_m: short(x_m),
+                y_m: short(y_m),
+                z_m: short(z_m),
+                yaw_deg: short(yaw_deg),
+                vx_m_s: short(state.velocity_m_s.x),
+                vy_m_s: short(state.velocity_m_s.y),
+                vz_m_s: short(state.velocity_m_s.z),
+                horizontal_deviation_m: short(senses.doubt_m),
+                vertical_deviation_m: short(decision.vertical_deviation_m),
+            },
+            target: decision.target.map(|pose| Place::from(&pose)),
+            command: Command::new(decision),
+            agent: Agent::new(decision),
+            veto: decision.veto.map(|veto| format!("{veto:?}")),
+            timing: Timing { late_ms: short(timing.late_ms), work_ms: short(timing.work_ms) },
+            datagram: String::from_utf8_lossy(datagram).into_owned(),
+        }
+    }
+}
+
+impl From<&Pose> for Place {
+    fn from(pose: &Pose) -> Self {
+        let Pose { x_m, y_m, z_m, yaw_deg } = *pose;
+        Self { x_m: short(x_m), y_m: short(y_m), z_m: short(z_m), yaw_deg: short(yaw_deg) }
+    }
+}
+
+impl Command {
+    fn new(decision: &Decision) -> Self {
+        let flight = match decision.order.flight {
+            FlightOrder::Land => "land",
+            FlightOrder::TakeOff => "take off",
+            FlightOrder::StayAirborne => "stay",
+        };
+        let (sticks, hover) = match decision.order.motion {
+            Motion::Hover => ([0.0; 4], true),
+            Motion::Progressive { roll, pitch, gaz, yaw } => {
+                ([roll, pitch, gaz, yaw].map(|stick| short(stick.get().into())), false)
+            }
+        };
+        let [roll, pitch, gaz, yaw] = sticks;
+        Self { flight: flight.to_owned(), roll, pitch, gaz, yaw, hover }
+    }
+}
+
+impl Agent {
+    fn new(decision: &Decision) -> Self {
+        let Decision { senses, .. } = decision;
+        let plan = |(line, trigger): (u32, &str)| ChosenPlan { trigger: trigger.to_owned(), line };
+        Self {
+            plans: decision.plans.places().map(plan).collect(),
+            command: decision.wanted.name().to_owned(),
+            report: decision.report.map(|report| format!("{report:?}")),
+            danger: decision.danger.map(|danger| format!("{danger:?}")),
+            battery_percent: senses.battery_percent,
+            blind_for_ms: senses.blind_for_ms,
+            wind: short(senses.wind),
+            on_ground: senses.on_ground,
+        }
+    }
+}
+
+impl From<&Navdata> for DecodedNavdata {
+    fn from(navdata: &Navdata) -> Self {
+        let demo = navdata.demo.as_ref();
+        Self {
+            sequence: navdata.sequence,
+            state: navdata.state.bits(),
+            control_state: demo.map(|demo| format!("{:?}", demo.control_state)),
+            battery_percent: demo.map(|demo| demo.battery_percent),
+            altitude_m: demo.map(|demo| short(demo.altitude_m)),
+            velocity_m_s: demo.map(|demo| {
+                [demo.velocity_forward_m_s, demo.velocity_right_m_s, demo.velocity_down_m_s]
+                    .map(short)
+            }),
+            attitude_deg: demo.map(|demo| [demo.roll_deg, demo.pitch_deg, demo.yaw_deg].map(short)),
+        }
+    }
+}
+
+impl From<PilotOrder> for Hand {
+    fn from(order: PilotOrder) -> Self {
+        match order {
+            PilotOrder::Hold => Self::Hold,
+            PilotOrder::Resume => Self::Resume,
+            PilotOrder::Steer(Demand { roll, pitch, gaz, yaw }) => {
+                Self::Steer { roll, pitch, gaz, yaw }
+            }
+            PilotOrder::GoTo { x_m, y_m } => Self::GoTo { x_m, y_m },
+            PilotOrder::Land => Self::Land,
+            PilotOrder::Cut => Self::Cut,
+        }
+    }
+}
+
+impl From<Hand> for PilotOrder {
+    fn from(hand: Hand) -> Self {
+        match hand {
+            Hand::Hold => Self::Hold,
+            Hand::Resume => Self::Resume,
+            Hand::Steer { roll, pitch, gaz, yaw } => Self::Steer(Demand { roll, pitch, gaz, yaw }),
+            Hand::GoTo { x_m, y_m } => Self::GoTo { x_m, y_m },
+            Hand::Land => Self::Land,
+            Hand::Cut => Self::Cut,
+        }
+    }
+}
+
+/// Four digits behind the point are more than anything here is worth, and keep the file small.
+fn short(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
+}

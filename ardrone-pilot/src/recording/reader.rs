@@ -1,0 +1,302 @@
+//! Reads a flight log, also one that was cut off.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use diagnostic::printable;
+use mcap::records::Record as McapRecord;
+use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{McapError, parse_record};
+use serde::de::DeserializeOwned;
+
+use super::messages::{Bytes, DecodedNavdata, Hand, Tick};
+use super::{AGENT_FILE, FLIGHT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
+use autopilot::pilot::PilotOrder;
+use autopilot::plan::ZOrigin;
+
+/// A flight as it was recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Log {
+    /// The plan's file name.
+    pub plan_name: String,
+    /// The plan.
+    pub plan: String,
+    /// The settings that held, as TOML.
+    pub settings: String,
+    /// The agent that flew.
+    pub agent: String,
+    /// Where z = 0 of the plan is.
+    pub z_origin: ZOrigin,
+    /// What was flown.
+    pub drone: String,
+    /// The version that flew.
+    pub version: String,
+    /// When the flight's clock was zero, since the Unix epoch.
+    pub start: Duration,
+    /// What happened, in the order in which it was written, with the flight's clock.
+    pub entries: Vec<(Duration, Entry)>,
+    /// Whether the log has its end; one of a process that was killed has not.
+    pub complete: bool,
+}
+
+/// Something in a log.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Entry {
+    /// A datagram from the navdata port.
+    Navdata(Vec<u8>),
+    /// What it said.
+    Decoded(DecodedNavdata),
+    /// Bytes from the control port.
+    Control(Vec<u8>),
+    /// The pilot's hand.
+    Order(PilotOrder),
+    /// Something to be read by people, and whether it is a warning.
+    Event {
+        /// Whether it is a warning.
+        warns: bool,
+        /// What happened.
+        text: String,
+    },
+    /// How the flight ended, and whether that is a warning.
+    Outcome {
+        /// Whether it is a warning.
+        warns: bool,
+        /// How it ended.
+        text: String,
+    },
+    /// A tick.
+    Tick(Box<Tick>),
+}
+
+/// Why a log cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum LogError {
+    /// It is no MCAP file, or a damaged one.
+    #[error("not a flight log: {}", printable(&.0.to_string()))]
+    Mcap(#[from] McapError),
+    /// The file is longer than any flight's.
+    #[error("it is larger than {} MB: no flight is that long", LARGEST_FILE_BYTES / 1_000_000)]
+    TooLarge,
+    /// What is packed in it is out of proportion: a file that is made to fill the memory.
+    #[error(
+        "not a flight log: its content is more than {LARGEST_RATIO} times as large as the file"
+    )]
+    Bomb,
+    /// Something that every flight log has is missing.
+    #[error("not a flight log of ardrone-pilot: it has no {missing}")]
+    Foreign {
+        /// What is missing.
+        missing: String,
+    },
+    /// A message is not what it should be.
+    #[error("damaged message in {topic}: {problem}")]
+    Message {
+        /// Its topic.
+        topic: String,
+        /// What is wrong.
+        problem: String,
+    },
+}
+
+impl Log {
+    /// Reads the content of a file.
+    ///
+    /// # Errors
+    /// [`LogError`] if it is no flight log. One that was cut off is read as far as it goes.
+    pub fn read(file: &[u8]) -> Result<Self, LogError> {
+        if file.len() > LARGEST_FILE_BYTES {
+            return Err(LogError::TooLarge);
+        }
+        let mut content = Content::read(file)?;
+        let flight = content.flight;
+        let mut text = |name: &str| {
+            let text = content.texts.remove(name);
+            text.ok_or_else(|| LogError::Foreign { missing: name.to_owned() })
+        };
+        let told = |key: &str| {
+            flight.get(key).cloned().ok_or_else(|| LogError::Foreign { missing: key.to_owned() })
+        };
+        let start = told("start_ns")?
+            .parse()
+            .map_err(|_| LogError::Foreign { missing: "start_ns that is a number".to_owned() })?;
+        let start = Duration::from_nanos(start);
+        let mut entries = content.entries;
+        for (at, _) in &mut entries {
+            *at = at.saturating_sub(start);
+        }
+        Ok(Self {
+            plan_name: told("plan")?,
+            plan: text(PLAN_FILE)?,
+            settings: text(SETTINGS_FILE)?,
+            agent: text(AGENT_FILE)?,
+            z_origin: ZOrigin::from_name(&told("z_origin")?).unwrap_or_default(),
+            drone: told("drone")?,
+            version: told("version")?,
+            start,
+            entries,
+            complete: content.complete,
+        })
+    }
+
+    /// The ticks.
+    pub fn ticks(&self) -> impl Iterator<Item = (Duration, &Tick)> {
+        self.entries.iter().filter_map(|(at, entry)| match entry {
+            Entry::Tick(tick) => Some((*at, tick.as_ref())),
+            _ => None,
+        })
+    }
+
+    /// How the flight ended, and whether that is a warning; nothing if the log does not say.
+    pub fn outcome(&self) -> Option<(bool, &str)> {
+        self.entries.iter().rev().find_map(|(_, entry)| match entry {
+            Entry::Outcome { warns, text } => Some((*warns, text.as_str())),
+            _ => None,
+        })
+    }
+
+    /// What was told to people.
+    pub fn events(&self) -> impl Iterator<Item = (Duration, bool, &str)> {
+        self.entries.iter().filter_map(|(at, entry)| match entry {
+            Entry::Event { warns, text } => Some((*at, *warns, text.as_str())),
+            _ => None,
+        })
+    }
+}
+
+type Texts = BTreeMap<String, String>;
+
+/// No larger file is read: it would be three hours of all that a drone can send.
+pub const LARGEST_FILE_BYTES: usize = 512 << 20;
+/// A length beyond this is a lie, before and after a chunk is unpacked: ours are less than 1 MiB.
+const LONGEST_RECORD_BYTES: usize = 16 << 20;
+/// Flight logs unpack to four times their size; LZ4 can do 255.
+const LARGEST_RATIO: usize = 32;
+/// So much may be unpacked of any file: what repeats itself in a short log packs well.
+const ALWAYS_UNPACKED_BYTES: usize = 16 << 20;
+
+/// What stands in the file.
+#[derive(Default)]
+struct Content {
+    /// Attached texts by name.
+    texts: Texts,
+    /// What is said of the flight.
+    flight: Texts,
+    /// Topics that mean something to us, by channel.
+    topics: BTreeMap<u16, &'static str>,
+    /// The messages, with their time since the Unix epoch.
+    entries: Vec<(Duration, Entry)>,
+    complete: bool,
+}
+
+impl Content {
+    /// Each record is understood as soon as it is unpacked: nothing else is kept of it. So what is needed is
+    /// in proportion to what was unpacked, and that is bounded by the size of the file.
+    fn read(file: &[u8]) -> Result<Self, LogError> {
+        // The checksum of a chunk is checked before what is in it is looked at.
+        let options = LinearReaderOptions::default()
+            .with_prevalidate_chunk_crcs(true)
+            .with_record_length_limit(LONGEST_RECORD_BYTES);
+        let mut reader = LinearReader::new_with_options(options);
+        let mut content = Self::default();
+        let mut rest = file;
+        let mut room =
+            file.len().saturating_mul(LARGEST_RATIO).saturating_add(ALWAYS_UNPACKED_BYTES);
+        while let Some(event) = reader.next_event() {
+            match event {
+                Ok(LinearReadEvent::ReadRequest(wanted)) => {
+                    let (part, behind) = rest.split_at(wanted.min(rest.len()));
+                    reader.insert(part.len()).copy_from_slice(part);
+                    reader.notify_read(part.len());
+                    rest = behind;
+                }
+                Ok(LinearReadEvent::Record { data, opcode }) => {
+                    // An entry is larger than what can be said of the least of them.
+                    let needed = data.len().max(size_of::<(Duration, Entry)>());
+                    room = room.checked_sub(needed).ok_or(LogError::Bomb)?;
+                    content.record(parse_record(opcode, data)?)?;
+                }
+                Err(error @ McapError::BadMagic) => return Err(error.into()),
+                // It was cut off here, or it is damaged from here on.
+                Err(_) => return Ok(content),
+            }
+        }
+        Ok(content)
+    }
+
+    fn record(&mut self, record: McapRecord<'_>) -> Result<(), LogError> {
+        match record {
+            McapRecord::Attachment { header, data, .. } => {
+                let name = [PLAN_FILE, SETTINGS_FILE, AGENT_FILE]
+                    .into_iter()
+                    .find(|name| *name == header.name);
+                if let Some(name) = name {
+                    let text = String::from_utf8_lossy(&data).into_owned();
+                    self.texts.insert(name.to_owned(), text);
+                }
+            }
+            McapRecord::Metadata(metadata) if metadata.name == FLIGHT => {
+                self.flight = metadata.metadata;
+            }
+            McapRecord::Channel(channel) => {
+                // The name is not kept: a file may have a long one for each of its channels.
+                let known = topic::ALL.iter().find(|topic| topic.name == channel.topic);
+                if let Some(topic) = known {
+                    self.topics.insert(channel.id, topic.name);
+                }
+            }
+            McapRecord::Message { header, data } => {
+                if let Some(topic) = self.topics.get(&header.channel_id)
+                    && let Some(entry) = entry(topic, &data)?
+                {
+                    self.entries.push((Duration::from_nanos(header.log_time), entry));
+                }
+            }
+            McapRecord::Footer(_) => self.complete = true,
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// An entry; nothing for what is there for others to draw.
+fn entry(topic: &str, data: &[u8]) -> Result<Option<Entry>, LogError> {
+    let bytes = |data| -> Result<Vec<u8>, LogError> {
+        let Bytes { data } = parse(topic, data)?;
+        BASE64_STANDARD.decode(data).map_err(|error| damaged(topic, &error))
+    };
+    Ok(Some(match topic {
+        _ if topic == topic::TICK.name => Entry::Tick(Box::new(parse(topic, data)?)),
+        _ if topic == topic::RAW_NAVDATA.name => Entry::Navdata(bytes(data)?),
+        _ if topic == topic::NAVDATA.name => Entry::Decoded(parse(topic, data)?),
+        _ if topic == topic::CONTROL.name => Entry::Control(bytes(data)?),
+        _ if topic == topic::HAND.name => Entry::Order(parse::<Hand>(topic, data)?.into()),
+        _ if topic == topic::LOG.name => {
+            #[derive(serde::Deserialize)]
+            struct Line {
+                level: u8,
+                name: String,
+                message: String,
+            }
+            let Line { level, name, message } = parse(topic, data)?;
+            let warns = level > 2;
+            if name == OUTCOME {
+                Entry::Outcome { warns, text: message }
+            } else {
+                Entry::Event { warns, text: message }
+            }
+        }
+        _ => return Ok(None),
+    }))
+}
+
+fn parse<T: DeserializeOwned>(topic: &str, data: &[u8]) -> Result<T, LogError> {
+    serde_json::from_slice(data).map_err(|error| damaged(topic, &error))
+}
+
+fn damaged(topic: &str, problem: &impl ToString) -> LogError {
+    // It quotes what it does not like.
+    let problem = printable(&problem.to_string()).into_owned();
+    LogError::Message { topic: topic.to_owned(), problem }
+}

@@ -1,0 +1,213 @@
+//! A flight log as MCAP: <https://mcap.dev>, with the schemas that Foxglove and Lichtblick know.
+//!
+//! Messages are JSON with schemas. Chunks are not compressed, so that what was flushed before a crash can be
+//! read by anything, and no C library is needed.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::io::{Seek, Write};
+use std::time::Duration;
+
+use ardrone_link::navdata::Navdata;
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use mcap::records::{MessageHeader, Metadata};
+use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
+use serde::Serialize;
+use serde_json::json;
+
+use super::messages::{Bytes, DecodedNavdata, Hand, Place, Tick};
+use super::{AGENT_FILE, EVENT, FLIGHT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE, topic};
+
+/// The place of drone and target is told so often for those who draw it: each third tick.
+const POSE_TICKS: u64 = 3;
+/// Packets are written as they were understood no more often than this; as bytes, all are.
+const DECODED_APART: Duration = Duration::from_millis(25);
+/// Packs an eighth better than the default.
+const COMPRESSION_LEVEL: u32 = 6;
+/// Where poses are told: right, forward, up from the take-off.
+const FRAME: &str = "take_off";
+
+/// Writes a log.
+pub struct LogWriter<W: Write + Seek> {
+    writer: Writer<W>,
+    channels: BTreeMap<&'static str, u16>,
+    start_ns: u64,
+    sequence: u32,
+    ticks: u64,
+    /// When a packet was last written as it was understood.
+    decoded: Option<Duration>,
+}
+
+impl<W: Write + Seek> LogWriter<W> {
+    /// A log that begins with what is flown, and how.
+    ///
+    /// # Errors
+    /// [`McapError`] if it cannot be written.
+    pub fn new(writer: W, header: &Header) -> Result<Self, McapError> {
+        let options = WriteOptions::new()
+            .compression(Some(Compression::Lz4))
+            .compression_level(COMPRESSION_LEVEL)
+            .profile("")
+            .library("ardrone-pilot");
+        let mut writer = options.create(writer)?;
+        let mut channels = BTreeMap::new();
+        for topic in topic::ALL {
+            let schema = writer.add_schema(topic.schema, "jsonschema", topic.text.as_bytes())?;
+            let channel = writer.add_channel(schema, topic.name, "json", &BTreeMap::new())?;
+            channels.insert(topic.name, channel);
+        }
+        let start_ns = u64::try_from(header.start.as_nanos()).unwrap_or(u64::MAX);
+        let metadata = [
+            ("version", env!("CARGO_PKG_VERSION").to_owned()),
+            ("start_ns", start_ns.to_string()),
+            ("plan", header.plan_name.clone()),
+            ("z_origin", header.z_origin.name().to_owned()),
+            ("drone", header.drone.clone()),
+        ];
+        let metadata = metadata.into_iter().map(|(key, value)| (key.to_owned(), value)).collect();
+        writer.write_metadata(&Metadata { name: FLIGHT.to_owned(), metadata })?;
+        for (name, text) in [
+            (PLAN_FILE, header.plan.as_str()),
+            (SETTINGS_FILE, header.settings.as_str()),
+            (AGENT_FILE, autopilot::agent::SOURCE),
+        ] {
+            writer.attach(&Attachment {
+                log_time: start_ns,
+                create_time: start_ns,
+                name: name.to_owned(),
+                media_type: "text/plain".to_owned(),
+                data: Cow::Borrowed(text.as_bytes()),
+            })?;
+        }
+        Ok(Self { writer, channels, start_ns, sequence: 0, ticks: 0, decoded: None })
+    }
+
+    /// Writes an entry.
+    ///
+    /// # Errors
+    /// [`McapError`] if it cannot be written.
+    pub fn write(&mut self, record: &Record) -> Result<(), McapError> {
+        match record {
+            Record::Navdata { at, packet } => {
+                self.message(topic::RAW_NAVDATA, *at, &bytes(packet))?;
+                let last = self.decoded.filter(|last| at.saturating_sub(*last) < DECODED_APART);
+                // What cannot be read is there as bytes.
+                if last.is_none()
+                    && let Ok(navdata) = Navdata::decode(packet)
+                {
+                    self.decoded = Some(*at);
+                    self.message(topic::NAVDATA, *at, &DecodedNavdata::from(&navdata))?;
+                }
+                Ok(())
+            }
+            Record::Control { at, bytes: said } => self.message(topic::CONTROL, *at, &bytes(said)),
+            Record::Order { at, order } => self.message(topic::HAND, *at, &Hand::from(*order)),
+            Record::Event { at, event } => {
+                let level = if event.warns() { Level::Warning } else { Level::Info };
+                self.log(*at, level, EVENT, &event.to_string())
+            }
+            Record::Outcome { at, outcome } => {
+                let good = outcome.exit_status() == 0;
+                let level = if good { Level::Info } else { Level::Warning };
+                self.log(*at, level, OUTCOME, &outcome.to_string())
+            }
+            Record::Note { at, text } => self.log(*at, Level::Info, EVENT, text),
+            Record::Tick { decision, timing, datagram } => {
+                let tick = Tick::new(decision, *timing, datagram);
+                if self.ticks.is_multiple_of(POSE_TICKS) {
+                    let estimate = tick.estimate;
+                    let place = Place {
+                        x_m: estimate.x_m,
+                        y_m: estimate.y_m,
+                        z_m: estimate.z_m,
+                        yaw_deg: estimate.yaw_deg,
+                    };
+                    self.message(topic::POSE, decision.at, &self.pose(decision.at, &place))?;
+                    if let Some(target) = &tick.target {
+                        self.message(topic::TARGET, decision.at, &self.pose(decision.at, target))?;
+                    }
+                }
+                self.ticks += 1;
+                self.message(topic::TICK, decision.at, &tick)
+            }
+        }
+    }
+
+    /// Makes sure that what was written can be read whatever happens next.
+    ///
+    /// # Errors
+    /// [`McapError`] if it cannot be written.
+    pub fn flush(&mut self) -> Result<(), McapError> {
+        self.writer.flush()
+    }
+
+    /// Ends the log with its index.
+    ///
+    /// # Errors
+    /// [`McapError`] if it cannot be written.
+    pub fn finish(mut self) -> Result<W, McapError> {
+        self.writer.finish()?;
+        Ok(self.writer.into_inner())
+    }
+
+    fn message(
+        &mut self,
+        topic: topic::Topic,
+        at: Duration,
+        content: &impl Serialize,
+    ) -> Result<(), McapError> {
+        let Some(channel_id) = self.channels.get(topic.name).copied() else { return Ok(()) };
+        let time = self.start_ns.saturating_add(u64::try_from(at.as_nanos()).unwrap_or(u64::MAX));
+        self.sequence = self.sequence.wrapping_add(1);
+        let header = MessageHeader {
+            channel_id,
+            sequence: self.sequence,
+            log_time: time,
+            publish_time: time,
+        };
+        let data = serde_json::to_vec(content).map_err(std::io::Error::from)?;
+        self.writer.write_to_known_channel(&header, &data)
+    }
+
+    fn log(&mut self, at: Duration, level: Level, name: &str, text: &str) -> Result<(), McapError> {
+        let log = json!({
+            "timestamp": self.timestamp(at),
+            "level": level as u8,
+            "message": text,
+            "name": name,
+            "file": "",
+            "line": 0,
+        });
+        self.message(topic::LOG, at, &log)
+    }
+
+    fn timestamp(&self, at: Duration) -> serde_json::Value {
+        let time = Duration::from_nanos(self.start_ns).saturating_add(at);
+        json!({ "sec": time.as_secs(), "nsec": time.subsec_nanos() })
+    }
+
+    /// Foxglove turns anticlockwise about the axis that points up.
+    fn pose(&self, at: Duration, place: &Place) -> serde_json::Value {
+        let half_rad = -place.yaw_deg.to_radians() / 2.0;
+        json!({
+            "timestamp": self.timestamp(at),
+            "frame_id": FRAME,
+            "pose": {
+                "position": { "x": place.x_m, "y": place.y_m, "z": place.z_m },
+                "orientation": { "x": 0, "y": 0, "z": half_rad.sin(), "w": half_rad.cos() },
+            },
+        })
+    }
+}
+
+/// Of `foxglove.Log`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Level {
+    Info = 2,
+    Warning = 3,
+}
+
+fn bytes(bytes: &[u8]) -> Bytes {
+    Bytes { data: BASE64_STANDARD.encode(bytes) }
+}

@@ -1,0 +1,171 @@
+//! Flies a recorded flight again: the same navdata, orders and moments, decided by today's code.
+//!
+//! What was heard does not depend on what is decided now. So up to the first difference the comparison is
+//! exact; behind it, it tells what today's code would do in the situations in which the drone then was.
+
+use std::fmt;
+use std::time::Duration;
+
+use ardrone_link::at::{Datagram, EncodeError};
+use ardrone_link::settings::SettingError;
+use diagnostic::printable;
+
+use crate::recording::{Entry, Log, Tick, Timing};
+use crate::settings::{Settings, SettingsError};
+use autopilot::outcome::Outcome;
+use autopilot::pilot::Pilot;
+use autopilot::plan::{Plan, PlanError};
+
+/// Why a log cannot be flown again.
+#[derive(Debug, thiserror::Error)]
+pub enum ReplayError {
+    /// Its settings are refused today.
+    #[error("the log's settings are refused today: {0}")]
+    Settings(#[from] SettingsError),
+    /// Its plan is refused today.
+    #[error("the log's plan is refused today:\n{0}")]
+    Plan(#[from] PlanError),
+    /// Its limits cannot be sent to a drone.
+    #[error(transparent)]
+    Config(#[from] SettingError),
+    /// See [`Pilot::tick`].
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+    /// Nothing was flown.
+    #[error("there is no tick in the log: no drone was heard")]
+    Empty,
+}
+
+/// A recorded flight and today's, side by side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Replay {
+    /// Ticks that were compared.
+    pub ticks: usize,
+    /// Ticks whose datagram is the same, byte for byte.
+    pub same_datagrams: usize,
+    /// Ticks in which the agent chose other plans.
+    pub other_plans: usize,
+    /// The largest difference of a stick, as a fraction.
+    pub largest_stick_difference: f64,
+    /// Where the flights part, at most [`Replay::MOST`].
+    pub differences: Vec<Difference>,
+    /// How the flight ends today, if it does.
+    pub outcome: Option<Outcome>,
+}
+
+/// A tick in which today's code decides otherwise than the tick before it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// When.
+    pub at: Duration,
+    /// What was decided then.
+    pub then: String,
+    /// What is decided now.
+    pub now: String,
+}
+
+/// Sticks that differ by less are the same.
+const SAME_STICK: f64 = 0.01;
+
+impl Replay {
+    /// Differences that are kept.
+    pub const MOST: usize = 20;
+
+    /// Whether everything that was sent is sent today.
+    pub fn is_same(&self) -> bool {
+        self.same_datagrams == self.ticks
+    }
+
+    /// Flies a log again.
+    ///
+    /// # Errors
+    /// [`ReplayError`] if plan or settings are refused today, or nothing was flown.
+    pub fn new(log: &Log) -> Result<Self, ReplayError> {
+        let config = Settings::parse("pilot.toml", &log.settings)?.pilot_config(log.z_origin);
+        let plan = Plan::parse_within(&log.plan_name, &log.plan, &config.limits)?;
+        let mut pilot = Pilot::new(plan, &config)?;
+        let mut datagram = Datagram::new();
+        let mut replay = Self {
+            ticks: 0,
+            same_datagrams: 0,
+            other_plans: 0,
+            largest_stick_difference: 0.0,
+            differences: Vec::new(),
+            outcome: None,
+        };
+        let mut parted = false;
+        for (at, entry) in &log.entries {
+            match entry {
+                Entry::Navdata(packet) => pilot.handle_navdata(*at, packet),
+                Entry::Control(bytes) => pilot.handle_control(*at, bytes),
+                Entry::Order(order) => pilot.order(*at, *order),
+                Entry::Decoded(_) | Entry::Event { .. } | Entry::Outcome { .. } => {}
+                Entry::Tick(recorded) => {
+                    pilot.tick(*at, &mut datagram)?;
+                    // Both change what is said later.
+                    _ = pilot.wake_up_due(*at);
+                    while pilot.poll_event().is_some() {}
+                    if let Some(decision) = pilot.decision() {
+                        let today = Tick::new(decision, Timing::default(), datagram.as_bytes());
+                        parted = replay.compare(*at, recorded, &today, parted);
+                    }
+                }
+            }
+        }
+        replay.outcome = pilot.outcome().cloned();
+        if replay.ticks == 0 { Err(ReplayError::Empty) } else { Ok(replay) }
+    }
+
+    /// Compares a tick; returns whether it differs.
+    fn compare(&mut self, at: Duration, then: &Tick, now: &Tick, parted: bool) -> bool {
+        self.ticks += 1;
+        self.same_datagrams += usize::from(then.datagram == now.datagram);
+        let names = |tick: &Tick| -> Vec<String> {
+            tick.agent.plans.iter().map(|plan| printable(&plan.trigger).into_owned()).collect()
+        };
+        let other_plans = names(then) != names(now) || then.agent.command != now.agent.command;
+        self.other_plans += usize::from(other_plans);
+        let sticks = |tick: &Tick| {
+            let command = &tick.command;
+            [command.roll, command.pitch, command.gaz, command.yaw]
+        };
+        let pairs = sticks(then).into_iter().zip(sticks(now));
+        let apart = pairs.map(|(then, now)| (then - now).abs()).fold(0.0, f64::max);
+        self.largest_stick_difference = self.largest_stick_difference.max(apart);
+        let differs =
+            other_plans || then.command.flight != now.command.flight || apart > SAME_STICK;
+        if differs && !parted && self.differences.len() < Self::MOST {
+            let text = |tick: &Tick| {
+                let [roll, pitch, gaz, yaw] = sticks(tick);
+                format!(
+                    "{} by {}; {}, sticks {roll:+.2} {pitch:+.2} {gaz:+.2} {yaw:+.2}",
+                    printable(&tick.agent.command),
+                    names(tick).join(" "),
+                    printable(&tick.command.flight)
+                )
+            };
+            self.differences.push(Difference { at, then: text(then), now: text(now) });
+        }
+        differs
+    }
+}
+
+impl fmt::Display for Replay {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { ticks, same_datagrams, other_plans, largest_stick_difference, .. } = self;
+        if self.is_same() {
+            return writeln!(f, "the same in all {ticks} ticks, byte for byte");
+        }
+        writeln!(f, "{same_datagrams} of {ticks} datagrams are the same")?;
+        writeln!(f, "  other plans in {other_plans} ticks")?;
+        writeln!(f, "  sticks differ by at most {largest_stick_difference:.3}")?;
+        for Difference { at, then, now } in &self.differences {
+            writeln!(f, "{:8.2} s then: {then}", at.as_secs_f64())?;
+            writeln!(f, "{:8}   now:  {now}", "")?;
+        }
+        if self.differences.len() == Self::MOST {
+            writeln!(f, "... and perhaps more")?;
+        }
+        Ok(())
+    }
+}

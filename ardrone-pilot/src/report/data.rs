@@ -1,0 +1,192 @@
+//! What a report tells, gathered from a log.
+
+use std::collections::BTreeMap;
+
+use diagnostic::{printable, printable_lines};
+use serde::Serialize;
+
+use crate::recording::{Log, Tick};
+use autopilot::agent::plan_text;
+
+/// No plan of an agent has more characters, and no agent more plans: a log that says so is not to make a page of
+/// any size.
+const LONGEST_PLAN: usize = 2000;
+const MOST_PLANS: usize = 500;
+/// Of what labels a moment.
+const LONGEST_LABEL: usize = 100;
+
+/// A flight as the report needs it. All text in it is [printable], whatever the log holds.
+#[derive(Debug)]
+pub(super) struct Flight<'a> {
+    /// Seconds since the start, and the tick.
+    pub(super) ticks: Vec<(f64, &'a Tick)>,
+    /// What was flown when.
+    pub(super) bands: Vec<Band>,
+    /// What the agent decided, as long as it decided the same.
+    pub(super) decisions: Vec<Decision>,
+    /// The agent's plans that were chosen, by their line, as they stand in the agent.
+    pub(super) plans: BTreeMap<u32, String>,
+    /// Seconds, whether it is a warning, and what happened.
+    pub(super) events: Vec<(f64, bool, &'a str)>,
+    /// When the last tick was.
+    pub(super) end_s: f64,
+}
+
+/// A part of the flight, which plots have as background.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Band {
+    pub(super) from_s: f64,
+    pub(super) to_s: f64,
+    /// The step of the plan, or what the flight was doing.
+    pub(super) label: String,
+    pub(super) kind: BandKind,
+}
+
+/// How a band is painted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum BandKind {
+    /// On the ground, before or after.
+    Ground,
+    /// A step of the plan: even and odd ones differ.
+    Step(usize),
+    /// In the air without a step: held, flown by hand, landed early.
+    Other,
+}
+
+/// The agent's answer to "why did it do that".
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Decision {
+    pub(super) from_s: f64,
+    pub(super) to_s: f64,
+    /// The step of the plan as it was written.
+    pub(super) step: String,
+    /// What the agent ordered.
+    pub(super) command: String,
+    /// Trigger and line of each plan that was chosen.
+    pub(super) plans: Vec<(String, u32)>,
+    /// What it said of its last order.
+    pub(super) said: Option<String>,
+    /// Dangers that it told, and what the guard did instead.
+    pub(super) warnings: Vec<String>,
+}
+
+impl<'a> Flight<'a> {
+    pub(super) fn new(log: &'a Log) -> Option<Self> {
+        let ticks: Vec<(f64, &Tick)> =
+            log.ticks().map(|(at, tick)| (at.as_secs_f64(), tick)).collect();
+        let end_s = ticks.last()?.0;
+        let steps = steps(&log.plan);
+        let mut flight = Self {
+            bands: Vec::new(),
+            decisions: Vec::new(),
+            plans: BTreeMap::new(),
+            events: Vec::new(),
+            end_s,
+            ticks,
+        };
+        for index in 0..flight.ticks.len() {
+            let (at_s, tick) = flight.ticks[index];
+            let until_s = flight.ticks.get(index + 1).map_or(at_s, |(next_s, _)| *next_s);
+            flight.extend_band(at_s, until_s, tick, &steps);
+            flight.extend_decision(at_s, until_s, tick, &steps);
+            flight.extend_plans(tick, &log.agent);
+        }
+        let events = log.events().map(|(at, warns, text)| (at.as_secs_f64(), warns, text));
+        flight.events = events.collect();
+        Some(flight)
+    }
+
+    fn extend_band(&mut self, at_s: f64, until_s: f64, tick: &Tick, steps: &[String]) {
+        let (label, kind) = match tick.step {
+            Some(step) => (step_text(steps, step), BandKind::Step(step)),
+            None if tick.agent.on_ground => (label(&tick.phase), BandKind::Ground),
+            None => (label(&tick.phase), BandKind::Other),
+        };
+        match self.bands.last_mut() {
+            Some(band) if band.kind == kind && band.label == label => band.to_s = until_s,
+            _ => self.bands.push(Band { from_s: at_s, to_s: until_s, label, kind }),
+        }
+    }
+
+    fn extend_decision(&mut self, at_s: f64, until_s: f64, tick: &Tick, steps: &[String]) {
+        let Tick { agent, veto, .. } = tick;
+        let danger = agent.danger.iter().map(|danger| format!("danger: {}", label(danger)));
+        let veto = veto.iter().map(|veto| format!("the guard: {}", label(veto)));
+        let plans = agent.plans.iter().map(|plan| (label(&plan.trigger), plan.line));
+        let step = tick.step.map_or_else(|| label(&tick.phase), |step| step_text(steps, step));
+        let decision = Decision {
+            from_s: at_s,
+            to_s: until_s,
+            step,
+            command: label(&agent.command),
+            plans: plans.collect(),
+            said: agent.report.as_ref().map(|report| format!("last order: {}", label(report))),
+            warnings: danger.chain(veto).collect(),
+        };
+        match self.decisions.last_mut() {
+            Some(last) if last.is_like(&decision) => last.to_s = until_s,
+            _ => self.decisions.push(decision),
+        }
+    }
+
+    /// Keeps the texts of the plans that a tick chose, each once.
+    fn extend_plans(&mut self, tick: &Tick, agent: &str) {
+        for plan in &tick.agent.plans {
+            if self.plans.len() < MOST_PLANS && !self.plans.contains_key(&plan.line) {
+                let text: String = plan_text(agent, plan.line).chars().take(LONGEST_PLAN).collect();
+                self.plans.insert(plan.line, printable_lines(&text).into_owned());
+            }
+        }
+    }
+
+    /// When the drone was in the air.
+    pub(super) fn flown_s(&self) -> f64 {
+        let airborne = |(_, tick): &&(f64, &Tick)| !tick.agent.on_ground;
+        let first = self.ticks.iter().find(airborne).map(|(at_s, _)| *at_s);
+        let last = self.ticks.iter().rfind(airborne).map(|(at_s, _)| *at_s);
+        first.zip(last).map_or(0.0, |(first, last)| last - first)
+    }
+
+    /// The charge at the begin and the end.
+    pub(super) fn battery_percent(&self) -> Option<(u32, u32)> {
+        let charge = |(_, tick): &(f64, &Tick)| tick.agent.battery_percent;
+        Some((self.ticks.iter().find_map(charge)?, self.ticks.iter().rev().find_map(charge)?))
+    }
+
+    /// How late ticks were, sorted, in ms.
+    pub(super) fn lateness_ms(&self) -> Vec<f64> {
+        let mut late: Vec<f64> = self.ticks.iter().map(|(_, tick)| tick.timing.late_ms).collect();
+        late.sort_by(f64::total_cmp);
+        late
+    }
+}
+
+impl Decision {
+    fn is_like(&self, other: &Self) -> bool {
+        (&self.step, &self.command, &self.plans, &self.said, &self.warnings)
+            == (&other.step, &other.command, &other.plans, &other.said, &other.warnings)
+    }
+}
+
+/// The commands of a plan, as the mission counts them.
+fn steps(plan: &str) -> Vec<String> {
+    let limits = autopilot::plan::FlightLimits {
+        floor_m: f64::NEG_INFINITY,
+        ceiling_m: f64::INFINITY,
+        radius_m: f64::INFINITY,
+        ..autopilot::plan::FlightLimits::default()
+    };
+    let (plan, _) = autopilot::plan::Plan::review(plan, &limits);
+    plan.map_or_else(Vec::new, |plan| plan.steps().iter().map(|step| label(&step.text)).collect())
+}
+
+/// A short text in one line.
+fn label(text: &str) -> String {
+    let short: String = text.chars().take(LONGEST_LABEL).collect();
+    printable(&short).into_owned()
+}
+
+fn step_text(steps: &[String], step: usize) -> String {
+    let text = steps.get(step).map_or("", String::as_str);
+    format!("{}: {text}", step + 1)
+}

@@ -1,8 +1,0 @@
-//! `ardrone-pilot`: flies an AR.Drone 2.0 along a plan.
-#![forbid(unsafe_code)]
-
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    autopilot::cli::main()
-}
