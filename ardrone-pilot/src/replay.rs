@@ -6,14 +6,14 @@
 use std::fmt;
 use std::time::Duration;
 
-use ardrone_link::at::{Datagram, EncodeError};
+use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
 use diagnostic::printable;
 
 use crate::recording::{Entry, Log, Tick, Timing};
 use crate::settings::{Settings, SettingsError};
 use autopilot::outcome::Outcome;
-use autopilot::pilot::Pilot;
+use autopilot::pilot::{Input, Output, Pilot, Transmit};
 use autopilot::plan::{Plan, PlanError};
 
 /// Why a log cannot be flown again.
@@ -84,7 +84,6 @@ impl Replay {
         let config = Settings::parse("pilot.toml", &log.settings)?.pilot_config(log.z_origin);
         let plan = Plan::parse_within(&log.plan_name, &log.plan, &config.limits)?;
         let mut pilot = Pilot::new(plan, &config)?;
-        let mut datagram = Datagram::new();
         let mut replay = Self {
             ticks: 0,
             same_datagrams: 0,
@@ -96,18 +95,21 @@ impl Replay {
         let mut parted = false;
         for (at, entry) in &log.entries {
             match entry {
-                Entry::Navdata(packet) => pilot.handle_navdata(*at, packet),
-                Entry::Control(bytes) => pilot.handle_control(*at, bytes),
-                Entry::Order(order) => pilot.order(*at, *order),
+                Entry::Navdata(packet) => pilot.handle(*at, Input::Navdata(packet)),
+                Entry::Control(bytes) => pilot.handle(*at, Input::Control(bytes)),
+                Entry::Order(order) => pilot.handle(*at, Input::Order(*order)),
                 Entry::Decoded(_) | Entry::Event { .. } | Entry::Outcome { .. } => {}
                 Entry::Tick(recorded) => {
-                    pilot.tick(*at, &mut datagram)?;
-                    // Both change what is said later.
-                    _ = pilot.wake_up_due(*at);
-                    while pilot.poll_event().is_some() {}
-                    if let Some(decision) = pilot.decision() {
-                        let today = Tick::new(decision, Timing::default(), datagram.as_bytes());
-                        parted = replay.compare(*at, recorded, &today, parted);
+                    pilot.tick(*at)?;
+                    while let Some(output) = pilot.poll() {
+                        if let Output::Transmit(Transmit::Command {
+                            datagram,
+                            decision: Some(decision),
+                        }) = output
+                        {
+                            let today = Tick::new(decision, Timing::default(), datagram);
+                            parted = replay.compare(*at, recorded, &today, parted);
+                        }
                     }
                 }
             }

@@ -5,13 +5,16 @@
 use std::time::Duration;
 
 use ardrone_link::WAKE_UP;
-use ardrone_link::at::{Datagram, EncodeError};
+use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
 use mock_drone::{Message, Truth, World, WorldConfig};
 
 use ardrone_pilot::recording::{Record, Timing};
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{FlightEvent, FlightReport, Pilot, PilotConfig, PilotOrder, Status, TICK};
+use autopilot::pilot::{
+    FlightEvent, FlightReport, Input, Output, Pilot, PilotConfig, PilotOrder, Status, TICK,
+    Transmit,
+};
 use autopilot::plan::Plan;
 
 /// A world to fly in.
@@ -135,7 +138,6 @@ impl Simulation {
     ) -> Result<SimulatedFlight, SimulationError> {
         let mut pilot = Pilot::new(plan, &self.pilot)?;
         let mut world = World::new(&self.world);
-        let mut datagram = Datagram::new();
         let mut events = Vec::new();
         let mut truth_at_waypoints = Vec::new();
         let mut now = Duration::ZERO;
@@ -153,46 +155,51 @@ impl Simulation {
                 continue;
             }
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
-                pilot.order(now, *order);
+                pilot.handle(now, Input::Order(*order));
                 record(Record::Order { at: now, order: *order });
             }
             world.advance(now);
             while let Some(message) = world.receive(now) {
                 match message {
                     Message::Navdata(packet) => {
-                        pilot.handle_navdata(now, &packet);
+                        pilot.handle(now, Input::Navdata(&packet));
                         record(Record::Navdata { at: now, packet: packet.to_vec() });
                     }
                     Message::Control(dump) => {
-                        pilot.handle_control(now, dump.as_bytes());
+                        pilot.handle(now, Input::Control(dump.as_bytes()));
                         record(Record::Control { at: now, bytes: dump.into_bytes() });
                     }
                 }
             }
             if now >= next_tick {
                 next_tick += TICK;
-                pilot.tick(now, &mut datagram)?;
-                if !datagram.as_bytes().is_empty() {
-                    world.send_at(now, datagram.as_bytes());
-                }
-                if let Some(decision) = pilot.decision().copied() {
-                    let (timing, datagram) = (Timing::default(), datagram.as_bytes().to_vec());
-                    record(Record::Tick { decision, timing, datagram });
-                }
-                if pilot.wake_up_due(now) {
-                    world.send_wake_up(now, &WAKE_UP);
-                }
-                while let Some(event) = pilot.poll_event() {
-                    record(Record::Event { at: now, event: event.clone() });
-                    events.push((now, event));
+                pilot.tick(now)?;
+                let mut ended = None;
+                let mut reached = false;
+                while let Some(output) = pilot.poll() {
+                    match output {
+                        Output::Transmit(Transmit::Command { datagram, decision }) => {
+                            world.send_at(now, datagram);
+                            if let Some(decision) = decision.copied() {
+                                let (timing, datagram) = (Timing::default(), datagram.to_vec());
+                                record(Record::Tick { decision, timing, datagram });
+                            }
+                        }
+                        Output::Transmit(Transmit::WakeUp) => world.send_wake_up(now, &WAKE_UP),
+                        Output::Event(event) => {
+                            record(Record::Event { at: now, event: event.clone() });
+                            events.push((now, event));
+                        }
+                        Output::Waypoint(_) => reached = true,
+                        Output::Ended(outcome) => ended = Some(outcome.clone()),
+                    }
                 }
                 let moment = Moment { now, truth: world.truth(), status: pilot.status(now) };
                 watch(&moment, &world);
-                let reached = pilot.report().waypoints.len();
-                if reached > truth_at_waypoints.len() {
+                if reached {
                     truth_at_waypoints.push(world.truth());
                 }
-                if let Some(outcome) = pilot.outcome() {
+                if let Some(outcome) = ended {
                     record(Record::Outcome { at: now, outcome: outcome.clone() });
                     let end = now + self.aftermath;
                     let mut later = now;
@@ -203,7 +210,7 @@ impl Simulation {
                         watch(&Moment { now: later, truth: world.truth(), status }, &world);
                     }
                     return Ok(SimulatedFlight {
-                        outcome: outcome.clone(),
+                        outcome,
                         report: pilot.report().clone(),
                         events,
                         truth_at_waypoints,

@@ -3,9 +3,8 @@
 use std::time::Duration;
 
 use allocation_counter::measure;
-use ardrone_link::at::Datagram;
 use ardrone_pilot::recording::{Header, Recorder, Timing};
-use autopilot::pilot::{NavdataRate, PilotConfig, PilotOrder, TICK};
+use autopilot::pilot::{Input, NavdataRate, Output, PilotConfig, PilotOrder, TICK, Transmit};
 use autopilot::{Demand, Pilot};
 use mock_drone::{Message, World, WorldConfig};
 use system_tests::{SQUARE, plan};
@@ -17,9 +16,9 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
     let config = PilotConfig { navdata, ..PilotConfig::default() };
     let mut pilot = Pilot::new(plan(SQUARE), &config).unwrap();
     let mut world = World::new(&WorldConfig::default());
-    let mut datagram = Datagram::new();
     let mut orders = orders.iter().peekable();
     let mut allocations = 0;
+    let mut wakes_up = false;
     let folder = tempfile::tempdir().unwrap();
     let (mut recorder, recording) =
         Recorder::start(&folder.path().join("flight.mcap"), &Header::default()).unwrap();
@@ -34,29 +33,33 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
         while let Some(message) = world.receive(now) {
             match message {
                 Message::Navdata(packet) => count(&mut || {
-                    pilot.handle_navdata(now, &packet);
+                    pilot.handle(now, Input::Navdata(&packet));
                     recorder.navdata(now, &packet);
                 }),
-                Message::Control(dump) => pilot.handle_control(now, dump.as_bytes()),
+                Message::Control(dump) => pilot.handle(now, Input::Control(dump.as_bytes())),
             }
         }
         if now.as_millis().is_multiple_of(TICK.as_millis()) {
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
-                count(&mut || pilot.order(now, *order));
+                count(&mut || pilot.handle(now, Input::Order(*order)));
             }
-            count(&mut || pilot.tick(now, &mut datagram).unwrap());
+            count(&mut || pilot.tick(now).unwrap());
             count(&mut || {
-                while let Some(event) = pilot.poll_event() {
-                    recorder.event(now, event);
+                while let Some(output) = pilot.poll() {
+                    match output {
+                        Output::Transmit(Transmit::Command { datagram, decision }) => {
+                            if let Some(decision) = decision {
+                                recorder.tick(*decision, Timing::default(), datagram);
+                            }
+                        }
+                        Output::Transmit(Transmit::WakeUp) => wakes_up = true,
+                        Output::Event(event) => recorder.event(now, event),
+                        Output::Waypoint(_) | Output::Ended(_) => {}
+                    }
                 }
             });
-            count(&mut || {
-                if let Some(decision) = pilot.decision() {
-                    recorder.tick(*decision, Timing::default(), datagram.as_bytes());
-                }
-            });
-            world.send_at(now, datagram.as_bytes());
-            if pilot.wake_up_due(now) {
+            world.send_at(now, pilot.datagram());
+            if std::mem::take(&mut wakes_up) {
                 world.send_wake_up(now, &ardrone_link::WAKE_UP);
             }
         }

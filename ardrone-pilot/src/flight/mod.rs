@@ -21,7 +21,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use ardrone_link::DroneAddress;
-use ardrone_link::at::{Datagram, EncodeError};
+use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
 use crossbeam_channel::{Receiver, Sender, bounded};
 
@@ -36,7 +36,8 @@ use crate::recording::{Recorder, Timing};
 use crate::timing::{TickHealth, TickRecorder, TickSummary};
 use autopilot::outcome::Outcome;
 use autopilot::pilot::{
-    FlightEvent, FlightReport, Pilot, PilotConfig, PilotOrder, Stage, Status, TICK, Waypoint,
+    FlightEvent, FlightReport, Input, Output, Pilot, PilotConfig, PilotOrder, Stage, Status, TICK,
+    Transmit, Waypoint,
 };
 use autopilot::plan::Plan;
 
@@ -245,11 +246,9 @@ struct TickLoop {
     dropped_messages: u64,
     ticks: TickRecorder,
     realtime: Realtime,
-    waypoints: usize,
     start: Instant,
     /// Of the next tick.
     deadline: Duration,
-    datagram: Datagram,
     buffer: Vec<u8>,
     intake: Intake,
     summary: LinkSummary,
@@ -298,10 +297,8 @@ impl TickLoop {
             dropped_messages: 0,
             ticks: TickRecorder::default(),
             realtime: Realtime::default(),
-            waypoints: 0,
             start: clock(),
             deadline: Duration::ZERO,
-            datagram: Datagram::new(),
             buffer: vec![0_u8; BUFFER_BYTES],
             intake: Intake::NOTHING,
             summary: LinkSummary::default(),
@@ -373,12 +370,14 @@ impl TickLoop {
             ticks.spend(stage, now.saturating_sub(last));
             last = now;
         };
-        self.pilot.tick_timed(now, &mut self.datagram, |stage| done(&mut self.ticks, stage))?;
-        if !self.datagram.as_bytes().is_empty() {
-            self.link.send(now, self.datagram.as_bytes());
-        }
-        if self.pilot.wake_up_due(now) {
-            self.link.wake_up(now);
+        self.pilot.tick_timed(now, |stage| done(&mut self.ticks, stage))?;
+        while let Some(transmit) = self.pilot.poll_transmit() {
+            match transmit {
+                Transmit::Command { datagram, .. } => {
+                    self.link.send(now, datagram);
+                }
+                Transmit::WakeUp => self.link.wake_up(now),
+            }
         }
         done(&mut self.ticks, Stage::Send);
         Ok(())
@@ -423,7 +422,7 @@ impl TickLoop {
         self.intake.taken += 1;
         let packet = self.buffer.get(..length).unwrap_or_default();
         let before = self.pilot.link_statistics().received;
-        self.pilot.handle_navdata(now, packet);
+        self.pilot.handle(now, Input::Navdata(packet));
         let good = self.pilot.link_statistics().received > before;
         if let Some(recorder) = &mut self.recorder {
             if self.intake.records(good) {
@@ -437,7 +436,7 @@ impl TickLoop {
 
     fn take_in_services(&mut self, now: Duration) {
         for bytes in self.services.poll_control() {
-            self.pilot.handle_control(now, &bytes);
+            self.pilot.handle(now, Input::Control(&bytes));
             if let Some(recorder) = &mut self.recorder {
                 recorder.control(now, &bytes);
             }
@@ -454,23 +453,27 @@ impl TickLoop {
         if let (Some(recorder), Some(decision)) = (&mut self.recorder, self.pilot.decision()) {
             let ms = |time: Duration| time.as_secs_f64() * 1e3;
             let timing = Timing { late_ms: ms(late), work_ms: ms(work) };
-            recorder.tick(*decision, timing, self.datagram.as_bytes());
+            recorder.tick(*decision, timing, self.pilot.datagram());
         }
     }
 
     fn tell(&mut self, now: Duration, with_status: bool) {
-        while let Some(event) = self.pilot.poll_event() {
-            if let Some(recorder) = &mut self.recorder {
-                recorder.event(now, event.clone());
-            }
-            self.say(Message::Event(now, event));
+        while let Some(output) = self.pilot.poll() {
+            let message = match output {
+                Output::Event(event) => {
+                    if let Some(recorder) = &mut self.recorder {
+                        recorder.event(now, event.clone());
+                    }
+                    Message::Event(now, event)
+                }
+                Output::Waypoint(waypoint) => Message::Waypoint(waypoint),
+                // Sent already; and the end is told when everything has ended.
+                Output::Transmit(_) | Output::Ended(_) => continue,
+            };
+            self.say(message);
         }
         if let Some(trouble) = self.link.poll_trouble() {
             self.warn(now, trouble);
-        }
-        while let Some(waypoint) = self.pilot.report().waypoints.get(self.waypoints).copied() {
-            self.waypoints += 1;
-            self.say(Message::Waypoint(waypoint));
         }
         if with_status {
             let health = self.ticks.health();
@@ -502,12 +505,14 @@ impl TickLoop {
             sleep(self.deadline.saturating_sub(now));
             self.deadline += TICK;
             let now = self.start.elapsed();
-            let said = self.pilot.part(now, &mut self.datagram).is_ok();
-            if !said || self.datagram.as_bytes().is_empty() {
+            let said = self.pilot.part(now).is_ok();
+            let Some(Transmit::Command { datagram, .. }) =
+                self.pilot.poll_transmit().filter(|_| said)
+            else {
                 // The drone was never spoken to.
                 break;
-            }
-            parted += u32::from(self.link.send(now, self.datagram.as_bytes()));
+            };
+            parted += u32::from(self.link.send(now, datagram));
             if parted == PARTING_ORDERS {
                 break;
             }
@@ -536,7 +541,7 @@ impl TickLoop {
 
 /// The pilot's hand.
 fn obey(pilot: &mut Pilot, recorder: Option<&mut Recorder>, now: Duration, order: PilotOrder) {
-    pilot.order(now, order);
+    pilot.handle(now, Input::Order(order));
     if let Some(recorder) = recorder {
         recorder.order(now, order);
     }

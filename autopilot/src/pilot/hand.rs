@@ -62,7 +62,7 @@ impl Hand {
 
 impl Pilot {
     /// The person at the controls wants something.
-    pub fn order(&mut self, now: Duration, order: PilotOrder) {
+    pub(super) fn order(&mut self, now: Duration, order: PilotOrder) {
         match order {
             PilotOrder::Land => {
                 self.guard.land_here();

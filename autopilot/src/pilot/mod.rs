@@ -10,6 +10,7 @@ mod decision;
 mod flight_phase;
 mod hand;
 mod preflight;
+mod protocol;
 mod report;
 mod saturation;
 mod stage;
@@ -32,6 +33,8 @@ pub use self::decision::Decision;
 pub use self::flight_phase::{FlightPhase, LandingReason};
 use self::hand::Hand;
 pub use self::hand::PilotOrder;
+use self::protocol::Pending;
+pub use self::protocol::{Input, Output, Transmit};
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
 use self::saturation::Saturation;
 pub use self::stage::Stage;
@@ -150,6 +153,9 @@ pub struct Pilot {
     report: FlightReport,
     /// What the last tick decided; nothing before the first navdata.
     decision: Option<Decision>,
+    /// Of the last tick; its buffer is allocated once.
+    datagram: Datagram,
+    pending: Pending,
     /// Packets a second, smoothed.
     navdata_hz: f64,
     /// When the last packet came.
@@ -224,13 +230,14 @@ impl Pilot {
             events: VecDeque::with_capacity(EVENTS),
             report,
             decision: None,
+            datagram: Datagram::new(),
+            pending: Pending::default(),
             navdata_hz: 0.0,
             packet_at: None,
         })
     }
 
-    /// Takes in a datagram from the drone's navdata port.
-    pub fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
+    fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
         match self.session.handle_navdata(now, datagram) {
             Received::Navdata(navdata) => {
                 self.count_packet(now);
@@ -253,43 +260,35 @@ impl Pilot {
         }
     }
 
-    /// Takes in bytes from the drone's control port.
-    pub fn handle_control(&mut self, now: Duration, bytes: &[u8]) {
+    fn handle_control(&mut self, now: Duration, bytes: &[u8]) {
         self.session.handle_control(bytes);
         self.session_events(now);
     }
 
-    /// Whether [`ardrone_link::WAKE_UP`] is to be sent to the navdata port now.
-    pub fn wake_up_due(&mut self, now: Duration) -> bool {
-        self.session.wake_up_due(now)
-    }
-
-    /// One tick: fills `datagram` with what the drone is to do. It stays empty until the drone is
-    /// heard, and while it is flown by somebody else: what we say would land it, or fight for it.
-    ///
-    /// # Errors
-    /// See [`Session::tick`].
-    pub fn tick(&mut self, now: Duration, datagram: &mut Datagram) -> Result<(), EncodeError> {
-        self.tick_timed(now, datagram, |_| {})
-    }
-
-    /// As [`Pilot::tick`]; `done` is called at the end of each of its stages.
+    /// As [`Pilot::tick`]; `done` is called at the end of each stage.
     ///
     /// # Errors
     /// See [`Session::tick`].
     pub fn tick_timed(
         &mut self,
         now: Duration,
-        datagram: &mut Datagram,
         mut done: impl FnMut(Stage),
     ) -> Result<(), EncodeError> {
+        self.datagram.clear();
+        self.decide(now, &mut done)?;
+        self.pending.command = !self.datagram.as_bytes().is_empty();
+        self.pending.wake_up = self.session.wake_up_due(now);
+        Ok(())
+    }
+
+    /// Decides what the drone is to do, and encodes it.
+    fn decide(&mut self, now: Duration, done: &mut impl FnMut(Stage)) -> Result<(), EncodeError> {
         let step_s = self
             .last_tick
             .map_or(TICK, |last| now.saturating_sub(last))
             .min(2 * TICK)
             .as_secs_f64();
         self.last_tick = Some(now);
-        datagram.clear();
         self.watch(now);
         if self.navdata.is_none() || self.authority == Authority::None {
             return Ok(());
@@ -341,19 +340,21 @@ impl Pilot {
             order,
         });
         done(Stage::Control);
-        self.session.tick(now, order, datagram)?;
+        self.session.tick(now, order, &mut self.datagram)?;
         done(Stage::Encode);
         self.session_events(now);
         Ok(())
     }
 
-    /// Fills `datagram` with the last words of a pilot that leaves, by the session alone: whatever has
-    /// happened to the rest. See [`Session::part`].
+    /// A tick of a pilot that leaves: the order to land, by the session alone, whatever has happened to the rest.
+    /// See [`Session::part`].
     ///
     /// # Errors
     /// See [`Session::part`].
-    pub fn part(&mut self, now: Duration, datagram: &mut Datagram) -> Result<(), EncodeError> {
-        self.session.part(now, datagram)
+    pub fn part(&mut self, now: Duration) -> Result<(), EncodeError> {
+        self.session.part(now, &mut self.datagram)?;
+        self.pending.command = !self.datagram.as_bytes().is_empty();
+        Ok(())
     }
 
     /// How many datagrams told something, and how many meant nothing.
@@ -361,9 +362,9 @@ impl Pilot {
         self.session.statistics()
     }
 
-    /// What happened, oldest first.
-    pub fn poll_event(&mut self) -> Option<FlightEvent> {
-        self.events.pop_front()
+    /// The datagram of the last tick, empty if there was none.
+    pub fn datagram(&self) -> &[u8] {
+        self.datagram.as_bytes()
     }
 
     /// What the last tick decided and why; nothing before the first navdata.

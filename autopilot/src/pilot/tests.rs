@@ -10,26 +10,30 @@ fn pilot(plan: &str) -> Pilot {
 #[test]
 fn nothing_is_said_to_a_drone_that_was_not_heard() {
     let mut pilot = pilot("takeoff\nland");
-    let mut datagram = Datagram::new();
-    pilot.tick(Duration::ZERO, &mut datagram).unwrap();
-    assert_eq!(datagram.as_bytes(), b"");
-    assert!(pilot.wake_up_due(Duration::ZERO));
+    pilot.tick(Duration::ZERO).unwrap();
+    assert_eq!(pilot.poll(), Some(Output::Transmit(Transmit::WakeUp)));
+    assert_eq!(pilot.poll(), None);
 }
 
 #[test]
 fn a_drone_that_never_answers_ends_the_flight() {
     let mut pilot = pilot("takeoff\nland");
-    let mut datagram = Datagram::new();
-    pilot.tick(CONNECT_TIMEOUT.saturating_sub(TICK), &mut datagram).unwrap();
+    pilot.tick(CONNECT_TIMEOUT.saturating_sub(TICK)).unwrap();
     assert_eq!(pilot.outcome(), None);
-    pilot.tick(CONNECT_TIMEOUT, &mut datagram).unwrap();
+    while pilot.poll().is_some() {}
+    pilot.tick(CONNECT_TIMEOUT).unwrap();
     assert_eq!(pilot.outcome(), Some(&Outcome::NoDrone));
+    let said: Vec<_> =
+        std::iter::from_fn(|| pilot.poll().map(|output| matches!(output, Output::Ended(_))))
+            .collect();
+    assert_eq!(said.iter().filter(|ended| **ended).count(), 1, "the end is said once");
+    assert_eq!(said.last(), Some(&true), "and last");
 }
 
 #[test]
 fn an_order_to_land_before_the_flight_just_ends_it() {
     let mut pilot = pilot("takeoff\nland");
-    pilot.order(Duration::ZERO, PilotOrder::Land);
+    pilot.handle(Duration::ZERO, Input::Order(PilotOrder::Land));
     assert_eq!(pilot.outcome(), Some(&Outcome::Interrupted));
 }
 
@@ -39,8 +43,8 @@ fn random_navdata_is_ignored() {
     for length in 0..600_usize {
         let bytes: Vec<u8> =
             (0_u8..=255).cycle().map(|i| i.wrapping_mul(37)).take(length).collect();
-        pilot.handle_navdata(Duration::ZERO, &bytes);
-        pilot.handle_control(Duration::ZERO, &bytes);
+        pilot.handle(Duration::ZERO, Input::Navdata(&bytes));
+        pilot.handle(Duration::ZERO, Input::Control(&bytes));
     }
     assert_eq!(pilot.status(Duration::ZERO).battery_percent, None);
 }
@@ -67,7 +71,7 @@ fn refusals(plan: &str, demo: Demo, packets: u64, later: Duration) -> Vec<String
     let mut packet = PacketWriter::new(&mut bytes, DroneState::empty(), 1, 0);
     packet.option(&NavdataOption::Demo(demo)).unwrap();
     packet.finish();
-    pilot.handle_navdata(Duration::ZERO, &bytes);
+    pilot.handle(Duration::ZERO, Input::Navdata(&bytes));
     pilot.take_off_or_refuse(later, Duration::from_secs(1), packets);
     match pilot.outcome() {
         Some(Outcome::PreflightRefused { reasons }) => reasons.clone(),
