@@ -38,6 +38,6 @@ pub mod sim;
 pub mod timing;
 mod trail;
 
-pub use pid::Demand;
+pub use pid::{Demand, Pose};
 pub use pilot::{Pilot, PilotConfig};
 pub use plan::Plan;
