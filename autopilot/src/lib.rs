@@ -20,6 +20,6 @@ pub mod pilot;
 pub mod plan;
 pub mod safety;
 
-pub use pid::Demand;
+pub use pid::{Demand, Pose};
 pub use pilot::{Pilot, PilotConfig};
 pub use plan::Plan;

@@ -12,6 +12,7 @@ mod command_line;
 mod estimate;
 mod faults;
 mod parting;
+mod plans;
 mod ports;
 mod processes;
 mod recording;

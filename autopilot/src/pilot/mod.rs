@@ -39,9 +39,9 @@ pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
 use self::saturation::Saturation;
 pub use self::stage::Stage;
 use crate::agent::{Activity, Agent, AgentCommand, AgentStep, Danger, Report, Senses, distance};
-use crate::mission::{AgentOrder, Due, Mission};
+use crate::mission::{Due, Mission};
 use crate::outcome::Outcome;
-use crate::plan::{FlightLimits, Plan};
+use crate::plan::{AgentOrder, FlightLimits, Plan, Target};
 use crate::safety::{Circumstances, Guard, Veto};
 
 /// The time between two ticks.
@@ -522,7 +522,7 @@ impl Pilot {
                 Some(due) => {
                     self.due = Some(Active { due, since: now, offered: false });
                     self.events.push_back(FlightEvent::StepStarted { step: due.step });
-                    if due.corrected {
+                    if due.is_corrected() {
                         self.events.push_back(FlightEvent::TargetCorrected { step: due.step });
                     }
                 }
@@ -536,7 +536,7 @@ impl Pilot {
         active.offered = match active.due.order {
             AgentOrder::TakeOff => self.agent.achieve_take_off(),
             AgentOrder::Land => self.agent.achieve_land(),
-            AgentOrder::GoTo(pose) => {
+            AgentOrder::GoTo(Target { pose, .. }) => {
                 self.agent.achieve_go_to(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg)
             }
         };
@@ -561,13 +561,13 @@ impl Pilot {
         self.report.steps_done = active.due.step + 1;
         match active.due.order {
             AgentOrder::TakeOff => {
-                self.mission.set_origin(&pose);
+                self.mission.take_off_ended(&pose);
                 self.report.took_off_at.get_or_insert(active.since);
             }
             AgentOrder::GoTo(target) => {
                 let waypoint = Waypoint {
                     step: active.due.step,
-                    target,
+                    target: target.pose,
                     pose,
                     horizontal_deviation_m: self.estimator.horizontal_deviation_m(now),
                     at: now,

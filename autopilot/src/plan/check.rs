@@ -4,8 +4,9 @@ use diagnostic::{Diagnostic, Span};
 use pid::Pose;
 
 use super::Command;
+use super::dry_run::DryRun;
+use super::interpreter::AgentOrder;
 use super::parser::Line;
-use super::walk::Walk;
 
 /// Where z = 0 is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -56,6 +57,9 @@ impl FlightLimits {
     /// height is known only then, and targets are checked against it once more.
     pub(super) const EXPECTED_HOVER_M: f64 = 0.85;
 
+    /// Heights are typed with a few digits; a target on the limit is inside.
+    pub(super) const TOLERANCE_M: f64 = 1e-9;
+
     /// The height above the floor of z = 0 of the take-off reference.
     pub fn origin_height_m(&self, hover_m: f64) -> f64 {
         match self.z_origin {
@@ -78,10 +82,7 @@ impl FlightLimits {
     }
 }
 
-/// Heights are typed with a few digits; a target on the limit is inside.
-const TOLERANCE_M: f64 = 1e-9;
-
-/// Flies the plan on paper: order of commands, places of targets.
+/// Does a dry run of the plan: order of commands, places of targets.
 pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Diagnostic> {
     let end = text.trim_end().len();
     let mut diagnostics = check_places(lines, limits);
@@ -97,7 +98,7 @@ pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Di
 
 /// What is wrong with the places that commands lead to.
 pub(super) fn check_places(lines: &[Line], limits: &FlightLimits) -> Vec<Diagnostic> {
-    let mut check = Check { limits, walk: Walk::new(limits), diagnostics: Vec::new() };
+    let mut check = Check { limits, run: DryRun::new(limits), diagnostics: Vec::new() };
     for line in lines {
         if let Some(command) = line.command {
             check.step(command, &line.span);
@@ -108,26 +109,26 @@ pub(super) fn check_places(lines: &[Line], limits: &FlightLimits) -> Vec<Diagnos
 
 struct Check<'a> {
     limits: &'a FlightLimits,
-    walk: Walk,
+    run: DryRun,
     diagnostics: Vec<Diagnostic>,
 }
 
 impl Check<'_> {
     fn step(&mut self, command: Command, span: &Span) {
-        if let Some(target) = self.walk.step(command) {
-            self.target(&target, span);
+        if let Some(AgentOrder::GoTo(target)) = self.run.step(command) {
+            self.target(&target.wanted, span);
         }
     }
 
     fn target(&mut self, target: &Pose, span: &Span) {
-        if !self.walk.airborne {
+        if !self.run.is_airborne() {
             self.diagnostics.push(
                 Diagnostic::error("the drone is on the ground here", span.clone())
                     .help("put `takeoff` before it"),
             );
         }
         let away_m = target.x_m.hypot(target.y_m);
-        if away_m > self.limits.radius_m + TOLERANCE_M {
+        if away_m > self.limits.radius_m + FlightLimits::TOLERANCE_M {
             self.diagnostics.push(
                 Diagnostic::error(
                     format!(
@@ -141,9 +142,9 @@ impl Check<'_> {
         }
         let height_m = target.z_m;
         let (low, high) = (self.limits.floor_m, self.limits.ceiling_m);
-        let limit = if height_m < low - TOLERANCE_M {
+        let limit = if height_m < low - FlightLimits::TOLERANCE_M {
             format!("below the lowest of {low} m")
-        } else if height_m > high + TOLERANCE_M {
+        } else if height_m > high + FlightLimits::TOLERANCE_M {
             format!("above the ceiling of {high} m")
         } else {
             return;

@@ -5,7 +5,8 @@ use std::time::Duration;
 use estimator::wrap_deg;
 use pid::Pose;
 
-use super::walk::Walk;
+use super::dry_run::DryRun;
+use super::interpreter::AgentOrder;
 use super::{Command, FlightLimits, Plan};
 use crate::agent::ApproachSettings;
 
@@ -22,6 +23,8 @@ pub struct Expectation {
     pub stay: Duration,
     /// How long it takes, with the stay at its end.
     pub time: Duration,
+    /// Whether the plan wants the target outside the fence, which is an error.
+    pub(super) outside: bool,
 }
 
 /// From the order until the drone hovers.
@@ -43,53 +46,48 @@ const PERCENT_PER_S: f64 = 1.2 * 100.0 / 720.0;
 /// Follows the commands of a plan and says what each will take.
 #[derive(Debug, Clone)]
 pub(super) struct Expectations {
-    walk: Walk,
-    stay_s: f64,
-    /// How far sticks may be moved.
-    share: f64,
+    run: DryRun,
 }
 
 impl Expectations {
     pub(super) fn new(limits: &FlightLimits) -> Self {
-        let stay_s = ApproachSettings::default().stay_time_ms as f64 / 1000.0;
-        Self { walk: Walk::new(limits), stay_s, share: 1.0 }
+        Self { run: DryRun::new(limits) }
     }
 
     /// Where the last command has led.
     pub(super) fn place(&self) -> Pose {
-        self.walk.target
+        self.run.place()
+    }
+
+    /// How targets are approached after the last command.
+    pub(super) fn settings(&self) -> ApproachSettings {
+        self.run.interpreter().settings()
     }
 
     /// What is expected of the next command.
     pub(super) fn step(&mut self, command: Command) -> Expectation {
-        let before = self.walk.target;
-        let target = self.walk.step(command);
-        let mut stay_s = 0.0;
-        let (leg_m, time_s) = match command {
-            Command::TakeOff { .. } => (self.walk.target.z_m, TAKE_OFF_S),
-            Command::Land => (before.z_m, LANDING_S + before.z_m / LANDING_M_S),
-            Command::SetStayTime { time_s } => {
-                self.stay_s = time_s;
-                (0.0, 0.0)
+        let (before, was_airborne) = (self.run.place(), self.run.is_airborne());
+        let order = self.run.step(command);
+        let place = self.run.place();
+        let (mut target, mut outside, mut stay_s) = (None, false, 0.0);
+        let (leg_m, time_s) = match order {
+            Some(AgentOrder::TakeOff) if was_airborne => (0.0, 0.0),
+            Some(AgentOrder::TakeOff) => (place.z_m, TAKE_OFF_S),
+            Some(AgentOrder::Land) => (before.z_m, LANDING_S + before.z_m / LANDING_M_S),
+            Some(AgentOrder::GoTo(to)) => {
+                (target, outside) = (Some(to.pose), to.is_corrected());
+                stay_s = self.settings().stay_time_ms as f64 / 1000.0;
+                leg(&before, &to.pose, self.run.interpreter().max_control())
             }
-            Command::SetMaxControl { fraction } => {
-                self.share = fraction;
-                (0.0, 0.0)
-            }
-            _ => match target {
-                Some(target) => {
-                    stay_s = self.stay_s;
-                    leg(&before, &target, self.share)
-                }
-                None => (0.0, 0.0),
-            },
+            None => (0.0, 0.0),
         };
         Expectation {
             target,
-            place: self.walk.target,
+            place,
             leg_m,
             stay: Duration::from_secs_f64(stay_s),
             time: Duration::from_secs_f64(time_s + stay_s),
+            outside,
         }
     }
 }
@@ -147,6 +145,11 @@ mod tests {
         for (time, expected) in times(plan).into_iter().zip(expected) {
             assert!((time - expected).abs() < 1e-6, "{time} {expected}");
         }
+    }
+
+    #[test]
+    fn a_take_off_in_the_air_takes_no_time() {
+        assert!((times("takeoff\ngoto 0 0 1 0\nautoInit\nland\n")[2]).abs() < 1e-9);
     }
 
     #[test]

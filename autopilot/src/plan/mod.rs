@@ -2,7 +2,7 @@
 //!
 //! One command a line; `#` and `//` start comments. Lengths in metres, angles in degrees, times in
 //! seconds. x is right, y forward, z up, yaw clockwise; coordinates are relative to the reference,
-//! which is the pose at the end of the take-off until `setReference` moves it.
+//! which is the pose at the end of the first take-off until `setReference` moves it.
 //!
 //! ```
 //! let plan = autopilot::Plan::parse("square.txt", "takeoff\ngoto 0 1 0 0\nland\n")?;
@@ -11,9 +11,10 @@
 //! ```
 
 mod check;
+mod dry_run;
 mod expectation;
+mod interpreter;
 mod parser;
-mod walk;
 mod warnings;
 
 use diagnostic::{Diagnostic, Severity};
@@ -21,7 +22,8 @@ use pid::Pose;
 
 pub use check::{FlightLimits, ZOrigin};
 pub use expectation::{Expectation, battery_percent};
-pub(crate) use walk::offset;
+pub(crate) use interpreter::Interpreter;
+pub use interpreter::{AgentOrder, Target};
 
 /// A flight plan that was read without errors.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +59,7 @@ pub enum Command {
     MoveBy(Pose),
     /// `moveByRel x y z yaw`: from where the drone is.
     MoveByRelative(Pose),
-    /// `setReference x y z yaw`: in the coordinates of the take-off.
+    /// `setReference x y z yaw`: in the coordinates of the first take-off.
     SetReference(Pose),
     /// `setReference $POSE$`: where the drone is.
     SetReferenceHere,
@@ -162,9 +164,9 @@ impl Plan {
 
     /// Whether the plan may start with a drone that is in the air.
     pub fn takes_over(&self) -> bool {
-        let first = self.steps.iter().find_map(|step| match step.command {
-            Command::TakeOff { take_over } => Some(take_over),
-            _ => None,
+        let first = self.steps.iter().find_map(|step| {
+            let Command::TakeOff { take_over } = step.command else { return None };
+            Some(take_over)
         });
         first.unwrap_or(false)
     }

@@ -17,28 +17,82 @@ pub(super) struct Line {
     pub(super) number: usize,
     pub(super) span: Span,
     pub(super) text: String,
-    /// Nothing for commands that only tell something.
+    /// Nothing for what orders nothing in flight.
     pub(super) command: Option<Command>,
-    name: &'static str,
+    keyword: Keyword,
 }
 
-/// The commands of a plan and their arguments, for messages.
-const COMMANDS: [(&str, &str); 14] = [
-    ("takeoff", ""),
-    ("land", ""),
-    ("goto", "x y z yaw"),
-    ("moveBy", "x y z yaw"),
-    ("moveByRel", "x y z yaw"),
-    ("setReference", "x y z yaw` or `setReference $POSE$"),
-    ("setInitialReachDist", "metres"),
-    ("setStayWithinDist", "metres"),
-    ("setStayTime", "seconds"),
-    ("setMaxControl", "fraction"),
-    ("clearCommands", ""),
-    ("autoInit", "[numbers]"),
-    ("autoTakeover", "[numbers]"),
-    ("lockScaleFP", ""),
-];
+/// The first word of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Keyword {
+    TakeOff,
+    Land,
+    GoTo,
+    MoveBy,
+    MoveByRel,
+    SetReference,
+    SetInitialReachDist,
+    SetStayWithinDist,
+    SetStayTime,
+    SetMaxControl,
+    ClearCommands,
+    AutoInit,
+    AutoTakeover,
+    LockScaleFp,
+}
+
+impl Keyword {
+    /// A keyword that is missing here is never read, which the compiler reports as dead code.
+    const ALL: [Self; 14] = [
+        Self::TakeOff,
+        Self::Land,
+        Self::GoTo,
+        Self::MoveBy,
+        Self::MoveByRel,
+        Self::SetReference,
+        Self::SetInitialReachDist,
+        Self::SetStayWithinDist,
+        Self::SetStayTime,
+        Self::SetMaxControl,
+        Self::ClearCommands,
+        Self::AutoInit,
+        Self::AutoTakeover,
+        Self::LockScaleFp,
+    ];
+
+    /// As it is written in plans.
+    fn name(self) -> &'static str {
+        match self {
+            Self::TakeOff => "takeoff",
+            Self::Land => "land",
+            Self::GoTo => "goto",
+            Self::MoveBy => "moveBy",
+            Self::MoveByRel => "moveByRel",
+            Self::SetReference => "setReference",
+            Self::SetInitialReachDist => "setInitialReachDist",
+            Self::SetStayWithinDist => "setStayWithinDist",
+            Self::SetStayTime => "setStayTime",
+            Self::SetMaxControl => "setMaxControl",
+            Self::ClearCommands => "clearCommands",
+            Self::AutoInit => "autoInit",
+            Self::AutoTakeover => "autoTakeover",
+            Self::LockScaleFp => "lockScaleFP",
+        }
+    }
+
+    /// Its arguments, for messages.
+    fn usage(self) -> &'static str {
+        match self {
+            Self::TakeOff | Self::Land | Self::ClearCommands | Self::LockScaleFp => "",
+            Self::GoTo | Self::MoveBy | Self::MoveByRel => "x y z yaw",
+            Self::SetReference => "x y z yaw` or `setReference $POSE$",
+            Self::SetInitialReachDist | Self::SetStayWithinDist => "metres",
+            Self::SetStayTime => "seconds",
+            Self::SetMaxControl => "fraction",
+            Self::AutoInit | Self::AutoTakeover => "[numbers]",
+        }
+    }
+}
 
 /// The commands of `text` and what is wrong with it.
 pub(super) fn parse(text: &str) -> (Vec<Line>, Vec<Diagnostic>) {
@@ -64,19 +118,30 @@ pub(super) fn parse(text: &str) -> (Vec<Line>, Vec<Diagnostic>) {
 
 /// What to tell about a command that means something else in `tum_ardrone`.
 pub(super) fn note(line: &Line) -> Option<String> {
-    let meaning = match line.name {
-        "autoInit" => "takes off; there is no visual map to initialise",
-        "autoTakeover" => "takes over, or takes off; there is no visual map to initialise",
-        "lockScaleFP" => "does nothing; there is no visual map to scale",
-        "clearCommands" => "drops the commands before it",
-        _ => return None,
+    let meaning = match line.keyword {
+        Keyword::AutoInit => "takes off; there is no visual map to initialise",
+        Keyword::AutoTakeover => "takes over, or takes off; there is no visual map to initialise",
+        Keyword::LockScaleFp => "does nothing; there is no visual map to scale",
+        Keyword::ClearCommands => "drops the commands before it",
+        Keyword::TakeOff
+        | Keyword::Land
+        | Keyword::GoTo
+        | Keyword::MoveBy
+        | Keyword::MoveByRel
+        | Keyword::SetReference
+        | Keyword::SetInitialReachDist
+        | Keyword::SetStayWithinDist
+        | Keyword::SetStayTime
+        | Keyword::SetMaxControl => return None,
     };
-    Some(format!("line {}: `{}` {meaning}", line.number, line.name))
+    Some(format!("line {}: `{}` {meaning}", line.number, line.keyword.name()))
 }
 
 /// `clearCommands` empties the queue: only what stands behind the last one is flown.
 pub(super) fn clear_commands(mut lines: Vec<Line>) -> Vec<Line> {
-    if let Some(last) = lines.iter().rposition(|line| line.name == "clearCommands") {
+    if let Some(last) =
+        lines.iter().rposition(|line| matches!(line.keyword, Keyword::ClearCommands))
+    {
         lines.drain(..=last);
     }
     lines
@@ -95,16 +160,16 @@ fn parse_line(raw: &str, start: usize, number: usize) -> Result<Option<Line>, Di
     let mut words = words(code, start);
     let Some(command) = words.next() else { return Ok(None) };
     let arguments: Vec<Word<'_>> = words.collect();
-    let known = COMMANDS.iter().find(|(name, _)| *name == command.text);
-    let Some((name, usage)) = known else { return Err(unknown(&command)) };
+    let known = Keyword::ALL.into_iter().find(|keyword| keyword.name() == command.text);
+    let Some(keyword) = known else { return Err(unknown(&command)) };
     let end = arguments.last().map_or(command.span.end, |last| last.span.end);
-    let parsed = Arguments { command: &command, usage, words: &arguments }.command()?;
+    let parsed = Arguments { keyword, command: &command, words: &arguments }.command()?;
     Ok(Some(Line {
         number,
         span: command.span.start..end,
         text: code.split_whitespace().collect::<Vec<_>>().join(" "),
         command: parsed,
-        name,
+        keyword,
     }))
 }
 
@@ -118,7 +183,7 @@ fn words(code: &str, start: usize) -> impl Iterator<Item = Word<'_>> {
 
 fn unknown(word: &Word<'_>) -> Diagnostic {
     let shown: String = word.text.chars().take(40).flat_map(char::escape_debug).collect();
-    let names = COMMANDS.iter().map(|(name, _)| *name);
+    let names = Keyword::ALL.into_iter().map(Keyword::name);
     let help = match closest(word.text, names.clone()) {
         Some(candidate) => format!("did you mean `{candidate}`?"),
         None => format!("commands are: {}", names.collect::<Vec<_>>().join(", ")),
@@ -127,42 +192,48 @@ fn unknown(word: &Word<'_>) -> Diagnostic {
 }
 
 struct Arguments<'a> {
+    keyword: Keyword,
     command: &'a Word<'a>,
-    usage: &'static str,
     words: &'a [Word<'a>],
 }
 
 impl Arguments<'_> {
     fn command(&self) -> Result<Option<Command>, Diagnostic> {
-        let command = match self.command.text {
-            "takeoff" => self.none(Command::TakeOff { take_over: false })?,
-            "land" => self.none(Command::Land)?,
-            "goto" => Command::GoTo(self.pose()?),
-            "moveBy" => Command::MoveBy(self.pose()?),
-            "moveByRel" => Command::MoveByRelative(self.pose()?),
-            "setReference" if matches!(self.words, [word] if word.text == "$POSE$") => {
+        let command = match self.keyword {
+            Keyword::TakeOff => self.none(Command::TakeOff { take_over: false })?,
+            Keyword::Land => self.none(Command::Land)?,
+            Keyword::GoTo => Command::GoTo(self.pose()?),
+            Keyword::MoveBy => Command::MoveBy(self.pose()?),
+            Keyword::MoveByRel => Command::MoveByRelative(self.pose()?),
+            Keyword::SetReference if matches!(self.words, [word] if word.text == "$POSE$") => {
                 Command::SetReferenceHere
             }
-            "setReference" => Command::SetReference(self.pose()?),
-            "setInitialReachDist" => {
+            Keyword::SetReference => Command::SetReference(self.pose()?),
+            Keyword::SetInitialReachDist => {
                 Command::SetReachDistance { distance_m: self.one(0.01, 10.0)? }
             }
-            "setStayWithinDist" => Command::SetStayDistance { distance_m: self.one(0.01, 10.0)? },
-            "setStayTime" => Command::SetStayTime { time_s: self.one(0.0, 600.0)? },
-            "setMaxControl" => Command::SetMaxControl { fraction: self.one(0.05, 1.0)? },
-            "autoInit" | "autoTakeover" => {
-                for word in self.words {
-                    self.number(word)?;
-                }
-                Command::TakeOff { take_over: self.command.text == "autoTakeover" }
+            Keyword::SetStayWithinDist => {
+                Command::SetStayDistance { distance_m: self.one(0.01, 10.0)? }
             }
-            // `clearCommands` and `lockScaleFP` order nothing.
-            _ => {
+            Keyword::SetStayTime => Command::SetStayTime { time_s: self.one(0.0, 600.0)? },
+            Keyword::SetMaxControl => Command::SetMaxControl { fraction: self.one(0.05, 1.0)? },
+            Keyword::AutoInit => self.numbers(Command::TakeOff { take_over: false })?,
+            Keyword::AutoTakeover => self.numbers(Command::TakeOff { take_over: true })?,
+            // The first is carried out by `clear_commands`; the second is about visual mapping.
+            Keyword::ClearCommands | Keyword::LockScaleFp => {
                 self.count(0)?;
                 return Ok(None);
             }
         };
         Ok(Some(command))
+    }
+
+    /// Any amount of numbers, which mean nothing here.
+    fn numbers(&self, command: Command) -> Result<Command, Diagnostic> {
+        for word in self.words {
+            self.number(word)?;
+        }
+        Ok(command)
     }
 
     fn none(&self, command: Command) -> Result<Command, Diagnostic> {
@@ -194,10 +265,9 @@ impl Arguments<'_> {
     fn usage_error(&self) -> Diagnostic {
         let end = self.words.last().map_or(self.command.span.end, |word| word.span.end);
         let name = self.command.text;
-        let usage = if self.usage.is_empty() {
-            format!("write `{name}` alone")
-        } else {
-            format!("write `{name} {}`", self.usage)
+        let usage = match self.keyword.usage() {
+            "" => format!("write `{name}` alone"),
+            usage => format!("write `{name} {usage}`"),
         };
         Diagnostic::error(
             format!("`{name}` with {} arguments", self.words.len()),
@@ -222,7 +292,7 @@ impl Arguments<'_> {
                 format!("`{}` is not a number", word.text.escape_debug()),
                 word.span.clone(),
             )
-            .help(format!("write `{} {}`", self.command.text, self.usage))),
+            .help(format!("write `{} {}`", self.command.text, self.keyword.usage()))),
         }
     }
 }

@@ -92,7 +92,7 @@ fn every_bad_line_is_reported_with_line_column_and_advice() {
 #[test]
 fn targets_outside_the_heights_are_refused() {
     insta::assert_snapshot!(
-        error("takeoff\ngoto 0 0 -0.6 0\ngoto 0 0 2.5 0\nmoveBy 0 0 -0.5 0\nsetReference $POSE$\ngoto 0 0 0.2 0\nland"),
+        error("takeoff\ngoto 0 0 -0.6 0\ngoto 0 0 2.5 0\nmoveBy 0 0 -0.1 0\nsetReference $POSE$\ngoto 0 0 0.2 0\nland"),
         @r"
     error: target 0.25 m above the floor, below the lowest of 0.3 m
      --> plan.txt:2:1
@@ -110,7 +110,7 @@ fn targets_outside_the_heights_are_refused() {
       |
       = help: z = 0 is where the drone hovers after take-off, about 0.85 m above the floor
 
-    error: target 3.05 m above the floor, above the ceiling of 3 m
+    error: target 3.10 m above the floor, above the ceiling of 3 m
      --> plan.txt:6:1
       |
     6 | goto 0 0 0.2 0

@@ -9,7 +9,7 @@ use pid::Pose;
 use super::expectation::Expectations;
 use super::parser::Line;
 use super::{Command, FlightLimits, battery_percent};
-use crate::agent::{ApproachSettings, LANDING_BATTERY_PERCENT};
+use crate::agent::LANDING_BATTERY_PERCENT;
 
 /// Nearer than this to the fence a drone that overshoots in the wind is turned back.
 const NEAR_FENCE_M: f64 = 0.5;
@@ -22,12 +22,8 @@ const CAREFUL_PERCENT: f64 = 70.0;
 
 /// Everything that somebody who flies often would mention.
 pub(super) fn warnings(lines: &[Line], limits: &FlightLimits) -> Vec<Diagnostic> {
-    let mut review = Review {
-        limits,
-        settings: ApproachSettings::default(),
-        expectations: Expectations::new(limits),
-        diagnostics: Vec::new(),
-    };
+    let mut review =
+        Review { limits, expectations: Expectations::new(limits), diagnostics: Vec::new() };
     let mut time = Duration::ZERO;
     let mut end: Option<&Line> = None;
     for line in lines {
@@ -45,7 +41,6 @@ pub(super) fn warnings(lines: &[Line], limits: &FlightLimits) -> Vec<Diagnostic>
 
 struct Review<'a> {
     limits: &'a FlightLimits,
-    settings: ApproachSettings,
     expectations: Expectations,
     diagnostics: Vec<Diagnostic>,
 }
@@ -59,27 +54,37 @@ impl Review<'_> {
     fn step(&mut self, command: Command, span: &Span) -> Duration {
         let before = self.expectations.place();
         let expected = self.expectations.step(command);
+        let settings = self.expectations.settings();
         match command {
-            Command::SetReachDistance { distance_m } => self.settings.reach_distance_m = distance_m,
-            Command::SetStayDistance { distance_m } => self.settings.stay_distance_m = distance_m,
+            Command::SetReachDistance { .. } | Command::SetStayDistance { .. }
+                if settings.stay_distance_m < settings.reach_distance_m =>
+            {
+                self.warn(
+                    "the drone may stray less while it stays than when it arrives",
+                    span,
+                    "each stay would begin anew until it is so near: make `setStayWithinDist` larger than \
+                     `setInitialReachDist`",
+                );
+            }
             Command::SetStayTime { time_s } if time_s > LONG_STAY_S => self.warn(
                 format!("the drone stays for {time_s} s at each target"),
                 span,
                 "its place is known by navdata alone, and known worse the longer it hovers",
             ),
-            _ => {}
+            Command::SetReachDistance { .. }
+            | Command::SetStayDistance { .. }
+            | Command::SetStayTime { .. }
+            | Command::SetMaxControl { .. }
+            | Command::SetReference(_)
+            | Command::SetReferenceHere
+            | Command::TakeOff { .. }
+            | Command::Land
+            | Command::GoTo(_)
+            | Command::MoveBy(_)
+            | Command::MoveByRelative(_) => {}
         }
-        if matches!(command, Command::SetReachDistance { .. } | Command::SetStayDistance { .. })
-            && self.settings.stay_distance_m < self.settings.reach_distance_m
-        {
-            self.warn(
-                "the drone may stray less while it stays than when it arrives",
-                span,
-                "each stay would begin anew until it is so near: make `setStayWithinDist` larger than \
-                 `setInitialReachDist`",
-            );
-        }
-        if let Some(target) = expected.target {
+        // One outside the fence is an error.
+        if let Some(target) = expected.target.filter(|_| !expected.outside) {
             self.target(&before, &target, expected.leg_m, span);
         }
         expected.time
@@ -87,7 +92,7 @@ impl Review<'_> {
 
     fn target(&mut self, before: &Pose, target: &Pose, leg_m: f64, span: &Span) {
         let turns = wrap_deg(target.yaw_deg - before.yaw_deg).abs() > 5.0;
-        let reach_m = self.settings.reach_distance_m;
+        let reach_m = self.expectations.settings().reach_distance_m;
         if leg_m > 0.0 && leg_m <= reach_m && !turns {
             self.warn(
                 format!("the target is {leg_m:.2} m away, and counts as reached from {reach_m} m"),
@@ -96,9 +101,8 @@ impl Review<'_> {
             );
         }
         let away_m = target.x_m.hypot(target.y_m);
-        let to_fence_m = self.limits.radius_m - away_m;
-        // What is outside is an error.
-        if (0.0..NEAR_FENCE_M).contains(&to_fence_m) {
+        let to_fence_m = (self.limits.radius_m - away_m).max(0.0);
+        if to_fence_m < NEAR_FENCE_M {
             self.warn(
                 format!("the target is {to_fence_m:.2} m from the fence"),
                 span,
@@ -134,28 +138,29 @@ impl Review<'_> {
 
     /// Settings behind the last target change nothing.
     fn unused_settings(&mut self, lines: &[Line]) {
-        let is_target = |line: &Line| {
-            matches!(
-                line.command,
-                Some(Command::GoTo(_) | Command::MoveBy(_) | Command::MoveByRelative(_))
-            )
-        };
-        let last = lines.iter().rposition(is_target).map_or(0, |index| index + 1);
-        for line in &lines[last..] {
-            let sets = matches!(
-                line.command,
+        let before = self.diagnostics.len();
+        for line in lines.iter().rev() {
+            match line.command {
+                Some(Command::GoTo(_) | Command::MoveBy(_) | Command::MoveByRelative(_)) => break,
                 Some(
                     Command::SetReachDistance { .. }
-                        | Command::SetStayDistance { .. }
-                        | Command::SetStayTime { .. }
-                        | Command::SetReference(_)
-                        | Command::SetReferenceHere
-                )
-            );
-            if sets {
-                self.warn("no target comes after this", &line.span, "put it before the targets");
+                    | Command::SetStayDistance { .. }
+                    | Command::SetStayTime { .. }
+                    | Command::SetReference(_)
+                    | Command::SetReferenceHere,
+                ) => {
+                    self.warn(
+                        "no target comes after this",
+                        &line.span,
+                        "put it before the targets",
+                    );
+                }
+                // How far sticks may be moved also limits how the place is held.
+                Some(Command::SetMaxControl { .. } | Command::TakeOff { .. } | Command::Land)
+                | None => {}
             }
         }
+        self.diagnostics[before..].reverse();
     }
 }
 
@@ -186,6 +191,7 @@ mod tests {
                 "the drone may stray less while it stays than when it arrives",
             ),
             ("goto 0 1 0 0\nsetInitialReachDist 0.1", "no target comes after this"),
+            ("goto 10 0 0 0", "the target is 0.00 m from the fence"),
         ] {
             let warned = warned(&format!("takeoff\n{lines}\nland\n"));
             assert_eq!(warned.len(), 1, "{lines}: {warned:?}");
@@ -198,6 +204,14 @@ mod tests {
         let hover = "goto 0 1 0 0\ngoto 0 0 0 0\n".repeat(65);
         let warned = warned(&format!("takeoff\n{hover}land\n"));
         assert_eq!(warned, [(132, "the plan takes about 73 % of a new battery".to_owned())]);
+    }
+
+    #[test]
+    fn every_setting_behind_the_last_target_is_named_in_order() {
+        let text =
+            "takeoff\ngoto 0 1 0 0\nsetStayTime 1\nsetMaxControl 1\nsetReference $POSE$\nland\n";
+        let lines: Vec<usize> = warned(text).into_iter().map(|(line, _)| line).collect();
+        assert_eq!(lines, [3, 5]);
     }
 
     #[test]

@@ -1,0 +1,88 @@
+//! A plan without a drone: where it leads, as far as that is known before the flight.
+
+use pid::Pose;
+
+use super::interpreter::{AgentOrder, Interpreter};
+use super::{Command, FlightLimits};
+
+/// A plan, and a drone that hovers at the expected height over its place of take-off, reaches each target
+/// exactly, and lands where it is.
+#[derive(Debug, Clone)]
+pub(super) struct DryRun {
+    interpreter: Interpreter,
+    place: Pose,
+    airborne: bool,
+}
+
+impl DryRun {
+    pub(super) fn new(limits: &FlightLimits) -> Self {
+        let interpreter = Interpreter::new(*limits);
+        Self { interpreter, place: Pose::default(), airborne: false }
+    }
+
+    /// Carries out a command, and what the agent has to do for it.
+    pub(super) fn step(&mut self, command: Command) -> Option<AgentOrder> {
+        let order = self.interpreter.carry_out(command, &self.place)?;
+        match order {
+            AgentOrder::TakeOff => {
+                // In the air it stays where it is.
+                if !self.airborne {
+                    self.place.z_m = FlightLimits::EXPECTED_HOVER_M;
+                }
+                self.airborne = true;
+                self.interpreter.take_off_ended(&self.place);
+            }
+            AgentOrder::GoTo(target) => self.place = target.pose,
+            AgentOrder::Land => {
+                self.airborne = false;
+                self.place.z_m = 0.0;
+            }
+        }
+        Some(order)
+    }
+
+    /// Where the drone is.
+    pub(super) fn place(&self) -> Pose {
+        self.place
+    }
+
+    /// Whether it flies.
+    pub(super) fn is_airborne(&self) -> bool {
+        self.airborne
+    }
+
+    /// The plan's settings.
+    pub(super) fn interpreter(&self) -> &Interpreter {
+        &self.interpreter
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::Plan;
+
+    /// The place after each step, as forward and up.
+    fn places(text: &str) -> Vec<(f64, f64)> {
+        let plan = Plan::parse("plan", text).unwrap();
+        let mut run = DryRun::new(&FlightLimits::default());
+        let places = plan.steps().iter().map(|step| {
+            run.step(step.command);
+            (run.place().y_m, run.place().z_m)
+        });
+        places.collect()
+    }
+
+    #[test]
+    fn the_drone_climbs_and_lands_where_it_is() {
+        let landed = places("takeoff\ngoto 0 2 1 0\nland\nautoInit\nmoveBy 0 0 0.5 0\nland\n");
+        let expected = [(0.0, 0.85), (2.0, 1.85), (2.0, 0.0), (2.0, 0.85), (2.0, 1.35), (2.0, 0.0)];
+        assert_eq!(landed, expected);
+    }
+
+    #[test]
+    fn a_take_off_in_the_air_changes_nothing() {
+        let still = places("takeoff\ngoto 0 2 1 0\ntakeoff\nmoveBy 0 0 0 0\nland\n");
+        assert_eq!(still[1..4], [(2.0, 1.85); 3]);
+    }
+}

@@ -1,0 +1,274 @@
+//! What the commands of a plan mean.
+//!
+//! The only place that knows. A plan speaks relative to a reference, to the last target or to the
+//! drone; what comes out are poses in the world. Where the drone is comes in from outside: in flight
+//! from the estimator, in a [dry run](super::dry_run) from a drone that does exactly what it is sent to do.
+//!
+//! As in `tum_ardrone` the reference is the plan's alone: only `setReference` moves it, however often
+//! the drone lands and takes off. The coordinates begin where the first take-off ends, because that is the
+//! first pose that is known in flight.
+
+use estimator::wrap_deg;
+use pid::Pose;
+
+use super::{Command, FlightLimits};
+use crate::agent::{ApproachSettings, distance};
+
+/// What the agent is to do for a command.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AgentOrder {
+    /// Be in the air.
+    TakeOff,
+    /// Go to a target and stay there a while.
+    GoTo(Target),
+    /// Land.
+    Land,
+}
+
+/// A target of a plan, in the estimator's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// Where the drone is sent: inside the fence.
+    pub pose: Pose,
+    /// Where the plan wants it.
+    pub wanted: Pose,
+}
+
+impl Target {
+    /// Whether it was moved into the fence.
+    pub fn is_corrected(&self) -> bool {
+        distance(&self.pose, &self.wanted) > FlightLimits::TOLERANCE_M
+    }
+}
+
+/// Carries out the commands of a plan, one after the other.
+#[derive(Debug, Clone)]
+pub(crate) struct Interpreter {
+    limits: FlightLimits,
+    /// Where the plan's coordinates begin; nothing before the end of the first take-off.
+    origin: Option<Pose>,
+    reference: Reference,
+    /// Where the drone was sent last.
+    target: Pose,
+    settings: ApproachSettings,
+    max_control: f64,
+}
+
+/// What `goto` counts from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Reference {
+    /// This far from where the coordinates begin. That may be known later only: the plan may set the
+    /// reference before it takes off.
+    FromOrigin(Pose),
+    /// Where the drone was.
+    Fixed(Pose),
+}
+
+impl Interpreter {
+    /// At the beginning of a plan, on the ground.
+    pub(crate) fn new(limits: FlightLimits) -> Self {
+        Self {
+            limits,
+            origin: None,
+            reference: Reference::FromOrigin(Pose::default()),
+            target: Pose::default(),
+            settings: ApproachSettings::default(),
+            max_control: 1.0,
+        }
+    }
+
+    /// Carries out a command while the drone is at `pose`. Returns what the agent has to do for it;
+    /// nothing for a setting, which holds for all that comes after.
+    ///
+    /// When the agent has taken off, [`Interpreter::take_off_ended`] must be called before the next command.
+    pub(crate) fn carry_out(&mut self, command: Command, pose: &Pose) -> Option<AgentOrder> {
+        match command {
+            Command::TakeOff { .. } => return Some(AgentOrder::TakeOff),
+            Command::Land => return Some(AgentOrder::Land),
+            Command::GoTo(to) => return Some(self.go_to(self.reference(), to)),
+            Command::MoveBy(by) => return Some(self.go_to(self.target, by)),
+            Command::MoveByRelative(by) => return Some(self.go_to(*pose, by)),
+            Command::SetReference(to) => self.reference = Reference::FromOrigin(to),
+            Command::SetReferenceHere => self.reference = Reference::Fixed(*pose),
+            Command::SetReachDistance { distance_m } => self.settings.reach_distance_m = distance_m,
+            Command::SetStayDistance { distance_m } => self.settings.stay_distance_m = distance_m,
+            Command::SetStayTime { time_s } => {
+                // At most 600 s, as the parser has checked.
+                #[allow(clippy::cast_possible_truncation)]
+                let stay_time_ms = (time_s * 1000.0).round() as i64;
+                self.settings.stay_time_ms = stay_time_ms;
+            }
+            Command::SetMaxControl { fraction } => self.max_control = fraction,
+        }
+        None
+    }
+
+    /// A take-off has ended at `pose`, which is held. The first one is where coordinates begin.
+    pub(crate) fn take_off_ended(&mut self, pose: &Pose) {
+        let origin = Pose { z_m: self.limits.origin_height_m(pose.z_m), ..*pose };
+        self.origin.get_or_insert(origin);
+        self.target = *pose;
+    }
+
+    /// How targets are approached now.
+    pub(crate) fn settings(&self) -> ApproachSettings {
+        self.settings
+    }
+
+    /// No stick is to be moved further than this fraction now.
+    pub(crate) fn max_control(&self) -> f64 {
+        self.max_control
+    }
+
+    /// The fence.
+    pub(crate) fn limits(&self) -> &FlightLimits {
+        &self.limits
+    }
+
+    fn reference(&self) -> Pose {
+        match self.reference {
+            Reference::FromOrigin(by) => {
+                // Only a plan that is refused asks before the drone has taken off.
+                let expected = || Pose {
+                    z_m: self.limits.origin_height_m(FlightLimits::EXPECTED_HOVER_M),
+                    ..Pose::default()
+                };
+                offset(&self.origin.unwrap_or_else(expected), &by)
+            }
+            Reference::Fixed(pose) => pose,
+        }
+    }
+
+    fn go_to(&mut self, from: Pose, by: Pose) -> AgentOrder {
+        let wanted = offset(&from, &by);
+        self.target = self.limits.nearest_inside(&wanted, 0.0);
+        AgentOrder::GoTo(Target { pose: self.target, wanted })
+    }
+}
+
+/// The pose `by` away from `from`: displacements are along the world's axes, headings add up.
+fn offset(from: &Pose, by: &Pose) -> Pose {
+    Pose {
+        x_m: from.x_m + by.x_m,
+        y_m: from.y_m + by.y_m,
+        z_m: from.z_m + by.z_m,
+        yaw_deg: wrap_deg(from.yaw_deg + by.yaw_deg),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{Plan, ZOrigin};
+
+    const FIRST_HOVER: Pose = Pose { x_m: 0.1, y_m: -0.1, z_m: 0.8, yaw_deg: 2.0 };
+    const SECOND_HOVER: Pose = Pose { x_m: 0.4, y_m: 1.2, z_m: 0.9, yaw_deg: -3.0 };
+
+    /// The last target of a plan that is flown by a drone that is always exactly where it was sent.
+    fn last_target(text: &str, limits: FlightLimits) -> Target {
+        let plan = Plan::parse_within("plan", text, &limits).unwrap();
+        let mut interpreter = Interpreter::new(limits);
+        let mut hovers = [FIRST_HOVER, SECOND_HOVER].into_iter();
+        let (mut pose, mut last) = (Pose::default(), None);
+        for step in plan.steps() {
+            match interpreter.carry_out(step.command, &pose) {
+                Some(AgentOrder::TakeOff) => {
+                    pose = hovers.next().unwrap();
+                    interpreter.take_off_ended(&pose);
+                }
+                Some(AgentOrder::GoTo(target)) => {
+                    pose = target.pose;
+                    last = Some(target);
+                }
+                Some(AgentOrder::Land) => pose.z_m = 0.0,
+                None => {}
+            }
+        }
+        last.unwrap()
+    }
+
+    #[track_caller]
+    fn assert_target(plan: &str, expected: [f64; 4]) {
+        let target = last_target(&format!("{plan}\nland"), FlightLimits::default());
+        assert!(!target.is_corrected());
+        let Pose { x_m, y_m, z_m, yaw_deg } = target.pose;
+        for (value, expected) in [x_m, y_m, z_m, yaw_deg].into_iter().zip(expected) {
+            assert!((value - expected).abs() < 1e-9, "{plan}: {target:?}");
+        }
+    }
+
+    #[test]
+    fn targets_follow_from_the_reference_the_last_target_or_the_drone() {
+        assert_target("takeoff\ngoto 1 2 0.5 90", [1.1, 1.9, 1.3, 92.0]);
+        assert_target("takeoff\ngoto 1 0 0 0\nmoveBy 1 1 0 -10", [2.1, 0.9, 0.8, -8.0]);
+        assert_target("takeoff\ngoto 1 0 0 0\nmoveByRel 0 1 0 0", [1.1, 0.9, 0.8, 2.0]);
+        assert_target("takeoff\nmoveBy 1 1 0 0", [1.1, 0.9, 0.8, 2.0]);
+        assert_target("takeoff\ngoto 0 0 0 181", [0.1, -0.1, 0.8, -177.0]);
+    }
+
+    #[test]
+    fn the_reference_is_moved_by_its_command() {
+        let here = "takeoff\ngoto 1 0 0 0\nsetReference $POSE$\ngoto 1 0 0 0";
+        assert_target(here, [2.1, -0.1, 0.8, 2.0]);
+        assert_target("takeoff\nsetReference 5 0 0 0\ngoto 1 0 0 0", [6.1, -0.1, 0.8, 2.0]);
+        // It counts from the take-off, not from the reference before it.
+        let twice = "takeoff\nsetReference $POSE$\nsetReference 5 0 0 0\nsetReference 1 0 0 9\n";
+        assert_target(&format!("{twice}goto 0 0 0 0"), [1.1, -0.1, 0.8, 11.0]);
+    }
+
+    #[test]
+    fn a_reference_that_is_set_on_the_ground_counts_in_the_air() {
+        assert_target("setReference 1 2 0.1 30\ntakeoff\ngoto 0 0 0 0", [1.1, 1.9, 0.9, 32.0]);
+        // The drone stands on the floor, at the beginning of the estimator's frame.
+        assert_target("setReference $POSE$\ntakeoff\ngoto 0 1 1.5 0", [0.0, 1.0, 1.5, 0.0]);
+    }
+
+    #[test]
+    fn only_the_first_take_off_is_where_coordinates_begin() {
+        let again = "takeoff\ngoto 0 6 0 0\nland\ntakeoff\n";
+        assert_target(&format!("{again}goto 0 6 0 0"), [0.1, 5.9, 0.8, 2.0]);
+        assert_target(&format!("{again}setReference 1 0 0 0\ngoto 0 0 0 0"), [1.1, -0.1, 0.8, 2.0]);
+        // What it holds is where it then is.
+        assert_target(&format!("{again}moveBy 0 1 0 0"), [0.4, 2.2, 0.9, -3.0]);
+        let moved = "takeoff\nsetReference 1 0 0 0\nland\ntakeoff\ngoto 0 0 0 0";
+        assert_target(moved, [1.1, -0.1, 0.8, 2.0]);
+    }
+
+    #[test]
+    fn heights_count_from_the_floor_if_asked() {
+        let limits = FlightLimits { z_origin: ZOrigin::Floor, ..FlightLimits::default() };
+        let target = last_target("takeoff\ngoto 0 0 1.2 0\nland", limits);
+        assert!((target.pose.z_m - 1.2).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_target_outside_is_moved_into_the_fence_and_the_next_counts_from_there() {
+        // Inside for the expected hover of 0.85 m; this drone hovers 5 cm lower.
+        let low = last_target("takeoff\ngoto 0 0 -0.54 0\nland", FlightLimits::default());
+        assert!(low.is_corrected());
+        assert!((low.wanted.z_m - 0.26).abs() < 1e-9 && (low.pose.z_m - 0.3).abs() < 1e-9);
+        assert_target("takeoff\ngoto 0 0 -0.54 0\nmoveBy 0 0 0.1 0", [0.1, -0.1, 0.4, 2.0]);
+        // One that is on the fence already is not moved again, whatever the last bit of a sum.
+        let on_it =
+            last_target("takeoff\ngoto 7 7.08 0 0\nmoveBy 0 0 0 0", FlightLimits::default());
+        assert!(!on_it.is_corrected(), "{on_it:?}");
+    }
+
+    #[test]
+    fn settings_hold_from_their_command_on() {
+        let mut interpreter = Interpreter::new(FlightLimits::default());
+        assert_eq!(interpreter.settings(), ApproachSettings::default());
+        for command in [
+            Command::SetReachDistance { distance_m: 0.1 },
+            Command::SetStayDistance { distance_m: 0.7 },
+            Command::SetStayTime { time_s: 1.2345 },
+            Command::SetMaxControl { fraction: 0.5 },
+        ] {
+            assert_eq!(interpreter.carry_out(command, &Pose::default()), None);
+        }
+        let settings =
+            ApproachSettings { reach_distance_m: 0.1, stay_distance_m: 0.7, stay_time_ms: 1235 };
+        assert_eq!(interpreter.settings(), settings);
+        assert!((interpreter.max_control() - 0.5).abs() < 1e-9);
+    }
+}
