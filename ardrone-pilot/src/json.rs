@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
+use autopilot::pilot::{FlightEvent, Status};
+use autopilot::plan::Step;
 use diagnostic::is_printable;
 use serde_json::{Value, json};
 
 use crate::flight::{FinishedFlight, Message};
 use crate::recording::{Place, Recorded};
-use autopilot::pilot::{FlightEvent, Status};
-use autopilot::plan::Step;
 
 /// The text of a value, which can stand anywhere: on a terminal, in a page, in a script. What could be obeyed
 /// there is written as `\u003c`, which means the same to whoever reads JSON.
@@ -77,7 +77,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
             json!({
                 "type": "status",
                 "t_s": at.as_secs_f64(),
-                "phase": phase,
+                "phase": phase.name(),
                 "step": step,
                 "steps": steps,
                 "plan_waits": status.plan_waits,

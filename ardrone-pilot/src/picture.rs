@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use autopilot::plan::{FlightLimits, Plan};
 use diagnostic::printable;
+use pid::Pose;
 use plotters::prelude::*;
 
 use crate::drawing::{self, Drawing, Drawn, FONT};
-use autopilot::plan::{FlightLimits, Plan};
-use pid::Pose;
 
 const SIZE: (u32, u32) = (960, 500);
 const WAY: RGBColor = RGBColor(25, 95, 170);

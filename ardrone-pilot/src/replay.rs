@@ -8,13 +8,13 @@ use std::time::Duration;
 
 use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
+use autopilot::outcome::Outcome;
+use autopilot::pilot::{Input, Output, Pilot, Transmit};
+use autopilot::plan::{Plan, PlanError};
 use diagnostic::printable;
 
 use crate::recording::{Entry, Log, Tick, Timing};
 use crate::settings::{Settings, SettingsError};
-use autopilot::outcome::Outcome;
-use autopilot::pilot::{Input, Output, Pilot, Transmit};
-use autopilot::plan::{Plan, PlanError};
 
 /// Why a log cannot be flown again.
 #[derive(Debug, thiserror::Error)]

@@ -6,13 +6,12 @@
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
+use autopilot::pilot::{NavdataRate, PilotConfig};
+use autopilot::plan::{FlightLimits, ZOrigin};
 use estimator::{DroneLimits, EstimatorConfig};
 use nalgebra::Vector2;
 use pid::{CascadeConfig, Law, PidGains};
 use serde::{Deserialize, Serialize};
-
-use autopilot::pilot::{NavdataRate, PilotConfig};
-use autopilot::plan::{FlightLimits, ZOrigin};
 
 /// The default `pilot.toml`, with comments.
 pub const DEFAULTS: &str = include_str!("../pilot.toml");

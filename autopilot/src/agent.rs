@@ -122,6 +122,20 @@ pub enum Danger {
     NoProgress,
 }
 
+impl Danger {
+    /// Its name in logs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BatteryLow => "BatteryLow",
+            Self::BatteryEmpty => "BatteryEmpty",
+            Self::Blind => "Blind",
+            Self::Lost => "Lost",
+            Self::Wind => "Wind",
+            Self::NoProgress => "NoProgress",
+        }
+    }
+}
+
 /// How the agent's last order ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Report {
@@ -131,6 +145,17 @@ pub enum Report {
     Refused,
     /// It was tried and did not succeed.
     Failed,
+}
+
+impl Report {
+    /// Its name in logs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Done => "Done",
+            Self::Refused => "Refused",
+            Self::Failed => "Failed",
+        }
+    }
 }
 
 /// What the agent makes the drone do that takes its time.

@@ -68,6 +68,19 @@ pub enum Veto {
 }
 
 impl Veto {
+    /// Its name in logs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::StaleNavdata => "StaleNavdata",
+            Self::Blind => "Blind",
+            Self::Emergency => "Emergency",
+            Self::Landing => "Landing",
+            Self::TargetOutside => "TargetOutside",
+            Self::NearFence => "NearFence",
+            Self::OutsideFence => "OutsideFence",
+        }
+    }
+
     /// Whether the drone is landed for it.
     pub fn lands(self) -> bool {
         matches!(self, Self::Blind | Self::OutsideFence | Self::Landing)

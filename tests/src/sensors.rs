@@ -6,7 +6,6 @@
 use std::fmt;
 use std::time::Duration;
 
-use crate::sim::{Simulation, SimulationError};
 use autopilot::Plan;
 use autopilot::pilot::{FlightEvent, PilotConfig};
 use autopilot::plan::{FlightLimits, ZOrigin};
@@ -19,6 +18,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
 use crate::alone;
+use crate::sim::{Simulation, SimulationError};
 
 /// No single fault may take the drone further outside its fence.
 pub const MOST_OUTSIDE_M: f64 = 3.0;

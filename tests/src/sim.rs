@@ -7,8 +7,6 @@ use std::time::Duration;
 use ardrone_link::WAKE_UP;
 use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
-use mock_drone::{Message, Truth, World, WorldConfig};
-
 use ardrone_pilot::recording::{Record, Timing};
 use autopilot::outcome::Outcome;
 use autopilot::pilot::{
@@ -16,6 +14,7 @@ use autopilot::pilot::{
     Transmit,
 };
 use autopilot::plan::Plan;
+use mock_drone::{Message, Truth, World, WorldConfig};
 
 /// A world to fly in.
 #[derive(Debug, Clone, Default)]

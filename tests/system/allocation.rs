@@ -4,7 +4,9 @@ use std::time::Duration;
 
 use allocation_counter::measure;
 use ardrone_pilot::recording::{Header, Recorder, Timing};
-use autopilot::pilot::{Input, NavdataRate, Output, PilotConfig, PilotOrder, TICK, Transmit};
+use autopilot::pilot::{
+    Input, NavdataRate, Output, Phase, PilotConfig, PilotOrder, TICK, Transmit,
+};
 use autopilot::{Demand, Pilot};
 use mock_drone::{Message, World, WorldConfig};
 use system_tests::{SQUARE, plan};
@@ -24,7 +26,7 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
         Recorder::start(&folder.path().join("flight.mcap"), &Header::default()).unwrap();
     let mut now = Duration::ZERO;
     while pilot.outcome().is_none() {
-        let flies = pilot.status(now).phase == "flying";
+        let flies = pilot.status(now).phase == Phase::Flying;
         let mut count = |work: &mut dyn FnMut()| {
             let asked = measure(work).count_total;
             allocations += if flies { asked } else { 0 };

@@ -11,9 +11,8 @@ use autopilot::pilot::{FlightEvent, LandingReason};
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;
 use mock_drone::{Message, World, WorldConfig};
-use system_tests::sim::{SimulatedFlight, Simulation};
-
 use system_tests::SQUARE;
+use system_tests::sim::{SimulatedFlight, Simulation};
 
 use crate::simulated::fly;
 

@@ -387,3 +387,23 @@ fn a_refused_flight_is_not_told_as_a_good_one() {
     let page = report::html(&Log::read(&file).unwrap()).unwrap();
     assert!(page.contains("<p class=\"outcome warn\">"), "{}", flight.outcome);
 }
+
+#[test]
+fn a_log_of_a_newer_format_is_refused_with_the_version_that_wrote_it() {
+    let refused = |format: &str| {
+        let mut file = Cursor::new(Vec::new());
+        let mut writer = mcap::Writer::new(&mut file).unwrap();
+        let entries = [("format", format), ("version", "9.8.7")];
+        let metadata = entries.map(|(key, value)| (key.to_owned(), value.to_owned())).into();
+        let name = "flight".to_owned();
+        writer.write_metadata(&mcap::records::Metadata { name, metadata }).unwrap();
+        writer.finish().unwrap();
+        drop(writer);
+        Log::read(&file.into_inner()).unwrap_err().to_string()
+    };
+    for unknown in ["3", "0", "-1", "two"] {
+        let text = refused(unknown);
+        assert!(text.contains(&format!("format is {unknown}")) && text.contains("9.8.7"), "{text}");
+    }
+    assert!(refused("1").contains("has no"), "known, and the rest is missing");
+}

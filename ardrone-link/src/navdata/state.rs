@@ -89,6 +89,23 @@ pub enum ControlState {
 }
 
 impl ControlState {
+    /// Its name, the same in every version: for logs. Numbers without a name are `Unknown`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Default => "Default",
+            Self::Init => "Init",
+            Self::Landed => "Landed",
+            Self::Flying => "Flying",
+            Self::Hovering => "Hovering",
+            Self::Test => "Test",
+            Self::TakingOff => "TakingOff",
+            Self::GoingToFixPoint => "GoingToFixPoint",
+            Self::Landing => "Landing",
+            Self::Looping => "Looping",
+            Self::Unknown(_) => "Unknown",
+        }
+    }
+
     /// The major number on the wire.
     pub fn number(self) -> u16 {
         match self {

@@ -14,11 +14,12 @@ mod story;
 
 use std::net::{SocketAddr, TcpListener};
 
+use autopilot::plan::{FlightLimits, Plan};
+
 use self::access::Access;
 use self::server::Server;
 use self::story::Story;
 use crate::flight::{Controls, Message};
-use autopilot::plan::{FlightLimits, Plan};
 
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]

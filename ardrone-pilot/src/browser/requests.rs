@@ -2,9 +2,8 @@
 
 use std::time::Duration;
 
-use serde::Deserialize;
-
 use autopilot::pilot::PilotOrder;
+use serde::Deserialize;
 
 /// The motors are cut within this time after it was asked whether that is meant.
 const CUT_AGAIN: Duration = Duration::from_secs(3);

@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use autopilot::agent::{PLANS, SOURCE, plan_text};
+use autopilot::plan::{FlightLimits, Plan};
 use diagnostic::printable;
 use serde_json::{Value, json};
 
@@ -9,8 +11,6 @@ use crate::flight::Message;
 use crate::json;
 use crate::recording::Place;
 use crate::trail::Trail;
-use autopilot::agent::{PLANS, SOURCE, plan_text};
-use autopilot::plan::{FlightLimits, Plan};
 
 /// Events that are remembered; older ones go.
 const EVENTS: usize = 100;

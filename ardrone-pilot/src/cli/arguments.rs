@@ -4,11 +4,10 @@ use std::net::{Ipv4Addr, SocketAddr, ToSocketAddrs as _};
 use std::path::PathBuf;
 
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use clap_complete::Shell;
-
 use autopilot::pilot::Law;
 use autopilot::plan;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 const EXIT_STATUS: &str = "\
 Exit status:

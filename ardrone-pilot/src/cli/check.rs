@@ -3,6 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
+use autopilot::plan::{Expectation, FlightLimits, Plan, battery_percent};
 use diagnostic::{Diagnostic, Severity, Source, line_column, render_all};
 use pid::Pose;
 use serde_json::{Value, json};
@@ -12,7 +13,6 @@ use super::{CommandError, terminal};
 use crate::json;
 use crate::picture;
 use crate::recording::Place;
-use autopilot::plan::{Expectation, FlightLimits, Plan, battery_percent};
 
 /// Checks a plan, prints what was found, and draws it if asked to. The status is 20 for a plan that cannot be
 /// flown.

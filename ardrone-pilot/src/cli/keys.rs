@@ -9,6 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use autopilot::Demand;
+use autopilot::pilot::PilotOrder;
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, poll, read};
 use rustix::event::{PollFd, PollFlags, Timespec};
 use rustix::termios::{
@@ -16,8 +18,6 @@ use rustix::termios::{
 };
 
 use crate::flight::Controls;
-use autopilot::Demand;
-use autopilot::pilot::PilotOrder;
 
 /// What the keys do, for people.
 pub(super) const HELP: &str = "keys: space hold, r resume, l land, q land and quit, \

@@ -4,8 +4,9 @@
 use std::io;
 use std::time::Duration;
 
-use crate::flight::{Controls, EndSignals};
 use autopilot::outcome::Outcome;
+
+use crate::flight::{Controls, EndSignals};
 
 /// What is left to be said and written may take so long.
 const GRACE: Duration = Duration::from_secs(1);

@@ -16,6 +16,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use ardrone_link::DroneAddress;
+use autopilot::plan::{Plan, PlanError};
 use clap::{CommandFactory as _, Parser as _};
 use clap_complete::Shell;
 use mock_drone::WorldConfig;
@@ -39,7 +40,6 @@ use crate::replay::{Replay, ReplayError};
 use crate::report::{self, ReportError};
 use crate::settings::{self, Settings, SettingsError};
 use crate::timing::TimingReport;
-use autopilot::plan::{Plan, PlanError};
 
 /// Why nothing was flown.
 #[derive(Debug, thiserror::Error)]
@@ -223,12 +223,12 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
     // The drone may be flying already.
     if let Err(error) = leave::on_second_signal(flight.controls()) {
-        progress.say(&format!("warning: a second Ctrl-C waits for whoever reads: {error}"));
+        progress.warn(&format!("a second Ctrl-C waits for whoever reads: {error}"));
     }
     let open = |door: Door| door.open(&name, &plan, &config.limits, flight.controls());
     let browser = door.map(open).transpose().unwrap_or_else(|error| {
         // The drone may be flying already.
-        progress.say(&format!("warning: {error}"));
+        progress.warn(&error.to_string());
         None
     });
     let mut watch = match wanted.then(screen).flatten() {
@@ -252,7 +252,7 @@ fn fly(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
         }
         watch.show(&message);
         if let Some(problem) = recording.as_ref().and_then(Recording::problem) {
-            watch.say(&format!("warning: {problem}"));
+            watch.warn(&problem.to_string());
         }
     }
     drop(keys);
@@ -291,6 +291,13 @@ impl Watch {
         match self {
             Self::Lines(progress) => progress.say(line),
             Self::Screen(screen) => screen.say(line),
+        }
+    }
+
+    fn warn(&mut self, line: &str) {
+        match self {
+            Self::Lines(progress) => progress.warn(line),
+            Self::Screen(screen) => screen.warn(line),
         }
     }
 

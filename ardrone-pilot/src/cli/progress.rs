@@ -3,12 +3,12 @@
 use std::io::stderr;
 use std::time::Duration;
 
+use autopilot::pilot::{FlightEvent, Status, TICK};
+use autopilot::plan::{Plan, Step};
 use rustix::termios::tcgetwinsize;
 
 use super::terminal;
 use crate::flight::Message;
-use autopilot::pilot::{FlightEvent, Status, TICK};
-use autopilot::plan::{Plan, Step};
 
 /// In plain mode, a line of status this often.
 const PLAIN_STATUS_INTERVAL: Duration = Duration::from_secs(1);
@@ -56,6 +56,11 @@ impl Progress {
         } else {
             terminal::tell(line);
         }
+    }
+
+    /// A warning.
+    pub(super) fn warn(&mut self, line: &str) {
+        self.say(&format!("warning: {line}"));
     }
 
     /// The flight is over: the status line makes room.
@@ -141,7 +146,7 @@ mod tests {
 
     use super::*;
     use autopilot::agent::ChosenPlans;
-    use autopilot::pilot::{Airframe, Trust};
+    use autopilot::pilot::{Airframe, Phase, Trust};
 
     #[test]
     fn a_status_line_does_not_wrap() {
@@ -153,7 +158,7 @@ mod tests {
     #[test]
     fn the_status_line_says_where_and_where_to() {
         let status = Status {
-            phase: "flying",
+            phase: Phase::Flying,
             step: Some(2),
             steps: 6,
             plan_waits: false,

@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use std::io::{self, Stderr, stderr};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use autopilot::plan::{FlightLimits, Plan};
 use crossterm::cursor::Show;
 use crossterm::execute;
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, size};
@@ -16,7 +17,6 @@ use tracing_subscriber::fmt::MakeWriter;
 use self::view::View;
 use super::terminal;
 use crate::flight::Message;
-use autopilot::plan::{FlightLimits, Plan};
 
 /// Smaller terminals get lines.
 const LEAST: (u16, u16) = (70, 20);
@@ -55,10 +55,16 @@ impl Screen {
         self.draw();
     }
 
+    /// A warning.
+    pub(super) fn warn(&mut self, line: &str) {
+        self.view.warn(&format!("warning: {line}"));
+        self.draw();
+    }
+
     /// Shows what the flight tells.
     pub(super) fn show(&mut self, message: &Message) {
         for warning in self.warnings.take() {
-            self.view.say(&warning);
+            self.view.warn(&warning);
         }
         self.view.take_in(message);
         // What did not happen between two looks needs no drawing of its own.

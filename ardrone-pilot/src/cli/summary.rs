@@ -2,12 +2,12 @@
 
 use std::fmt;
 
+use autopilot::pilot::Waypoint;
 use mock_drone::Truth;
 use nalgebra::Vector2;
 
 use crate::flight::{FinishedFlight, LinkSummary};
 use crate::recording::Recorded;
-use autopilot::pilot::Waypoint;
 
 /// A waypoint as the simulation knows it.
 pub(super) struct TrueWaypoint {

@@ -3,9 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use crossbeam_channel::{Receiver, Sender, bounded};
-
 use autopilot::pilot::PilotOrder;
+use crossbeam_channel::{Receiver, Sender, bounded};
 
 /// Orders that may wait for the tick; all of them are taken in one.
 const WAITING: usize = 64;

@@ -3,10 +3,9 @@
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::Navdata;
 use ardrone_link::session::FlightOrder;
+use autopilot::pilot::{Decision, PilotOrder};
 use pid::{Demand, Pose};
 use serde::{Deserialize, Serialize};
-
-use autopilot::pilot::{Decision, PilotOrder};
 
 /// A tick: what was known, decided and sent.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -15,8 +14,8 @@ pub struct Tick {
     pub phase: String,
     /// The step of the plan, from 0.
     pub step: Option<usize>,
-    /// Where the drone was.
-    pub estimate: Estimate,
+    /// Where the drone was; nothing while that was not known. Logs of format 1 have zeros then.
+    pub estimate: Option<Estimate>,
     /// Where it was sent.
     pub target: Option<Place>,
     /// What it was told.
@@ -185,28 +184,35 @@ impl Tick {
     /// The tick as it stands in a log.
     pub fn new(decision: &Decision, timing: Timing, datagram: &[u8]) -> Self {
         let Decision { state, senses, .. } = decision;
-        let Pose { x_m, y_m, z_m, yaw_deg } = senses.pose.unwrap_or_default();
+        let estimate = |Pose { x_m, y_m, z_m, yaw_deg }| Estimate {
+            x_m: short(x_m),
+            y_m: short(y_m),
+            z_m: short(z_m),
+            yaw_deg: short(yaw_deg),
+            vx_m_s: short(state.velocity_m_s.x),
+            vy_m_s: short(state.velocity_m_s.y),
+            vz_m_s: short(state.velocity_m_s.z),
+            horizontal_deviation_m: short(senses.doubt_m),
+            vertical_deviation_m: short(decision.vertical_deviation_m),
+        };
         Self {
-            phase: decision.phase.to_owned(),
+            phase: decision.phase.name().to_owned(),
             step: decision.step,
-            estimate: Estimate {
-                x_m: short(x_m),
-                y_m: short(y_m),
-                z_m: short(z_m),
-                yaw_deg: short(yaw_deg),
-                vx_m_s: short(state.velocity_m_s.x),
-                vy_m_s: short(state.velocity_m_s.y),
-                vz_m_s: short(state.velocity_m_s.z),
-                horizontal_deviation_m: short(senses.doubt_m),
-                vertical_deviation_m: short(decision.vertical_deviation_m),
-            },
+            estimate: senses.pose.map(estimate),
             target: decision.target.map(|pose| Place::from(&pose)),
             command: Command::new(decision),
             agent: Agent::new(decision),
-            veto: decision.veto.map(|veto| format!("{veto:?}")),
+            veto: decision.veto.map(|veto| veto.name().to_owned()),
             timing: Timing { late_ms: short(timing.late_ms), work_ms: short(timing.work_ms) },
             datagram: String::from_utf8_lossy(datagram).into_owned(),
         }
+    }
+}
+
+impl From<Estimate> for Place {
+    fn from(estimate: Estimate) -> Self {
+        let Estimate { x_m, y_m, z_m, yaw_deg, .. } = estimate;
+        Self { x_m, y_m, z_m, yaw_deg }
     }
 }
 
@@ -242,8 +248,8 @@ impl Agent {
         Self {
             plans: decision.plans.places().map(plan).collect(),
             command: decision.wanted.name().to_owned(),
-            report: decision.report.map(|report| format!("{report:?}")),
-            danger: decision.danger.map(|danger| format!("{danger:?}")),
+            report: decision.report.map(|report| report.name().to_owned()),
+            danger: decision.danger.map(|danger| danger.name().to_owned()),
             battery_percent: senses.battery_percent,
             blind_for_ms: senses.blind_for_ms,
             wind: short(senses.wind),
@@ -258,7 +264,7 @@ impl From<&Navdata> for DecodedNavdata {
         Self {
             sequence: navdata.sequence,
             state: navdata.state.bits(),
-            control_state: demo.map(|demo| format!("{:?}", demo.control_state)),
+            control_state: demo.map(|demo| demo.control_state.name().to_owned()),
             battery_percent: demo.map(|demo| demo.battery_percent),
             altitude_m: demo.map(|demo| short(demo.altitude_m)),
             velocity_m_s: demo.map(|demo| {

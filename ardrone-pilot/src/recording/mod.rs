@@ -29,6 +29,9 @@ const SETTINGS_FILE: &str = "pilot.toml";
 /// What a log line is about: its `name`.
 const EVENT: &str = "event";
 const OUTCOME: &str = "outcome";
+/// The format that is written: what the messages are and mean. 1 had no number, and zeros for a place that is not
+/// known.
+const FORMAT: u32 = 2;
 /// The name of the metadata.
 const FLIGHT: &str = "flight";
 

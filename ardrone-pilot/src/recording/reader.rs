@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use autopilot::pilot::PilotOrder;
+use autopilot::plan::ZOrigin;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use diagnostic::printable;
@@ -12,9 +14,7 @@ use mcap::{McapError, parse_record};
 use serde::de::DeserializeOwned;
 
 use super::messages::{Bytes, DecodedNavdata, Hand, Tick};
-use super::{AGENT_FILE, FLIGHT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
-use autopilot::pilot::PilotOrder;
-use autopilot::plan::ZOrigin;
+use super::{AGENT_FILE, FLIGHT, FORMAT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
 
 /// A flight as it was recorded.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,6 +90,14 @@ pub enum LogError {
         /// What is missing.
         missing: String,
     },
+    /// It was written by a newer version, whose messages may mean something else.
+    #[error("its format is {format}, and this version reads up to {FORMAT}: take the version that wrote it, {}", printable(.version))]
+    Newer {
+        /// The format's number.
+        format: String,
+        /// Which version wrote it.
+        version: String,
+    },
     /// A message is not what it should be.
     #[error("damaged message in {topic}: {problem}")]
     Message {
@@ -118,6 +126,10 @@ impl Log {
         let told = |key: &str| {
             flight.get(key).cloned().ok_or_else(|| LogError::Foreign { missing: key.to_owned() })
         };
+        let format = flight.get("format").map_or("1", String::as_str);
+        if !format.parse().is_ok_and(|format: u32| (1..=FORMAT).contains(&format)) {
+            return Err(LogError::Newer { format: format.to_owned(), version: told("version")? });
+        }
         let start = told("start_ns")?
             .parse()
             .map_err(|_| LogError::Foreign { missing: "start_ns that is a number".to_owned() })?;

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use autopilot::outcome::Outcome;
+use autopilot::pilot::{Decision, FlightEvent, PilotOrder};
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded};
 use mcap::McapError;
 
 use super::messages::Timing;
 use super::{Header, LogWriter, Record};
-use autopilot::outcome::Outcome;
-use autopilot::pilot::{Decision, FlightEvent, PilotOrder};
 
 /// Entries that may wait for the disk: some seconds.
 const WAITING: usize = 1024;

@@ -9,6 +9,7 @@ use std::io::{Seek, Write};
 use std::time::Duration;
 
 use ardrone_link::navdata::Navdata;
+use autopilot::outcome::Outcome;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use mcap::records::{MessageHeader, Metadata};
@@ -17,7 +18,9 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::messages::{Bytes, DecodedNavdata, Hand, Place, Tick};
-use super::{AGENT_FILE, EVENT, FLIGHT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE, topic};
+use super::{
+    AGENT_FILE, EVENT, FLIGHT, FORMAT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE, topic,
+};
 
 /// The place of drone and target is told so often for those who draw it: each third tick.
 const POSE_TICKS: u64 = 3;
@@ -59,6 +62,7 @@ impl<W: Write + Seek> LogWriter<W> {
         }
         let start_ns = u64::try_from(header.start.as_nanos()).unwrap_or(u64::MAX);
         let metadata = [
+            ("format", FORMAT.to_string()),
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
             ("start_ns", start_ns.to_string()),
             ("plan", header.plan_name.clone()),
@@ -108,7 +112,7 @@ impl<W: Write + Seek> LogWriter<W> {
                 self.log(*at, level, EVENT, &event.to_string())
             }
             Record::Outcome { at, outcome } => {
-                let good = outcome.exit_status() == 0;
+                let good = *outcome == Outcome::Completed;
                 let level = if good { Level::Info } else { Level::Warning };
                 self.log(*at, level, OUTCOME, &outcome.to_string())
             }
@@ -116,14 +120,9 @@ impl<W: Write + Seek> LogWriter<W> {
             Record::Tick { decision, timing, datagram } => {
                 let tick = Tick::new(decision, *timing, datagram);
                 if self.ticks.is_multiple_of(POSE_TICKS) {
-                    let estimate = tick.estimate;
-                    let place = Place {
-                        x_m: estimate.x_m,
-                        y_m: estimate.y_m,
-                        z_m: estimate.z_m,
-                        yaw_deg: estimate.yaw_deg,
-                    };
-                    self.message(topic::POSE, decision.at, &self.pose(decision.at, &place))?;
+                    if let Some(place) = tick.estimate.map(Place::from) {
+                        self.message(topic::POSE, decision.at, &self.pose(decision.at, &place))?;
+                    }
                     if let Some(target) = &tick.target {
                         self.message(topic::TARGET, decision.at, &self.pose(decision.at, target))?;
                     }

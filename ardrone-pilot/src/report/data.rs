@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use autopilot::agent::plan_text;
 use diagnostic::{printable, printable_lines};
 use serde::Serialize;
 
 use crate::recording::{Log, Tick};
-use autopilot::agent::plan_text;
 
 /// No plan of an agent has more characters, and no agent more plans: a log that says so is not to make a page of
 /// any size.

@@ -108,9 +108,10 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
     if let Some((begin, end)) = flight.battery_percent() {
         fact("battery", format!("{begin} to {end} %"));
     }
-    let away = flight.ticks.iter().map(|(_, tick)| tick.estimate.x_m.hypot(tick.estimate.y_m));
+    let away =
+        flight.ticks.iter().filter_map(|(_, tick)| tick.estimate).map(|at| at.x_m.hypot(at.y_m));
     fact("furthest from the start", format!("{:.2} m", away.fold(0.0, f64::max)));
-    let height = flight.ticks.iter().map(|(_, tick)| tick.estimate.z_m);
+    let height = flight.ticks.iter().filter_map(|(_, tick)| tick.estimate).map(|at| at.z_m);
     fact("highest", format!("{:.2} m", height.fold(0.0, f64::max)));
     let late = flight.lateness_ms();
     let at = |share: f64| {

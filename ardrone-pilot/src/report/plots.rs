@@ -55,22 +55,23 @@ const fn dashed(name: &'static str, colour: RGBColor, value: fn(&Tick) -> Option
 /// All plots, in the order of the page.
 pub(super) fn all(flight: &Flight<'_>) -> Result<Vec<Plot>, Box<dyn Error>> {
     let place = [
-        line("right", BLUE, |tick| Some(tick.estimate.x_m)),
+        line("right", BLUE, |tick| Some(tick.estimate?.x_m)),
         dashed("", BLUE, |tick| Some(tick.target?.x_m)),
-        line("forward", ORANGE, |tick| Some(tick.estimate.y_m)),
+        line("forward", ORANGE, |tick| Some(tick.estimate?.y_m)),
         dashed("", ORANGE, |tick| Some(tick.target?.y_m)),
     ];
     let height = [
-        line("height", GREEN, |tick| Some(tick.estimate.z_m)),
+        line("height", GREEN, |tick| Some(tick.estimate?.z_m)),
         dashed("", GREEN, |tick| Some(tick.target?.z_m)),
     ];
     let error = [
         line("across", BLUE, |tick| {
             let target = tick.target?;
-            Some((target.x_m - tick.estimate.x_m).hypot(target.y_m - tick.estimate.y_m))
+            let at = tick.estimate?;
+            Some((target.x_m - at.x_m).hypot(target.y_m - at.y_m))
         }),
-        line("up and down", GREEN, |tick| Some((tick.target?.z_m - tick.estimate.z_m).abs())),
-        dashed("place known to (dashed)", GREY, |tick| Some(tick.estimate.horizontal_deviation_m)),
+        line("up and down", GREEN, |tick| Some((tick.target?.z_m - tick.estimate?.z_m).abs())),
+        dashed("place known to (dashed)", GREY, |tick| Some(tick.estimate?.horizontal_deviation_m)),
     ];
     let sticks = [
         line("right", BLUE, |tick| Some(tick.command.roll)),
@@ -208,7 +209,8 @@ fn draw_line(chart: &mut Chart<'_, '_>, flight: &Flight<'_>, line: &Line) -> Dra
 
 /// From above, in one scale for both axes.
 fn ground_track(area: &Drawing<'_>, flight: &Flight<'_>) -> Drawn {
-    let places = || flight.ticks.iter().map(|(_, tick)| (tick.estimate.x_m, tick.estimate.y_m));
+    let places =
+        || flight.ticks.iter().filter_map(|(_, tick)| tick.estimate).map(|at| (at.x_m, at.y_m));
     let mut targets: Vec<(f64, f64)> = Vec::new();
     for target in flight.ticks.iter().filter_map(|(_, tick)| tick.target) {
         let near = |other: &(f64, f64)| (other.0 - target.x_m).hypot(other.1 - target.y_m) < 0.02;

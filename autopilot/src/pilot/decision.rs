@@ -6,6 +6,7 @@ use ardrone_link::session::Order;
 use estimator::Prediction;
 use pid::Pose;
 
+use super::Phase;
 use crate::agent::{AgentCommand, ChosenPlans, Danger, Report, Senses};
 use crate::safety::Veto;
 
@@ -15,7 +16,7 @@ pub struct Decision {
     /// Since the start.
     pub at: Duration,
     /// What the flight was doing, in one word.
-    pub phase: &'static str,
+    pub phase: Phase,
     /// The step of the plan that was flown.
     pub step: Option<usize>,
     /// Where the drone was, and how it moved.

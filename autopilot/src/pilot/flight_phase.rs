@@ -13,7 +13,7 @@ use crate::outcome::Outcome;
 
 /// What the whole flight is doing.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum FlightPhase {
+pub(super) enum FlightPhase {
     /// Waiting for the first packet.
     Connecting,
     /// The drone was found in the air: it is watched, and nothing is sent, until it is decided whether it
@@ -49,16 +49,56 @@ pub enum FlightPhase {
 
 impl FlightPhase {
     /// One word for people.
-    pub(super) fn name(&self) -> &'static str {
+    pub(super) fn phase(&self) -> Phase {
+        match self {
+            Self::Connecting => Phase::Connecting,
+            Self::Observing { .. } => Phase::Observing,
+            Self::Configuring { .. } => Phase::Configuring,
+            Self::Settling { .. } => Phase::Trimming,
+            Self::Flying => Phase::Flying,
+            Self::Landing { .. } => Phase::Landing,
+            Self::Ended(_) => Phase::Ended,
+        }
+    }
+}
+
+/// What the flight is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// No navdata yet.
+    Connecting,
+    /// A drone that was found in the air is watched, and nothing is sent to it.
+    Observing,
+    /// The drone's settings are set and read back.
+    Configuring,
+    /// The level reference is set, and the last checks are made.
+    Trimming,
+    /// The agent flies the plan, or what the operator orders.
+    Flying,
+    /// The drone is coming down for good.
+    Landing,
+    /// The flight is over.
+    Ended,
+}
+
+impl Phase {
+    /// Its name in logs, JSON and on the screen.
+    pub fn name(self) -> &'static str {
         match self {
             Self::Connecting => "connecting",
-            Self::Observing { .. } => "observing",
-            Self::Configuring { .. } => "configuring",
-            Self::Settling { .. } => "trimming",
+            Self::Observing => "observing",
+            Self::Configuring => "configuring",
+            Self::Trimming => "trimming",
             Self::Flying => "flying",
-            Self::Landing { .. } => "landing",
-            Self::Ended(_) => "ended",
+            Self::Landing => "landing",
+            Self::Ended => "ended",
         }
+    }
+}
+
+impl fmt::Display for Phase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
     }
 }
 

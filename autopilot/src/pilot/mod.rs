@@ -30,7 +30,8 @@ pub use pid::Law;
 use pid::{CascadeConfig, Pose, PositionController};
 
 pub use self::decision::Decision;
-pub use self::flight_phase::{FlightPhase, LandingReason};
+use self::flight_phase::FlightPhase;
+pub use self::flight_phase::{LandingReason, Phase};
 use self::hand::Hand;
 pub use self::hand::PilotOrder;
 use self::protocol::Pending;
@@ -326,7 +327,7 @@ impl Pilot {
         let order = self.carry_out(now, command, &state, step_s);
         self.decision = Some(Decision {
             at: now,
-            phase: self.phase.name(),
+            phase: self.phase.phase(),
             step: self.due.as_ref().map(|active| active.due.step),
             state,
             vertical_deviation_m: self.estimator.vertical_deviation_m(now),
@@ -393,7 +394,7 @@ impl Pilot {
             None => self.pose(now),
         };
         Status {
-            phase: self.phase.name(),
+            phase: self.phase.phase(),
             step: self.due.as_ref().map(|active| active.due.step),
             steps: self.report.steps,
             plan_waits: self.hand.holds_plan,

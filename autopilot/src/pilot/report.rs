@@ -7,7 +7,7 @@ use diagnostic::printable;
 use estimator::{Airframe, Trust};
 use pid::Pose;
 
-use super::LandingReason;
+use super::{LandingReason, Phase};
 use crate::agent::{ChosenPlans, distance};
 use crate::safety::Veto;
 
@@ -201,7 +201,7 @@ impl FlightReport {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Status {
     /// What the flight is doing, in one word.
-    pub phase: &'static str,
+    pub phase: Phase,
     /// The step that is being flown.
     pub step: Option<usize>,
     /// Steps of the plan.

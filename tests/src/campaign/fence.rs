@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use crate::sim::Moment;
 use ardrone_link::navdata::DroneState;
 use autopilot::plan::FlightLimits;
 use mock_drone::firmware::Phase;
@@ -10,6 +9,7 @@ use mock_drone::{Drone, Truth};
 
 use super::injected::{Injected, is_airborne};
 use crate::alone;
+use crate::sim::Moment;
 
 /// So far outside a drone may be that is heard, hears, and tells the truth.
 const MARGIN_M: f64 = 0.5;

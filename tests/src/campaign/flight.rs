@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use crate::sim::Simulation;
 use ardrone_link::navdata::DroneState;
 use autopilot::pilot::{PilotConfig, PilotOrder};
 use autopilot::plan::{FlightLimits, ZOrigin};
@@ -18,6 +17,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::injected::Injected;
 use crate::sensors::{AIRFRAMES, Model};
+use crate::sim::Simulation;
 
 /// The fence of the campaign.
 const RADIUS_M: f64 = 4.0;

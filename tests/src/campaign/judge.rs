@@ -3,11 +3,10 @@
 
 use std::time::Duration;
 
-use crate::sim::{Moment, SimulatedFlight};
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::DroneState;
 use autopilot::outcome::Outcome;
-use autopilot::pilot::TICK as PILOT_TICK;
+use autopilot::pilot::{Phase as PilotPhase, TICK as PILOT_TICK};
 use mock_drone::firmware::Phase;
 use mock_drone::{Drone, Truth};
 
@@ -17,6 +16,7 @@ use super::flight::Flight;
 use super::injected::{Injected, is_airborne};
 use super::orders::Orders;
 use super::targets::Targets;
+use crate::sim::{Moment, SimulatedFlight};
 
 /// Time between two moments.
 pub(super) const TICK: Duration = PILOT_TICK;
@@ -199,7 +199,7 @@ impl Judge {
         self.injected.see(truth);
         self.flew |= truth.phase == Phase::Flying;
         self.wrong_m = self.wrong_m.max(truth.drift_m().norm());
-        if status.phase == "ended" {
+        if status.phase == PilotPhase::Ended {
             self.phase_at_end.get_or_insert(truth.phase);
         }
         self.targets.watch(moment);
@@ -207,7 +207,7 @@ impl Judge {
         self.fence.watch(moment, drone, &self.injected, overpowered);
         let heard = truth.heard_at.is_some_and(|at| now.saturating_sub(at) < HEARS);
         let stranger = self.injected.second_pilot(*now, Duration::from_secs(1));
-        let reached = heard && !stranger && status.phase != "ended";
+        let reached = heard && !stranger && status.phase != PilotPhase::Ended;
         for fault in self.orders.watch(moment, &self.injected, reached) {
             self.find(*now, fault);
         }
@@ -307,7 +307,7 @@ impl Judge {
     fn watch_landing(&mut self, moment: &Moment, reached: bool) {
         let Moment { now, truth, status } = moment;
         let fresh = status.navdata_age.is_some_and(|age| age < FRESH);
-        if status.phase == "landing" && is_airborne(truth) && reached && fresh {
+        if status.phase == PilotPhase::Landing && is_airborne(truth) && reached && fresh {
             self.lands_for += TICK;
         }
         if self.lands_for > LANDS_WITHIN {
@@ -326,7 +326,7 @@ impl Judge {
             // Something has been told of the drone at all.
             && status.attitude_deg.is_some()
             && is_airborne(truth)
-            && status.phase != "ended"
+            && status.phase != PilotPhase::Ended
             && !self.injected.has_lied(*now)
             && !self.injected.has_restarted(*now);
         let pose = &status.pose;
@@ -351,7 +351,7 @@ impl Judge {
         let Moment { now, truth, status } = moment;
         let takes_off = |truth: &Truth| matches!(truth.phase, Phase::TakingOff { .. });
         let rises = takes_off(truth) && !self.last.is_some_and(|last| takes_off(&last));
-        if status.phase == "flying" && status.step == Some(TAKE_OFF_STEP) {
+        if status.phase == PilotPhase::Flying && status.step == Some(TAKE_OFF_STEP) {
             self.ordered_at = Some(*now);
         }
         let patience = ON_ITS_WAY + self.injected.longest_hold(*now);

@@ -14,9 +14,10 @@ mod targets;
 
 use std::time::Duration;
 
-use crate::sim::SimulationError;
 use autopilot::outcome::Outcome;
 use autopilot::pilot::{FlightEvent, LandingReason};
+
+use crate::sim::SimulationError;
 
 pub use self::fault::{Danger, Fault};
 use self::flight::Flight;

@@ -2,8 +2,7 @@
 
 use std::time::Duration;
 
-use crate::sim::Moment;
-use autopilot::pilot::PilotOrder;
+use autopilot::pilot::{Phase as PilotPhase, PilotOrder};
 use autopilot::plan::FlightLimits;
 use mock_drone::firmware::Phase;
 use nalgebra::Vector2;
@@ -11,6 +10,7 @@ use nalgebra::Vector2;
 use super::fault::Fault;
 use super::injected::{Injected, is_airborne};
 use super::judge::TICK;
+use crate::sim::Moment;
 
 /// A drone that is told to land may come down by itself first.
 const LANDS_WITHIN: Duration = Duration::from_secs(30);
@@ -136,7 +136,7 @@ impl Orders {
 
     fn watch_place(&mut self, moment: &Moment) -> Option<Fault> {
         let Moment { now, truth, status } = moment;
-        if truth.phase != Phase::Flying || status.phase != "flying" {
+        if truth.phase != Phase::Flying || status.phase != PilotPhase::Flying {
             self.watched = None;
         }
         let here_m = truth.odometry_m;

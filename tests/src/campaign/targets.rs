@@ -1,12 +1,13 @@
 //! Where the plan says that the drone is to be, whatever the pilot makes of it.
 
-use crate::sim::Moment;
+use autopilot::pilot::Phase;
 use autopilot::plan::{Command, FlightLimits, Plan};
 use mock_drone::Truth;
 use nalgebra::{Vector2, Vector3};
 
 use super::judge::TAKE_OFF_STEP;
 use crate::place_in_navdata_frame;
+use crate::sim::Moment;
 
 /// The targets of a plan of nothing but `goto`.
 #[derive(Debug)]
@@ -32,7 +33,7 @@ impl Targets {
     pub(super) fn watch(&mut self, moment: &Moment) {
         self.took_off |= moment.status.step.is_some_and(|step| step > TAKE_OFF_STEP);
         // A drone that is taken over in the air has taken off within the tick.
-        if moment.status.phase == "flying" && !self.took_off {
+        if moment.status.phase == Phase::Flying && !self.took_off {
             self.origin_m = place_in_navdata_frame(&moment.truth);
         }
     }

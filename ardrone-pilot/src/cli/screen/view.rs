@@ -3,6 +3,8 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use autopilot::pilot::{FlightEvent, Status};
+use autopilot::plan::{FlightLimits, Plan};
 use diagnostic::printable;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -15,8 +17,6 @@ use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
 use crate::flight::Message;
 use crate::timing::TickHealth;
 use crate::trail::Trail;
-use autopilot::pilot::{FlightEvent, Status};
-use autopilot::plan::{FlightLimits, Plan};
 
 /// Lines that are remembered.
 const REMEMBERED: usize = 50;
@@ -59,8 +59,12 @@ impl View {
     }
 
     pub(super) fn say(&mut self, line: &str) {
-        let warns = line.contains("WARN") || line.starts_with("warning");
-        remember(&mut self.messages, (printable(line).into_owned(), warns));
+        remember(&mut self.messages, (printable(line).into_owned(), false));
+    }
+
+    /// As [`View::say`]; it is said once more when the screen is gone.
+    pub(super) fn warn(&mut self, line: &str) {
+        remember(&mut self.messages, (printable(line).into_owned(), true));
     }
 
     /// Everything that was a warning.
@@ -319,7 +323,7 @@ mod tests {
 
     use super::*;
     use autopilot::agent::ChosenPlans;
-    use autopilot::pilot::{Airframe, Trust};
+    use autopilot::pilot::{Airframe, Phase, Trust};
 
     #[test]
     fn the_screen_shows_the_flight() {
@@ -329,7 +333,7 @@ mod tests {
         for tick in 0..40_u32 {
             let share = f64::from(tick) / 40.0;
             let status = Status {
-                phase: "flying",
+                phase: Phase::Flying,
                 step: Some(2),
                 steps: 4,
                 plan_waits: false,
