@@ -28,12 +28,13 @@ use self::handshake::Handshake;
 use crate::at::{Command, Config, Datagram, EncodeError, Identity, Motion, Ref};
 use crate::configuration::Configuration;
 use crate::navdata::{ControlState, DroneState, Navdata, NavdataError};
+use crate::settings::{NavdataMode, Setting, SettingError};
 
 /// How a session behaves.
 #[derive(Debug, Clone)]
 pub struct SessionConfig {
     /// Keys set one after the other when the drone is found, each acknowledged. The first must
-    /// be `general:navdata_demo`: it ends the bootstrap.
+    /// be `general:navdata_demo`, which ends the bootstrap: [`SessionConfig::new`] sees to that.
     pub settings: Vec<Config>,
     /// Whose configuration is meant. Keys that are not common to all need it, except the limits
     /// and the cameras, which the default configuration takes too.
@@ -61,6 +62,21 @@ impl Default for SessionConfig {
     }
 }
 
+impl SessionConfig {
+    /// A configuration whose settings begin with what [`NavdataMode`] needs, the rest as in the default.
+    ///
+    /// # Errors
+    /// [`SettingError`] if a value is out of range or a setting belongs to the [`NavdataMode`].
+    pub fn new(navdata: &NavdataMode, settings: &[Setting]) -> Result<Self, SettingError> {
+        if let Some(setting) = settings.iter().find(|setting| setting.is_navdata_mode()) {
+            return Err(SettingError::Navdata { key: setting.key() });
+        }
+        let mode = navdata.settings();
+        let settings = mode.iter().chain(settings).map(Setting::config);
+        Ok(Self { settings: settings.collect::<Result<_, _>>()?, ..Self::default() })
+    }
+}
+
 /// Nothing is allocated in flight: so many events may wait to be told.
 const EVENTS: usize = 32;
 /// A drone that has been silent for so long is not heard.
@@ -73,7 +89,7 @@ const HELD_UP: Duration = Duration::from_millis(100);
 const DISOBEYED: Duration = Duration::from_millis(500);
 
 /// What the pilot wants in this tick.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Order {
     /// The REF level.
     pub flight: FlightOrder,
@@ -81,11 +97,15 @@ pub struct Order {
     pub motion: Motion,
 }
 
+impl Order {
+    /// Land, or stay on the ground, with the sticks at rest.
+    pub const LAND: Self = Self { flight: FlightOrder::Land, motion: Motion::Hover };
+}
+
 /// Take-off and landing, as the pilot wants it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlightOrder {
     /// Land, or stay on the ground.
-    #[default]
     Land,
     /// Take off.
     TakeOff,

@@ -399,7 +399,7 @@ fn a_drone_that_falls_or_has_restarted_has_not_landed() {
 fn numbers(bench: &mut Bench) -> Vec<u32> {
     bench.now += TICK;
     let mut datagram = Datagram::new();
-    bench.session.tick(bench.now, Order::default(), &mut datagram).unwrap();
+    bench.session.tick(bench.now, Order::LAND, &mut datagram).unwrap();
     decode(datagram.as_bytes()).map(|command| command.unwrap().0).collect()
 }
 
@@ -478,7 +478,7 @@ fn a_landing_that_is_not_obeyed_is_counted_far_ahead() {
         sequence += 1;
         bench.now += TICK;
         let mut datagram = Datagram::new();
-        bench.session.tick(bench.now, Order::default(), &mut datagram).unwrap();
+        bench.session.tick(bench.now, Order::LAND, &mut datagram).unwrap();
         decode(datagram.as_bytes()).next().unwrap().unwrap().0
     };
     assert!(first_number(&mut bench) > 1, "it may be on its way");
@@ -504,4 +504,27 @@ fn a_drone_that_waits_to_be_configured_again_is() {
     let demo = Command::Config(Config::new("general:navdata_demo", "TRUE").unwrap());
     let commands = bench.tick(FlightOrder::StayAirborne);
     assert!(commands.contains(&demo) && commands[0] == Command::Ref(Ref::Land), "{commands:?}");
+}
+
+#[test]
+fn the_navdata_mode_comes_first_and_only_once() {
+    let keys = |mode: NavdataMode| -> Vec<(String, String)> {
+        let config = SessionConfig::new(&mode, &[Setting::AltitudeMaxM(2.0)]).unwrap();
+        let pair = |config: &Config| (config.key().to_owned(), config.value().to_owned());
+        config.settings.iter().map(pair).collect()
+    };
+    let pair = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+    let demo = |value| pair("general:navdata_demo", value);
+    let ceiling = pair("control:altitude_max", "2000");
+    assert_eq!(keys(NavdataMode::Demo), [demo("TRUE"), ceiling.clone()]);
+    assert_eq!(keys(NavdataMode::Full), [demo("FALSE"), ceiling.clone()]);
+    let options = pair("general:navdata_options", "65537");
+    assert_eq!(keys(NavdataMode::DemoWith(vec![16])), [demo("TRUE"), options, ceiling]);
+    for setting in [Setting::NavdataDemo(false), Setting::NavdataOptions(vec![0])] {
+        let key = setting.key();
+        let error = SessionConfig::new(&NavdataMode::Demo, &[setting]).unwrap_err();
+        assert_eq!(error, SettingError::Navdata { key });
+    }
+    let unknown = SessionConfig::new(&NavdataMode::DemoWith(vec![28]), &[]);
+    assert!(matches!(unknown, Err(SettingError::Range { .. })));
 }
