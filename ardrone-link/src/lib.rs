@@ -43,8 +43,8 @@ pub use configuration::Configuration;
 pub use navdata::{ControlState, Demo, DroneState, Navdata, NavdataOption, Packet};
 #[cfg(feature = "net")]
 pub use net::{
-    Client, ClientBuilder, ClientError, Events, FlightError, Packets, ReadyError, Refusal,
-    StartError, Steering, WaitError,
+    Client, ClientBuilder, ClientError, ConfigureError, Events, FlightError, Packets, ReadyError,
+    Refusal, StartError, Steering, WaitError,
 };
 pub use session::{Event, FlightOrder, Order, Session, SessionConfig};
 pub use settings::{NavdataMode, Setting, SettingError};

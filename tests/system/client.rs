@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use ardrone_link::navdata::{NavdataOption, Time};
 use ardrone_link::{
-    Client, ClientBuilder, DroneAddress, Event, FlightError, Identity, NavdataMode, Packet,
-    ReadyError, Refusal, Setting, Steering,
+    Client, ClientBuilder, ConfigureError, DroneAddress, Event, FlightError, Identity, NavdataMode,
+    Packet, ReadyError, Refusal, Setting, Steering,
 };
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;
@@ -81,6 +81,9 @@ async fn a_client_takes_off_flies_and_lands() {
     assert_eq!(drone.steer(Steering::forward(0.5), PATIENCE), Err(Refusal::NotFlying.into()));
     drone.take_off().await.unwrap();
     assert_eq!(mock.truth().phase, Phase::Flying);
+    drone.configure(&Setting::EulerAngleMaxDeg(15.0)).await.unwrap();
+    let mode = drone.configure(&Setting::NavdataDemo(false)).await;
+    assert!(matches!(mode, Err(ConfigureError::Setting(_))), "{mode:?}");
     assert_eq!(drone.flat_trim(), Err(Refusal::NotStanding.into()));
     let start = mock.truth().position_m;
     drone.steer(Steering::forward(0.5), PATIENCE).unwrap();
@@ -90,7 +93,7 @@ async fn a_client_takes_off_flies_and_lands() {
     drone.land().await.unwrap();
     assert_eq!(mock.truth().phase, Phase::Landed);
     assert_eq!(drone.hover(), Err(Refusal::NotFlying.into()));
-    assert_eq!(events_until(&drone, &Event::Landed).await.len(), 5);
+    assert_eq!(events_until(&drone, &Event::Landed).await.len(), 6);
     // A new order takes it off again.
     drone.take_off().await.unwrap();
     assert_eq!(mock.truth().phase, Phase::Flying);
@@ -134,13 +137,16 @@ async fn a_drone_that_disappears_ends_every_wait() {
         tokio::join!(
             drone.land(),
             drone.emergency_stop(),
+            drone.configure(&Setting::AltitudeMaxM(2.0)),
             events.wait_for(PATIENCE, |event| *event == Event::LinkLost),
             async { while packets.next(Duration::from_secs(3)).await.is_ok() {} },
         )
     };
-    let (landing, cut, lost, ()) = timeout(PATIENCE, waits).await.unwrap();
+    let (landing, cut, configured, lost, ()) = timeout(PATIENCE, waits).await.unwrap();
     assert_eq!(landing, Err(FlightError::LinkLost));
     assert_eq!(cut, Err(FlightError::LinkLost));
+    let key = "control:altitude_max".to_owned();
+    assert_eq!(configured, Err(ConfigureError::NotAcknowledged { key }));
     assert_eq!(lost, Ok(Event::LinkLost));
     assert_eq!(drone.navdata(), None, "what was true may not be any more");
     assert_eq!(drone.take_off().await, Err(Refusal::NotReady.into()));

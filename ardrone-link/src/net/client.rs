@@ -8,13 +8,14 @@ use tokio::sync::{broadcast, mpsc, oneshot, watch};
 use tokio::task::JoinHandle;
 use tokio::time::Instant;
 
-use super::error::{ClientError, FlightError, ReadyError, Refusal};
+use super::error::{ClientError, ConfigureError, FlightError, ReadyError, Refusal};
 use super::link::{Request, Status, Steered};
 use super::listen::{Events, Packets, ended};
 use super::steering::Steering;
 use crate::at::Motion;
 use crate::navdata::Navdata;
 use crate::session::Event;
+use crate::settings::{Setting, SettingError};
 
 /// A drone that is talked to every 30 ms by a task of its own.
 ///
@@ -60,6 +61,20 @@ impl Client {
     /// [`ReadyError`]; after [`super::ClientBuilder::ready_limit`] at the latest.
     pub async fn ready(&self) -> Result<(), ReadyError> {
         let answer = self.ask(Request::Ready);
+        self.wait(answer).await
+    }
+
+    /// Makes one more setting, or changes one, in flight too; ends when the drone has acknowledged it. It is
+    /// made again if the drone is lost or starts again.
+    ///
+    /// # Errors
+    /// [`ConfigureError`]; after [`super::CONFIGURE_LIMIT`] at the latest.
+    pub async fn configure(&self, setting: &Setting) -> Result<(), ConfigureError> {
+        if setting.is_navdata_mode() {
+            return Err(SettingError::Navdata { key: setting.key() }.into());
+        }
+        let config = setting.config()?;
+        let answer = self.ask(|reply| Request::Configure(config, reply));
         self.wait(answer).await
     }
 

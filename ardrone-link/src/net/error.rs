@@ -82,6 +82,27 @@ pub enum ReadyError {
     Ended(#[from] ClientError),
 }
 
+/// Why a setting was not made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConfigureError {
+    /// The value is out of range, or belongs to the navdata mode. Nothing was sent.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The drone is not heard or not configured. Nothing was sent.
+    #[error("the drone is not ready: wait for `ready()`")]
+    NotReady,
+    /// The drone did not acknowledge it within [`super::CONFIGURE_LIMIT`].
+    #[error("the drone did not acknowledge {key}")]
+    NotAcknowledged {
+        /// `section:name`
+        key: String,
+    },
+    /// The client has ended.
+    #[error(transparent)]
+    Ended(#[from] ClientError),
+}
+
 /// Why an order to the drone was not carried out.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]

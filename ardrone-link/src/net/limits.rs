@@ -6,6 +6,9 @@ use std::time::Duration;
 /// answer. The order itself is given up after 5 s.
 pub const EMERGENCY_LIMIT: Duration = Duration::from_secs(6);
 
+/// How long [`super::Client::configure`] waits for the drone to acknowledge a setting.
+pub const CONFIGURE_LIMIT: Duration = Duration::from_secs(10);
+
 /// The period of AT commands that Parrot recommends.
 pub(super) const TICK: Duration = Duration::from_millis(30);
 /// Longer than any navdata packet.

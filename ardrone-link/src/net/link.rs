@@ -11,10 +11,10 @@ use tokio::time::{Instant, Interval, MissedTickBehavior, interval};
 use super::error::ClientError;
 use super::limits::{BUFFER_BYTES, TICK};
 use super::orders::{Orders, Reply, Seen};
-use super::readiness::{Readiness, ReadyReply};
+use super::readiness::{ConfigureReply, Readiness, ReadyReply};
 use super::wire::Wire;
 use crate::WAKE_UP;
-use crate::at::{Datagram, Motion};
+use crate::at::{Config, Datagram, Motion};
 use crate::navdata::{ControlState, Navdata};
 use crate::session::{Event, Received, Session};
 
@@ -27,6 +27,7 @@ const PARTING_TICKS: u32 = 3 * PARTING_ORDERS;
 #[derive(Debug)]
 pub(super) enum Request {
     Ready(ReadyReply),
+    Configure(Config, ConfigureReply),
     TakeOff(Reply),
     Land(Reply),
     FlatTrim,
@@ -173,6 +174,11 @@ impl Link {
     fn ask(&mut self, now: Duration, request: Request) {
         match request {
             Request::Ready(reply) => self.readiness.wait(now, reply),
+            Request::Configure(config, reply) => {
+                if self.readiness.change(now, self.session.is_ready(), &config, reply) {
+                    self.session.request_setting(config);
+                }
+            }
             Request::TakeOff(reply) => self.orders.take_off(now, &self.seen(now), reply),
             Request::Land(reply) => self.orders.land(now, reply),
             Request::FlatTrim => self.session.request_flat_trim(),

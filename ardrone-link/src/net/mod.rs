@@ -33,8 +33,10 @@ mod wire;
 
 pub use builder::ClientBuilder;
 pub use client::Client;
-pub use error::{ClientError, FlightError, ReadyError, Refusal, StartError, WaitError};
-pub use limits::EMERGENCY_LIMIT;
+pub use error::{
+    ClientError, ConfigureError, FlightError, ReadyError, Refusal, StartError, WaitError,
+};
+pub use limits::{CONFIGURE_LIMIT, EMERGENCY_LIMIT};
 pub use listen::{Events, Packets};
 pub use steering::Steering;
 

@@ -4,12 +4,22 @@ use std::time::Duration;
 
 use tokio::sync::oneshot;
 
-use super::error::ReadyError;
+use super::error::{ConfigureError, ReadyError};
+use super::limits::CONFIGURE_LIMIT;
 use crate::at::Config;
 use crate::configuration::Configuration;
 use crate::session::Event;
 
 pub(super) type ReadyReply = oneshot::Sender<Result<(), ReadyError>>;
+pub(super) type ConfigureReply = oneshot::Sender<Result<(), ConfigureError>>;
+
+/// A setting that was asked for since.
+#[derive(Debug)]
+struct Change {
+    key: String,
+    deadline: Duration,
+    reply: ConfigureReply,
+}
 
 #[derive(Debug)]
 pub(super) struct Readiness {
@@ -19,6 +29,7 @@ pub(super) struct Readiness {
     not_taken: Vec<String>,
     not_read: bool,
     waiting: Vec<(Duration, ReadyReply)>,
+    changes: Vec<Change>,
 }
 
 impl Readiness {
@@ -31,6 +42,7 @@ impl Readiness {
             not_taken: Vec::new(),
             not_read: false,
             waiting: Vec::new(),
+            changes: Vec::new(),
         }
     }
 
@@ -38,8 +50,34 @@ impl Readiness {
         self.waiting.push((now.saturating_add(self.limit), reply));
     }
 
+    /// One more setting is asked of the session; returns whether it may be.
+    pub(super) fn change(
+        &mut self,
+        now: Duration,
+        ready: bool,
+        config: &Config,
+        reply: ConfigureReply,
+    ) -> bool {
+        if !ready {
+            answer(reply, Err(ConfigureError::NotReady));
+            return false;
+        }
+        self.wanted.push(config.clone());
+        let deadline = now.saturating_add(CONFIGURE_LIMIT);
+        self.changes.push(Change { key: config.key().to_owned(), deadline, reply });
+        true
+    }
+
     /// Takes in an event of the session. A drone that is configured again is judged by the last time.
     pub(super) fn event(&mut self, event: &Event) {
+        if let Event::Configured { key } | Event::ConfigurationTimedOut { key } = event
+            && let Some(place) = self.changes.iter().position(|change| change.key == *key)
+        {
+            let key = key.clone();
+            let refused = Err(ConfigureError::NotAcknowledged { key });
+            let made = matches!(event, Event::Configured { .. });
+            answer(self.changes.remove(place).reply, if made { Ok(()) } else { refused });
+        }
         match event {
             Event::Configured { key } => self.not_acknowledged.retain(|other| other != key),
             Event::ConfigurationTimedOut { key } if !self.not_acknowledged.contains(key) => {
@@ -56,6 +94,9 @@ impl Readiness {
 
     /// Answers those who wait if the drone is ready or their time is over.
     pub(super) fn observe(&mut self, now: Duration, ready: bool, heard: bool) {
+        for change in self.changes.extract_if(.., |change| now >= change.deadline) {
+            answer(change.reply, Err(ConfigureError::NotAcknowledged { key: change.key }));
+        }
         for (deadline, reply) in std::mem::take(&mut self.waiting) {
             let result = if ready {
                 self.judge()
@@ -67,14 +108,14 @@ impl Readiness {
             } else {
                 Err(ReadyError::NotHeard { limit: self.limit })
             };
-            // One who does not wait any more needs no answer.
-            _ = reply.send(result);
+            answer(reply, result);
         }
     }
 
     /// Forgets everybody who waits.
     pub(super) fn end(&mut self) {
         self.waiting.clear();
+        self.changes.clear();
     }
 
     fn judge(&self) -> Result<(), ReadyError> {
@@ -88,6 +129,11 @@ impl Readiness {
             Ok(())
         }
     }
+}
+
+/// One who does not wait any more needs no answer.
+fn answer<T>(reply: oneshot::Sender<T>, result: T) {
+    _ = reply.send(result);
 }
 
 /// The keys for which the drone reports another value, or none. Of a key that is set twice the last
@@ -117,7 +163,7 @@ mod tests {
     }
 
     /// What one who waits hears if the drone is ready.
-    fn answer(readiness: &mut Readiness) -> Result<(), ReadyError> {
+    fn judged(readiness: &mut Readiness) -> Result<(), ReadyError> {
         let (reply, mut answer) = oneshot::channel();
         readiness.wait(Duration::ZERO, reply);
         readiness.observe(Duration::ZERO, true, true);
@@ -144,14 +190,14 @@ mod tests {
     fn a_key_counts_as_refused_until_it_is_acknowledged_after_all() {
         let mut readiness = readiness();
         let key = "control:altitude_max".to_owned();
-        assert_eq!(answer(&mut readiness), Ok(()));
+        assert_eq!(judged(&mut readiness), Ok(()));
         for _ in 0..2 {
             readiness.event(&Event::ConfigurationTimedOut { key: key.clone() });
         }
         let refused = ReadyError::NotAcknowledged { keys: vec![key.clone()] };
-        assert_eq!(answer(&mut readiness), Err(refused));
+        assert_eq!(judged(&mut readiness), Err(refused));
         readiness.event(&Event::Configured { key });
-        assert_eq!(answer(&mut readiness), Ok(()));
+        assert_eq!(judged(&mut readiness), Ok(()));
     }
 
     #[test]
@@ -162,11 +208,37 @@ mod tests {
             Event::ConfigurationRead(Configuration::parse(&text))
         };
         readiness.event(&Event::ConfigurationNotRead);
-        assert_eq!(answer(&mut readiness), Err(ReadyError::NotReadBack));
+        assert_eq!(judged(&mut readiness), Err(ReadyError::NotReadBack));
         readiness.event(&read("3000"));
         let keys = vec!["control:altitude_max".to_owned()];
-        assert_eq!(answer(&mut readiness), Err(ReadyError::NotTaken { keys }));
+        assert_eq!(judged(&mut readiness), Err(ReadyError::NotTaken { keys }));
         readiness.event(&read("2000"));
-        assert_eq!(answer(&mut readiness), Ok(()));
+        assert_eq!(judged(&mut readiness), Ok(()));
+    }
+
+    #[test]
+    fn a_change_ends_by_the_drones_word_or_at_the_limit() {
+        let config = Config::new("control:outdoor", "TRUE").unwrap();
+        let key = config.key().to_owned();
+        let refused = Err(ConfigureError::NotAcknowledged { key: key.clone() });
+        let ask = |readiness: &mut Readiness, ready| {
+            let (reply, answer) = oneshot::channel();
+            let taken = readiness.change(Duration::ZERO, ready, &config, reply);
+            assert_eq!(taken, ready);
+            answer
+        };
+        let mut readiness = readiness();
+        assert_eq!(ask(&mut readiness, false).try_recv(), Ok(Err(ConfigureError::NotReady)));
+        let mut answers = [(); 3].map(|()| ask(&mut readiness, true));
+        readiness.event(&Event::Configured { key: "control:altitude_max".to_owned() });
+        assert!(answers[0].try_recv().is_err(), "another key");
+        readiness.event(&Event::Configured { key: key.clone() });
+        assert_eq!(answers[0].try_recv(), Ok(Ok(())));
+        readiness.event(&Event::ConfigurationTimedOut { key });
+        assert_eq!(answers[1].try_recv(), Ok(refused.clone()));
+        readiness.observe(CONFIGURE_LIMIT.saturating_sub(Duration::from_millis(1)), true, true);
+        assert!(answers[2].try_recv().is_err());
+        readiness.observe(CONFIGURE_LIMIT, true, true);
+        assert_eq!(answers[2].try_recv(), Ok(refused));
     }
 }

@@ -179,6 +179,9 @@ pub struct Session {
     config: SessionConfig,
     link: Link,
     handshake: Handshake,
+    /// Settings that were asked for since, and how far the first of them is.
+    changes: VecDeque<Config>,
+    change: Option<Handshake>,
     sequence: SequenceNumbers,
     state: DroneState,
     last_navdata: Option<Heard>,
@@ -282,11 +285,13 @@ impl Session {
             let place = config.settings.len().min(1);
             config.settings.splice(place..place, custom_settings(identity));
         }
-        let handshake = Handshake::new(config.settings.len());
+        let handshake = Handshake::new(config.settings.len(), config.read_back);
         Self {
             config,
             link: Link::Silent,
             handshake,
+            changes: VecDeque::new(),
+            change: None,
             sequence: SequenceNumbers::new(),
             state: DroneState::empty(),
             last_navdata: None,
@@ -322,7 +327,7 @@ impl Session {
             self.events.push_back(Event::DroneRestarted);
             self.state = DroneState::empty();
             self.withhold_take_off();
-            self.handshake = Handshake::new(self.config.settings.len());
+            self.handshake = self.new_handshake();
         }
         let returned_at = self.last_navdata.and_then(|last| last.returned_at(now));
         let bootstrapping = navdata.state.contains(DroneState::NAVDATA_BOOTSTRAP);
@@ -337,12 +342,64 @@ impl Session {
         if bootstrapping && self.handshake.is_done() {
             // It has lost us, and waits to be configured again.
             self.withhold_take_off();
-            self.handshake = Handshake::new(self.config.settings.len());
+            self.handshake = self.new_handshake();
         }
-        if self.handshake.handle_state(navdata.state, &self.config, &mut self.events) {
+        let state = navdata.state;
+        if self.handshake.handle_state(state, &self.config.settings, &mut self.events) {
             self.sequence.confirmed = true;
         }
+        self.follow_change(state);
         Received::Navdata(navdata)
+    }
+
+    /// Sets one more key, once the session is ready and behind those that were asked for before; it takes
+    /// the place of an earlier value. [`Event::Configured`] or [`Event::ConfigurationTimedOut`] tells what
+    /// became of it. It is among the settings from then on: made again after a loss or a restart.
+    pub fn request_setting(&mut self, config: Config) {
+        self.changes.push_back(config);
+    }
+
+    /// Looks at the acknowledge bit for the setting that is being changed.
+    fn follow_change(&mut self, state: DroneState) {
+        let Some(change) = &mut self.change else { return };
+        self.sequence.confirmed |=
+            change.handle_state(state, self.changes.make_contiguous(), &mut self.events);
+        if change.is_done() {
+            self.change = None;
+            if let Some(config) = self.changes.pop_front() {
+                self.keep(config);
+            }
+        }
+    }
+
+    /// Makes a setting one of those that are made when the drone is found.
+    fn keep(&mut self, config: Config) {
+        match self.config.settings.iter_mut().rfind(|other| other.key() == config.key()) {
+            Some(other) => *other = config,
+            None => self.config.settings.push(config),
+        }
+    }
+
+    /// All settings are made anew, with those that wait among them.
+    fn new_handshake(&mut self) -> Handshake {
+        self.change = None;
+        while let Some(config) = self.changes.pop_front() {
+            self.keep(config);
+        }
+        Handshake::new(self.config.settings.len(), self.config.read_back)
+    }
+
+    /// What the conversation about settings adds to this tick.
+    fn setting_command(&mut self, now: Duration) -> Option<Command> {
+        if !self.handshake.is_done() {
+            let settings = &self.config.settings;
+            return self.handshake.command(now, self.state, settings, &mut self.events);
+        }
+        if self.changes.is_empty() {
+            return None;
+        }
+        let change = self.change.get_or_insert_with(Handshake::change);
+        change.command(now, self.state, self.changes.make_contiguous(), &mut self.events)
     }
 
     /// Takes in bytes from the drone's control port.
@@ -388,8 +445,7 @@ impl Session {
             self.push(datagram, &Command::FlatTrim)?;
         }
         if self.link == Link::Alive
-            && let Some(command) =
-                self.handshake.command(now, self.state, &self.config, &mut self.events)
+            && let Some(command) = self.setting_command(now)
         {
             // The identity holds for the command behind it.
             if let (Command::Config(_), Some(identity)) = (&command, self.config.identity) {
@@ -547,7 +603,7 @@ impl Session {
             self.link = Link::Silent;
             self.events.push_back(Event::LinkLost);
             self.withhold_take_off();
-            self.handshake = Handshake::new(self.config.settings.len());
+            self.handshake = self.new_handshake();
         }
     }
 
