@@ -10,29 +10,22 @@
 use std::error::Error;
 use std::time::Duration;
 
-use ardrone_link::DroneAddress;
-use ardrone_link::navdata::Packet;
-use ardrone_link::net::Client;
-use ardrone_link::session::SessionConfig;
-use ardrone_link::settings::Setting;
-use tokio::time::{Instant, timeout_at};
+use ardrone_link::{Client, ClientBuilder, NavdataMode, Packet};
+use tokio::time::Instant;
 
-#[tokio::main(flavor = "current_thread")]
-async fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let mut address = DroneAddress::default();
-    if let Some(host) = arguments.next() {
-        address.host = host;
-    }
-    let seconds: u64 = arguments.next().map_or(Ok(10), |text| text.parse())?;
-    let settings = vec![Setting::NavdataDemo(false).config()?];
-    let config = SessionConfig { settings, ..SessionConfig::default() };
-    let mut drone = Client::start(&address, config).await?;
-
-    let end = Instant::now() + Duration::from_secs(seconds);
-    let (mut packets, mut printed) = (0_u32, None::<Instant>);
-    while let Ok(Some(bytes)) = timeout_at(end, drone.next_packet()).await {
-        packets += 1;
+/// Prints what the drone sends for some time; returns the number of packets.
+pub(crate) async fn listen(
+    drone: ClientBuilder,
+    duration: Duration,
+) -> Result<u32, Box<dyn Error>> {
+    let drone = drone.navdata(NavdataMode::Full).start().await?;
+    drone.ready().await?;
+    let mut packets = drone.packets();
+    let begun = Instant::now();
+    let (mut count, mut printed) = (0, None::<Instant>);
+    while begun.elapsed() < duration {
+        let bytes = packets.next(Duration::from_secs(2)).await?;
+        count += 1;
         if printed.is_some_and(|at| at.elapsed() < Duration::from_secs(1)) {
             continue;
         }
@@ -43,7 +36,16 @@ async fn main() -> Result<(), Box<dyn Error>> {
             println!("  {option:?}");
         }
     }
-    println!("{packets} packets in {seconds} s");
+    println!("{count} packets in {duration:?}");
     drone.close().await?;
+    Ok(count)
+}
+
+#[tokio::main(flavor = "current_thread")]
+async fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let host = arguments.next().unwrap_or_else(|| "192.168.1.1".to_owned());
+    let seconds = arguments.next().map_or(Ok(10), |text| text.parse())?;
+    listen(Client::builder().host(host), Duration::from_secs(seconds)).await?;
     Ok(())
 }

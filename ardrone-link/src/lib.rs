@@ -22,6 +22,12 @@
 //! # Ok::<(), ardrone_link::at::EncodeError>(())
 //! ```
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+/// The README's examples are compiled here; the first is flown by the system tests.
+#[cfg(all(doctest, feature = "net"))]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
 
 pub mod at;
 pub mod configuration;
@@ -32,6 +38,17 @@ pub mod navdata;
 pub mod net;
 pub mod session;
 pub mod settings;
+
+pub use at::{Identity, Motion};
+pub use configuration::Configuration;
+pub use navdata::{ControlState, Demo, DroneState, Navdata, NavdataOption, Packet};
+#[cfg(feature = "net")]
+pub use net::{
+    Client, ClientBuilder, ClientError, ConfigureError, Events, FlightError, Packets, ReadyError,
+    Refusal, StartError, Steering, WaitError,
+};
+pub use session::{Event, FlightOrder, Order, Session, SessionConfig};
+pub use settings::{NavdataMode, Setting, SettingError};
 
 /// The drone's address on its own network.
 pub const DRONE_HOST: &str = "192.168.1.1";

@@ -17,6 +17,7 @@ use crate::at::{Config, ConfigError};
 
 /// Why a setting cannot be sent.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SettingError {
     /// The value is outside of the key's range.
     #[error("{key} takes {from} to {to}, not {value}")]
@@ -29,6 +30,12 @@ pub enum SettingError {
         from: f64,
         /// The highest that is allowed.
         to: f64,
+    },
+    /// The setting is one of those that [`NavdataMode`] chooses, which come first.
+    #[error("{key} is chosen by the navdata mode, not by a setting")]
+    Navdata {
+        /// The key.
+        key: &'static str,
     },
     /// The text cannot be sent.
     #[error(transparent)]
@@ -90,6 +97,40 @@ pub enum Detection {
     OrientedRoundel,
     /// Hulls and roundels by the newer algorithm.
     VisionV2,
+}
+
+/// Which options the drone sends, and how often.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum NavdataMode {
+    /// Attitude, altitude, velocity and battery, 15 times a second.
+    #[default]
+    Demo,
+    /// As [`NavdataMode::Demo`], with the options of these tags too, each below 28.
+    DemoWith(Vec<u16>),
+    /// Every option, 200 times a second.
+    Full,
+}
+
+impl NavdataMode {
+    /// Tag of [`crate::navdata::Demo`], without which nobody could fly.
+    const DEMO_TAG: u16 = 0;
+
+    /// The settings that choose it. They come before all others, since the first ends the bootstrap.
+    pub fn settings(&self) -> Vec<Setting> {
+        let mut settings = vec![Setting::NavdataDemo(*self != Self::Full)];
+        if let Self::DemoWith(tags) = self {
+            let tags = std::iter::once(Self::DEMO_TAG).chain(tags.iter().copied()).collect();
+            settings.push(Setting::NavdataOptions(tags));
+        }
+        settings
+    }
+}
+
+impl Setting {
+    pub(crate) fn is_navdata_mode(&self) -> bool {
+        matches!(self, Self::NavdataDemo(_) | Self::NavdataOptions(_))
+    }
 }
 
 macro_rules! settings {

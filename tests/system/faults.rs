@@ -119,7 +119,7 @@ fn navdata_are_back_within_a_second_of_the_links_return() {
                     }
                 }
                 if step % 6 == 0 {
-                    session.tick(now, Order::default(), &mut datagram).unwrap();
+                    session.tick(now, Order::LAND, &mut datagram).unwrap();
                     world.send_at(now, datagram.as_bytes());
                 }
                 if session.wake_up_due(now) {

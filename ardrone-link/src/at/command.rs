@@ -209,6 +209,7 @@ pub struct Config {
 
 /// Why a configuration key or value cannot be sent.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ConfigError {
     /// The key is not `section:name`.
     #[error("configuration key `{key}` is not of the form section:name")]

@@ -11,6 +11,7 @@ pub const MAX_DATAGRAM_BYTES: usize = 1024;
 
 /// Why a command was not added to a datagram.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum EncodeError {
     /// The datagram would become longer than the drone takes; it is unchanged.
     #[error("datagram is full: {bytes} bytes are needed, {MAX_DATAGRAM_BYTES} are allowed")]

@@ -16,6 +16,7 @@ const TAG_CHECKSUM: u16 = 0xFFFF;
 
 /// Why a packet was refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NavdataError {
     /// The packet ends early.
     #[error("navdata ends within its {part}")]
@@ -167,6 +168,7 @@ impl<'a> Iterator for RawOptions<'a> {
 /// # Ok::<(), ardrone_link::navdata::NavdataError>(())
 /// ```
 #[derive(Debug)]
+#[must_use = "a packet is complete only behind `finish`"]
 pub struct PacketWriter<'a> {
     out: &'a mut BytesMut,
     start: usize,

@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use super::{Event, SessionConfig};
-use crate::at::{Command, ControlMode};
+use super::Event;
+use crate::at::{Command, Config, ControlMode};
 use crate::configuration::Configuration;
 use crate::navdata::DroneState;
 
@@ -26,6 +26,9 @@ pub(super) struct Handshake {
     since: Option<Duration>,
     last_sent: Option<Duration>,
     keys: usize,
+    read_back: bool,
+    /// It makes the session ready.
+    first: bool,
     dump: Vec<u8>,
 }
 
@@ -41,8 +44,22 @@ enum Step {
 }
 
 impl Handshake {
-    pub(super) fn new(keys: usize) -> Self {
-        Self { step: Step::Clear(0), since: None, last_sent: None, keys, dump: Vec::new() }
+    /// All settings of a session, which is ready then.
+    pub(super) fn new(keys: usize, read_back: bool) -> Self {
+        Self {
+            step: Step::Clear(0),
+            since: None,
+            last_sent: None,
+            keys,
+            read_back,
+            first: true,
+            dump: Vec::new(),
+        }
+    }
+
+    /// One setting of a session that is ready already.
+    pub(super) fn change() -> Self {
+        Self { first: false, ..Self::new(1, false) }
     }
 
     pub(super) fn is_done(&self) -> bool {
@@ -54,7 +71,7 @@ impl Handshake {
     pub(super) fn handle_state(
         &mut self,
         state: DroneState,
-        config: &SessionConfig,
+        settings: &[Config],
         events: &mut VecDeque<Event>,
     ) -> bool {
         let acknowledged = state.contains(DroneState::COMMAND_ACKNOWLEDGE);
@@ -62,7 +79,7 @@ impl Handshake {
             Step::Clear(key) if !acknowledged => {
                 if key < self.keys {
                     self.enter(Step::Set(key));
-                } else if config.read_back {
+                } else if self.read_back {
                     self.enter(Step::Read);
                 } else {
                     self.finish(events);
@@ -70,7 +87,7 @@ impl Handshake {
             }
             // Only an acknowledge after the key was sent is about this key.
             Step::Set(key) if acknowledged && self.last_sent.is_some() => {
-                let name = config.settings[key].key().to_owned();
+                let name = settings[key].key().to_owned();
                 events.push_back(Event::Configured { key: name });
                 self.enter(Step::Clear(key + 1));
                 return true;
@@ -99,7 +116,7 @@ impl Handshake {
         &mut self,
         now: Duration,
         state: DroneState,
-        config: &SessionConfig,
+        settings: &[Config],
         events: &mut VecDeque<Event>,
     ) -> Option<Command> {
         let since = *self.since.get_or_insert(now);
@@ -112,14 +129,14 @@ impl Handshake {
                 .contains(DroneState::COMMAND_ACKNOWLEDGE)
                 .then_some(Command::Control(ControlMode::ClearAcknowledge)),
             Step::Set(key) if elapsed >= KEY_TIMEOUT => {
-                let name = config.settings[key].key().to_owned();
+                let name = settings[key].key().to_owned();
                 events.push_back(Event::ConfigurationTimedOut { key: name });
                 self.enter(Step::Clear(key + 1));
                 None
             }
             Step::Set(key) => due(self.last_sent, RESEND_INTERVAL).then(|| {
                 self.last_sent = Some(now);
-                Command::Config(config.settings[key].clone())
+                Command::Config(settings[key].clone())
             }),
             Step::Read if elapsed >= READ_TIMEOUT => {
                 events.push_back(Event::ConfigurationNotRead);
@@ -142,6 +159,8 @@ impl Handshake {
 
     fn finish(&mut self, events: &mut VecDeque<Event>) {
         self.enter(Step::Done);
-        events.push_back(Event::Ready);
+        if self.first {
+            events.push_back(Event::Ready);
+        }
     }
 }

@@ -28,12 +28,13 @@ use self::handshake::Handshake;
 use crate::at::{Command, Config, Datagram, EncodeError, Identity, Motion, Ref};
 use crate::configuration::Configuration;
 use crate::navdata::{ControlState, DroneState, Navdata, NavdataError};
+use crate::settings::{NavdataMode, Setting, SettingError};
 
 /// How a session behaves.
 #[derive(Debug, Clone)]
 pub struct SessionConfig {
     /// Keys set one after the other when the drone is found, each acknowledged. The first must
-    /// be `general:navdata_demo`: it ends the bootstrap.
+    /// be `general:navdata_demo`, which ends the bootstrap: [`SessionConfig::new`] sees to that.
     pub settings: Vec<Config>,
     /// Whose configuration is meant. Keys that are not common to all need it, except the limits
     /// and the cameras, which the default configuration takes too.
@@ -61,6 +62,21 @@ impl Default for SessionConfig {
     }
 }
 
+impl SessionConfig {
+    /// A configuration whose settings begin with what [`NavdataMode`] needs, the rest as in the default.
+    ///
+    /// # Errors
+    /// [`SettingError`] if a value is out of range or a setting belongs to the [`NavdataMode`].
+    pub fn new(navdata: &NavdataMode, settings: &[Setting]) -> Result<Self, SettingError> {
+        if let Some(setting) = settings.iter().find(|setting| setting.is_navdata_mode()) {
+            return Err(SettingError::Navdata { key: setting.key() });
+        }
+        let mode = navdata.settings();
+        let settings = mode.iter().chain(settings).map(Setting::config);
+        Ok(Self { settings: settings.collect::<Result<_, _>>()?, ..Self::default() })
+    }
+}
+
 /// Nothing is allocated in flight: so many events may wait to be told.
 const EVENTS: usize = 32;
 /// A drone that has been silent for so long is not heard.
@@ -73,7 +89,7 @@ const HELD_UP: Duration = Duration::from_millis(100);
 const DISOBEYED: Duration = Duration::from_millis(500);
 
 /// What the pilot wants in this tick.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Order {
     /// The REF level.
     pub flight: FlightOrder,
@@ -81,11 +97,15 @@ pub struct Order {
     pub motion: Motion,
 }
 
+impl Order {
+    /// Land, or stay on the ground, with the sticks at rest.
+    pub const LAND: Self = Self { flight: FlightOrder::Land, motion: Motion::Hover };
+}
+
 /// Take-off and landing, as the pilot wants it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlightOrder {
     /// Land, or stay on the ground.
-    #[default]
     Land,
     /// Take off.
     TakeOff,
@@ -159,6 +179,9 @@ pub struct Session {
     config: SessionConfig,
     link: Link,
     handshake: Handshake,
+    /// Settings that were asked for since, and how far the first of them is.
+    changes: VecDeque<Config>,
+    change: Option<Handshake>,
     sequence: SequenceNumbers,
     state: DroneState,
     last_navdata: Option<Heard>,
@@ -262,11 +285,13 @@ impl Session {
             let place = config.settings.len().min(1);
             config.settings.splice(place..place, custom_settings(identity));
         }
-        let handshake = Handshake::new(config.settings.len());
+        let handshake = Handshake::new(config.settings.len(), config.read_back);
         Self {
             config,
             link: Link::Silent,
             handshake,
+            changes: VecDeque::new(),
+            change: None,
             sequence: SequenceNumbers::new(),
             state: DroneState::empty(),
             last_navdata: None,
@@ -302,7 +327,7 @@ impl Session {
             self.events.push_back(Event::DroneRestarted);
             self.state = DroneState::empty();
             self.withhold_take_off();
-            self.handshake = Handshake::new(self.config.settings.len());
+            self.handshake = self.new_handshake();
         }
         let returned_at = self.last_navdata.and_then(|last| last.returned_at(now));
         let bootstrapping = navdata.state.contains(DroneState::NAVDATA_BOOTSTRAP);
@@ -317,12 +342,64 @@ impl Session {
         if bootstrapping && self.handshake.is_done() {
             // It has lost us, and waits to be configured again.
             self.withhold_take_off();
-            self.handshake = Handshake::new(self.config.settings.len());
+            self.handshake = self.new_handshake();
         }
-        if self.handshake.handle_state(navdata.state, &self.config, &mut self.events) {
+        let state = navdata.state;
+        if self.handshake.handle_state(state, &self.config.settings, &mut self.events) {
             self.sequence.confirmed = true;
         }
+        self.follow_change(state);
         Received::Navdata(navdata)
+    }
+
+    /// Sets one more key, once the session is ready and behind those that were asked for before; it takes
+    /// the place of an earlier value. [`Event::Configured`] or [`Event::ConfigurationTimedOut`] tells what
+    /// became of it. It is among the settings from then on: made again after a loss or a restart.
+    pub fn request_setting(&mut self, config: Config) {
+        self.changes.push_back(config);
+    }
+
+    /// Looks at the acknowledge bit for the setting that is being changed.
+    fn follow_change(&mut self, state: DroneState) {
+        let Some(change) = &mut self.change else { return };
+        self.sequence.confirmed |=
+            change.handle_state(state, self.changes.make_contiguous(), &mut self.events);
+        if change.is_done() {
+            self.change = None;
+            if let Some(config) = self.changes.pop_front() {
+                self.keep(config);
+            }
+        }
+    }
+
+    /// Makes a setting one of those that are made when the drone is found.
+    fn keep(&mut self, config: Config) {
+        match self.config.settings.iter_mut().rfind(|other| other.key() == config.key()) {
+            Some(other) => *other = config,
+            None => self.config.settings.push(config),
+        }
+    }
+
+    /// All settings are made anew, with those that wait among them.
+    fn new_handshake(&mut self) -> Handshake {
+        self.change = None;
+        while let Some(config) = self.changes.pop_front() {
+            self.keep(config);
+        }
+        Handshake::new(self.config.settings.len(), self.config.read_back)
+    }
+
+    /// What the conversation about settings adds to this tick.
+    fn setting_command(&mut self, now: Duration) -> Option<Command> {
+        if !self.handshake.is_done() {
+            let settings = &self.config.settings;
+            return self.handshake.command(now, self.state, settings, &mut self.events);
+        }
+        if self.changes.is_empty() {
+            return None;
+        }
+        let change = self.change.get_or_insert_with(Handshake::change);
+        change.command(now, self.state, self.changes.make_contiguous(), &mut self.events)
     }
 
     /// Takes in bytes from the drone's control port.
@@ -368,8 +445,7 @@ impl Session {
             self.push(datagram, &Command::FlatTrim)?;
         }
         if self.link == Link::Alive
-            && let Some(command) =
-                self.handshake.command(now, self.state, &self.config, &mut self.events)
+            && let Some(command) = self.setting_command(now)
         {
             // The identity holds for the command behind it.
             if let (Command::Config(_), Some(identity)) = (&command, self.config.identity) {
@@ -527,7 +603,7 @@ impl Session {
             self.link = Link::Silent;
             self.events.push_back(Event::LinkLost);
             self.withhold_take_off();
-            self.handshake = Handshake::new(self.config.settings.len());
+            self.handshake = self.new_handshake();
         }
     }
 

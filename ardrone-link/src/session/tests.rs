@@ -19,6 +19,11 @@ impl Bench {
         Self { session: Session::new(config), now: Duration::ZERO }
     }
 
+    fn reading_back() -> Self {
+        let config = SessionConfig { read_back: true, ..SessionConfig::default() };
+        Self { session: Session::new(config), now: Duration::ZERO }
+    }
+
     fn hear(&mut self, sequence: u32, state: DroneState) -> Received {
         let control_state = if state.contains(DroneState::FLYING) {
             ControlState::Flying
@@ -112,8 +117,7 @@ fn a_key_that_is_never_acknowledged_is_given_up_and_reported() {
 
 #[test]
 fn the_configuration_is_read_back_in_pieces() {
-    let mut bench = Bench::new(&[]);
-    bench.session.config.read_back = true;
+    let mut bench = Bench::reading_back();
     bench.hear(1, DroneState::empty());
     assert_eq!(
         bench.tick(FlightOrder::Land)[2..],
@@ -129,8 +133,7 @@ fn the_configuration_is_read_back_in_pieces() {
 
 #[test]
 fn without_a_control_port_the_session_goes_on_and_says_so() {
-    let mut bench = Bench::new(&[]);
-    bench.session.config.read_back = true;
+    let mut bench = Bench::reading_back();
     for sequence in 1..240 {
         bench.hear(sequence, DroneState::empty());
         bench.tick(FlightOrder::Land);
@@ -399,7 +402,7 @@ fn a_drone_that_falls_or_has_restarted_has_not_landed() {
 fn numbers(bench: &mut Bench) -> Vec<u32> {
     bench.now += TICK;
     let mut datagram = Datagram::new();
-    bench.session.tick(bench.now, Order::default(), &mut datagram).unwrap();
+    bench.session.tick(bench.now, Order::LAND, &mut datagram).unwrap();
     decode(datagram.as_bytes()).map(|command| command.unwrap().0).collect()
 }
 
@@ -478,7 +481,7 @@ fn a_landing_that_is_not_obeyed_is_counted_far_ahead() {
         sequence += 1;
         bench.now += TICK;
         let mut datagram = Datagram::new();
-        bench.session.tick(bench.now, Order::default(), &mut datagram).unwrap();
+        bench.session.tick(bench.now, Order::LAND, &mut datagram).unwrap();
         decode(datagram.as_bytes()).next().unwrap().unwrap().0
     };
     assert!(first_number(&mut bench) > 1, "it may be on its way");
@@ -504,4 +507,90 @@ fn a_drone_that_waits_to_be_configured_again_is() {
     let demo = Command::Config(Config::new("general:navdata_demo", "TRUE").unwrap());
     let commands = bench.tick(FlightOrder::StayAirborne);
     assert!(commands.contains(&demo) && commands[0] == Command::Ref(Ref::Land), "{commands:?}");
+}
+
+#[test]
+fn the_navdata_mode_comes_first_and_only_once() {
+    let keys = |mode: NavdataMode| -> Vec<(String, String)> {
+        let config = SessionConfig::new(&mode, &[Setting::AltitudeMaxM(2.0)]).unwrap();
+        let pair = |config: &Config| (config.key().to_owned(), config.value().to_owned());
+        config.settings.iter().map(pair).collect()
+    };
+    let pair = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+    let demo = |value| pair("general:navdata_demo", value);
+    let ceiling = pair("control:altitude_max", "2000");
+    assert_eq!(keys(NavdataMode::Demo), [demo("TRUE"), ceiling.clone()]);
+    assert_eq!(keys(NavdataMode::Full), [demo("FALSE"), ceiling.clone()]);
+    let options = pair("general:navdata_options", "65537");
+    assert_eq!(keys(NavdataMode::DemoWith(vec![16])), [demo("TRUE"), options, ceiling]);
+    for setting in [Setting::NavdataDemo(false), Setting::NavdataOptions(vec![0])] {
+        let key = setting.key();
+        let error = SessionConfig::new(&NavdataMode::Demo, &[setting]).unwrap_err();
+        assert_eq!(error, SettingError::Navdata { key });
+    }
+    let unknown = SessionConfig::new(&NavdataMode::DemoWith(vec![28]), &[]);
+    assert!(matches!(unknown, Err(SettingError::Range { .. })));
+}
+
+/// A setting that is asked for later is made like those at the start, and again after a restart.
+#[test]
+fn a_setting_can_be_changed_once_the_session_is_ready() {
+    let acknowledge = DroneState::COMMAND_ACKNOWLEDGE;
+    let key = |key: &str| Event::Configured { key: key.to_owned() };
+    let mut bench = Bench::new(&[("general:navdata_demo", "TRUE"), ("control:outdoor", "FALSE")]);
+    let mut sequence = 0;
+    // Answers whatever is set; returns what was.
+    let mut converse = |bench: &mut Bench, bits: DroneState| -> Vec<String> {
+        let (mut state, mut set) = (bits, Vec::new());
+        for _ in 0..20 {
+            sequence += 1;
+            bench.hear(sequence, state);
+            for command in bench.tick(FlightOrder::Land) {
+                match command {
+                    Command::Config(config) => {
+                        set.push(format!("{}={}", config.key(), config.value()));
+                        state = bits | acknowledge;
+                    }
+                    CLEAR => state = bits,
+                    _ => {}
+                }
+            }
+        }
+        set
+    };
+    let quiet = DroneState::empty();
+    converse(&mut bench, quiet);
+    assert!(bench.session.is_ready());
+    bench.events();
+    for (name, value) in [("control:outdoor", "TRUE"), ("control:altitude_max", "2000")] {
+        bench.session.request_setting(Config::new(name, value).unwrap());
+    }
+    let changes = ["control:outdoor=TRUE", "control:altitude_max=2000"];
+    assert_eq!(converse(&mut bench, quiet), changes);
+    assert_eq!(bench.events(), [key("control:outdoor"), key("control:altitude_max")]);
+    assert!(bench.session.is_ready());
+    assert_eq!(converse(&mut bench, quiet), [""; 0], "that was all");
+    // It has lost us, and is configured again: with one change behind the others that still waits.
+    bench.session.request_setting(Config::new("control:outdoor", "FALSE").unwrap());
+    bench.hear(1000, DroneState::NAVDATA_BOOTSTRAP);
+    assert!(!bench.session.is_ready());
+    bench.now += Duration::from_secs(3);
+    bench.tick(FlightOrder::Land);
+    let all = ["general:navdata_demo=TRUE", "control:outdoor=FALSE", "control:altitude_max=2000"];
+    assert_eq!(converse(&mut bench, quiet), all);
+    // One that is never acknowledged is given up like any other.
+    bench.session.request_setting(Config::new("video:codec_fps", "30").unwrap());
+    bench.events();
+    for _ in 0..100 {
+        bench.tick(FlightOrder::Land);
+        hear_silence(&mut bench);
+    }
+    let name = "video:codec_fps".to_owned();
+    assert_eq!(bench.events(), [Event::ConfigurationTimedOut { key: name }]);
+}
+
+/// A packet behind the last, in which nothing is said.
+fn hear_silence(bench: &mut Bench) {
+    let next = bench.session.last_navdata.map_or(1, |heard| heard.sequence + 1);
+    bench.hear(next, DroneState::empty());
 }

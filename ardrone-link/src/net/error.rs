@@ -1,0 +1,194 @@
+//! What can go wrong, one type for each kind of call.
+
+use std::io;
+use std::time::Duration;
+
+use crate::at::EncodeError;
+use crate::settings::SettingError;
+
+/// Why a client could not be started.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StartError {
+    /// A setting is out of range, cannot be sent, or is not for the list of settings.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The drone's name has no address.
+    #[error("the name `{host}` has no address: check the spelling, or give the address itself")]
+    Resolve {
+        /// The name.
+        host: String,
+        /// The system's error; a time-out if there was no answer within 10 s.
+        source: io::Error,
+    },
+    /// No socket could be had.
+    #[error("cannot open a UDP socket for {purpose}")]
+    Socket {
+        /// What it is for.
+        purpose: &'static str,
+        /// The system's error.
+        source: io::Error,
+    },
+}
+
+/// Why a client has ended. Whatever the reason, its last datagrams ordered the landing.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ClientError {
+    /// See [`crate::session::Session::tick`].
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+    /// The client's task panicked, or its runtime has ended.
+    #[error("the client's task has died; its last datagrams ordered the landing")]
+    Task,
+    /// The client was closed or dropped.
+    #[error("the client is closed")]
+    Closed,
+}
+
+/// Why a drone is not ready to fly.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadyError {
+    /// No navdata came at all, or none any more.
+    #[error("no navdata from the drone within {limit:?}: is this computer in the drone's network?")]
+    NotHeard {
+        /// See [`super::ClientBuilder::ready_limit`].
+        limit: Duration,
+    },
+    /// The drone is heard, and its settings are still being made.
+    #[error("the drone is not configured within {limit:?}")]
+    NotConfigured {
+        /// See [`super::ClientBuilder::ready_limit`].
+        limit: Duration,
+    },
+    /// The drone never acknowledged these keys: it may fly with other limits than asked for.
+    #[error("the drone did not acknowledge {}", keys.join(", "))]
+    NotAcknowledged {
+        /// `section:name` each
+        keys: Vec<String>,
+    },
+    /// The configuration was to be read back, and did not come.
+    #[error("the drone's configuration could not be read back: is its TCP port 5559 reachable?")]
+    NotReadBack,
+    /// The drone reports other values for these keys than were set.
+    #[error("the drone has not taken the values of {}", keys.join(", "))]
+    NotTaken {
+        /// `section:name` each
+        keys: Vec<String>,
+    },
+    /// The client has ended.
+    #[error(transparent)]
+    Ended(#[from] ClientError),
+}
+
+/// Why a setting was not made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConfigureError {
+    /// The value is out of range, or belongs to the navdata mode. Nothing was sent.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The drone is not heard or not configured. Nothing was sent.
+    #[error("the drone is not ready: wait for `ready()`")]
+    NotReady,
+    /// The drone did not acknowledge it within [`super::CONFIGURE_LIMIT`].
+    #[error("the drone did not acknowledge {key}")]
+    NotAcknowledged {
+        /// `section:name`
+        key: String,
+    },
+    /// The client has ended.
+    #[error(transparent)]
+    Ended(#[from] ClientError),
+}
+
+/// Why an order to the drone was not carried out.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FlightError {
+    /// Refused at once; nothing was sent.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The drone does not hover within the limit. The landing is ordered.
+    #[error("the drone does not hover {limit:?} after the take-off order (battery: {})", percent(*.battery_percent))]
+    TakeOffTimedOut {
+        /// See [`super::ClientBuilder::take_off_limit`].
+        limit: Duration,
+        /// Remaining charge, if it is known. Drones refuse to take off below about 20.
+        battery_percent: Option<u32>,
+    },
+    /// The drone does not stand within the limit. The landing stays ordered.
+    #[error("the drone does not stand {limit:?} after the landing order, which stays in force")]
+    LandingTimedOut {
+        /// See [`super::ClientBuilder::landing_limit`].
+        limit: Duration,
+    },
+    /// The drone's emergency bit did not change within the limit.
+    #[error("the drone has not answered the emergency order within {limit:?}")]
+    EmergencyTimedOut {
+        /// Always [`super::EMERGENCY_LIMIT`].
+        limit: Duration,
+    },
+    /// The drone has cut its motors.
+    #[error("emergency: the drone has cut its motors")]
+    Emergency,
+    /// The drone is not heard any more, or waits to be configured again. The landing is ordered, and
+    /// the drone lands by itself after some seconds of silence.
+    #[error("the link to the drone is lost; the landing is ordered")]
+    LinkLost,
+    /// The drone has started again. Take-off has to be ordered anew.
+    #[error("the drone has started again")]
+    DroneRestarted,
+    /// Before the take-off was complete a landing was ordered, or the drone landed by itself.
+    #[error("the drone lands instead of taking off")]
+    Landing,
+    /// The client has ended.
+    #[error(transparent)]
+    Ended(#[from] ClientError),
+}
+
+fn percent(battery_percent: Option<u32>) -> String {
+    battery_percent.map_or_else(|| "unknown".to_owned(), |percent| format!("{percent} %"))
+}
+
+/// Why an order was refused without being sent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The drone is not heard or not configured.
+    #[error("the drone is not ready: wait for `ready()`")]
+    NotReady,
+    /// The drone is in its emergency state.
+    #[error(
+        "the drone is in its emergency state: look at it, then clear it with `reset_emergency()`"
+    )]
+    Emergency,
+    /// The drone says that its battery is too low to fly.
+    #[error("the drone's battery is too low to take off")]
+    BatteryLow,
+    /// The drone is in the air with the landing ordered: a landing is never taken back.
+    #[error("the drone is landing: wait for `land()`")]
+    Landing,
+    /// The order is for a drone that hovers or flies.
+    #[error("the drone is not in flight: wait for `take_off()`")]
+    NotFlying,
+    /// The order is for a drone that stands on the ground.
+    #[error("the drone does not stand on the ground: wait for `land()`")]
+    NotStanding,
+}
+
+/// Why nothing was heard from the drone.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WaitError {
+    /// Nothing came within the caller's limit.
+    #[error("nothing came within {limit:?}")]
+    TimedOut {
+        /// The caller's limit.
+        limit: Duration,
+    },
+    /// The client has ended.
+    #[error(transparent)]
+    Ended(#[from] ClientError),
+}

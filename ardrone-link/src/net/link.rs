@@ -1,0 +1,280 @@
+//! The client's task: the session on its sockets.
+
+use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Duration;
+
+use bytes::Bytes;
+use tokio::sync::{broadcast, mpsc, watch};
+use tokio::time::{Instant, Interval, MissedTickBehavior, interval};
+
+use super::error::ClientError;
+use super::limits::{BUFFER_BYTES, TICK};
+use super::orders::{Orders, Reply, Seen};
+use super::readiness::{ConfigureReply, Readiness, ReadyReply};
+use super::wire::Wire;
+use crate::WAKE_UP;
+use crate::at::{Config, Datagram, Motion};
+use crate::navdata::{ControlState, Navdata};
+use crate::session::{Event, Received, Session};
+
+/// Landing orders that are sent when the client ends: a datagram may be lost.
+pub(super) const PARTING_ORDERS: u32 = 10;
+/// If the system refuses them, it is tried in this many ticks.
+const PARTING_TICKS: u32 = 3 * PARTING_ORDERS;
+
+/// What is asked of the task, with the way back for the answer.
+#[derive(Debug)]
+pub(super) enum Request {
+    Ready(ReadyReply),
+    Configure(Config, ConfigureReply),
+    TakeOff(Reply),
+    Land(Reply),
+    FlatTrim,
+    EmergencyStop(Reply),
+    EmergencyReset(Reply),
+    #[cfg(test)]
+    Panic,
+}
+
+/// How the drone is to be steered, from a moment on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Steered {
+    pub(super) at: Instant,
+    pub(super) duration: Duration,
+    pub(super) motion: Motion,
+}
+
+/// What the client's methods know without asking the task.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Status {
+    pub(super) airborne: bool,
+    pub(super) standing: bool,
+    pub(super) ended: Option<ClientError>,
+}
+
+pub(super) struct Link {
+    pub(super) session: Session,
+    pub(super) orders: Orders,
+    pub(super) readiness: Readiness,
+    pub(super) at: Wire,
+    pub(super) navdata: Wire,
+    pub(super) control: mpsc::Receiver<Bytes>,
+    pub(super) requests: mpsc::UnboundedReceiver<Request>,
+    pub(super) steering: watch::Receiver<Option<Steered>>,
+    pub(super) status: watch::Sender<Status>,
+    pub(super) events: broadcast::Sender<Event>,
+    pub(super) packets: watch::Sender<Option<Bytes>>,
+    /// Of the newest packet.
+    pub(super) control_state: Option<ControlState>,
+    /// Of the newest packet that has it.
+    pub(super) battery_percent: Option<u32>,
+    /// Receiving failed: it is not tried again before the next tick.
+    pub(super) rests: bool,
+}
+
+/// What the task is woken by.
+enum Input {
+    Tick,
+    Request(Request),
+    Control(Bytes),
+    Navdata(io::Result<usize>),
+}
+
+impl Link {
+    pub(super) async fn run(mut self) -> Result<(), ClientError> {
+        let start = Instant::now();
+        let mut datagram = Datagram::new();
+        let mut clock = interval(TICK);
+        clock.set_missed_tick_behavior(MissedTickBehavior::Skip);
+        let end = self.fly(start, &mut clock, &mut datagram).await;
+        self.dismiss(end.clone().err().unwrap_or(ClientError::Closed));
+        // Whatever the end was.
+        self.part(start, &mut clock, &mut datagram).await;
+        end
+    }
+
+    /// Goes on until the client is gone.
+    async fn fly(
+        &mut self,
+        start: Instant,
+        clock: &mut Interval,
+        datagram: &mut Datagram,
+    ) -> Result<(), ClientError> {
+        let mut buffer = [0_u8; BUFFER_BYTES];
+        loop {
+            // The tick comes first, however much navdata there are, and orders before navdata.
+            let input = tokio::select! {
+                biased;
+                _ = clock.tick() => Input::Tick,
+                request = self.requests.recv() => match request {
+                    Some(request) => Input::Request(request),
+                    None => return Ok(()),
+                },
+                Some(block) = self.control.recv() => Input::Control(block),
+                received = self.navdata.socket.recv(&mut buffer), if !self.rests => {
+                    Input::Navdata(received)
+                }
+            };
+            let now = start.elapsed();
+            let ticks = matches!(input, Input::Tick);
+            if ticks {
+                self.take_in_steering(start);
+            }
+            // A session that panics has still a landing to order.
+            let handled =
+                catch_unwind(AssertUnwindSafe(|| self.handle(now, input, &buffer, datagram)));
+            handled.map_err(|_| ClientError::Task)??;
+            if ticks {
+                self.send(now, datagram).await;
+            }
+            if self.navdata.mend(now).await {
+                self.navdata.send(now, &WAKE_UP).await;
+            }
+        }
+    }
+
+    fn take_in_steering(&mut self, start: Instant) {
+        // An error means that the client is gone, which ends the loop.
+        if self.steering.has_changed().unwrap_or(false)
+            && let Some(Steered { at, duration, motion }) = *self.steering.borrow_and_update()
+        {
+            self.orders.steer(at.saturating_duration_since(start), duration, motion);
+        }
+    }
+
+    fn handle(
+        &mut self,
+        now: Duration,
+        input: Input,
+        buffer: &[u8],
+        datagram: &mut Datagram,
+    ) -> Result<(), ClientError> {
+        match input {
+            Input::Tick => {
+                self.rests = false;
+                datagram.clear();
+                // A REF before the first navdata would land a drone that is flying already.
+                if self.session.silence(now).is_some() {
+                    let order = self.orders.order(now, &self.seen(now));
+                    self.session.tick(now, order, datagram)?;
+                }
+            }
+            Input::Request(request) => self.ask(now, request),
+            Input::Control(block) => self.session.handle_control(&block),
+            Input::Navdata(received) => match self.navdata.judge(now, received) {
+                Some(length) => self.take_in(now, &buffer[..length]),
+                None => self.rests = true,
+            },
+        }
+        self.tell(now);
+        Ok(())
+    }
+
+    fn ask(&mut self, now: Duration, request: Request) {
+        match request {
+            Request::Ready(reply) => self.readiness.wait(now, reply),
+            Request::Configure(config, reply) => {
+                if self.readiness.change(now, self.session.is_ready(), &config, reply) {
+                    self.session.request_setting(config);
+                }
+            }
+            Request::TakeOff(reply) => self.orders.take_off(now, &self.seen(now), reply),
+            Request::Land(reply) => self.orders.land(now, reply),
+            Request::FlatTrim => self.session.request_flat_trim(),
+            Request::EmergencyStop(reply) => {
+                self.session.request_emergency_stop();
+                self.orders.stop(now, reply);
+            }
+            Request::EmergencyReset(reply) => {
+                self.session.request_emergency_reset();
+                self.orders.reset(now, reply);
+            }
+            #[cfg(test)]
+            Request::Panic => panic!("something is wrong"),
+        }
+    }
+
+    fn take_in(&mut self, now: Duration, packet: &[u8]) {
+        match self.session.handle_navdata(now, packet) {
+            Received::Navdata(Navdata { demo, .. }) => {
+                self.control_state = demo.map(|demo| demo.control_state);
+                self.battery_percent =
+                    demo.map(|demo| demo.battery_percent).or(self.battery_percent);
+                self.packets.send_replace(Some(Bytes::copy_from_slice(packet)));
+            }
+            Received::Stale => {}
+            Received::Damaged(error) => tracing::debug!("{error}"),
+        }
+    }
+
+    /// Passes on what has happened to those who wait for it.
+    fn tell(&mut self, now: Duration) {
+        while let Some(event) = self.session.poll_event() {
+            self.orders.event(&event, &self.seen(now));
+            self.readiness.event(&event);
+            if event == Event::LinkLost {
+                // What was true of the drone may not be any more.
+                self.packets.send_replace(None);
+            }
+            // Without a subscription nobody wants to know.
+            _ = self.events.send(event);
+        }
+        let seen = self.seen(now);
+        self.orders.observe(now, &seen);
+        self.readiness.observe(now, seen.ready, seen.alive);
+        let airborne = self.orders.is_airborne();
+        let standing = seen.alive && seen.stands();
+        self.status.send_if_modified(|status| {
+            let new = Status { airborne, standing, ended: None };
+            std::mem::replace(status, new.clone()) != new
+        });
+    }
+
+    fn seen(&self, now: Duration) -> Seen {
+        Seen {
+            alive: self.session.is_alive(),
+            ready: self.session.is_ready(),
+            state: self.session.state(),
+            control_state: self.control_state,
+            battery_percent: self.battery_percent,
+            heard_at: self.session.silence(now).map(|silence| now.saturating_sub(silence)),
+        }
+    }
+
+    async fn send(&mut self, now: Duration, datagram: &Datagram) {
+        if !datagram.as_bytes().is_empty() {
+            self.at.send(now, datagram.as_bytes()).await;
+        }
+        self.at.mend(now).await;
+        if self.session.wake_up_due(now) {
+            self.navdata.send(now, &WAKE_UP).await;
+        }
+    }
+
+    /// Ends every wait, before the last datagrams are sent: those who wait may have somebody to warn.
+    fn dismiss(&mut self, reason: ClientError) {
+        self.status.send_replace(Status { ended: Some(reason), ..Status::default() });
+        self.packets.send_replace(None);
+        self.requests.close();
+        while self.requests.try_recv().is_ok() {}
+        self.orders.end();
+        self.readiness.end();
+    }
+
+    /// Orders the landing, again and again for a while.
+    async fn part(&mut self, start: Instant, clock: &mut Interval, datagram: &mut Datagram) {
+        let mut parted = 0;
+        for _ in 0..PARTING_TICKS {
+            clock.tick().await;
+            let now = start.elapsed();
+            let said = self.session.part(now, datagram).is_ok();
+            // A drone that was never spoken to is not ours to land.
+            if !said || datagram.as_bytes().is_empty() || parted == PARTING_ORDERS {
+                return;
+            }
+            parted += u32::from(self.at.send(now, datagram.as_bytes()).await);
+            self.at.mend(now).await;
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! A client on real sockets: a [`crate::session::Session`] driven by tokio.
+//!
+//! ```no_run
+//! use std::time::Duration;
+//!
+//! use ardrone_link::{Client, Setting, Steering};
+//!
+//! # async fn fly() -> Result<(), Box<dyn std::error::Error>> {
+//! let drone = Client::builder().setting(Setting::AltitudeMaxM(2.0)).start().await?;
+//! drone.ready().await?;
+//! drone.take_off().await?;
+//! drone.steer(Steering::forward(0.1), Duration::from_secs(1))?;
+//! tokio::time::sleep(Duration::from_secs(2)).await;
+//! drone.land().await?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! [`ClientBuilder`] sets a client up, [`Client`] flies, [`Events`] and [`Packets`] are what it hears.
+//! Inside, `link` is the task with the sockets (`wire`); what it decides is in `orders` and `readiness`,
+//! which know no socket and no clock.
+
+mod builder;
+mod client;
+mod error;
+mod limits;
+mod link;
+mod listen;
+mod orders;
+mod readiness;
+mod steering;
+mod wire;
+
+pub use builder::ClientBuilder;
+pub use client::Client;
+pub use error::{
+    ClientError, ConfigureError, FlightError, ReadyError, Refusal, StartError, WaitError,
+};
+pub use limits::{CONFIGURE_LIMIT, EMERGENCY_LIMIT};
+pub use listen::{Events, Packets};
+pub use steering::Steering;
+
+#[cfg(test)]
+mod tests;
