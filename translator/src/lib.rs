@@ -61,6 +61,12 @@ impl ParsedConfiguration {
         &self.configuration.settings.input
     }
 
+    /// Where a compiler may look for the files of the section `includes`, relative to the configuration's folder or
+    /// that of the outputs.
+    pub fn included_files(&self) -> impl Iterator<Item = String> {
+        self.configuration.included_files().into_iter()
+    }
+
     /// An error at the value of a setting: what is wrong with it, and what to do.
     pub fn refuse(&self, setting: &str, message: &str, help: &str) -> TranslateError {
         let place = self.configuration.settings.places.get(setting).cloned().unwrap_or_default();

@@ -299,7 +299,11 @@ fn run(arguments: &Arguments, path: &Path) -> Result<(Translation, String), Comm
     let warnings = warnings(arguments, &translation)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let output = arguments.output.as_deref().unwrap_or(folder);
-    output::write(&configuration, &translation.files, output, &[&agent_path, path])?;
+    let mut read = vec![(agent_path, "translated"), (path.to_owned(), "translated")];
+    for file in configuration.included_files() {
+        read.extend([folder, output].map(|place| (place.join(&file), "included")));
+    }
+    output::write(&configuration, &translation.files, output, &read)?;
     Ok((translation, warnings))
 }
 
