@@ -136,7 +136,10 @@ enum CommandError {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(usage) => return say(&usage),
+    };
     let done = match (&arguments.command, &arguments.configuration) {
         (Some(task), _) => carry_out(task),
         (None, Some(configuration)) => Ok(translate_files(&arguments, configuration)),
@@ -148,7 +151,7 @@ fn main() -> ExitCode {
 fn carry_out(task: &Task) -> Result<ExitCode, CommandError> {
     let (configuration, only, json, model) = match task {
         Task::New { name } => {
-            print("what was made", &new::make(name)?)?;
+            new::make(name, printed)?;
             return Ok(ExitCode::SUCCESS);
         }
         Task::Verify { configuration, only, json, model } => (configuration, only, json, model),
@@ -183,9 +186,24 @@ pub(crate) const NOT_CHECKED: u8 = 3;
 
 /// Prints what was asked for.
 fn print(what: &'static str, text: &str) -> Result<(), CommandError> {
+    printed(text).map_err(|source| CommandError::Print { what, source })
+}
+
+fn printed(text: &str) -> std::io::Result<()> {
     let mut stdout = std::io::stdout().lock();
-    let printed = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
-    printed.map_err(|source| CommandError::Print { what, source })
+    stdout.write_all(text.as_bytes())?;
+    stdout.flush()
+}
+
+/// Prints what clap says: help and version, or what is wrong with the usage.
+fn say(usage: &clap::Error) -> ExitCode {
+    let said = usage.print().and_then(|()| std::io::stdout().flush());
+    if let Err(source) = said
+        && !usage.use_stderr()
+    {
+        return complain(&CommandError::Print { what: "the help", source });
+    }
+    u8::try_from(usage.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
 }
 
 /// Adds what a compiler makes of the C, and what that costs; says what cannot be known.

@@ -221,6 +221,25 @@ fn a_report_that_cannot_be_printed_is_an_error() {
     }
 }
 
+/// Nor is help that nobody reads a success, and an agent of which nobody was told is not there.
+#[cfg(unix)]
+#[test]
+fn what_cannot_be_said_is_not_done() {
+    let place = tempfile::tempdir().unwrap();
+    for options in [&["--help"][..], &["--version"], &["verify", "--help"], &["new", "pilot"]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        let output = command.args(options).current_dir(place.path()).stdout(full).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{options:?} {text}");
+        assert!(text.starts_with("error: cannot print"), "{text}");
+        assert_eq!(contents(place.path()), []);
+    }
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    let output = command.args(["new", "pilot"]).current_dir(place.path()).output().unwrap();
+    assert!(output.status.success() && place.path().join("pilot/Makefile").exists());
+}
+
 /// What is in folders finds each other, and is measured as anything else.
 #[test]
 fn outputs_may_be_in_folders() {

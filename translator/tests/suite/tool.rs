@@ -109,8 +109,22 @@ fn a_new_agent_builds_and_runs_at_once() {
     assert_eq!(steps, ["hover", "hover", "land", "land", "land", "", "hover", "hover"]);
     // What is there is not touched, and names are names.
     assert_eq!(asl2c(folder.path(), &["new", "pilot"]).status.code(), Some(1));
-    for name in ["../x", "Pilot", "main", "a b", ""] {
-        assert_eq!(asl2c(folder.path(), &["new", name]).status.code(), Some(1), "{name}");
+    for (name, reason) in [
+        ("../x", "is no name"),
+        ("Pilot", "is no name"),
+        ("sendLand", "then lower-case letters"),
+        ("a b", "is no name"),
+        ("", "is no name"),
+        ("main", "`main` is taken: the C file"),
+        ("actions", "`actions` is taken: the header"),
+        ("run", "`run` is taken: the Makefile"),
+        ("verify", "`verify` is taken: the Makefile"),
+        ("clean", "`clean` is taken: the Makefile"),
+    ] {
+        let output = asl2c(folder.path(), &["new", name]);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{name}");
+        assert!(text.contains(reason), "{text}");
     }
 }
 
