@@ -39,7 +39,7 @@ use backend::rust::{camel_case, snake_case};
 use configuration::{Configuration, Instance};
 use diagnostic::{Diagnostic, Severity, Source};
 use finding::gather;
-pub use finding::{CODES, Finding};
+pub use finding::{CODES, Finding, REFUSED};
 pub use model::{Happening, Model};
 pub use obligations::{HARNESS, Obligations, Promise, RANDOM_TRANSITIONS};
 pub use report::Report;

@@ -193,6 +193,17 @@ fn the_comparisons_of_properties_are_remembered() {
     check("", "", "level(3).\nlimit(5).\n+!light <- on.", "within(1, level <= limit, on)", false);
 }
 
+#[test]
+fn of_what_holds_nothing_is_said_if_only_failures_are_wanted() {
+    let agent = format!("{WAITING}+!light <- on.\n");
+    let configuration =
+        configuration("", PREEMPTIVE, &agent, "within(1, +!light, on); q: never(on)");
+    let Some(output) = verify(&configuration, &agent, &["-q"]) else { return };
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.starts_with("q: DOES NOT HOLD") && !text.contains("p [R-1]"), "{text}");
+    assert_eq!(output.status.code(), Some(1));
+}
+
 /// A property that compares with a limit that never changes takes nothing from one that compares with its number.
 #[test]
 fn what_is_known_does_not_depend_on_other_properties() {
