@@ -15,6 +15,9 @@ pub const CODES: [&str; 8] = [
     "unused-declaration",
 ];
 
+/// The code of errors: no agent is translated in spite of them.
+pub const REFUSED: &str = "refused";
+
 /// More messages than this are counted, not shown: nobody reads them, and each costs a look at the whole text.
 const MOST_SHOWN: usize = 50;
 
@@ -23,7 +26,7 @@ const MOST_SHOWN: usize = 50;
 pub struct Finding {
     /// `error` or `warning`.
     pub severity: &'static str,
-    /// One of [`CODES`] for warnings, empty for errors.
+    /// One of [`CODES`] for warnings, [`REFUSED`] for errors.
     pub code: &'static str,
     /// What is wrong, in one line without a full stop.
     pub message: String,
@@ -43,6 +46,18 @@ pub struct Finding {
     pub help: Option<String>,
     /// The whole with source line and caret.
     pub rendered: String,
+}
+
+impl Finding {
+    /// A warning as the error that it is to those who deny it.
+    #[must_use]
+    pub fn denied(mut self) -> Self {
+        self.severity = "error";
+        if let Some(rest) = self.rendered.strip_prefix("warning") {
+            self.rendered = format!("error{rest}");
+        }
+        self
+    }
 }
 
 /// Everything that was found in some texts, rendered and one by one: errors before warnings, the most important of
@@ -75,7 +90,7 @@ fn finding(found: &Diagnostic, source: &Source<'_>) -> Finding {
     let (end_line, end_column) = line_column(source.text, found.span.end);
     Finding {
         severity: if found.severity == Severity::Error { "error" } else { "warning" },
-        code: found.code,
+        code: if found.code.is_empty() { REFUSED } else { found.code },
         message: found.message.clone(),
         file: source.name.to_owned(),
         line,

@@ -39,7 +39,7 @@ use backend::rust::{camel_case, snake_case};
 use configuration::{Configuration, Instance};
 use diagnostic::{Diagnostic, Severity, Source};
 use finding::gather;
-pub use finding::{CODES, Finding};
+pub use finding::{CODES, Finding, REFUSED};
 pub use model::{Happening, Model};
 pub use obligations::{HARNESS, Obligations, Promise, RANDOM_TRANSITIONS};
 pub use report::Report;
@@ -59,6 +59,12 @@ impl ParsedConfiguration {
     /// The AgentSpeak source's name, relative to the configuration.
     pub fn input(&self) -> &str {
         &self.configuration.settings.input
+    }
+
+    /// Where a compiler may look for the files of the section `includes`, relative to the configuration's folder or
+    /// that of the outputs.
+    pub fn included_files(&self) -> impl Iterator<Item = String> {
+        self.configuration.included_files().into_iter()
     }
 
     /// An error at the value of a setting: what is wrong with it, and what to do.

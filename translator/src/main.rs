@@ -16,7 +16,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use serde_json::json;
 use translator::{
-    CODES, Finding, ParsedConfiguration, TranslateError, Translation, parse_configuration,
+    CODES, Finding, ParsedConfiguration, REFUSED, TranslateError, Translation, parse_configuration,
     translate,
 };
 
@@ -77,10 +77,11 @@ impl Arguments {
     fn is_denied(&self, code: &str) -> bool {
         self.deny.iter().any(|other| other == code || other == "warnings")
     }
+}
 
-    fn is_json(&self) -> bool {
-        self.message_format == "json"
-    }
+/// Whether messages are lines of JSON.
+fn is_json(message_format: &str) -> bool {
+    message_format == "json"
 }
 
 /// Codes of warnings, and a word for all of them.
@@ -114,6 +115,12 @@ enum Task {
         /// Print the model in Promela, and check nothing
         #[arg(long, conflicts_with = "json")]
         model: bool,
+        /// Print only what does not hold; `--json` tells of all
+        #[arg(short, long)]
+        quiet: bool,
+        /// How errors are printed: for people, or each as a line of JSON
+        #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
+        message_format: String,
     },
 }
 
@@ -123,58 +130,78 @@ enum CommandError {
     File { action: &'static str, path: PathBuf, source: std::io::Error },
     #[error("{0}")]
     Translate(#[from] TranslateError),
-    #[error("error: {0}")]
+    #[error("{0}")]
     Verify(#[from] verify::VerifyError),
     #[error("{0}")]
     Output(#[from] output::OutputError),
     #[error("{0}")]
     New(#[from] new::NewError),
-    #[error("{0}")]
-    Denied(String),
+    /// Warnings that are refused, with the others that are wanted.
+    #[error("{}\n\nerror: {}", rendered(.0), denied(.0))]
+    Denied(Vec<Finding>),
     #[error("cannot print {what}: {source}")]
     Print { what: &'static str, source: std::io::Error },
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let done = match (&arguments.command, &arguments.configuration) {
-        (Some(task), _) => carry_out(task),
-        (None, Some(configuration)) => Ok(translate_files(&arguments, configuration)),
-        (None, None) => unreachable!("clap asks for the configuration"),
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(usage) => return say(&usage),
     };
-    done.unwrap_or_else(|error| complain(&error))
+    match (&arguments.command, &arguments.configuration) {
+        (Some(Task::New { name }), _) => {
+            let made = new::make(name, printed);
+            made.map_or_else(|error| complain(&error.into(), false), |()| ExitCode::SUCCESS)
+        }
+        (Some(Task::Verify { configuration, only, json, model, quiet, message_format }), _) => {
+            let done = verify(configuration, only, *json, *model, *quiet);
+            done.unwrap_or_else(|error| complain(&error, is_json(message_format)))
+        }
+        (None, Some(configuration)) => {
+            let done = translate_files(&arguments, configuration);
+            done.unwrap_or_else(|error| complain(&error, is_json(&arguments.message_format)))
+        }
+        (None, None) => unreachable!("clap asks for the configuration"),
+    }
 }
 
-fn carry_out(task: &Task) -> Result<ExitCode, CommandError> {
-    let (configuration, only, json, model) = match task {
-        Task::New { name } => {
-            print("what was made", &new::make(name)?)?;
-            return Ok(ExitCode::SUCCESS);
-        }
-        Task::Verify { configuration, only, json, model } => (configuration, only, json, model),
-    };
+fn verify(
+    configuration: &Path,
+    only: &[String],
+    json: bool,
+    model: bool,
+    quiet: bool,
+) -> Result<ExitCode, CommandError> {
     let (parsed, agent) = read_agent(configuration)?;
     let checked = translator::model(parsed, &agent)?;
-    if *model {
+    if model {
         print("the model", &checked.promela())?;
         return Ok(ExitCode::SUCCESS);
     }
-    let (text, status) = verify::run(&checked, only, *json)?;
+    let told = match (json, quiet) {
+        (true, _) => verify::Told::Json,
+        (false, true) => verify::Told::Failures,
+        (false, false) => verify::Told::All,
+    };
+    let (text, status) = verify::run(&checked, only, told)?;
     print("what was found", &text)?;
     Ok(status)
 }
 
-fn complain(error: &CommandError) -> ExitCode {
+/// Says what went wrong, and how to exit.
+fn complain(error: &CommandError, as_json: bool) -> ExitCode {
     let ours = matches!(
         error,
         CommandError::File { .. }
             | CommandError::Print { .. }
             | CommandError::New(_)
             | CommandError::Output(output::OutputError::Write { .. })
+            | CommandError::Verify(_)
     );
     let prefix = if ours { "error: " } else { "" };
+    let said = if as_json { lines_of(error) } else { format!("{prefix}{error}") };
     // A message that cannot be printed has nowhere else to go.
-    _ = writeln!(std::io::stderr(), "{prefix}{error}");
+    _ = writeln!(std::io::stderr(), "{said}");
     if matches!(error, CommandError::Verify(_)) { NOT_CHECKED.into() } else { ExitCode::FAILURE }
 }
 
@@ -183,25 +210,37 @@ pub(crate) const NOT_CHECKED: u8 = 3;
 
 /// Prints what was asked for.
 fn print(what: &'static str, text: &str) -> Result<(), CommandError> {
+    printed(text).map_err(|source| CommandError::Print { what, source })
+}
+
+fn printed(text: &str) -> std::io::Result<()> {
     let mut stdout = std::io::stdout().lock();
-    let printed = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
-    printed.map_err(|source| CommandError::Print { what, source })
+    stdout.write_all(text.as_bytes())?;
+    stdout.flush()
+}
+
+/// Prints what clap says: help and version, or what is wrong with the usage.
+fn say(usage: &clap::Error) -> ExitCode {
+    let said = usage.print().and_then(|()| std::io::stdout().flush());
+    if let Err(source) = said
+        && !usage.use_stderr()
+    {
+        return complain(&CommandError::Print { what: "the help", source }, false);
+    }
+    u8::try_from(usage.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
 }
 
 /// Adds what a compiler makes of the C, and what that costs; says what cannot be known.
-fn measure(translation: &mut Translation, path: &Path, stderr: &mut impl std::io::Write) {
+fn measure(translation: &mut Translation, path: &Path, mut unknown: impl FnMut(String)) {
     let compiled = match stack::compiled(translation) {
         Ok(compiled) => compiled,
-        Err(reason) => {
-            _ = writeln!(stderr, "the stack is not measured: {reason}");
-            return;
-        }
+        Err(reason) => return unknown(format!("the stack is not measured: {reason}")),
     };
     let report = &mut translation.report;
     report.add_stack(stack::COMPILER, &compiled.frame_bytes);
     match path::longest(&compiled.assembly, report.entry()) {
         Ok(instructions) => report.add_path(stack::COMPILER, instructions),
-        Err(reason) => _ = writeln!(stderr, "the longest path is not known: {reason}"),
+        Err(reason) => unknown(format!("the longest path is not known: {reason}")),
     }
     let costliest = read_agent(path)
         .and_then(|(parsed, agent)| Ok(translator::obligations(parsed, &agent)?))
@@ -209,79 +248,104 @@ fn measure(translation: &mut Translation, path: &Path, stderr: &mut impl std::io
         .and_then(|obligations| worst::costliest(&obligations));
     match costliest {
         Ok(instructions) => report.add_costliest(instructions),
-        Err(reason) => _ = writeln!(stderr, "no costliest step was found: {reason}"),
+        Err(reason) => unknown(format!("no costliest step was found: {reason}")),
     }
 }
 
-fn translate_files(arguments: &Arguments, path: &Path) -> ExitCode {
-    let mut stderr = std::io::stderr().lock();
-    // A message that cannot be printed has nowhere else to go.
-    match run(arguments, path) {
-        Ok((mut translation, warnings)) => {
-            if !warnings.is_empty() && !arguments.quiet {
-                _ = writeln!(stderr, "{warnings}");
-            }
-            if arguments.report {
-                measure(&mut translation, path, &mut stderr);
-                drop(stderr);
-                if let Err(error) = print("the report", &translation.report.to_string()) {
-                    return complain(&error);
-                }
-            }
-            ExitCode::SUCCESS
-        }
-        Err(error) if arguments.is_json() => {
-            _ = writeln!(stderr, "{}", as_json(&error));
-            ExitCode::FAILURE
-        }
-        Err(error) => {
-            drop(stderr);
-            complain(&error)
-        }
+fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, CommandError> {
+    let json = is_json(&arguments.message_format);
+    let (mut translation, warnings) = run(arguments, path)?;
+    if !warnings.is_empty() && !arguments.quiet {
+        let text = if json { lines(&warnings) } else { rendered(&warnings) };
+        // A message that cannot be printed has nowhere else to go.
+        _ = writeln!(std::io::stderr(), "{text}");
     }
+    if arguments.report {
+        measure(&mut translation, path, |unknown| {
+            let text = if json { line("warning", "not-measured", &unknown, None) } else { unknown };
+            _ = writeln!(std::io::stderr(), "{text}");
+        });
+        print("the report", &translation.report.to_string())?;
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// An error as lines of JSON.
-fn as_json(error: &CommandError) -> String {
-    let refused = match error {
-        CommandError::Translate(error)
-        | CommandError::Output(output::OutputError::Refused(error)) => error,
-        CommandError::Denied(lines) => return lines.clone(),
-        other => return json!({ "severity": "error", "message": other.to_string() }).to_string(),
-    };
-    match refused {
-        TranslateError::Configuration { findings, .. } | TranslateError::Agent { findings, .. } => {
-            lines(findings)
+fn lines_of(error: &CommandError) -> String {
+    let general = |code: &str, file: Option<&Path>| line("error", code, &error.to_string(), file);
+    match error {
+        CommandError::Translate(refused)
+        | CommandError::Output(output::OutputError::Refused(refused)) => match refused {
+            TranslateError::Configuration { findings, .. }
+            | TranslateError::Agent { findings, .. } => lines(findings),
+            TranslateError::Unprovable { .. } | TranslateError::Matrix { .. } => {
+                general(REFUSED, None)
+            }
+        },
+        CommandError::Denied(findings) => {
+            format!("{}\n{}", lines(findings), line("error", "denied", &denied(findings), None))
         }
-        other => json!({ "severity": "error", "message": other.to_string() }).to_string(),
+        CommandError::File { path, .. } => general("not-read", Some(path)),
+        CommandError::Output(output::OutputError::Write { path, .. }) => {
+            general("not-written", Some(path))
+        }
+        CommandError::Print { .. } => general("not-printed", None),
+        CommandError::New(_) => general("not-made", None),
+        CommandError::Verify(_) => general("not-checked", None),
     }
 }
 
 /// Findings as lines of JSON.
-fn lines<'a>(findings: impl IntoIterator<Item = &'a Finding>) -> String {
-    let lines = findings.into_iter().map(|finding| json!(finding).to_string());
-    lines.collect::<Vec<_>>().join("\n")
+fn lines(findings: &[Finding]) -> String {
+    findings.iter().map(|finding| json!(finding).to_string()).collect::<Vec<_>>().join("\n")
 }
 
-/// The warnings that are wanted, as they are printed; an error if one is denied.
-fn warnings(arguments: &Arguments, translation: &Translation) -> Result<String, CommandError> {
-    let wanted: Vec<&Finding> =
-        translation.findings.iter().filter(|finding| arguments.is_wanted(finding.code)).collect();
-    let denied = wanted.iter().filter(|finding| arguments.is_denied(finding.code)).count();
-    let text = if arguments.is_json() {
-        lines(wanted.iter().copied())
-    } else {
-        wanted.iter().map(|finding| finding.rendered.trim_end()).collect::<Vec<_>>().join("\n\n")
-    };
-    if denied == 0 {
-        return Ok(text);
+/// What is said of no place in a text, as a line of JSON with the keys of a finding.
+fn line(severity: &str, code: &str, message: &str, file: Option<&Path>) -> String {
+    let nothing = serde_json::Value::Null;
+    json!({
+        "severity": severity,
+        "code": code,
+        "message": message,
+        "file": file.map(|file| file.display().to_string()),
+        "line": nothing,
+        "column": nothing,
+        "end_line": nothing,
+        "end_column": nothing,
+        "label": "",
+        "help": nothing,
+        "rendered": format!("{severity}: {message}"),
+    })
+    .to_string()
+}
+
+/// Findings as people read them.
+fn rendered(findings: &[Finding]) -> String {
+    findings.iter().map(|finding| finding.rendered.trim_end()).collect::<Vec<_>>().join("\n\n")
+}
+
+/// How many of the findings forbid translation.
+fn denied(findings: &[Finding]) -> String {
+    let denied = findings.iter().filter(|finding| finding.severity == "error").count();
+    format!("{denied} of these are denied: nothing is translated")
+}
+
+/// The warnings that are wanted; an error if one is denied. Those come first then, or alone if only errors are wanted.
+fn warnings(
+    arguments: &Arguments,
+    translation: &Translation,
+) -> Result<Vec<Finding>, CommandError> {
+    let wanted = translation.findings.iter().filter(|finding| arguments.is_wanted(finding.code));
+    let (mut denied, others): (Vec<Finding>, Vec<Finding>) =
+        wanted.cloned().partition(|finding| arguments.is_denied(finding.code));
+    if denied.is_empty() {
+        return Ok(others);
     }
-    let message = format!("{denied} of these are denied: nothing is translated");
-    Err(CommandError::Denied(if arguments.is_json() {
-        format!("{text}\n{}", json!({ "severity": "error", "message": message }))
-    } else {
-        format!("{text}\n\nerror: {message}")
-    }))
+    denied = denied.into_iter().map(Finding::denied).collect();
+    if !arguments.quiet {
+        denied.extend(others);
+    }
+    Err(CommandError::Denied(denied))
 }
 
 /// The configuration, and the text of its agent.
@@ -292,14 +356,18 @@ fn read_agent(path: &Path) -> Result<(ParsedConfiguration, String), CommandError
     Ok((configuration, agent))
 }
 
-fn run(arguments: &Arguments, path: &Path) -> Result<(Translation, String), CommandError> {
+fn run(arguments: &Arguments, path: &Path) -> Result<(Translation, Vec<Finding>), CommandError> {
     let (configuration, agent) = read_agent(path)?;
     let agent_path = path.parent().unwrap_or(Path::new("")).join(configuration.input());
     let translation = translate(configuration.clone(), &agent)?;
     let warnings = warnings(arguments, &translation)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let output = arguments.output.as_deref().unwrap_or(folder);
-    output::write(&configuration, &translation.files, output, &[&agent_path, path])?;
+    let mut read = vec![(agent_path, "translated"), (path.to_owned(), "translated")];
+    for file in configuration.included_files() {
+        read.extend([folder, output].map(|place| (place.join(&file), "included")));
+    }
+    output::write(&configuration, &translation.files, output, &read)?;
     Ok((translation, warnings))
 }
 

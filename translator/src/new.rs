@@ -1,16 +1,20 @@
 //! `asl2c new`: an agent to begin with, which builds and runs at once.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Why nothing was made.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NewError {
     #[error(
-        "`{name}` is no name for an agent: write a lower-case letter, then letters, digits and `_`"
+        "`{name}` is no name for an agent: write a lower-case letter, then lower-case letters, digits and `_`"
     )]
     Name { name: String },
-    #[error("cannot make {path}: {source}")]
+    #[error("`{name}` is taken: {owner}; choose another name")]
+    Taken { name: String, owner: &'static str },
+    #[error("cannot make {path}: {source}; nothing is made")]
     File { path: String, source: std::io::Error },
+    #[error("cannot print what was made: {0}; nothing is made")]
+    Print(#[source] std::io::Error),
 }
 
 const CONFIGURATION: &str = "\
@@ -107,21 +111,49 @@ clean:
 .PHONY: run verify clean
 ";
 
-/// Makes the folder `name`, and says what to do next.
-pub(crate) fn make(name: &str) -> Result<String, NewError> {
+/// Names of files and of goals of the Makefile that the agent's files would take the place of.
+const TAKEN: [(&str, &str); 5] = [
+    ("actions", "the header of the basic actions is called so"),
+    ("main", "the C file with the environment is called so"),
+    ("run", "the Makefile calls so what runs the agent"),
+    ("verify", "the Makefile calls so what checks the properties"),
+    ("clean", "the Makefile calls so what deletes the generated files"),
+];
+
+/// Makes the folder `name`, and says what to do next. If that cannot be said, or something cannot be made, nothing is
+/// left of it.
+pub(crate) fn make(
+    name: &str,
+    say: impl FnOnce(&str) -> std::io::Result<()>,
+) -> Result<(), NewError> {
     let word = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-    // What is built is called so too, and must overwrite nothing.
-    let taken = ["actions", "main", "run", "verify", "clean"].contains(&name);
-    if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(word) || taken {
+    if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(word) {
         return Err(NewError::Name { name: name.to_owned() });
     }
-    let failed = |path: &Path| {
-        let path = path.display().to_string();
-        |source| NewError::File { path, source }
-    };
+    if let Some((_, owner)) = TAKEN.iter().find(|(taken, _)| *taken == name) {
+        return Err(NewError::Taken { name: name.to_owned(), owner });
+    }
     let folder = Path::new(name);
     // A folder that is there already is not touched.
     std::fs::create_dir(folder).map_err(failed(folder))?;
+    let mut made: Vec<PathBuf> = Vec::new();
+    let done = fill(folder, name, &mut made).and_then(|()| {
+        let text =
+            format!("{name}/ holds an agent; `make -C {name}` translates, builds and runs it\n");
+        say(&text).map_err(NewError::Print)
+    });
+    if done.is_err() {
+        // What cannot be taken back either is no other error: the one that is told comes first.
+        for path in made {
+            _ = std::fs::remove_file(path);
+        }
+        _ = std::fs::remove_dir(folder);
+    }
+    done
+}
+
+/// Writes the files; what is begun is in `made`.
+fn fill(folder: &Path, name: &str, made: &mut Vec<PathBuf>) -> Result<(), NewError> {
     for (file, text) in [
         (format!("{name}.conf"), CONFIGURATION),
         (format!("{name}.asl"), AGENT),
@@ -129,7 +161,13 @@ pub(crate) fn make(name: &str) -> Result<String, NewError> {
         ("Makefile".to_owned(), MAKEFILE),
     ] {
         let path = folder.join(file);
+        made.push(path.clone());
         std::fs::write(&path, text.replace("NAME", name)).map_err(failed(&path))?;
     }
-    Ok(format!("{name}/ holds an agent; `make -C {name}` translates, builds and runs it\n"))
+    Ok(())
+}
+
+fn failed(path: &Path) -> impl FnOnce(std::io::Error) -> NewError {
+    let path = path.display().to_string();
+    |source| NewError::File { path, source }
 }

@@ -25,19 +25,31 @@ struct Prepared {
 }
 
 /// Writes `files` to `folder`. Until all are written whole none is in its place, and if one cannot take its place
-/// the others give theirs back. `read` are the files that the translation was made from.
+/// the others give theirs back. `read` are the files that the translation was made from, and what was done with
+/// each.
 pub(crate) fn write(
     configuration: &ParsedConfiguration,
     files: &[GeneratedFile],
     folder: &Path,
-    read: &[&Path],
+    read: &[(PathBuf, &str)],
 ) -> Result<(), OutputError> {
     let mut prepared: Vec<Prepared> = Vec::new();
+    let inside = or_here(folder).canonicalize().ok();
     for file in files {
         let path = folder.join(&file.name);
-        let target = path.canonicalize().unwrap_or_else(|_| path.clone());
-        if let Some(source) = read.iter().find(|source| is_same(&target, source)) {
-            let message = format!("this is {}, which is translated", source.display());
+        // A file without a folder cannot be written, which is said then.
+        let target = resolved(&path);
+        let both = inside.as_ref().zip(target.as_ref());
+        let leads_out = both.is_some_and(|(inside, target)| !target.starts_with(inside));
+        let target = target.unwrap_or_else(|| path.clone());
+        if leads_out {
+            let message =
+                format!("a link leads to {}, out of the output's folder", target.display());
+            let help = "name a file in that folder or below; `-o DIR` puts all elsewhere";
+            return Err(configuration.refuse(file.setting, &message, help).into());
+        }
+        if let Some((source, used)) = read.iter().find(|(source, _)| is_same(&target, source)) {
+            let message = format!("this is {}, which is {used}", source.display());
             let help = "it would be overwritten: choose another name, or another folder with `-o`";
             return Err(configuration.refuse(file.setting, &message, help).into());
         }
@@ -52,10 +64,20 @@ pub(crate) fn write(
     replace(prepared)
 }
 
-/// Whether two names lead to one file.
+/// Where a file is, or would be, without links: one that is not there yet may be in a folder that is a link.
+fn resolved(path: &Path) -> Option<PathBuf> {
+    let in_folder = || Some(or_here(path.parent()?).canonicalize().ok()?.join(path.file_name()?));
+    path.canonicalize().ok().or_else(in_folder)
+}
+
+/// A folder; a path without one leads to a file here.
+fn or_here(folder: &Path) -> &Path {
+    if folder == Path::new("") { Path::new(".") } else { folder }
+}
+
+/// Whether two names lead to one file, be it there or not.
 fn is_same(one: &Path, other: &Path) -> bool {
-    let canonical = |path: &Path| path.canonicalize().ok();
-    if canonical(one).is_some_and(|one| Some(one) == canonical(other)) {
+    if resolved(one).is_some_and(|one| Some(one) == resolved(other)) {
         return true;
     }
     #[cfg(unix)]
@@ -69,8 +91,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
 }
 
 fn prepare(target: &Path, text: &str) -> std::io::Result<Prepared> {
-    let parent = target.parent().filter(|parent| *parent != Path::new(""));
-    let parent = parent.unwrap_or(Path::new("."));
+    let parent = or_here(target.parent().unwrap_or(target));
     let existing = std::fs::metadata(target).ok();
     if let Some(existing) = &existing {
         if !existing.is_file() {

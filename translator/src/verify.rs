@@ -20,17 +20,36 @@ pub(crate) enum VerifyError {
     Unknown { name: String },
 }
 
+/// What is told of the properties.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Told {
+    /// Each, for people.
+    All,
+    /// Those that do not hold or are not decided, for people.
+    Failures,
+    /// Each, for programs.
+    Json,
+}
+
 /// Checks, and says what was found and how to exit: well only if everything holds.
 pub(crate) fn run(
     model: &Model,
     only: &[String],
-    as_json: bool,
+    told: Told,
 ) -> Result<(String, ExitCode), VerifyError> {
     if model.properties.is_empty() {
         return Err(VerifyError::Nothing);
     }
     let verdicts = spin::check(model, &numbers(model, only)?)?;
-    let text = if as_json { json(&verdicts) } else { text(model, &verdicts) };
+    let text = match told {
+        Told::Json => json(&verdicts),
+        Told::All => text(model, &verdicts),
+        Told::Failures => {
+            let holds = |verdict: &Verdict| matches!(verdict, Verdict::Holds);
+            let failed: Vec<_> = verdicts.iter().filter(|(_, verdict)| !holds(verdict)).collect();
+            text(model, failed)
+        }
+    };
     let any = |wanted: fn(&Verdict) -> bool| verdicts.iter().any(|(_, verdict)| wanted(verdict));
     let status = if any(|verdict| matches!(verdict, Verdict::Fails(_))) {
         ExitCode::FAILURE
@@ -54,7 +73,7 @@ fn numbers(model: &Model, only: &[String]) -> Result<Vec<usize>, VerifyError> {
     only.iter().map(number).collect()
 }
 
-fn text(model: &Model, verdicts: &[(Promise, Verdict)]) -> String {
+fn text<'a>(model: &Model, verdicts: impl IntoIterator<Item = &'a (Promise, Verdict)>) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     for (promise, verdict) in verdicts {

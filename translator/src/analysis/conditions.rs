@@ -70,12 +70,12 @@ impl Analysis<'_> {
                 Ok(Condition::Compare { relation: *operator, left, right, ctype })
             }
             Expression::Bind { variable, value, .. } => {
+                check_fresh(variable, scope)?;
                 let resolved = self.typed_value(value, None, scope);
                 if resolved.is_err() {
                     scope.break_variable(variable);
                 }
                 let (value, ctype) = resolved?;
-                check_fresh(variable, scope)?;
                 Ok(Condition::Bind { variable: scope.bind(variable, &ctype), value })
             }
             Expression::Variable(_) | Expression::Boolean { .. } => {

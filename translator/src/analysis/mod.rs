@@ -75,6 +75,7 @@ pub(crate) fn analyse(
         handlers: Vec::new(),
         test_handlers: HashMap::new(),
         test_triggers: HashSet::new(),
+        crowded: HashSet::new(),
         open_tests: VecDeque::new(),
         covered: HashSet::new(),
         waits: HashMap::new(),
@@ -150,9 +151,11 @@ struct Analysis<'a> {
     handler_ids: HashMap<TriggerKey, HandlerId>,
     handlers: Vec<Handler>,
     /// Handlers of test goals: one for each trigger and each set of arguments that is asked for.
-    test_handlers: HashMap<(TriggerKey, Vec<bool>), HandlerId>,
+    test_handlers: HashMap<TriggerKey, HashMap<Vec<bool>, HandlerId>>,
     /// Test goals that have plans.
     test_triggers: HashSet<TriggerKey>,
+    /// Test goals that are asked in too many ways, of which it is said.
+    crowded: HashSet<String>,
     /// Handlers of test goals whose plans are not looked at yet.
     open_tests: VecDeque<(HandlerId, TriggerKey, Vec<bool>)>,
     /// Handlers that have a plan which fits every event.

@@ -6,7 +6,7 @@ use diagnostic::{Diagnostic, Severity};
 
 use super::conditions::check_fresh;
 use super::graph::TriggerGraph;
-use super::scope::Scope;
+use super::scope::{Scope, said_already};
 use super::time::Place;
 use super::values::Resolved;
 use super::{Analysis, TriggerKey};
@@ -15,6 +15,10 @@ use crate::syntax::ast::{
     self, Agent, Atom, Expression, Formula, Name, Operator, Trigger, TriggerKind,
 };
 use crate::types::CType;
+
+/// Plans of a test goal are C of their own for each choice of arguments that are asked for. Without a limit plans that
+/// ask each other multiply; up to three arguments may be asked for in every way.
+pub(super) const MOST_QUESTIONS: usize = 8;
 
 impl Analysis<'_> {
     /// Resolves `plan` and adds it to its handler.
@@ -37,7 +41,7 @@ impl Analysis<'_> {
         }
         self.asked_plans(&plans, graph);
         let asked: HashSet<String> =
-            self.test_handlers.keys().map(|((_, _, name), _)| name.clone()).collect();
+            self.test_handlers.keys().map(|(_, _, name)| name.clone()).collect();
         let is_asked = |plan: &ast::Plan| asked.contains(&plan.trigger.atom.name.text);
         let tests = agent.plans.iter().filter(|plan| plan.trigger.kind == TriggerKind::Test);
         for plan in tests {
@@ -71,14 +75,71 @@ impl Analysis<'_> {
     fn asked_plans(&mut self, plans: &HashMap<TriggerKey, Vec<&ast::Plan>>, graph: &TriggerGraph) {
         while let Some((id, key, holes)) = self.open_tests.pop_front() {
             for plan in plans.get(&key).into_iter().flatten() {
-                self.plan_of(id, plan, &holes, graph);
+                self.asked_plan(id, plan, &holes, graph);
             }
         }
     }
 
-    /// Looks at a plan of a test goal that nobody asks, as if somebody did in a way that fits it.
-    fn unasked_plan(&mut self, plan: &ast::Plan, graph: &TriggerGraph) {
-        let Some(types) = self.predicate_types(&plan.trigger.atom) else { return };
+    /// Resolves a plan of a test goal for one way in which it is asked. If the plan is right and only that way does not
+    /// fit, the mistake is where it is asked.
+    fn asked_plan(
+        &mut self,
+        id: HandlerId,
+        plan: &ast::Plan,
+        holes: &[bool],
+        graph: &TriggerGraph,
+    ) {
+        let (findings, waiting) = (self.findings.agent.len(), self.open_tests.len());
+        self.plan_of(id, plan, holes, graph);
+        let found = &self.findings.agent[findings..];
+        let Some(first) = found.iter().find(|found| found.severity == Severity::Error) else {
+            return;
+        };
+        let first = format!("line {}: {first}", self.line(first.span.start));
+        match self.fitting_mode(plan, graph) {
+            Ok(fitting) => {
+                let name = &plan.trigger.atom.name.text;
+                let arguments = fitting.iter().map(|hole| if *hole { "New" } else { "value" });
+                let arguments = arguments.collect::<Vec<_>>().join(", ");
+                let message = format!("the plans of `?{name}` cannot answer this");
+                let span = self.handlers[id.0].span.clone();
+                let error = Diagnostic::error(message, span).label(first).help(format!(
+                    "ask `?{name}({arguments})`, a value where the plan needs one and a new variable where it gives one, or change the plan"
+                ));
+                self.findings.agent.truncate(findings);
+                self.error(error);
+            }
+            // Wrong in every way: the usual one says it best.
+            Err(usual) if !self.modes(plan).iter().any(|mode| mode == holes) => {
+                self.findings.agent.truncate(findings);
+                self.findings.agent.extend(usual);
+            }
+            Err(_) => return,
+        }
+        // What is asked by a plan that is asked wrongly follows from that.
+        self.open_tests.truncate(waiting);
+    }
+
+    /// The likeliest way to ask a plan in which it is right, or what is wrong with it in the likeliest of all.
+    fn fitting_mode(
+        &mut self,
+        plan: &ast::Plan,
+        graph: &TriggerGraph,
+    ) -> Result<Vec<bool>, Vec<Diagnostic>> {
+        let mut first = None;
+        for holes in self.modes(plan) {
+            let found = self.try_plan(plan, &holes, graph);
+            if !found.iter().any(|found| found.severity == Severity::Error) {
+                return Ok(holes);
+            }
+            first.get_or_insert(found);
+        }
+        Err(first.unwrap_or_default())
+    }
+
+    /// The ways to ask a plan that may fit it, the likeliest first.
+    fn modes(&self, plan: &ast::Plan) -> [Vec<bool>; 3] {
+        let types = self.declarations.predicate(&plan.trigger.atom).unwrap_or_default();
         let fresh = fresh_variables(&plan.trigger.atom);
         let mut assigned: HashSet<&str> = HashSet::new();
         if let Some(context) = &plan.context {
@@ -95,31 +156,48 @@ impl Analysis<'_> {
             let pairs = fresh.iter().zip(&types);
             pairs.map(|(name, ctype)| name.is_some_and(|name| is_hole(name, ctype))).collect()
         };
-        let modes = [
+        [
             mode(&|name, ctype| assigned.contains(name) || !ctype.has_equality()),
             mode(&|name, _| assigned.contains(name)),
             mode(&|_, _| true),
-        ];
-        let (findings, handlers) = (self.findings.agent.len(), self.handlers.len());
-        let waiting = self.open_tests.len();
-        let mut first = None;
-        for holes in modes {
-            let id =
-                self.new_test_handler(plan.trigger.operator, &plan.trigger.atom, &types, &holes);
-            self.plan_of(id, plan, &holes, graph);
-            let found = self.findings.agent.split_off(findings);
-            if !found.iter().any(|found| found.severity == Severity::Error) {
-                self.findings.agent.extend(found);
-                return;
+        ]
+    }
+
+    /// Looks at a plan of a test goal that nobody asks, as if somebody did in a way that fits it.
+    fn unasked_plan(&mut self, plan: &ast::Plan, graph: &TriggerGraph) {
+        let Some(types) = self.predicate_types(&plan.trigger.atom) else { return };
+        match self.fitting_mode(plan, graph) {
+            Ok(holes) => {
+                let trigger = &plan.trigger;
+                let id = self.new_test_handler(trigger.operator, &trigger.atom, &types, &holes);
+                self.plan_of(id, plan, &holes, graph);
             }
-            first.get_or_insert(found);
-            // As if it had not been looked at so.
-            self.handlers.truncate(handlers);
-            self.covered.retain(|id| id.0 < handlers);
-            self.test_handlers.retain(|_, id| id.0 < handlers);
-            self.open_tests.truncate(waiting);
+            Err(found) => self.findings.agent.extend(found),
         }
-        self.findings.agent.extend(first.into_iter().flatten());
+    }
+
+    /// What is found in a plan of a test goal that is asked so, as if it had not been looked at.
+    fn try_plan(
+        &mut self,
+        plan: &ast::Plan,
+        holes: &[bool],
+        graph: &TriggerGraph,
+    ) -> Vec<Diagnostic> {
+        let Some(types) = self.predicate_types(&plan.trigger.atom) else { return Vec::new() };
+        let (findings, handlers) = (self.findings.agent.len(), self.handlers.len());
+        let (waiting, crowded) = (self.open_tests.len(), self.crowded.clone());
+        let id = self.new_test_handler(plan.trigger.operator, &plan.trigger.atom, &types, holes);
+        self.plan_of(id, plan, holes, graph);
+        let found = self.findings.agent.split_off(findings);
+        self.handlers.truncate(handlers);
+        self.covered.retain(|id| id.0 < handlers);
+        for asked in self.test_handlers.values_mut() {
+            asked.retain(|_, id| id.0 < handlers);
+        }
+        self.test_handlers.retain(|_, asked| !asked.is_empty());
+        self.open_tests.truncate(waiting);
+        self.crowded = crowded;
+        found
     }
 
     /// The handler of a test goal that is asked with these holes, if it has plans.
@@ -132,14 +210,14 @@ impl Analysis<'_> {
     ) -> Option<HandlerId> {
         let name = &atom.name.text;
         let key = (operator, TriggerKind::Test, name.clone());
-        if let Some(id) = self.test_handlers.get(&(key.clone(), holes.to_vec())) {
+        if let Some(id) = self.test_handlers.get(&key).and_then(|asked| asked.get(holes)) {
             return Some(*id);
         }
         if !self.test_triggers.contains(&key) {
             return None;
         }
         let id = self.new_test_handler(operator, atom, types, holes);
-        self.test_handlers.insert((key.clone(), holes.to_vec()), id);
+        self.test_handlers.entry(key.clone()).or_default().insert(holes.to_vec(), id);
         self.open_tests.push_back((id, key, holes.to_vec()));
         if operator == Operator::Add {
             let failure = self.test_handler(Operator::Delete, atom, types, holes);
@@ -328,12 +406,12 @@ impl Analysis<'_> {
             Formula::Assign { variable, value } => {
                 let mut asked = scope.asked.iter().filter(|(name, _)| *name == variable.text);
                 let expected = asked.next().map(|(_, ctype)| ctype.clone());
+                check_fresh(variable, scope)?;
                 let resolved = self.typed_value(value, expected, scope);
                 if resolved.is_err() {
                     scope.break_variable(variable);
                 }
                 let (value, ctype) = resolved?;
-                check_fresh(variable, scope)?;
                 Ok(Step::Assign { variable: scope.bind(variable, &ctype), value })
             }
             Formula::Add(atom) => {
@@ -388,6 +466,7 @@ impl Analysis<'_> {
         let patterns = self.question(atom, &types, scope)?;
         let holes: Vec<bool> =
             patterns.iter().map(|pattern| !matches!(pattern, Pattern::Equal(_))).collect();
+        self.check_questions(atom, &holes)?;
         let plans = self.test_handler(Operator::Add, atom, &types, &holes);
         if plans.is_some() {
             if graph.is_recursive(Operator::Add, TriggerKind::Test, &atom.name.text) {
@@ -408,6 +487,27 @@ impl Analysis<'_> {
             }
         }
         Ok(Step::Ask { belief, patterns, plans })
+    }
+
+    /// A test goal with plans is asked in a few ways only; of more it is said once.
+    fn check_questions(&mut self, atom: &Atom, holes: &[bool]) -> Resolved<()> {
+        let name = &atom.name.text;
+        let key = (Operator::Add, TriggerKind::Test, name.clone());
+        let asked = self.test_handlers.get(&key);
+        let known = asked.is_some_and(|asked| asked.contains_key(holes));
+        let ways = asked.map_or(0, HashMap::len);
+        if known || ways < MOST_QUESTIONS || !self.test_triggers.contains(&key) {
+            return Ok(());
+        }
+        if !self.crowded.insert(name.clone()) {
+            return Err(said_already());
+        }
+        Err(Diagnostic::error(
+            format!("`?{name}` is asked in more than {MOST_QUESTIONS} ways"),
+            atom.span.clone(),
+        )
+        .label("other arguments have a value here than before")
+        .help("its plans are translated anew for each way: ask in one of the others, and compare what is answered"))
     }
 
     /// What is given is evaluated before any answer is known.

@@ -22,7 +22,7 @@ mod parser;
 mod properties;
 mod scanner;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use diagnostic::Span;
 
@@ -57,6 +57,40 @@ pub struct Configuration {
     pub preemptive: Vec<ExternalTrigger>,
     /// What must hold in every environment.
     pub properties: Vec<Property>,
+}
+
+impl Configuration {
+    /// Where a compiler may look for each file of `includes`, relative to the folder of the outputs: beside the
+    /// headers that include it, and there.
+    pub(crate) fn included_files(&self) -> BTreeSet<String> {
+        let headers = [&self.settings.header, &self.settings.basics];
+        let folders = headers.map(|file| file.rsplit_once('/').map_or("", |(folder, _)| folder));
+        let names = self.includes.iter().filter_map(|line| {
+            let quoted = line.strip_prefix("#include")?.trim();
+            quoted.get(1..quoted.len().checked_sub(1)?)
+        });
+        names
+            .flat_map(|name| {
+                folders.into_iter().chain([""]).map(move |folder| plain_path(folder, name))
+            })
+            .collect()
+    }
+}
+
+/// The path of a file seen from a folder, without `.`, `//` and what `..` takes back.
+fn plain_path(folder: &str, file: &str) -> String {
+    if file.starts_with('/') {
+        return file.to_owned();
+    }
+    let mut parts: Vec<&str> = Vec::new();
+    for part in folder.split('/').chain(file.split('/')) {
+        match part {
+            "" | "." => {}
+            ".." if parts.last().is_some_and(|last| *last != "..") => _ = parts.pop(),
+            _ => parts.push(part),
+        }
+    }
+    parts.join("/")
 }
 
 /// The `settings` section.

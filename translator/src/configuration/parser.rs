@@ -531,6 +531,7 @@ impl<'a> Parser<'a> {
     /// What is written has names that C can include, stays in its folder, and is no other output.
     fn check_outputs(&mut self) {
         let outputs = self.configuration.settings.outputs();
+        let included = self.configuration.included_files();
         let place =
             |settings: &Settings, key: &str| settings.places.get(key).cloned().unwrap_or_default();
         let mut findings = Vec::new();
@@ -566,6 +567,11 @@ impl<'a> Parser<'a> {
                 findings.push(
                     Diagnostic::error(format!("`{key}` and `{other}` are one file"), span)
                         .help("the second would overwrite the first"),
+                );
+            } else if included.contains(name) {
+                findings.push(
+                    Diagnostic::error(format!("`{key}` is {name}, which is included"), span)
+                        .help("yours would be overwritten: choose another name"),
                 );
             }
         }

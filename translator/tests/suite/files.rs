@@ -87,6 +87,61 @@ fn links_between_outputs_are_noticed() {
     refused(folder.path(), &[], &["a.conf:1:64", "which is written too"]);
 }
 
+/// A header of the user's that the generated ones include is theirs.
+#[test]
+fn what_is_included_is_not_overwritten() {
+    let settings = "input = a.asl; output = a.c; header = user.h; basics = b.h;";
+    let link = "input = a.asl; output = a.c; header = a.h; basics = hard.h;";
+    let inner = "input = a.asl; output = a.c; header = gen/user.h; basics = b.h;";
+    for (settings, include, at) in [
+        (settings, "\"user.h\"", "a.conf:1:50"),
+        (settings, "<user.h>", "a.conf:1:50"),
+        (settings, "\"./x/../user.h\"", "a.conf:1:50"),
+        (link, "\"user.h\"", "a.conf:1:64"),
+        (inner, "\"user.h\"", "a.conf:1:50"),
+        (inner, "\"gen/user.h\"", "a.conf:1:50"),
+    ] {
+        let place = folder(settings);
+        let path = place.path().join("a.conf");
+        let text = format!("{}includes {{ #include {include}\n}};", configuration(settings));
+        std::fs::write(&path, text).unwrap();
+        std::fs::create_dir(place.path().join("gen")).unwrap();
+        std::fs::write(place.path().join("user.h"), "mine").unwrap();
+        std::fs::hard_link(place.path().join("user.h"), place.path().join("hard.h")).unwrap();
+        refused(place.path(), &[], &[at, "which is included"]);
+    }
+}
+
+/// Outputs that are not there yet are known by the folder that they come into.
+#[cfg(unix)]
+#[test]
+fn links_between_folders_are_noticed() {
+    use std::os::unix::fs::symlink;
+
+    let place = folder("input = a.asl; output = x/a.c; header = y/a.c; basics = b.h;");
+    std::fs::create_dir(place.path().join("x")).unwrap();
+    symlink("x", place.path().join("y")).unwrap();
+    refused(place.path(), &[], &["a.conf:1:52", "which is written too"]);
+    assert_eq!(contents(&place.path().join("x")), []);
+
+    for (settings, at) in [
+        ("input = a.asl; output = out/a.c; header = a.h; basics = b.h;", "a.conf:1:36"),
+        ("input = a.asl; output = a.c; header = file.h; basics = b.h;", "a.conf:1:50"),
+    ] {
+        let (place, other) = (folder(settings), tempfile::tempdir().unwrap());
+        symlink(other.path(), place.path().join("out")).unwrap();
+        std::fs::write(other.path().join("file.h"), "mine").unwrap();
+        symlink(other.path().join("file.h"), place.path().join("file.h")).unwrap();
+        refused(place.path(), &[], &[at, "out of the output's folder"]);
+        assert_eq!(contents(other.path()), [("file.h".to_owned(), "mine".to_owned())]);
+    }
+    // A folder that is a link is as good as another where it leads nowhere else.
+    let place = folder("input = a.asl; output = y/a.c; header = y/a.h; basics = b.h;");
+    std::fs::create_dir(place.path().join("x")).unwrap();
+    symlink("x", place.path().join("y")).unwrap();
+    assert!(asl2c(place.path(), &[]).status.success());
+}
+
 #[test]
 fn all_is_written_or_nothing() {
     let files = "input = a.asl; output = a.c; header = a.h; basics = b.h; matrix = m;";
@@ -164,6 +219,25 @@ fn a_report_that_cannot_be_printed_is_an_error() {
         assert_eq!(output.status.code(), Some(1), "{text}");
         assert!(text.contains("cannot print"), "{text}");
     }
+}
+
+/// Nor is help that nobody reads a success, and an agent of which nobody was told is not there.
+#[cfg(unix)]
+#[test]
+fn what_cannot_be_said_is_not_done() {
+    let place = tempfile::tempdir().unwrap();
+    for options in [&["--help"][..], &["--version"], &["verify", "--help"], &["new", "pilot"]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        let output = command.args(options).current_dir(place.path()).stdout(full).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{options:?} {text}");
+        assert!(text.starts_with("error: cannot print"), "{text}");
+        assert_eq!(contents(place.path()), []);
+    }
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    let output = command.args(["new", "pilot"]).current_dir(place.path()).output().unwrap();
+    assert!(output.status.success() && place.path().join("pilot/Makefile").exists());
 }
 
 /// What is in folders finds each other, and is measured as anything else.

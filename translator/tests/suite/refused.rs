@@ -111,6 +111,76 @@ fn one_mistake_is_said_once() {
     );
 }
 
+/// What is said of an agent of test goals.
+fn said(agent: &str) -> String {
+    let configuration = "settings { input = agent.asl; output = a.c; header = a.h; basics = b.h; };\n\
+        basics { void act(int); int count(void); };\n\
+        types { g(void); b(int); p(int, int); h0(int, int, int, int); h1(int, int, int, int); };\n\
+        settables { b; };";
+    let parsed = translator::parse_configuration("agent.conf", configuration).unwrap();
+    translator::translate(parsed, agent).map_or_else(|error| error.to_string(), |_| String::new())
+}
+
+/// A plan that is right, and asked in a way that it is not made for, is no mistake of the plan.
+#[test]
+fn a_question_that_no_plan_answers_is_one_mistake() {
+    const PLANS: &str = "+?p(X, Y) : X > 3 & X \\== 8 <- act(X); Y = X + 5.\n\
+        -?p(X, Y) : X \\== 8 <- ?b(X); Y = count; +p(X, Y).\n+?b(X) : X > 3.\n";
+    insta::assert_snapshot!(said(&format!("!g. +!g <- ?p(X, 8); act(X).\n{PLANS}")), @r"
+    error: the plans of `?p` cannot answer this
+     --> agent.asl:1:13
+      |
+    1 | !g. +!g <- ?p(X, 8); act(X).
+      |             ^^^^^^^ line 2: `X` has no value here
+      |
+      = help: ask `?p(value, New)`, a value where the plan needs one and a new variable where it gives one, or change the plan
+    ");
+    insta::assert_snapshot!(said("!g. +!g <- ?p(4, 9).\n+?p(X, Y) : X > 3 <- Y = 8.\n"), @r"
+    error: the plans of `?p` cannot answer this
+     --> agent.asl:1:13
+      |
+    1 | !g. +!g <- ?p(4, 9).
+      |             ^^^^^^^ line 2: `Y` already has a value
+      |
+      = help: ask `?p(value, New)`, a value where the plan needs one and a new variable where it gives one, or change the plan
+    ");
+    // A mistake of the plan is one however it is asked, and one of another question is another.
+    assert_eq!(
+        errors("!g. +!g <- ?p(X, 8); ?p(3, Y); ?p(3, 4). +?p(X, Y) : X > 3 <- Y = fly(X)."),
+        ["`fly` is not declared"]
+    );
+    let twice = errors("!g. +!g <- ?p(4, 9); ?p(X, 9). +?p(X, Y) <- act(X); Y = 8.");
+    assert_eq!(twice, ["the plans of `?p` cannot answer this"; 2]);
+    assert_eq!(errors("!g. +!g : p(X, Y) <- Y = 8."), ["`Y` already has a value"]);
+    assert_eq!(said(&format!("!g. +!g <- ?p(4, X); act(X).\n{PLANS}")), "");
+}
+
+/// Plans that ask each other in many ways would multiply.
+#[test]
+fn a_question_has_a_few_ways_to_be_asked() {
+    let asked = |ways: u32| {
+        let question = |way: u32| {
+            let given = (0..4).map(|bit| if way >> bit & 1 == 1 { "1" } else { "_" });
+            format!("?h0({})", given.collect::<Vec<_>>().join(", "))
+        };
+        let questions: Vec<String> = (0..ways).map(question).collect();
+        said(&format!(
+            "!g. +!g <- {}.\n+?h0(A, B, C, D) <- ?h1(A, B, C, D).\n+?h1(A, B, C, D) : b(A) & b(B) & b(C) & b(D).",
+            questions.join(";\n")
+        ))
+    };
+    assert_eq!(asked(8), "");
+    insta::assert_snapshot!(asked(11), @r"
+    error: `?h0` is asked in more than 8 ways
+     --> agent.asl:9:2
+      |
+    9 | ?h0(_, _, _, 1);
+      |  ^^^^^^^^^^^^^^ other arguments have a value here than before
+      |
+      = help: its plans are translated anew for each way: ask in one of the others, and compare what is answered
+    ");
+}
+
 #[test]
 fn a_clock_is_a_function_that_tells_a_time() {
     for (clock, expected) in [

@@ -94,6 +94,82 @@ fn each_finding_is_a_line_of_json() {
     assert!(missing[0]["message"].as_str().unwrap().contains("cannot read"));
 }
 
+/// What is denied is an error, and alone of interest to those who want errors only.
+#[test]
+fn what_is_denied_is_an_error() {
+    let folder = folder();
+    let unused = "error[unused-declaration]: 4 actions and functions are never used";
+    let idle = "error[unused-declaration]: `idle` is declared and never used";
+    let summary = "error: 2 of these are denied: nothing is translated";
+    let no_plan = "warning[no-plan]: `+!light` may find no plan";
+    let variable = "warning[unused-variable]: variable `X` is never used";
+    let deny = ["a.conf", "-D", "unused-declaration"];
+    assert_eq!(warned(&asl2c(folder.path(), &deny)), [unused, idle, no_plan, variable, summary]);
+    let quiet = [&deny[..], &["-q"]].concat();
+    assert_eq!(warned(&asl2c(folder.path(), &quiet)), [unused, idle, summary]);
+    let said = asl2c(folder.path(), &[&quiet[..], &["--message-format", "json"]].concat());
+    let said: Vec<serde_json::Value> = (String::from_utf8_lossy(&said.stderr).lines())
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let codes: Vec<&str> = said.iter().filter_map(|finding| finding["code"].as_str()).collect();
+    assert_eq!(codes, ["unused-declaration", "unused-declaration", "denied"]);
+    assert!(said.iter().all(|finding| finding["severity"] == "error"));
+}
+
+/// Whatever is said as JSON has the same keys, and a code.
+#[test]
+fn all_lines_of_json_are_alike() {
+    // Options, what is wrong in the folder, the first code and the exit status.
+    type Case<'a> = (&'a [&'a str], &'a dyn Fn(&Path), &'a str, i32);
+    let json = ["a.conf", "--message-format", "json"];
+    let no_agent = |folder: &Path| std::fs::remove_file(folder.join("a.asl")).unwrap();
+    let wrong = |folder: &Path| std::fs::write(folder.join("a.asl"), "+!light <- off.").unwrap();
+    let unread = |folder: &Path| std::fs::write(folder.join("a.conf"), "settings { }").unwrap();
+    let blocked = |folder: &Path| std::fs::create_dir(folder.join("a.c")).unwrap();
+    let cases: [Case<'_>; 10] = [
+        (&[], &|_| {}, "no-plan", 0),
+        (&["-D", "warnings"], &|_| {}, "no-plan", 1),
+        (&[], &no_agent, "not-read", 1),
+        (&[], &wrong, "refused", 1),
+        (&[], &unread, "refused", 1),
+        (&[], &blocked, "not-written", 1),
+        (&["verify"], &|_| {}, "not-checked", 3),
+        (&["verify", "-q"], &no_agent, "not-read", 1),
+        (&["verify"], &wrong, "refused", 1),
+        (&["verify", "--quiet"], &unread, "refused", 1),
+    ];
+    for (options, spoil, code, status) in cases {
+        let folder = folder();
+        spoil(folder.path());
+        let output = asl2c(folder.path(), &[options, &json].concat());
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{options:?} {text}");
+        for (index, line) in text.lines().enumerate() {
+            let finding: serde_json::Value = serde_json::from_str(line).unwrap();
+            let keys: Vec<&String> = finding.as_object().unwrap().keys().collect();
+            assert_eq!(
+                keys,
+                [
+                    "code",
+                    "column",
+                    "end_column",
+                    "end_line",
+                    "file",
+                    "help",
+                    "label",
+                    "line",
+                    "message",
+                    "rendered",
+                    "severity"
+                ]
+            );
+            assert!(finding["code"].as_str().is_some_and(|code| !code.is_empty()), "{line}");
+            assert!(index > 0 || finding["code"] == code, "{line}");
+        }
+        assert!(!text.is_empty());
+    }
+}
+
 #[test]
 fn a_new_agent_builds_and_runs_at_once() {
     let folder = tempfile::tempdir().unwrap();
@@ -109,8 +185,22 @@ fn a_new_agent_builds_and_runs_at_once() {
     assert_eq!(steps, ["hover", "hover", "land", "land", "land", "", "hover", "hover"]);
     // What is there is not touched, and names are names.
     assert_eq!(asl2c(folder.path(), &["new", "pilot"]).status.code(), Some(1));
-    for name in ["../x", "Pilot", "main", "a b", ""] {
-        assert_eq!(asl2c(folder.path(), &["new", name]).status.code(), Some(1), "{name}");
+    for (name, reason) in [
+        ("../x", "is no name"),
+        ("Pilot", "is no name"),
+        ("sendLand", "then lower-case letters"),
+        ("a b", "is no name"),
+        ("", "is no name"),
+        ("main", "`main` is taken: the C file"),
+        ("actions", "`actions` is taken: the header"),
+        ("run", "`run` is taken: the Makefile"),
+        ("verify", "`verify` is taken: the Makefile"),
+        ("clean", "`clean` is taken: the Makefile"),
+    ] {
+        let output = asl2c(folder.path(), &["new", name]);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{name}");
+        assert!(text.contains(reason), "{text}");
     }
 }
 

@@ -193,6 +193,48 @@ fn the_comparisons_of_properties_are_remembered() {
     check("", "", "level(3).\nlimit(5).\n+!light <- on.", "within(1, level <= limit, on)", false);
 }
 
+#[test]
+fn of_what_holds_nothing_is_said_if_only_failures_are_wanted() {
+    let agent = format!("{WAITING}+!light <- on.\n");
+    let configuration =
+        configuration("", PREEMPTIVE, &agent, "within(1, +!light, on); q: never(on)");
+    let Some(output) = verify(&configuration, &agent, &["-q"]) else { return };
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.starts_with("q: DOES NOT HOLD") && !text.contains("p [R-1]"), "{text}");
+    assert_eq!(output.status.code(), Some(1));
+}
+
+/// A property that compares with a limit that never changes takes nothing from one that compares with its number.
+#[test]
+fn what_is_known_does_not_depend_on_other_properties() {
+    let agent = |compared: &str| {
+        format!(
+            "level(0).\nlimit(2000).\n!wait.\n\
+             +!wait : level(X) & limit(L) & {compared} <- on; !!wait.\n+!wait <- idle; !!wait.\n"
+        )
+    };
+    let number = "within(1, level > 2000, on)";
+    for (compared, other, holds) in [
+        ("X > L", "within(1, level > limit, on)", true),
+        ("L < X", "within(1, limit < level, on)", true),
+        ("X > 2000", "within(1, level > limit, on)", true),
+        ("X > L", "within(1, level >= limit, on)", false),
+    ] {
+        let agent = agent(compared);
+        for (property, expected) in [
+            (format!("{number}; q: {other}"), ["holds", if holds { "holds" } else { "DOES" }]),
+            (format!("{other}; q: {number}"), [if holds { "holds" } else { "DOES" }, "holds"]),
+        ] {
+            let configuration = configuration("", "settables { level; };", &agent, &property);
+            let Some(output) = verify(&configuration, &agent, &[]) else { return };
+            let text = String::from_utf8_lossy(&output.stdout);
+            for (name, expected) in ["p [R-1]", "q"].iter().zip(expected) {
+                assert!(text.contains(&format!("{name}: {expected}")), "{property}\n{agent}{text}");
+            }
+        }
+    }
+}
+
 /// Whatever returns a value is an action all the same, wherever the call stands.
 #[test]
 fn calls_that_return_a_value_are_counted() {

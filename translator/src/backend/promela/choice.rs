@@ -1,6 +1,7 @@
 //! When a context can hold and when it can fail, as far as the model knows.
 
 use super::scale::{Number, Scale};
+use crate::analysis::constants::c_number;
 use crate::configuration::{Cause, Comparison, Formula, Operand};
 use crate::program::{BeliefId, Condition, Pattern, Plan, Program, Value, VariableId};
 use crate::syntax::ast::Relation;
@@ -102,6 +103,36 @@ impl Pair {
     }
 }
 
+/// A belief, and how it compares with a number.
+struct Marked<'a> {
+    belief: &'a str,
+    relation: Relation,
+    mark: Number,
+}
+
+impl<'a> Marked<'a> {
+    /// A comparison with a number, or with a belief that is always the same one.
+    fn of(program: &Program, comparison: &'a Comparison) -> Option<Self> {
+        let Comparison { left, relation, right } = comparison;
+        let find = |name: &str| program.beliefs.iter().position(|belief| belief.name == name);
+        let always = |name: &str| program.fixed(BeliefId(find(name)?)).and_then(Number::of);
+        let right = match right {
+            Operand::Number(number) => {
+                let ctype = program.beliefs.get(find(&left.text)?)?.types.first()?;
+                let text = c_number(number, ctype).ok()?;
+                let mark = Number::of(&Value::Constant(text, ctype.clone()))?;
+                return Some(Self { belief: &left.text, relation: *relation, mark });
+            }
+            Operand::Belief(right) => &right.text,
+        };
+        if let Some(mark) = always(right) {
+            return Some(Self { belief: &left.text, relation: *relation, mark });
+        }
+        let mark = always(&left.text)?;
+        Some(Self { belief: right, relation: mirrored(*relation), mark })
+    }
+}
+
 /// One side of a comparison in a context, as far as it is known.
 #[derive(Debug, Clone, Copy)]
 struct Side<'a> {
@@ -119,9 +150,10 @@ impl Comparisons {
             else {
                 continue;
             };
-            pairs.extend(Pair::of(comparison).filter(|pair| !pairs.contains(pair)));
-            let Some(mark) = Scale::mark(program, comparison) else { continue };
-            let belief = &comparison.left.text;
+            let Some(Marked { belief, mark, .. }) = Marked::of(program, comparison) else {
+                pairs.extend(Pair::of(comparison).filter(|pair| !pairs.contains(pair)));
+                continue;
+            };
             match scales.iter_mut().find(|scale| scale.belief() == belief) {
                 Some(scale) => scale.add(number, mark),
                 None => scales.push(Scale::new(belief, number, mark)),
@@ -137,12 +169,12 @@ impl Comparisons {
 
     /// Whether a property's comparison holds, if all of it is believed.
     pub(super) fn holds(&self, program: &Program, comparison: &Comparison) -> Option<String> {
-        if let Some(pair) = Pair::of(comparison) {
-            let index = self.pairs.iter().position(|other| *other == pair)?;
-            return Some(format!("compared_{index}"));
+        if let Some(Marked { belief, relation, mark }) = Marked::of(program, comparison) {
+            return Some(self.scale(belief)?.holds(relation, mark));
         }
-        let mark = Scale::mark(program, comparison)?;
-        Some(self.scale(&comparison.left.text)?.holds(comparison.relation, mark))
+        let pair = Pair::of(comparison)?;
+        let index = self.pairs.iter().position(|other| *other == pair)?;
+        Some(format!("compared_{index}"))
     }
 
     /// The pairs in which a belief takes part.

@@ -9,9 +9,8 @@ use std::cmp::Ordering;
 use std::ops::RangeInclusive;
 
 use super::choice::or;
-use crate::analysis::constants::{c_number, float, integer};
-use crate::configuration::{Comparison, Operand};
-use crate::program::{Program, Value};
+use crate::analysis::constants::{float, integer};
+use crate::program::Value;
 use crate::syntax::ast::Relation;
 
 /// A number, exactly. Those of one scale are of one kind.
@@ -38,15 +37,6 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// The number of a comparison with one.
-    pub(super) fn mark(program: &Program, comparison: &Comparison) -> Option<Number> {
-        let Operand::Number(number) = &comparison.right else { return None };
-        let compared = |name: &str| name == comparison.left.text;
-        let belief = program.beliefs.iter().find(|belief| compared(&belief.name))?;
-        let ctype = belief.types.first()?;
-        Number::of(&Value::Constant(c_number(number, ctype).ok()?, ctype.clone()))
-    }
-
     pub(super) fn new(belief: &str, property: usize, mark: Number) -> Self {
         Self { belief: belief.to_owned(), marks: vec![mark], properties: vec![property] }
     }
