@@ -185,7 +185,70 @@ pub(super) fn agent(choices: &mut Choices<'_>) -> RandomAgent {
         text.push_str("+!g0 <- .wait(1); a0.\n+!g1(N) <- .wait(N); a1(N).\n");
     }
     let configuration = configuration(choices, &text);
-    RandomAgent { text, configuration }
+    let mut agent = RandomAgent { text, configuration };
+    if choices.chance(50) {
+        for name in PRIVATE {
+            agent.rename(name, HOSTILE[choices.pick(HOSTILE.len())]);
+        }
+    }
+    agent
+}
+
+/// Beliefs and goals that the environment does not name.
+const PRIVATE: [&str; 6] = ["b0", "bb", "bs", "bu", "g2", "g3"];
+/// Names that look like those which generated code makes of the others, or needs itself.
+const HOSTILE: [&str; 28] = [
+    "b_o",
+    "b1_o",
+    "b1_io",
+    "b2_oi",
+    "bd_o",
+    "bu_oo",
+    "g1_2",
+    "g0_2",
+    "failed_g1",
+    "failed_b1",
+    "untest",
+    "test_b1",
+    "tested_b2",
+    "del_b",
+    "add_b",
+    "achieve_g",
+    "set_b",
+    "queue",
+    "event",
+    "args",
+    "b1_t",
+    "believes",
+    "x",
+    "v1",
+    "var_v1",
+    "arg0",
+    "out",
+    "in",
+];
+
+impl RandomAgent {
+    /// Gives a predicate another name, unless that is taken.
+    fn rename(&mut self, from: &str, to: &str) {
+        if words(&self.configuration).any(|word| word == to) {
+            return;
+        }
+        for text in [&mut self.text, &mut self.configuration] {
+            let renamed = words(text).map(|word| if word == from { to } else { word }).collect();
+            *text = renamed;
+        }
+    }
+}
+
+/// Names, and what stands between them.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    text.split_inclusive(move |c| !is_name(c)).flat_map(move |part| {
+        let end = part.trim_end_matches(|c| !is_name(c)).len();
+        let (name, between) = part.split_at(end);
+        [name, between]
+    })
 }
 
 fn configuration(choices: &mut Choices<'_>, agent: &str) -> String {
