@@ -1,9 +1,8 @@
 //! The tick: navdata in, one datagram out, the agent between them.
 //!
-//! A [`Pilot`] is pure. The shell hands it navdata when it arrives ([`Pilot::handle_navdata`]),
-//! what it reads on the control port ([`Pilot::handle_control`]) and the pilot's orders
-//! ([`Pilot::order`]); every 30 ms it calls [`Pilot::tick`] and sends the datagram. It goes
-//! on until [`Pilot::outcome`] tells how the flight ended.
+//! A [`Pilot`] is pure. The shell hands it what arrives ([`Pilot::handle`]): navdata, what it reads on the control
+//! port, the operator's orders. Every 30 ms it calls [`Pilot::tick`], and then sends and shows what there is
+//! ([`Pilot::poll`]). It goes on until [`Pilot::outcome`] tells how the flight ended.
 
 mod control;
 mod decision;
