@@ -16,38 +16,22 @@ const ENOUGH: Duration = Duration::from_secs(25);
 
 /// A drone that hears nothing any more: it flies on by its last sticks, hovers and lands.
 pub(crate) fn unheard(drone: &Drone, see: impl FnMut(&Truth)) {
-    live(drone, Silent(Duration::MAX), Hovers(Duration::ZERO), see);
+    live(drone, Duration::MAX, see);
 }
 
-/// A drone that flies on by its last sticks for so long, is told to hover then, and two seconds later to land.
+/// A drone that flies on by its last sticks for `time`, is told to hover then, and two seconds later to land.
 pub(crate) fn flies_on_and_lands(drone: &Drone, time: Duration, see: impl FnMut(&Truth)) {
-    live(drone, Silent(time), Hovers(HOVERS), see);
+    live(drone, time, see);
 }
 
-/// A drone that is told to hover, and after so long to land.
-pub(crate) fn hovers_and_lands(drone: &Drone, after: Duration, see: impl FnMut(&Truth)) {
-    live(drone, Silent(Duration::ZERO), Hovers(after), see);
-}
-
-/// For how long nothing is said to a drone.
-struct Silent(Duration);
-
-/// For how long it is told to hover before it is told to land.
-struct Hovers(Duration);
-
-fn live(
-    drone: &Drone,
-    Silent(silent): Silent,
-    Hovers(hovers): Hovers,
-    mut see: impl FnMut(&Truth),
-) {
+fn live(drone: &Drone, silent: Duration, mut see: impl FnMut(&Truth)) {
     let mut drone = drone.clone();
     let mut lived = Duration::ZERO;
     let start = drone.time();
     let mut sequence = 0;
     while lived < ENOUGH && !is_at_rest(&drone.truth()) {
         if lived >= silent {
-            let reference = if lived < silent + hovers { Ref::TakeOff } else { Ref::Land };
+            let reference = if lived < silent + HOVERS { Ref::TakeOff } else { Ref::Land };
             let mut datagram = Datagram::new();
             for command in [Command::Ref(reference), Command::Pcmd(Motion::Hover)] {
                 // The first number begins the count anew.
@@ -109,7 +93,7 @@ mod tests {
         let reach_m = |silent| {
             let mut furthest_m = 0.0_f64;
             let mut last = drone.truth();
-            live(&drone, Silent(silent), Hovers(HOVERS), |truth| {
+            live(&drone, silent, |truth| {
                 furthest_m = furthest_m.max(truth.position_m.y - start_m);
                 last = *truth;
             });

@@ -103,11 +103,9 @@ impl Fence {
         let blown = matches!(truth.phase, Phase::Flying | Phase::Landing)
             && (overpowered || self.blown && outside_m > 0.0);
         if blown && !self.blown {
-            // It is carried off: but no further than one that lands in time, whether it flies on by its last
-            // sticks till then or hovers.
+            // It is carried off: but no further than one that lands in time.
             let alone = self.left_alone(drone, |see| {
-                alone::flies_on_and_lands(drone, RESISTS_FOR, &mut *see);
-                alone::hovers_and_lands(drone, RESISTS_FOR, see);
+                alone::flies_on_and_lands(drone, RESISTS_FOR, see);
             });
             self.allowed_m = self.allowed_m.max(alone.outside_m);
         }
