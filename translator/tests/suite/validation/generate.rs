@@ -31,6 +31,8 @@ impl<'a> Choices<'a> {
 pub(super) struct RandomAgent {
     pub(super) text: String,
     pub(super) configuration: String,
+    /// Predicates that have a hostile name.
+    pub(super) hostile: u32,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -149,6 +151,9 @@ fn constant(choices: &mut Choices<'_>, ctype: Type) -> String {
 }
 
 pub(super) fn agent(choices: &mut Choices<'_>) -> RandomAgent {
+    // Chosen first: later there may be no choices left.
+    let is_hostile = choices.chance(50);
+    let names = PRIVATE.map(|name| (name, HOSTILE[choices.pick(HOSTILE.len())]));
     let mut text = String::new();
     for (name, types) in BELIEFS {
         if choices.chance(40) {
@@ -185,11 +190,9 @@ pub(super) fn agent(choices: &mut Choices<'_>) -> RandomAgent {
         text.push_str("+!g0 <- .wait(1); a0.\n+!g1(N) <- .wait(N); a1(N).\n");
     }
     let configuration = configuration(choices, &text);
-    let mut agent = RandomAgent { text, configuration };
-    if choices.chance(50) {
-        for name in PRIVATE {
-            agent.rename(name, HOSTILE[choices.pick(HOSTILE.len())]);
-        }
+    let mut agent = RandomAgent { text, configuration, hostile: 0 };
+    for (from, to) in names.into_iter().filter(|_| is_hostile) {
+        agent.rename(from, to);
     }
     agent
 }
@@ -238,6 +241,7 @@ impl RandomAgent {
             let renamed = words(text).map(|word| if word == from { to } else { word }).collect();
             *text = renamed;
         }
+        self.hostile += 1;
     }
 }
 

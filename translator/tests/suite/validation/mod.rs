@@ -19,15 +19,24 @@ use crate::harness::from_environment;
 const SEQUENCES: usize = 10;
 const USUAL_AGENTS: u32 = 150;
 
-/// Runs one agent both ways; says whether it was one that translates.
-fn validate(choices: &[u8]) -> Result<bool, TestCaseError> {
+/// How many agents translate, and how many of these have hostile names.
+#[derive(Debug, Clone, Copy, Default)]
+struct Validated {
+    agents: u32,
+    hostile: u32,
+}
+
+/// Runs one agent both ways.
+fn validate(choices: &[u8]) -> Result<Validated, TestCaseError> {
     let mut choices = Choices::new(choices);
     let agent = generate::agent(&mut choices);
     let sequences: Vec<_> = (0..SEQUENCES).map(|_| generate::sequence(&mut choices)).collect();
-    let Some(interpreted) = interpreted::run(&agent, &sequences) else { return Ok(false) };
+    let Some(interpreted) = interpreted::run(&agent, &sequences) else {
+        return Ok(Validated::default());
+    };
     let compiled = compiled::run(&agent, &sequences).map_err(TestCaseError::fail)?;
     if interpreted == compiled {
-        return Ok(true);
+        return Ok(Validated { agents: 1, hostile: u32::from(agent.hostile > 0) });
     }
     let first = interpreted.lines().zip(compiled.lines()).position(|(a, b)| a != b);
     Err(TestCaseError::fail(format!(
@@ -55,10 +64,14 @@ fn validation_of_random_agents() {
                     failure_persistence: None,
                     ..Config::default()
                 };
-                let translated = std::cell::Cell::new(0_u32);
+                let translated = std::cell::Cell::new(Validated::default());
                 let choices = proptest::collection::vec(proptest::num::u8::ANY, 50..700);
                 let result = TestRunner::new_with_rng(config, rng).run(&choices, |choices| {
-                    translated.set(translated.get() + u32::from(validate(&choices)?));
+                    let (before, one) = (translated.get(), validate(&choices)?);
+                    translated.set(Validated {
+                        agents: before.agents + one.agents,
+                        hostile: before.hostile + one.hostile,
+                    });
                     Ok(())
                 });
                 result.unwrap_or_else(|error| panic!("{error}"));
@@ -66,9 +79,16 @@ fn validation_of_random_agents() {
             })
         })
         .collect();
-    let translated: u32 = threads.into_iter().map(|thread| thread.join().unwrap()).sum();
-    println!("{translated} of {cases} agents translated, {SEQUENCES} sequences each: all agree");
+    let validated: Vec<Validated> =
+        threads.into_iter().map(|thread| thread.join().unwrap()).collect();
+    let translated: u32 = validated.iter().map(|one| one.agents).sum();
+    let hostile: u32 = validated.iter().map(|one| one.hostile).sum();
+    println!(
+        "{translated} of {cases} agents translated, {hostile} of them with hostile names, \
+         {SEQUENCES} sequences each: all agree"
+    );
     assert!(translated * 2 > cases, "most agents should translate, {translated} of {cases} did");
+    assert!(hostile * 3 > translated, "{hostile} of {translated} have hostile names");
 }
 
 /// Goals that do nothing but defer others and say that they run.
