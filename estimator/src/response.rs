@@ -126,6 +126,9 @@ struct Axis {
     /// The measured velocity, smoothed.
     measured_m_s: f64,
     recent: VecDeque<Moment>,
+    /// The tilt moves the drone, and the velocity does not show it. Judged anew with each moment that is kept:
+    /// full navdata come four times as often.
+    is_dead: bool,
 }
 
 /// What an axis did at one moment of the last seconds.
@@ -193,9 +196,10 @@ impl Response {
         self.turn.compare(measured.yaw_deg, turn_deg, step_s, turn_deg_s, wrap_deg);
         let [right, forward] = &mut self.axes;
         let (velocity_m_s, tilt_rad) = (measured.velocity_m_s, measured.tilt_rad);
-        right.watch(measured.at_s, step_s, velocity_m_s.x, tilt_rad.x);
-        forward.watch(measured.at_s, step_s, velocity_m_s.y, tilt_rad.y);
-        if self.axes.iter().any(|axis| axis.is_dead(measured.at_s, limits.tilt_rad)) {
+        let (at_s, full_rad) = (measured.at_s, limits.tilt_rad);
+        right.watch(at_s, step_s, velocity_m_s.x, tilt_rad.x, full_rad);
+        forward.watch(at_s, step_s, velocity_m_s.y, tilt_rad.y, full_rad);
+        if self.axes.iter().any(|axis| axis.is_dead) {
             Some(Quantity::Velocity)
         } else if self.climb.is_missing() {
             Some(Quantity::Altitude)
@@ -226,10 +230,18 @@ impl Response {
 
 impl Axis {
     fn new() -> Self {
-        Self { least_m_s: 0.0, measured_m_s: 0.0, recent: VecDeque::with_capacity(AXIS_MEMORY) }
+        let recent = VecDeque::with_capacity(AXIS_MEMORY);
+        Self { least_m_s: 0.0, measured_m_s: 0.0, recent, is_dead: false }
     }
 
-    fn watch(&mut self, at_s: f64, step_s: f64, velocity_m_s: f64, tilt_rad: f64) {
+    fn watch(
+        &mut self,
+        at_s: f64,
+        step_s: f64,
+        velocity_m_s: f64,
+        tilt_rad: f64,
+        full_tilt_rad: f64,
+    ) {
         let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * tilt_rad.tan();
         self.least_m_s += (pull_m_s2 - LARGEST_DRAG_1_S * self.least_m_s) * step_s;
         let share = 1.0 - (-step_s / SMOOTHING_S).exp();
@@ -240,6 +252,8 @@ impl Axis {
             }
             let Self { least_m_s, measured_m_s, .. } = *self;
             self.recent.push_back(Moment { at_s, tilt_rad, least_m_s, measured_m_s });
+            self.is_dead =
+                self.misses_swings(at_s) || self.stands_while_leaning(at_s, full_tilt_rad);
         }
     }
 
@@ -247,11 +261,6 @@ impl Axis {
     fn within(&self, at_s: f64, window_s: f64) -> impl ExactSizeIterator<Item = &Moment> + Clone {
         let first = self.recent.partition_point(|then| at_s - then.at_s > window_s);
         self.recent.range(first..)
-    }
-
-    /// Whether the tilt moves the drone, and the velocity does not show it.
-    fn is_dead(&self, at_s: f64, full_tilt_rad: f64) -> bool {
-        self.misses_swings(at_s) || self.stands_while_leaning(at_s, full_tilt_rad)
     }
 
     /// The tilt swings, and the velocity does not. A steady wind moves neither.
@@ -282,6 +291,7 @@ impl Axis {
         self.least_m_s = 0.0;
         self.measured_m_s = 0.0;
         self.recent.clear();
+        self.is_dead = false;
     }
 }
 
@@ -458,6 +468,27 @@ mod tests {
         };
         // One that rises faster is a storm, for which the drone lands in any case.
         assert_eq!(found(leaning, 40, gently), None);
+    }
+
+    #[test]
+    fn a_drone_that_begins_to_lean_and_seems_to_stand_is_noticed_before_its_way_is_forgotten() {
+        const DIES_S: f64 = 6.0;
+        let flies = swinging(0.6);
+        let dies = |rattle_m_s: f64| {
+            let flies = &flies;
+            move |at_s: f64| match at_s {
+                ..DIES_S => flies(at_s),
+                _ => Measured {
+                    tilt_rad: Vector2::new(0.2, 0.0),
+                    velocity_m_s: Vector2::new(rattle_m_s * (31.0 * at_s).sin(), 0.0),
+                    ..still(at_s)
+                },
+            }
+        };
+        // The way before fills the windows of three and eight seconds.
+        let (at_s, which) = found(Sticks::default(), 12, dies(0.01)).unwrap();
+        assert_eq!(which, Quantity::Velocity);
+        assert!((DIES_S + LEANS_S - 0.2..DIES_S + LEANS_S + 0.3).contains(&at_s), "{at_s}");
     }
 
     /// The tilt swings by 12 degrees, and the velocity follows by a share of gravity's pull, on top of

@@ -505,10 +505,10 @@ impl TickLoop {
             sleep(self.deadline.saturating_sub(now));
             self.deadline += TICK;
             let now = self.start.elapsed();
-            let said = self.pilot.part(now).is_ok();
-            let Some(Transmit::Command { datagram, .. }) =
-                self.pilot.poll_transmit().filter(|_| said)
-            else {
+            if self.pilot.part(now).is_err() {
+                break;
+            }
+            let Some(Transmit::Command { datagram, .. }) = self.pilot.poll_transmit() else {
                 // The drone was never spoken to.
                 break;
             };
