@@ -175,6 +175,42 @@ fn the_pilots_order_lands_in_the_middle_of_a_step() {
     assert!(flight.duration < 13 * SECOND);
 }
 
+/// Each way takes longer than two ticks: the drone is seen on the ground while the take-off is on its way to it.
+#[test]
+fn a_landing_ordered_right_after_the_take_off_keeps_the_drone_down() {
+    let link = LinkFaults {
+        delay: Duration::from_millis(42),
+        jitter: Duration::from_millis(15),
+        ..LinkFaults::default()
+    };
+    let mut overtaken = 0;
+    for ms in (2000..5000).step_by(30) {
+        let ordered_at = Duration::from_millis(ms);
+        let simulation = Simulation {
+            world: WorldConfig { link, ..WorldConfig::default() },
+            orders: vec![(ordered_at, PilotOrder::Land)],
+            aftermath: 3 * SECOND,
+            ..Simulation::default()
+        };
+        let mut rises = false;
+        let flight = simulation
+            .fly_watched(plan(SQUARE), |moment| {
+                // By then it is down again wherever the landing met it.
+                let late = moment.now > ordered_at + 8 * SECOND;
+                rises |= late && moment.truth.phase == Phase::Flying;
+                overtaken += u32::from(
+                    moment.now < ordered_at + SECOND
+                        && matches!(moment.truth.phase, Phase::TakingOff { .. }),
+                );
+            })
+            .unwrap();
+        assert!(!rises, "ordered at {ms} ms: {:?}", flight.events);
+        assert_eq!(flight.outcome, Outcome::Interrupted, "ordered at {ms} ms");
+        assert_eq!(flight.final_truth.phase, Phase::Landed, "ordered at {ms} ms");
+    }
+    assert!(overtaken > 0, "none came in the take-off");
+}
+
 #[test]
 fn the_pilots_order_is_obeyed_at_every_moment() {
     for tenths in 0..250 {
