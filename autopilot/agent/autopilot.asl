@@ -7,8 +7,8 @@
 // The environment tells where the drone is and how it is (`position`, `battery`, `blindFor`,
 // `doubt`, `saturatedFor`, `wind`), for how long it has been doing the same (`takingOffFor`,
 // `approachingFor`, `stayingFor`, `descendingFor`) and how orders are to be flown (`reachDistance`,
-// `stayDistance`, `stayTime`); it orders `takeOff`, `goTo`, `hold`, `steer` and `land`. The last
-// three pre-empt whatever runs.
+// `stayDistance`, `stayTime`); it orders `takeOff`, `goTo`, `newMission`, `hold`, `steer` and `land`.
+// The last four pre-empt whatever runs, but nothing except `hold` and `steer` ends a landing.
 
 // ---- Limits. Change them with care.
 
@@ -237,21 +237,52 @@ descendingFor(0).
 @danger_staying[req("SAF-4"), req("SAF-5")]
 -!stay <- !goDown; !comeDown.
 
-// ---- The pilot's hand. Hold where we are, until told otherwise. In danger it does not keep the
+// ---- A mission was loaded, replaced or cleared. What was ordered for the one before is given up:
+// hold where we are until an order of the new one comes. A landing goes on, by the drone itself.
+
++!newMission : onGround
+  <- sendStandby;
+     !!wait.
+
+@landing_stays[req("SAF-2")]
++!newMission : comingDown
+  <- -target(_, _, _, _);
+     sendLand;
+     !comeDown.
+
++!newMission : position(X, Y, Z, Yaw)
+  <- !watch;
+     +target(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw);
+     !!wait.
+
++!newMission
+  <- !watch;
+     -target(_, _, _, _);
+     sendHover;
+     !!wait.
+
+@danger_between_missions[req("SAF-4"), req("SAF-5")]
+-!newMission <- !goDown; !comeDown.
+
+// ---- Manual control. Hold where we are, until told otherwise. In danger it does not keep the
 // drone in the air either.
 
 +!hold : onGround
-  <- sendStandby;
+  <- -comingDown;
+     sendStandby;
      !!wait.
 
 +!hold : position(X, Y, Z, Yaw)
   <- !watch;
+     -comingDown;
      +target(X, Y, Z, Yaw);
      sendStay(X, Y, Z, Yaw);
      !!wait.
 
 +!hold
   <- !watch;
+     -comingDown;
      -target(_, _, _, _);
      sendHover;
      !!wait.
@@ -261,27 +292,32 @@ descendingFor(0).
 
 // As the sticks say, as long as they are moved.
 +!steer : onGround
-  <- sendStandby;
+  <- -comingDown;
+     sendStandby;
      !!wait.
 
 +!steer : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
   <- !watch;
+     -comingDown;
      sendHover;
      !!wait.
 
 +!steer : steering
   <- !watch;
+     -comingDown;
      sendSticks;
      !steer.
 
 +!steer : position(X, Y, Z, Yaw)
   <- !watch;
+     -comingDown;
      +target(X, Y, Z, Yaw);
      sendStay(X, Y, Z, Yaw);
      !!wait.
 
 +!steer
   <- !watch;
+     -comingDown;
      sendHover;
      !!wait.
 
@@ -307,17 +343,20 @@ descendingFor(0).
     & blindFor(Blind) & holdWhenBlind(Patience) & Blind <= Patience
     & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit
     & position(X, Y, Z, Yaw) & landingHeight(Low) & Z > Low
-  <- +target(X, Y, Low, Yaw);
+  <- +comingDown;
+     +target(X, Y, Low, Yaw);
      sendDescent(X, Y, Low, Yaw).
 
 @go_down[req("SAF-2")]
 +!goDown
-  <- -target(_, _, _, _);
+  <- +comingDown;
+     -target(_, _, _, _);
      sendLand.
 
 @landed[req("SAF-2")]
 +!comeDown : onGround
-  <- sendStandby;
+  <- -comingDown;
+     sendStandby;
      reportDone;
      !!wait.
 

@@ -19,7 +19,7 @@ const HOVERING: Senses = Senses { on_ground: false, hovering: true, ..GROUND };
 const TARGET: Pose = Pose { x_m: 1.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 };
 
 /// The state is all the memory that the agent uses; it must not grow unseen.
-const _: () = assert!(STATE_BYTES <= 544);
+const _: () = assert!(STATE_BYTES <= 560);
 
 /// An agent and what it senses.
 struct Bench {
@@ -524,5 +524,50 @@ fn every_event_finds_a_plan() {
             }
             assert_eq!(bench.agent.unhandled_events(), 0, "{order} {first:?} {then:?}");
         }
+    }
+}
+
+#[test]
+fn a_new_mission_ends_what_was_ordered_and_lifts_nothing() {
+    let mut bench = Bench::new(GROUND);
+    assert!(bench.agent.achieve_new_mission());
+    assert_eq!(bench.step(), (Some(AgentCommand::Standby), None));
+    bench.senses = HOVERING;
+    bench.go_to(TARGET);
+    assert_eq!(bench.step().0, Some(AgentCommand::GoTo(TARGET)));
+    assert!(bench.agent.achieve_new_mission());
+    let here = HOVERING.pose.unwrap();
+    for _ in 0..3 {
+        assert_eq!(
+            bench.step(),
+            (Some(AgentCommand::GoTo(here)), None),
+            "it holds, and reports nothing"
+        );
+    }
+    bench.go_to(TARGET);
+    assert_eq!(bench.step().0, Some(AgentCommand::GoTo(TARGET)));
+}
+
+#[test]
+fn a_new_mission_takes_no_landing_back() {
+    for wind in [0.0, 0.3] {
+        let mut bench = Bench::new(HOVERING);
+        bench.senses.pose = Some(Pose { z_m: 1.0, ..TARGET });
+        bench.senses.wind = wind;
+        assert!(bench.agent.achieve_land());
+        bench.step();
+        assert!(bench.agent.achieve_new_mission());
+        for _ in 0..3 {
+            assert_eq!(bench.step().0, Some(AgentCommand::Land), "in a wind of {wind}");
+        }
+        bench.senses = GROUND;
+        assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
+        // The next flight is not that landing.
+        assert!(bench.agent.achieve_take_off());
+        assert_eq!(bench.step().0, Some(AgentCommand::TakeOff));
+        bench.senses = HOVERING;
+        bench.step();
+        assert!(bench.agent.achieve_new_mission());
+        assert!(matches!(bench.step().0, Some(AgentCommand::GoTo(_))));
     }
 }
