@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use autopilot::pilot::{FlightEvent, Status};
 use autopilot::plan::Step;
+use autopilot::vehicle::{FlightEvent, Status};
 use diagnostic::is_printable;
 use serde_json::{Value, json};
 
@@ -41,6 +41,9 @@ fn escaped(json: &str) -> String {
 pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
     match message {
         Message::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
+        Message::Event(at, FlightEvent::Landed) => {
+            json!({ "type": "landed", "t_s": at.as_secs_f64() })
+        }
         Message::Event(at, event) => {
             let step = match event {
                 FlightEvent::StepStarted { step } | FlightEvent::StepDone { step } => Some(*step),
@@ -64,6 +67,26 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
             "step": null,
             "command": null,
         }),
+        Message::Mission(steps) => json!({
+            "type": "mission",
+            "steps": steps.iter().map(|step| step.text.as_str()).collect::<Vec<_>>(),
+        }),
+        Message::Readiness(at, reasons) => json!({
+            "type": "ready",
+            "t_s": at.as_secs_f64(),
+            "ready": reasons.is_empty(),
+            "reasons": reasons.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        }),
+        Message::Ended(at, outcome, report) => json!({
+            "type": "flight_ended",
+            "t_s": at.as_secs_f64(),
+            "outcome": outcome.to_string(),
+            "exit_status": outcome.exit_status(),
+            "steps": report.steps,
+            "steps_done": report.steps_done,
+            "flight_time_s": report.flight_time().map(|time| time.as_secs_f64()),
+            "final_error_m": report.final_error_m(),
+        }),
         Message::Waypoint(waypoint) => json!({
             "type": "target",
             "t_s": waypoint.at.as_secs_f64(),
@@ -80,7 +103,8 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "phase": phase.name(),
                 "step": step,
                 "steps": steps,
-                "plan_waits": status.plan_waits,
+                "mission_waits": status.mission_waits,
+                "controls": status.controls.map(|operator| operator.to_string()),
                 "pose": Place::from(&status.pose),
                 "target": target.map(|target| Place::from(&target)),
                 "distance_m": distance_m,
@@ -100,12 +124,16 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
 }
 
 /// How it ended.
-pub(crate) fn end(finished: &FinishedFlight, recorded: Option<&Recorded>) -> Value {
+pub(crate) fn end(
+    finished: &FinishedFlight,
+    recorded: Option<&Recorded>,
+    exit_status: u8,
+) -> Value {
     let report = &finished.report;
     json!({
         "type": "end",
         "outcome": finished.outcome.to_string(),
-        "exit_status": finished.outcome.exit_status(),
+        "exit_status": exit_status,
         "steps": report.steps,
         "steps_done": report.steps_done,
         "flight_time_s": report.flight_time().map(|time| time.as_secs_f64()),

@@ -9,11 +9,11 @@ use std::time::Duration;
 use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{Input, Output, Pilot, Transmit};
 use autopilot::plan::{Plan, PlanError};
+use autopilot::vehicle::{Input, Output, Transmit, Vehicle};
 use diagnostic::printable;
 
-use crate::recording::{Entry, Log, Tick, Timing};
+use crate::recording::{Entry, Log, OrderError, Tick, Timing};
 use crate::settings::{Settings, SettingsError};
 
 /// Why a log cannot be flown again.
@@ -25,10 +25,13 @@ pub enum ReplayError {
     /// Its plan is refused today.
     #[error("the log's plan is refused today:\n{0}")]
     Plan(#[from] PlanError),
+    /// An order in it is refused today.
+    #[error(transparent)]
+    Order(#[from] OrderError),
     /// Its limits cannot be sent to a drone.
     #[error(transparent)]
     Config(#[from] SettingError),
-    /// See [`Pilot::tick`].
+    /// See [`Vehicle::tick`].
     #[error(transparent)]
     Encode(#[from] EncodeError),
     /// Nothing was flown.
@@ -82,8 +85,13 @@ impl Replay {
     /// [`ReplayError`] if plan or settings are refused today, or nothing was flown.
     pub fn new(log: &Log) -> Result<Self, ReplayError> {
         let config = Settings::parse("pilot.toml", &log.settings)?.pilot_config(log.z_origin);
-        let plan = Plan::parse_within(&log.plan_name, &log.plan, &config.limits)?;
-        let mut pilot = Pilot::new(plan, &config)?;
+        // A log without a plan is a vehicle's, which was loaded with its missions by orders.
+        let mut vehicle = if log.plan.is_empty() {
+            Vehicle::new(&config)?
+        } else {
+            let plan = Plan::parse_within(&log.plan_name, &log.plan, &config.limits)?;
+            Vehicle::flying(plan, &config)?
+        };
         let mut replay = Self {
             ticks: 0,
             same_datagrams: 0,
@@ -95,13 +103,16 @@ impl Replay {
         let mut parted = false;
         for (at, entry) in &log.entries {
             match entry {
-                Entry::Navdata(packet) => pilot.handle(*at, Input::Navdata(packet)),
-                Entry::Control(bytes) => pilot.handle(*at, Input::Control(bytes)),
-                Entry::Order(order) => pilot.handle(*at, Input::Order(*order)),
+                Entry::Navdata(packet) => vehicle.handle(*at, Input::Navdata(packet)),
+                Entry::Control(bytes) => vehicle.handle(*at, Input::Control(bytes)),
+                Entry::Order(order) => {
+                    let (by, order) = order.given(&config.limits)?;
+                    vehicle.handle(*at, Input::Order(by, order));
+                }
                 Entry::Decoded(_) | Entry::Event { .. } | Entry::Outcome { .. } => {}
                 Entry::Tick(recorded) => {
-                    pilot.tick(*at)?;
-                    while let Some(output) = pilot.poll() {
+                    vehicle.tick(*at)?;
+                    while let Some(output) = vehicle.poll() {
                         if let Output::Transmit(Transmit::Command {
                             datagram,
                             decision: Some(decision),
@@ -114,7 +125,7 @@ impl Replay {
                 }
             }
         }
-        replay.outcome = pilot.outcome().cloned();
+        replay.outcome = vehicle.outcome().cloned();
         if replay.ticks == 0 { Err(ReplayError::Empty) } else { Ok(replay) }
     }
 

@@ -6,8 +6,8 @@
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
-use autopilot::pilot::{NavdataRate, PilotConfig};
 use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::vehicle::{NavdataRate, VehicleConfig};
 use estimator::{DroneLimits, EstimatorConfig};
 use nalgebra::Vector2;
 use pid::{CascadeConfig, Law, PidGains};
@@ -254,7 +254,7 @@ impl Settings {
     }
 
     /// What these settings mean for a flight.
-    pub fn pilot_config(&self, z_origin: ZOrigin) -> PilotConfig {
+    pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
         let Self { fence, drone, delays, airframe, estimator, controller } = self;
         let limits = DroneLimits {
             tilt_rad: drone.tilt_max_deg.to_radians(),
@@ -262,7 +262,7 @@ impl Settings {
             turn_deg_s: drone.turn_max_deg_s,
         };
         let ms = |delay_ms: u32| Duration::from_millis(delay_ms.into());
-        PilotConfig {
+        VehicleConfig {
             limits: FlightLimits {
                 floor_m: fence.floor_m,
                 ceiling_m: fence.ceiling_m,
@@ -397,7 +397,7 @@ mod tests {
         let settings = Settings::parse("pilot.toml", DEFAULTS).unwrap();
         assert_eq!(settings, Settings::default());
         let config = settings.pilot_config(ZOrigin::Hover);
-        assert_eq!(config, PilotConfig::default());
+        assert_eq!(config, VehicleConfig::default());
         // Every setting is documented.
         for line in settings.to_toml().unwrap().lines().filter(|line| line.contains('=')) {
             let name = line.split(' ').next().unwrap();

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
-use autopilot::pilot::Stage;
+use autopilot::vehicle::Stage;
 
 use crate::realtime::Realtime;
 

@@ -1,6 +1,6 @@
 //! The pilot of an AR.Drone 2.0, without any input or output: bytes and time in, one datagram every 30 ms out.
 //!
-//! Inside [`Pilot`] data goes round one way: navdata → estimate → beliefs → the agent's decision → the
+//! Inside [`Vehicle`] data goes round one way: navdata → estimate → beliefs → the agent's decision → the
 //! controller → command. The agent is `agent/autopilot.asl`, translated to C when this crate is built.
 //!
 //! Nothing here reads a clock, opens a socket or a file, or starts a thread: the crate has no dependency that
@@ -8,7 +8,7 @@
 //!
 //! - [`plan`]: flight plans as text.
 //! - [`mission`]: which step of the plan is next, and where that is.
-//! - [`pilot`]: the tick.
+//! - [`vehicle`]: the tick.
 //! - [`safety`]: what the agent may not overrule.
 //! - [`outcome`]: how a flight ends.
 #![deny(unsafe_code)]
@@ -16,10 +16,10 @@
 pub mod agent;
 pub mod mission;
 pub mod outcome;
-pub mod pilot;
 pub mod plan;
 pub mod safety;
+pub mod vehicle;
 
 pub use pid::{Demand, Pose};
-pub use pilot::{Pilot, PilotConfig};
 pub use plan::Plan;
+pub use vehicle::{Vehicle, VehicleConfig};

@@ -1,11 +1,12 @@
-//! Which step of the plan is next.
+//! What is to be flown, and how far the flight has come.
 //!
-//! What a step means is the plan's business; here is how far the flight has come, and where it was then.
+//! A mission is a plan that was loaded, commands that were appended to it, or both. What a command means is
+//! the plan's business ([`crate::plan`]); here is which of them is next.
 
 use pid::Pose;
 
 use crate::agent::ApproachSettings;
-use crate::plan::{AgentOrder, FlightLimits, Interpreter, Plan};
+use crate::plan::{AgentOrder, Command, Commands, DryRun, FlightLimits, Interpreter, Plan, Step};
 
 /// The order that is due.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,24 +28,100 @@ impl Due {
     }
 }
 
-/// Progress through a plan.
+/// Why commands cannot stand at the end of a mission: each reason, as [`Plan::parse`] would give it.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .reasons.join("; "))]
+pub struct AppendError {
+    /// Never empty.
+    pub reasons: Vec<String>,
+}
+
+/// The mission of a vehicle; it may be empty.
 #[derive(Debug)]
 pub struct Mission {
-    plan: Plan,
+    limits: FlightLimits,
+    steps: Vec<Step>,
     next: usize,
     interpreter: Interpreter,
 }
 
 impl Mission {
-    /// A plan at its beginning.
-    pub fn new(plan: Plan, limits: FlightLimits) -> Self {
-        Self { plan, next: 0, interpreter: Interpreter::new(limits) }
+    /// An empty mission within these limits.
+    pub fn new(limits: FlightLimits) -> Self {
+        Self { limits, steps: Vec::new(), next: 0, interpreter: Interpreter::new(limits) }
+    }
+
+    /// Takes a plan in place of what was there. Where coordinates begin stays the same while the drone is
+    /// `airborne`.
+    pub fn load(&mut self, plan: Plan, airborne: bool) {
+        self.steps = plan.into_steps();
+        self.next = 0;
+        self.interpreter =
+            if airborne { self.interpreter.of_new_plan() } else { Interpreter::new(self.limits) };
+    }
+
+    /// Adds commands at the end, before a landing that the plan did not spell out. The drone is at `here`,
+    /// and `due` is what it is doing.
+    ///
+    /// # Errors
+    /// [`AppendError`] if a command leads outside the fence or does not fit there.
+    pub fn append(
+        &mut self,
+        commands: Commands,
+        here: &Pose,
+        airborne: bool,
+        due: Option<Due>,
+    ) -> Result<(), AppendError> {
+        let end = self.steps.len() - usize::from(self.lands_implicitly());
+        let next = if commands.clears() { end } else { self.next.min(end) };
+        let mut run = DryRun::from_here(self.interpreter.clone(), *here, airborne);
+        run.finish(due.map(|due| due.order));
+        for step in self.steps.get(next..end).unwrap_or_default() {
+            run.step(step.command);
+        }
+        let reasons = commands.problems_behind(run, &self.limits);
+        if !reasons.is_empty() {
+            return Err(AppendError { reasons });
+        }
+        if commands.clears() {
+            self.steps.drain(self.next.min(end)..end);
+        }
+        let end = self.steps.len() - usize::from(self.lands_implicitly());
+        self.steps.splice(end..end, commands.into_steps());
+        Ok(())
+    }
+
+    /// Drops everything. The reference and the settings stay as they are.
+    pub fn clear(&mut self) {
+        self.steps.clear();
+        self.next = 0;
+    }
+
+    /// Goes back to the first step, on the ground.
+    pub fn rewind(&mut self) {
+        self.next = 0;
+        self.interpreter = Interpreter::new(self.limits);
+    }
+
+    /// The commands in order.
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// Whether it has steps, and all of them have been begun.
+    pub fn has_ended(&self) -> bool {
+        !self.steps.is_empty() && self.next >= self.steps.len()
+    }
+
+    /// Whether a take-off is among the steps.
+    pub fn takes_off(&self) -> bool {
+        self.steps.iter().any(|step| matches!(step.command, Command::TakeOff { .. }))
     }
 
     /// Carries out the settings that come next and returns the order behind them; nothing at the
-    /// end of the plan. `pose` is where the drone is.
+    /// end of the mission. `pose` is where the drone is.
     pub fn advance(&mut self, pose: &Pose) -> Option<Due> {
-        while let Some(command) = self.plan.steps().get(self.next).map(|step| step.command) {
+        while let Some(command) = self.steps.get(self.next).map(|step| step.command) {
             let step = self.next;
             self.next += 1;
             if let Some(order) = self.interpreter.carry_out(command, pose) {
@@ -54,14 +131,14 @@ impl Mission {
         None
     }
 
-    /// The agent has taken off, and the drone is at `pose`. To be called before the plan advances.
+    /// The agent has taken off, and the drone is at `pose`. To be called before the mission advances.
     pub fn take_off_ended(&mut self, pose: &Pose) {
         self.interpreter.take_off_ended(pose);
     }
 
     /// The nearest place in the fence, at least `by_m` inside across the ground.
     pub fn inside(&self, target: &Pose, by_m: f64) -> Pose {
-        self.interpreter.limits().nearest_inside(target, by_m)
+        self.limits.nearest_inside(target, by_m)
     }
 
     /// How orders are to be flown now.
@@ -74,9 +151,19 @@ impl Mission {
         self.interpreter.max_control()
     }
 
-    /// Whether the plan may start with a drone that is in the air.
+    /// Whether the mission may start with a drone that is in the air.
     pub fn takes_over(&self) -> bool {
-        self.plan.takes_over()
+        crate::plan::takes_over(&self.steps)
+    }
+
+    /// How long it takes from its beginning.
+    pub fn expected_time(&self) -> std::time::Duration {
+        crate::plan::expected_time(&self.steps, &self.limits)
+    }
+
+    /// Whether the last step is a landing that the plan did not spell out.
+    fn lands_implicitly(&self) -> bool {
+        self.steps.last().is_some_and(Step::is_implied)
     }
 }
 
@@ -87,7 +174,9 @@ mod tests {
     const HOVER: Pose = Pose { x_m: 0.1, y_m: -0.1, z_m: 0.8, yaw_deg: 2.0 };
 
     fn mission(text: &str) -> Mission {
-        Mission::new(Plan::parse("plan", text).unwrap(), FlightLimits::default())
+        let mut mission = Mission::new(FlightLimits::default());
+        mission.load(Plan::parse("plan", text).unwrap(), false);
+        mission
     }
 
     #[test]
@@ -130,5 +219,77 @@ mod tests {
         assert!((mission.settings().reach_distance_m - 0.2).abs() < 1e-9);
         mission.advance(&HOVER);
         assert!((mission.settings().reach_distance_m - 0.1).abs() < 1e-9);
+    }
+
+    fn append(mission: &mut Mission, text: &str, due: Option<Due>) -> Result<(), String> {
+        let commands = Commands::parse("command", text).unwrap();
+        let airborne = due.is_some();
+        let here = if airborne { HOVER } else { Pose::default() };
+        mission.append(commands, &here, airborne, due).map_err(|error| error.to_string())
+    }
+
+    fn texts(mission: &Mission) -> Vec<&str> {
+        mission.steps().iter().map(|step| step.text.as_str()).collect()
+    }
+
+    #[test]
+    fn commands_are_appended_before_a_landing_that_nobody_wrote() {
+        let mut implied = mission("takeoff\ngoto 0 1 0 0");
+        append(&mut implied, "goto 0 2 0 0", None).unwrap();
+        assert_eq!(texts(&implied), ["takeoff", "goto 0 1 0 0", "goto 0 2 0 0", "land"]);
+        let mut written = mission("takeoff\nland");
+        let error = append(&mut written, "goto 0 2 0 0", None).unwrap_err();
+        assert!(error.contains("on the ground"), "{error}");
+        append(&mut written, "takeoff\ngoto 0 2 0 0", None).unwrap();
+        assert_eq!(texts(&written), ["takeoff", "land", "takeoff", "goto 0 2 0 0"]);
+        assert!(!written.has_ended());
+    }
+
+    #[test]
+    fn what_is_appended_counts_from_where_the_mission_leads() {
+        let mut mission = mission("takeoff\ngoto 0 6 0 0\nmoveBy 0 3 0 0");
+        let error = append(&mut mission, "moveBy 0 2 0 0", None).unwrap_err();
+        assert!(error.contains("11.00 m away"), "{error}");
+        assert_eq!(mission.steps().len(), 4, "nothing has changed");
+        append(&mut mission, "moveBy 0 1 0 0", None).unwrap();
+        // The same while the first step is being flown.
+        let due = mission.advance(&Pose::default()).unwrap();
+        let error = append(&mut mission, "moveBy 0 0.5 0 0", Some(due)).unwrap_err();
+        assert!(error.contains("beyond the fence"), "{error}");
+        append(&mut mission, "clearCommands\nmoveBy 0 2 0 0", Some(due)).unwrap();
+        assert_eq!(texts(&mission), ["takeoff", "moveBy 0 2 0 0", "land"]);
+    }
+
+    #[test]
+    fn an_empty_mission_takes_commands_one_by_one() {
+        let mut mission = Mission::new(FlightLimits::default());
+        assert!(append(&mut mission, "goto 0 1 0 0", None).unwrap_err().contains("`takeoff`"));
+        append(&mut mission, "setStayTime 1", None).unwrap();
+        assert!(!mission.takes_off());
+        append(&mut mission, "takeoff", None).unwrap();
+        assert!(mission.takes_off() && !mission.has_ended());
+        let due = mission.advance(&Pose::default()).unwrap();
+        assert_eq!(due, Due { step: 1, order: AgentOrder::TakeOff });
+        mission.take_off_ended(&HOVER);
+        assert!(mission.has_ended());
+        append(&mut mission, "goto 0 1 0 0", Some(due)).unwrap();
+        assert_eq!(mission.advance(&HOVER).unwrap().step, 2);
+    }
+
+    #[test]
+    fn a_plan_that_is_loaded_in_the_air_counts_from_the_same_origin() {
+        let mut mission = mission("takeoff\nsetReference 5 0 0 0\nsetMaxControl 0.5\ngoto 0 0 0 0");
+        mission.advance(&Pose::default());
+        mission.take_off_ended(&HOVER);
+        mission.advance(&HOVER);
+        mission.load(Plan::parse("plan", "takeoff\ngoto 0 2 0 0").unwrap(), true);
+        assert!((mission.max_control() - 1.0).abs() < 1e-9);
+        mission.advance(&HOVER);
+        let there = Pose { x_m: 4.0, ..HOVER };
+        mission.take_off_ended(&there);
+        let due = mission.advance(&there).unwrap();
+        let AgentOrder::GoTo(target) = due.order else { panic!("{due:?}") };
+        assert!((target.pose.x_m - HOVER.x_m).abs() < 1e-9);
+        assert!((target.pose.y_m - HOVER.y_m - 2.0).abs() < 1e-9);
     }
 }

@@ -23,9 +23,9 @@ pub enum Outcome {
     },
     /// The drone cut its motors.
     Emergency,
-    /// The pilot ordered the landing, and the drone has landed.
+    /// The operator ordered the landing, and the drone has landed.
     Interrupted,
-    /// The pilot ordered the landing, and nobody waited any longer for the drone to confirm it.
+    /// The operator ordered the landing, and nobody waited any longer for the drone to confirm it.
     LeftLanding,
 }
 
@@ -58,9 +58,9 @@ impl fmt::Display for Outcome {
             }
             Self::Failsafe { reason } => write!(f, "landed by a failsafe: {reason}"),
             Self::Emergency => f.write_str("emergency: the drone has cut its motors"),
-            Self::Interrupted => f.write_str("landed on the pilot's order"),
+            Self::Interrupted => f.write_str("landed on the operator's order"),
             Self::LeftLanding => f.write_str(
-                "left while the drone was landing on the pilot's order: it has not confirmed that it is down",
+                "left while the drone was landing on the operator's order: it has not confirmed that it is down",
             ),
         }
     }

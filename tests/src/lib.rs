@@ -3,11 +3,12 @@
 
 mod alone;
 pub mod campaign;
+pub mod drive;
 pub mod sensors;
 pub mod sim;
 
 use autopilot::Plan;
-use autopilot::pilot::Waypoint;
+use autopilot::vehicle::Waypoint;
 use mock_drone::Truth;
 use nalgebra::{Vector2, Vector3};
 

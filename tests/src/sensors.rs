@@ -7,8 +7,8 @@ use std::fmt;
 use std::time::Duration;
 
 use autopilot::Plan;
-use autopilot::pilot::{FlightEvent, PilotConfig};
 use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::vehicle::{FlightEvent, VehicleConfig};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
@@ -346,7 +346,7 @@ fn simulation(
     let drone = DroneConfig { profile, seed, wind_m_s, ..DroneConfig::default() };
     Simulation {
         world: WorldConfig { drone, ..WorldConfig::default() },
-        pilot: PilotConfig { limits: FENCE, ..PilotConfig::default() },
+        pilot: VehicleConfig { limits: FENCE, ..VehicleConfig::default() },
         aftermath: AFTERMATH,
         ..Simulation::default()
     }

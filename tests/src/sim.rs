@@ -4,17 +4,18 @@
 
 use std::time::Duration;
 
-use ardrone_link::WAKE_UP;
 use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
 use ardrone_pilot::recording::{Record, Timing};
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{
-    FlightEvent, FlightReport, Input, Output, Pilot, PilotConfig, PilotOrder, Status, TICK,
-    Transmit,
-};
 use autopilot::plan::Plan;
-use mock_drone::{Message, Truth, World, WorldConfig};
+use autopilot::vehicle::{
+    FlightEvent, FlightReport, Operator, OperatorOrder, Output, Status, TICK, Transmit, Vehicle,
+    VehicleConfig,
+};
+use mock_drone::{Truth, World, WorldConfig};
+
+use crate::drive::{Driver, Passed};
 
 /// A world to fly in.
 #[derive(Debug, Clone, Default)]
@@ -22,9 +23,9 @@ pub struct Simulation {
     /// The drone, the air around it, and what goes wrong with both.
     pub world: WorldConfig,
     /// The pilot.
-    pub pilot: PilotConfig,
+    pub pilot: VehicleConfig,
     /// What the person at the controls orders, and when, in the order of time.
-    pub orders: Vec<(Duration, PilotOrder)>,
+    pub orders: Vec<(Duration, OperatorOrder)>,
     /// When the pilot's program does not run, and for how long: it neither hears nor says anything,
     /// and then finds all that came meanwhile. In the order of time.
     pub stalls: Vec<(Duration, Duration)>,
@@ -58,6 +59,8 @@ pub struct Moment {
     pub truth: Truth,
     /// What the pilot knows.
     pub status: Status,
+    /// Whether the flight is over.
+    pub is_over: bool,
 }
 
 /// Why a flight could not be simulated.
@@ -66,7 +69,7 @@ pub enum SimulationError {
     /// The limits cannot be sent to a drone.
     #[error(transparent)]
     Config(#[from] SettingError),
-    /// See [`Pilot::tick`].
+    /// See [`Vehicle::tick`].
     #[error(transparent)]
     Encode(#[from] EncodeError),
     /// The flight went on for an hour.
@@ -77,8 +80,6 @@ pub enum SimulationError {
     },
 }
 
-/// Navdata is taken in at this interval; the drone's own steps are finer.
-const POLL: Duration = Duration::from_millis(5);
 /// No battery lasts that long.
 const LIMIT: Duration = Duration::from_hours(1);
 
@@ -135,90 +136,66 @@ impl Simulation {
         mut watch: impl FnMut(&Moment, &World),
         mut record: impl FnMut(Record),
     ) -> Result<SimulatedFlight, SimulationError> {
-        let mut pilot = Pilot::new(plan, &self.pilot)?;
-        let mut world = World::new(&self.world);
+        let vehicle = Vehicle::flying(plan, &self.pilot)?;
+        let mut driver = Driver::new(vehicle, &self.world);
         let mut events = Vec::new();
         let mut truth_at_waypoints = Vec::new();
-        let mut now = Duration::ZERO;
-        let mut next_tick = Duration::ZERO;
         let mut orders = self.orders.iter().peekable();
-        while now < LIMIT {
+        while driver.now() < LIMIT {
+            let now = driver.now();
             if self.is_stalled(now) {
-                world.advance(now);
-                if now >= next_tick {
-                    next_tick += TICK;
-                    let moment = Moment { now, truth: world.truth(), status: pilot.status(now) };
-                    watch(&moment, &world);
+                if driver.stall() {
+                    watch(&moment(&driver, false), &driver.world);
                 }
-                now += POLL;
+                driver.pass();
                 continue;
             }
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
-                pilot.handle(now, Input::Order(*order));
-                record(Record::Order { at: now, order: *order });
+                let by = Operator::TERMINAL;
+                // What is refused changes nothing.
+                _ = driver.order(by, order.clone());
+                record(Record::Order { at: now, by, order: order.clone() });
             }
-            world.advance(now);
-            while let Some(message) = world.receive(now) {
-                match message {
-                    Message::Navdata(packet) => {
-                        pilot.handle(now, Input::Navdata(&packet));
-                        record(Record::Navdata { at: now, packet: packet.to_vec() });
-                    }
-                    Message::Control(dump) => {
-                        pilot.handle(now, Input::Control(dump.as_bytes()));
-                        record(Record::Control { at: now, bytes: dump.into_bytes() });
-                    }
+            let mut ended = None;
+            let mut reached = false;
+            let ticked = driver.step(|passed| {
+                match &passed {
+                    Passed::Output(Output::Event(event)) => events.push((now, event.clone())),
+                    Passed::Output(Output::Waypoint(_)) => reached = true,
+                    Passed::Output(Output::Ended(outcome)) => ended = Some((*outcome).clone()),
+                    _ => {}
                 }
-            }
-            if now >= next_tick {
-                next_tick += TICK;
-                pilot.tick(now)?;
-                let mut ended = None;
-                let mut reached = false;
-                while let Some(output) = pilot.poll() {
-                    match output {
-                        Output::Transmit(Transmit::Command { datagram, decision }) => {
-                            world.send_at(now, datagram);
-                            if let Some(decision) = decision.copied() {
-                                let (timing, datagram) = (Timing::default(), datagram.to_vec());
-                                record(Record::Tick { decision, timing, datagram });
-                            }
-                        }
-                        Output::Transmit(Transmit::WakeUp) => world.send_wake_up(now, &WAKE_UP),
-                        Output::Event(event) => {
-                            record(Record::Event { at: now, event: event.clone() });
-                            events.push((now, event));
-                        }
-                        Output::Waypoint(_) => reached = true,
-                        Output::Ended(outcome) => ended = Some(outcome.clone()),
-                    }
+                if let Some(entry) = recorded(now, passed) {
+                    record(entry);
                 }
-                let moment = Moment { now, truth: world.truth(), status: pilot.status(now) };
-                watch(&moment, &world);
+            })?;
+            if ticked {
+                watch(&moment(&driver, ended.is_some()), &driver.world);
                 if reached {
-                    truth_at_waypoints.push(world.truth());
-                }
-                if let Some(outcome) = ended {
-                    record(Record::Outcome { at: now, outcome: outcome.clone() });
-                    let end = now + self.aftermath;
-                    let mut later = now;
-                    while later < end {
-                        later += TICK;
-                        world.advance(later);
-                        let status = pilot.status(now);
-                        watch(&Moment { now: later, truth: world.truth(), status }, &world);
-                    }
-                    return Ok(SimulatedFlight {
-                        outcome,
-                        report: pilot.report().clone(),
-                        events,
-                        truth_at_waypoints,
-                        final_truth: world.truth(),
-                        duration: now,
-                    });
+                    truth_at_waypoints.push(driver.world.truth());
                 }
             }
-            now += POLL;
+            let Some(outcome) = ended else {
+                driver.pass();
+                continue;
+            };
+            let Driver { vehicle, mut world, .. } = driver;
+            let end = now + self.aftermath;
+            let mut later = now;
+            while later < end {
+                later += TICK;
+                world.advance(later);
+                let (truth, status) = (world.truth(), vehicle.status(now));
+                watch(&Moment { now: later, truth, status, is_over: true }, &world);
+            }
+            return Ok(SimulatedFlight {
+                outcome,
+                report: vehicle.report().clone(),
+                events,
+                truth_at_waypoints,
+                final_truth: world.truth(),
+                duration: now,
+            });
         }
         Err(SimulationError::Endless { limit: LIMIT })
     }
@@ -226,4 +203,24 @@ impl Simulation {
     fn is_stalled(&self, now: Duration) -> bool {
         self.stalls.iter().any(|(at, time)| (*at..*at + *time).contains(&now))
     }
+}
+
+fn moment(driver: &Driver, is_over: bool) -> Moment {
+    let now = driver.now();
+    Moment { now, truth: driver.world.truth(), status: driver.vehicle.status(now), is_over }
+}
+
+/// What a flight log has of it.
+fn recorded(at: Duration, passed: Passed<'_>) -> Option<Record> {
+    Some(match passed {
+        Passed::Navdata(packet) => Record::Navdata { at, packet: packet.to_vec() },
+        Passed::Control(dump) => Record::Control { at, bytes: dump.as_bytes().to_vec() },
+        Passed::Output(Output::Transmit(Transmit::Command { datagram, decision })) => {
+            let (timing, datagram) = (Timing::default(), datagram.to_vec());
+            Record::Tick { decision: *decision?, timing, datagram }
+        }
+        Passed::Output(Output::Event(event)) => Record::Event { at, event },
+        Passed::Output(Output::Ended(outcome)) => Record::Outcome { at, outcome: outcome.clone() },
+        Passed::Output(_) => return None,
+    })
 }

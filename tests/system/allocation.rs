@@ -4,19 +4,19 @@ use std::time::Duration;
 
 use allocation_counter::measure;
 use ardrone_pilot::recording::{Header, Recorder, Timing};
-use autopilot::pilot::{
-    Input, NavdataRate, Output, Phase, PilotConfig, PilotOrder, TICK, Transmit,
+use autopilot::vehicle::{
+    Input, NavdataRate, Operator, OperatorOrder, Output, Phase, TICK, Transmit, VehicleConfig,
 };
-use autopilot::{Demand, Pilot};
+use autopilot::{Demand, Vehicle};
 use mock_drone::{Message, World, WorldConfig};
 use system_tests::{SQUARE, plan};
 
 const POLL: Duration = Duration::from_millis(5);
 
 /// What was asked for in flight: on the ground the configuration is read and compared.
-fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
-    let config = PilotConfig { navdata, ..PilotConfig::default() };
-    let mut pilot = Pilot::new(plan(SQUARE), &config).unwrap();
+fn allocations(navdata: NavdataRate, orders: &[(Duration, OperatorOrder)]) -> u64 {
+    let config = VehicleConfig { navdata, ..VehicleConfig::default() };
+    let mut pilot = Vehicle::flying(plan(SQUARE), &config).unwrap();
     let mut world = World::new(&WorldConfig::default());
     let mut orders = orders.iter().peekable();
     let mut allocations = 0;
@@ -43,7 +43,7 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
         }
         if now.as_millis().is_multiple_of(TICK.as_millis()) {
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
-                count(&mut || pilot.handle(now, Input::Order(*order)));
+                count(&mut || pilot.handle(now, Input::Order(Operator::TERMINAL, order.clone())));
             }
             count(&mut || pilot.tick(now).unwrap());
             count(&mut || {
@@ -56,7 +56,10 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
                         }
                         Output::Transmit(Transmit::WakeUp) => wakes_up = true,
                         Output::Event(event) => recorder.event(now, event),
-                        Output::Waypoint(_) | Output::Ended(_) => {}
+                        Output::Waypoint(_)
+                        | Output::Ended(_)
+                        | Output::Mission(_)
+                        | Output::Readiness(_) => {}
                     }
                 }
             });
@@ -77,11 +80,11 @@ fn allocations(navdata: NavdataRate, orders: &[(Duration, PilotOrder)]) -> u64 {
 fn nothing_is_allocated_in_flight() {
     let second = Duration::from_secs(1);
     let orders = [
-        (7 * second, PilotOrder::Hold),
-        (8 * second, PilotOrder::Steer(Demand { roll: 0.5, ..Demand::default() })),
-        (10 * second, PilotOrder::GoTo { x_m: 0.5, y_m: 0.5 }),
-        (13 * second, PilotOrder::Resume),
-        (18 * second, PilotOrder::Land),
+        (7 * second, OperatorOrder::Hold),
+        (8 * second, OperatorOrder::Steer(Demand { roll: 0.5, ..Demand::default() })),
+        (10 * second, OperatorOrder::GoTo { x_m: 0.5, y_m: 0.5 }),
+        (13 * second, OperatorOrder::Resume),
+        (18 * second, OperatorOrder::Land),
     ];
     for navdata in [NavdataRate::Demo, NavdataRate::Full] {
         assert_eq!(allocations(navdata, &[]), 0, "{navdata:?}");

@@ -105,7 +105,7 @@ fn what_a_file_holds_does_nothing_to_the_terminal() {
 #[test]
 fn usage_errors_have_their_own_exit_status() {
     for arguments in
-        [&["--plan"][..], &[], &["--plan", "x", "--warp"], &["--plan", "x", "--at-port", "70000"]]
+        [&["--plan"][..], &["--plan", "x", "--warp"], &["--plan", "x", "--at-port", "70000"]]
     {
         assert_eq!(pilot(arguments).status.code(), Some(2), "{arguments:?}");
     }

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{Airframe, Quantity, Trust};
+use autopilot::vehicle::{Airframe, Quantity, Trust};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;

@@ -7,7 +7,7 @@ use ardrone_link::WAKE_UP;
 use ardrone_link::at::{Config, Datagram};
 use ardrone_link::session::{Order, Received, Session, SessionConfig};
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{FlightEvent, LandingReason};
+use autopilot::vehicle::{FlightEvent, LandingReason};
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;
 use mock_drone::{Message, World, WorldConfig};

@@ -22,3 +22,4 @@ mod sensors;
 mod sequence;
 mod simulated;
 mod udp;
+mod vehicle;

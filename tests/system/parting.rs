@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use ardrone_pilot::flight::Flight;
-use autopilot::PilotConfig;
+use autopilot::VehicleConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::{DroneConfig, WorldConfig};
 use nalgebra::Vector2;
@@ -225,7 +225,8 @@ fn a_log_that_may_not_grow_ends_the_log_and_not_the_flight() {
 #[test]
 fn a_flight_that_is_dropped_lands() {
     let relay = Relay::start(&WorldConfig::default());
-    let flight = Flight::start(plan(LONG), &PilotConfig::default(), relay.address(), None).unwrap();
+    let flight =
+        Flight::start(Some(plan(LONG)), &VehicleConfig::default(), relay.address(), None).unwrap();
     flying(&relay);
     drop(flight);
     assert_eq!(relay.truth().phase, Phase::Landed);

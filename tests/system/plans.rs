@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 
 use ardrone_pilot::recording::Record;
 use autopilot::outcome::Outcome;
-use autopilot::pilot::FlightEvent;
 use autopilot::plan::{Command, Expectation, FlightLimits, ZOrigin};
-use autopilot::{PilotConfig, Plan, Pose};
+use autopilot::vehicle::FlightEvent;
+use autopilot::{Plan, Pose, VehicleConfig};
 use mock_drone::{DroneConfig, WorldConfig};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -24,7 +24,7 @@ const HOVER_M: f64 = 0.3;
 fn simulation(seed: u64, limits: FlightLimits) -> Simulation {
     let drone = DroneConfig { seed, ..DroneConfig::default() };
     let world = WorldConfig { drone, ..WorldConfig::default() };
-    let pilot = PilotConfig { limits, ..PilotConfig::default() };
+    let pilot = VehicleConfig { limits, ..VehicleConfig::default() };
     Simulation { world, pilot, ..Simulation::default() }
 }
 

@@ -155,7 +155,7 @@ fn control_c_lands_and_waits_for_the_ground() {
     signal(&child, "-INT");
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
-    assert!(text(&output).contains("landed on the pilot's order"));
+    assert!(text(&output).contains("landed on the operator's order"));
     assert!(!text(&output).contains("flight time     -"), "{}", text(&output));
 }
 
@@ -169,7 +169,7 @@ fn a_terminated_pilot_and_a_closed_terminal_land() {
         signal(&child, name);
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130), "{name}");
-        assert!(text(&output).contains("landed on the pilot's order"), "{name}");
+        assert!(text(&output).contains("landed on the operator's order"), "{name}");
     }
 }
 
@@ -263,7 +263,7 @@ fn a_second_control_c_leaves_at_once_with_the_landing_ordered() {
     let (child, log) = start(&mut mock.pilot(plan.path()));
     wait_for(log.path(), "step 3/4");
     signal(&child, "-INT");
-    wait_for(log.path(), "landing: the pilot's order");
+    wait_for(log.path(), "landing: the operator's order");
     let second = Instant::now();
     signal(&child, "-INT");
     let output = child.wait_with_output().unwrap();

@@ -7,8 +7,8 @@ use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter};
 use ardrone_pilot::replay::Replay;
 use ardrone_pilot::report;
 use ardrone_pilot::settings;
-use autopilot::pilot::{FlightEvent, NavdataRate, PilotConfig, PilotOrder};
 use autopilot::plan::ZOrigin;
+use autopilot::vehicle::{FlightEvent, NavdataRate, OperatorOrder, VehicleConfig};
 use serde_json::{Value, json};
 use system_tests::sim::{SimulatedFlight, Simulation};
 use system_tests::{SQUARE, plan};
@@ -44,10 +44,10 @@ fn recorded(text: &str, simulation: &Simulation) -> (SimulatedFlight, Vec<u8>) {
 fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
     let second = Duration::from_secs(1);
     let orders = vec![
-        (7 * second, PilotOrder::Hold),
-        (8 * second, PilotOrder::Steer(autopilot::Demand { roll: 0.3, ..Default::default() })),
-        (9 * second, PilotOrder::GoTo { x_m: 0.5, y_m: 0.25 }),
-        (12 * second, PilotOrder::Resume),
+        (7 * second, OperatorOrder::Hold),
+        (8 * second, OperatorOrder::Steer(autopilot::Demand { roll: 0.3, ..Default::default() })),
+        (9 * second, OperatorOrder::GoTo { x_m: 0.5, y_m: 0.25 }),
+        (12 * second, OperatorOrder::Resume),
     ];
     let simulation = Simulation { orders, ..Simulation::default() };
     let (flight, file) = recorded(SQUARE, &simulation);
@@ -251,7 +251,7 @@ fn each_topic_has_a_schema_that_its_messages_keep() {
 #[test]
 fn ten_minutes_are_less_than_30_megabytes() {
     for (navdata, most) in [(NavdataRate::Demo, 8e6), (NavdataRate::Full, 30e6)] {
-        let pilot = PilotConfig { navdata, ..PilotConfig::default() };
+        let pilot = VehicleConfig { navdata, ..VehicleConfig::default() };
         let (flight, file) = recorded(SQUARE, &Simulation { pilot, ..Simulation::default() });
         let ten_minutes = file.len() as f64 * 600.0 / flight.duration.as_secs_f64();
         assert!(ten_minutes < most, "{navdata:?}: {ten_minutes:.0} bytes");
@@ -401,7 +401,7 @@ fn a_log_of_a_newer_format_is_refused_with_the_version_that_wrote_it() {
         drop(writer);
         Log::read(&file.into_inner()).unwrap_err().to_string()
     };
-    for unknown in ["3", "0", "-1", "two"] {
+    for unknown in ["4", "0", "-1", "two"] {
         let text = refused(unknown);
         assert!(text.contains(&format!("format is {unknown}")) && text.contains("9.8.7"), "{text}");
     }

@@ -5,9 +5,11 @@ use std::thread;
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{FlightEvent, LandingReason, PilotConfig, PilotOrder, Quantity, Trust};
 use autopilot::plan::FlightLimits;
 use autopilot::safety::Veto;
+use autopilot::vehicle::{
+    FlightEvent, LandingReason, OperatorOrder, Quantity, Trust, VehicleConfig,
+};
 use autopilot::{Demand, Plan};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
@@ -120,11 +122,11 @@ fn furthest_m(moment: &Moment, furthest_m: &mut f64) {
 fn the_pilots_hand_does_not_leave_the_fence() {
     let full = Demand { roll: 1.0, ..Demand::default() };
     let sticks = (0..200_u32)
-        .map(|tenth| (8 * SECOND + SECOND / 10 * tenth, PilotOrder::Steer(full)))
-        .chain([(30 * SECOND, PilotOrder::Land)]);
+        .map(|tenth| (8 * SECOND + SECOND / 10 * tenth, OperatorOrder::Steer(full)))
+        .chain([(30 * SECOND, OperatorOrder::Land)]);
     let orders: Vec<_> = sticks.collect();
     for (seed, wind) in [(1, ""), (2, "0 wind 1 0"), (3, "0 wind 0.5 -1 gusts 0.3")] {
-        let pilot = PilotConfig { limits: NEAR, ..PilotConfig::default() };
+        let pilot = VehicleConfig { limits: NEAR, ..VehicleConfig::default() };
         let simulation = Simulation { pilot, orders: orders.clone(), ..Simulation::default() };
         let mut away_m = 0.0;
         let flown = plan("takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n");
@@ -141,7 +143,7 @@ fn the_pilots_hand_does_not_leave_the_fence() {
 #[test]
 fn a_drone_that_was_blown_over_the_fence_comes_back_to_land() {
     for seed in 1..=5 {
-        let pilot = PilotConfig { limits: NEAR, ..PilotConfig::default() };
+        let pilot = VehicleConfig { limits: NEAR, ..VehicleConfig::default() };
         let simulation = Simulation { pilot, ..Simulation::default() };
         let flown = plan("takeoff\nsetStayTime 20\ngoto 3.9 0 0 0\nland\n");
         let gust = "+12 wind 7 0\n+13 wind 0 0";
@@ -192,7 +194,7 @@ fn in_the_wind(profile: Profile, seed: u64, text: &str, wind: &str) -> (Simulate
     let drone = DroneConfig { profile, sensors, seed, ..DroneConfig::default() };
     let world = WorldConfig { scenario, drone, ..WorldConfig::default() };
     let limits = FlightLimits { radius_m: 60.0, ..NEAR };
-    let pilot = PilotConfig { limits, ..PilotConfig::default() };
+    let pilot = VehicleConfig { limits, ..VehicleConfig::default() };
     let mut away_m = 0.0;
     let simulation = Simulation { world, pilot, ..Simulation::default() };
     let flight = simulation.fly_watched(plan(text), |m| furthest_m(m, &mut away_m)).unwrap();
@@ -225,14 +227,14 @@ fn a_wind_that_cannot_be_held_against_lands_in_time() {
 /// A place given by hand is flown to and held while the plan waits; the plan then goes on.
 #[test]
 fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
-    let go_to = |x_m, y_m| PilotOrder::GoTo { x_m, y_m };
+    let go_to = |x_m, y_m| OperatorOrder::GoTo { x_m, y_m };
     let orders = vec![
         (8 * SECOND, go_to(f64::NAN, 0.0)),
         (8 * SECOND, go_to(0.5, 2.0)),
         // Elsewhere, in flight and twice at once: the last word counts.
         (10 * SECOND, go_to(1.0, -1.0)),
         (10 * SECOND, go_to(-1.5, 0.5)),
-        (22 * SECOND, PilotOrder::Resume),
+        (22 * SECOND, OperatorOrder::Resume),
     ];
     for seed in 1..=3 {
         let mut there_m = f64::INFINITY;
@@ -248,7 +250,7 @@ fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
         assert!(there_m < 0.25, "seed {seed}: {there_m:.2} m off");
         let count = |event| flight.events.iter().filter(|(_, told)| *told == event).count();
         assert_eq!(count(FlightEvent::SentByHand), 3);
-        assert_eq!(count(FlightEvent::HandTargetReached), 1);
+        assert_eq!(count(FlightEvent::ManualTargetReached), 1);
     }
 }
 
@@ -257,12 +259,12 @@ fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
 fn a_hold_takes_back_where_the_drone_was_sent() {
     for after_ms in [0, 10, 30, 40, 60, 100] {
         let held = 9 * SECOND + Duration::from_millis(after_ms);
-        let sent = PilotOrder::GoTo { x_m: 3.0, y_m: 0.0 };
+        let sent = OperatorOrder::GoTo { x_m: 3.0, y_m: 0.0 };
         let orders = vec![
-            (8 * SECOND, PilotOrder::Hold),
+            (8 * SECOND, OperatorOrder::Hold),
             (9 * SECOND, sent),
-            (held, PilotOrder::Hold),
-            (20 * SECOND, PilotOrder::Land),
+            (held, OperatorOrder::Hold),
+            (20 * SECOND, OperatorOrder::Land),
         ];
         let mut furthest = 0.0;
         let simulation = Simulation { orders, ..Simulation::default() };
@@ -276,19 +278,19 @@ fn a_hold_takes_back_where_the_drone_was_sent() {
 /// Beyond the fence the drone is sent to its edge; what is not reached in time is given up.
 #[test]
 fn a_place_given_by_hand_may_be_outside_or_never_reached() {
-    let sent = (8 * SECOND, PilotOrder::GoTo { x_m: 80.0, y_m: 0.0 });
+    let sent = (8 * SECOND, OperatorOrder::GoTo { x_m: 80.0, y_m: 0.0 });
     let fly = |radius_m, settings, orders| {
         let flown = plan(&format!("takeoff\n{settings}goto 0 0 0 0\ngoto 0 1 0 0\nland\n"));
         let limits = FlightLimits { radius_m, ..NEAR };
-        let pilot = PilotConfig { limits, ..PilotConfig::default() };
+        let pilot = VehicleConfig { limits, ..VehicleConfig::default() };
         let simulation = Simulation { orders, pilot, ..Simulation::default() };
         let mut away_m = 0.0;
         let flight = watched("", 1, flown, simulation, |m| furthest_m(m, &mut away_m));
         let events: Vec<_> = flight.events.into_iter().map(|(_, event)| event).collect();
         (events, away_m)
     };
-    let (events, away_m) = fly(4.0, "", vec![sent, (25 * SECOND, PilotOrder::Land)]);
-    assert!(events.contains(&FlightEvent::HandTargetReached), "{events:?}");
+    let (events, away_m) = fly(4.0, "", vec![sent.clone(), (25 * SECOND, OperatorOrder::Land)]);
+    assert!(events.contains(&FlightEvent::ManualTargetReached), "{events:?}");
     assert!((3.5..4.3).contains(&away_m), "{away_m:.2} m");
     let (events, _) = fly(100.0, "setMaxControl 0.05\n", vec![sent]);
     let given_up = FlightEvent::LandingOrdered(LandingReason::HandTargetTimedOut);

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{FlightEvent, LandingReason, PilotOrder};
+use autopilot::vehicle::{FlightEvent, LandingReason, OperatorOrder};
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
@@ -167,7 +167,7 @@ fn a_push_late_in_a_long_stay_does_not_end_the_plan() {
 
 #[test]
 fn the_pilots_order_lands_in_the_middle_of_a_step() {
-    let orders = vec![(8 * SECOND, PilotOrder::Land)];
+    let orders = vec![(8 * SECOND, OperatorOrder::Land)];
     let simulation = Simulation { orders, ..Simulation::default() };
     let flight = fly(&simulation, SQUARE);
     assert_eq!(flight.outcome, Outcome::Interrupted);
@@ -188,7 +188,7 @@ fn a_landing_ordered_right_after_the_take_off_keeps_the_drone_down() {
         let ordered_at = Duration::from_millis(ms);
         let simulation = Simulation {
             world: WorldConfig { link, ..WorldConfig::default() },
-            orders: vec![(ordered_at, PilotOrder::Land)],
+            orders: vec![(ordered_at, OperatorOrder::Land)],
             aftermath: 3 * SECOND,
             ..Simulation::default()
         };
@@ -214,7 +214,7 @@ fn a_landing_ordered_right_after_the_take_off_keeps_the_drone_down() {
 #[test]
 fn the_pilots_order_is_obeyed_at_every_moment() {
     for tenths in 0..250 {
-        let orders = vec![(SECOND / 10 * tenths, PilotOrder::Land)];
+        let orders = vec![(SECOND / 10 * tenths, OperatorOrder::Land)];
         let simulation = Simulation { orders, ..Simulation::default() };
         let flight = fly(&simulation, SQUARE);
         let over = flight.outcome == Outcome::Completed;

@@ -2,7 +2,7 @@
 
 use ardrone_link::DroneAddress;
 use ardrone_pilot::flight::{Flight, Message};
-use autopilot::PilotConfig;
+use autopilot::VehicleConfig;
 use autopilot::outcome::Outcome;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;
@@ -28,7 +28,8 @@ fn a_flight_over_udp_is_the_simulated_one() {
 
     let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
     let flight =
-        Flight::start(plan(SQUARE), &PilotConfig::default(), &address(&mock), None).unwrap();
+        Flight::start(Some(plan(SQUARE)), &VehicleConfig::default(), &address(&mock), None)
+            .unwrap();
     let mut truths = Vec::new();
     for message in flight.messages() {
         if let Message::Waypoint(waypoint) = message {
@@ -55,7 +56,8 @@ fn ends(scenario: &str) -> (Outcome, Truth) {
     let world = WorldConfig { scenario, ..WorldConfig::default() };
     let mock = MockDrone::start(&world, Ports::LOOPBACK).unwrap();
     let flown = plan("takeoff\nsetStayTime 5\ngoto 0 0.5 0 0\nland\n");
-    let flight = Flight::start(flown, &PilotConfig::default(), &address(&mock), None).unwrap();
+    let flight =
+        Flight::start(Some(flown), &VehicleConfig::default(), &address(&mock), None).unwrap();
     let outcome = flight.finish().unwrap().outcome;
     (outcome, mock.truth())
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::LandingReason;
+use autopilot::vehicle::LandingReason;
 use system_tests::campaign::{Fault, Verdict, fly};
 use system_tests::sim::SimulationError;
 
@@ -103,7 +103,7 @@ fn end(verdict: &Verdict) -> String {
         (Outcome::Completed, _) => "plan flown to its end".to_owned(),
         (Outcome::Emergency, _) => "the drone's own emergency".to_owned(),
         (Outcome::NoDrone, _) => "no drone before take-off".to_owned(),
-        (_, Some(LandingReason::Pilot)) => "landed: the pilot's order".to_owned(),
+        (_, Some(LandingReason::Operator)) => "landed: the operator's order".to_owned(),
         (_, Some(LandingReason::Battery { .. })) => "landed: battery".to_owned(),
         (_, Some(LandingReason::StepFailed { .. })) => "landed: a step failed".to_owned(),
         (_, Some(LandingReason::StepTimedOut { .. })) => "landed: no progress".to_owned(),

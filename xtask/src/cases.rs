@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use autopilot::pilot::{Law, NavdataRate, PilotConfig};
+use autopilot::vehicle::{Law, NavdataRate, VehicleConfig};
 use mock_drone::airframe::Profile;
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, LinkFaults, WorldConfig};
@@ -118,7 +118,7 @@ impl Case {
         }
         Simulation {
             world: WorldConfig { drone, link, ..WorldConfig::default() },
-            pilot: PilotConfig { law, navdata: self.navdata, ..PilotConfig::default() },
+            pilot: VehicleConfig { law, navdata: self.navdata, ..VehicleConfig::default() },
             ..Simulation::default()
         }
     }

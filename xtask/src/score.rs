@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::FlightEvent;
+use autopilot::vehicle::FlightEvent;
 use nalgebra::{Vector2, Vector3};
 use system_tests::sim::{Moment, SimulatedFlight};
 

@@ -456,6 +456,12 @@ impl Session {
         Ok(())
     }
 
+    /// A tick in which nothing is said, to a drone that is not ours to speak to: its silence is noticed all
+    /// the same.
+    pub fn idle(&mut self, now: Duration) {
+        self.watch_silence(now);
+    }
+
     /// Fills `datagram` with the last words of a pilot that leaves: land, with the sticks at rest. A cut
     /// that was asked for goes on. It stays empty if nothing was ever said to this drone: it is not ours.
     ///

@@ -1,4 +1,4 @@
-//! The flight in a browser: a page that shows it live and takes the pilot's orders.
+//! The flight in a browser: a page that shows it live and takes operators' orders.
 //!
 //! The page is served by a thread of its own, which has nothing of the flight but its [`Controls`]:
 //! whatever a client does, the tick does not see it. A page that falls behind is told the whole story
@@ -71,12 +71,11 @@ impl Door {
     /// [`BrowserError::Thread`] if no thread can be had.
     pub fn open(
         self,
-        name: &str,
-        plan: &Plan,
+        plan: Option<&Plan>,
         limits: &FlightLimits,
         controls: Controls,
     ) -> Result<Browser, BrowserError> {
-        let story = Story::new(name, plan, limits);
+        let story = Story::new(plan, limits);
         let server = Server::start(self.listener, self.access, story, controls)
             .map_err(BrowserError::Thread)?;
         Ok(Browser { server })

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use autopilot::pilot::PilotOrder;
+use autopilot::vehicle::OperatorOrder;
 use serde::Deserialize;
 
 /// The motors are cut within this time after it was asked whether that is meant.
@@ -16,6 +16,7 @@ const FORGIVEN: u32 = 10;
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(tag = "order", rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
+    Start,
     Hold,
     Resume,
     Land,
@@ -59,7 +60,7 @@ impl Requests {
         &mut self,
         now: Duration,
         text: &str,
-    ) -> Result<Option<PilotOrder>, RequestError> {
+    ) -> Result<Option<OperatorOrder>, RequestError> {
         let last = self.last.replace(now);
         if last.is_some_and(|last| now.saturating_sub(last) < LEAST_APART) {
             self.meaningless += 1;
@@ -71,16 +72,17 @@ impl Requests {
             RequestError::Meaningless(error.to_string())
         })?;
         Ok(Some(match request {
-            Request::Hold => PilotOrder::Hold,
-            Request::Resume => PilotOrder::Resume,
-            Request::Land => PilotOrder::Land,
-            Request::GoTo { x_m, y_m } => PilotOrder::GoTo { x_m, y_m },
+            Request::Start => OperatorOrder::Start { when_ready: false },
+            Request::Hold => OperatorOrder::Hold,
+            Request::Resume => OperatorOrder::Resume,
+            Request::Land => OperatorOrder::Land,
+            Request::GoTo { x_m, y_m } => OperatorOrder::GoTo { x_m, y_m },
             Request::Arm => {
                 self.armed = Some(now);
                 return Ok(None);
             }
             Request::Cut if armed.is_some_and(|at| now.saturating_sub(at) < CUT_AGAIN) => {
-                PilotOrder::Cut
+                OperatorOrder::Cut
             }
             Request::Cut => return Err(RequestError::NotArmed),
         }))
@@ -103,10 +105,10 @@ mod tests {
     #[test]
     fn requests_are_orders() {
         let order = |text| Requests::default().order(Duration::ZERO, text);
-        assert_eq!(order(r#"{"order":"hold"}"#), Ok(Some(PilotOrder::Hold)));
-        assert_eq!(order(r#"{"order":"resume"}"#), Ok(Some(PilotOrder::Resume)));
-        assert_eq!(order(r#"{"order":"land"}"#), Ok(Some(PilotOrder::Land)));
-        let go_to = PilotOrder::GoTo { x_m: 1.5, y_m: -2.0 };
+        assert_eq!(order(r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
+        assert_eq!(order(r#"{"order":"resume"}"#), Ok(Some(OperatorOrder::Resume)));
+        assert_eq!(order(r#"{"order":"land"}"#), Ok(Some(OperatorOrder::Land)));
+        let go_to = OperatorOrder::GoTo { x_m: 1.5, y_m: -2.0 };
         assert_eq!(order(r#"{"order":"goto","x_m":1.5,"y_m":-2}"#), Ok(Some(go_to)));
         for text in [
             "",
@@ -130,13 +132,13 @@ mod tests {
         let mut order = |tenths, text| requests.order(SECOND / 10 * tenths, text);
         assert_eq!(order(0, CUT), Err(RequestError::NotArmed));
         assert_eq!(order(10, ARM), Ok(None));
-        assert_eq!(order(39, CUT), Ok(Some(PilotOrder::Cut)));
+        assert_eq!(order(39, CUT), Ok(Some(OperatorOrder::Cut)));
         // Once is once; too late; something else between.
         assert_eq!(order(40, CUT), Err(RequestError::NotArmed));
         assert_eq!(order(50, ARM), Ok(None));
         assert_eq!(order(81, CUT), Err(RequestError::NotArmed));
         assert_eq!(order(90, ARM), Ok(None));
-        assert_eq!(order(91, r#"{"order":"hold"}"#), Ok(Some(PilotOrder::Hold)));
+        assert_eq!(order(91, r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
         assert_eq!(order(92, CUT), Err(RequestError::NotArmed));
     }
 

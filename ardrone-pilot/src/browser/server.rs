@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use axum::Router;
+use autopilot::vehicle::{Operator, OperatorOrder, Station};
 use axum::extract::ws::{self, WebSocket, WebSocketUpgrade};
 use axum::extract::{Request, State};
 use axum::http::header::{
@@ -17,6 +17,7 @@ use axum::http::{StatusCode, Uri};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use axum::{Extension, Router};
 use futures_util::stream::{SplitSink, SplitStream};
 use futures_util::{SinkExt as _, StreamExt as _};
 use hyper::server::conn::http1;
@@ -175,11 +176,18 @@ async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .layer(middleware::from_fn_with_state(Arc::clone(&shared), guard))
         .with_state(shared);
     let places = Arc::new(Semaphore::new(CONNECTIONS));
+    let mut connections = 0_u16;
     loop {
         // It is never closed.
         let Ok(place) = Arc::clone(&places).acquire_owned().await else { return };
         match listener.accept().await {
-            Ok((stream, _)) => drop(tokio::spawn(connection(stream, app.clone(), place))),
+            Ok((stream, peer)) => {
+                connections = connections.wrapping_add(1);
+                let (number, local) = (connections, peer.ip().is_loopback());
+                let by = Operator { station: Station::Browser, number, local };
+                let app = app.clone().layer(Extension(by));
+                drop(tokio::spawn(connection(stream, app, place)));
+            }
             // Too many open files: some will be closed.
             Err(_) => tokio::time::sleep(Duration::from_millis(100)).await,
         }
@@ -231,7 +239,11 @@ fn check(access: &Access, uri: &Uri, headers: &HeaderMap) -> Result<(), Refusal>
 }
 
 /// The way over which a page is told of the flight and gives its orders.
-async fn live(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> Response {
+async fn live(
+    State(shared): State<Arc<Shared>>,
+    Extension(by): Extension<Operator>,
+    upgrade: WebSocketUpgrade,
+) -> Response {
     let Ok(place) = Arc::clone(&shared.viewers).try_acquire_owned() else {
         let full = "too many pages watch this flight: close one\n";
         return (StatusCode::SERVICE_UNAVAILABLE, full).into_response();
@@ -246,8 +258,10 @@ async fn live(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> R
             // An order is heard even while nothing can be written.
             tokio::select! {
                 () = write(sink, &shared, answered) => {}
-                () = read(stream, &shared, answers) => {}
+                () = read(stream, &shared, answers, by) => {}
             }
+            // A page that is gone controls nothing. Where too much waits, a local operator still can.
+            _ = shared.controls.order(by, OperatorOrder::Release);
             drop(place);
         })
 }
@@ -282,11 +296,25 @@ async fn write(
     _ = timeout(WRITE_TIME, sink.send(ws::Message::Close(None))).await;
 }
 
+fn told() -> Value {
+    json!({ "type": "told" })
+}
+
+fn refused(reason: &str) -> Value {
+    json!({ "type": "refused", "reason": reason })
+}
+
+/// A page that does not listen is not answered.
+fn reply(answers: &mpsc::Sender<ws::Utf8Bytes>, answer: &Value) {
+    _ = answers.try_send(answer.to_string().into());
+}
+
 /// Passes a page's orders on, until it is gone or makes no sense.
 async fn read(
     mut stream: SplitStream<WebSocket>,
     shared: &Shared,
     answers: mpsc::Sender<ws::Utf8Bytes>,
+    by: Operator,
 ) {
     let start = Instant::now();
     let mut requests = Requests::default();
@@ -297,15 +325,24 @@ async fn read(
             ws::Message::Ping(_) | ws::Message::Pong(_) => continue,
             ws::Message::Close(_) => return,
         };
-        let refused = |reason: &str| json!({ "type": "refused", "reason": reason });
         let answer = match requests.order(start.elapsed(), text) {
             Ok(None) => json!({ "type": "armed" }),
-            Ok(Some(order)) if shared.controls.order(order) => json!({ "type": "told" }),
-            Ok(Some(_)) => refused("the flight did not take the order: give it again"),
+            Ok(Some(order)) => {
+                let answers = answers.clone();
+                let ordered = shared.controls.order_answered(by, order, move |answer| {
+                    reply(
+                        &answers,
+                        &answer.map_or_else(|why| refused(&why.to_string()), |()| told()),
+                    );
+                });
+                match ordered {
+                    Ok(()) => continue,
+                    Err(why) => refused(&why.to_string()),
+                }
+            }
             Err(error) => refused(&error.to_string()),
         };
-        // A page that does not listen is not answered.
-        _ = answers.try_send(answer.to_string().into());
+        reply(&answers, &answer);
         if requests.is_garbage() {
             return;
         }

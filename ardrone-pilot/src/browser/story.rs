@@ -3,7 +3,8 @@
 use std::collections::VecDeque;
 
 use autopilot::agent::{PLANS, SOURCE, plan_text};
-use autopilot::plan::{FlightLimits, Plan};
+use autopilot::outcome::Outcome;
+use autopilot::plan::{FlightLimits, Plan, Step, expectations};
 use diagnostic::printable;
 use serde_json::{Value, json};
 
@@ -15,48 +16,76 @@ use crate::trail::Trail;
 /// Events that are remembered; older ones go.
 const EVENTS: usize = 100;
 
-/// The flight so far.
+/// The vehicle so far.
 #[derive(Debug)]
 pub(super) struct Story {
-    plan: Plan,
+    steps: Vec<Step>,
     limits: FlightLimits,
     name: String,
+    notes: Vec<String>,
     trail: Trail,
     events: VecDeque<Value>,
     status: Value,
+    ready: Value,
     end: Value,
 }
 
 impl Story {
-    pub(super) fn new(name: &str, plan: &Plan, limits: &FlightLimits) -> Self {
+    /// It begins with a plan, or without a mission.
+    pub(super) fn new(plan: Option<&Plan>, limits: &FlightLimits) -> Self {
+        let name = plan.map_or("ardrone-pilot", Plan::name);
         Self {
-            plan: plan.clone(),
+            steps: plan.map_or(Vec::new(), |plan| plan.steps().to_vec()),
             limits: *limits,
             name: printable(name).into_owned(),
+            notes: plan.map_or(Vec::new(), |plan| plan.notes().to_vec()),
             trail: Trail::default(),
             events: VecDeque::new(),
             status: Value::Null,
+            ready: Value::Null,
             end: Value::Null,
         }
     }
 
     /// Something happened; returns what browsers are told.
     pub(super) fn take_in(&mut self, message: &Message) -> Value {
-        let object = json::message(message, self.plan.steps());
+        let object = json::message(message, &self.steps);
         match message {
             Message::Status(_, status, _) => {
                 self.trail.add(status.pose.x_m, status.pose.y_m);
                 self.status = object.clone();
             }
             Message::Event(..) | Message::Trouble(..) => {
-                self.events.push_back(object.clone());
-                if self.events.len() > EVENTS {
-                    self.events.pop_front();
-                }
+                self.remember(&object);
             }
-            Message::Realtime(_) | Message::Waypoint(_) => {}
+            // Everything is drawn anew.
+            Message::Mission(steps) if *steps != self.steps => {
+                self.steps.clone_from(steps);
+                return self.so_far();
+            }
+            Message::Readiness(..) => self.ready = object.clone(),
+            Message::Ended(at, outcome, _) => {
+                let event = json!({
+                    "type": "event",
+                    "t_s": at.as_secs_f64(),
+                    "warning": *outcome != Outcome::Completed,
+                    "text": outcome.to_string(),
+                    "step": null,
+                    "command": null,
+                });
+                self.remember(&event);
+                return event;
+            }
+            Message::Mission(_) | Message::Realtime(_) | Message::Waypoint(_) => {}
         }
         object
+    }
+
+    fn remember(&mut self, event: &Value) {
+        self.events.push_back(event.clone());
+        if self.events.len() > EVENTS {
+            self.events.pop_front();
+        }
     }
 
     /// It is over.
@@ -66,8 +95,8 @@ impl Story {
 
     /// Everything that is needed to go on from here.
     pub(super) fn so_far(&self) -> Value {
-        let expected = self.plan.expectations(&self.limits);
-        let steps: Vec<Value> = (self.plan.steps().iter().zip(&expected))
+        let expected = expectations(&self.steps, &self.limits);
+        let steps: Vec<Value> = (self.steps.iter().zip(&expected))
             .map(|(step, expected)| {
                 json!({
                     "text": step.text,
@@ -84,7 +113,7 @@ impl Story {
             "type": "flight",
             "version": env!("CARGO_PKG_VERSION"),
             "plan": self.name,
-            "notes": self.plan.notes(),
+            "notes": self.notes,
             "steps": steps,
             "radius_m": self.limits.radius_m,
             "floor_m": self.limits.floor_m,
@@ -93,6 +122,7 @@ impl Story {
             "trail": self.trail.places_m().collect::<Vec<_>>(),
             "events": self.events,
             "status": self.status,
+            "ready": self.ready,
             "end": self.end,
         })
     }
@@ -103,12 +133,12 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use autopilot::pilot::FlightEvent;
+    use autopilot::vehicle::FlightEvent;
 
     #[test]
     fn whoever_comes_later_knows_what_happened() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\nland\n").unwrap();
-        let mut story = Story::new("plan.txt", &plan, &FlightLimits::default());
+        let mut story = Story::new(Some(&plan), &FlightLimits::default());
         for step in 0..EVENTS + 5 {
             let at = Duration::from_secs(step as u64);
             story.take_in(&Message::Event(at, FlightEvent::StepStarted { step }));

@@ -4,8 +4,8 @@ use std::net::{Ipv4Addr, SocketAddr, ToSocketAddrs as _};
 use std::path::PathBuf;
 
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
-use autopilot::pilot::Law;
 use autopilot::plan;
+use autopilot::vehicle::Law;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
@@ -19,21 +19,27 @@ Exit status:
    30  the pre-flight check refused to take off
    40  a failsafe landed the drone
    50  emergency: the drone cut its motors
-  130  the pilot landed it (Ctrl-C)
+  130  the operator landed it (Ctrl-C)
+
+Without --plan it is 0 if an operator left it with the drone down, whatever became of its flights.
 
 Ctrl-C lands the drone and waits for the ground; a second one leaves at once, with the
 landing ordered. SIGTERM and a closed terminal do the same.
 
 Keys, in a terminal:
-    space     hold the place; the plan waits
-    r         resume the plan
+    space     hold the place; the mission waits
+    r         resume the mission
     l         land
     q         land and quit, as Ctrl-C
     w a s d   fly forward, left, back, right by hand, as long as pressed
     arrows    climb, sink, turn
-    e e       cut the motors: the drone falls";
+    e e       cut the motors: the drone falls
+    :         type an order, with history and completion; :help lists them";
 
-/// Fly an AR.Drone 2.0 along a plan.
+/// Fly an AR.Drone 2.0: along a plan, or by orders.
+///
+/// With --plan it flies that and leaves. Without, it connects, says whether it could take off, and takes orders:
+/// typed in a terminal behind `:`, as lines or (with --json) JSON objects on standard input, or from a browser.
 ///
 /// Without a drone, add --mock: a simulated one is started and flown over the same protocol.
 #[derive(Debug, Parser)]
@@ -41,14 +47,13 @@ Keys, in a terminal:
     name = "ardrone-pilot",
     version,
     after_help = EXIT_STATUS,
-    args_conflicts_with_subcommands = true,
-    subcommand_negates_reqs = true
+    args_conflicts_with_subcommands = true
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Option<Command>,
     #[command(flatten)]
-    pub(super) fly: Option<Fly>,
+    pub(super) fly: Fly,
 }
 
 /// What else there is to do than to fly.
@@ -111,9 +116,9 @@ pub(super) struct CheckPlan {
 #[derive(Debug, Args)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a flag that can be given")]
 pub(super) struct Fly {
-    /// The flight plan
+    /// Fly this plan and leave; without it the vehicle stays on the ground and takes orders
     #[arg(long, value_name = "FILE")]
-    pub(super) plan: PathBuf,
+    pub(super) plan: Option<PathBuf>,
     /// Settings other than the defaults; `ardrone-pilot config` shows them
     #[arg(long, value_name = "FILE")]
     pub(super) config: Option<PathBuf>,
@@ -228,7 +233,7 @@ mod tests {
     fn a_page_has_an_address() {
         let ui = |words: &[&str]| {
             let words = ["ardrone-pilot", "--plan", "p", "--ui"].iter().chain(words);
-            Arguments::try_parse_from(words).map(|arguments| arguments.fly.unwrap().ui.unwrap())
+            Arguments::try_parse_from(words).map(|arguments| arguments.fly.ui.unwrap())
         };
         assert_eq!(ui(&[]).unwrap(), "127.0.0.1:8080".parse().unwrap());
         assert_eq!(ui(&["9000"]).unwrap(), "127.0.0.1:9000".parse().unwrap());

@@ -1,4 +1,4 @@
-//! The pilot's hand at a terminal.
+//! Manual control at a terminal, and the line on which orders are typed.
 //!
 //! Keys are read one by one and not shown. Ctrl-C stays with the system: it works even if nobody reads
 //! keys any more. Ctrl-Z does nothing: a suspended pilot flies nothing.
@@ -10,18 +10,21 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use autopilot::Demand;
-use autopilot::pilot::PilotOrder;
+use autopilot::plan::FlightLimits;
+use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, poll, read};
 use rustix::event::{PollFd, PollFlags, Timespec};
 use rustix::termios::{
     InputModes, LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcsetattr,
 };
 
+use super::prompt::{Edited, Prompt, PromptLine};
+use super::typed;
 use crate::flight::Controls;
 
 /// What the keys do, for people.
 pub(super) const HELP: &str = "keys: space hold, r resume, l land, q land and quit, \
-    wasd and arrows fly by hand, e twice cuts the motors";
+    wasd and arrows fly by hand, e twice cuts the motors, : types an order (`:help`)";
 
 /// How far a key moves a stick. Terminals repeat a key that is held; they never tell of its release.
 const STICK: f64 = 0.4;
@@ -31,13 +34,15 @@ const CUT_AGAIN: Duration = Duration::from_secs(2);
 const LOOK: Duration = Duration::from_millis(100);
 
 /// What a key means.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Action {
-    Order(PilotOrder),
+    Order(OperatorOrder),
     /// As Ctrl-C.
     Stop,
     /// The first `e`.
     AskAgain,
+    /// Begin to type an order.
+    Type,
 }
 
 /// Makes actions of keys.
@@ -50,13 +55,14 @@ impl Keymap {
     /// What a key pressed at `now` means.
     fn action(&mut self, now: Duration, key: KeyCode) -> Option<Action> {
         let asked = self.cut_asked.take();
-        let steer = |demand| Some(Action::Order(PilotOrder::Steer(demand)));
+        let steer = |demand| Some(Action::Order(OperatorOrder::Steer(demand)));
         let rest = Demand::default();
         match key {
-            KeyCode::Char(' ') => Some(Action::Order(PilotOrder::Hold)),
-            KeyCode::Char('r') => Some(Action::Order(PilotOrder::Resume)),
-            KeyCode::Char('l') => Some(Action::Order(PilotOrder::Land)),
+            KeyCode::Char(' ') => Some(Action::Order(OperatorOrder::Hold)),
+            KeyCode::Char('r') => Some(Action::Order(OperatorOrder::Resume)),
+            KeyCode::Char('l') => Some(Action::Order(OperatorOrder::Land)),
             KeyCode::Char('q') => Some(Action::Stop),
+            KeyCode::Char(':') => Some(Action::Type),
             KeyCode::Char('w') => steer(Demand { pitch: -STICK, ..rest }),
             KeyCode::Char('s') => steer(Demand { pitch: STICK, ..rest }),
             KeyCode::Char('a') => steer(Demand { roll: -STICK, ..rest }),
@@ -67,7 +73,7 @@ impl Keymap {
             KeyCode::Right => steer(Demand { yaw: STICK, ..rest }),
             KeyCode::Char('e') => {
                 if asked.is_some_and(|asked| now.saturating_sub(asked) < CUT_AGAIN) {
-                    return Some(Action::Order(PilotOrder::Cut));
+                    return Some(Action::Order(OperatorOrder::Cut));
                 }
                 self.cut_asked = Some(now);
                 Some(Action::AskAgain)
@@ -87,7 +93,11 @@ pub(super) struct Keys {
 
 impl Keys {
     /// Reads keys for a flight, if there is a terminal to read them from.
-    pub(super) fn start(controls: Controls) -> Option<Self> {
+    pub(super) fn start(
+        controls: Controls,
+        limits: FlightLimits,
+        line: PromptLine,
+    ) -> Option<Self> {
         if !stdin().is_terminal() {
             return None;
         }
@@ -103,7 +113,7 @@ impl Keys {
             let ended = Arc::clone(&ended);
             std::thread::Builder::new()
                 .name("keys".to_owned())
-                .spawn(move || read_keys(&controls, &ended))
+                .spawn(move || read_keys(&controls, &limits, line, &ended))
         };
         let keys = Self { ended, thread: thread.ok(), before };
         keys.thread.is_some().then_some(keys)
@@ -130,8 +140,9 @@ impl Drop for Keys {
     }
 }
 
-fn read_keys(controls: &Controls, ended: &AtomicBool) {
+fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended: &AtomicBool) {
     let start = Instant::now();
+    let mut prompt = Prompt::new(line);
     let mut keymap = Keymap::default();
     while !ended.load(Ordering::Relaxed) {
         match waiting() {
@@ -143,26 +154,39 @@ fn read_keys(controls: &Controls, ended: &AtomicBool) {
         // One look at the terminal can bring several keys.
         while let Ok(true) = poll(Duration::ZERO) {
             let Ok(event) = read() else { return };
-            if let Some(key) = pressed(&event)
-                && let Some(action) = keymap.action(start.elapsed(), key)
-            {
-                act(controls, action);
+            let Some(key) = pressed(&event) else { continue };
+            if prompt.is_open() {
+                if let Edited::Entered(line) = prompt.key(key, typed::completions)
+                    && let Err(error) = typed::obey(&line, limits, controls, Operator::TERMINAL)
+                {
+                    tracing::warn!("{line}: {error}");
+                }
+                continue;
+            }
+            match keymap.action(start.elapsed(), unshifted(key)) {
+                Some(Action::Type) => prompt.open(),
+                Some(action) => act(controls, action),
+                None => {}
             }
         }
     }
 }
 
 fn act(controls: &Controls, action: Action) {
-    let told = match action {
-        Action::Order(order) => controls.order(order),
-        Action::Stop => controls.stop(),
+    let taken = match action {
+        // Keys that are held repeat: nobody waits for an answer to each.
+        Action::Order(order @ OperatorOrder::Steer(_)) => controls.order(Operator::TERMINAL, order),
+        Action::Order(order) => controls.ask(Operator::TERMINAL, order),
+        Action::Stop if controls.quit() => Ok(()),
+        Action::Stop => Err(Refused::Left),
         Action::AskAgain => {
             tracing::warn!("press e again within 2 s to cut the motors: the drone will fall");
-            true
+            Ok(())
         }
+        Action::Type => Ok(()),
     };
-    if !told {
-        tracing::warn!("the flight did not take the key: press it again");
+    if let Err(refused) = taken {
+        tracing::warn!("{refused}");
     }
 }
 
@@ -194,11 +218,16 @@ fn pressed(event: &Event) -> Option<KeyCode> {
             modifiers,
             kind: KeyEventKind::Press | KeyEventKind::Repeat,
             ..
-        }) if (*modifiers - KeyModifiers::SHIFT).is_empty() => Some(match code {
-            KeyCode::Char(letter) => KeyCode::Char(letter.to_ascii_lowercase()),
-            other => *other,
-        }),
+        }) if (*modifiers - KeyModifiers::SHIFT).is_empty() => Some(*code),
         _ => None,
+    }
+}
+
+/// Letters are keys in either case.
+fn unshifted(key: KeyCode) -> KeyCode {
+    match key {
+        KeyCode::Char(letter) => KeyCode::Char(letter.to_ascii_lowercase()),
+        other => other,
     }
 }
 
@@ -216,18 +245,19 @@ mod tests {
     fn keys_are_orders() {
         let mut keymap = Keymap::default();
         let mut action = |code| keymap.action(Duration::ZERO, code);
-        assert_eq!(action(key(' ')), Some(Action::Order(PilotOrder::Hold)));
-        assert_eq!(action(key('r')), Some(Action::Order(PilotOrder::Resume)));
-        assert_eq!(action(key('l')), Some(Action::Order(PilotOrder::Land)));
+        assert_eq!(action(key(' ')), Some(Action::Order(OperatorOrder::Hold)));
+        assert_eq!(action(key('r')), Some(Action::Order(OperatorOrder::Resume)));
+        assert_eq!(action(key('l')), Some(Action::Order(OperatorOrder::Land)));
         assert_eq!(action(key('q')), Some(Action::Stop));
+        assert_eq!(action(key(':')), Some(Action::Type));
         let forward = Demand { pitch: -STICK, ..Demand::default() };
-        assert_eq!(action(key('w')), Some(Action::Order(PilotOrder::Steer(forward))));
+        assert_eq!(action(key('w')), Some(Action::Order(OperatorOrder::Steer(forward))));
         assert_eq!(action(key('x')), None);
     }
 
     #[test]
     fn one_e_cuts_nothing() {
-        let cut = Some(Action::Order(PilotOrder::Cut));
+        let cut = Some(Action::Order(OperatorOrder::Cut));
         let mut keymap = Keymap::default();
         assert_eq!(keymap.action(Duration::ZERO, key('e')), Some(Action::AskAgain));
         assert_eq!(keymap.action(1900 * MS, key('e')), cut);
@@ -241,7 +271,7 @@ mod tests {
     #[test]
     fn letters_are_keys_in_either_case_but_not_with_control() {
         let event = |code, modifiers| Event::Key(KeyEvent::new(code, modifiers));
-        assert_eq!(pressed(&event(key('L'), KeyModifiers::SHIFT)), Some(key('l')));
+        assert_eq!(pressed(&event(key('L'), KeyModifiers::SHIFT)).map(unshifted), Some(key('l')));
         assert_eq!(pressed(&event(key('l'), KeyModifiers::CONTROL)), None);
         assert_eq!(pressed(&Event::Resize(80, 24)), None);
     }

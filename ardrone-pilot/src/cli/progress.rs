@@ -3,10 +3,11 @@
 use std::io::stderr;
 use std::time::Duration;
 
-use autopilot::pilot::{FlightEvent, Status, TICK};
-use autopilot::plan::{Plan, Step};
+use autopilot::plan::Step;
+use autopilot::vehicle::{FlightEvent, NotReady, Phase, Status, TICK};
 use rustix::termios::tcgetwinsize;
 
+use super::prompt::PromptLine;
 use super::terminal;
 use crate::flight::Message;
 
@@ -17,23 +18,21 @@ const PLAIN_STATUS_INTERVAL: Duration = Duration::from_secs(1);
 /// line a second. All of it goes to standard error: people read it.
 pub(super) struct Progress {
     steps: Vec<Step>,
+    prompt: PromptLine,
     plain: bool,
     status_shown: bool,
     next_plain_status: Duration,
 }
 
 impl Progress {
-    pub(super) fn new(plan: &Plan, plain: bool) -> Self {
-        let mut progress = Self {
-            steps: plan.steps().to_vec(),
+    pub(super) fn new(prompt: PromptLine, plain: bool) -> Self {
+        Self {
+            steps: Vec::new(),
+            prompt,
             plain,
             status_shown: false,
             next_plain_status: Duration::ZERO,
-        };
-        for note in plan.notes() {
-            progress.say(&format!("note: {note}"));
         }
-        progress
     }
 
     pub(super) fn show(&mut self, message: &Message) {
@@ -45,6 +44,13 @@ impl Progress {
             Message::Trouble(at, trouble) => self.say(&format!("{} {trouble}", time(*at))),
             Message::Realtime(realtime) => self.say(&realtime.to_string()),
             Message::Waypoint(_) => {}
+            Message::Mission(steps) => self.steps.clone_from(steps),
+            Message::Readiness(at, reasons) => {
+                if let Some(text) = readiness(reasons) {
+                    self.say(&format!("{} {text}", time(*at)));
+                }
+            }
+            Message::Ended(at, outcome, _) => self.say(&format!("{} {outcome}", time(*at))),
             Message::Status(at, status, _) => self.status(*at, status),
         }
     }
@@ -81,13 +87,29 @@ impl Progress {
     }
 
     fn status(&mut self, at: Duration, status: &Status) {
-        let line = status_line(at, status);
+        let line = match self.prompt.shown() {
+            Some(prompt) if !self.plain => prompt,
+            _ => status_line(at, status),
+        };
         if !self.plain {
             terminal::show(shortened(&line, terminal_columns()));
             self.status_shown = true;
-        } else if at + TICK > self.next_plain_status {
+        // On the ground, waiting, a line a second would say nothing.
+        } else if status.phase != Phase::Standby && at + TICK > self.next_plain_status {
             self.next_plain_status = at + PLAIN_STATUS_INTERVAL;
             self.say(&line);
+        }
+    }
+}
+
+/// Whether the vehicle could take off, for people; in flight that is no news.
+pub(super) fn readiness(reasons: &[NotReady]) -> Option<String> {
+    match reasons {
+        [] => Some("ready to take off".to_owned()),
+        [NotReady::InFlight] => None,
+        reasons => {
+            let reasons: Vec<String> = reasons.iter().map(ToString::to_string).collect();
+            Some(format!("not ready: {}", reasons.join("; ")))
         }
     }
 }
@@ -146,7 +168,7 @@ mod tests {
 
     use super::*;
     use autopilot::agent::ChosenPlans;
-    use autopilot::pilot::{Airframe, Phase, Trust};
+    use autopilot::vehicle::{Airframe, Trust};
 
     #[test]
     fn a_status_line_does_not_wrap() {
@@ -161,7 +183,8 @@ mod tests {
             phase: Phase::Flying,
             step: Some(2),
             steps: 6,
-            plan_waits: false,
+            mission_waits: false,
+            controls: None,
             pose: Pose { x_m: 0.12, y_m: 0.98, z_m: 0.85, yaw_deg: -1.0 },
             target: Some(Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 }),
             distance_m: Some(0.88),

@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use std::io::{self, Stderr, stderr};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use autopilot::plan::{FlightLimits, Plan};
+use autopilot::plan::FlightLimits;
 use crossterm::cursor::Show;
 use crossterm::execute;
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, size};
@@ -15,6 +15,7 @@ use ratatui::backend::CrosstermBackend;
 use tracing_subscriber::fmt::MakeWriter;
 
 use self::view::View;
+use super::prompt::PromptLine;
 use super::terminal;
 use crate::flight::Message;
 
@@ -26,11 +27,16 @@ pub(super) struct Screen {
     terminal: Terminal<CrosstermBackend<Stderr>>,
     view: View,
     warnings: Warnings,
+    prompt: PromptLine,
 }
 
 impl Screen {
     /// Takes the terminal; nothing if it is too small or refuses.
-    pub(super) fn start(plan: &Plan, limits: &FlightLimits, warnings: &Warnings) -> Option<Self> {
+    pub(super) fn start(
+        limits: &FlightLimits,
+        warnings: &Warnings,
+        prompt: PromptLine,
+    ) -> Option<Self> {
         let (columns, rows) = size().ok()?;
         if columns < LEAST.0 || rows < LEAST.1 {
             return None;
@@ -44,7 +50,7 @@ impl Screen {
             before(panic);
         }));
         let mut screen =
-            Self { terminal, view: View::new(plan, limits), warnings: warnings.clone() };
+            Self { terminal, view: View::new(limits), warnings: warnings.clone(), prompt };
         screen.draw();
         Some(screen)
     }
@@ -79,6 +85,7 @@ impl Screen {
     }
 
     fn draw(&mut self) {
+        self.view.prompt = self.prompt.shown();
         // A terminal that is gone is told to the flight by the system.
         _ = self.terminal.draw(|frame| view::draw(frame, &self.view));
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use autopilot::pilot::Waypoint;
+use autopilot::vehicle::Waypoint;
 use mock_drone::Truth;
 use nalgebra::Vector2;
 
@@ -31,11 +31,19 @@ pub(super) struct Summary<'a> {
     pub(super) finished: &'a FinishedFlight,
     pub(super) truths: &'a [TrueWaypoint],
     pub(super) recorded: Option<&'a Recorded>,
+    /// Whether it was left when a plan had been flown, not when somebody wished to.
+    pub(super) flew_a_plan: bool,
 }
 
 impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let report = &self.finished.report;
+        if !self.flew_a_plan {
+            let down =
+                if self.finished.is_down { "the drone is down" } else { "its landing was ordered" };
+            writeln!(f, "left: {down}")?;
+            return self.machine(f);
+        }
         writeln!(f, "{}", self.finished.outcome)?;
         writeln!(f, "  commands done   {} of {}", report.steps_done, report.steps)?;
         match report.flight_time() {
@@ -65,6 +73,13 @@ impl fmt::Display for Summary<'_> {
                 "  simulated truth at most {error_m:.2} m from a target, navdata drifted {drift_m:.2} m"
             )?;
         }
+        self.machine(f)
+    }
+}
+
+impl Summary<'_> {
+    /// Ticks, flight log and network.
+    fn machine(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "  ticks           {}", self.finished.ticks)?;
         if let Some(recorded) = self.recorded {
             let (path, kilobytes) = (recorded.path.display(), recorded.bytes.div_ceil(1000));

@@ -28,18 +28,18 @@ use crossbeam_channel::{Receiver, Sender, bounded};
 use self::link::{Link, sleep};
 pub use self::link::{Port, Trouble};
 pub use self::orders::Controls;
-use self::orders::Orders;
+use self::orders::{Orders, Request};
 pub(crate) use self::services::EndSignals;
 use self::services::Services;
 use crate::realtime::Realtime;
 use crate::recording::{Recorder, Timing};
 use crate::timing::{TickHealth, TickRecorder, TickSummary};
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{
-    FlightEvent, FlightReport, Input, Output, Pilot, PilotConfig, PilotOrder, Stage, Status, TICK,
-    Transmit, Waypoint,
+use autopilot::plan::{Plan, Step};
+use autopilot::vehicle::{
+    FlightEvent, FlightReport, Input, NotReady, Operator, OperatorOrder, Output, Refused, Stage,
+    Status, TICK, Transmit, Vehicle, VehicleConfig, Waypoint,
 };
-use autopilot::plan::Plan;
 
 /// What the flight tells while it lasts.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,6 +55,13 @@ pub enum Message {
     Trouble(Duration, Trouble),
     /// Where things stand, some times a second.
     Status(Duration, Status, TickHealth),
+    /// The mission is another: all its steps.
+    Mission(Vec<Step>),
+    /// Whether the vehicle could take off has changed: every reason why not.
+    Readiness(Duration, Vec<NotReady>),
+    /// A flight has ended, and the vehicle stays. A flight with whose end the program leaves is told of by
+    /// [`Flight::finish`].
+    Ended(Duration, Outcome, Box<FlightReport>),
 }
 
 /// How the link was on this side.
@@ -73,9 +80,11 @@ pub struct LinkSummary {
 /// A flight that is over.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FinishedFlight {
-    /// How it ended.
+    /// How it ended; of a vehicle that stayed, that it was left.
     pub outcome: Outcome,
-    /// What the pilot says of it.
+    /// Whether the drone was down for sure when it was left.
+    pub is_down: bool,
+    /// The last flight.
     pub report: FlightReport,
     /// How regular the ticks were.
     pub ticks: TickSummary,
@@ -107,7 +116,7 @@ pub enum FlightError {
     /// The limits cannot be sent to a drone.
     #[error(transparent)]
     Config(#[from] SettingError),
-    /// See [`Pilot::tick`].
+    /// See [`Vehicle::tick`].
     #[error(transparent)]
     Encode(#[from] EncodeError),
     /// The flight's thread panicked.
@@ -149,26 +158,30 @@ const PARTING_PATIENCE: Duration = Duration::from_secs(3);
 const LOOK: Duration = Duration::from_millis(20);
 
 impl Flight {
-    /// Starts flying `plan`, and records it if there is a recorder. Ctrl-C, any other signal that asks
-    /// for the end, and a closed terminal land; a second one ends the flight at once, with the landing
-    /// ordered.
+    /// Drives a vehicle, and records it if there is a recorder. With a plan it flies that and leaves;
+    /// without, it stays until somebody leaves it. Ctrl-C, any other signal that asks for the end, and a closed
+    /// terminal land and leave; a second one leaves at once, with the landing ordered.
     ///
     /// # Errors
     /// [`FlightError`] if the drone has no address or no socket or thread can be had.
     pub fn start(
-        plan: Plan,
-        config: &PilotConfig,
+        plan: Option<Plan>,
+        config: &VehicleConfig,
         drone: &DroneAddress,
         recorder: Option<Recorder>,
     ) -> Result<Self, FlightError> {
-        let pilot = Pilot::new(plan, config)?;
+        let stay = if plan.is_some() { Stay::UntilFlown } else { Stay::UntilLeft };
+        let vehicle = match plan {
+            Some(plan) => Vehicle::flying(plan, config)?,
+            None => Vehicle::new(config)?,
+        };
         let address = resolve(&drone.host)?;
         let link = Link::new(address, drone).map_err(FlightError::Socket)?;
         let (orders, controls) = Orders::new();
         let control_port = SocketAddr::new(address, drone.control_port);
         let services = Services::start(control_port, controls.clone())?;
         let (sender, messages) = bounded(MESSAGES);
-        let tick = TickLoop::new(pilot, link, orders, services, recorder, sender);
+        let tick = TickLoop::new(vehicle, stay, link, orders, services, recorder, sender);
         let thread = std::thread::Builder::new()
             .name("flight".to_owned())
             .spawn(move || tick.run(|_| {}))
@@ -212,10 +225,11 @@ impl Drop for Flight {
         if self.thread.is_none() {
             return;
         }
-        self.controls.order(PilotOrder::Land);
+        // A flight that is over needs no landing.
+        _ = self.controls.order(Operator::TERMINAL, OperatorOrder::Land);
+        self.controls.stop();
         if !self.ends_within(LANDING_PATIENCE) {
-            // Twice: at once.
-            self.controls.stop();
+            // The second time: at once.
             self.controls.stop();
             self.ends_within(PARTING_PATIENCE);
         }
@@ -236,8 +250,18 @@ fn clock() -> Instant {
     Instant::now()
 }
 
+/// When the tick loop ends by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stay {
+    /// With the first flight.
+    UntilFlown,
+    /// When somebody wants to leave, and the drone is down.
+    UntilLeft,
+}
+
 struct TickLoop {
-    pilot: Pilot,
+    vehicle: Vehicle,
+    stay: Stay,
     link: Link,
     orders: Orders,
     services: Services,
@@ -280,7 +304,8 @@ impl Intake {
 
 impl TickLoop {
     fn new(
-        pilot: Pilot,
+        vehicle: Vehicle,
+        stay: Stay,
         link: Link,
         orders: Orders,
         services: Services,
@@ -288,7 +313,8 @@ impl TickLoop {
         messages: Sender<Message>,
     ) -> Self {
         Self {
-            pilot,
+            vehicle,
+            stay,
             link,
             orders,
             services,
@@ -317,11 +343,17 @@ impl TickLoop {
         // Parting needs nothing that a panic could have left half done.
         let flown = catch_unwind(AssertUnwindSafe(|| self.fly(before)));
         let end = flown.unwrap_or(Err(FlightError::Panicked));
-        let down = matches!(end, Ok(Outcome::Completed | Outcome::PreflightRefused { .. }));
+        let down = match &end {
+            Ok(_) if self.stay == Stay::UntilLeft => self.vehicle.is_at_rest(),
+            Ok(outcome) => {
+                matches!(outcome, Outcome::Completed | Outcome::PreflightRefused { .. })
+            }
+            Err(_) => false,
+        };
         if !down {
             self.part();
         }
-        end.map(|outcome| self.finished(outcome))
+        end.map(|outcome| self.finished(outcome, down))
     }
 
     fn fly(&mut self, mut before: impl FnMut(u32)) -> Result<Outcome, FlightError> {
@@ -350,12 +382,25 @@ impl TickLoop {
             self.record_tick(late, self.start.elapsed().saturating_sub(now));
             self.tell(now, count.is_multiple_of(STATUS_TICKS));
             count = count.wrapping_add(1);
-            if let Some(outcome) = self.pilot.outcome().cloned() {
+            if let Some(outcome) = self.end() {
                 return Ok(outcome);
             }
             // The second time nobody waits for the ground.
             if self.orders.stops() >= 2 {
                 return Ok(Outcome::LeftLanding);
+            }
+        }
+    }
+
+    /// How it ended, if the first flight's end or somebody's wish to leave ends it.
+    fn end(&self) -> Option<Outcome> {
+        let outcome = self.vehicle.outcome();
+        match self.stay {
+            Stay::UntilFlown => outcome.cloned(),
+            Stay::UntilLeft if self.orders.stops() == 0 => None,
+            // The landing of a drone that was lost is never confirmed.
+            Stay::UntilLeft => {
+                (self.vehicle.is_at_rest() || outcome.is_some()).then_some(Outcome::Interrupted)
             }
         }
     }
@@ -370,8 +415,8 @@ impl TickLoop {
             ticks.spend(stage, now.saturating_sub(last));
             last = now;
         };
-        self.pilot.tick_timed(now, |stage| done(&mut self.ticks, stage))?;
-        while let Some(transmit) = self.pilot.poll_transmit() {
+        self.vehicle.tick_timed(now, |stage| done(&mut self.ticks, stage))?;
+        while let Some(transmit) = self.vehicle.poll_transmit() {
             match transmit {
                 Transmit::Command { datagram, .. } => {
                     self.link.send(now, datagram);
@@ -421,9 +466,9 @@ impl TickLoop {
         let Some(length) = self.link.receive(now, &mut self.buffer) else { return false };
         self.intake.taken += 1;
         let packet = self.buffer.get(..length).unwrap_or_default();
-        let before = self.pilot.link_statistics().received;
-        self.pilot.handle(now, Input::Navdata(packet));
-        let good = self.pilot.link_statistics().received > before;
+        let before = self.vehicle.link_statistics().received;
+        self.vehicle.handle(now, Input::Navdata(packet));
+        let good = self.vehicle.link_statistics().received > before;
         if let Some(recorder) = &mut self.recorder {
             if self.intake.records(good) {
                 recorder.navdata(now, packet);
@@ -436,29 +481,34 @@ impl TickLoop {
 
     fn take_in_services(&mut self, now: Duration) {
         for bytes in self.services.poll_control() {
-            self.pilot.handle(now, Input::Control(&bytes));
+            self.vehicle.handle(now, Input::Control(&bytes));
             if let Some(recorder) = &mut self.recorder {
                 recorder.control(now, &bytes);
             }
         }
-        for order in self.orders.poll() {
-            obey(&mut self.pilot, self.recorder.as_mut(), now, order);
+        for Request { by, order, answer } in self.orders.poll() {
+            let answered = obey(&mut self.vehicle, self.recorder.as_mut(), now, by, order);
+            if let Some(answer) = answer {
+                answer(answered);
+            }
         }
         if self.orders.stops() > 0 && !std::mem::replace(&mut self.stopping, true) {
-            obey(&mut self.pilot, self.recorder.as_mut(), now, PilotOrder::Land);
+            let (by, land) = (Operator::TERMINAL, OperatorOrder::Land);
+            // Never refused.
+            _ = obey(&mut self.vehicle, self.recorder.as_mut(), now, by, land);
         }
     }
 
     fn record_tick(&mut self, late: Duration, work: Duration) {
-        if let (Some(recorder), Some(decision)) = (&mut self.recorder, self.pilot.decision()) {
+        if let (Some(recorder), Some(decision)) = (&mut self.recorder, self.vehicle.decision()) {
             let ms = |time: Duration| time.as_secs_f64() * 1e3;
             let timing = Timing { late_ms: ms(late), work_ms: ms(work) };
-            recorder.tick(*decision, timing, self.pilot.datagram());
+            recorder.tick(*decision, timing, self.vehicle.datagram());
         }
     }
 
     fn tell(&mut self, now: Duration, with_status: bool) {
-        while let Some(output) = self.pilot.poll() {
+        while let Some(output) = self.vehicle.poll() {
             let message = match output {
                 Output::Event(event) => {
                     if let Some(recorder) = &mut self.recorder {
@@ -467,6 +517,15 @@ impl TickLoop {
                     Message::Event(now, event)
                 }
                 Output::Waypoint(waypoint) => Message::Waypoint(waypoint),
+                Output::Mission(steps) => Message::Mission(steps.to_vec()),
+                Output::Readiness(reasons) => Message::Readiness(now, reasons.to_vec()),
+                Output::Ended(outcome) if self.stay == Stay::UntilLeft => {
+                    let outcome = outcome.clone();
+                    if let Some(recorder) = &mut self.recorder {
+                        recorder.outcome(now, outcome.clone());
+                    }
+                    Message::Ended(now, outcome, Box::new(self.vehicle.report().clone()))
+                }
                 // Sent already; and the end is told when everything has ended.
                 Output::Transmit(_) | Output::Ended(_) => continue,
             };
@@ -477,7 +536,7 @@ impl TickLoop {
         }
         if with_status {
             let health = self.ticks.health();
-            self.say(Message::Status(now, self.pilot.status(now), health));
+            self.say(Message::Status(now, self.vehicle.status(now), health));
         }
     }
 
@@ -505,10 +564,10 @@ impl TickLoop {
             sleep(self.deadline.saturating_sub(now));
             self.deadline += TICK;
             let now = self.start.elapsed();
-            if self.pilot.part(now).is_err() {
+            if self.vehicle.part(now).is_err() {
                 break;
             }
-            let Some(Transmit::Command { datagram, .. }) = self.pilot.poll_transmit() else {
+            let Some(Transmit::Command { datagram, .. }) = self.vehicle.poll_transmit() else {
                 // The drone was never spoken to.
                 break;
             };
@@ -523,14 +582,17 @@ impl TickLoop {
         }
     }
 
-    fn finished(&mut self, outcome: Outcome) -> FinishedFlight {
-        if let Some(recorder) = &mut self.recorder {
+    fn finished(&mut self, outcome: Outcome, is_down: bool) -> FinishedFlight {
+        if let Some(recorder) = &mut self.recorder
+            && self.stay == Stay::UntilFlown
+        {
             recorder.outcome(self.start.elapsed(), outcome.clone());
         }
         let (errors, bound_anew) = self.link.failures();
         FinishedFlight {
             outcome,
-            report: self.pilot.report().clone(),
+            is_down,
+            report: self.vehicle.report().clone(),
             ticks: self.ticks.summary(self.realtime),
             dropped_messages: self.dropped_messages,
             lost_records: self.recorder.as_ref().map_or(0, Recorder::lost),
@@ -539,12 +601,18 @@ impl TickLoop {
     }
 }
 
-/// The pilot's hand.
-fn obey(pilot: &mut Pilot, recorder: Option<&mut Recorder>, now: Duration, order: PilotOrder) {
-    pilot.handle(now, Input::Order(order));
+/// Passes an order on, and records it whatever the answer: a replay gives the same one.
+fn obey(
+    vehicle: &mut Vehicle,
+    recorder: Option<&mut Recorder>,
+    now: Duration,
+    by: Operator,
+    order: OperatorOrder,
+) -> Result<(), Refused> {
     if let Some(recorder) = recorder {
-        recorder.order(now, order);
+        recorder.order(now, by, order.clone());
     }
+    vehicle.order(now, by, order)
 }
 
 /// Moves the deadline to the last one that has passed; returns how many were missed before it.
@@ -591,13 +659,14 @@ mod tests {
             control_port: ports.control,
         };
         let plan = Plan::parse("plan", "takeoff\nsetStayTime 60\ngoto 0 1 0 0\nland\n").unwrap();
-        let pilot = Pilot::new(plan, &PilotConfig::default()).unwrap();
+        let vehicle = Vehicle::flying(plan, &VehicleConfig::default()).unwrap();
         let link = Link::new(ports.host, &address).unwrap();
         let (orders, controls) = Orders::new();
         let control_port = SocketAddr::new(ports.host, ports.control);
         let services = Services::start(control_port, controls.clone()).unwrap();
         let (sender, messages) = bounded(MESSAGES);
-        (TickLoop::new(pilot, link, orders, services, None, sender), controls, messages)
+        let stay = Stay::UntilFlown;
+        (TickLoop::new(vehicle, stay, link, orders, services, None, sender), controls, messages)
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::Navdata;
 use ardrone_link::session::FlightOrder;
-use autopilot::pilot::{Decision, PilotOrder};
-use pid::{Demand, Pose};
+use autopilot::vehicle::Decision;
+use pid::Pose;
 use serde::{Deserialize, Serialize};
 
 /// A tick: what was known, decided and sent.
@@ -148,38 +148,6 @@ pub struct Bytes {
     pub data: String,
 }
 
-/// The pilot's hand.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "order", rename_all = "lowercase")]
-pub enum Hand {
-    /// Stay where the drone is.
-    Hold,
-    /// Go on with the plan.
-    Resume,
-    /// Fly so, for a moment.
-    Steer {
-        /// Positive flies right.
-        roll: f64,
-        /// Positive flies backward.
-        pitch: f64,
-        /// Positive climbs.
-        gaz: f64,
-        /// Positive turns clockwise.
-        yaw: f64,
-    },
-    /// Fly to this place and stay there.
-    GoTo {
-        /// To the right of the start.
-        x_m: f64,
-        /// Before the start.
-        y_m: f64,
-    },
-    /// Land.
-    Land,
-    /// Cut the motors.
-    Cut,
-}
-
 impl Tick {
     /// The tick as it stands in a log.
     pub fn new(decision: &Decision, timing: Timing, datagram: &[u8]) -> Self {
@@ -272,34 +240,6 @@ impl From<&Navdata> for DecodedNavdata {
                     .map(short)
             }),
             attitude_deg: demo.map(|demo| [demo.roll_deg, demo.pitch_deg, demo.yaw_deg].map(short)),
-        }
-    }
-}
-
-impl From<PilotOrder> for Hand {
-    fn from(order: PilotOrder) -> Self {
-        match order {
-            PilotOrder::Hold => Self::Hold,
-            PilotOrder::Resume => Self::Resume,
-            PilotOrder::Steer(Demand { roll, pitch, gaz, yaw }) => {
-                Self::Steer { roll, pitch, gaz, yaw }
-            }
-            PilotOrder::GoTo { x_m, y_m } => Self::GoTo { x_m, y_m },
-            PilotOrder::Land => Self::Land,
-            PilotOrder::Cut => Self::Cut,
-        }
-    }
-}
-
-impl From<Hand> for PilotOrder {
-    fn from(hand: Hand) -> Self {
-        match hand {
-            Hand::Hold => Self::Hold,
-            Hand::Resume => Self::Resume,
-            Hand::Steer { roll, pitch, gaz, yaw } => Self::Steer(Demand { roll, pitch, gaz, yaw }),
-            Hand::GoTo { x_m, y_m } => Self::GoTo { x_m, y_m },
-            Hand::Land => Self::Land,
-            Hand::Cut => Self::Cut,
         }
     }
 }

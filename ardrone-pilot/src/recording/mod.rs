@@ -4,6 +4,7 @@
 //! counted, not kept. A thread writes; what it has flushed survives whatever happens to the process.
 
 mod messages;
+mod order;
 mod reader;
 mod recorder;
 mod topic;
@@ -12,15 +13,16 @@ mod writer;
 use std::time::Duration;
 
 pub use messages::{
-    Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, Hand, Place, Tick, Timing,
+    Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, Place, Tick, Timing,
 };
+pub use order::{Order, OrderError};
 pub use reader::{Entry, LARGEST_FILE_BYTES, Log, LogError};
 pub use recorder::{Recorded, Recorder, Recording, RecordingError};
 pub use writer::LogWriter;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{Decision, FlightEvent, PilotOrder};
 use autopilot::plan::ZOrigin;
+use autopilot::vehicle::{Decision, FlightEvent, Operator, OperatorOrder};
 
 /// Names of attachments.
 const AGENT_FILE: &str = "autopilot.asl";
@@ -30,8 +32,8 @@ const SETTINGS_FILE: &str = "pilot.toml";
 const EVENT: &str = "event";
 const OUTCOME: &str = "outcome";
 /// The format that is written: what the messages are and mean. 1 had no number, and zeros for a place that is not
-/// known.
-const FORMAT: u32 = 2;
+/// known; 1 and 2 had one flight each, and orders without an operator.
+const FORMAT: u32 = 3;
 /// The name of the metadata.
 const FLIGHT: &str = "flight";
 
@@ -70,12 +72,14 @@ pub enum Record {
         /// The bytes.
         bytes: Vec<u8>,
     },
-    /// The pilot's hand.
+    /// An operator's order.
     Order {
         /// When it was taken in.
         at: Duration,
+        /// Who gave it.
+        by: Operator,
         /// What was ordered.
-        order: PilotOrder,
+        order: OperatorOrder,
     },
     /// Something happened.
     Event {

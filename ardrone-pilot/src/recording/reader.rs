@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use autopilot::pilot::PilotOrder;
 use autopilot::plan::ZOrigin;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -13,7 +12,8 @@ use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOp
 use mcap::{McapError, parse_record};
 use serde::de::DeserializeOwned;
 
-use super::messages::{Bytes, DecodedNavdata, Hand, Tick};
+use super::messages::{Bytes, DecodedNavdata, Tick};
+use super::order::Order;
 use super::{AGENT_FILE, FLIGHT, FORMAT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
 
 /// A flight as it was recorded.
@@ -50,8 +50,8 @@ pub enum Entry {
     Decoded(DecodedNavdata),
     /// Bytes from the control port.
     Control(Vec<u8>),
-    /// The pilot's hand.
-    Order(PilotOrder),
+    /// An operator's order.
+    Order(Box<Order>),
     /// Something to be read by people, and whether it is a warning.
     Event {
         /// Whether it is a warning.
@@ -283,7 +283,7 @@ fn entry(topic: &str, data: &[u8]) -> Result<Option<Entry>, LogError> {
         _ if topic == topic::RAW_NAVDATA.name => Entry::Navdata(bytes(data)?),
         _ if topic == topic::NAVDATA.name => Entry::Decoded(parse(topic, data)?),
         _ if topic == topic::CONTROL.name => Entry::Control(bytes(data)?),
-        _ if topic == topic::HAND.name => Entry::Order(parse::<Hand>(topic, data)?.into()),
+        _ if topic == topic::ORDERS.name => Entry::Order(Box::new(parse(topic, data)?)),
         _ if topic == topic::LOG.name => {
             #[derive(serde::Deserialize)]
             struct Line {

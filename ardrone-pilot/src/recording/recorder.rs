@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{Decision, FlightEvent, PilotOrder};
+use autopilot::vehicle::{Decision, FlightEvent, Operator, OperatorOrder};
 use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded};
 use mcap::McapError;
 
@@ -124,9 +124,9 @@ impl Recorder {
         self.record(Record::Control { at, bytes: bytes.to_vec() });
     }
 
-    /// The pilot's hand.
-    pub fn order(&mut self, at: Duration, order: PilotOrder) {
-        self.record(Record::Order { at, order });
+    /// An operator's order.
+    pub fn order(&mut self, at: Duration, by: Operator, order: OperatorOrder) {
+        self.record(Record::Order { at, by, order });
     }
 
     /// Something happened.

@@ -22,8 +22,12 @@ pub(super) const RAW_NAVDATA: Topic = Topic {
     text: include_str!("schemas/bytes.json"),
 };
 pub(super) const CONTROL: Topic = Topic { name: "/control/raw", ..RAW_NAVDATA };
-pub(super) const HAND: Topic =
-    Topic { name: "/hand", schema: "ardrone_pilot.Hand", text: include_str!("schemas/hand.json") };
+/// Called "hand" since format 1.
+pub(super) const ORDERS: Topic = Topic {
+    name: "/hand",
+    schema: "ardrone_pilot.Order",
+    text: include_str!("schemas/order.json"),
+};
 /// Foxglove's own: it shows them as log lines.
 pub(super) const LOG: Topic =
     Topic { name: "/log", schema: "foxglove.Log", text: include_str!("schemas/log.json") };
@@ -35,4 +39,4 @@ pub(super) const POSE: Topic = Topic {
 };
 pub(super) const TARGET: Topic = Topic { name: "/target", ..POSE };
 
-pub(super) const ALL: [Topic; 8] = [TICK, NAVDATA, RAW_NAVDATA, CONTROL, HAND, LOG, POSE, TARGET];
+pub(super) const ALL: [Topic; 8] = [TICK, NAVDATA, RAW_NAVDATA, CONTROL, ORDERS, LOG, POSE, TARGET];

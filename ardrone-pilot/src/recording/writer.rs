@@ -17,7 +17,8 @@ use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
 use serde::Serialize;
 use serde_json::json;
 
-use super::messages::{Bytes, DecodedNavdata, Hand, Place, Tick};
+use super::messages::{Bytes, DecodedNavdata, Place, Tick};
+use super::order::Order;
 use super::{
     AGENT_FILE, EVENT, FLIGHT, FORMAT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE, topic,
 };
@@ -106,7 +107,9 @@ impl<W: Write + Seek> LogWriter<W> {
                 Ok(())
             }
             Record::Control { at, bytes: said } => self.message(topic::CONTROL, *at, &bytes(said)),
-            Record::Order { at, order } => self.message(topic::HAND, *at, &Hand::from(*order)),
+            Record::Order { at, by, order } => {
+                self.message(topic::ORDERS, *at, &Order::new(*by, order))
+            }
             Record::Event { at, event } => {
                 let level = if event.warns() { Level::Warning } else { Level::Info };
                 self.log(*at, level, EVENT, &event.to_string())

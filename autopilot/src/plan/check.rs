@@ -98,7 +98,16 @@ pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Di
 
 /// What is wrong with the places that commands lead to.
 pub(super) fn check_places(lines: &[Line], limits: &FlightLimits) -> Vec<Diagnostic> {
-    let mut check = Check { limits, run: DryRun::new(limits), diagnostics: Vec::new() };
+    check_places_behind(DryRun::new(limits), lines, limits)
+}
+
+/// The same of commands behind others.
+pub(super) fn check_places_behind(
+    run: DryRun,
+    lines: &[Line],
+    limits: &FlightLimits,
+) -> Vec<Diagnostic> {
+    let mut check = Check { limits, run, diagnostics: Vec::new() };
     for line in lines {
         if let Some(command) = line.command {
             check.step(command, &line.span);

@@ -8,7 +8,7 @@ use super::{Command, FlightLimits};
 /// A plan, and a drone that hovers at the expected height over its place of take-off, reaches each target
 /// exactly, and lands where it is.
 #[derive(Debug, Clone)]
-pub(super) struct DryRun {
+pub(crate) struct DryRun {
     interpreter: Interpreter,
     place: Pose,
     airborne: bool,
@@ -20,9 +20,26 @@ impl DryRun {
         Self { interpreter, place: Pose::default(), airborne: false }
     }
 
+    /// A flight that goes on from `place`.
+    pub(crate) fn from_here(interpreter: Interpreter, place: Pose, airborne: bool) -> Self {
+        Self { interpreter, place, airborne }
+    }
+
+    /// The drone is at the end of what it is doing.
+    pub(crate) fn finish(&mut self, order: Option<AgentOrder>) {
+        if let Some(order) = order {
+            self.carry_out(order);
+        }
+    }
+
     /// Carries out a command, and what the agent has to do for it.
-    pub(super) fn step(&mut self, command: Command) -> Option<AgentOrder> {
+    pub(crate) fn step(&mut self, command: Command) -> Option<AgentOrder> {
         let order = self.interpreter.carry_out(command, &self.place)?;
+        self.carry_out(order);
+        Some(order)
+    }
+
+    fn carry_out(&mut self, order: AgentOrder) {
         match order {
             AgentOrder::TakeOff => {
                 // In the air it stays where it is.
@@ -38,7 +55,6 @@ impl DryRun {
                 self.place.z_m = 0.0;
             }
         }
-        Some(order)
     }
 
     /// Where the drone is.

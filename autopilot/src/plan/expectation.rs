@@ -7,7 +7,7 @@ use pid::Pose;
 
 use super::dry_run::DryRun;
 use super::interpreter::AgentOrder;
-use super::{Command, FlightLimits, Plan};
+use super::{Command, FlightLimits, Plan, Step};
 use crate::agent::ApproachSettings;
 
 /// What is expected of a step.
@@ -95,14 +95,24 @@ impl Expectations {
 impl Plan {
     /// What is expected of each step, in the order of [`Plan::steps`].
     pub fn expectations(&self, limits: &FlightLimits) -> Vec<Expectation> {
-        let mut expectations = Expectations::new(limits);
-        self.steps().iter().map(|step| expectations.step(step.command)).collect()
+        expectations(self.steps(), limits)
     }
 
     /// How long the flight takes.
     pub fn expected_time(&self, limits: &FlightLimits) -> Duration {
-        self.expectations(limits).iter().map(|step| step.time).sum()
+        expected_time(self.steps(), limits)
     }
+}
+
+/// What is expected of each of these steps.
+pub fn expectations(steps: &[Step], limits: &FlightLimits) -> Vec<Expectation> {
+    let mut expectations = Expectations::new(limits);
+    steps.iter().map(|step| expectations.step(step.command)).collect()
+}
+
+/// How long it takes to fly them.
+pub(crate) fn expected_time(steps: &[Step], limits: &FlightLimits) -> Duration {
+    expectations(steps, limits).iter().map(|step| step.time).sum()
 }
 
 /// What flying so long takes of a new battery.

@@ -103,6 +103,11 @@ impl Interpreter {
         None
     }
 
+    /// The same flight with a new plan: its reference and settings are those of a plan's beginning.
+    pub(crate) fn of_new_plan(&self) -> Self {
+        Self { origin: self.origin, target: self.target, ..Self::new(self.limits) }
+    }
+
     /// A take-off has ended at `pose`, which is held. The first one is where coordinates begin.
     pub(crate) fn take_off_ended(&mut self, pose: &Pose) {
         let origin = Pose { z_m: self.limits.origin_height_m(pose.z_m), ..*pose };
@@ -118,11 +123,6 @@ impl Interpreter {
     /// No stick is to be moved further than this fraction now.
     pub(crate) fn max_control(&self) -> f64 {
         self.max_control
-    }
-
-    /// The fence.
-    pub(crate) fn limits(&self) -> &FlightLimits {
-        &self.limits
     }
 
     fn reference(&self) -> Pose {

@@ -11,6 +11,7 @@
 //! ```
 
 mod check;
+mod commands;
 mod dry_run;
 mod expectation;
 mod interpreter;
@@ -21,13 +22,18 @@ use diagnostic::{Diagnostic, Severity};
 use pid::Pose;
 
 pub use check::{FlightLimits, ZOrigin};
-pub use expectation::{Expectation, battery_percent};
+pub use commands::Commands;
+pub(crate) use dry_run::DryRun;
+pub(crate) use expectation::expected_time;
+pub use expectation::{Expectation, battery_percent, expectations};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::{AgentOrder, Target};
 
 /// A flight plan that was read without errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
+    name: String,
+    text: String,
     steps: Vec<Step>,
     notes: Vec<String>,
 }
@@ -92,6 +98,12 @@ pub struct PlanError {
     rendered: String,
 }
 
+impl PlanError {
+    fn new(name: &str, text: &str, diagnostics: &[Diagnostic]) -> Self {
+        Self { rendered: diagnostic::render_all(diagnostics, &diagnostic::Source { name, text }) }
+    }
+}
+
 impl Plan {
     /// Reads a plan with the default limits; `name` is its file's name for messages.
     ///
@@ -107,10 +119,9 @@ impl Plan {
     /// [`PlanError`] with everything that is wrong.
     pub fn parse_within(name: &str, text: &str, limits: &FlightLimits) -> Result<Self, PlanError> {
         let (plan, mut diagnostics) = Self::review(text, limits);
-        let Some(mut plan) = plan else {
+        let Some(mut plan) = plan.map(|plan| Self { name: name.to_owned(), ..plan }) else {
             diagnostics.retain(|diagnostic| diagnostic.severity == Severity::Error);
-            let source = diagnostic::Source { name, text };
-            return Err(PlanError { rendered: diagnostic::render_all(&diagnostics, &source) });
+            return Err(PlanError::new(name, text, &diagnostics));
         };
         let warnings = match diagnostics.len() {
             0 => return Ok(plan),
@@ -138,18 +149,23 @@ impl Plan {
         if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
             return (None, diagnostics);
         }
-        let mut steps: Vec<Step> = lines
-            .into_iter()
-            .filter_map(|line| {
-                let command = line.command?;
-                Some(Step { command, line: line.number, text: line.text })
-            })
-            .collect();
+        let mut steps: Vec<Step> = lines.into_iter().filter_map(parser::Line::into_step).collect();
         if steps.last().is_some_and(|step| step.command != Command::Land) {
             notes.push("the plan does not end with `land`: the drone will land".to_owned());
             steps.push(Step { command: Command::Land, line: 0, text: "land".to_owned() });
         }
-        (Some(Self { steps, notes }), diagnostics)
+        let (name, text) = (String::new(), text.to_owned());
+        (Some(Self { name, text, steps, notes }), diagnostics)
+    }
+
+    /// The name under which it was read.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The text that was read.
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     /// The commands in order.
@@ -157,19 +173,35 @@ impl Plan {
         &self.steps
     }
 
-    /// What the pilot should be told of the plan before it is flown.
+    /// What the operator should know of the plan before it is flown.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
     /// Whether the plan may start with a drone that is in the air.
     pub fn takes_over(&self) -> bool {
-        let first = self.steps.iter().find_map(|step| {
-            let Command::TakeOff { take_over } = step.command else { return None };
-            Some(take_over)
-        });
-        first.unwrap_or(false)
+        takes_over(&self.steps)
     }
+
+    pub(crate) fn into_steps(self) -> Vec<Step> {
+        self.steps
+    }
+}
+
+impl Step {
+    /// Whether it is a landing that the plan does not spell out.
+    pub(crate) fn is_implied(&self) -> bool {
+        self.line == 0 && self.command == Command::Land
+    }
+}
+
+/// Whether the first take-off may find the drone in the air.
+pub(crate) fn takes_over(steps: &[Step]) -> bool {
+    let first = steps.iter().find_map(|step| {
+        let Command::TakeOff { take_over } = step.command else { return None };
+        Some(take_over)
+    });
+    first.unwrap_or(false)
 }
 
 #[cfg(test)]

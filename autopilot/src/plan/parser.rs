@@ -3,7 +3,7 @@
 use diagnostic::{Diagnostic, Span, closest};
 use pid::Pose;
 
-use super::Command;
+use super::{Command, Step};
 
 /// A plan is read by people and flown on one battery.
 const MAX_LINES: usize = 10_000;
@@ -20,6 +20,18 @@ pub(super) struct Line {
     /// Nothing for what orders nothing in flight.
     pub(super) command: Option<Command>,
     keyword: Keyword,
+}
+
+impl Line {
+    /// Whether it empties the queue before it.
+    pub(super) fn clears(&self) -> bool {
+        matches!(self.keyword, Keyword::ClearCommands)
+    }
+
+    /// The step that it is; nothing for what orders nothing in flight.
+    pub(super) fn into_step(self) -> Option<Step> {
+        Some(Step { command: self.command?, line: self.number, text: self.text })
+    }
 }
 
 /// The first word of a line.
@@ -139,9 +151,7 @@ pub(super) fn note(line: &Line) -> Option<String> {
 
 /// `clearCommands` empties the queue: only what stands behind the last one is flown.
 pub(super) fn clear_commands(mut lines: Vec<Line>) -> Vec<Line> {
-    if let Some(last) =
-        lines.iter().rposition(|line| matches!(line.keyword, Keyword::ClearCommands))
-    {
+    if let Some(last) = lines.iter().rposition(Line::clears) {
         lines.drain(..=last);
     }
     lines

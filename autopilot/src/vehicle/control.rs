@@ -7,10 +7,10 @@ use ardrone_link::session::{FlightOrder, Order};
 use estimator::{Airframe, Prediction, Sticks};
 use pid::{Demand, Inputs, Pose};
 
-use super::{Pilot, pose};
+use super::{Vehicle, pose};
 use crate::agent::AgentCommand;
 
-impl Pilot {
+impl Vehicle {
     /// The agent's command as levels and sticks, where `state` is how the drone moves now.
     pub(super) fn carry_out(
         &mut self,
@@ -19,46 +19,51 @@ impl Pilot {
         state: &Prediction,
         step_s: f64,
     ) -> Order {
-        self.target = None;
+        self.flight.target = None;
         if !matches!(command, AgentCommand::GoTo(_)) {
-            self.saturation.rest(state, step_s);
+            self.flight.saturation.rest(state, step_s);
         }
         let mut told: Option<Demand> = None;
         let order = match command {
             AgentCommand::Standby | AgentCommand::Land => {
-                self.controller.reset();
+                self.flight.controller.reset();
                 Order { flight: FlightOrder::Land, motion: Motion::Hover }
             }
             AgentCommand::TakeOff => Order { flight: FlightOrder::TakeOff, motion: Motion::Hover },
             AgentCommand::Hover => {
-                self.controller.rest();
+                self.flight.controller.rest();
                 Order { flight: FlightOrder::StayAirborne, motion: Motion::Hover }
             }
             AgentCommand::GoTo(target) => {
-                self.target = Some(target);
+                self.flight.target = Some(target);
                 let limit = self.mission.max_control();
                 let demand = self.demand(now, &target, step_s);
-                let demand = self.guard.limit(&demand, limit, state.position_m.z, self.climb_m_s);
-                let full_m_s2 = self.full_tilt_m_s2;
-                self.saturation.watch(&demand, limit, state, &target, full_m_s2, step_s);
+                let demand = self.flight.guard.limit(
+                    &demand,
+                    limit,
+                    state.position_m.z,
+                    self.config.estimator.limits.climb_m_s,
+                );
+                let full_m_s2 = self.full_tilt_m_s2();
+                self.flight.saturation.watch(&demand, limit, state, &target, full_m_s2, step_s);
                 told = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
             AgentCommand::Sticks => {
-                self.controller.rest();
-                let demand = self.hand.sticks(now).unwrap_or_default();
-                let demand = self.guard.limit(
+                self.flight.controller.rest();
+                let demand = self.flight.manual.sticks(now).unwrap_or_default();
+                let demand = self.flight.guard.limit(
                     &demand,
                     self.mission.max_control(),
                     state.position_m.z,
-                    self.climb_m_s,
+                    self.config.estimator.limits.climb_m_s,
                 );
                 told = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
         };
         if told.is_none() {
-            self.guard.let_go();
+            self.flight.guard.let_go();
         }
         let told = told.map_or(estimator::Order::ByItself, |demand| {
             estimator::Order::Sticks(Sticks {
@@ -68,14 +73,14 @@ impl Pilot {
                 clockwise: demand.yaw,
             })
         });
-        self.estimator.told(now, told);
+        self.flight.estimator.told(now, told);
         order
     }
 
     /// The sticks for the way to a target.
     fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Demand {
         // A command acts when the dead time is over: it must suit the drone of that moment.
-        let state = self.state(now + self.dead_time);
+        let state = self.state(now + self.config.estimator.dead_time);
         let Airframe {
             tilt_gain,
             tilt_lag_s,
@@ -85,8 +90,8 @@ impl Pilot {
             thrust_gain,
             drag_1_s,
             ..
-        } = *self.estimator.airframe();
-        self.controller.step(&Inputs {
+        } = *self.flight.estimator.airframe();
+        self.flight.controller.step(&Inputs {
             pose: &pose(&state),
             motion: &pid::Motion {
                 x_m_s: state.velocity_m_s.x,

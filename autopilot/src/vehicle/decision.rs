@@ -1,4 +1,4 @@
-//! What the pilot decided in a tick, and why.
+//! What was decided in a tick, and why.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use super::Phase;
 use crate::agent::{AgentCommand, ChosenPlans, Danger, Report, Senses};
 use crate::safety::Veto;
 
-/// One tick of the pilot, from what was known to what was ordered.
+/// One tick, from what was known to what was ordered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decision {
     /// Since the start.

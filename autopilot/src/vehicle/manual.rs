@@ -1,147 +1,143 @@
-//! The pilot's hand: hold, fly by stick, fly to a place, go on, land, cut.
+//! Manual control: hold, fly by stick, fly to a place, go on with the mission.
 
 use std::time::Duration;
 
 use pid::{Demand, Pose};
 
-use super::{FlightEvent, FlightPhase, LandingReason, Pilot};
+use super::{FlightEvent, Refused, Vehicle};
 use crate::agent::Report;
 use crate::safety::INSIDE_M;
 
-/// What the person at the controls wants.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PilotOrder {
-    /// Stay where the drone is; the plan waits.
-    Hold,
-    /// Go on with the plan.
-    Resume,
-    /// Fly so, for a moment: it is said again as long as a key is pressed. Stick fractions with the
-    /// drone's signs.
-    Steer(Demand),
-    /// Fly to this place and stay there, as high and looking the same way as before; the plan waits.
-    /// A place at or outside the fence becomes the nearest one inside. In the estimator's frame.
-    GoTo {
-        /// To the right of the start, as the drone stood there.
-        x_m: f64,
-        /// Before the start.
-        y_m: f64,
-    },
-    /// Land. The plan is given up.
-    Land,
-    /// Cut the motors now. The drone falls.
-    Cut,
-}
-
-/// A stick that is not moved again for so long is let go: keys that are held repeat faster.
+/// Sticks expire after this time: a key that is held repeats faster.
 const STICK_TIME: Duration = Duration::from_millis(600);
 
-/// What the hand does.
+/// What the operator makes the drone do besides its mission.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Hand {
-    /// The plan waits.
-    pub(super) holds_plan: bool,
-    sticks: Option<(Demand, Duration)>,
-    /// Where the drone is sent, and whether the agent has been told.
-    target: Option<(Pose, bool)>,
-    /// What the next step of the agent serves before anything else. What it is told beside that would
-    /// outlast an order that comes after.
+pub(super) struct Manual {
+    /// The mission waits.
+    pub(super) holds_mission: bool,
+    /// The agent's next step serves a pre-empting order. Anything else that it were given in the same tick
+    /// would outlast that order.
     pub(super) pre_empts: bool,
+    mode: Mode,
 }
 
-impl Hand {
-    /// What the sticks say now.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+enum Mode {
+    /// The drone holds, or flies its mission.
+    #[default]
+    None,
+    Steered {
+        sticks: Demand,
+        since: Duration,
+    },
+    SentTo {
+        place: Pose,
+        /// The agent has been given it.
+        offered: bool,
+    },
+}
+
+impl Manual {
+    /// The sticks, until they expire.
     pub(super) fn sticks(&self, now: Duration) -> Option<Demand> {
-        self.sticks.filter(|(_, since)| now.saturating_sub(*since) < STICK_TIME).map(|(d, _)| d)
+        match self.mode {
+            Mode::Steered { sticks, since } if now.saturating_sub(since) < STICK_TIME => {
+                Some(sticks)
+            }
+            _ => None,
+        }
     }
 
     /// Whether the drone is sent somewhere.
     pub(super) fn sends(&self) -> bool {
-        self.target.is_some()
+        matches!(self.mode, Mode::SentTo { .. })
     }
 }
 
-impl Pilot {
-    /// The person at the controls wants something.
-    pub(super) fn order(&mut self, now: Duration, order: PilotOrder) {
-        match order {
-            PilotOrder::Land => {
-                self.guard.land_here();
-                self.land(now, LandingReason::Pilot);
-            }
-            PilotOrder::Cut => {
-                self.events.push_back(FlightEvent::CutOrdered);
-                self.session.request_emergency_stop();
-            }
-            // Whoever lands is not held up; on the ground there is nothing to hold.
-            _ if self.phase != FlightPhase::Flying || self.on_ground() => {}
-            PilotOrder::Hold => {
-                self.take_in_hand(FlightEvent::Held);
-                self.hold();
-            }
-            PilotOrder::Steer(demand) => {
-                if self.hand.sticks(now).is_none() {
-                    self.take_in_hand(FlightEvent::Steered);
-                    self.hand.target = None;
-                    self.hand.pre_empts = true;
-                    // Pre-empting: always accepted.
-                    let accepted = self.agent.achieve_steer();
-                    debug_assert!(accepted);
-                }
-                self.hand.sticks = Some((demand, now));
-            }
-            PilotOrder::GoTo { x_m, y_m } if x_m.is_finite() && y_m.is_finite() => {
-                let wanted = Pose { x_m, y_m, ..self.target.unwrap_or_else(|| self.pose(now)) };
-                self.take_in_hand(FlightEvent::SentByHand);
-                self.hold();
-                self.hand.target = Some((self.mission.inside(&wanted, INSIDE_M), false));
-            }
-            // No place.
-            PilotOrder::GoTo { .. } => {}
-            PilotOrder::Resume => {
-                if self.hand.holds_plan {
-                    // What the agent does for the hand ends unreported: its end is not the plan's.
-                    self.hold();
-                    self.hand = Hand { pre_empts: self.hand.pre_empts, ..Hand::default() };
-                    self.events.push_back(FlightEvent::Resumed);
-                    // What the agent was told was pre-empted.
-                    if let Some(active) = &mut self.due {
-                        active.offered = false;
-                        active.since = now;
-                    }
-                }
+impl Vehicle {
+    pub(super) fn hold_here(&mut self) {
+        self.begin_manual(FlightEvent::Held);
+        self.agent_holds();
+    }
+
+    pub(super) fn steer(&mut self, now: Duration, sticks: Demand) {
+        if self.flight.manual.sticks(now).is_none() {
+            self.begin_manual(FlightEvent::Steered);
+            self.flight.manual.pre_empts = true;
+            // Pre-empting: always accepted.
+            let accepted = self.flight.agent.achieve_steer();
+            debug_assert!(accepted);
+        }
+        self.flight.manual.mode = Mode::Steered { sticks, since: now };
+    }
+
+    pub(super) fn send_to(&mut self, now: Duration, x_m: f64, y_m: f64) {
+        let wanted = Pose { x_m, y_m, ..self.flight.target.unwrap_or_else(|| self.pose(now)) };
+        self.begin_manual(FlightEvent::SentByHand);
+        self.agent_holds();
+        let place = self.mission.inside(&wanted, INSIDE_M);
+        self.flight.manual.mode = Mode::SentTo { place, offered: false };
+    }
+
+    pub(super) fn resume(&mut self, now: Duration) -> Result<(), Refused> {
+        if !self.flight.manual.holds_mission {
+            return Err(Refused::NothingHeld);
+        }
+        // Landing for good: the mission does not go on.
+        if self.flight.landing.is_some() {
+            return Err(Refused::Landing);
+        }
+        // The agent's order for manual control ends unreported: its end is not the step's.
+        self.agent_holds();
+        self.flight.manual.holds_mission = false;
+        self.events.push_back(FlightEvent::Resumed);
+        // The order for the step was pre-empted.
+        if let Some(active) = &mut self.flight.due {
+            active.offered = false;
+            active.since = now;
+        }
+        Ok(())
+    }
+
+    /// Ends manual control because the mission was replaced. A mission that waits goes on waiting.
+    pub(super) fn manual_ends(&mut self) {
+        self.flight.manual.mode = Mode::None;
+        self.flight.manual.pre_empts = true;
+    }
+
+    /// Gives the agent the place to which the drone is sent, once it holds.
+    pub(super) fn offer_manual_target(&mut self) {
+        let flight = &mut self.flight;
+        if let Mode::SentTo { place, offered: offered @ false } = &mut flight.manual.mode {
+            *offered = flight.agent.achieve_go_to(place.x_m, place.y_m, place.z_m, place.yaw_deg);
+        }
+    }
+
+    /// The agent has reported how its order for manual control ended.
+    pub(super) fn manual_target_ended(&mut self, report: Report) {
+        if let Mode::SentTo { offered: true, .. } = self.flight.manual.mode {
+            self.flight.manual.mode = Mode::None;
+            // It only fails on the ground, which ends the flight for that reason.
+            if report == Report::Done {
+                self.events.push_back(FlightEvent::ManualTargetReached);
             }
         }
     }
 
-    fn hold(&mut self) {
-        self.hand.sticks = None;
-        self.hand.target = None;
-        self.hand.pre_empts = true;
+    fn agent_holds(&mut self) {
+        self.flight.manual.mode = Mode::None;
+        self.flight.manual.pre_empts = true;
         // Pre-empting: always accepted.
-        let accepted = self.agent.achieve_hold();
+        let accepted = self.flight.agent.achieve_hold();
         debug_assert!(accepted);
     }
 
-    /// Tells the agent where the drone is sent, once it holds.
-    pub(super) fn offer_hand_target(&mut self) {
-        if let Some((pose, offered @ false)) = &mut self.hand.target {
-            *offered = self.agent.achieve_go_to(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg);
-        }
-    }
-
-    /// The agent has reported how what it was told by hand ended.
-    pub(super) fn hand_target_ended(&mut self, report: Report) {
-        let told = self.hand.target.take_if(|(_, offered)| *offered);
-        // It only fails on the ground, which is noticed by others.
-        if told.is_some() && report == Report::Done {
-            self.events.push_back(FlightEvent::HandTargetReached);
-        }
-    }
-
-    fn take_in_hand(&mut self, event: FlightEvent) {
-        if !self.hand.holds_plan || event != FlightEvent::Held {
+    fn begin_manual(&mut self, event: FlightEvent) {
+        if !self.flight.manual.holds_mission || event != FlightEvent::Held {
             self.events.push_back(event);
         }
-        self.hand.holds_plan = true;
+        self.flight.manual.holds_mission = true;
+        self.flight.manual.mode = Mode::None;
     }
 }

@@ -3,11 +3,11 @@
 use std::fmt;
 use std::time::Duration;
 
-use super::preflight::Refusal;
+use super::readiness::NotReady;
 use super::{
     AgentOrder, Authority, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration,
-    Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT, NAVDATA_OPTIONS_KEY, Pilot, SETTLE_TIME,
-    Trust, Veto, session,
+    Configured, Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT, NAVDATA_OPTIONS_KEY, SETTLE_TIME,
+    Trust, Vehicle, Veto, session,
 };
 use crate::outcome::Outcome;
 
@@ -36,15 +36,19 @@ pub(super) enum FlightPhase {
         /// How many packets of navdata had come before.
         received: u64,
     },
-    /// Flying the plan.
+    /// On the ground, configured: waiting for an order to fly.
+    Standby {
+        /// Since when.
+        since: Duration,
+    },
+    /// Flying the mission, or waiting in the air for more of it.
     Flying,
-    /// Landing for a reason other than the plan.
+    /// Landing for a reason other than the mission. It goes on until the drone is down for sure, also after
+    /// the flight's outcome is known.
     Landing {
         /// When it was ordered.
         since: Duration,
     },
-    /// Over.
-    Ended(Outcome),
 }
 
 impl FlightPhase {
@@ -55,14 +59,14 @@ impl FlightPhase {
             Self::Observing { .. } => Phase::Observing,
             Self::Configuring { .. } => Phase::Configuring,
             Self::Settling { .. } => Phase::Trimming,
+            Self::Standby { .. } => Phase::Standby,
             Self::Flying => Phase::Flying,
             Self::Landing { .. } => Phase::Landing,
-            Self::Ended(_) => Phase::Ended,
         }
     }
 }
 
-/// What the flight is doing.
+/// What the vehicle is doing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Phase {
     /// No navdata yet.
@@ -73,12 +77,12 @@ pub enum Phase {
     Configuring,
     /// The level reference is set, and the last checks are made.
     Trimming,
-    /// The agent flies the plan, or what the operator orders.
+    /// On the ground, configured: waiting for an order to fly.
+    Standby,
+    /// The agent flies the mission, or what the operator orders.
     Flying,
     /// The drone is coming down for good.
     Landing,
-    /// The flight is over.
-    Ended,
 }
 
 impl Phase {
@@ -89,9 +93,9 @@ impl Phase {
             Self::Observing => "observing",
             Self::Configuring => "configuring",
             Self::Trimming => "trimming",
+            Self::Standby => "standby",
             Self::Flying => "flying",
             Self::Landing => "landing",
-            Self::Ended => "ended",
         }
     }
 }
@@ -104,12 +108,15 @@ impl fmt::Display for Phase {
 
 /// An order takes at most so long to arrive, and its effect to be told.
 const ON_ITS_WAY: Duration = Duration::from_millis(600);
+/// A drone that rises within this time after its landing does so on an old order of ours. Later, somebody
+/// else flies it.
+const OURS: Duration = Duration::from_secs(2);
 
 /// Why the drone is landed before the plan's end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LandingReason {
-    /// The person at the keyboard wants it.
-    Pilot,
+    /// An operator wants it.
+    Operator,
     /// The battery is nearly empty.
     Battery {
         /// What is left.
@@ -129,7 +136,7 @@ pub enum LandingReason {
         /// Its index.
         step: usize,
     },
-    /// Where the pilot has sent the drone was not reached in time.
+    /// Where the operator has sent the drone was not reached in time.
     HandTargetTimedOut,
     /// What the drone says of itself cannot be believed.
     Distrust(Trust),
@@ -148,7 +155,7 @@ pub enum LandingReason {
 impl fmt::Display for LandingReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Pilot => f.write_str("the pilot's order"),
+            Self::Operator => f.write_str("the operator's order"),
             Self::Battery { percent } => write!(f, "battery at {percent} %"),
             Self::LinkLost => f.write_str("link lost"),
             Self::DroneRestarted => f.write_str("the drone has restarted"),
@@ -169,38 +176,78 @@ impl fmt::Display for LandingReason {
     }
 }
 
-impl Pilot {
+impl Vehicle {
     /// Moves from phase to phase, and notices what ends a flight.
     pub(super) fn watch(&mut self, now: Duration) {
-        if self.is_flown_by_another() {
-            self.refuse(now, vec![Refusal::NotLanded.to_string()]);
-        }
+        let departs = self.departure.is_some();
         match self.phase {
-            FlightPhase::Observing { since, received } => {
+            _ if self.is_flown_by_another() => {
+                if departs {
+                    self.refuse(now, vec![NotReady::NotLanded.to_string()]);
+                } else {
+                    self.observe_again(now);
+                }
+            }
+            FlightPhase::Connecting
+                if self.departure.is_some_and(|at| now.saturating_sub(at) >= CONNECT_TIMEOUT) =>
+            {
+                self.end(now, Outcome::NoDrone);
+            }
+            FlightPhase::Observing { since, received } if departs => {
                 let watched = now.saturating_sub(since);
                 if watched >= SETTLE_TIME {
                     let packets = self.session.statistics().received.saturating_sub(received);
                     self.take_over_or_refuse(now, watched, packets);
                 }
             }
-            FlightPhase::Connecting if now >= CONNECT_TIMEOUT => self.end(Outcome::NoDrone),
+            // Whoever flew it has landed it.
+            FlightPhase::Observing { .. } if self.on_ground() && self.navdata.is_some() => {
+                self.begin_to_configure(now, Authority::OnGround);
+            }
             FlightPhase::Configuring { since }
-                if now.saturating_sub(since) >= CONFIGURE_TIMEOUT =>
+                if departs && now.saturating_sub(since) >= CONFIGURE_TIMEOUT =>
             {
                 let reason = "the drone does not take its configuration".to_owned();
                 self.refuse(now, vec![reason]);
             }
             FlightPhase::Settling { since, received } => {
                 let watched = now.saturating_sub(since);
-                if watched >= SETTLE_TIME {
+                if watched < SETTLE_TIME {
+                } else if departs {
                     let packets = self.session.statistics().received.saturating_sub(received);
                     self.take_off_or_refuse(now, watched, packets);
+                } else {
+                    self.phase = FlightPhase::Standby { since: now };
                 }
             }
+            FlightPhase::Standby { since } if !self.on_ground() => self.has_risen(now, since),
             FlightPhase::Flying => self.watch_flight(now),
             FlightPhase::Landing { since } => self.watch_landing(now, since),
-            FlightPhase::Connecting | FlightPhase::Configuring { .. } | FlightPhase::Ended(_) => {}
+            FlightPhase::Connecting
+            | FlightPhase::Observing { .. }
+            | FlightPhase::Configuring { .. }
+            | FlightPhase::Standby { .. } => {}
         }
+    }
+
+    /// A drone that stood by is in the air.
+    fn has_risen(&mut self, now: Duration, since: Duration) {
+        if self.flight.report.took_off_at.is_some() && now.saturating_sub(since) < OURS {
+            self.phase = FlightPhase::Landing { since: now };
+            // Pre-empting: always accepted.
+            let accepted = self.flight.agent.achieve_land();
+            debug_assert!(accepted);
+        } else {
+            self.observe_again(now);
+        }
+    }
+
+    /// Somebody else flies the drone: nothing more is sent to it until it stands.
+    fn observe_again(&mut self, now: Duration) {
+        self.events.push_back(FlightEvent::FlownByAnother);
+        self.authority = Authority::None;
+        let received = self.session.statistics().received;
+        self.phase = FlightPhase::Observing { since: now, received };
     }
 
     /// The agent watches over the flight; it repeats a landing for ever.
@@ -209,11 +256,11 @@ impl Pilot {
             self.land(now, LandingReason::DroneFault(fault));
         }
         // A hover would not show that it has come back.
-        let trust = self.estimator.trust();
+        let trust = self.flight.estimator.trust();
         if matches!(trust, Trust::Unresponsive(_)) {
             self.land(now, LandingReason::Distrust(trust));
         }
-        if let Some(active) = self.due
+        if let Some(active) = self.flight.due
             && active.due.order == AgentOrder::Land
             && now.saturating_sub(active.since) >= LANDING_TIMEOUT
         {
@@ -225,11 +272,13 @@ impl Pilot {
     /// spoiled.
     fn lasting_fault(&mut self, now: Duration) -> Option<&'static str> {
         let fault = if self.on_ground() { None } else { self.reported_fault() };
-        self.fault_since = fault.map(|_| self.fault_since.unwrap_or(now));
-        fault.filter(|_| self.fault_since.is_some_and(|at| now.saturating_sub(at) >= FAULT_TIME))
+        self.flight.fault_since = fault.map(|_| self.flight.fault_since.unwrap_or(now));
+        fault.filter(|_| {
+            self.flight.fault_since.is_some_and(|at| now.saturating_sub(at) >= FAULT_TIME)
+        })
     }
 
-    /// Somebody else has taken off with the drone that was found on the ground.
+    /// Somebody else has taken off with the drone that was found on the ground, while it was prepared.
     fn is_flown_by_another(&self) -> bool {
         let prepares =
             matches!(self.phase, FlightPhase::Configuring { .. } | FlightPhase::Settling { .. });
@@ -240,14 +289,16 @@ impl Pilot {
     /// said.
     pub(super) fn refuse(&mut self, now: Duration, reasons: Vec<String>) {
         if self.authority == Authority::TakenOver && !self.on_ground() {
-            self.refusals = reasons;
+            self.flight.refusals = reasons;
             self.land(now, LandingReason::TakeOverRefused);
             return;
         }
         if !self.on_ground() {
             self.authority = Authority::None;
+            let received = self.session.statistics().received;
+            self.phase = FlightPhase::Observing { since: now, received };
         }
-        self.end(Outcome::PreflightRefused { reasons });
+        self.end(now, Outcome::PreflightRefused { reasons });
     }
 
     /// The agent says that flying on is not safe; but for a warning it already lands.
@@ -259,16 +310,16 @@ impl Pilot {
                 return;
             }
             Danger::BatteryEmpty => LandingReason::Battery { percent },
-            Danger::Blind => match self.estimator.trust() {
+            Danger::Blind => match self.flight.estimator.trust() {
                 Trust::Sound => LandingReason::LinkLost,
                 trust => LandingReason::Distrust(trust),
             },
             Danger::Lost => LandingReason::PlaceUncertain,
             Danger::Wind => LandingReason::Wind,
-            Danger::NoProgress if self.hand.sends() => LandingReason::HandTargetTimedOut,
-            Danger::NoProgress => {
-                LandingReason::StepTimedOut { step: self.due.map_or(0, |active| active.due.step) }
-            }
+            Danger::NoProgress if self.flight.manual.sends() => LandingReason::HandTargetTimedOut,
+            Danger::NoProgress => LandingReason::StepTimedOut {
+                step: self.flight.due.map_or(0, |active| active.due.step),
+            },
         };
         self.give_up(now, reason);
     }
@@ -281,16 +332,16 @@ impl Pilot {
         // A drone that has restarted is heard before it says where it is.
         let known = self.demo().is_some();
         if landed && known {
-            self.report.landed_at = Some(now);
+            self.flight.report.landed_at = Some(now);
         } else if !(blind && elapsed >= BLIND_LANDING_TIME || elapsed >= LANDING_TIMEOUT) {
             return;
         }
-        let outcome = match self.landing {
-            Some(LandingReason::Pilot) if landed => Outcome::Interrupted,
-            Some(LandingReason::Pilot) => Outcome::LeftLanding,
+        let outcome = match self.flight.landing {
+            Some(LandingReason::Operator) if landed => Outcome::Interrupted,
+            Some(LandingReason::Operator) => Outcome::LeftLanding,
             Some(LandingReason::LinkLost) => Outcome::LinkLost,
             Some(LandingReason::TakeOverRefused) => {
-                Outcome::PreflightRefused { reasons: std::mem::take(&mut self.refusals) }
+                Outcome::PreflightRefused { reasons: std::mem::take(&mut self.flight.refusals) }
             }
             Some(reason) => {
                 let mut reason = reason.to_string();
@@ -301,42 +352,79 @@ impl Pilot {
             }
             None => Outcome::Completed,
         };
-        self.end(if blind { Outcome::LinkLost } else { outcome });
+        self.end(now, if blind { Outcome::LinkLost } else { outcome });
     }
 
     /// Gives up the plan and lands. The first reason counts; on the ground the flight just ends.
     pub(super) fn land(&mut self, now: Duration, reason: LandingReason) {
-        if self.landing.is_some() || matches!(self.phase, FlightPhase::Ended(_)) {
+        let flies = matches!(self.phase, FlightPhase::Flying);
+        if self.flight.landing.is_some()
+            || !flies && self.departure.is_none() && !self.is_ours_in_the_air()
+        {
             return;
         }
         if self.authority == Authority::None && self.navdata.is_some() {
-            self.refuse(now, vec![Refusal::NotLanded.to_string()]);
+            self.refuse(now, vec![NotReady::NotLanded.to_string()]);
             return;
         }
-        let before_flight = !matches!(self.phase, FlightPhase::Flying);
-        if before_flight && self.on_ground() {
-            self.end(Outcome::Interrupted);
+        if !flies && self.on_ground() {
+            self.end(now, Outcome::Interrupted);
             return;
         }
         // Pre-empting: always accepted, obeyed in the next step.
-        let accepted = self.agent.achieve_land();
+        let accepted = self.flight.agent.achieve_land();
         debug_assert!(accepted);
         self.give_up(now, reason);
     }
 
     /// The plan is given up, and the agent lands. The first reason counts.
     fn give_up(&mut self, now: Duration, reason: LandingReason) {
-        if self.landing.is_some() {
+        if self.flight.landing.is_some() {
             return;
         }
         self.events.push_back(FlightEvent::LandingOrdered(reason));
-        self.landing = Some(reason);
-        self.due = None;
+        self.flight.landing = Some(reason);
+        self.flight.due = None;
         self.phase = FlightPhase::Landing { since: now };
     }
 
-    pub(super) fn end(&mut self, outcome: Outcome) {
-        self.phase = FlightPhase::Ended(outcome);
+    /// A drone in the air that was taken over, before it is flown.
+    fn is_ours_in_the_air(&self) -> bool {
+        self.authority == Authority::TakenOver && !self.on_ground()
+    }
+
+    /// The flight's outcome is known: the first one counts. A drone that is down stands by again; one that
+    /// is not, or was lost, goes on being landed.
+    pub(super) fn end(&mut self, now: Duration, outcome: Outcome) {
+        if self.flight.outcome.is_none() {
+            self.flight.outcome = Some(outcome);
+            self.pending.outcome = true;
+        }
+        self.departure = None;
+        let is_down = self.session.is_alive() && self.on_ground() && self.demo().is_some();
+        self.phase = match &self.phase {
+            FlightPhase::Settling { .. } | FlightPhase::Flying | FlightPhase::Landing { .. }
+                if is_down && self.session.is_ready() =>
+            {
+                FlightPhase::Standby { since: now }
+            }
+            FlightPhase::Flying | FlightPhase::Landing { .. } if is_down => {
+                FlightPhase::Configuring { since: now }
+            }
+            FlightPhase::Flying => {
+                // Pre-empting: always accepted.
+                let accepted = self.flight.agent.achieve_land();
+                debug_assert!(accepted);
+                FlightPhase::Landing { since: now }
+            }
+            other => other.clone(),
+        };
+        if is_down {
+            self.authority = match self.authority {
+                Authority::TakenOver => Authority::OnGround,
+                other => other,
+            };
+        }
     }
 
     pub(super) fn session_events(&mut self, now: Duration) {
@@ -353,7 +441,7 @@ impl Pilot {
                     self.compare_configuration(&configuration);
                 }
                 session::Event::ConfigurationNotRead => {
-                    self.report.settings_not_read = true;
+                    self.configured.not_read = true;
                     self.events.push_back(FlightEvent::ConfigurationNotRead);
                 }
                 session::Event::Ready => {
@@ -367,14 +455,14 @@ impl Pilot {
                         self.events.push_back(FlightEvent::Configured);
                     }
                 }
-                session::Event::LinkLost => self.link_lost(),
+                session::Event::LinkLost => self.link_lost(now),
                 session::Event::DroneRestarted => {
-                    self.estimator.handle_restart();
+                    self.flight.estimator.handle_restart();
                     self.navdata = None;
                     match self.phase {
                         FlightPhase::Flying => self.land(now, LandingReason::DroneRestarted),
-                        FlightPhase::Settling { .. } => {
-                            self.phase = FlightPhase::Configuring { since: now };
+                        FlightPhase::Settling { .. } | FlightPhase::Standby { .. } => {
+                            self.begin_to_configure(now, self.authority);
                         }
                         _ => {}
                     }
@@ -382,14 +470,16 @@ impl Pilot {
                 session::Event::Emergency => {
                     self.events.push_back(FlightEvent::Emergency);
                     if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
-                        self.end(Outcome::Emergency);
+                        self.end(now, Outcome::Emergency);
                     }
                 }
-                // The agent watches take-off and landing itself.
+                session::Event::EmergencyCleared => {
+                    self.events.push_back(FlightEvent::EmergencyCleared);
+                }
+                session::Event::Landed => self.events.push_back(FlightEvent::Landed),
+                // The agent watches take-offs itself.
                 session::Event::Configured { .. }
-                | session::Event::EmergencyCleared
                 | session::Event::Airborne
-                | session::Event::Landed
                 | session::Event::TakeOffTimedOut => {}
             }
         }
@@ -408,18 +498,22 @@ impl Pilot {
     /// From here on the drone is spoken to.
     pub(super) fn begin_to_configure(&mut self, now: Duration, authority: Authority) {
         self.authority = authority;
-        self.asked_at = now;
+        self.flight.asked_at = now;
+        self.configured = Configured::default();
         self.phase = FlightPhase::Configuring { since: now };
     }
 
-    fn link_lost(&mut self) {
+    fn link_lost(&mut self, now: Duration) {
         self.events.push_back(FlightEvent::LinkLost);
         // In flight the agent lands when it has been blind for long.
-        if !matches!(
-            self.phase,
-            FlightPhase::Flying | FlightPhase::Landing { .. } | FlightPhase::Ended(_)
-        ) {
-            self.end(Outcome::NoDrone);
+        if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
+            return;
+        }
+        self.phase = FlightPhase::Connecting;
+        self.authority = Authority::None;
+        self.navdata = None;
+        if self.departure.is_some() {
+            self.end(now, Outcome::NoDrone);
         }
     }
 
@@ -442,8 +536,8 @@ impl Pilot {
     fn setting_unconfirmed(&mut self, key: &str) {
         if key == NAVDATA_OPTIONS_KEY {
             self.events.push_back(FlightEvent::NoDroneClock);
-        } else {
-            self.report.unconfirmed_settings.push(key.to_owned());
+        } else if !self.configured.unconfirmed.iter().any(|other| other == key) {
+            self.configured.unconfirmed.push(key.to_owned());
         }
     }
 }

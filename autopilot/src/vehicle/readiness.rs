@@ -1,9 +1,9 @@
-//! The pre-flight check: every reason not to fly, at once.
+//! Whether the vehicle could take off: every reason why it could not, at once.
 
 use std::fmt;
 use std::time::Duration;
 
-use super::{Authority, ControlState, DroneState, FlightEvent, FlightPhase, Pilot, Trust};
+use super::{Authority, ControlState, DroneState, FlightEvent, FlightPhase, Trust, Vehicle};
 use crate::agent::LANDING_BATTERY_PERCENT;
 use crate::plan;
 
@@ -30,28 +30,73 @@ const FAULTS: [(DroneState, &str); 6] = [
 
 /// A reason not to take off.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Refusal {
+#[non_exhaustive]
+pub enum NotReady {
+    /// No drone answers.
+    NoDrone,
+    /// Its settings are being made, or its level reference.
+    Configuring,
+    /// It flies already, or is about to.
+    InFlight,
+    /// The drone has cut its motors.
     Emergency,
+    /// The drone reports a fault of its own.
     Drone(&'static str),
+    /// The drone answers without flight data.
     Silent,
-    OldNavdata { age: Duration },
-    FewNavdata { hz: f64 },
+    /// The newest navdata are too old.
+    OldNavdata {
+        /// How old.
+        age: Duration,
+    },
+    /// Too few navdata arrive.
+    FewNavdata {
+        /// Packets a second.
+        hz: f64,
+    },
+    /// The navdata contradict themselves or the commands.
     Distrust(Trust),
-    NotOnFloor { altitude_m: f64 },
-    Leaning { deg: f64 },
-    EmptyBattery { percent: u32 },
-    ShortBattery { percent: u32, flight: Duration, needed: f64 },
+    /// It reads a height although it has landed.
+    NotOnFloor {
+        /// Above the floor.
+        altitude_m: f64,
+    },
+    /// It does not stand level.
+    Leaning {
+        /// By this angle.
+        deg: f64,
+    },
+    /// The battery is too low for any flight.
+    EmptyBattery {
+        /// What is left.
+        percent: u32,
+    },
+    /// The battery is too low for this mission.
+    ShortBattery {
+        /// What is left.
+        percent: u32,
+        /// How long the mission takes.
+        flight: Duration,
+        /// What must be left at the take-off.
+        needed: f64,
+    },
+    /// Somebody else flies the drone.
     NotLanded,
+    /// The drone has not taken these settings.
     Settings(String),
+    /// The drone's settings could not be read back.
     SettingsNotRead,
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for NotReady {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::NoDrone => f.write_str("no drone answers yet"),
+            Self::Configuring => f.write_str("the drone is being configured"),
+            Self::InFlight => f.write_str("a flight is under way"),
             Self::Emergency => f.write_str(
-                "the drone is in its emergency state: check it, then clear it with its reset or \
-                 battery",
+                "the drone is in its emergency state: check it, then clear it with `recover`, its \
+                 reset button or its battery",
             ),
             Self::Drone(problem) => f.write_str(problem),
             Self::Silent => f.write_str("the drone sends no flight data"),
@@ -94,48 +139,78 @@ impl fmt::Display for Refusal {
     }
 }
 
-impl Pilot {
+impl Vehicle {
     /// Begins the flight, or says why not. The drone has been watched for `watched`, in which so many
     /// packets came.
     pub(super) fn take_off_or_refuse(&mut self, now: Duration, watched: Duration, packets: u64) {
-        let mut refusals = self.problems_of_the_drone();
-        refusals.extend(self.problems_of_the_link(now, watched, packets));
-        refusals.extend(self.problems_of_the_battery());
-        refusals.extend(self.problems_of_the_sensors(now));
+        let mut reasons = self.problems_of_the_drone();
+        reasons.extend(self.problems_of_the_link(now, rate_hz(watched, packets)));
+        reasons.extend(self.problems_of_the_battery());
+        reasons.extend(self.problems_of_the_sensors(now));
         if !self.on_ground() && !self.mission.takes_over() {
-            refusals.push(Refusal::NotLanded);
+            reasons.push(NotReady::NotLanded);
         }
-        if !self.report.unconfirmed_settings.is_empty() {
-            refusals.push(Refusal::Settings(self.report.unconfirmed_settings.join(", ")));
-        }
-        if self.report.settings_not_read {
-            refusals.push(Refusal::SettingsNotRead);
-        }
-        if refusals.is_empty() {
+        reasons.extend(self.problems_of_the_settings());
+        if reasons.is_empty() {
+            self.departure = None;
             self.phase = FlightPhase::Flying;
         } else {
-            self.refuse(now, refusals.iter().map(ToString::to_string).collect());
+            self.refuse(now, reasons.iter().map(ToString::to_string).collect());
         }
     }
 
+    /// Why the vehicle could not take off now with a short mission; looked at while it does not fly. The order
+    /// is that in which a person would mend them.
+    pub(super) fn not_ready(&self, now: Duration) -> Vec<NotReady> {
+        match self.phase {
+            FlightPhase::Connecting => vec![NotReady::NoDrone],
+            FlightPhase::Observing { .. } if self.navdata.is_some() => vec![NotReady::NotLanded],
+            FlightPhase::Observing { .. } => vec![NotReady::NoDrone],
+            FlightPhase::Settling { .. } if self.departure.is_some() => vec![NotReady::InFlight],
+            FlightPhase::Configuring { .. } | FlightPhase::Settling { .. } => {
+                vec![NotReady::Configuring]
+            }
+            FlightPhase::Flying | FlightPhase::Landing { .. } => vec![NotReady::InFlight],
+            FlightPhase::Standby { .. } => {
+                let mut reasons = self.problems_of_the_drone();
+                reasons.extend(self.problems_of_the_link(now, self.navdata_hz));
+                reasons.extend(self.battery_empty());
+                reasons.extend(self.problems_of_the_sensors(now));
+                reasons.extend(self.problems_of_the_settings());
+                reasons
+            }
+        }
+    }
+
+    fn problems_of_the_settings(&self) -> Vec<NotReady> {
+        let mut reasons = Vec::new();
+        if !self.configured.unconfirmed.is_empty() {
+            reasons.push(NotReady::Settings(self.configured.unconfirmed.join(", ")));
+        }
+        if self.configured.not_read {
+            reasons.push(NotReady::SettingsNotRead);
+        }
+        reasons
+    }
+
     /// Decides about a drone that was found in the air, by what it says unasked: one that has lost its
-    /// pilot says nothing but its state until it is configured.
+    /// operator says nothing but its state until it is configured.
     pub(super) fn take_over_or_refuse(&mut self, now: Duration, watched: Duration, packets: u64) {
-        let mut refusals = self.problems_of_the_drone();
+        let mut reasons = self.problems_of_the_drone();
         if self.demo().is_some() {
-            refusals.extend(self.problems_of_the_battery());
-            refusals.extend(self.problems_of_the_sensors(now));
+            reasons.extend(self.problems_of_the_battery());
+            reasons.extend(self.problems_of_the_sensors(now));
         }
-        let link = self.problems_of_the_link(now, watched, packets);
-        refusals.extend(link.filter(|refusal| *refusal != Refusal::Silent));
+        let link = self.problems_of_the_link(now, rate_hz(watched, packets));
+        reasons.extend(link.filter(|reason| *reason != NotReady::Silent));
         if !self.mission.takes_over() {
-            refusals.push(Refusal::NotLanded);
+            reasons.push(NotReady::NotLanded);
         }
-        if refusals.is_empty() {
+        if reasons.is_empty() {
             self.events.push_back(FlightEvent::TakingOver);
             self.begin_to_configure(now, Authority::TakenOver);
         } else {
-            self.refuse(now, refusals.iter().map(ToString::to_string).collect());
+            self.refuse(now, reasons.iter().map(ToString::to_string).collect());
         }
     }
 
@@ -146,68 +221,71 @@ impl Pilot {
     }
 
     /// Navdata that cannot be believed lift no drone.
-    fn problems_of_the_sensors(&self, now: Duration) -> Option<Refusal> {
+    fn problems_of_the_sensors(&self, now: Duration) -> Option<NotReady> {
         let demo = self.demo()?;
-        let trust = self.estimator.trust();
+        let trust = self.flight.estimator.trust();
         let heard = self.session.silence(now).is_some_and(|age| age <= OLDEST_NAVDATA);
         let old = heard && self.blind_for(now) > OLDEST_NAVDATA;
         if trust != Trust::Sound {
-            Some(Refusal::Distrust(trust))
+            Some(NotReady::Distrust(trust))
         } else if old {
-            Some(Refusal::OldNavdata { age: self.blind_for(now) })
+            Some(NotReady::OldNavdata { age: self.blind_for(now) })
         } else if self.on_ground() && demo.altitude_m.abs() > HIGHEST_ON_GROUND_M {
-            Some(Refusal::NotOnFloor { altitude_m: demo.altitude_m })
+            Some(NotReady::NotOnFloor { altitude_m: demo.altitude_m })
         } else {
             None
         }
     }
 
-    fn problems_of_the_drone(&self) -> Vec<Refusal> {
+    fn problems_of_the_drone(&self) -> Vec<NotReady> {
         let state = self.drone_state();
-        let mut refusals = Vec::new();
+        let mut reasons = Vec::new();
         if state.contains(DroneState::EMERGENCY) {
-            refusals.push(Refusal::Emergency);
+            reasons.push(NotReady::Emergency);
         }
         let faults = FAULTS.iter().filter(|(bit, _)| state.contains(*bit));
-        refusals.extend(faults.map(|(_, problem)| Refusal::Drone(problem)));
+        reasons.extend(faults.map(|(_, problem)| NotReady::Drone(problem)));
         let landed = |control_state| control_state == ControlState::Landed;
         if let Some(demo) = self.demo().filter(|demo| landed(demo.control_state)) {
             let deg = demo.roll_deg.abs().max(demo.pitch_deg.abs());
             if deg > LARGEST_LEAN_DEG {
-                refusals.push(Refusal::Leaning { deg });
+                reasons.push(NotReady::Leaning { deg });
             }
         }
-        refusals
+        reasons
     }
 
-    fn problems_of_the_link(
-        &self,
-        now: Duration,
-        watched: Duration,
-        packets: u64,
-    ) -> Option<Refusal> {
+    fn problems_of_the_link(&self, now: Duration, hz: f64) -> Option<NotReady> {
         let Some(age) = self.session.silence(now).filter(|_| self.demo().is_some()) else {
-            return Some(Refusal::Silent);
+            return Some(NotReady::Silent);
         };
-        let hz = packets as f64 / watched.as_secs_f64();
         if age > OLDEST_NAVDATA {
-            Some(Refusal::OldNavdata { age })
+            Some(NotReady::OldNavdata { age })
         } else if hz < LEAST_NAVDATA_HZ {
-            Some(Refusal::FewNavdata { hz })
+            Some(NotReady::FewNavdata { hz })
         } else {
             None
         }
     }
 
-    fn problems_of_the_battery(&self) -> Option<Refusal> {
-        let percent = self.demo()?.battery_percent;
-        let needed = f64::from(LANDING_BATTERY_PERCENT) + plan::battery_percent(self.expected_time);
-        if percent <= LEAST_BATTERY_PERCENT {
-            Some(Refusal::EmptyBattery { percent })
-        } else if f64::from(percent) < needed {
-            Some(Refusal::ShortBattery { percent, flight: self.expected_time, needed })
-        } else {
-            None
-        }
+    fn problems_of_the_battery(&self) -> Option<NotReady> {
+        self.battery_empty().or_else(|| self.battery_too_low_for_mission())
     }
+
+    fn battery_empty(&self) -> Option<NotReady> {
+        let percent = self.demo()?.battery_percent;
+        (percent <= LEAST_BATTERY_PERCENT).then_some(NotReady::EmptyBattery { percent })
+    }
+
+    pub(super) fn battery_too_low_for_mission(&self) -> Option<NotReady> {
+        let percent = self.demo()?.battery_percent;
+        let flight = self.mission.expected_time();
+        let needed = f64::from(LANDING_BATTERY_PERCENT) + plan::battery_percent(flight);
+        let short = f64::from(percent) < needed;
+        short.then_some(NotReady::ShortBattery { percent, flight, needed })
+    }
+}
+
+fn rate_hz(watched: Duration, packets: u64) -> f64 {
+    packets as f64 / watched.as_secs_f64()
 }

@@ -7,7 +7,7 @@ use diagnostic::printable;
 use estimator::{Airframe, Trust};
 use pid::Pose;
 
-use super::{LandingReason, Phase};
+use super::{LandingReason, Operator, Phase};
 use crate::agent::{ChosenPlans, distance};
 use crate::safety::Veto;
 
@@ -55,17 +55,40 @@ pub enum FlightEvent {
         /// What is left.
         percent: u32,
     },
-    /// The pilot holds the drone where it is.
+    /// The emergency was cleared: the drone could fly again.
+    EmergencyCleared,
+    /// The drone stands on the ground again.
+    Landed,
+    /// Somebody else flies the drone: nothing is sent to it until it stands.
+    FlownByAnother,
+    /// A mission was loaded.
+    MissionLoaded {
+        /// How many steps it has.
+        steps: usize,
+    },
+    /// Commands were added to the mission.
+    MissionExtended {
+        /// How many steps it has now.
+        steps: usize,
+    },
+    /// The mission was dropped.
+    MissionCleared,
+    /// Another operator has the controls now.
+    ControlsTaken {
+        /// Who.
+        by: Operator,
+    },
+    /// An operator holds the drone where it is.
     Held,
-    /// The pilot flies by hand.
+    /// An operator flies by stick.
     Steered,
-    /// The pilot sends the drone somewhere.
+    /// An operator sends the drone somewhere.
     SentByHand,
-    /// The drone is where the pilot has sent it.
-    HandTargetReached,
-    /// The plan goes on.
+    /// The drone is where an operator has sent it.
+    ManualTargetReached,
+    /// The mission goes on.
     Resumed,
-    /// The pilot has the motors cut.
+    /// An operator has the motors cut.
     CutOrdered,
     /// The safety layer replaced a command.
     Veto(Veto),
@@ -82,10 +105,15 @@ impl FlightEvent {
             | Self::TakingOver
             | Self::StepStarted { .. }
             | Self::StepDone { .. }
+            | Self::EmergencyCleared
+            | Self::Landed
+            | Self::MissionLoaded { .. }
+            | Self::MissionExtended { .. }
+            | Self::MissionCleared
             | Self::Held
             | Self::Steered
             | Self::SentByHand
-            | Self::HandTargetReached
+            | Self::ManualTargetReached
             | Self::Resumed => false,
             Self::ConfigurationNotRead
             | Self::TargetCorrected { .. }
@@ -93,6 +121,8 @@ impl FlightEvent {
             | Self::LinkLost
             | Self::Emergency
             | Self::BatteryLow { .. }
+            | Self::FlownByAnother
+            | Self::ControlsTaken { .. }
             | Self::CutOrdered
             | Self::Veto(_) => true,
         }
@@ -125,10 +155,19 @@ impl fmt::Display for FlightEvent {
             Self::LinkLost => f.write_str("link lost: ordering the landing blindly"),
             Self::Emergency => f.write_str("EMERGENCY: the drone has cut its motors"),
             Self::BatteryLow { percent } => write!(f, "battery at {percent} %: land soon"),
+            Self::EmergencyCleared => f.write_str("emergency cleared"),
+            Self::Landed => f.write_str("landed"),
+            Self::FlownByAnother => {
+                f.write_str("somebody else flies the drone: nothing is sent to it until it stands")
+            }
+            Self::MissionLoaded { steps } => write!(f, "mission loaded: {}", counted(*steps)),
+            Self::MissionExtended { steps } => write!(f, "mission extended: {}", counted(*steps)),
+            Self::MissionCleared => f.write_str("mission cleared"),
+            Self::ControlsTaken { by } => write!(f, "{by} has taken the controls"),
             Self::Held => f.write_str("holding"),
             Self::Steered => f.write_str("flown by hand"),
             Self::SentByHand => f.write_str("sent by hand"),
-            Self::HandTargetReached => f.write_str("it is where it was sent by hand"),
+            Self::ManualTargetReached => f.write_str("it is where it was sent by hand"),
             Self::Resumed => f.write_str("going on with the plan"),
             Self::CutOrdered => f.write_str("EMERGENCY CUT ordered"),
             Self::Veto(veto) => f.write_str(match veto {
@@ -141,6 +180,13 @@ impl fmt::Display for FlightEvent {
                 Veto::OutsideFence => "outside the fence: flying back and landing",
             }),
         }
+    }
+}
+
+fn counted(steps: usize) -> String {
+    match steps {
+        1 => "1 step".to_owned(),
+        steps => format!("{steps} steps"),
     }
 }
 
@@ -169,7 +215,7 @@ impl Waypoint {
 /// What remains of a flight.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FlightReport {
-    /// Steps of the plan.
+    /// Steps of the mission when the flight ended.
     pub steps: usize,
     /// Steps up to the last one that was carried out.
     pub steps_done: usize,
@@ -179,10 +225,6 @@ pub struct FlightReport {
     pub took_off_at: Option<Duration>,
     /// When the drone said that it has landed.
     pub landed_at: Option<Duration>,
-    /// Settings that the drone did not acknowledge, or reported otherwise.
-    pub unconfirmed_settings: Vec<String>,
-    /// The drone's settings could not be read back.
-    pub settings_not_read: bool,
 }
 
 impl FlightReport {
@@ -206,8 +248,10 @@ pub struct Status {
     pub step: Option<usize>,
     /// Steps of the plan.
     pub steps: usize,
-    /// The plan waits: the pilot has the drone in hand.
-    pub plan_waits: bool,
+    /// The mission waits: an operator holds or flies the drone.
+    pub mission_waits: bool,
+    /// Who has the controls.
+    pub controls: Option<Operator>,
     /// Where the drone is.
     pub pose: Pose,
     /// Where it is going.

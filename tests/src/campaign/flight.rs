@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use ardrone_link::navdata::DroneState;
-use autopilot::pilot::{PilotConfig, PilotOrder};
 use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::vehicle::{OperatorOrder, VehicleConfig};
 use autopilot::{Demand, Plan};
 use mock_drone::airframe::{Profile, ThrustLaw};
 use mock_drone::scenario::{Action, Direction, When};
@@ -58,7 +58,7 @@ impl Flight {
             .unwrap_or_else(|error| panic!("{error}"));
         let simulation = Simulation {
             world: WorldConfig { drone, link, scenario: injected.scenario() },
-            pilot: PilotConfig { limits, ..PilotConfig::default() },
+            pilot: VehicleConfig { limits, ..VehicleConfig::default() },
             orders,
             stalls: injected.stalls.clone(),
             aftermath: AFTERMATH,
@@ -173,7 +173,7 @@ fn injected(random: &mut impl Rng, strongest_m_s: f64, flies: bool) -> Injected 
     injected
 }
 
-fn orders(random: &mut impl Rng) -> Vec<(Duration, PilotOrder)> {
+fn orders(random: &mut impl Rng) -> Vec<(Duration, OperatorOrder)> {
     let mut orders = Vec::new();
     if random.random_bool(0.4) {
         let mut at = Duration::ZERO;
@@ -181,9 +181,9 @@ fn orders(random: &mut impl Rng) -> Vec<(Duration, PilotOrder)> {
             at += seconds(random, 0.5, 15.0);
             let order = pilot_order(random);
             // A key that is held down repeats.
-            let repeats = if matches!(order, PilotOrder::Steer(_)) { 10 } else { 1 };
+            let repeats = if matches!(order, OperatorOrder::Steer(_)) { 10 } else { 1 };
             for _ in 0..repeats {
-                orders.push((at, order));
+                orders.push((at, order.clone()));
                 at += Duration::from_millis(100);
             }
         }
@@ -326,21 +326,26 @@ fn first_number(random: &mut impl Rng) -> u32 {
     if random.random_bool(0.5) { 1 } else { 5000 }
 }
 
-fn pilot_order(random: &mut impl Rng) -> PilotOrder {
+fn pilot_order(random: &mut impl Rng) -> OperatorOrder {
     match random.random_range(0..12) {
-        0 | 1 => PilotOrder::Hold,
-        2..=4 => PilotOrder::Resume,
+        0 | 1 => OperatorOrder::Hold,
+        2..=4 => OperatorOrder::Resume,
         5..=7 => {
             let mut stick = || random.random_range(-1.0..1.0);
-            PilotOrder::Steer(Demand { roll: stick(), pitch: stick(), gaz: stick(), yaw: stick() })
+            OperatorOrder::Steer(Demand {
+                roll: stick(),
+                pitch: stick(),
+                gaz: stick(),
+                yaw: stick(),
+            })
         }
-        8 => PilotOrder::Land,
+        8 => OperatorOrder::Land,
         9 | 10 => {
             let mut place_m = || random.random_range(-15.0..15.0);
-            PilotOrder::GoTo { x_m: place_m(), y_m: place_m() }
+            OperatorOrder::GoTo { x_m: place_m(), y_m: place_m() }
         }
-        _ if random.random_bool(0.1) => PilotOrder::Cut,
-        _ => PilotOrder::Resume,
+        _ if random.random_bool(0.1) => OperatorOrder::Cut,
+        _ => OperatorOrder::Resume,
     }
 }
 

@@ -6,7 +6,7 @@ use std::time::Duration;
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::DroneState;
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{Phase as PilotPhase, TICK as PILOT_TICK};
+use autopilot::vehicle::{Phase as PilotPhase, TICK as PILOT_TICK};
 use mock_drone::firmware::Phase;
 use mock_drone::{Drone, Truth};
 
@@ -195,11 +195,11 @@ impl Judge {
 
     /// Sees a moment of the flight.
     pub(super) fn watch(&mut self, moment: &Moment, drone: &Drone) {
-        let Moment { now, truth, status } = moment;
+        let Moment { now, truth, .. } = moment;
         self.injected.see(truth);
         self.flew |= truth.phase == Phase::Flying;
         self.wrong_m = self.wrong_m.max(truth.drift_m().norm());
-        if status.phase == PilotPhase::Ended {
+        if moment.is_over {
             self.phase_at_end.get_or_insert(truth.phase);
         }
         self.targets.watch(moment);
@@ -207,7 +207,7 @@ impl Judge {
         self.fence.watch(moment, drone, &self.injected, overpowered);
         let heard = truth.heard_at.is_some_and(|at| now.saturating_sub(at) < HEARS);
         let stranger = self.injected.second_pilot(*now, Duration::from_secs(1));
-        let reached = heard && !stranger && status.phase != PilotPhase::Ended;
+        let reached = heard && !stranger && !moment.is_over;
         for fault in self.orders.watch(moment, &self.injected, reached) {
             self.find(*now, fault);
         }
@@ -231,7 +231,7 @@ impl Judge {
     }
 
     fn watch_dangers(&mut self, moment: &Moment, reached: bool, overpowered: bool) {
-        let Moment { now, truth, status } = moment;
+        let Moment { now, truth, status, .. } = moment;
         let (now, airborne) = (*now, is_airborne(truth));
         let broken = DroneState::MOTORS_PROBLEM
             | DroneState::SOFTWARE_FAULT
@@ -289,7 +289,7 @@ impl Judge {
     }
 
     fn watch_sticks(&mut self, moment: &Moment, reached: bool) {
-        let Moment { now, truth, status } = moment;
+        let Moment { now, truth, status, .. } = moment;
         let moves = match truth.motion {
             Motion::Hover => false,
             Motion::Progressive { roll, pitch, gaz, yaw } => {
@@ -305,7 +305,7 @@ impl Judge {
     }
 
     fn watch_landing(&mut self, moment: &Moment, reached: bool) {
-        let Moment { now, truth, status } = moment;
+        let Moment { now, truth, status, .. } = moment;
         let fresh = status.navdata_age.is_some_and(|age| age < FRESH);
         if status.phase == PilotPhase::Landing && is_airborne(truth) && reached && fresh {
             self.lands_for += TICK;
@@ -316,7 +316,7 @@ impl Judge {
     }
 
     fn watch_honesty(&mut self, moment: &Moment) {
-        let Moment { now, truth, status } = moment;
+        let Moment { now, truth, status, .. } = moment;
         // Before the first navdata there is nothing to be confident of.
         if status.battery_percent.is_none() {
             return;
@@ -326,7 +326,7 @@ impl Judge {
             // Something has been told of the drone at all.
             && status.attitude_deg.is_some()
             && is_airborne(truth)
-            && status.phase != PilotPhase::Ended
+            && !moment.is_over
             && !self.injected.has_lied(*now)
             && !self.injected.has_restarted(*now);
         let pose = &status.pose;
@@ -348,7 +348,7 @@ impl Judge {
     }
 
     fn watch_take_off(&mut self, moment: &Moment) {
-        let Moment { now, truth, status } = moment;
+        let Moment { now, truth, status, .. } = moment;
         let takes_off = |truth: &Truth| matches!(truth.phase, Phase::TakingOff { .. });
         let rises = takes_off(truth) && !self.last.is_some_and(|last| takes_off(&last));
         if status.phase == PilotPhase::Flying && status.step == Some(TAKE_OFF_STEP) {

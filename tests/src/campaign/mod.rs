@@ -15,7 +15,7 @@ mod targets;
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::pilot::{FlightEvent, LandingReason};
+use autopilot::vehicle::{FlightEvent, LandingReason};
 
 use crate::sim::SimulationError;
 

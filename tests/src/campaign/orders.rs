@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use autopilot::pilot::{Phase as PilotPhase, PilotOrder};
 use autopilot::plan::FlightLimits;
+use autopilot::vehicle::{OperatorOrder, Phase as PilotPhase};
 use mock_drone::firmware::Phase;
 use nalgebra::Vector2;
 
@@ -33,7 +33,7 @@ const INSIDE_M: f64 = 0.5;
 /// The operator's orders, and what became of them.
 #[derive(Debug)]
 pub(super) struct Orders {
-    all: Vec<(Duration, PilotOrder)>,
+    all: Vec<(Duration, OperatorOrder)>,
     next: usize,
     limits: FlightLimits,
     last_step: usize,
@@ -51,7 +51,7 @@ enum Watched {
 
 impl Orders {
     pub(super) fn new(
-        all: &[(Duration, PilotOrder)],
+        all: &[(Duration, OperatorOrder)],
         limits: FlightLimits,
         last_step: usize,
     ) -> Self {
@@ -79,7 +79,7 @@ impl Orders {
             self.watched = None;
             return faults;
         }
-        while let Some((at, order)) = self.all.get(self.next).copied()
+        while let Some((at, order)) = self.all.get(self.next).cloned()
             && at <= moment.now
         {
             self.next += 1;
@@ -100,18 +100,18 @@ impl Orders {
         faults
     }
 
-    fn ordered(&mut self, moment: &Moment, order: PilotOrder, injected: &Injected) {
-        let Moment { now, truth, status } = moment;
+    fn ordered(&mut self, moment: &Moment, order: OperatorOrder, injected: &Injected) {
+        let Moment { now, truth, status, .. } = moment;
         self.watched = None;
         match order {
-            PilotOrder::Land => _ = self.lands_for.get_or_insert(Duration::ZERO),
-            PilotOrder::Cut if is_airborne(truth) => {
+            OperatorOrder::Land => _ = self.lands_for.get_or_insert(Duration::ZERO),
+            OperatorOrder::Cut if is_airborne(truth) => {
                 self.cuts_for.get_or_insert(Duration::ZERO);
             }
             _ => {}
         }
         let lasts = match order {
-            PilotOrder::Hold => BRAKES_WITHIN + HOLDS_FOR,
+            OperatorOrder::Hold => BRAKES_WITHIN + HOLDS_FOR,
             _ => GOES_WITHIN,
         };
         let on_the_way = status.step.is_some_and(|step| step > 0 && step < self.last_step);
@@ -123,8 +123,8 @@ impl Orders {
             return;
         }
         self.watched = match order {
-            PilotOrder::Hold => Some(Watched::Hold { at: *now, place_m: None }),
-            PilotOrder::GoTo { x_m, y_m } => {
+            OperatorOrder::Hold => Some(Watched::Hold { at: *now, place_m: None }),
+            OperatorOrder::GoTo { x_m, y_m } => {
                 let wanted_m = Vector2::new(x_m, y_m);
                 let to_m = wanted_m.cap_magnitude(self.limits.radius_m - INSIDE_M);
                 let far_m = (to_m - truth.odometry_m).norm();
@@ -135,7 +135,7 @@ impl Orders {
     }
 
     fn watch_place(&mut self, moment: &Moment) -> Option<Fault> {
-        let Moment { now, truth, status } = moment;
+        let Moment { now, truth, status, .. } = moment;
         if truth.phase != Phase::Flying || status.phase != PilotPhase::Flying {
             self.watched = None;
         }

@@ -1,7 +1,7 @@
 //! Where the plan says that the drone is to be, whatever the pilot makes of it.
 
-use autopilot::pilot::Phase;
 use autopilot::plan::{Command, FlightLimits, Plan};
+use autopilot::vehicle::Phase;
 use mock_drone::Truth;
 use nalgebra::{Vector2, Vector3};
 

@@ -21,10 +21,10 @@ pub(super) struct Mutant {
 const AGENT: &str = "autopilot/agent/autopilot.asl";
 const BINDING: &str = "autopilot/src/agent.rs";
 const GUARD: &str = "autopilot/src/safety.rs";
-const PILOT: &str = "autopilot/src/pilot/mod.rs";
-const CONTROL: &str = "autopilot/src/pilot/control.rs";
-const PHASE: &str = "autopilot/src/pilot/flight_phase.rs";
-const HAND: &str = "autopilot/src/pilot/hand.rs";
+const PILOT: &str = "autopilot/src/vehicle/mod.rs";
+const CONTROL: &str = "autopilot/src/vehicle/control.rs";
+const PHASE: &str = "autopilot/src/vehicle/flight_phase.rs";
+const HAND: &str = "autopilot/src/vehicle/hand.rs";
 const ESTIMATOR: &str = "estimator/src/lib.rs";
 const HORIZONTAL: &str = "estimator/src/horizontal.rs";
 const SESSION: &str = "ardrone-link/src/session/mod.rs";
@@ -279,7 +279,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "the pilot's landing order is lost",
-        &[edit(HAND, "self.land(now, LandingReason::Pilot);", "")],
+        &[edit(HAND, "self.land(now, LandingReason::Operator);", "")],
     ),
     mutant(
         "a step that failed counts as done",

@@ -1,5 +1,5 @@
 "use strict";
-// The flight as ardrone-pilot tells it over /live, and the pilot's orders back.
+// The flight as ardrone-pilot tells it over /live, and the operator's orders back.
 
 const $ = (id) => document.getElementById(id);
 const svg = (name, attributes = {}) => {
@@ -21,6 +21,7 @@ const GO_AGAIN = 8000;
 
 let flight = null; // what was told at the beginning
 let status = null;
+let readiness = null; // whether the vehicle could take off
 let socket = null;
 let heard = 0; // when something was last told
 let clock = -Infinity; // the flight's clock less ours, as the fastest message had it, in milliseconds
@@ -77,6 +78,12 @@ function take(told) {
     case "event":
       addEvent(told);
       break;
+    case "landed":
+      addEvent({ t_s: told.t_s, text: "landed" });
+      break;
+    case "ready":
+      readiness = told;
+      break;
     case "end":
       finish(told);
       break;
@@ -122,6 +129,7 @@ function begin(told) {
   told.notes.forEach((note) => addEvent({ t_s: 0, text: `note: ${note}` }));
   told.events.forEach(addEvent);
   if (told.status) take(told.status);
+  readiness = told.ready;
   if (told.end) finish(told.end);
 }
 
@@ -215,7 +223,10 @@ function drawButtons() {
   $("hold").disabled = !flying;
   // An order to fly somewhere must not come late.
   $("fly").disabled = !flying || !$("alarm").hidden;
-  $("resume").disabled = !flying || !status.plan_waits;
+  $("resume").disabled = !flying || !status.mission_waits;
+  const standby = live && status && status.phase === "standby";
+  $("start").hidden = !standby;
+  $("start").disabled = !flight || !flight.steps.length || !readiness || !readiness.ready;
   $("land").disabled = $("cut").disabled = !live;
   const now = performance.now();
   const armed = now < armedUntil;
@@ -227,7 +238,10 @@ function drawButtons() {
 }
 
 function drawFacts() {
-  $("phase").textContent = over ? "over" : status.plan_waits ? "by hand, plan waits" : status.phase;
+  $("phase").textContent = over ? "over" : status.mission_waits ? "by hand, mission waits" : status.phase;
+  const reasons = !over && readiness && status.phase !== "flying" && status.phase !== "landing" ? readiness.reasons : [];
+  $("ready").textContent = reasons.join("; ") || "–";
+  $("ready").classList.toggle("ill", reasons.length > 0);
   $("time").textContent = at(status.t_s);
   $("step").textContent = status.step === null ? "–" : `${status.step + 1} of ${status.steps}`;
   const charge = status.battery_percent;
@@ -324,8 +338,9 @@ function drawSteps() {
   });
 }
 
-// ---- The pilot's hand.
+// ---- Orders.
 
+$("start").onclick = () => order({ order: "start" });
 $("hold").onclick = () => order({ order: "hold" });
 $("resume").onclick = () => order({ order: "resume" });
 $("land").onclick = () => order({ order: "land" });

@@ -3,8 +3,9 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use autopilot::pilot::{FlightEvent, Status};
-use autopilot::plan::{FlightLimits, Plan};
+use autopilot::outcome::Outcome;
+use autopilot::plan::FlightLimits;
+use autopilot::vehicle::{FlightEvent, NotReady, Phase, Status};
 use diagnostic::printable;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -29,6 +30,10 @@ const WARNING: Color = Color::LightRed;
 #[derive(Debug)]
 pub(super) struct View {
     steps: Vec<String>,
+    /// Why the vehicle could not take off.
+    not_ready: Vec<String>,
+    /// What is being typed.
+    pub(super) prompt: Option<String>,
     limits: FlightLimits,
     at: Duration,
     status: Option<Status>,
@@ -41,9 +46,11 @@ pub(super) struct View {
 }
 
 impl View {
-    pub(super) fn new(plan: &Plan, limits: &FlightLimits) -> Self {
-        let mut view = Self {
-            steps: plan.steps().iter().map(|step| step.text.clone()).collect(),
+    pub(super) fn new(limits: &FlightLimits) -> Self {
+        Self {
+            steps: Vec::new(),
+            not_ready: Vec::new(),
+            prompt: None,
             limits: *limits,
             at: Duration::ZERO,
             status: None,
@@ -51,11 +58,7 @@ impl View {
             trail: Trail::default(),
             decisions: VecDeque::new(),
             messages: VecDeque::new(),
-        };
-        for note in plan.notes() {
-            view.say(&format!("note: {note}"));
         }
-        view
     }
 
     pub(super) fn say(&mut self, line: &str) {
@@ -77,6 +80,22 @@ impl View {
         match message {
             Message::Realtime(realtime) => self.say(&realtime.to_string()),
             Message::Waypoint(_) => {}
+            Message::Mission(steps) => {
+                self.steps = steps.iter().map(|step| step.text.clone()).collect();
+            }
+            Message::Readiness(_, reasons) => {
+                self.not_ready = reasons
+                    .iter()
+                    .filter(|reason| **reason != NotReady::InFlight)
+                    .map(|reason| printable(&reason.to_string()).into_owned())
+                    .collect();
+            }
+            Message::Ended(at, outcome, report) => {
+                let (done, steps) = (report.steps_done, report.steps);
+                let text = format!("{outcome}; {done} of {steps} steps");
+                let line = format!("{:6.1} s {}", at.as_secs_f64(), printable(&text));
+                remember(&mut self.messages, (line, *outcome != Outcome::Completed));
+            }
             Message::Trouble(at, trouble) => {
                 let line = format!("{:6.1} s {trouble}", at.as_secs_f64());
                 remember(&mut self.messages, (line, true));
@@ -165,13 +184,18 @@ pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
         })
         .collect();
     frame.render_widget(List::new(lines).block(Block::bordered().title("messages")), messages);
-    frame.render_widget(
-        Paragraph::new(
-            "space hold  r resume  l land  q quit  wasd, arrows by hand  e e cut  Ctrl-C land",
+    frame.render_widget(foot_line(view), keys);
+}
+
+/// What is being typed, or what the keys do.
+fn foot_line(view: &View) -> Paragraph<'_> {
+    match &view.prompt {
+        Some(prompt) => Paragraph::new(prompt.as_str()),
+        None => Paragraph::new(
+            ": order  space hold  r resume  l land  q quit  wasd+arrows fly  e e cut",
         )
         .style(Style::new().add_modifier(Modifier::DIM)),
-        keys,
-    );
+    }
 }
 
 /// Phase, step, charge and link on one line.
@@ -182,7 +206,7 @@ fn headline(view: &View) -> Paragraph<'_> {
         Style::new().add_modifier(Modifier::REVERSED),
     )];
     if let Some(step) = status.step {
-        let waits = if status.plan_waits { ", waits" } else { "" };
+        let waits = if status.mission_waits { ", waits" } else { "" };
         parts.push(Span::raw(format!("  step {}/{}{waits}", step + 1, status.steps)));
     }
     let charge = status.battery_percent.map_or("-".to_owned(), |percent| format!("{percent} %"));
@@ -284,6 +308,11 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
         format!("known   to {:.2} m", status.horizontal_deviation_m),
         ticks(&view.ticks),
     ];
+    if !view.not_ready.is_empty() {
+        lines.insert(0, format!("NOT READY: {}", view.not_ready.join("; ")));
+    } else if status.phase == Phase::Standby {
+        lines.insert(0, "ready to take off".to_owned());
+    }
     if let Some([roll_deg, pitch_deg]) = status.attitude_deg {
         lines.push(format!("leans   {roll_deg:+.1}° right, {:+.1}° forward", -pitch_deg));
     }
@@ -312,7 +341,8 @@ fn draw_steps(frame: &mut Frame<'_>, area: Rect, view: &View) {
             ListItem::new(format!("{mark} {:>3} {text}", index + 1)).style(style)
         })
         .collect();
-    frame.render_widget(List::new(steps).block(Block::bordered().title("plan")), area);
+    let title = if view.steps.is_empty() { "no mission: type : and a command" } else { "mission" };
+    frame.render_widget(List::new(steps).block(Block::bordered().title(title)), area);
 }
 
 #[cfg(test)]
@@ -323,12 +353,14 @@ mod tests {
 
     use super::*;
     use autopilot::agent::ChosenPlans;
-    use autopilot::pilot::{Airframe, Phase, Trust};
+    use autopilot::plan::Plan;
+    use autopilot::vehicle::{Airframe, Trust};
 
     #[test]
     fn the_screen_shows_the_flight() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\ngoto 1 1 0 0\nland\n").unwrap();
-        let mut view = View::new(&plan, &FlightLimits::default());
+        let mut view = View::new(&FlightLimits::default());
+        view.take_in(&Message::Mission(plan.steps().to_vec()));
         let target = Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 };
         for tick in 0..40_u32 {
             let share = f64::from(tick) / 40.0;
@@ -336,7 +368,8 @@ mod tests {
                 phase: Phase::Flying,
                 step: Some(2),
                 steps: 4,
-                plan_waits: false,
+                mission_waits: false,
+                controls: None,
                 pose: Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 },
                 target: Some(target),
                 distance_m: Some(1.0 - share),

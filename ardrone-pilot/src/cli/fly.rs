@@ -1,0 +1,291 @@
+//! Flying: a plan and then away, or a vehicle that stays and takes orders.
+
+use std::io::IsTerminal as _;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use ardrone_link::DroneAddress;
+use autopilot::plan::{FlightLimits, Plan, Step};
+use mock_drone::WorldConfig;
+use mock_drone::server::{MockDrone, Ports};
+use serde_json::Value;
+use time::UtcDateTime;
+
+use super::arguments::Fly;
+use super::keys::{self, Keys};
+use super::program::{self, AtEnd, Lines};
+use super::progress::Progress;
+use super::prompt::PromptLine;
+use super::screen::{Screen, Warnings};
+use super::summary::{Summary, TrueWaypoint};
+use super::{CommandError, leave, read, read_settings, terminal};
+use crate::browser::{Browser, Door};
+use crate::flight::{Controls, Flight, Message};
+use crate::json;
+use crate::recording::{Header, Recorder, Recording};
+use crate::settings::Settings;
+use crate::timing::TimingReport;
+
+/// Flies the plan, or stays and takes orders; returns the exit status.
+pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
+    let mut settings = read_settings(arguments.config.as_deref())?;
+    if let Some(law) = arguments.law() {
+        settings.set_law(law);
+    }
+    let config = settings.pilot_config(arguments.z_origin());
+    let plan = arguments.plan.as_deref().map(|path| {
+        // What is recorded is what is flown.
+        let text = read("the plan", path)?;
+        Ok::<_, CommandError>(Plan::parse_within(
+            &path.display().to_string(),
+            &text,
+            &config.limits,
+        )?)
+    });
+    let plan = plan.transpose()?;
+    let plain = arguments.plain || !std::io::stderr().is_terminal();
+    let prompt = PromptLine::default();
+    let mut progress = Progress::new(prompt.clone(), plain);
+    for note in plan.iter().flat_map(Plan::notes) {
+        progress.say(&format!("note: {note}"));
+    }
+    let mock = if arguments.mock {
+        Some(MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK)?)
+    } else {
+        None
+    };
+    let drone = drone_address(arguments, mock.as_ref());
+    progress.say(&beginning(plan.as_ref(), mock.is_some(), &drone));
+    let door = arguments.ui.map(Door::bind).transpose()?;
+    if let Some(door) = &door {
+        progress.say(&format!("watch it at {}", door.url()));
+    }
+    let (recorder, recording) = match record(arguments, &settings, plan.as_ref(), mock.is_some())? {
+        Some((recorder, recording)) => (Some(recorder), Some(recording)),
+        None => (None, None),
+    };
+    let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
+    let controls = flight.controls();
+    // The drone may be flying already.
+    if let Err(error) = leave::on_second_signal(controls.clone()) {
+        progress.warn(&format!("a second Ctrl-C waits for whoever reads: {error}"));
+    }
+    let open = |door: Door| door.open(plan.as_ref(), &config.limits, controls.clone());
+    let browser = door.map(open).transpose().unwrap_or_else(|error| {
+        // The drone may be flying already.
+        progress.warn(&error.to_string());
+        None
+    });
+    let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
+    let screen = || Screen::start(&config.limits, warnings, prompt.clone());
+    let mut watch = match wanted.then(screen).flatten() {
+        Some(screen) => Watch::Screen(Box::new(screen)),
+        None => Watch::Lines(progress),
+    };
+    let keys = Keys::start(controls.clone(), config.limits, prompt);
+    if keys.is_some() {
+        watch.say(keys::HELP);
+    } else if let Err(error) = read_orders(arguments, config.limits, controls.clone()) {
+        watch.warn(&format!("no orders can be read: {error}"));
+    }
+    let mut teller =
+        Teller { arguments, steps: Vec::new(), mock, browser, recording, truths: Vec::new() };
+    for message in flight.messages() {
+        teller.tell(&message, &mut watch);
+    }
+    drop(keys);
+    watch.end();
+    let stays = arguments.plan.is_none();
+    let finished = flight.finish()?;
+    let status = match finished.outcome.exit_status() {
+        _ if stays && controls.has_quit() && finished.is_down => 0,
+        status => status,
+    };
+    let recorded = teller.recording.and_then(Recording::finish);
+    let end = json::end(&finished, recorded.as_ref(), status);
+    if let Some(browser) = teller.browser {
+        browser.end(&end);
+    }
+    if arguments.json {
+        print_object(&end);
+        return Ok(status);
+    }
+    terminal::print(Summary {
+        finished: &finished,
+        truths: &teller.truths,
+        recorded: recorded.as_ref(),
+        flew_a_plan: !stays,
+    });
+    if arguments.timing {
+        terminal::print(TimingReport(&finished.ticks));
+    }
+    Ok(status)
+}
+
+fn beginning(plan: Option<&Plan>, mock: bool, drone: &DroneAddress) -> String {
+    let drone =
+        if mock { "the mock drone".to_owned() } else { format!("the drone at {}", drone.host) };
+    match plan {
+        Some(plan) => format!("flying {} with {drone}", plan.name()),
+        None => format!("waiting for orders to {drone}"),
+    }
+}
+
+/// Orders come from standard input if no keys do.
+fn read_orders(arguments: &Fly, limits: FlightLimits, controls: Controls) -> std::io::Result<()> {
+    let lines = match (arguments.json, arguments.plan.is_some()) {
+        (true, _) => Lines::Json,
+        (false, false) => Lines::Typed,
+        // A plan is flown whatever is on standard input.
+        (false, true) => return Ok(()),
+    };
+    let elsewhere = arguments.plan.is_some() || arguments.ui.is_some();
+    let at_end = if elsewhere { AtEnd::GoOn } else { AtEnd::Quit };
+    program::read_orders(lines, at_end, limits, controls)
+}
+
+/// Passes on what the flight says to everybody who wants to know.
+struct Teller<'a> {
+    arguments: &'a Fly,
+    /// The mission's, for what is said of one of them.
+    steps: Vec<Step>,
+    mock: Option<MockDrone>,
+    browser: Option<Browser>,
+    recording: Option<Recording>,
+    truths: Vec<TrueWaypoint>,
+}
+
+impl Teller<'_> {
+    fn tell(&mut self, message: &Message, watch: &mut Watch) {
+        if let Message::Mission(steps) = message {
+            self.steps.clone_from(steps);
+        }
+        if self.arguments.json {
+            print_object(&json::message(message, &self.steps));
+        }
+        if let (Message::Waypoint(waypoint), Some(mock)) = (message, &self.mock) {
+            self.truths.push(TrueWaypoint::new(waypoint, &mock.truth()));
+        }
+        if let Some(browser) = &self.browser {
+            browser.show(message);
+        }
+        watch.show(message);
+        if let Some(problem) = self.recording.as_ref().and_then(Recording::problem) {
+            watch.warn(&problem.to_string());
+        }
+    }
+}
+
+/// One line for programs.
+fn print_object(object: &Value) {
+    terminal::print(format_args!("{}\n", json::text(object)));
+}
+
+/// Where people watch the flight.
+enum Watch {
+    Lines(Progress),
+    Screen(Box<Screen>),
+}
+
+impl Watch {
+    fn say(&mut self, line: &str) {
+        match self {
+            Self::Lines(progress) => progress.say(line),
+            Self::Screen(screen) => screen.say(line),
+        }
+    }
+
+    fn warn(&mut self, line: &str) {
+        match self {
+            Self::Lines(progress) => progress.warn(line),
+            Self::Screen(screen) => screen.warn(line),
+        }
+    }
+
+    fn show(&mut self, message: &Message) {
+        match self {
+            Self::Lines(progress) => progress.show(message),
+            Self::Screen(screen) => screen.show(message),
+        }
+    }
+
+    /// The flight is over: the terminal is as it was.
+    fn end(self) {
+        match self {
+            Self::Lines(mut progress) => progress.end(),
+            Self::Screen(screen) => {
+                for warning in screen.end() {
+                    terminal::tell(warning);
+                }
+            }
+        }
+    }
+}
+
+/// Starts to record the flight, unless nobody wants that.
+fn record(
+    arguments: &Fly,
+    settings: &Settings,
+    plan: Option<&Plan>,
+    mock: bool,
+) -> Result<Option<(Recorder, Recording)>, CommandError> {
+    if arguments.no_log {
+        return Ok(None);
+    }
+    let now = UtcDateTime::now();
+    let path = match &arguments.log {
+        Some(path) => path.clone(),
+        None => default_log(now)?,
+    };
+    let start = now - UtcDateTime::UNIX_EPOCH;
+    let header = Header {
+        start: start.try_into().unwrap_or_default(),
+        plan_name: plan.map_or("", Plan::name).to_owned(),
+        plan: plan.map_or("", Plan::text).to_owned(),
+        settings: settings.to_toml()?,
+        z_origin: arguments.z_origin(),
+        drone: if mock { "mock drone".to_owned() } else { arguments.drone.clone() },
+    };
+    let (mut recorder, recording) = Recorder::start(&path, &header)?;
+    for note in plan.into_iter().flat_map(Plan::notes) {
+        recorder.note(Duration::ZERO, note.clone());
+    }
+    Ok(Some((recorder, recording)))
+}
+
+/// `flights/2026-11-21T13-45-07Z.mcap`: names in the order of time, on any file system.
+fn default_log(now: UtcDateTime) -> Result<PathBuf, CommandError> {
+    let folder = PathBuf::from("flights");
+    std::fs::create_dir_all(&folder).map_err(|source| CommandError::Write {
+        what: "the folder",
+        path: folder.display().to_string(),
+        source,
+    })?;
+    let (date, time) = (now.date(), now.time());
+    Ok(folder.join(format!(
+        "{:04}-{:02}-{:02}T{:02}-{:02}-{:02}Z.mcap",
+        date.year(),
+        u8::from(date.month()),
+        date.day(),
+        time.hour(),
+        time.minute(),
+        time.second()
+    )))
+}
+
+fn drone_address(arguments: &Fly, mock: Option<&MockDrone>) -> DroneAddress {
+    match mock.map(MockDrone::ports) {
+        Some(ports) => DroneAddress {
+            host: ports.host.to_string(),
+            at_port: ports.at,
+            navdata_port: ports.navdata,
+            control_port: ports.control,
+        },
+        None => DroneAddress {
+            host: arguments.drone.clone(),
+            at_port: arguments.at_port,
+            navdata_port: arguments.navdata_port,
+            control_port: arguments.control_port,
+        },
+    }
+}

@@ -1,0 +1,180 @@
+//! Orders as people type them.
+
+use std::path::Path;
+
+use autopilot::plan::{Commands, FlightLimits, Plan, PlanError};
+use autopilot::vehicle::{Operator, OperatorOrder, Refused};
+
+use crate::flight::Controls;
+
+/// Words that are orders of their own; everything else is a command of the plan language.
+const ORDERS: [&str; 12] = [
+    "load", "append", "clear", "start", "hold", "resume", "land", "cut", "recover", "release",
+    "quit", "help",
+];
+/// Commands of the plan language, to be completed.
+const COMMANDS: [&str; 13] = [
+    "takeoff",
+    "goto",
+    "moveBy",
+    "moveByRel",
+    "setReference",
+    "setInitialReachDist",
+    "setStayWithinDist",
+    "setStayTime",
+    "setMaxControl",
+    "clearCommands",
+    "autoInit",
+    "autoTakeover",
+    "lockScaleFP",
+];
+
+/// What can be typed, for people.
+pub(super) const HELP: &str = "load FILE, start, hold, resume, clear, land, cut, recover (after an \
+    emergency), release (the controls), quit; anything else is appended to the mission: takeoff, \
+    goto x y z yaw, moveBy, moveByRel, setReference, setStayTime, ...; `append land` appends a landing";
+
+/// Why what was typed was not done.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum TypedError {
+    #[error("cannot read the plan {path}: {source}")]
+    Read { path: String, source: std::io::Error },
+    #[error("{0}")]
+    Plan(#[from] PlanError),
+    #[error("`{0}` stands alone")]
+    Alone(String),
+    #[error("write `load FILE`")]
+    NoFile,
+    #[error("{HELP}")]
+    Help,
+    #[error("{0}")]
+    Refused(#[from] Refused),
+}
+
+/// What was typed.
+#[derive(Debug, Clone, PartialEq)]
+enum Typed {
+    Order(OperatorOrder),
+    Quit,
+}
+
+/// Does what was typed, and waits for the vehicle's answer.
+///
+/// # Errors
+/// Why it was not done.
+pub(super) fn obey(
+    line: &str,
+    limits: &FlightLimits,
+    controls: &Controls,
+    by: Operator,
+) -> Result<(), TypedError> {
+    match parse(line, limits)? {
+        Typed::Quit => {
+            // Nothing is left to be done if nobody flies any more.
+            controls.quit();
+            Ok(())
+        }
+        Typed::Order(order) => Ok(controls.ask(by, order)?),
+    }
+}
+
+fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedError> {
+    let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
+    let rest = rest.trim();
+    let order = match word {
+        "load" if rest.is_empty() => return Err(TypedError::NoFile),
+        "load" => OperatorOrder::Load(read(rest, limits)?),
+        "append" => OperatorOrder::Append(Commands::parse("command", rest)?),
+        _ if ORDERS.contains(&word) && !rest.is_empty() => {
+            return Err(TypedError::Alone(word.to_owned()));
+        }
+        "clear" => OperatorOrder::Clear,
+        "start" => OperatorOrder::Start { when_ready: false },
+        "hold" => OperatorOrder::Hold,
+        "resume" => OperatorOrder::Resume,
+        "land" => OperatorOrder::Land,
+        "cut" => OperatorOrder::Cut,
+        "recover" => OperatorOrder::Recover,
+        "release" => OperatorOrder::Release,
+        "quit" => return Ok(Typed::Quit),
+        "help" => return Err(TypedError::Help),
+        _ => OperatorOrder::Append(Commands::parse("command", line)?),
+    };
+    Ok(Typed::Order(order))
+}
+
+fn read(path: &str, limits: &FlightLimits) -> Result<Plan, TypedError> {
+    let bytes =
+        std::fs::read(path).map_err(|source| TypedError::Read { path: path.to_owned(), source })?;
+    Ok(Plan::parse_within(path, &String::from_utf8_lossy(&bytes), limits)?)
+}
+
+/// How a line could go on: orders, commands, and files behind `load`.
+pub(super) fn completions(line: &str) -> Vec<String> {
+    match line.strip_prefix("load ") {
+        Some(path) => files(path).into_iter().map(|path| format!("load {path}")).collect(),
+        None => {
+            let words = ORDERS.iter().chain(&COMMANDS).filter(|word| word.starts_with(line));
+            words.map(ToString::to_string).collect()
+        }
+    }
+}
+
+fn files(start: &str) -> Vec<String> {
+    let folder = start.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let searched = match folder {
+        "" if start.starts_with('/') => Path::new("/"),
+        "" => Path::new("."),
+        folder => Path::new(folder),
+    };
+    // A folder that cannot be read completes nothing.
+    let Ok(entries) = std::fs::read_dir(searched) else { return Vec::new() };
+    let named = entries.flatten().filter_map(|entry| {
+        let name = entry.file_name().into_string().ok()?;
+        let slash = if entry.path().is_dir() { "/" } else { "" };
+        let before = if start.contains('/') { format!("{folder}/") } else { String::new() };
+        Some(format!("{before}{name}{slash}"))
+    });
+    named.filter(|path| path.starts_with(start)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn typed(line: &str) -> Result<Typed, String> {
+        parse(line, &FlightLimits::default()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn words_are_orders_and_the_rest_is_appended() {
+        assert_eq!(typed("land"), Ok(Typed::Order(OperatorOrder::Land)));
+        assert_eq!(typed(" start "), Ok(Typed::Order(OperatorOrder::Start { when_ready: false })));
+        assert_eq!(typed("quit"), Ok(Typed::Quit));
+        for line in ["goto 0 1 0 0", "append land", "takeoff"] {
+            assert!(matches!(typed(line), Ok(Typed::Order(OperatorOrder::Append(_)))), "{line}");
+        }
+        assert!(typed("gotoo 0 1 0 0").unwrap_err().contains("did you mean `goto`?"));
+        assert!(typed("land now").unwrap_err().contains("stands alone"));
+        assert!(typed("load").unwrap_err().contains("load FILE"));
+        assert!(typed("load no/such/file").unwrap_err().contains("no/such/file"));
+    }
+
+    #[test]
+    fn orders_commands_and_files_are_completed() {
+        assert_eq!(completions("res"), ["resume"]);
+        assert_eq!(completions("moveByR"), ["moveByRel"]);
+        let files = completions("load src/cli/typ");
+        assert_eq!(files, ["load src/cli/typed.rs"]);
+        assert!(completions("load src/cl").contains(&"load src/cli/".to_owned()));
+        assert!(completions("load /no/such/folder/").is_empty());
+    }
+
+    #[test]
+    fn all_commands_can_be_completed() {
+        for command in COMMANDS {
+            let error = Commands::parse("command", command).err().map(|error| error.to_string());
+            assert!(!error.is_some_and(|error| error.contains("unknown command")), "{command}");
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! An operator's order as it stands in a flight log.
+
+use autopilot::plan::{Commands, FlightLimits, Plan, PlanError};
+use autopilot::vehicle::{Operator, OperatorOrder, Station};
+use pid::Demand;
+use serde::{Deserialize, Serialize};
+
+/// An order and who gave it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Order {
+    /// Who gave it; logs of formats 1 and 2 do not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    by: Option<Giver>,
+    #[serde(flatten)]
+    order: Ordered,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+struct Giver {
+    station: String,
+    number: u16,
+    local: bool,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "order", rename_all = "lowercase")]
+enum Ordered {
+    Load { name: String, plan: String },
+    Append { commands: String },
+    Clear,
+    Start { when_ready: bool },
+    Hold,
+    Resume,
+    Steer { roll: f64, pitch: f64, gaz: f64, yaw: f64 },
+    GoTo { x_m: f64, y_m: f64 },
+    Land,
+    Cut,
+    Recover,
+    Release,
+}
+
+/// Why an order of a log cannot be given again.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum OrderError {
+    /// Its plan or its commands are refused today.
+    #[error("a plan that was loaded is refused today:\n{0}")]
+    Plan(#[from] PlanError),
+    /// Nobody gives orders from there today.
+    #[error("an order came from `{0}`, which is not known")]
+    Station(String),
+}
+
+impl Order {
+    /// An order as it stands in a log.
+    pub fn new(by: Operator, order: &OperatorOrder) -> Self {
+        let Operator { station, number, local } = by;
+        let by = Some(Giver { station: station.name().to_owned(), number, local });
+        Self { by, order: Ordered::from(order) }
+    }
+
+    /// The order, to be given again.
+    ///
+    /// # Errors
+    /// [`OrderError`] if today nobody could give it.
+    pub fn given(&self, limits: &FlightLimits) -> Result<(Operator, OperatorOrder), OrderError> {
+        let by = match &self.by {
+            None => Operator::TERMINAL,
+            Some(Giver { station: name, number, local }) => {
+                let station = Station::ALL.into_iter().find(|station| station.name() == name);
+                let station = station.ok_or_else(|| OrderError::Station(name.clone()))?;
+                Operator { station, number: *number, local: *local }
+            }
+        };
+        let order = match &self.order {
+            Ordered::Load { name, plan } => {
+                OperatorOrder::Load(Plan::parse_within(name, plan, limits)?)
+            }
+            Ordered::Append { commands } => {
+                OperatorOrder::Append(Commands::parse("command", commands)?)
+            }
+            Ordered::Clear => OperatorOrder::Clear,
+            Ordered::Start { when_ready } => OperatorOrder::Start { when_ready: *when_ready },
+            Ordered::Hold => OperatorOrder::Hold,
+            Ordered::Resume => OperatorOrder::Resume,
+            &Ordered::Steer { roll, pitch, gaz, yaw } => {
+                OperatorOrder::Steer(Demand { roll, pitch, gaz, yaw })
+            }
+            &Ordered::GoTo { x_m, y_m } => OperatorOrder::GoTo { x_m, y_m },
+            Ordered::Land => OperatorOrder::Land,
+            Ordered::Cut => OperatorOrder::Cut,
+            Ordered::Recover => OperatorOrder::Recover,
+            Ordered::Release => OperatorOrder::Release,
+        };
+        Ok((by, order))
+    }
+}
+
+impl From<&OperatorOrder> for Ordered {
+    fn from(order: &OperatorOrder) -> Self {
+        match order {
+            OperatorOrder::Load(plan) => {
+                Self::Load { name: plan.name().to_owned(), plan: plan.text().to_owned() }
+            }
+            OperatorOrder::Append(commands) => {
+                Self::Append { commands: commands.text().to_owned() }
+            }
+            OperatorOrder::Clear => Self::Clear,
+            OperatorOrder::Start { when_ready } => Self::Start { when_ready: *when_ready },
+            OperatorOrder::Hold => Self::Hold,
+            OperatorOrder::Resume => Self::Resume,
+            &OperatorOrder::Steer(Demand { roll, pitch, gaz, yaw }) => {
+                Self::Steer { roll, pitch, gaz, yaw }
+            }
+            &OperatorOrder::GoTo { x_m, y_m } => Self::GoTo { x_m, y_m },
+            OperatorOrder::Land => Self::Land,
+            OperatorOrder::Cut => Self::Cut,
+            OperatorOrder::Recover => Self::Recover,
+            OperatorOrder::Release => Self::Release,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_order_comes_back_from_a_log() {
+        let limits = FlightLimits::default();
+        let remote = Operator { station: Station::Browser, number: 2, local: false };
+        for order in [
+            OperatorOrder::Load(Plan::parse("square.txt", "takeoff\nland\n").unwrap()),
+            OperatorOrder::Append(Commands::parse("command", "goto 0 1 0 0").unwrap()),
+            OperatorOrder::Start { when_ready: true },
+            OperatorOrder::Steer(Demand { roll: 0.5, ..Demand::default() }),
+            OperatorOrder::GoTo { x_m: 1.0, y_m: -2.5 },
+            OperatorOrder::Cut,
+        ] {
+            let text = serde_json::to_string(&Order::new(remote, &order)).unwrap();
+            let read: Order = serde_json::from_str(&text).unwrap();
+            assert_eq!(read.given(&limits), Ok((remote, order)), "{text}");
+        }
+    }
+
+    #[test]
+    fn older_logs_do_not_say_who_gave_an_order() {
+        let read: Order = serde_json::from_str(r#"{"order":"hold"}"#).unwrap();
+        let given = read.given(&FlightLimits::default());
+        assert_eq!(given, Ok((Operator::TERMINAL, OperatorOrder::Hold)));
+        let odd = r#"{"order":"hold","by":{"station":"moon","number":0,"local":false}}"#;
+        let odd: Order = serde_json::from_str(odd).unwrap();
+        assert_eq!(
+            odd.given(&FlightLimits::default()),
+            Err(OrderError::Station("moon".to_owned()))
+        );
+    }
+}

@@ -1,0 +1,108 @@
+//! What belongs to one flight.
+
+use std::time::Duration;
+
+use ardrone_link::navdata::{Demo, DroneState, Navdata};
+use estimator::{Estimator, Quantity, Sample};
+use nalgebra::Vector2;
+use pid::{Pose, PositionController};
+
+use super::manual::Manual;
+use super::saturation::Saturation;
+use super::{FlightReport, LandingReason, VehicleConfig};
+use crate::agent::{Activity, Agent};
+use crate::mission::Due;
+use crate::outcome::Outcome;
+use crate::safety::{Guard, Veto};
+
+/// The state of one flight. A flight from rest begins with a new one, so the tenth flight of a vehicle begins
+/// exactly as its first: the world's origin, the fence around it and the uncertainty of the place start where
+/// the drone stands.
+#[derive(Debug)]
+pub(super) struct Flight {
+    pub(super) estimator: Estimator,
+    pub(super) controller: PositionController,
+    pub(super) agent: Agent,
+    pub(super) activity: Activity,
+    pub(super) guard: Guard,
+    pub(super) veto: Option<Veto>,
+    pub(super) manual: Manual,
+    /// The step that is being flown.
+    pub(super) due: Option<Active>,
+    /// The mission was replaced while its landing was being flown: the flight ends on the ground.
+    pub(super) ends_on_ground: bool,
+    pub(super) landing: Option<LandingReason>,
+    /// Why a drone that was taken over is not flown on.
+    pub(super) refusals: Vec<String>,
+    /// Since when the drone reports a fault of its own.
+    pub(super) fault_since: Option<Duration>,
+    /// The disturbance without gusts: right, forward.
+    pub(super) wind_m_s2: Vector2<f64>,
+    pub(super) saturation: Saturation,
+    pub(super) target: Option<Pose>,
+    /// When the drone was first asked for all navdata, or the flight began.
+    pub(super) asked_at: Duration,
+    pub(super) report: FlightReport,
+    pub(super) outcome: Option<Outcome>,
+}
+
+/// A step that is being flown.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Active {
+    pub(super) due: Due,
+    pub(super) since: Duration,
+    /// The agent has been given it.
+    pub(super) offered: bool,
+}
+
+impl Flight {
+    pub(super) fn new(config: &VehicleConfig, begins: Duration) -> Self {
+        Self {
+            estimator: Estimator::new(config.estimator),
+            controller: PositionController::new(config.law, config.cascade),
+            agent: Agent::new(),
+            activity: Activity::default(),
+            guard: Guard::new(config.limits),
+            veto: None,
+            manual: Manual::default(),
+            due: None,
+            ends_on_ground: false,
+            landing: None,
+            refusals: Vec::new(),
+            fault_since: None,
+            wind_m_s2: Vector2::zeros(),
+            saturation: Saturation::default(),
+            target: None,
+            asked_at: begins,
+            report: FlightReport::default(),
+            outcome: None,
+        }
+    }
+}
+
+/// What a navdata packet says of the drone's motion.
+pub(super) fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
+    Sample {
+        arrival: now,
+        drone_time: navdata.time,
+        yaw_deg: demo.yaw_deg,
+        roll_deg: demo.roll_deg,
+        pitch_deg: demo.pitch_deg,
+        velocity_forward_m_s: demo.velocity_forward_m_s,
+        velocity_right_m_s: demo.velocity_right_m_s,
+        altitude_m: demo.altitude_m,
+        airborne: navdata.state.contains(DroneState::FLYING),
+        reported_lost: reported_lost(navdata.state, demo),
+    }
+}
+
+/// The quantity that the drone reports as lost.
+fn reported_lost(state: DroneState, demo: &Demo) -> Option<Quantity> {
+    if demo.has_lost_vision() {
+        Some(Quantity::Velocity)
+    } else if demo.has_lost_altitude() || state.contains(DroneState::ULTRASOUND_DEAF) {
+        Some(Quantity::Altitude)
+    } else {
+        None
+    }
+}

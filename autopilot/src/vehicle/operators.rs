@@ -1,0 +1,143 @@
+//! Who may say what: several operators, one of whom has the controls.
+
+use std::fmt;
+
+/// Somebody who gives orders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Operator {
+    /// Where the orders come from.
+    pub station: Station,
+    /// Tells operators at stations of the same kind apart.
+    pub number: u16,
+    /// Whether the operator is where the program runs. A local operator takes the controls from a remote one;
+    /// the reverse never happens.
+    pub local: bool,
+}
+
+/// Where orders come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Station {
+    /// The terminal in which the program was started, and its command line.
+    Terminal,
+    /// A program that writes orders to standard input.
+    Program,
+    /// A page in a browser.
+    Browser,
+    /// A ground station that speaks MAVLink.
+    Mavlink,
+}
+
+impl Station {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Terminal, Self::Program, Self::Browser, Self::Mavlink];
+
+    /// Its name in logs and messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Terminal => "terminal",
+            Self::Program => "program",
+            Self::Browser => "browser",
+            Self::Mavlink => "mavlink",
+        }
+    }
+}
+
+impl Operator {
+    /// Whoever started the program.
+    pub const TERMINAL: Self = Self { station: Station::Terminal, number: 0, local: true };
+    /// The program behind standard input.
+    pub const PROGRAM: Self = Self { station: Station::Program, number: 0, local: true };
+}
+
+impl fmt::Display for Operator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if self.local { "the local " } else { "the remote " })?;
+        f.write_str(self.station.name())?;
+        match self.number {
+            0 => Ok(()),
+            number => write!(f, " {number}"),
+        }
+    }
+}
+
+/// Who has the controls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Controls {
+    holder: Option<Operator>,
+}
+
+impl Controls {
+    pub(super) fn holder(self) -> Option<Operator> {
+        self.holder
+    }
+
+    /// An order that anyone may give. It moves the controls only from a remote operator to a local one, who
+    /// must not be overruled afterwards, or to the first who gives any.
+    pub(super) fn admit_any(&mut self, by: Operator) {
+        if self.holder.is_none_or(|holder| by.local && !holder.local) {
+            self.holder = Some(by);
+        }
+    }
+
+    /// An order that needs the controls. A local operator takes them; a remote one gets them only if nobody
+    /// else has them.
+    ///
+    /// # Errors
+    /// Whoever has the controls.
+    pub(super) fn admit(&mut self, by: Operator) -> Result<(), Operator> {
+        match self.holder {
+            Some(holder) if holder != by && !by.local => Err(holder),
+            _ => {
+                self.holder = Some(by);
+                Ok(())
+            }
+        }
+    }
+
+    /// Gives the controls up, if this operator has them.
+    pub(super) fn release(&mut self, by: Operator) {
+        self.holder.take_if(|holder| *holder == by);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PAGE: Operator = Operator { station: Station::Browser, number: 1, local: false };
+    const STATION: Operator = Operator { station: Station::Mavlink, number: 1, local: false };
+
+    #[test]
+    fn a_local_operator_takes_the_controls_and_a_remote_one_does_not() {
+        let mut controls = Controls::default();
+        assert_eq!(controls.admit(PAGE), Ok(()));
+        assert_eq!(controls.admit(STATION), Err(PAGE));
+        assert_eq!(controls.admit(Operator::TERMINAL), Ok(()));
+        assert_eq!(controls.admit(PAGE), Err(Operator::TERMINAL));
+        assert_eq!(controls.admit(Operator::PROGRAM), Ok(()), "both are local");
+        controls.release(PAGE);
+        assert_eq!(controls.holder(), Some(Operator::PROGRAM));
+        controls.release(Operator::PROGRAM);
+        assert_eq!(controls.admit(STATION), Ok(()));
+    }
+
+    #[test]
+    fn what_anyone_may_order_takes_the_controls_for_local_operators_only() {
+        let mut controls = Controls::default();
+        controls.admit_any(PAGE);
+        assert_eq!(controls.holder(), Some(PAGE));
+        controls.admit_any(STATION);
+        assert_eq!(controls.holder(), Some(PAGE));
+        controls.admit_any(Operator::TERMINAL);
+        assert_eq!(controls.holder(), Some(Operator::TERMINAL));
+        controls.admit_any(PAGE);
+        controls.admit_any(Operator::PROGRAM);
+        assert_eq!(controls.holder(), Some(Operator::TERMINAL));
+    }
+
+    #[test]
+    fn operators_have_names() {
+        assert_eq!(Operator::TERMINAL.to_string(), "the local terminal");
+        assert_eq!(PAGE.to_string(), "the remote browser 1");
+    }
+}

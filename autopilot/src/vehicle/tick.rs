@@ -1,0 +1,298 @@
+//! One tick: what is known, what the agent decides, what safety leaves of it, and what is sent.
+
+use std::time::Duration;
+
+use ardrone_link::at::EncodeError;
+use ardrone_link::navdata::{ControlState, DroneState};
+use estimator::Prediction;
+use nalgebra::Vector2;
+use pid::Pose;
+
+use super::{
+    Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, GRAVITY_M_S2, LandingReason,
+    Law, NotReady, Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S,
+    Waypoint, pose,
+};
+use crate::agent::{AgentCommand, AgentStep, Senses};
+use crate::safety::Circumstances;
+
+impl Vehicle {
+    /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
+    ///
+    /// # Errors
+    /// See [`Session::tick`].
+    pub fn tick_timed(
+        &mut self,
+        now: Duration,
+        mut done: impl FnMut(Stage),
+    ) -> Result<(), EncodeError> {
+        self.datagram.clear();
+        self.decide(now, &mut done)?;
+        self.pending.command = !self.datagram.as_bytes().is_empty();
+        self.pending.wake_up = self.session.wake_up_due(now);
+        Ok(())
+    }
+
+    /// Decides what the drone is to do, and encodes it.
+    fn decide(&mut self, now: Duration, done: &mut impl FnMut(Stage)) -> Result<(), EncodeError> {
+        let step_s = self
+            .last_tick
+            .map_or(TICK, |last| now.saturating_sub(last))
+            .min(2 * TICK)
+            .as_secs_f64();
+        self.last_tick = Some(now);
+        self.watch_readiness(now);
+        self.watch(now);
+        if self.navdata.is_none() || self.authority == Authority::None {
+            self.session.idle(now);
+            self.session_events(now);
+            return Ok(());
+        }
+        self.offer_order(now);
+        // The estimate is flown on to this moment once: everything below looks at the same.
+        let prediction = self.flight.estimator.predicted(now);
+        let state = match self.config.law {
+            Law::Cascade => prediction,
+            Law::Tum => self.state(now),
+        };
+        self.feel_wind(prediction.disturbance_m_s2, step_s);
+        let senses = self.senses(now, &state);
+        let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, senses);
+        self.flight.manual.pre_empts = false;
+        // What is refused for a danger ends for that reason.
+        if let Some(danger) = step.danger {
+            self.endangered(now, danger);
+        }
+        if let Some(report) = step.report {
+            self.order_ended(now, report);
+        }
+        done(Stage::Agent);
+        // An agent that asks for nothing gets a hover.
+        let wanted = step.command.unwrap_or(AgentCommand::Hover);
+        let circumstances = self.circumstances(now, &state);
+        let (command, veto) = self.flight.guard.check(wanted, &circumstances);
+        if let Some(veto) = veto.filter(|_| veto != self.flight.veto) {
+            self.events.push_back(FlightEvent::Veto(veto));
+            if veto.lands() {
+                self.land(now, LandingReason::Guard(veto));
+            }
+        }
+        self.flight.veto = veto;
+        let order = self.carry_out(now, command, &state, step_s);
+        self.decision = Some(Decision {
+            at: now,
+            phase: self.phase.phase(),
+            step: self.flight.due.as_ref().map(|active| active.due.step),
+            state,
+            vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
+            senses,
+            plans: step.plans,
+            wanted,
+            report: step.report,
+            danger: step.danger,
+            veto,
+            target: self.flight.target,
+            order,
+        });
+        done(Stage::Control);
+        self.session.tick(now, order, &mut self.datagram)?;
+        done(Stage::Encode);
+        self.session_events(now);
+        Ok(())
+    }
+
+    /// Looks from time to time whether it could take off. What is said is which reasons there are; that a
+    /// number in one of them changes is no news.
+    fn watch_readiness(&mut self, now: Duration) {
+        self.readiness_in = self.readiness_in.saturating_sub(1);
+        if self.readiness_in > 0 {
+            return;
+        }
+        self.readiness_in = READINESS_TICKS;
+        // In flight nothing is allocated: there is room for one reason.
+        if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
+            if self.readiness != [NotReady::InFlight] {
+                self.readiness.clear();
+                self.readiness.push(NotReady::InFlight);
+                self.pending.readiness = true;
+            }
+            return;
+        }
+        let mut reasons = self.not_ready(now);
+        let kinds = |reasons: &[NotReady]| -> Vec<_> {
+            reasons.iter().map(std::mem::discriminant).collect()
+        };
+        self.pending.readiness |= kinds(&reasons) != kinds(&self.readiness);
+        self.readiness.clear();
+        self.readiness.append(&mut reasons);
+    }
+
+    /// Where the drone is, and how it moves.
+    pub(super) fn state(&self, at: Duration) -> Prediction {
+        match self.config.law {
+            Law::Cascade => self.flight.estimator.predicted(at),
+            // It knows no prediction.
+            Law::Tum => {
+                let estimate = self.flight.estimator.estimate();
+                Prediction {
+                    position_m: estimate.position_m,
+                    velocity_m_s: estimate.velocity_m_s,
+                    yaw_deg: estimate.yaw_deg,
+                    ..Prediction::default()
+                }
+            }
+        }
+    }
+
+    pub(super) fn pose(&self, now: Duration) -> Pose {
+        pose(&self.state(now))
+    }
+
+    fn senses(&self, now: Duration, state: &Prediction) -> Senses {
+        let hovering = self.demo().is_some_and(|demo| {
+            matches!(demo.control_state, ControlState::Hovering | ControlState::Flying)
+        });
+        Senses {
+            now_ms: i64::try_from(now.as_millis()).unwrap_or(i64::MAX),
+            pose: self.demo().map(|_| pose(state)),
+            on_ground: self.on_ground(),
+            hovering: hovering && self.drone_state().contains(DroneState::FLYING),
+            battery_percent: self.battery_percent(),
+            blind_for_ms: i64::try_from(self.blind_for(now).as_millis()).unwrap_or(i64::MAX),
+            doubt_m: self.flight.estimator.horizontal_deviation_m(now),
+            saturated_for_ms: self.flight.saturation.for_ms(),
+            wind: self.wind().norm(),
+            steering: self.flight.manual.sticks(now).is_some(),
+            settings: self.mission.settings(),
+        }
+    }
+
+    /// What is left; nothing, if the drone itself says that it is too little.
+    fn battery_percent(&self) -> Option<u32> {
+        let empty = self.drone_state().contains(DroneState::BATTERY_LOW);
+        self.demo().map(|demo| if empty { 0 } else { demo.battery_percent })
+    }
+
+    /// Time since the newest navdata that could be believed. Until there are any the time counts from
+    /// when the drone was asked for them.
+    pub(super) fn blind_for(&self, now: Duration) -> Duration {
+        let since = self.flight.estimator.sound_at().unwrap_or(self.flight.asked_at);
+        now.saturating_sub(since)
+    }
+
+    /// What full tilt gives, if gravity alone made it.
+    pub(super) fn full_tilt_m_s2(&self) -> f64 {
+        GRAVITY_M_S2 * self.config.estimator.limits.tilt_rad.tan()
+    }
+
+    fn least_thrust(&self) -> f64 {
+        self.flight.estimator.airframe().thrust_gain.amin()
+    }
+
+    /// The wind's push as a share of what the drone can lean against.
+    fn wind(&self) -> Vector2<f64> {
+        self.flight.wind_m_s2 / (self.full_tilt_m_s2() * self.least_thrust())
+    }
+
+    fn feel_wind(&mut self, push_m_s2: Vector2<f64>, step_s: f64) {
+        let push_m_s2 = if self.on_ground() { Vector2::zeros() } else { push_m_s2 };
+        self.flight.wind_m_s2 += (push_m_s2 - self.flight.wind_m_s2) * (step_s / WIND_TIME_S);
+    }
+
+    fn circumstances(&self, now: Duration, state: &Prediction) -> Circumstances {
+        Circumstances {
+            now,
+            blind_for: self.blind_for(now),
+            emergency: self.drone_state().contains(DroneState::EMERGENCY),
+            airborne: !self.on_ground(),
+            landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
+            pose: pose(state),
+            velocity_m_s: state.velocity_m_s.into(),
+            wind: (state.disturbance_m_s2 / (self.full_tilt_m_s2() * self.least_thrust())).into(),
+        }
+    }
+
+    /// Gives the agent the next order when the last one has ended.
+    fn offer_order(&mut self, now: Duration) {
+        let waits = self.flight.landing.is_some() || self.flight.manual.pre_empts;
+        if self.phase != FlightPhase::Flying || waits {
+            return;
+        }
+        if self.flight.manual.holds_mission {
+            self.offer_manual_target();
+            return;
+        }
+        if self.flight.due.is_none() {
+            self.next_step(now);
+        }
+        let Some(active) = &mut self.flight.due else { return };
+        if active.offered {
+            return;
+        }
+        active.offered = match active.due.order {
+            AgentOrder::TakeOff => self.flight.agent.achieve_take_off(),
+            AgentOrder::Land => self.flight.agent.achieve_land(),
+            AgentOrder::GoTo(Target { pose, .. }) => {
+                self.flight.agent.achieve_go_to(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg)
+            }
+        };
+    }
+
+    /// Begins the next step. Behind the last one a drone on the ground has ended its flight; one in the air
+    /// holds its place until it is ordered more.
+    fn next_step(&mut self, now: Duration) {
+        let due = if self.flight.ends_on_ground && self.on_ground() {
+            None
+        } else {
+            self.mission.advance(&self.pose(now))
+        };
+        match due {
+            Some(due) => {
+                self.flight.due = Some(Active { due, since: now, offered: false });
+                self.events.push_back(FlightEvent::StepStarted { step: due.step });
+                if due.is_corrected() {
+                    self.events.push_back(FlightEvent::TargetCorrected { step: due.step });
+                }
+            }
+            None if self.on_ground() => self.end(now, Outcome::Completed),
+            None => {}
+        }
+    }
+
+    /// The agent has reported how its last order ended.
+    fn order_ended(&mut self, now: Duration, report: Report) {
+        if self.flight.landing.is_some() {
+            // The end of a landing is judged by the drone's state.
+            return;
+        }
+        if self.flight.manual.holds_mission {
+            self.manual_target_ended(report);
+            return;
+        }
+        let Some(active) = self.flight.due.take() else { return };
+        if report != Report::Done {
+            self.land(now, LandingReason::StepFailed { step: active.due.step });
+            return;
+        }
+        let pose = self.pose(now);
+        self.flight.report.steps_done = active.due.step + 1;
+        match active.due.order {
+            AgentOrder::TakeOff => {
+                self.mission.take_off_ended(&pose);
+                self.flight.report.took_off_at.get_or_insert(active.since);
+            }
+            AgentOrder::GoTo(target) => {
+                let waypoint = Waypoint {
+                    step: active.due.step,
+                    target: target.pose,
+                    pose,
+                    horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
+                    at: now,
+                };
+                self.flight.report.waypoints.push(waypoint);
+            }
+            AgentOrder::Land => self.flight.report.landed_at = Some(now),
+        }
+        self.events.push_back(FlightEvent::StepDone { step: active.due.step });
+    }
+}

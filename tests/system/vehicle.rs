@@ -1,0 +1,340 @@
+//! A vehicle that stays: many flights, missions that change, orders while it flies, and what can happen between.
+
+use std::time::Duration;
+
+use autopilot::outcome::Outcome;
+use autopilot::plan::Commands;
+use autopilot::vehicle::{
+    FlightEvent, LandingReason, NotReady, Operator, OperatorOrder, Output, Phase, Refused, Station,
+};
+use autopilot::{Vehicle, VehicleConfig};
+use mock_drone::scenario::Scenario;
+use mock_drone::{Truth, WorldConfig, firmware};
+use system_tests::drive::{Driver, Passed};
+use system_tests::{SQUARE, plan};
+
+const SECOND: Duration = Duration::from_secs(1);
+const START: OperatorOrder = OperatorOrder::Start { when_ready: false };
+const REMOTE: Operator = Operator { station: Station::Mavlink, number: 1, local: false };
+
+/// A vehicle without a mission, and everything that it has said.
+struct Bench {
+    driver: Driver,
+    events: Vec<(Duration, FlightEvent)>,
+    outcomes: Vec<Outcome>,
+    ready: Option<Vec<NotReady>>,
+    missions: usize,
+}
+
+impl Bench {
+    fn new(scenario: &str) -> Self {
+        let scenario = Scenario::parse("scenario", scenario).unwrap();
+        let world = WorldConfig { scenario, ..WorldConfig::default() };
+        let driver = Driver::new(Vehicle::new(&VehicleConfig::default()).unwrap(), &world);
+        Self { driver, events: Vec::new(), outcomes: Vec::new(), ready: None, missions: 0 }
+    }
+
+    /// One that stands by.
+    fn standing_by(scenario: &str) -> Self {
+        let mut bench = Self::new(scenario);
+        bench.until(10 * SECOND, |bench| bench.ready.as_ref().is_some_and(Vec::is_empty));
+        assert_eq!(bench.phase(), Phase::Standby);
+        bench
+    }
+
+    fn order(&mut self, order: OperatorOrder) -> Result<(), Refused> {
+        self.driver.order(Operator::TERMINAL, order)
+    }
+
+    fn accepted(&mut self, order: OperatorOrder) {
+        let name = order.name();
+        let answer = self.order(order);
+        assert_eq!(answer, Ok(()), "{name} at {:?}", self.driver.now());
+    }
+
+    fn append(&mut self, command: &str) -> Result<(), Refused> {
+        self.order(OperatorOrder::Append(Commands::parse("command", command).unwrap()))
+    }
+
+    fn phase(&self) -> Phase {
+        self.driver.vehicle.status(self.driver.now()).phase
+    }
+
+    fn truth(&self) -> Truth {
+        self.driver.world.truth()
+    }
+
+    fn step(&mut self) {
+        let now = self.driver.now();
+        let Self { driver, events, outcomes, ready, missions } = self;
+        driver
+            .step(|passed| {
+                let Passed::Output(output) = passed else { return };
+                match output {
+                    Output::Event(event) => events.push((now, event)),
+                    Output::Ended(outcome) => outcomes.push(outcome.clone()),
+                    Output::Readiness(reasons) => *ready = Some(reasons.to_vec()),
+                    Output::Mission(_) => *missions += 1,
+                    Output::Waypoint(_) | Output::Transmit(_) => {}
+                }
+            })
+            .unwrap();
+        driver.pass();
+    }
+
+    fn run(&mut self, time: Duration) {
+        let end = self.driver.now() + time;
+        while self.driver.now() < end {
+            self.step();
+        }
+    }
+
+    /// Until something is so; it must be so in this time.
+    #[track_caller]
+    fn until(&mut self, time: Duration, mut is_so: impl FnMut(&Self) -> bool) {
+        let end = self.driver.now() + time;
+        while !is_so(self) {
+            assert!(self.driver.now() < end, "{:?} {:?}", self.phase(), self.events);
+            self.step();
+        }
+    }
+
+    /// Until the flight that was started is over and the vehicle stands by.
+    #[track_caller]
+    fn until_it_stands_by(&mut self) -> Outcome {
+        let flights = self.outcomes.len();
+        self.until(120 * SECOND, |bench| {
+            bench.outcomes.len() > flights && bench.phase() == Phase::Standby
+        });
+        assert_eq!(self.truth().phase, firmware::Phase::Landed);
+        self.outcomes.last().unwrap().clone()
+    }
+
+    fn count(&self, event: &FlightEvent) -> usize {
+        self.events.iter().filter(|(_, other)| other == event).count()
+    }
+}
+
+fn is_flying(bench: &Bench) -> bool {
+    bench.truth().phase == firmware::Phase::Flying
+}
+
+#[test]
+fn a_vehicle_without_orders_stays_on_the_ground() {
+    let mut bench = Bench::standing_by("");
+    bench.run(60 * SECOND);
+    assert_eq!((bench.phase(), bench.truth().phase), (Phase::Standby, firmware::Phase::Landed));
+    assert_eq!(bench.order(START), Err(Refused::NoMission));
+    assert_eq!(bench.append("setStayTime 1"), Ok(()));
+    assert_eq!(bench.order(START), Err(Refused::NeverTakesOff));
+    assert!(bench.outcomes.is_empty());
+}
+
+#[test]
+fn ten_flights_in_half_an_hour_with_all_that_happens_between_them() {
+    let mut bench = Bench::standing_by("1300 restart");
+    // 1 to 4: the same mission again and again.
+    bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+    for _ in 0..4 {
+        bench.accepted(START);
+        assert_eq!(bench.order(START), Err(Refused::Flying));
+        assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+        assert_eq!(bench.driver.vehicle.report().waypoints.len(), 4);
+        bench.run(20 * SECOND);
+    }
+    // 5: orders one by one. The drone holds when it has done all of them.
+    bench.accepted(OperatorOrder::Clear);
+    bench.append("takeoff").unwrap();
+    bench.append("setStayTime 0.5").unwrap();
+    bench.accepted(START);
+    bench.run(30 * SECOND);
+    assert!(is_flying(&bench));
+    for command in ["goto 0 1 0 0", "moveBy 0 0 0.4 0", "goto 0 0 0 0"] {
+        bench.append(command).unwrap();
+        bench.run(10 * SECOND);
+    }
+    assert!(bench.append("goto 0 100 0 0").is_err());
+    let place = bench.truth().odometry_m;
+    assert!(place.norm() < 0.2 && is_flying(&bench), "{place}");
+    bench.append("land").unwrap();
+    assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+    assert_eq!(bench.driver.vehicle.report().waypoints.len(), 3);
+    // 6: the mission is replaced in the air, twice.
+    bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+    bench.accepted(START);
+    bench.run(12 * SECOND);
+    for target in ["goto -1 0 0 0", "goto 0 -1 0.3 90"] {
+        bench.accepted(OperatorOrder::Load(plan(&format!("takeoff\n{target}\nland\n"))));
+        bench.run(3 * SECOND);
+        assert!(is_flying(&bench));
+    }
+    assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+    let last = *bench.driver.vehicle.report().waypoints.last().unwrap();
+    assert!((last.target.y_m + 1.0).abs() < 0.2 && last.error_m() < 0.2, "{last:?}");
+    // 7: held, resumed, and landed by order.
+    bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+    bench.accepted(START);
+    bench.run(8 * SECOND);
+    bench.accepted(OperatorOrder::Hold);
+    bench.run(20 * SECOND);
+    assert!(is_flying(&bench));
+    bench.accepted(OperatorOrder::Resume);
+    bench.run(3 * SECOND);
+    bench.accepted(OperatorOrder::Land);
+    assert_eq!(bench.order(OperatorOrder::Hold), Err(Refused::Landing));
+    // A new mission while it lands is for the next flight.
+    bench.accepted(OperatorOrder::Load(plan("takeoff\ngoto 0 0.5 0 0\nland\n")));
+    assert_eq!(bench.until_it_stands_by(), Outcome::Interrupted);
+    bench.run(10 * SECOND);
+    assert_eq!(bench.phase(), Phase::Standby);
+    // 8: the motors are cut in the air. Nothing flies until a person has cleared that.
+    bench.accepted(START);
+    bench.until(20 * SECOND, is_flying);
+    bench.run(SECOND);
+    bench.accepted(OperatorOrder::Cut);
+    bench.run(5 * SECOND);
+    assert_eq!(bench.outcomes.last(), Some(&Outcome::Emergency));
+    assert!(matches!(bench.order(START), Err(Refused::NotReady(_))));
+    assert_eq!(bench.ready, Some(vec![NotReady::Emergency]));
+    bench.accepted(OperatorOrder::Recover);
+    bench.run(3 * SECOND);
+    assert_eq!(bench.order(OperatorOrder::Recover), Err(Refused::NoEmergency));
+    // 9: and again.
+    bench.accepted(START);
+    assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+    // The drone is switched off and on while it stands by: it is found again.
+    assert!(bench.driver.now() < 1290 * SECOND, "{:?}", bench.driver.now());
+    bench.run(1320 * SECOND - bench.driver.now());
+    assert_eq!((bench.phase(), bench.ready.as_deref()), (Phase::Standby, Some(&[][..])));
+    assert!(bench.count(&FlightEvent::Configured) == 2, "{:?}", bench.events);
+    // 10.
+    bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+    bench.accepted(START);
+    assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+    bench.run(1800 * SECOND - bench.driver.now());
+    assert_eq!((bench.phase(), bench.outcomes.len()), (Phase::Standby, 10));
+    let take_offs = bench.events.iter().filter(|(_, event)| *event == FlightEvent::Landed).count();
+    assert_eq!(take_offs, 9, "but for the one that fell");
+}
+
+#[test]
+fn the_second_flight_begins_where_the_drone_stands() {
+    let mut bench = Bench::standing_by("");
+    bench.accepted(OperatorOrder::Load(plan("takeoff\ngoto 3 0 0 0\nland\n")));
+    for flight in 1..=3_u32 {
+        bench.accepted(START);
+        assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+        let right_m = bench.truth().position_m.x;
+        assert!((right_m - 3.0 * f64::from(flight)).abs() < 0.5 * f64::from(flight), "{right_m}");
+    }
+}
+
+#[test]
+fn a_mission_that_is_replaced_while_it_lands_lifts_nothing() {
+    let mut bench = Bench::standing_by("");
+    bench.accepted(OperatorOrder::Load(plan("takeoff\nland\n")));
+    bench.accepted(START);
+    bench.until(20 * SECOND, |bench| bench.truth().phase == firmware::Phase::Landing);
+    bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+    assert_eq!(bench.append("goto 0 1 0 0"), Err(Refused::Landing));
+    assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+    bench.run(20 * SECOND);
+    assert_eq!(bench.truth().phase, firmware::Phase::Landed);
+    bench.accepted(START);
+    bench.until(20 * SECOND, is_flying);
+}
+
+#[test]
+fn what_is_cleared_is_given_up_where_the_drone_is() {
+    let mut bench = Bench::standing_by("");
+    bench.accepted(OperatorOrder::Load(plan("takeoff\ngoto 0 5 0 0\nland\n")));
+    bench.accepted(START);
+    bench.until(20 * SECOND, |bench| bench.truth().odometry_m.y > 1.0);
+    bench.accepted(OperatorOrder::Clear);
+    bench.run(30 * SECOND);
+    let away_m = bench.truth().odometry_m.y;
+    assert!(is_flying(&bench) && (0.9..2.5).contains(&away_m), "{away_m} {:?}", bench.events);
+    bench.accepted(OperatorOrder::Land);
+    bench.until_it_stands_by();
+    // Before it takes off, that ends the flight.
+    bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+    bench.accepted(START);
+    bench.accepted(OperatorOrder::Clear);
+    bench.run(20 * SECOND);
+    assert_eq!((bench.phase(), bench.outcomes.len()), (Phase::Standby, 2));
+}
+
+#[test]
+fn a_drone_that_disappears_is_found_again() {
+    let mut bench = Bench::standing_by("20 outage 8");
+    bench.run(Duration::from_secs(24) - bench.driver.now());
+    assert_eq!(
+        (bench.phase(), bench.ready.clone()),
+        (Phase::Connecting, Some(vec![NotReady::NoDrone]))
+    );
+    bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+    assert!(matches!(bench.order(START), Err(Refused::NotReady(_))));
+    bench.until(20 * SECOND, |bench| bench.phase() == Phase::Standby);
+    bench.run(SECOND);
+    bench.accepted(START);
+    assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+}
+
+#[test]
+fn a_drone_that_is_lost_in_the_air_is_landed_when_it_is_heard_again() {
+    let mut bench = Bench::standing_by("+5 outage 12");
+    bench.accepted(OperatorOrder::Load(plan("takeoff\nsetStayTime 60\ngoto 0 1 0 0\nland\n")));
+    bench.accepted(START);
+    bench.until(40 * SECOND, |bench| !bench.outcomes.is_empty());
+    assert_eq!(bench.outcomes, [Outcome::LinkLost]);
+    bench.until(30 * SECOND, |bench| bench.phase() == Phase::Standby);
+    assert_eq!(bench.truth().phase, firmware::Phase::Landed);
+    bench.run(5 * SECOND);
+    bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+    bench.accepted(START);
+    assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+}
+
+#[test]
+fn a_drone_that_somebody_else_flies_is_left_alone_until_it_stands() {
+    // The other pilot's commands are numbered far above ours: the drone hears only it.
+    let mut bench = Bench::standing_by("10 second-pilot 10 from 100000");
+    bench.until(15 * SECOND, is_flying);
+    bench.run(SECOND);
+    assert_eq!(bench.phase(), Phase::Observing);
+    assert_eq!(bench.count(&FlightEvent::FlownByAnother), 1);
+    bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+    assert!(matches!(bench.order(START), Err(Refused::NotReady(_))));
+    assert!(bench.driver.vehicle.datagram().is_empty(), "nothing is said to it");
+    // It is lost by its pilot, and lands by itself.
+    bench.until(60 * SECOND, |bench| bench.phase() == Phase::Standby);
+    bench.run(SECOND);
+    bench.accepted(START);
+    assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
+}
+
+#[test]
+fn one_operator_at_a_time_has_the_controls() {
+    let mut bench = Bench::standing_by("");
+    let load = || OperatorOrder::Load(plan(SQUARE));
+    assert_eq!(bench.driver.order(REMOTE, load()), Ok(()));
+    assert_eq!(bench.driver.order(REMOTE, START), Ok(()));
+    bench.run(10 * SECOND);
+    bench.accepted(OperatorOrder::Hold);
+    // The hold was a local operator's: a remote one does not end it.
+    let held = Err(Refused::ControlsHeld(Operator::TERMINAL));
+    assert_eq!(bench.driver.order(REMOTE, OperatorOrder::Resume), held);
+    assert_eq!(bench.driver.order(REMOTE, load()), held);
+    assert_eq!(bench.count(&FlightEvent::ControlsTaken { by: Operator::TERMINAL }), 0);
+    bench.run(SECOND);
+    assert_eq!(bench.count(&FlightEvent::ControlsTaken { by: Operator::TERMINAL }), 1);
+    bench.accepted(OperatorOrder::Resume);
+    bench.run(SECOND);
+    // But anyone may land.
+    assert_eq!(bench.driver.order(REMOTE, OperatorOrder::Land), Ok(()));
+    assert_eq!(bench.until_it_stands_by(), Outcome::Interrupted);
+    assert_eq!(bench.count(&FlightEvent::LandingOrdered(LandingReason::Operator)), 1);
+    assert_eq!(bench.driver.order(REMOTE, START), held);
+    bench.accepted(OperatorOrder::Release);
+    assert_eq!(bench.driver.order(REMOTE, START), Ok(()));
+}
