@@ -8,7 +8,7 @@
 // `doubt`, `saturatedFor`, `wind`), for how long it has been doing the same (`takingOffFor`,
 // `approachingFor`, `stayingFor`, `descendingFor`) and how orders are to be flown (`reachDistance`,
 // `stayDistance`, `stayTime`); it orders `takeOff`, `goTo`, `newMission`, `hold`, `steer` and `land`.
-// The last four pre-empt whatever runs, but nothing except `hold` and `steer` ends a landing.
+// The last four pre-empt whatever runs, but nothing ends a landing.
 
 // ---- Limits. Change them with care.
 
@@ -117,6 +117,7 @@ descendingFor(0).
 +!takeOff : onGround & position(_, _, _, _) & blindFor(Time) & holdWhenBlind(Limit) & Time <= Limit
   <- !watch;
      -target(_, _, _, _);
+     -comingDown;
      sendTakeOff;
      !completeTakeOff.
 
@@ -241,10 +242,11 @@ descendingFor(0).
 // hold where we are until an order of the new one comes. A landing goes on, by the drone itself.
 
 +!newMission : onGround
-  <- sendStandby;
+  <- -comingDown;
+     sendStandby;
      !!wait.
 
-@landing_stays[req("SAF-2")]
+@new_mission_while_landing[req("SAF-2")]
 +!newMission : comingDown
   <- -target(_, _, _, _);
      sendLand;
@@ -273,16 +275,20 @@ descendingFor(0).
      sendStandby;
      !!wait.
 
+@hold_while_landing[req("SAF-2")]
++!hold : comingDown
+  <- -target(_, _, _, _);
+     sendLand;
+     !comeDown.
+
 +!hold : position(X, Y, Z, Yaw)
   <- !watch;
-     -comingDown;
      +target(X, Y, Z, Yaw);
      sendStay(X, Y, Z, Yaw);
      !!wait.
 
 +!hold
   <- !watch;
-     -comingDown;
      -target(_, _, _, _);
      sendHover;
      !!wait.
@@ -296,28 +302,30 @@ descendingFor(0).
      sendStandby;
      !!wait.
 
+@steer_while_landing[req("SAF-2")]
++!steer : comingDown
+  <- -target(_, _, _, _);
+     sendLand;
+     !comeDown.
+
 +!steer : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
   <- !watch;
-     -comingDown;
      sendHover;
      !!wait.
 
 +!steer : steering
   <- !watch;
-     -comingDown;
      sendSticks;
      !steer.
 
 +!steer : position(X, Y, Z, Yaw)
   <- !watch;
-     -comingDown;
      +target(X, Y, Z, Yaw);
      sendStay(X, Y, Z, Yaw);
      !!wait.
 
 +!steer
   <- !watch;
-     -comingDown;
      sendHover;
      !!wait.
 

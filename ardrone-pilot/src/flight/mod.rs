@@ -11,6 +11,8 @@
 //! datagrams order the landing. No error of a socket ends it.
 
 mod link;
+#[cfg(test)]
+mod operators;
 mod orders;
 mod services;
 

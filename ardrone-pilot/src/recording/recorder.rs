@@ -107,6 +107,16 @@ impl Recorder {
         Ok((Self { records, buffers, lost: 0 }, recording))
     }
 
+    /// A recorder whose disk has stopped: nothing is ever written.
+    #[cfg(test)]
+    pub(crate) fn stalled() -> Self {
+        let (records, waiting) = bounded(1);
+        let (_, buffers) = bounded(0);
+        // The writer hangs: it neither takes anything nor goes away.
+        std::mem::forget(waiting);
+        Self { records, buffers, lost: 0 }
+    }
+
     /// Entries that the disk was too slow for.
     pub fn lost(&self) -> u64 {
         self.lost

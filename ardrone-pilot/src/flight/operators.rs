@@ -1,0 +1,157 @@
+//! Several operators at once, with full queues and a disk that has stopped: what a landing and the controls may
+//! not depend on.
+
+use ardrone_link::WAKE_UP;
+use ardrone_link::session::FlightOrder;
+use autopilot::agent::AgentCommand;
+use autopilot::plan::{Commands, Plan};
+use autopilot::vehicle::{
+    Input, Operator, OperatorOrder, Output, Phase, Refused, Station, TICK, Transmit, Vehicle,
+    VehicleConfig,
+};
+use autopilot::{Demand, Pose};
+use mock_drone::{Message, World, WorldConfig};
+use proptest::prelude::*;
+
+use super::obey;
+use super::orders::{Orders, Request};
+use crate::recording::Recorder;
+
+const LOCAL: Operator = Operator::TERMINAL;
+const PAGE: Operator = Operator { station: Station::Browser, number: 1, local: false };
+const STATION: Operator = Operator { station: Station::Mavlink, number: 1, local: false };
+
+fn plan(text: &str) -> Plan {
+    Plan::parse("plan", text).unwrap()
+}
+
+/// An order that anybody might give at any time.
+fn order() -> impl Strategy<Value = OperatorOrder> {
+    let stick = -1.0..1.0_f64;
+    prop_oneof![
+        Just(OperatorOrder::Load(plan("takeoff\ngoto 0 2 0 0\ngoto 1 0 0.5 90\nland\n"))),
+        Just(OperatorOrder::Append(Commands::parse("command", "moveBy 0 0.5 0 0").unwrap())),
+        Just(OperatorOrder::Clear),
+        any::<bool>().prop_map(|when_ready| OperatorOrder::Start { when_ready }),
+        Just(OperatorOrder::Hold),
+        Just(OperatorOrder::Resume),
+        (stick.clone(), stick).prop_map(|(roll, gaz)| OperatorOrder::Steer(Demand {
+            roll,
+            gaz,
+            ..Demand::default()
+        })),
+        (-2.0..2.0, -2.0..2.0).prop_map(|(x_m, y_m)| OperatorOrder::GoTo { x_m, y_m }),
+        Just(OperatorOrder::Land),
+        Just(OperatorOrder::Recover),
+        Just(OperatorOrder::Release),
+    ]
+}
+
+/// When, by whom and what; and whether the queue is full of other orders at that time.
+fn orders() -> impl Strategy<Value = Vec<(u64, Operator, OperatorOrder, bool)>> {
+    let operator = prop_oneof![Just(LOCAL), Just(PAGE), Just(STATION)];
+    proptest::collection::vec((0..600_u64, operator, order(), any::<bool>()), 1..40).prop_map(
+        |mut orders| {
+            orders.sort_by_key(|(tick, ..)| *tick);
+            orders
+        },
+    )
+}
+
+/// What the rules say of who has the controls.
+#[derive(Default)]
+struct Rules {
+    holder: Option<Operator>,
+}
+
+impl Rules {
+    /// Whether the order must be refused because of who gave it.
+    fn refuses(&mut self, by: Operator, order: &OperatorOrder) -> Option<Operator> {
+        match (self.holder, order) {
+            (_, OperatorOrder::Release) => {
+                self.holder = self.holder.filter(|holder| *holder != by);
+                None
+            }
+            (Some(holder), OperatorOrder::Hold | OperatorOrder::Land | OperatorOrder::Cut) => {
+                self.holder = Some(if by.local && !holder.local { by } else { holder });
+                None
+            }
+            (Some(holder), _) if holder != by && !by.local => Some(holder),
+            _ => {
+                self.holder = Some(by);
+                None
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn nothing_delays_a_landing_and_no_remote_operator_overrules_a_local_one(
+        script in orders(), landing in 60..600_u64, lander in prop_oneof![Just(LOCAL), Just(STATION)],
+    ) {
+        let (orders, controls) = Orders::new();
+        let mut recorder = Recorder::stalled();
+        let mut vehicle = Vehicle::flying(
+            plan("takeoff\nsetStayTime 60\ngoto 0 1 0 0\nland\n"), &VehicleConfig::default(),
+        ).unwrap();
+        let mut world = World::new(&WorldConfig::default());
+        let mut rules = Rules { holder: Some(LOCAL) };
+        let mut script = script.into_iter().peekable();
+        for tick in 0..900_u64 {
+            let now = TICK * u32::try_from(tick).unwrap();
+            let (mut landed_by_order, mut is_full) = (tick == landing, false);
+            while let Some((_, by, order, full)) = script.next_if(|(at, ..)| *at <= tick) {
+                landed_by_order |= order == OperatorOrder::Land;
+                is_full |= full;
+                if full {
+                    // From a page that has gone wild.
+                    while controls.order(PAGE, OperatorOrder::Hold).is_ok() {}
+                }
+                let sent = controls.order(by, order.clone());
+                prop_assert!(sent.is_ok() || is_full && order != OperatorOrder::Land, "{sent:?}");
+            }
+            if tick == landing {
+                prop_assert_eq!(controls.order(lander, OperatorOrder::Land), Ok(()));
+            }
+            for Request { by, order, .. } in orders.poll() {
+                let refuses = rules.refuses(by, &order);
+                let answer = obey(&mut vehicle, Some(&mut recorder), now, by, order);
+                let held = match &answer {
+                    Err(Refused::ControlsHeld(holder)) => Some(*holder),
+                    _ => None,
+                };
+                prop_assert_eq!(held, refuses);
+            }
+            world.advance(now);
+            while let Some(message) = world.receive(now) {
+                match message {
+                    Message::Navdata(packet) => vehicle.handle(now, Input::Navdata(&packet)),
+                    Message::Control(dump) => vehicle.handle(now, Input::Control(dump.as_bytes())),
+                }
+            }
+            vehicle.tick(now).unwrap();
+            while let Some(output) = vehicle.poll() {
+                match output {
+                    Output::Transmit(Transmit::Command { datagram, decision }) => {
+                        world.send_at(now, datagram);
+                        // In the tick in which it was taken, not in a later one: the drone's landing, or in
+                        // wind the agent's own descent.
+                        if let Some(decision) = decision.filter(|_| landed_by_order) {
+                            let descends = decision.phase == Phase::Landing
+                                && matches!(decision.wanted, AgentCommand::GoTo(low) if low.z_m < 0.4);
+                            let lands = decision.order.flight == FlightOrder::Land;
+                            prop_assert!(lands || descends, "{:?}", decision);
+                        }
+                    }
+                    Output::Transmit(Transmit::WakeUp) => world.send_wake_up(now, &WAKE_UP),
+                    _ => {}
+                }
+            }
+            let Pose { z_m, .. } = vehicle.status(now).pose;
+            prop_assert!(z_m < 3.4, "{z_m}");
+        }
+    }
+}
