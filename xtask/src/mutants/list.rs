@@ -21,10 +21,11 @@ pub(super) struct Mutant {
 const AGENT: &str = "autopilot/agent/autopilot.asl";
 const BINDING: &str = "autopilot/src/agent.rs";
 const GUARD: &str = "autopilot/src/safety.rs";
-const PILOT: &str = "autopilot/src/vehicle/mod.rs";
+const FLIGHT: &str = "autopilot/src/vehicle/flight.rs";
+const TICK: &str = "autopilot/src/vehicle/tick.rs";
 const CONTROL: &str = "autopilot/src/vehicle/control.rs";
-const PHASE: &str = "autopilot/src/vehicle/flight_phase.rs";
-const HAND: &str = "autopilot/src/vehicle/hand.rs";
+const PHASE: &str = "autopilot/src/vehicle/phase.rs";
+const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
 const ESTIMATOR: &str = "estimator/src/lib.rs";
 const HORIZONTAL: &str = "estimator/src/horizontal.rs";
 const SESSION: &str = "ardrone-link/src/session/mod.rs";
@@ -47,7 +48,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "half of each velocity",
         &[edit(
-            PILOT,
+            FLIGHT,
             "velocity_forward_m_s: demo.velocity_forward_m_s,\n        velocity_right_m_s: demo.velocity_right_m_s,",
             "velocity_forward_m_s: 0.5 * demo.velocity_forward_m_s,\n        velocity_right_m_s: 0.5 * demo.velocity_right_m_s,",
         )],
@@ -55,7 +56,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "right is left",
         &[edit(
-            PILOT,
+            FLIGHT,
             "velocity_right_m_s: demo.velocity_right_m_s,",
             "velocity_right_m_s: -demo.velocity_right_m_s,",
         )],
@@ -85,7 +86,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "the altitude is always 0.8 m",
-        &[edit(PILOT, "altitude_m: demo.altitude_m,", "altitude_m: 0.8 + 0.0 * demo.altitude_m,")],
+        &[edit(FLIGHT, "altitude_m: demo.altitude_m,", "altitude_m: 0.8 + 0.0 * demo.altitude_m,")],
     ),
     mutant(
         "the place is always certain",
@@ -203,7 +204,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "the battery is always full",
         &[edit(
-            PILOT,
+            TICK,
             "if empty { 0 } else { demo.battery_percent }",
             "if empty { 100 } else { demo.battery_percent.max(100) }",
         )],
@@ -211,7 +212,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "never blind",
         &[edit(
-            PILOT,
+            TICK,
             "fn blind_for(&self, now: Duration) -> Duration {\n",
             "fn blind_for(&self, now: Duration) -> Duration {\n        let now = now.min(Duration::ZERO);\n",
         )],
@@ -270,20 +271,21 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "a hold takes a landing back",
         &[
             edit(
-                HAND,
-                "_ if self.phase != FlightPhase::Flying || self.on_ground() => {}",
-                "_ if self.on_ground() => {}",
+                ORDERS,
+                "if self.lands() {\n            Err(Refused::Landing)\n        } else if self.phase != FlightPhase::Flying || self.on_ground()",
+                "if self.on_ground()",
             ),
+            edit(AGENT, "+!hold : comingDown\n", "+!hold : comingDown & onGround\n"),
             edit(GUARD, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
         ],
     ),
     mutant(
         "the pilot's landing order is lost",
-        &[edit(HAND, "self.land(now, LandingReason::Operator);", "")],
+        &[edit(ORDERS, "self.land(now, LandingReason::Operator);", "")],
     ),
     mutant(
         "a step that failed counts as done",
-        &[edit(PILOT, "if report != Report::Done {", "if report != report {")],
+        &[edit(TICK, "if report != Report::Done {", "if report != report {")],
     ),
     mutant(
         "the flight ends before the drone is down",

@@ -54,7 +54,7 @@ const fn c(
 }
 
 /// All of them.
-pub(super) const MUTANTS: [Mutant; 46] = [
+pub(super) const MUTANTS: [Mutant; 52] = [
     agent(
         "a failure plan says nothing",
         "-!wait <- !goDown; !comeDown.",
@@ -63,14 +63,14 @@ pub(super) const MUTANTS: [Mutant; 46] = [
     ),
     agent(
         "a plan says two things",
-        "+!hold : onGround\n  <- sendStandby;",
+        "+!hold : onGround\n  <- -comingDown;\n     sendStandby;",
         "+!hold : onGround\n  <- sendStandby;\n     sendHover;",
         "one_command",
     ),
     agent(
         "landing waits for the next order",
-        "+!goDown\n  <- -target(_, _, _, _);\n     sendLand.",
-        "+!goDown\n  <- -target(_, _, _, _);\n     sendHover.",
+        "+!goDown\n  <- +comingDown;\n     -target(_, _, _, _);\n     sendLand.",
+        "+!goDown\n  <- +comingDown;\n     -target(_, _, _, _);\n     sendHover.",
         "landing_is_honoured",
     ),
     Mutant {
@@ -97,6 +97,42 @@ pub(super) const MUTANTS: [Mutant; 46] = [
         "sendPause;\n     !comeDown.",
         "sendPause;\n     !!wait.",
         "descending_goes_on",
+    ),
+    agent(
+        "a hold takes a landing back",
+        "+!hold : comingDown\n",
+        "+!hold : comingDown & onGround\n",
+        "landing_goes_on",
+    ),
+    agent(
+        "steering takes a landing back",
+        "+!steer : comingDown\n",
+        "+!steer : comingDown & onGround\n",
+        "landing_goes_on",
+    ),
+    agent(
+        "a new mission takes a descent back",
+        "+!newMission : comingDown\n",
+        "+!newMission : comingDown & onGround\n",
+        "descending_goes_on",
+    ),
+    agent(
+        "a landing is not remembered",
+        "+!goDown\n  <- +comingDown;\n     -target",
+        "+!goDown\n  <- -target",
+        "landing_goes_on",
+    ),
+    agent(
+        "a new mission is flown at once",
+        "+!newMission\n  <- !watch;\n     -target(_, _, _, _);\n     sendHover;",
+        "+!newMission\n  <- !watch;\n     -target(_, _, _, _);\n     sendGoto(0, 0, 1, 0);",
+        "a_new_mission_waits",
+    ),
+    agent(
+        "a new mission in danger has no way out",
+        "@danger_between_missions[req(\"SAF-4\"), req(\"SAF-5\")]\n-!newMission <- !goDown; !comeDown.",
+        "",
+        "nothing_is_lost",
     ),
     agent(
         "holding is done by hand",
@@ -298,8 +334,8 @@ pub(super) const MUTANTS: [Mutant; 46] = [
     ),
     agent(
         "an end is told twice",
-        "+!comeDown : onGround\n  <- sendStandby;\n     reportDone;",
-        "+!comeDown : onGround\n  <- sendStandby;\n     reportDone;\n     reportFailed;",
+        "+!comeDown : onGround\n  <- -comingDown;\n     sendStandby;\n     reportDone;",
+        "+!comeDown : onGround\n  <- -comingDown;\n     sendStandby;\n     reportDone;\n     reportFailed;",
         "one_report",
     ),
     agent(
