@@ -9,6 +9,7 @@ mod browser;
 mod chromium;
 mod client;
 mod command_line;
+mod conversation;
 mod estimate;
 mod faults;
 mod parting;

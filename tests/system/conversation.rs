@@ -1,0 +1,243 @@
+//! A vehicle as a process that takes orders on standard input, over UDP.
+
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::path::Path;
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use mock_drone::WorldConfig;
+use mock_drone::firmware::Phase;
+use mock_drone::server::{MockDrone, Ports};
+use serde_json::{Value, json};
+
+use crate::processes::program;
+
+/// Longer than a flight here takes, on a machine that is busy.
+const PATIENCE: Duration = Duration::from_secs(90);
+
+/// A process that is driven, and the drone that it drives.
+struct Conversation {
+    mock: MockDrone,
+    child: Child,
+    orders: Option<ChildStdin>,
+    said: Receiver<Value>,
+    next: u64,
+}
+
+fn pilot(mock: &MockDrone, arguments: &[&str]) -> Command {
+    let ports = mock.ports();
+    let mut command = program("ardrone-pilot");
+    command.args(["--drone", &ports.host.to_string()]).args(arguments);
+    for (name, port) in [
+        ("--at-port", ports.at),
+        ("--navdata-port", ports.navdata),
+        ("--control-port", ports.control),
+    ] {
+        command.arg(name).arg(port.to_string());
+    }
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+impl Conversation {
+    fn start(log: &Path) -> Self {
+        let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+        let log = log.display().to_string();
+        let mut child = pilot(&mock, &["--json", "--log", &log]).spawn().unwrap();
+        let errors = child.stderr.take().unwrap();
+        std::thread::spawn(move || BufReader::new(errors).lines().for_each(drop));
+        let (sender, said) = channel();
+        let output = child.stdout.take().unwrap();
+        std::thread::spawn(move || {
+            for line in BufReader::new(output).lines() {
+                let object = serde_json::from_str(&line.unwrap()).unwrap();
+                if sender.send(object).is_err() {
+                    return;
+                }
+            }
+        });
+        let orders = child.stdin.take();
+        Self { mock, child, orders, said, next: 0 }
+    }
+
+    fn write(&mut self, line: &str) {
+        let orders = self.orders.as_mut().unwrap();
+        orders.write_all(line.as_bytes()).unwrap();
+        orders.write_all(b"\n").unwrap();
+    }
+
+    /// The next object that is wanted.
+    #[track_caller]
+    fn until(&mut self, what: &str, is_wanted: impl Fn(&Value) -> bool) -> Value {
+        let start = Instant::now();
+        loop {
+            let left = PATIENCE.saturating_sub(start.elapsed());
+            let object = self.said.recv_timeout(left).unwrap_or_else(|_| panic!("never: {what}"));
+            if is_wanted(&object) {
+                return object;
+            }
+        }
+    }
+
+    /// The answer to an order.
+    #[track_caller]
+    fn order(&mut self, mut order: Value) -> Value {
+        self.next += 1;
+        order["id"] = self.next.into();
+        self.write(&order.to_string());
+        let id = order["id"].clone();
+        self.until("an answer", |object| object["type"] == "answer" && object["id"] == id)
+    }
+
+    #[track_caller]
+    fn accepted(&mut self, order: Value) {
+        let answer = self.order(order.clone());
+        assert_eq!(answer["accepted"], true, "{order}: {answer}");
+    }
+
+    #[track_caller]
+    fn until_ready(&mut self) {
+        self.until("ready", |object| object["type"] == "ready" && object["ready"] == true);
+    }
+
+    #[track_caller]
+    fn until_status(&mut self, is_so: impl Fn(&Value) -> bool) {
+        self.until("a status", |object| object["type"] == "status" && is_so(object));
+    }
+
+    #[track_caller]
+    fn until_landed(&mut self) -> Value {
+        self.until("a landing", |object| object["type"] == "landed");
+        let ended = self.until("an end", |object| object["type"] == "flight_ended");
+        self.until_ready();
+        assert_eq!(self.mock.truth().phase, Phase::Landed);
+        ended
+    }
+
+    /// A flight in which the mission is changed, held, resumed and extended.
+    fn fly(&mut self) {
+        self.accepted(json!({ "order": "load", "plan": "takeoff\ngoto 0 1 0 0\nland\n" }));
+        assert_eq!(self.order(json!({ "order": "resume" }))["accepted"], false);
+        self.accepted(json!({ "order": "start" }));
+        self.until_status(|status| status["step"] == 1);
+        self.accepted(json!({ "order": "hold" }));
+        self.until_status(|status| status["mission_waits"] == true);
+        let outside = self.order(json!({ "order": "append", "command": "goto 50 0 0 0" }));
+        assert!(outside["reason"].as_str().unwrap().contains("beyond the fence"), "{outside}");
+        self.accepted(
+            json!({ "order": "load", "plan": "takeoff\nsetStayTime 0.5\ngoto -1 0 0 0\n" }),
+        );
+        self.accepted(json!({ "order": "append", "command": "goto 0 0 0.3 90" }));
+        self.accepted(json!({ "order": "resume" }));
+        assert_eq!(self.until_landed()["outcome"], "plan flown to its end");
+    }
+
+    fn quit(mut self) {
+        self.accepted(json!({ "order": "quit" }));
+        let end = self.until("the end", |object| object["type"] == "end");
+        assert_eq!(end["exit_status"], 0);
+        assert_eq!(self.child.wait().unwrap().code(), Some(0));
+    }
+}
+
+impl Drop for Conversation {
+    fn drop(&mut self) {
+        // It may have ended.
+        _ = self.child.kill();
+        _ = self.child.wait();
+    }
+}
+
+/// With `VEHICLE_SECONDS` it goes on for longer.
+#[test]
+fn a_program_flies_a_vehicle_again_and_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("session.mcap");
+    let mut vehicle = Conversation::start(&log);
+    let start = Instant::now();
+    let seconds = std::env::var("VEHICLE_SECONDS").map_or(0.0, |text| text.parse().unwrap());
+    assert_eq!(vehicle.order(json!({ "order": "start" }))["reason"], "no mission is loaded");
+    vehicle.until_ready();
+    let mut flights = 0;
+    loop {
+        vehicle.fly();
+        // The motors are cut in the air, and a person has looked at the drone.
+        vehicle.accepted(json!({ "order": "start" }));
+        vehicle.until_status(|status| status["step"] == 2);
+        vehicle.accepted(json!({ "order": "cut" }));
+        let ended = vehicle.until("an end", |object| object["type"] == "flight_ended");
+        assert_eq!(ended["exit_status"], 50);
+        assert_eq!(vehicle.order(json!({ "order": "start" }))["accepted"], false);
+        std::thread::sleep(Duration::from_secs(1));
+        vehicle.accepted(json!({ "order": "recover" }));
+        vehicle.until_ready();
+        flights += 2;
+        if start.elapsed().as_secs_f64() >= seconds {
+            break;
+        }
+    }
+    // Left in the air: it lands first.
+    vehicle.accepted(json!({ "order": "start" }));
+    vehicle.until_status(|status| status["step"] == 2);
+    vehicle.quit();
+    println!("{} flights in {:.0} s", flights + 1, start.elapsed().as_secs_f64());
+    let replay = program("ardrone-pilot").arg("replay").arg(&log).output().unwrap();
+    let said = String::from_utf8_lossy(&replay.stdout).into_owned();
+    assert!(said.contains("byte for byte"), "{said} {}", String::from_utf8_lossy(&replay.stderr));
+}
+
+#[test]
+fn what_is_no_order_is_answered_and_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut vehicle = Conversation::start(&folder.path().join("session.mcap"));
+    for (line, reason) in [
+        ("what?", "not JSON"),
+        ("[1, 2]", "invalid"),
+        (r#"{"order":"fly"}"#, "unknown variant"),
+        (r#"{"order":"hold","why":1}"#, "unknown field"),
+        (r#"{"order":"load","plan":"goto 0 1 0 0"}"#, "on the ground"),
+        (r#"{"order":"append","command":"gotoo"}"#, "did you mean `goto`?"),
+        (r#"{"order":"hold"}"#, "on the ground"),
+        (r#"{"order":"recover"}"#, "no emergency"),
+    ] {
+        vehicle.write(line);
+        let answer = vehicle.until("an answer", |object| object["type"] == "answer");
+        assert_eq!(answer["accepted"], false, "{line}");
+        assert!(answer["reason"].as_str().unwrap().contains(reason), "{line}: {answer}");
+    }
+    vehicle.until_ready();
+    vehicle.quit();
+}
+
+#[test]
+fn a_program_that_goes_away_in_flight_leaves_no_drone_in_the_air() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut vehicle = Conversation::start(&folder.path().join("session.mcap"));
+    vehicle.until_ready();
+    vehicle.accepted(json!({ "order": "append", "command": "takeoff" }));
+    vehicle.accepted(json!({ "order": "start" }));
+    vehicle.until_status(|status| status["pose"]["z_m"].as_f64() > Some(0.7));
+    vehicle.orders = None;
+    let end = vehicle.until("the end", |object| object["type"] == "end");
+    assert_eq!((&end["exit_status"], vehicle.mock.truth().phase), (&json!(0), Phase::Landed));
+}
+
+#[test]
+fn orders_are_read_as_people_type_them() {
+    let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+    let mut child = pilot(&mock, &["--no-log"]).spawn().unwrap();
+    let mut orders = child.stdin.take().unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let mut until = |text: &str| lines.find(|line| line.contains(text)).expect(text);
+    until("ready to take off");
+    orders.write_all(b"goto 0 1 0 0\nhelp\n").unwrap();
+    until("refused: goto 0 1 0 0: the drone is on the ground");
+    until("load FILE");
+    orders.write_all(b"takeoff\nsetStayTime 0.5\ngoto 0 1 0 0\nstart\n").unwrap();
+    until("step 3 done");
+    orders.write_all(b"land\n").unwrap();
+    until("landed");
+    orders.write_all(b"quit\n").unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+}
