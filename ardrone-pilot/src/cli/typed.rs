@@ -111,13 +111,11 @@ fn read(path: &str, limits: &FlightLimits) -> Result<Plan, TypedError> {
 
 /// How a line could go on: orders, commands, and files behind `load`.
 pub(super) fn completions(line: &str) -> Vec<String> {
-    match line.strip_prefix("load ") {
-        Some(path) => files(path).into_iter().map(|path| format!("load {path}")).collect(),
-        None => {
-            let words = ORDERS.iter().chain(&COMMANDS).filter(|word| word.starts_with(line));
-            words.map(ToString::to_string).collect()
-        }
+    if let Some(path) = line.strip_prefix("load ") {
+        return files(path).into_iter().map(|path| format!("load {path}")).collect();
     }
+    let words = ORDERS.iter().chain(&COMMANDS).filter(|word| word.starts_with(line));
+    words.map(ToString::to_string).collect()
 }
 
 fn files(start: &str) -> Vec<String> {

@@ -20,7 +20,7 @@ impl Vehicle {
     /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
     ///
     /// # Errors
-    /// See [`Session::tick`].
+    /// See [`ardrone_link::session::Session::tick`].
     pub fn tick_timed(
         &mut self,
         now: Duration,
