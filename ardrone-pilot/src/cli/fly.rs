@@ -73,7 +73,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let open = |door: Door| door.open(plan.as_ref(), &config.limits, controls.clone());
     let browser = door.map(open).transpose().unwrap_or_else(|error| {
         // The drone may be flying already.
-        progress.warn(&error.to_string());
+        progress.warn(&terminal::Causes(&error).to_string());
         None
     });
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();

@@ -37,9 +37,9 @@ pub(super) const HELP: &str = "load FILE, start, hold, resume, clear, land, cut,
 /// Why what was typed was not done.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum TypedError {
-    #[error("cannot read the plan {path}: {source}")]
+    #[error("cannot read the plan {path}")]
     Read { path: String, source: std::io::Error },
-    #[error("{0}")]
+    #[error(transparent)]
     Plan(#[from] PlanError),
     #[error("`{0}` stands alone")]
     Alone(String),
@@ -47,7 +47,7 @@ pub(super) enum TypedError {
     NoFile,
     #[error("{HELP}")]
     Help,
-    #[error("{0}")]
+    #[error(transparent)]
     Refused(#[from] Refused),
 }
 
