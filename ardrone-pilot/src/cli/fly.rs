@@ -29,7 +29,7 @@ use crate::timing::TimingReport;
 /// Flies the plan, or stays and takes orders; returns the exit status.
 pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let mut settings = read_settings(arguments.config.as_deref())?;
-    if let Some(law) = arguments.law() {
+    if let Some(law) = arguments.law {
         settings.set_law(law);
     }
     let config = settings.pilot_config(arguments.z_origin());
