@@ -3,6 +3,7 @@
 
 mod alone;
 pub mod campaign;
+pub mod gaps;
 pub mod sensors;
 pub mod sim;
 
