@@ -159,6 +159,24 @@ fn a_drone_that_was_blown_over_the_fence_comes_back_to_land() {
     }
 }
 
+/// It is brought down while it is carried off, not when it has left its fence.
+#[test]
+fn a_storm_that_carries_the_drone_off_lands_it_before_it_leaves_its_fence() {
+    for seed in 1..=5 {
+        let drone = DroneConfig { profile: Profile::tf(), ..DroneConfig::default() };
+        let world = WorldConfig { drone, ..WorldConfig::default() };
+        let pilot = PilotConfig { limits: NEAR, ..PilotConfig::default() };
+        let simulation = Simulation { world, pilot, ..Simulation::default() };
+        let mut away_m = 0.0;
+        let flown = plan("takeoff\ngoto 0 2.5 1.5 0\nland\n");
+        let see = |moment: &Moment| furthest_m(moment, &mut away_m);
+        let flight = watched("0 wind 0 2", seed, flown, simulation, see);
+        let ordered = FlightEvent::LandingOrdered(LandingReason::Guard(Veto::CarriedOff));
+        assert!(flight.events.iter().any(|(_, event)| *event == ordered), "{:?}", flight.events);
+        assert!(flight.final_truth.phase == Phase::Landed && away_m < 6.0, "{away_m:.2} m");
+    }
+}
+
 #[test]
 fn navdata_that_stay_frozen_or_lie_too_much_land_the_drone() {
     for (text, trust) in [
