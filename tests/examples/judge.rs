@@ -12,9 +12,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use autopilot::outcome::Outcome;
-use system_tests::{campaign, gaps};
 use system_tests::sensors::{AIRFRAMES, led_astray};
 use system_tests::sim::SimulationError;
+use system_tests::{campaign, gaps};
 
 /// Of so many flights of the campaign at least one is flown to its end; of the pilot as it is, two of five are.
 const ONE_OF: u64 = 5;

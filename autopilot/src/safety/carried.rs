@@ -25,7 +25,7 @@ impl CarriedOff {
     pub(super) fn see(&mut self, now: &Circumstances, radius_m: f64) {
         let [right_m_s, forward_m_s, _] = now.velocity_m_s;
         let away_m_s = outward(now, [right_m_s, forward_m_s]);
-        if self.stops(now, away_m_s, radius_m) {
+        if Self::stops(now, away_m_s, radius_m) {
             *self = Self::default();
             return;
         }
@@ -52,7 +52,7 @@ impl CarriedOff {
 
     /// Whether it comes to rest inside, leaning against its motion as far as it can. Where it is not seen
     /// nobody knows.
-    fn stops(&self, now: &Circumstances, away_m_s: f64, radius_m: f64) -> bool {
+    fn stops(now: &Circumstances, away_m_s: f64, radius_m: f64) -> bool {
         let room_m = radius_m + MARGIN_M - now.pose.x_m.hypot(now.pose.y_m);
         // What pushes it is told as that of a drone at rest: one that flies with the wind is pushed less.
         let dragged_m_s2 = now.drag_1_s * away_m_s / 2.0;
