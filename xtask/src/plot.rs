@@ -135,7 +135,7 @@ fn legend<'a>(
     for (name, colour) in LAWS.map(Law::name).into_iter().zip(COLOURS) {
         chart
             .draw_series(std::iter::empty::<Rectangle<(f64, f64)>>())?
-            .label(*name)
+            .label(name)
             .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 14, y + 5)], colour.filled()));
     }
     chart

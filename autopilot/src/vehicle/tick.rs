@@ -200,6 +200,7 @@ impl Vehicle {
     }
 
     fn circumstances(&self, now: Duration, state: &Prediction) -> Circumstances {
+        let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
         Circumstances {
             now,
             blind_for: self.blind_for(now),
@@ -208,7 +209,9 @@ impl Vehicle {
             landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
             pose: pose(state),
             velocity_m_s: state.velocity_m_s.into(),
-            wind: (state.disturbance_m_s2 / (self.full_tilt_m_s2() * self.least_thrust())).into(),
+            wind: (state.disturbance_m_s2 / full_tilt_m_s2).into(),
+            full_tilt_m_s2,
+            drag_1_s: self.flight.estimator.airframe().drag_1_s.min(),
         }
     }
 
