@@ -167,7 +167,7 @@ fn a_storm_that_carries_the_drone_off_lands_it_before_it_leaves_its_fence() {
     for seed in 1..=5 {
         let drone = DroneConfig { profile: Profile::tf(), ..DroneConfig::default() };
         let world = WorldConfig { drone, ..WorldConfig::default() };
-        let pilot = PilotConfig { limits: NEAR, ..PilotConfig::default() };
+        let pilot = VehicleConfig { limits: NEAR, ..VehicleConfig::default() };
         let simulation = Simulation { world, pilot, ..Simulation::default() };
         let mut away_m = 0.0;
         let flown = plan("takeoff\ngoto 0 2.5 1.5 0\nland\n");
