@@ -477,3 +477,29 @@ fn classes_are_checked() {
         assert!(error.contains(expected), "{classes}: {error}");
     }
 }
+
+#[test]
+fn slips_of_the_pen_are_understood() {
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+        basics { void on(void); };\ntypes { light(void); level(int); };\ntriggerables { +!light; };\n";
+    for (agent, help) in [
+        ("!light <- on.", "did you mean `+!light`?"),
+        ("!light : level(_) <- on.", "did you mean `+!light`?"),
+        ("light <- on.", "did you mean `+!light` or `+light`?"),
+        ("+!light <- on, on.", "separated by `;`"),
+        ("+!light <- on & on.", "separated by `;`"),
+        ("+!light : level(_), level(_) <- on.", "joined by `&`"),
+        ("+!light <- on\n+!light <- on.", "needs a full stop"),
+    ] {
+        let error = translator::translate(
+            translator::parse_configuration("a.conf", configuration).unwrap(),
+            agent,
+        )
+        .unwrap_err();
+        assert!(error.to_string().contains(help), "{agent}\n{error}");
+    }
+    let error =
+        translator::parse_configuration("a.conf", &configuration.replace("light(void);", "light;"))
+            .unwrap_err();
+    assert!(error.to_string().contains("without arguments it is `light(void)`"), "{error}");
+}

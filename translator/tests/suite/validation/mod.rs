@@ -8,7 +8,6 @@
 mod compiled;
 mod generate;
 mod interpreted;
-mod proved;
 
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 

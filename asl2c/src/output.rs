@@ -4,7 +4,9 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile, TempPath};
-use translator::{GeneratedFile, ParsedConfiguration, TranslateError};
+use translator::{GeneratedFile, TranslateError};
+
+use crate::agent::Agent;
 
 /// Why nothing was written.
 #[derive(Debug, thiserror::Error)]
@@ -25,14 +27,17 @@ struct Prepared {
 }
 
 /// Writes `files` to `folder`. Until all are written whole none is in its place, and if one cannot take its place
-/// the others give theirs back. `read` are the files that the translation was made from, and what was done with
-/// each.
+/// the others give theirs back. What the translation was made from is never overwritten.
 pub(crate) fn write(
-    configuration: &ParsedConfiguration,
+    agent: &Agent,
     files: &[GeneratedFile],
     folder: &Path,
-    read: &[(PathBuf, &str)],
 ) -> Result<(), OutputError> {
+    let Agent { configuration, .. } = agent;
+    let mut read = Vec::from(agent.sources().map(|path| (path, "translated")));
+    for file in configuration.included_files() {
+        read.extend([agent.folder(), folder].map(|place| (place.join(&file), "included")));
+    }
     let mut prepared: Vec<Prepared> = Vec::new();
     let inside = or_here(folder).canonicalize().ok();
     for file in files {
