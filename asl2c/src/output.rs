@@ -51,17 +51,17 @@ pub(crate) fn write(
             let message =
                 format!("a link leads to {}, out of the output's folder", target.display());
             let help = "name a file in that folder or below; `-o DIR` puts all elsewhere";
-            return Err(configuration.refuse(file.setting, &message, help).into());
+            return Err(configuration.overwrites(file.setting, &message, help).into());
         }
         if let Some((source, used)) = read.iter().find(|(source, _)| is_same(&target, source)) {
             let message = format!("this is {}, which is {used}", source.display());
             let help = "it would be overwritten: choose another name, or another folder with `-o`";
-            return Err(configuration.refuse(file.setting, &message, help).into());
+            return Err(configuration.overwrites(file.setting, &message, help).into());
         }
         if let Some(other) = prepared.iter().find(|other| is_same(&target, &other.target)) {
             let message = format!("this is {}, which is written too", other.target.display());
             let help = "a link leads from one to the other: choose another name";
-            return Err(configuration.refuse(file.setting, &message, help).into());
+            return Err(configuration.overwrites(file.setting, &message, help).into());
         }
         let new = prepare(&target, &file.text);
         prepared.push(new.map_err(|source| OutputError::Write { path, source })?);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
-use translator::CODES;
+use translator::Code;
 
 /// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
 ///
@@ -71,7 +71,7 @@ pub(super) fn is_json(message_format: &str) -> bool {
 
 /// Codes of warnings, and a word for all of them.
 fn code(all: &'static str) -> clap::builder::PossibleValuesParser {
-    clap::builder::PossibleValuesParser::new(CODES.into_iter().chain([all]))
+    clap::builder::PossibleValuesParser::new(Code::warnings().map(Code::name).chain([all]))
 }
 
 #[derive(Debug, Subcommand)]

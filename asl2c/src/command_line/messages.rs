@@ -1,29 +1,29 @@
-//! Errors and warnings as text and as lines of JSON.
+//! Errors and warnings as lines of JSON.
 
 use std::path::Path;
 
-use serde_json::json;
-use translator::{Finding, REFUSED, TranslateError};
+use serde_json::{Value, json};
+use translator::{Diagnostics, Located, Severity, TranslateError};
 
 use super::CommandError;
 use crate::agent::ReadError;
 use crate::output::OutputError;
 
+/// More messages than this are not printed: nobody reads them, and each costs a look at the whole text.
+const MOST: usize = 50;
+
 /// An error as lines of JSON.
-pub(super) fn lines_of(error: &CommandError) -> String {
+pub(super) fn error_lines(error: &CommandError) -> String {
     let general = |code: &str, file: Option<&Path>| line("error", code, &error.to_string(), file);
     match error {
         CommandError::Translate(refused)
         | CommandError::Read(ReadError::Configuration(refused))
         | CommandError::Output(OutputError::Refused(refused)) => match refused {
-            TranslateError::Configuration { findings, .. }
-            | TranslateError::Agent { findings, .. } => lines(findings),
-            TranslateError::Unprovable { .. } | TranslateError::Matrix { .. } => {
-                general(REFUSED, None)
-            }
+            TranslateError::Refused(found) => lines(found),
+            _ => general("unprovable", None),
         },
-        CommandError::Denied(findings) => {
-            format!("{}\n{}", lines(findings), line("error", "denied", &denied(findings), None))
+        CommandError::Denied(found) => {
+            format!("{}\n{}", lines(found), line("error", "denied", &denied(found), None))
         }
         CommandError::Read(ReadError::File { path, .. }) => general("not-read", Some(path)),
         CommandError::Output(OutputError::Write { path, .. }) => general("not-written", Some(path)),
@@ -33,37 +33,50 @@ pub(super) fn lines_of(error: &CommandError) -> String {
     }
 }
 
-/// Findings as lines of JSON.
-pub(super) fn lines(findings: &[Finding]) -> String {
-    findings.iter().map(|finding| json!(finding).to_string()).collect::<Vec<_>>().join("\n")
+/// Diagnostics as lines of JSON.
+pub(super) fn lines(found: &Diagnostics) -> String {
+    found.located().take(MOST).map(|found| located(&found)).collect::<Vec<_>>().join("\n")
 }
 
-/// What is said of no place in a text, as a line of JSON with the keys of a finding.
+fn located(found: &Located<'_>) -> String {
+    let ((line, column), (end_line, end_column)) = (found.start(), found.end());
+    let diagnostic = found.diagnostic;
+    json!({
+        "severity": if diagnostic.severity == Severity::Error { "error" } else { "warning" },
+        "code": diagnostic.code,
+        "message": diagnostic.message,
+        "file": found.source.name,
+        "line": line,
+        "column": column,
+        "end_line": end_line,
+        "end_column": end_column,
+        "label": diagnostic.label,
+        "help": diagnostic.help,
+        "rendered": found.render(),
+    })
+    .to_string()
+}
+
+/// What is said of no place in a text, as a line of JSON with the same keys.
 pub(super) fn line(severity: &str, code: &str, message: &str, file: Option<&Path>) -> String {
-    let nothing = serde_json::Value::Null;
     json!({
         "severity": severity,
         "code": code,
         "message": message,
         "file": file.map(|file| file.display().to_string()),
-        "line": nothing,
-        "column": nothing,
-        "end_line": nothing,
-        "end_column": nothing,
+        "line": Value::Null,
+        "column": Value::Null,
+        "end_line": Value::Null,
+        "end_column": Value::Null,
         "label": "",
-        "help": nothing,
+        "help": Value::Null,
         "rendered": format!("{severity}: {message}"),
     })
     .to_string()
 }
 
-/// Findings as people read them.
-pub(super) fn rendered(findings: &[Finding]) -> String {
-    findings.iter().map(|finding| finding.rendered.trim_end()).collect::<Vec<_>>().join("\n\n")
-}
-
-/// How many of the findings forbid translation.
-pub(super) fn denied(findings: &[Finding]) -> String {
-    let denied = findings.iter().filter(|finding| finding.severity == "error").count();
+/// How many of the warnings forbid translation.
+pub(super) fn denied(found: &Diagnostics) -> String {
+    let denied = found.iter().filter(|found| found.severity == Severity::Error).count();
     format!("{denied} of these are denied: nothing is translated")
 }

@@ -9,10 +9,10 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser as _;
-use translator::{Finding, TranslateError, Translation, translate};
+use translator::{Diagnostic, Diagnostics, Severity, TranslateError, translate};
 
 use self::arguments::{Arguments, Task, Verify, is_json};
-use self::messages::{denied, line, lines, lines_of, rendered};
+use self::messages::{denied, error_lines, line, lines};
 use self::verdicts::Detail;
 use crate::agent::{Agent, ReadError};
 use crate::measure::measure;
@@ -34,8 +34,8 @@ enum CommandError {
     #[error(transparent)]
     New(#[from] NewError),
     /// Warnings that are refused, with the others that are wanted.
-    #[error("{}\n\nerror: {}", rendered(.0), denied(.0))]
-    Denied(Vec<Finding>),
+    #[error("{}\n\nerror: {}", .0, denied(.0))]
+    Denied(Diagnostics),
     #[error("cannot print {what}: {source}")]
     Print { what: &'static str, source: std::io::Error },
 }
@@ -84,11 +84,11 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
     let json = is_json(&arguments.message_format);
     let agent = Agent::read(path)?;
     let mut translation = translate(agent.configuration.clone(), &agent.text)?;
-    let warnings = warnings(arguments, &translation)?;
+    let warnings = warnings(arguments, &translation.warnings)?;
     let folder = arguments.output.as_deref().unwrap_or(agent.folder());
     output::write(&agent, &translation.files, folder)?;
     if !warnings.is_empty() && !arguments.quiet {
-        complain_of(&if json { lines(&warnings) } else { rendered(&warnings) });
+        complain_of(&if json { lines(&warnings) } else { warnings.to_string() });
     }
     if arguments.report {
         for unknown in measure(&mut translation, agent.configuration, &agent.text) {
@@ -104,21 +104,20 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
 }
 
 /// The warnings that are wanted; an error if one is denied. Those come first then, or alone if only errors are wanted.
-fn warnings(
-    arguments: &Arguments,
-    translation: &Translation,
-) -> Result<Vec<Finding>, CommandError> {
-    let wanted = translation.findings.iter().filter(|finding| arguments.is_wanted(finding.code));
-    let (mut denied, others): (Vec<Finding>, Vec<Finding>) =
-        wanted.cloned().partition(|finding| arguments.is_denied(finding.code));
+fn warnings(arguments: &Arguments, found: &Diagnostics) -> Result<Diagnostics, CommandError> {
+    let wanted = found.iter().filter(|warning| arguments.is_wanted(warning.code));
+    let (mut denied, others): (Vec<Diagnostic>, Vec<Diagnostic>) =
+        wanted.cloned().partition(|warning| arguments.is_denied(warning.code));
     if denied.is_empty() {
-        return Ok(others);
+        return Ok(found.with(others));
     }
-    denied = denied.into_iter().map(Finding::denied).collect();
+    for warning in &mut denied {
+        warning.severity = Severity::Error;
+    }
     if !arguments.quiet {
         denied.extend(others);
     }
-    Err(CommandError::Denied(denied))
+    Err(CommandError::Denied(found.with(denied)))
 }
 
 /// Prints what went wrong, and returns how to exit.
@@ -132,7 +131,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
             | CommandError::Verify(_)
     );
     let prefix = if ours { "error: " } else { "" };
-    complain_of(&if as_json { lines_of(error) } else { format!("{prefix}{error}") });
+    complain_of(&if as_json { error_lines(error) } else { format!("{prefix}{error}") });
     if matches!(error, CommandError::Verify(_)) { NOT_CHECKED.into() } else { ExitCode::FAILURE }
 }
 

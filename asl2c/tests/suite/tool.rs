@@ -128,13 +128,13 @@ fn all_lines_of_json_are_alike() {
         (&[], &|_| {}, "no-plan", 0),
         (&["-D", "warnings"], &|_| {}, "no-plan", 1),
         (&[], &no_agent, "not-read", 1),
-        (&[], &wrong, "refused", 1),
-        (&[], &unread, "refused", 1),
+        (&[], &wrong, "not-declared", 1),
+        (&[], &unread, "missing-setting", 1),
         (&[], &blocked, "not-written", 1),
         (&["verify"], &|_| {}, "not-checked", 3),
         (&["verify", "-q"], &no_agent, "not-read", 1),
-        (&["verify"], &wrong, "refused", 1),
-        (&["verify", "--quiet"], &unread, "refused", 1),
+        (&["verify"], &wrong, "not-declared", 1),
+        (&["verify", "--quiet"], &unread, "missing-setting", 1),
     ];
     for (options, spoil, code, status) in cases {
         let folder = folder();

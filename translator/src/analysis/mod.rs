@@ -26,6 +26,7 @@ use self::reach::{
 };
 use self::tail::warn_unseen;
 use self::time::{Clock, find_clock};
+use crate::code::Code;
 use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula};
 use crate::program::{
     Belief, BeliefId, External, Handler, HandlerId, Program, Value, deferred_room,
@@ -187,11 +188,9 @@ impl Analysis<'_> {
         for label in agent.plans.iter().filter_map(|plan| plan.label.as_ref()) {
             if !known.insert(&label.text) {
                 self.error(
-                    Diagnostic::error(
-                        format!("a second plan `@{}`", label.text),
-                        label.span.clone(),
-                    )
-                    .help("a label is the name of one plan; requirements may be shared"),
+                    Code::DeclaredTwice
+                        .at(format!("a second plan `@{}`", label.text), label.span.clone())
+                        .help("a label is the name of one plan; requirements may be shared"),
                 );
             }
         }
@@ -245,11 +244,12 @@ impl Analysis<'_> {
                 && self.handler_id(Operator::Add, TriggerKind::Achieve, name).is_none()
             {
                 self.error(
-                    Diagnostic::error(
-                        format!("`-!{name}` can never run: no plan for `+!{name}`"),
-                        trigger.span.clone(),
-                    )
-                    .help("a failure plan runs when a plan of its goal fails"),
+                    Code::MissingPlan
+                        .at(
+                            format!("`-!{name}` can never run: no plan for `+!{name}`"),
+                            trigger.span.clone(),
+                        )
+                        .help("a failure plan runs when a plan of its goal fails"),
                 );
             }
         }
@@ -270,7 +270,8 @@ impl Analysis<'_> {
                     }
                     None => {
                         self.error(
-                            Diagnostic::error("not a constant", term.span())
+                            Code::NotConstant
+                                .at("not a constant", term.span())
                                 .help("initial beliefs are numbers and strings"),
                         );
                         None
@@ -280,11 +281,12 @@ impl Analysis<'_> {
             let id = self.belief_id(&atom.name.text, &types);
             if self.beliefs[id.0].initial.is_some() {
                 self.error(
-                    Diagnostic::error(
-                        format!("a second initial belief `{}`", atom.name.text),
-                        atom.span.clone(),
-                    )
-                    .help("an agent believes at most one instance of a predicate"),
+                    Code::DeclaredTwice
+                        .at(
+                            format!("a second initial belief `{}`", atom.name.text),
+                            atom.span.clone(),
+                        )
+                        .help("an agent believes at most one instance of a predicate"),
                 );
             }
             self.beliefs[id.0].initial = values;
@@ -300,7 +302,8 @@ impl Analysis<'_> {
                 Some(Ok(value)) => values.push(value),
                 Some(Err(diagnostic)) => self.error(diagnostic),
                 None => self.error(
-                    Diagnostic::error("not a constant", term.span())
+                    Code::NotConstant
+                        .at("not a constant", term.span())
                         .help("the initial goal's arguments are numbers and strings"),
                 ),
             }
@@ -314,7 +317,8 @@ impl Analysis<'_> {
         let handler = self.handler_id(Operator::Add, TriggerKind::Achieve, name);
         if handler.is_none() {
             self.error(
-                Diagnostic::error(format!("no plan for `+!{name}`"), goal.span.clone())
+                Code::MissingPlan
+                    .at(format!("no plan for `+!{name}`"), goal.span.clone())
                     .label("this goal could never be achieved")
                     .help(format!("add a plan `+!{name} : context <- body.`")),
             );
@@ -342,14 +346,16 @@ impl Analysis<'_> {
                     }
                 }
                 _ => self.findings.configuration.push(if settable {
-                    Diagnostic::error(format!("no plan for `+{}`", name.text), name.span.clone())
+                    Code::MissingPlan
+                        .at(format!("no plan for `+{}`", name.text), name.span.clone())
                         .help("a change would raise an event that nobody handles")
                 } else {
-                    Diagnostic::error(
-                        format!("`{}` is perceived but not settable", name.text),
-                        name.span.clone(),
-                    )
-                    .help("list it in `settables` too")
+                    Code::NotSettable
+                        .at(
+                            format!("`{}` is perceived but not settable", name.text),
+                            name.span.clone(),
+                        )
+                        .help("list it in `settables` too")
                 }),
             }
         }
@@ -363,10 +369,10 @@ impl Analysis<'_> {
                 if known.insert((event.operator, event.kind, event.name.clone())) {
                     external.push(event);
                 } else {
-                    self.findings.configuration.push(Diagnostic::error(
-                        "this trigger is listed twice",
-                        trigger.span.clone(),
-                    ));
+                    self.findings.configuration.push(
+                        Code::DeclaredTwice
+                            .at("this trigger is listed twice", trigger.span.clone()),
+                    );
                 }
             }
         }
@@ -377,15 +383,14 @@ impl Analysis<'_> {
             });
             if !listed {
                 self.findings.configuration.push(
-                    Diagnostic::error(
-                        "a pre-emptive event must be triggerable",
-                        trigger.span.clone(),
-                    )
-                    .help("list it in `triggerables` too"),
+                    Code::NotTriggerable
+                        .at("a pre-emptive event must be triggerable", trigger.span.clone())
+                        .help("list it in `triggerables` too"),
                 );
             } else if trigger.kind != TriggerKind::Achieve {
                 self.findings.configuration.push(
-                    Diagnostic::error("only goals can pre-empt", trigger.span.clone())
+                    Code::NotPreemptive
+                        .at("only goals can pre-empt", trigger.span.clone())
                         .help("raise a goal, `+!goal`, where the belief matters that much"),
                 );
             }
@@ -418,7 +423,8 @@ impl Analysis<'_> {
         };
         if belief.is_none() && handler.is_none() {
             self.findings.configuration.push(
-                Diagnostic::error(format!("no plan for `+!{name}`"), trigger.span.clone())
+                Code::MissingPlan
+                    .at(format!("no plan for `+!{name}`"), trigger.span.clone())
                     .help("the environment could order what the agent can't do"),
             );
         }
@@ -453,7 +459,8 @@ impl Analysis<'_> {
                 {
                     let message = format!("`{}` is never believed", name.text);
                     self.findings.configuration.push(
-                        Diagnostic::error(message, name.span.clone())
+                        Code::ComparedUnbelieved
+                            .at(message, name.span.clone())
                             .help("a comparison of what is not believed never holds"),
                     );
                 }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use diagnostic::Diagnostic;
 
+use crate::code::Code;
 use crate::coverage::always_finds_a_plan;
 use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Plan, Raise, Step};
 use crate::syntax::ast::{Operator, TriggerKind};
@@ -64,8 +65,8 @@ pub(super) fn warn_unreachable(handlers: &[Handler], findings: &mut Vec<Diagnost
     for handler in handlers.iter().filter(idle) {
         let text = handler.text();
         findings.push(
-            Diagnostic::warning(format!("nothing ever triggers `{text}`"), handler.span.clone())
-                .code("never-triggered")
+            Code::NeverTriggered
+                .at(format!("nothing ever triggers `{text}`"), handler.span.clone())
                 .help("its plans are left out; list it in `triggerables` or let a plan post it"),
         );
     }
@@ -93,7 +94,7 @@ pub(super) fn warn_never_believed(beliefs: &[Belief], findings: &mut Vec<Diagnos
         if let Some(span) = &belief.asked_at {
             let message = format!("`{}` is never believed", belief.name);
             findings.push(
-                Diagnostic::warning(message, span.clone()).code("never-believed").help(
+                Code::NeverBelieved.at(message, span.clone()).help(
                     "no initial belief, no plan, no event and no `set_` function makes it true",
                 ),
             );
@@ -127,8 +128,8 @@ pub(super) fn warn_without_plan(
         let text = handler.text();
         let failure = text.replacen('+', "-", 1);
         findings.push(
-            Diagnostic::warning(format!("`{text}` may find no plan"), handler.span.clone())
-                .code("no-plan")
+            Code::NoPlan
+                .at(format!("`{text}` may find no plan"), handler.span.clone())
                 .label("then it fails, and nothing mends that")
                 .help(format!(
                     "add a plan without context behind its others, or one for `{failure}`"

@@ -8,6 +8,7 @@ use std::collections::{HashSet, VecDeque};
 
 use diagnostic::{Diagnostic, Span};
 
+use crate::code::Code;
 use crate::coverage::always_finds_a_plan;
 use crate::program::{Handler, HandlerId, Plan, Raise, Step};
 use crate::syntax::ast::{Operator, TriggerKind};
@@ -38,13 +39,13 @@ pub(super) fn warn_unseen(handlers: &[Handler], findings: &mut Vec<Diagnostic>) 
                 _ => "let its plans post a goal that has failure plans".to_owned(),
             };
             findings.push(
-                Diagnostic::warning(
-                    format!("`{guard}` does not see it if `{text}` fails later"),
-                    placed.span.clone(),
-                )
-                .code("unseen-failure")
-                .label("posted for the next step: with that this plan has succeeded")
-                .help(mend),
+                Code::UnseenFailure
+                    .at(
+                        format!("`{guard}` does not see it if `{text}` fails later"),
+                        placed.span.clone(),
+                    )
+                    .label("posted for the next step: with that this plan has succeeded")
+                    .help(mend),
             );
         }
     }

@@ -6,6 +6,7 @@ use super::scanner::{Parsed, Scanner, is_word, is_word_start};
 use super::{
     ActionClass, Basic, Configuration, ExternalTrigger, Instance, Predicate, Settings, Struct,
 };
+use crate::code::Code;
 use crate::reserved::is_c_word;
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 use crate::types::{C_NUMBERS, CType, TypeKind};
@@ -100,11 +101,13 @@ impl<'a> Parser<'a> {
         let name = self.scanner.word("a section name")?;
         let section: &'a str = &self.scanner.text[name.span.clone()];
         if !SECTIONS.contains(&section) {
-            return Err(Diagnostic::error(format!("unknown section `{section}`"), name.span)
+            return Err(Code::UnknownSection
+                .at(format!("unknown section `{section}`"), name.span)
                 .help(advice(section, &SECTIONS)));
         }
         if self.seen.contains(&section) {
-            return Err(Diagnostic::error(format!("a second section `{section}`"), name.span)
+            return Err(Code::DeclaredTwice
+                .at(format!("a second section `{section}`"), name.span)
                 .help("put its entries into the first one"));
         }
         self.seen.push(section);
@@ -162,7 +165,9 @@ impl<'a> Parser<'a> {
                         == (trigger.operator, trigger.kind, &trigger.name.text)
                 };
                 if self.configuration.preemptive.iter().any(same) {
-                    return Err(Diagnostic::error("this trigger is listed twice", trigger.span));
+                    return Err(
+                        Code::DeclaredTwice.at("this trigger is listed twice", trigger.span)
+                    );
                 }
                 self.configuration.preemptive.push(trigger);
                 Ok(())
@@ -179,13 +184,16 @@ impl<'a> Parser<'a> {
         let settings = &mut self.configuration.settings;
         if settings.places.contains_key(&key.text) {
             let message = format!("a second setting `{}`", key.text);
-            return Err(Diagnostic::error(message, key.span).help("only one of them could count"));
+            return Err(Code::DeclaredTwice
+                .at(message, key.span)
+                .help("only one of them could count"));
         }
         let same = |other: &str| settings.places.contains_key(other);
         if matches!(key.text.as_str(), "inbox" | "max_events")
             && (same("inbox") || same("max_events"))
         {
-            return Err(Diagnostic::error("`inbox` and `max_events` exclude each other", key.span)
+            return Err(Code::ExclusiveSettings
+                .at("`inbox` and `max_events` exclude each other", key.span)
                 .help("both tell how many external events can wait"));
         }
         settings.places.insert(key.text.clone(), value.span.clone());
@@ -203,7 +211,8 @@ impl<'a> Parser<'a> {
                     "static" => Instance::Static,
                     "context" => Instance::Context,
                     _ => {
-                        return Err(Diagnostic::error("unknown kind of instance", value.span)
+                        return Err(Code::SettingValue
+                            .at("unknown kind of instance", value.span)
                             .help("write `static` or `context`"));
                     }
                 };
@@ -214,15 +223,14 @@ impl<'a> Parser<'a> {
                     settings.queue |= key.text == "max_events";
                 }
                 _ => {
-                    return Err(Diagnostic::error(
-                        format!("`{}` out of range", key.text),
-                        value.span,
-                    )
-                    .help(format!("a whole number from 1 to {MAX_INBOX}")));
+                    return Err(Code::SettingValue
+                        .at(format!("`{}` out of range", key.text), value.span)
+                        .help(format!("a whole number from 1 to {MAX_INBOX}")));
                 }
             },
             other => {
-                return Err(Diagnostic::error(format!("unknown setting `{other}`"), key.span)
+                return Err(Code::UnknownSetting
+                    .at(format!("unknown setting `{other}`"), key.span)
                     .help(advice(other, &SETTINGS)));
             }
         }
@@ -238,11 +246,9 @@ impl<'a> Parser<'a> {
             match quoted.find(['"', '\n']).filter(|end| quoted[*end..].starts_with('"')) {
                 Some(end) => (&quoted[..end], end + 2),
                 None => {
-                    return Err(Diagnostic::error(
-                        "value with a quote or backslash",
-                        start..start + 1,
-                    )
-                    .help("close the quote on the same line"));
+                    return Err(Code::SettingValue
+                        .at("value with a quote or backslash", start..start + 1)
+                        .help("close the quote on the same line"));
                 }
             }
         } else {
@@ -254,10 +260,11 @@ impl<'a> Parser<'a> {
         let span = start..start + length;
         self.scanner.position = span.end;
         if text.is_empty() {
-            return Err(Diagnostic::error("setting without a value", start..start + 1));
+            return Err(Code::SettingValue.at("setting without a value", start..start + 1));
         }
         if text.contains(['"', '\\']) || text.chars().any(char::is_control) {
-            return Err(Diagnostic::error("value with a quote or backslash", span)
+            return Err(Code::SettingValue
+                .at("value with a quote or backslash", span)
                 .help("generated C includes files by these names"));
         }
         Ok(Name { text: text.to_owned(), span })
@@ -272,7 +279,8 @@ impl<'a> Parser<'a> {
         if name.text != "updateBeliefs" {
             self.configuration.basics.push(Basic { name, result, parameters, span });
         } else if result.name != "void" || !parameters.is_empty() {
-            return Err(Diagnostic::error("`updateBeliefs` has another signature", span)
+            return Err(Code::WrongSignature
+                .at("`updateBeliefs` has another signature", span)
                 .help("it is always declared, as `void updateBeliefs(void)`"));
         }
         Ok(())
@@ -288,18 +296,19 @@ impl<'a> Parser<'a> {
             let (ctype, field) = self.typed_name()?;
             self.scanner.expect(";")?;
             if !ctype.is_numeric() && ctype.kind != TypeKind::Bool {
-                return Err(Diagnostic::error("a field must be a number or bool", field.span)
+                return Err(Code::StructField
+                    .at("a field must be a number or bool", field.span)
                     .help("structs of structs and pointers are not translated"));
             }
             if fields.iter().any(|(other, _)| other.text == field.text) {
-                return Err(Diagnostic::error("a second field of this name", field.span));
+                return Err(Code::DeclaredTwice.at("a second field of this name", field.span));
             }
             fields.push((field, ctype));
             self.scanner.skip_blanks()?;
         }
         self.scanner.expect(";")?;
         if fields.is_empty() {
-            return Err(Diagnostic::error("a struct without fields", name.span));
+            return Err(Code::StructField.at("a struct without fields", name.span));
         }
         self.configuration.structs.push(Struct { name, fields });
         Ok(())
@@ -323,7 +332,8 @@ impl<'a> Parser<'a> {
         let Some(name) = self.configuration.settings.trace.clone() else { return };
         if !name.text.starts_with(is_word_start) || !name.text.chars().all(is_word) {
             self.diagnostics.push(
-                Diagnostic::error("not the name of a function", name.span)
+                Code::SettingValue
+                    .at("not the name of a function", name.span)
                     .help("write `trace = tracePlan;` and provide `void tracePlan(uint32_t)`"),
             );
             return;
@@ -401,15 +411,14 @@ impl<'a> Parser<'a> {
                 if parameters.is_empty() && self.scanner.take(")") {
                     return Ok(parameters);
                 }
-                return Err(Diagnostic::error(
-                    "`void` is no parameter",
-                    start..self.scanner.position,
-                )
-                .help("`(void)` alone says that there is none"));
+                return Err(Code::NotAType
+                    .at("`void` is no parameter", start..self.scanner.position)
+                    .help("`(void)` alone says that there is none"));
             }
             parameters.push(parameter);
             if parameters.len() > MOST_PARAMETERS {
-                return Err(Diagnostic::error("too many arguments", start..self.scanner.position)
+                return Err(Code::Limit
+                    .at("too many arguments", start..self.scanner.position)
                     .help(format!(
                         "C promises room for 127; at most {MOST_PARAMETERS} are translated"
                     )));
@@ -463,7 +472,8 @@ impl<'a> Parser<'a> {
         let name = self.scanner.word("a name")?;
         let span = start..self.scanner.position;
         if operator == Operator::Delete && kind == TriggerKind::Achieve {
-            return Err(Diagnostic::error("`-!goal` cannot be raised from outside", span)
+            return Err(Code::NotTriggerable
+                .at("`-!goal` cannot be raised from outside", span)
                 .help("failure plans run when their goal fails"));
         }
         Ok(ExternalTrigger { operator, kind, name, span })
@@ -492,14 +502,13 @@ impl<'a> Parser<'a> {
             let file = &self.scanner.rest()[..length + 2];
             self.scanner.position += file.len();
             if file.ends_with('\n') {
-                return Err(Diagnostic::error(
-                    "include is never closed",
-                    start..self.scanner.position - 1,
-                ));
+                return Err(
+                    Code::NotClosed.at("include is never closed", start..self.scanner.position - 1)
+                );
             }
             let odd = |c: char| c == '\\' || !is_printable(c);
             if file.contains(odd) || ["??", "/*", "//"].iter().any(|mark| file.contains(mark)) {
-                return Err(Diagnostic::error(
+                return Err(Code::FileName.at(
                     "this is no name of a file that C includes",
                     start..self.scanner.position,
                 ));
@@ -518,11 +527,9 @@ impl<'a> Parser<'a> {
         ] {
             if value.is_empty() {
                 self.diagnostics.push(
-                    Diagnostic::error(
-                        format!("the setting `{key}` is missing"),
-                        self.settings.clone(),
-                    )
-                    .help(format!("add `{key} = FILE;` to the section `settings`")),
+                    Code::MissingSetting
+                        .at(format!("the setting `{key}` is missing"), self.settings.clone())
+                        .help(format!("add `{key} = FILE;` to the section `settings`")),
                 );
             }
         }
@@ -540,37 +547,39 @@ impl<'a> Parser<'a> {
             let odd = |c: char| "'\"\\*?<>|".contains(c) || !is_printable(c);
             if name.contains(odd) {
                 findings.push(
-                    Diagnostic::error(
-                        format!("`{key}` is no name for a file that C includes"),
-                        span,
-                    )
-                    .help("letters, digits, `_`, `-`, `.` and `/` do"),
+                    Code::FileName
+                        .at(format!("`{key}` is no name for a file that C includes"), span)
+                        .help("letters, digits, `_`, `-`, `.` and `/` do"),
                 );
             } else if name.starts_with('/') || name.split('/').any(|part| part == "..") {
                 findings.push(
-                    Diagnostic::error(format!("`{key}` leads out of the output's folder"), span)
+                    Code::FileName.at(format!("`{key}` leads out of the output's folder"), span)
                         .help("name a file in the configuration's folder or below; `-o DIR` puts all elsewhere"),
                 );
             } else if name.split('/').any(|part| matches!(part, "" | ".")) {
                 findings.push(
-                    Diagnostic::error(format!("`{key}` is no plain name of a file"), span)
+                    Code::FileName
+                        .at(format!("`{key}` is no plain name of a file"), span)
                         .help("write it without `./` and `//`"),
                 );
             } else if ["harness.c", "invariant.h"].contains(&name.as_str()) {
                 findings.push(
-                    Diagnostic::error(format!("`{name}` is a file of the proofs"), span)
+                    Code::FileName
+                        .at(format!("`{name}` is a file of the proofs"), span)
                         .help("choose another name"),
                 );
             } else if let Some((other, _)) =
                 outputs[..index].iter().find(|(_, other)| other == name)
             {
                 findings.push(
-                    Diagnostic::error(format!("`{key}` and `{other}` are one file"), span)
+                    Code::Overwrites
+                        .at(format!("`{key}` and `{other}` are one file"), span)
                         .help("the second would overwrite the first"),
                 );
             } else if included.contains(name) {
                 findings.push(
-                    Diagnostic::error(format!("`{key}` is {name}, which is included"), span)
+                    Code::Overwrites
+                        .at(format!("`{key}` is {name}, which is included"), span)
                         .help("yours would be overwritten: choose another name"),
                 );
             }
@@ -584,7 +593,7 @@ impl<'a> Parser<'a> {
 fn listed_once(list: &[Name], name: &Name) -> Parsed<()> {
     if list.iter().any(|other| other.text == name.text) {
         let message = format!("`{}` is listed twice", name.text);
-        return Err(Diagnostic::error(message, name.span.clone()));
+        return Err(Code::DeclaredTwice.at(message, name.span.clone()));
     }
     Ok(())
 }
@@ -594,7 +603,7 @@ fn check_type(words: &[Name]) -> Parsed<()> {
     let (Some(first), Some(last)) = (words.first(), words.last()) else { return Ok(()) };
     let span = first.span.start..last.span.end;
     let error =
-        |message: &str, help: &str| Err(Diagnostic::error(message, span.clone()).help(help));
+        |message: &str, help: &str| Err(Code::NotAType.at(message, span.clone()).help(help));
     let stars = words.iter().position(|word| word.text == "*").unwrap_or(words.len());
     let (base, pointer) = words.split_at(stars);
     if pointer.iter().any(|word| word.text != "*") {

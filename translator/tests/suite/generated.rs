@@ -87,7 +87,7 @@ fn the_autopilot_passes_strict_compilation() {
     let folder = tempfile::tempdir().unwrap();
     let parsed = parse_configuration("autopilot.conf", configuration).unwrap();
     let translation = translate(parsed, agent).unwrap();
-    assert_eq!(translation.warnings, "");
+    assert!(translation.warnings.is_empty(), "{}", translation.warnings);
     for file in &translation.files {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
     }

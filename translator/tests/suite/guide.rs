@@ -77,7 +77,7 @@ fn every_example_of_the_guide_does_what_it_says() {
             }
             "warned" => {
                 let parsed = parse_configuration("a.conf", &configuration).unwrap();
-                let warnings = translate(parsed, &agent).unwrap().warnings;
+                let warnings = translate(parsed, &agent).unwrap().warnings.to_string();
                 let warnings = warnings.replace("pilot.asl", "a.asl");
                 assert!(warnings.starts_with(content.trim_end()), "{warnings}");
                 checked += 1;
