@@ -29,7 +29,7 @@ fn build() -> Result<(), Box<dyn Error>> {
     let configuration =
         translator::parse_configuration(CONFIGURATION, &std::fs::read_to_string(CONFIGURATION)?)?;
     let agent = std::fs::read_to_string(format!("agent/{}", configuration.input()))?;
-    let translation = translator::translate(configuration, &agent)?;
+    let translation = translator::translate(&configuration, &agent)?;
     for line in translation.warnings.to_string().lines() {
         println!("cargo::warning={line}");
     }

@@ -6,7 +6,7 @@
 //!
 //! ```no_run
 //! let agent = asl2c::Agent::read("pilot.conf".as_ref())?;
-//! let model = translator::model(agent.configuration, &agent.text)?;
+//! let model = translator::model(&agent.configuration, &agent.text)?;
 //! for checked in asl2c::verify(&model, &[])? {
 //!     println!("{}: {}", checked.property.name, checked.verdict.is_proved());
 //! }

@@ -13,7 +13,7 @@
 //! let configuration = "settings { input = lamp.asl; output = lamp.c; header = lamp.h; basics = actions.h; };
 //!     basics { void switchOn(void); }; types { light(void); }; triggerables { +!light; };";
 //! let parsed = translator::parse_configuration("lamp.conf", configuration)?;
-//! let translation = translator::translate(parsed, "+!light <- switchOn.")?;
+//! let translation = translator::translate(&parsed, "+!light <- switchOn.")?;
 //! assert!(translation.files[0].text.contains("switchOn();"));
 //! # Ok::<(), translator::TranslateError>(())
 //! ```
@@ -170,10 +170,11 @@ pub fn parse_configuration(name: &str, text: &str) -> Result<ParsedConfiguration
 /// [`TranslateError::Refused`] with everything that is wrong in either text. Nothing is produced
 /// then: the translator refuses what it cannot translate.
 pub fn translate(
-    configuration: ParsedConfiguration,
+    configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Translation, TranslateError> {
-    let (program, warnings) = check(configuration, agent_text)?;
+    let wanted = configuration.configuration.settings.instance;
+    let (program, warnings) = check(configuration, agent_text, wanted)?;
     let settings = &program.configuration.settings;
     let mut files = c_files(&program);
     if let Some(rust) = &settings.rust {
@@ -198,13 +199,16 @@ pub fn translate(
 /// # Errors
 /// As [`translate`], and if a value of a type would have to be made up that only the environment knows.
 pub fn obligations(
-    configuration: ParsedConfiguration,
+    configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Obligations, TranslateError> {
-    let mut configuration = configuration;
-    configuration.configuration.settings.instance = Instance::Context;
     let properties = configuration.promises();
-    let (program, ..) = check(configuration, agent_text)?;
+    // What would not be translated is not proved either.
+    let wanted = configuration.configuration.settings.instance;
+    let (mut program, _) = check(configuration, agent_text, wanted)?;
+    if wanted != Instance::Context {
+        program = check(configuration, agent_text, Instance::Context)?.0;
+    }
     if let Some(name) = backend::c::unknown_type(&program) {
         return Err(TranslateError::Unprovable { name });
     }
@@ -226,11 +230,12 @@ pub fn obligations(
 /// # Errors
 /// As [`translate`].
 pub fn model(
-    configuration: ParsedConfiguration,
+    configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Model, TranslateError> {
     let properties = configuration.promises();
-    let (program, ..) = check(configuration, agent_text)?;
+    let wanted = configuration.configuration.settings.instance;
+    let (program, _) = check(configuration, agent_text, wanted)?;
     Ok(Model::new(program, properties))
 }
 
@@ -245,24 +250,26 @@ fn c_files(program: &program::Program) -> Vec<GeneratedFile> {
     ]
 }
 
-/// The checked program and the warnings.
+/// The checked program, for C of a form, and the warnings.
 fn check(
-    configuration: ParsedConfiguration,
+    configuration: &ParsedConfiguration,
     agent_text: &str,
+    instance: Instance,
 ) -> Result<(program::Program, Diagnostics), TranslateError> {
     let ParsedConfiguration { name, text, configuration } = configuration;
     let input = configuration.settings.input.clone();
-    let configuration_source = Source { name: &name, text: &text };
+    let configuration_source = Source { name, text };
     let agent_source = Source { name: &input, text: agent_text };
 
-    let boundary = check_rust_boundary(&configuration);
+    let boundary = check_rust_boundary(configuration);
     let (agent, diagnostics) = syntax::parse(agent_text);
     if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
         // What cannot be read cannot be checked either.
         let found = gather([(diagnostics, agent_source), (boundary, configuration_source)]);
         return Err(TranslateError::Refused(found));
     }
-    let (program, mut findings) = analysis::analyse(configuration, &agent, agent_text);
+    let (program, mut findings) =
+        analysis::analyse(configuration.clone(), instance, &agent, agent_text);
     findings.configuration.extend(boundary);
     let found =
         gather([(findings.configuration, configuration_source), (findings.agent, agent_source)]);

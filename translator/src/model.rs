@@ -106,7 +106,7 @@ impl Model {
             }
             "event" => at(1, None, format!("handles {}", self.event(first?)?)),
             "plan" => {
-                let (_, _, plan) = self.program.reachable_plans().nth(first?)?;
+                let (_, _, plan) = self.program.plans().nth(first?)?;
                 let head = plan.source.split("<-").next().unwrap_or_default();
                 let head = head.split_whitespace().collect::<Vec<_>>().join(" ");
                 at(1, Some(plan.lines.0), format!("plan {head}"))

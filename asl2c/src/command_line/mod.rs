@@ -64,7 +64,7 @@ pub fn run() -> ExitCode {
 
 fn check(asked: &Verify) -> Result<ExitCode, CommandError> {
     let Agent { configuration, text, .. } = Agent::read(&asked.configuration)?;
-    let model = translator::model(configuration, &text)?;
+    let model = translator::model(&configuration, &text)?;
     if asked.model {
         print("the model", &model.promela())?;
         return Ok(ExitCode::SUCCESS);
@@ -83,7 +83,7 @@ fn check(asked: &Verify) -> Result<ExitCode, CommandError> {
 fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, CommandError> {
     let json = is_json(&arguments.message_format);
     let agent = Agent::read(path)?;
-    let mut translation = translate(agent.configuration.clone(), &agent.text)?;
+    let mut translation = translate(&agent.configuration, &agent.text)?;
     let warnings = warnings(arguments, &translation.warnings)?;
     let folder = arguments.output.as_deref().unwrap_or(agent.folder());
     output::write(&agent, &translation.files, folder)?;
@@ -91,7 +91,7 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
         complain_of(&if json { lines(&warnings) } else { warnings.to_string() });
     }
     if arguments.report {
-        for unknown in measure(&mut translation, agent.configuration, &agent.text) {
+        for unknown in measure(&mut translation, &agent.configuration, &agent.text) {
             complain_of(&if json {
                 line("warning", "not-measured", &unknown, None)
             } else {

@@ -13,7 +13,7 @@ use translator::{ParsedConfiguration, Translation, obligations};
 #[must_use = "a figure that is missing must not look as if nobody had asked for it"]
 pub fn measure(
     translation: &mut Translation,
-    configuration: ParsedConfiguration,
+    configuration: &ParsedConfiguration,
     agent: &str,
 ) -> Vec<String> {
     let compiled = match stack::compiled(translation) {

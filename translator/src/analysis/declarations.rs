@@ -8,7 +8,7 @@ use diagnostic::{Diagnostic, Span, closest};
 use super::constants::c_number;
 use crate::code::Code;
 use crate::configuration::{
-    Basic, Cause, Comparison, Configuration, ExternalTrigger, Formula, Operand,
+    Basic, Cause, Comparison, Configuration, ExternalTrigger, Formula, Instance, Operand,
 };
 use crate::program::BasicId;
 use crate::reserved::{
@@ -39,13 +39,18 @@ struct Declaration {
 }
 
 impl Declarations {
-    pub(super) fn new(configuration: &Configuration, findings: &mut Vec<Diagnostic>) -> Self {
+    pub(super) fn new(
+        configuration: &Configuration,
+        instance: Instance,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Self {
         let mut declarations = Self { names: HashMap::new(), basics: configuration.basics.clone() };
         for (index, basic) in configuration.basics.iter().enumerate() {
-            findings.extend(check_basic_name(basic, &configuration.settings.symbol_prefix()));
+            findings
+                .extend(check_basic_name(basic, &configuration.settings.symbol_prefix(instance)));
             declarations.declare(&basic.name, Declared::Basic(BasicId(index)), findings);
         }
-        check_types(configuration, findings);
+        check_types(configuration, instance, findings);
         for (index, class) in configuration.classes.iter().enumerate() {
             if configuration.classes[..index].iter().any(|c| c.name.text == class.name.text) {
                 let message = format!("a second class `{}`", class.name.text);
@@ -291,9 +296,9 @@ fn check_basic_name(basic: &Basic, prefix: &str) -> Option<Diagnostic> {
 }
 
 /// Types have names that no function has, and none that generated C has for something of its own.
-fn check_types(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
+fn check_types(configuration: &Configuration, instance: Instance, findings: &mut Vec<Diagnostic>) {
     let settings = &configuration.settings;
-    let prefix = settings.symbol_prefix();
+    let prefix = settings.symbol_prefix(instance);
     if is_generated_prefix(&prefix) && !prefix.is_empty() {
         let place = settings.places.get("output").cloned().unwrap_or_default();
         let message = format!("names that begin with `{prefix}` may clash with generated ones");

@@ -7,6 +7,7 @@ mod conditions;
 pub(crate) mod constants;
 mod declarations;
 mod graph;
+mod leave_out;
 mod plans;
 mod reach;
 mod scope;
@@ -21,13 +22,14 @@ use diagnostic::{Diagnostic, Severity};
 use self::constants::constant;
 use self::declarations::Declarations;
 use self::graph::TriggerGraph;
+use self::leave_out::leave_out;
 use self::reach::{
-    Reached, mark_believable, reach, warn_never_believed, warn_unreachable, warn_without_plan,
+    Reached, believable, reach, warn_never_believed, warn_unreachable, warn_without_plan,
 };
 use self::tail::warn_unseen;
 use self::time::{Clock, find_clock};
 use crate::code::Code;
-use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula};
+use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula, Instance};
 use crate::program::{
     Belief, BeliefId, External, Handler, HandlerId, Program, Value, deferred_room,
 };
@@ -53,14 +55,15 @@ impl Findings {
 /// A trigger: operator, kind and name.
 pub(crate) type TriggerKey = (Operator, TriggerKind, String);
 
-/// Checks `agent`, whose source is `text`. The program is there exactly if no finding is an error.
+/// Checks `agent`, whose source is `text`, for C of a form. The program is there exactly if no finding is an error.
 pub(crate) fn analyse(
     configuration: Configuration,
+    instance: Instance,
     agent: &Agent,
     text: &str,
 ) -> (Option<Program>, Findings) {
     let mut findings = Findings::default();
-    let declarations = Declarations::new(&configuration, &mut findings.configuration);
+    let declarations = Declarations::new(&configuration, instance, &mut findings.configuration);
     let clock = find_clock(&configuration, &mut findings.configuration);
     let mut analysis = Analysis {
         text,
@@ -99,7 +102,7 @@ pub(crate) fn analyse(
     if !analysis.findings.has_errors() {
         analysis.declarations.warn_unused(&named, &mut analysis.findings.configuration);
     }
-    let Analysis { mut findings, mut beliefs, mut handlers, clock, .. } = analysis;
+    let Analysis { mut findings, beliefs, handlers, clock, .. } = analysis;
     let clock = clock.map(Clock::into_parts);
     // A plan of a test goal is looked at once for each way it is asked.
     let mut seen = HashSet::new();
@@ -113,22 +116,25 @@ pub(crate) fn analyse(
         .chain(beliefs.iter().filter_map(|belief| belief.perceived))
         .chain(initial_goal.as_ref().map(|(handler, _)| *handler))
         .collect();
-    let Reached { mut posted, deferred, limited } = reach(&mut handlers, &roots);
+    let Reached { handlers: reached, mut posted, deferred, limited } = reach(&handlers, &roots);
     let posted_by_plans = posted.iter().copied().collect();
     posted.extend(initial_goal.as_ref().map(|(handler, _)| *handler));
     let events: Vec<HandlerId> = roots.iter().chain(&posted).chain(&deferred).copied().collect();
-    warn_unreachable(&handlers, &mut findings.agent);
-    mark_believable(&mut beliefs, &handlers, &external);
-    warn_never_believed(&beliefs, &mut findings.agent);
+    warn_unreachable(&handlers, &reached, &mut findings.agent);
+    let believable = believable(&beliefs, &handlers, &external);
+    warn_never_believed(&beliefs, &believable, &mut findings.agent);
     warn_without_plan(&handlers, &events, &mut findings.agent);
-    warn_unseen(&handlers, &mut findings.agent);
+    warn_unseen(&handlers, &reached, &mut findings.agent);
     let formulae = agent.plans.iter().flat_map(|plan| &plan.body);
     let defers = formulae.filter(|formula| matches!(formula, ast::Formula::Defer(_))).count();
-    let program = Program {
+    let mut program = Program {
         deferred_room: deferred_room(&configuration.settings, defers),
         configuration,
+        instance,
         beliefs,
+        believable,
         handlers,
+        left_out: 0,
         posted: posted.into_iter().collect(),
         posted_by_plans,
         deferred: deferred.into_iter().collect(),
@@ -137,6 +143,7 @@ pub(crate) fn analyse(
         external,
         initial_goal,
     };
+    leave_out(&mut program, &reached);
     (Some(program), findings)
 }
 
@@ -223,7 +230,6 @@ impl Analysis<'_> {
                 types,
                 plans: Vec::new(),
                 failure: None,
-                reachable: false,
                 span: trigger.span.clone(),
                 holes: Vec::new(),
                 resumed: false,
@@ -481,7 +487,6 @@ impl Analysis<'_> {
             initial: None,
             settable: false,
             perceived: None,
-            believable: false,
             asked_at: None,
         });
         id

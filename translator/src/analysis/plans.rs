@@ -243,7 +243,6 @@ impl Analysis<'_> {
             types: types.to_vec(),
             plans: Vec::new(),
             failure: None,
-            reachable: false,
             span: atom.span.clone(),
             holes: holes.to_vec(),
             resumed: false,

@@ -4,7 +4,7 @@
 //! at that moment. What fails in a later step is mended by the failure plans of the goal that fails then, and by
 //! none of those that led to it.
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::{BTreeSet, HashSet, VecDeque};
 
 use diagnostic::{Diagnostic, Span};
 
@@ -14,10 +14,14 @@ use crate::program::{Handler, HandlerId, Plan, Raise, Step};
 use crate::syntax::ast::{Operator, TriggerKind};
 
 /// Warns of failure plans that cannot see what their goal comes to.
-pub(super) fn warn_unseen(handlers: &[Handler], findings: &mut Vec<Diagnostic>) {
+pub(super) fn warn_unseen(
+    handlers: &[Handler],
+    reached: &BTreeSet<HandlerId>,
+    findings: &mut Vec<Diagnostic>,
+) {
     let fails = failing(handlers);
     let mut told: HashSet<Span> = HashSet::new();
-    for handler in handlers.iter().filter(|handler| handler.reachable) {
+    for handler in reached.iter().map(|id| &handlers[id.0]) {
         let is_goal = (handler.operator, handler.kind) == (Operator::Add, TriggerKind::Achieve);
         let Some(failure) = handler.failure.filter(|_| is_goal) else { continue };
         let guard = handlers[failure.0].text();

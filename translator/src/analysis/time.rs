@@ -180,7 +180,6 @@ impl Analysis<'_> {
             resumed: true,
             span: span.clone(),
             holes: Vec::new(),
-            reachable: false,
             ..*original
         };
         self.handlers.push(handler);

@@ -137,10 +137,10 @@ impl Settings {
         outputs
     }
 
-    /// What stands before every external symbol: with `instance = context` several agents can be linked into one
-    /// program.
-    pub(crate) fn symbol_prefix(&self) -> String {
-        if self.instance == Instance::Static {
+    /// What stands before every external symbol of this form: with its state passed in, several agents can be
+    /// linked into one program.
+    pub(crate) fn symbol_prefix(&self, instance: Instance) -> String {
+        if instance == Instance::Static {
             return String::new();
         }
         let file = self.output.rsplit('/').next().unwrap_or_default();

@@ -110,7 +110,7 @@ impl Interpreter {
         configuration: &ParsedConfiguration,
         agent_text: &str,
     ) -> Result<Self, crate::TranslateError> {
-        crate::translate(configuration.clone(), agent_text)?;
+        crate::translate(configuration, agent_text)?;
         let (agent, _) = parse(agent_text);
         let mut interpreter = Self {
             configuration: configuration.configuration.clone(),

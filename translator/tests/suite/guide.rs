@@ -71,13 +71,13 @@ fn every_example_of_the_guide_does_what_it_says() {
             }
             "refused" => {
                 let parsed = parse_configuration("a.conf", &configuration).unwrap();
-                let error = translate(parsed, &agent).unwrap_err().to_string();
+                let error = translate(&parsed, &agent).unwrap_err().to_string();
                 assert_eq!(error.trim_end(), content.trim_end());
                 checked += 1;
             }
             "warned" => {
                 let parsed = parse_configuration("a.conf", &configuration).unwrap();
-                let warnings = translate(parsed, &agent).unwrap().warnings.to_string();
+                let warnings = translate(&parsed, &agent).unwrap().warnings.to_string();
                 let warnings = warnings.replace("pilot.asl", "a.asl");
                 assert!(warnings.starts_with(content.trim_end()), "{warnings}");
                 checked += 1;
@@ -85,7 +85,7 @@ fn every_example_of_the_guide_does_what_it_says() {
             // A whole program around the agent: it compiles and runs.
             "c" => {
                 let parsed = parse_configuration("a.conf", &configuration).unwrap();
-                let translation = translate(parsed, &agent).unwrap();
+                let translation = translate(&parsed, &agent).unwrap();
                 assert_eq!(runs_alone(&translation, &content), "land\n");
                 checked += 1;
             }
@@ -93,7 +93,7 @@ fn every_example_of_the_guide_does_what_it_says() {
             "properties" => {
                 let parsed = parse_configuration("a.conf", &format!("{DRONE}{content}")).unwrap();
                 let agent = "+!land <- sendLand. +!takeOff <- sendTakeOff; sendHover; sendStandby.";
-                let promises = obligations(parsed, agent).unwrap().properties;
+                let promises = obligations(&parsed, agent).unwrap().properties;
                 assert_eq!(promises.len(), content.matches(';').count() - 1);
                 checked += 1;
             }

@@ -8,7 +8,7 @@ use super::{Agent, VerifyError};
 /// Checks all properties of an agent, or only one.
 pub(super) fn check(agent: &Agent<'_>, only: Option<&str>) -> Result<Vec<Checked>, VerifyError> {
     let configuration = parse_configuration(agent.name, agent.configuration)?;
-    let model = model(configuration, agent.text)?;
+    let model = model(&configuration, agent.text)?;
     let only: Vec<&str> = only.into_iter().collect();
     Ok(asl2c::verify(&model, &only)?)
 }
@@ -16,8 +16,8 @@ pub(super) fn check(agent: &Agent<'_>, only: Option<&str>) -> Result<Vec<Checked
 /// What the agent costs, with all that a compiler and valgrind can say of it.
 pub(super) fn cost(agent: &Agent<'_>) -> Result<String, VerifyError> {
     let configuration = parse_configuration(agent.name, agent.configuration)?;
-    let mut translation = translate(configuration.clone(), agent.text)?;
-    let unknown = asl2c::measure(&mut translation, configuration, agent.text);
+    let mut translation = translate(&configuration, agent.text)?;
+    let unknown = asl2c::measure(&mut translation, &configuration, agent.text);
     if unknown.is_empty() {
         Ok(translation.report.to_string())
     } else {
