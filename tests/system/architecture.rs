@@ -118,6 +118,24 @@ fn the_translator_needs_no_command_line_and_no_files() {
     }
 }
 
+/// A drone in its air is flown in simulated time: without its features the mock has no socket and no clock.
+#[test]
+fn the_mock_drone_is_pure_without_its_features() {
+    let tree = cargo(&[
+        "tree",
+        "--package",
+        "mock-drone",
+        "--no-default-features",
+        "--edges",
+        "normal",
+        "--prefix",
+        "none",
+    ]);
+    for name in ["clap", "tokio", "tracing-subscriber"] {
+        assert!(!tree.lines().any(|line| line.split(' ').next() == Some(name)), "{name}: {tree}");
+    }
+}
+
 /// The source files of a folder, its tests apart.
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
@@ -156,10 +174,13 @@ fn what_does_input_or_output_is_seen() {
 #[test]
 fn pure_crates_name_nothing_that_does_input_or_output() {
     let mut looked_at = 0;
-    for package in ["diagnostic", "translator", "estimator", "pid", "autopilot", "ardrone-link"] {
+    for package in
+        ["diagnostic", "translator", "estimator", "pid", "autopilot", "ardrone-link", "mock-drone"]
+    {
         for path in sources(&Path::new("..").join(package).join("src")) {
-            // The client on real sockets: a feature that the pilot does not ask for.
-            if path.components().any(|folder| folder.as_os_str() == "net") {
+            // What has sockets or is a program, each behind a feature that the core does not ask for.
+            let feature = ["net", "server", "command_line", "main.rs"];
+            if path.components().any(|part| feature.iter().any(|name| part.as_os_str() == *name)) {
                 continue;
             }
             let text = std::fs::read_to_string(&path).unwrap();
