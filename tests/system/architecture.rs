@@ -192,6 +192,56 @@ fn pure_crates_name_nothing_that_does_input_or_output() {
     assert!(looked_at > 40, "{looked_at}");
 }
 
+/// The modules beside a file that it names.
+fn neighbours(file: &Path) -> Vec<PathBuf> {
+    let text = std::fs::read_to_string(file).unwrap();
+    let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+    let folder = file.parent().unwrap();
+    // What a comment names is not needed.
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let words = lines.flat_map(|line| line.split("super::").skip(1));
+    let names = words.map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next());
+    names
+        .filter_map(|name| {
+            let module = folder.join(name.filter(|name| !name.is_empty())?);
+            let found = [module.with_extension("rs"), module.join("mod.rs")];
+            found.into_iter().find(|path| path != file && path.exists())
+        })
+        .collect()
+}
+
+/// Two files that need each other are one, or something lies in the wrong one.
+#[test]
+fn no_files_of_a_folder_need_each_other() {
+    let packages = [
+        "diagnostic",
+        "translator",
+        "asl2c",
+        "estimator",
+        "autopilot",
+        "mock-drone",
+        "ardrone-link",
+        "pid",
+        "ardrone-pilot",
+        "xtask",
+    ];
+    let mut circles = BTreeSet::new();
+    for package in packages {
+        for file in sources(&Path::new("..").join(package).join("src")) {
+            let mut open = neighbours(&file);
+            let mut seen = BTreeSet::new();
+            while let Some(next) = open.pop() {
+                if next == file {
+                    circles.insert(file.clone());
+                } else if seen.insert(next.clone()) && !next.ends_with("mod.rs") {
+                    open.extend(neighbours(&next));
+                }
+            }
+        }
+    }
+    assert_eq!(circles, BTreeSet::new());
+}
+
 /// What the pilot says goes one way, on which foreign text is made harmless.
 #[test]
 fn standard_streams_are_written_to_in_one_file() {

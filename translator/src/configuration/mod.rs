@@ -18,9 +18,13 @@
 //!
 //! Sections may stand in any order and may be left out or empty, except `settings`.
 
+mod c_type;
+mod declarations;
+mod outputs;
 mod parser;
 mod properties;
 mod scanner;
+mod settings;
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -97,3 +97,11 @@ pub(super) fn is_word_start(character: char) -> bool {
 pub(super) fn is_word(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
 }
+
+/// What to do about a word that is none of those that are known.
+pub(super) fn advice(word: &str, known: &[&str]) -> String {
+    match diagnostic::closest(word, known.iter().copied()) {
+        Some(candidate) => format!("did you mean `{candidate}`?"),
+        None => format!("known are: {}", known.join(", ")),
+    }
+}

@@ -1,8 +1,8 @@
 //! One C function for each plan, and one for each trigger that tries its plans in order.
 
+use super::emitter::PlanEmitter;
 use super::helpers::Helpers;
 use super::names::{Names, argument, argument_names, comment_safe, typed};
-use super::plan::PlanEmitter;
 use super::state::handler_name;
 use crate::backend::writer::Writer;
 use crate::program::{Handler, HandlerId, Plan, Program};

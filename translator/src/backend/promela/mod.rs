@@ -10,6 +10,7 @@
 
 mod choice;
 mod cycle;
+mod logic;
 mod monitor;
 mod plan;
 mod scale;

@@ -1,6 +1,7 @@
 //! Handlers and plans.
 
-use super::choice::{Choice, Reader, and, matches};
+use super::choice::{Reader, matches};
+use super::logic::{Choice, and};
 use super::{Emission, Waiting};
 use crate::coverage::always_finds_a_plan;
 use crate::program::{
