@@ -9,6 +9,7 @@ mod browser;
 mod chromium;
 mod client;
 mod command_line;
+mod dependencies;
 mod estimate;
 mod faults;
 mod parting;

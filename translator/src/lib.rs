@@ -99,6 +99,7 @@ impl ParsedConfiguration {
 
 /// A finished translation.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Translation {
     /// The C file, its header, the header of the basic actions, and if asked for the Rust bindings
     /// and the trace matrix.
@@ -111,6 +112,7 @@ pub struct Translation {
 
 /// One generated file.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct GeneratedFile {
     /// Its name as the configuration gives it, relative to the output folder.
     pub name: String,

@@ -16,6 +16,8 @@ pub const HARNESS: &str = "harness.c";
 /// A proof needs an invariant: it begins with all candidates and drops those that do not hold in the
 /// beginning, or that some transition breaks, until the rest proves itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+#[must_use = "nothing is proved yet"]
 pub struct Obligations {
     /// The C of the agent and [`HARNESS`], with the functions `base`, `induction` and `main`.
     pub files: Vec<GeneratedFile>,
@@ -29,6 +31,7 @@ pub struct Obligations {
 
 /// A property as it was declared.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Promise {
     /// Its name.
     pub name: String,

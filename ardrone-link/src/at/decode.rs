@@ -15,6 +15,7 @@ use super::config::Config;
 
 /// What is wrong with one command of a datagram.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DecodeError {
     /// Not of the form `AT*NAME=sequence,arguments`.
     #[error("malformed AT command `{command}`")]

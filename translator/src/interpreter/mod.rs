@@ -29,6 +29,7 @@ pub trait Environment {
 /// An external event that was refused because the inbox is full.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the inbox is full")]
+#[non_exhaustive]
 pub struct Refused;
 
 /// A trigger: operator, kind and name.

@@ -94,7 +94,7 @@ impl Report {
         let mut text = String::from(INTRODUCTION);
         text += "| property | requirement | must hold | model | C |\n|---|---|---|---|---|\n";
         for Row { promise, on_model, on_c } in self.autopilot.rows() {
-            let Promise { name, requirements, formula } = promise;
+            let Promise { name, requirements, formula, .. } = promise;
             let requirements = requirements.join(", ");
             _ = writeln!(text, "| `{name}` | {requirements} | `{formula}` | {on_model} | {on_c} |");
         }
