@@ -15,8 +15,8 @@ fn main() -> ExitCode {
     match build() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // What is wrong with the agent is shown with its line, as the compiler's own errors are.
-            // Where even that cannot be printed, the exit status says it.
+            // Debug output, which returning the error would print, escapes the line breaks.
+            // If stderr fails the exit status remains.
             _ = writeln!(std::io::stderr(), "{error}");
             ExitCode::FAILURE
         }

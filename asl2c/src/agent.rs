@@ -13,7 +13,7 @@ pub enum ReadError {
     File {
         /// Which.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The configuration has errors.

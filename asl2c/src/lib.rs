@@ -1,7 +1,7 @@
-//! What needs other programs to be known of an agent, and the command line for it.
+//! The AgentSpeak compiler's command line, and every analysis that runs external programs.
 //!
-//! The [`translator`] makes texts of texts. Here is all that reads files, writes them, and starts compilers, SPIN
-//! and valgrind: [`verify()`] decides properties on a model, [`measure()`] asks what the compiled C costs, and
+//! The [`translator`] turns texts into texts. This crate reads and writes the files, and runs compilers, SPIN and
+//! valgrind: [`verify()`] decides properties on a model, [`measure()`] asks what the compiled C costs, and
 //! [`command_line`] offers both to people, with translation itself.
 //!
 //! ```no_run

@@ -48,7 +48,7 @@ pub enum SpinError {
     Missing {
         /// Which.
         program: &'static str,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The model cannot be written.

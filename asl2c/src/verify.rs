@@ -22,7 +22,7 @@ pub enum VerifyError {
     },
 }
 
-/// What was found of a property.
+/// A property and its verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Checked {

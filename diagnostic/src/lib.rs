@@ -56,7 +56,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// What is wrong, in one line without a full stop.
     pub message: String,
-    /// Which text it is about, of those that were read together: see [`Diagnostics`].
+    /// Index of its text among those of a [`Diagnostics`]; 0 if there is one only.
     pub source: usize,
     /// Where: bytes of the source text.
     pub span: Span,
@@ -66,7 +66,7 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// A stable name of this kind of message, for programs; may be empty.
     pub code: &'static str,
-    /// Whether people may silence such messages by the code, which is shown to them then.
+    /// Whether users can silence this kind by its code; the rendered message then shows the code.
     is_lint: bool,
 }
 
@@ -164,7 +164,7 @@ pub fn render_all(diagnostics: &[Diagnostic], source: &Source<'_>) -> String {
     rendered.join("\n\n")
 }
 
-/// What is said of messages that are not shown, if there are `count` in all.
+/// The last line if only the first of `count` messages are shown.
 fn more(count: usize) -> Option<String> {
     let more = count.saturating_sub(MAX_RENDERED);
     (more > 0).then(|| format!("... and {more} more"))

@@ -109,7 +109,7 @@ fn the_pilot_depends_on_nothing_that_can_do_input_or_output() {
     }
 }
 
-/// Build scripts wait for the translator, and whoever embeds it has a compiler, not a program.
+/// Every build script that uses the translator compiles its dependencies.
 #[test]
 fn the_translator_needs_no_command_line_and_no_files() {
     let tree = cargo(&["tree", "--package", "translator", "--edges", "normal", "--prefix", "none"]);
@@ -118,7 +118,7 @@ fn the_translator_needs_no_command_line_and_no_files() {
     }
 }
 
-/// A drone in its air is flown in simulated time: without its features the mock has no socket and no clock.
+/// Simulated flights need the mock's `World` only: without features it must not pull in sockets or a runtime.
 #[test]
 fn the_mock_drone_is_pure_without_its_features() {
     let tree = cargo(&[
@@ -178,7 +178,7 @@ fn pure_crates_name_nothing_that_does_input_or_output() {
         ["diagnostic", "translator", "estimator", "pid", "autopilot", "ardrone-link", "mock-drone"]
     {
         for path in sources(&Path::new("..").join(package).join("src")) {
-            // What has sockets or is a program, each behind a feature that the core does not ask for.
+            // Behind features that the core does not enable.
             let feature = ["net", "server", "command_line", "main.rs"];
             if path.components().any(|part| feature.iter().any(|name| part.as_os_str() == *name)) {
                 continue;
@@ -192,12 +192,12 @@ fn pure_crates_name_nothing_that_does_input_or_output() {
     assert!(looked_at > 40, "{looked_at}");
 }
 
-/// The modules beside a file that it names.
+/// Sibling modules that a file imports.
 fn neighbours(file: &Path) -> Vec<PathBuf> {
     let text = std::fs::read_to_string(file).unwrap();
     let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
     let folder = file.parent().unwrap();
-    // What a comment names is not needed.
+    // Links in comments are not imports.
     let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
     let words = lines.flat_map(|line| line.split("super::").skip(1));
     let names = words.map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next());
@@ -210,7 +210,7 @@ fn neighbours(file: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// Two files that need each other are one, or something lies in the wrong one.
+/// A circular import means that something is defined in the wrong file.
 #[test]
 fn no_files_of_a_folder_need_each_other() {
     let packages = [

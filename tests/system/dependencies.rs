@@ -1,10 +1,10 @@
-//! What we are made of: under which licences, from where, and each of it once.
+//! Licences, sources and duplicate versions of all dependencies.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
-/// Licences that ask for no more than their text beside a program.
+/// Licences that only require their text to be distributed with a program.
 const ALLOWED: [&str; 9] = [
     "Apache-2.0",
     "BSD-2-Clause",
@@ -33,7 +33,7 @@ const TWICE: [&str; 9] = [
 
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
-/// A crate that is compiled here, for the programs or for their tests.
+/// A crate that is compiled for the programs or their tests.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Package {
     name: String,
@@ -43,7 +43,7 @@ struct Package {
     licence: String,
 }
 
-/// All of them. Cargo's metadata would list what no feature asks for, too.
+/// All compiled crates. `cargo metadata` would also list those of disabled features.
 fn packages() -> BTreeSet<Package> {
     let output = Command::new(env!("CARGO"))
         .args(["tree", "--workspace", "--edges", "normal,build,dev", "--prefix", "none"])
@@ -132,7 +132,7 @@ fn every_licence_may_be_used() {
     }
 }
 
-/// What is not ours comes from the registry, whose checksums stand in the lock file.
+/// Third-party crates come from the registry, with checksums in the lock file.
 #[test]
 fn everything_comes_from_the_registry() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();

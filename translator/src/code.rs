@@ -26,7 +26,7 @@ macro_rules! codes {
                 match self { $(Self::$code => Severity::$severity),* }
             }
 
-            /// What it is said of, in a few words.
+            /// Meaning in a few words, as in the language guide.
             pub const fn meaning(self) -> &'static str {
                 match self { $(Self::$code => $meaning),* }
             }

@@ -1,4 +1,4 @@
-//! All that was found in an agent's texts, in the order in which people want to know it.
+//! Orders the diagnostics of an agent's texts by importance.
 
 use std::cmp::Reverse;
 

@@ -104,7 +104,7 @@ pub struct Translation {
     /// The C file, its header, the header of the basic actions, and if asked for the Rust bindings
     /// and the trace matrix.
     pub files: Vec<GeneratedFile>,
-    /// What is legal and yet a mistake, the most important first.
+    /// Warnings, the most important first.
     pub warnings: Diagnostics,
     /// What the agent costs: memory, call depth, calls of each action in a step.
     pub report: Report,
@@ -144,7 +144,7 @@ pub enum TranslateError {
 }
 
 impl TranslateError {
-    /// What is wrong with which place of a text; nothing if no text is to blame.
+    /// The errors and warnings by place; empty if the error has no place in a text.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         match self {
             Self::Refused(found) => found,

@@ -1,4 +1,4 @@
-//! What people type.
+//! Command-line arguments.
 
 use std::path::PathBuf;
 
@@ -90,7 +90,7 @@ pub(super) enum Task {
     Verify(Verify),
 }
 
-/// What `asl2c verify` is asked for.
+/// Arguments of `asl2c verify`.
 #[derive(Debug, Args)]
 pub(super) struct Verify {
     /// The agent's configuration

@@ -9,7 +9,7 @@ use super::CommandError;
 use crate::agent::ReadError;
 use crate::output::OutputError;
 
-/// More messages than this are not printed: nobody reads them, and each costs a look at the whole text.
+/// Most messages that are printed; each costs a pass over the whole text.
 const MOST: usize = 50;
 
 /// An error as lines of JSON.
@@ -57,7 +57,7 @@ fn located(found: &Located<'_>) -> String {
     .to_string()
 }
 
-/// What is said of no place in a text, as a line of JSON with the same keys.
+/// A message without a place in a text, as a line of JSON with the same keys.
 pub(super) fn line(severity: &str, code: &str, message: &str, file: Option<&Path>) -> String {
     json!({
         "severity": severity,

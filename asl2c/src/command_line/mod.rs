@@ -1,4 +1,4 @@
-//! The command line: what is asked for is done, printed, and told by an exit status.
+//! The command line: runs what the arguments ask for, prints the result and returns the exit status.
 
 mod arguments;
 mod messages;

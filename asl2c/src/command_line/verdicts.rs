@@ -1,4 +1,4 @@
-//! What is printed of checked properties.
+//! Output of `asl2c verify`.
 
 use std::fmt::Write as _;
 use std::process::ExitCode;
@@ -21,7 +21,7 @@ pub(super) enum Detail {
     Json,
 }
 
-/// What was found, as it is printed.
+/// The verdicts as text or JSON.
 pub(super) fn printed(model: &Model, checked: &[Checked], detail: Detail) -> String {
     match detail {
         Detail::Json => json(checked),

@@ -1,4 +1,4 @@
-//! What an agent's compiled C costs: stack, longest path, costliest step.
+//! Cost of an agent's compiled C: stack, longest path, costliest step.
 
 mod costliest_step;
 mod longest_path;
@@ -6,8 +6,8 @@ mod stack;
 
 use translator::{ParsedConfiguration, Translation, obligations};
 
-/// Adds to the report of a translation what a compiler makes of its C, and what that costs. Returns what is not
-/// known and why: for each figure a line without a full stop.
+/// Adds stack, longest path and costliest step of the compiled C to a translation's report. Returns the figures that
+/// could not be measured, with the reason: a line each, without a full stop.
 ///
 /// The agent's configuration and text are those that were translated.
 #[must_use = "a figure that is missing must not look as if nobody had asked for it"]

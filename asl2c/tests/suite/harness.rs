@@ -1,4 +1,4 @@
-//! What tests need besides the program.
+//! Shared by the tests.
 
 /// A number that an environment variable tells, or the usual one.
 pub(crate) fn from_environment(variable: &str, usual: u32) -> u32 {

@@ -1,4 +1,4 @@
-//! What people type.
+//! Command-line arguments.
 
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;

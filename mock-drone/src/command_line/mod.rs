@@ -1,4 +1,4 @@
-//! The command line: a drone as it is asked for, on its ports until it is stopped.
+//! The command line: builds a drone from the arguments and serves it until it is stopped.
 
 mod arguments;
 
@@ -91,7 +91,7 @@ fn serve(arguments: &Arguments) -> Result<(), CommandError> {
     })
 }
 
-/// Waits until somebody stops the program.
+/// Waits for SIGINT or SIGTERM.
 async fn stopped() {
     let terminated = async {
         match signal(SignalKind::terminate()) {

@@ -1,12 +1,12 @@
-//! Leaves out of a program what no event leads to.
+//! Removes unreachable handlers from a program.
 
 use std::collections::BTreeSet;
 
 use crate::program::{HandlerId, Plan, Program, Raise, Step};
 
-/// Keeps the handlers of `reached` only, and gives each id the number that its handler has then.
+/// Keeps the handlers of `reached` only, and renumbers all ids accordingly.
 ///
-/// Whatever is reached names only what is reached too, so that every id that is left still has its handler.
+/// `reached` is closed: a reached handler refers to reached handlers only, so every remaining id stays valid.
 pub(super) fn leave_out(program: &mut Program, reached: &BTreeSet<HandlerId>) {
     let kept: Vec<HandlerId> = reached.iter().copied().collect();
     let renumber = |id: &mut HandlerId| *id = HandlerId(kept.partition_point(|other| other < id));

@@ -1,11 +1,11 @@
-//! The files that are written.
+//! Checks the names of the output files.
 
 use diagnostic::{Diagnostic, is_printable};
 
 use super::{Configuration, Settings};
 use crate::code::Code;
 
-/// What is written has names that C can include, stays in its folder, and is no other output.
+/// Output names must be includable from C, stay inside the output folder, and be distinct.
 pub(super) fn check_outputs(configuration: &Configuration) -> Vec<Diagnostic> {
     let outputs = configuration.settings.outputs();
     let included = configuration.included_files();
