@@ -138,8 +138,6 @@ pub struct Guard {
     carried_off: CarriedOff,
     /// Where it is flown down when it is carried off.
     upwind: Pose,
-    /// Where the pilot's hand is stopped: the way there is flown to its end.
-    stop: Option<Pose>,
     /// It has been told to land: in the air that is not taken back.
     lands: bool,
     /// It was last told to stay on the ground: seen in the air it has risen on an order that was still on its
@@ -159,7 +157,6 @@ impl Guard {
             way_back: WayBack::default(),
             carried_off: CarriedOff::default(),
             upwind: Pose::default(),
-            stop: None,
             lands: false,
             stays_down: false,
             sticks: Demand::default(),
@@ -211,9 +208,6 @@ impl Guard {
             self.way_back = WayBack::begin(now.now, gust_since);
         }
         self.way_back.see(now);
-        if command != AgentCommand::Sticks || self.stops_inside(now) {
-            self.stop = None;
-        }
         if let Some(danger) = self.danger {
             return (self.bring_down(danger, now), Some(danger));
         }
@@ -225,8 +219,7 @@ impl Guard {
                 Some(Veto::TargetOutside),
             ),
             AgentCommand::Sticks if !self.stops_inside(now) => {
-                let place = self.fence.nearest_inside(&stopping_place(now), INSIDE_M);
-                let stop = *self.stop.get_or_insert(place);
+                let stop = self.fence.nearest_inside(&stopping_place(now), INSIDE_M);
                 (AgentCommand::GoTo(stop), Some(Veto::NearFence))
             }
             _ => (command, None),
@@ -644,13 +637,6 @@ mod tests {
         assert_eq!(check(moving(-1.0, 0.0)), None);
         assert_eq!(check(moving(0.4, 0.0)), None);
         assert_eq!(check(moving(0.0, 3.0)), Some(Veto::NearFence));
-        // A place that moves with the drone would draw it on.
-        let aside = Circumstances { velocity_m_s: [1.0, 0.5, 0.0], ..moving(1.0, 0.0) };
-        let mut guard = guard();
-        let stop = guard.check(AgentCommand::Sticks, &moving(1.0, 0.0)).0;
-        assert_eq!(guard.check(AgentCommand::Sticks, &aside).0, stop);
-        guard.check(AgentCommand::Sticks, &moving(-1.0, 0.0));
-        assert_ne!(guard.check(AgentCommand::Sticks, &aside).0, stop);
     }
 
     #[test]

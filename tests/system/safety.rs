@@ -137,7 +137,7 @@ fn the_pilots_hand_does_not_leave_the_fence() {
         let mut away_m = 0.0;
         let flown = plan("takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n");
         let flight = watched(wind, seed, flown, simulation, |m| furthest_m(m, &mut away_m));
-        assert_eq!(flight.outcome, Outcome::Interrupted);
+        assert_eq!(flight.outcome, Outcome::Interrupted, "{wind}: {away_m:.2} m");
         let stopped = flight.events.iter().any(|(_, event)| {
             matches!(event, FlightEvent::Veto(Veto::NearFence | Veto::OutsideFence))
         });
@@ -238,11 +238,13 @@ fn a_wind_that_can_be_held_against_lands_nobody() {
 #[test]
 fn a_wind_that_cannot_be_held_against_lands_in_time() {
     let long = "takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n";
-    let reason = LandingReason::Wind.to_string();
+    // Whoever notices it first: the agent at the sticks, or the guard by what cannot be braked any more.
+    let reasons = [LandingReason::Wind, LandingReason::Guard(Veto::CarriedOff)];
+    let ends = reasons.map(|reason| Outcome::Failsafe { reason: reason.to_string() });
     for (profile, wind) in [(Profile::rec(), "+10 wind 6 0"), (Profile::leo(), "+10 wind 4 0")] {
         for seed in 1..=5 {
             let (flight, away_m) = in_the_wind(profile, seed, long, wind);
-            assert_eq!(flight.outcome, Outcome::Failsafe { reason: reason.clone() }, "{wind}");
+            assert!(ends.contains(&flight.outcome), "{wind}: {:?}", flight.outcome);
             assert!(away_m < 25.0, "{wind}, seed {seed}: {away_m:.1} m");
         }
     }
