@@ -359,6 +359,12 @@ impl Session {
         self.changes.push_back(config);
     }
 
+    /// Makes all settings again, because another client may have changed them: the session is not ready
+    /// until they are made.
+    pub fn configure_again(&mut self) {
+        self.handshake = self.new_handshake();
+    }
+
     /// Looks at the acknowledge bit for the setting that is being changed.
     fn follow_change(&mut self, state: DroneState) {
         let Some(change) = &mut self.change else { return };
