@@ -179,6 +179,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "self.carried_off.lasts(now.now)",
                 "self.carried_off.lasts(Duration::ZERO)",
             ),
+            edit(
+                GUARD,
+                "let is_hopeless = is_across && self.way_back.is_none(now);",
+                "let is_hopeless = false;",
+            ),
         ],
     ),
     mutant(
