@@ -48,7 +48,7 @@ const REACH_ANGLE_DEG: f64 = 5.0;
 
 /// What the agent can know in one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Senses {
+pub struct Percepts {
     /// Milliseconds since the program started.
     pub now_ms: i64,
     /// Where the drone is, once it is known.
@@ -62,7 +62,7 @@ pub struct Senses {
     /// Milliseconds since the newest navdata that could be believed.
     pub blind_for_ms: i64,
     /// Standard deviation of the place.
-    pub doubt_m: f64,
+    pub position_sd_m: f64,
     /// Milliseconds for which the sticks have been at their limit while the drone came no nearer to where
     /// it is sent.
     pub saturated_for_ms: i64,
@@ -205,7 +205,7 @@ impl Activity {
 /// One step of the agent: what it senses, and what it decided.
 #[derive(Debug)]
 pub struct AgentStep {
-    senses: Senses,
+    percepts: Percepts,
     activity: Activity,
     /// What it wants the drone to do; the last word counts.
     pub command: Option<AgentCommand>,
@@ -252,9 +252,9 @@ impl ChosenPlans {
 
 impl AgentStep {
     /// Runs one deliberation cycle of `agent`, which goes on with its `activity`.
-    pub fn run(agent: &mut Agent, activity: &mut Activity, senses: Senses) -> Self {
+    pub fn run(agent: &mut Agent, activity: &mut Activity, percepts: Percepts) -> Self {
         let mut step = Self {
-            senses,
+            percepts,
             activity: *activity,
             command: None,
             commands: 0,
@@ -274,7 +274,7 @@ impl AgentStep {
 
     /// A command of something that takes its time.
     fn pursue(&mut self, pursuit: Pursuit, command: AgentCommand) {
-        self.activity.go_on(pursuit, self.senses.now_ms);
+        self.activity.go_on(pursuit, self.percepts.now_ms);
         self.issue(command);
     }
 
@@ -287,22 +287,22 @@ impl AgentStep {
 
 impl Environment for AgentStep {
     fn update_beliefs(&mut self, beliefs: &mut Beliefs<'_>) {
-        if let Some(pose) = self.senses.pose {
+        if let Some(pose) = self.percepts.pose {
             beliefs.set_position(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg);
         }
-        if let Some(percent) = self.senses.battery_percent {
+        if let Some(percent) = self.percepts.battery_percent {
             beliefs.set_battery(percent.into());
         }
-        beliefs.set_blind_for(self.senses.blind_for_ms);
-        beliefs.set_doubt(self.senses.doubt_m);
-        beliefs.set_saturated_for(self.senses.saturated_for_ms);
-        beliefs.set_wind(self.senses.wind);
-        let lasted_ms = |pursuit| self.activity.lasted_ms(pursuit, self.senses.now_ms);
+        beliefs.set_blind_for(self.percepts.blind_for_ms);
+        beliefs.set_doubt(self.percepts.position_sd_m);
+        beliefs.set_saturated_for(self.percepts.saturated_for_ms);
+        beliefs.set_wind(self.percepts.wind);
+        let lasted_ms = |pursuit| self.activity.lasted_ms(pursuit, self.percepts.now_ms);
         beliefs.set_taking_off_for(lasted_ms(Pursuit::TakingOff));
         beliefs.set_approaching_for(lasted_ms(Pursuit::Approaching));
         beliefs.set_staying_for(lasted_ms(Pursuit::Staying));
         beliefs.set_descending_for(lasted_ms(Pursuit::Descending));
-        let settings = self.senses.settings;
+        let settings = self.percepts.settings;
         beliefs.set_reach_distance(settings.reach_distance_m);
         beliefs.set_stay_distance(settings.stay_distance_m);
         beliefs.set_stay_time(settings.stay_time_ms);
@@ -357,15 +357,15 @@ impl Environment for AgentStep {
     }
 
     fn on_ground(&mut self) -> bool {
-        self.senses.on_ground
+        self.percepts.on_ground
     }
 
     fn hovering(&mut self) -> bool {
-        self.senses.hovering
+        self.percepts.hovering
     }
 
     fn steering(&mut self) -> bool {
-        self.senses.steering
+        self.percepts.steering
     }
 
     fn close_enough(
@@ -377,7 +377,7 @@ impl Environment for AgentStep {
         distance_m: f64,
     ) -> bool {
         let target = Pose { x_m, y_m, z_m, yaw_deg };
-        self.senses.pose.is_some_and(|pose| {
+        self.percepts.pose.is_some_and(|pose| {
             distance(&pose, &target) <= distance_m
                 && estimator::wrap_deg(yaw_deg - pose.yaw_deg).abs() <= REACH_ANGLE_DEG
         })

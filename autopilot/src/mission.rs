@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn commands_are_appended_before_a_landing_that_nobody_wrote() {
+    fn commands_are_appended_before_an_implied_landing() {
         let mut implied = mission("takeoff\ngoto 0 1 0 0");
         append(&mut implied, "goto 0 2 0 0", None).unwrap();
         assert_eq!(texts(&implied), ["takeoff", "goto 0 1 0 0", "goto 0 2 0 0", "land"]);

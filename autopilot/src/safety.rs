@@ -46,7 +46,7 @@ const BRAKES_M_S: f64 = 0.5;
 /// it does not, is let land by itself too. It is sent so far against the wind.
 const HIGH_M: f64 = 0.8;
 const SINKS_M_S: f64 = 0.4;
-const LEANS_FOR_M: f64 = 2.0;
+const UPWIND_TARGET_M: f64 = 2.0;
 /// And when navdata have been so old on its way.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
 /// Near the floor of its fence the drone sinks no faster than the slowest airframe stops: this fast at the
@@ -101,7 +101,7 @@ impl Veto {
 
 /// What the safety layer looks at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Circumstances {
+pub struct Situation {
     /// Since the flight program started.
     pub now: Duration,
     /// Since the newest navdata that could be believed.
@@ -126,7 +126,7 @@ pub struct Circumstances {
 
 /// The last word before the wire.
 #[derive(Debug, Clone)]
-pub struct Guard {
+pub struct SafetyMonitor {
     fence: FlightLimits,
     /// The drone is brought down for this.
     danger: Option<Veto>,
@@ -146,7 +146,7 @@ pub struct Guard {
     sticks: Demand,
 }
 
-impl Guard {
+impl SafetyMonitor {
     /// A guard of this fence.
     pub fn new(fence: FlightLimits) -> Self {
         Self {
@@ -167,7 +167,7 @@ impl Guard {
     pub fn check(
         &mut self,
         command: AgentCommand,
-        now: &Circumstances,
+        now: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
         let flies = !matches!(command, AgentCommand::Standby | AgentCommand::Land);
         if now.emergency && flies {
@@ -193,7 +193,7 @@ impl Guard {
         &mut self,
         command: AgentCommand,
         flies: bool,
-        now: &Circumstances,
+        now: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
         if self.lands || now.landing || self.stays_down {
             return (AgentCommand::Land, flies.then(|| self.danger.unwrap_or(Veto::Landing)));
@@ -259,7 +259,7 @@ impl Guard {
     /// The drone's own landing drifts, and the longer the higher it begins: with eyes open the drone is flown
     /// back and down first. Where that is hopeless it still leans against the wind and sinks faster than by
     /// itself, as far as [`HIGH_M`].
-    fn bring_down(&self, danger: Veto, now: &Circumstances) -> AgentCommand {
+    fn bring_down(&self, danger: Veto, now: &Situation) -> AgentCommand {
         let is_across = now.pose.x_m.hypot(now.pose.y_m) > self.fence.radius_m;
         let is_hopeless = is_across && self.way_back.is_none(now);
         let sinks = now.pose.z_m > HIGH_M && now.now < self.sinks_until;
@@ -279,12 +279,12 @@ impl Guard {
     /// A low place so far towards the middle of the fence that the drone leans that way all it can.
     fn place_upwind(&self, pose: &Pose) -> Pose {
         let away_m = pose.x_m.hypot(pose.y_m).max(f64::EPSILON);
-        let share = 1.0 - LEANS_FOR_M / away_m;
+        let share = 1.0 - UPWIND_TARGET_M / away_m;
         let low_m = self.fence.floor_m + LOW_M;
         Pose { x_m: pose.x_m * share, y_m: pose.y_m * share, z_m: low_m, ..*pose }
     }
 
-    fn reason_to_land(&self, now: &Circumstances) -> Option<Veto> {
+    fn reason_to_land(&self, now: &Situation) -> Option<Veto> {
         if now.blind_for > BLIND {
             Some(Veto::Blind)
         } else if !self.is_inside_above(&now.pose, MARGIN_M) {
@@ -315,7 +315,7 @@ impl Guard {
             && pose.z_m <= self.fence.ceiling_m + margin_m
     }
 
-    fn stops_inside(&self, now: &Circumstances) -> bool {
+    fn stops_inside(&self, now: &Situation) -> bool {
         let (here, end) = (now.pose, stopping_place(now));
         let (away_m, end_away_m) = (here.x_m.hypot(here.y_m), end.x_m.hypot(end.y_m));
         (end_away_m <= self.fence.radius_m - INSIDE_M || end_away_m < away_m)
@@ -340,7 +340,7 @@ impl WayBack {
         Self { nearer_at: now, brakes_until: gust_since + GUST, ..Self::default() }
     }
 
-    fn see(&mut self, now: &Circumstances) {
+    fn see(&mut self, now: &Situation) {
         let away_m = now.pose.x_m.hypot(now.pose.y_m);
         let [right_m_s, forward_m_s, _] = now.velocity_m_s;
         let away_m_s = outward(now, [right_m_s, forward_m_s]);
@@ -355,7 +355,7 @@ impl WayBack {
         self.away_m_s = self.away_m_s.max(away_m_s);
     }
 
-    fn is_none(&self, now: &Circumstances) -> bool {
+    fn is_none(&self, now: &Situation) -> bool {
         let no_nearer = now.now >= self.nearer_at + NO_WAY_BACK;
         let too_strong = outward(now, now.wind) > TOO_STRONG;
         (no_nearer || too_strong) && now.now >= self.brakes_until
@@ -363,7 +363,7 @@ impl WayBack {
 }
 
 /// The part of (right, forward) that leads away from the middle of the fence.
-fn outward(now: &Circumstances, [right, forward]: [f64; 2]) -> f64 {
+fn outward(now: &Situation, [right, forward]: [f64; 2]) -> f64 {
     let Pose { x_m, y_m, .. } = now.pose;
     (right * x_m + forward * y_m) / x_m.hypot(y_m).max(f64::EPSILON)
 }
@@ -374,7 +374,7 @@ fn time_to_sink(height_m: f64) -> Duration {
 }
 
 /// Where the drone comes to rest if it begins to brake now.
-fn stopping_place(now: &Circumstances) -> Pose {
+fn stopping_place(now: &Situation) -> Pose {
     let way_m = |speed_m_s: f64| {
         speed_m_s * REACTION_S + speed_m_s * speed_m_s.abs() / (2.0 * BRAKING_M_S2)
     };
@@ -387,7 +387,7 @@ fn stopping_place(now: &Circumstances) -> Pose {
 mod tests {
     use super::*;
 
-    pub(super) const FINE: Circumstances = Circumstances {
+    pub(super) const FINE: Situation = Situation {
         now: Duration::from_mins(1),
         blind_for: Duration::ZERO,
         emergency: false,
@@ -402,124 +402,121 @@ mod tests {
     const TARGET: Pose = Pose { x_m: 1.0, ..FINE.pose };
     const GO_TO: AgentCommand = AgentCommand::GoTo(TARGET);
 
-    fn guard() -> Guard {
-        Guard::new(FlightLimits::default())
+    fn monitor() -> SafetyMonitor {
+        SafetyMonitor::new(FlightLimits::default())
     }
 
     #[test]
     fn only_what_moves_the_drone_needs_fresh_navdata() {
-        let stale = Circumstances { blind_for: Duration::from_millis(301), ..FINE };
-        assert_eq!(guard().check(GO_TO, &FINE), (GO_TO, None));
+        let stale = Situation { blind_for: Duration::from_millis(301), ..FINE };
+        assert_eq!(monitor().check(GO_TO, &FINE), (GO_TO, None));
         let held = (AgentCommand::Hover, Some(Veto::StaleNavdata));
-        assert_eq!(guard().check(GO_TO, &stale), held);
-        assert_eq!(guard().check(AgentCommand::Sticks, &stale), held);
-        assert_eq!(guard().check(AgentCommand::Land, &stale), (AgentCommand::Land, None));
+        assert_eq!(monitor().check(GO_TO, &stale), held);
+        assert_eq!(monitor().check(AgentCommand::Sticks, &stale), held);
+        assert_eq!(monitor().check(AgentCommand::Land, &stale), (AgentCommand::Land, None));
     }
 
     #[test]
     fn nothing_flies_in_an_emergency() {
-        let emergency = Circumstances { emergency: true, ..FINE };
+        let emergency = Situation { emergency: true, ..FINE };
         for command in [AgentCommand::TakeOff, AgentCommand::Hover, GO_TO, AgentCommand::Sticks] {
             let vetoed = (AgentCommand::Standby, Some(Veto::Emergency));
-            assert_eq!(guard().check(command, &emergency), vetoed);
+            assert_eq!(monitor().check(command, &emergency), vetoed);
         }
-        assert_eq!(guard().check(AgentCommand::Land, &emergency), (AgentCommand::Land, None));
+        assert_eq!(monitor().check(AgentCommand::Land, &emergency), (AgentCommand::Land, None));
     }
 
     #[test]
     fn a_drone_that_lands_is_let_land() {
-        let landing = Circumstances { landing: true, ..FINE };
+        let landing = Situation { landing: true, ..FINE };
         for command in [AgentCommand::TakeOff, AgentCommand::Hover, GO_TO, AgentCommand::Sticks] {
             let vetoed = (AgentCommand::Land, Some(Veto::Landing));
-            assert_eq!(guard().check(command, &landing), vetoed);
+            assert_eq!(monitor().check(command, &landing), vetoed);
         }
-        let outside = Circumstances { pose: Pose { x_m: 11.0, ..FINE.pose }, ..FINE };
-        let mut guard = guard();
-        assert_ne!(guard.check(GO_TO, &outside).0, AgentCommand::Land);
-        let command = guard.check(AgentCommand::Land, &Circumstances { landing: true, ..outside });
+        let outside = Situation { pose: Pose { x_m: 11.0, ..FINE.pose }, ..FINE };
+        let mut monitor = monitor();
+        assert_ne!(monitor.check(GO_TO, &outside).0, AgentCommand::Land);
+        let command = monitor.check(AgentCommand::Land, &Situation { landing: true, ..outside });
         assert_eq!(command, (AgentCommand::Land, None), "no retreat any more");
     }
 
     #[test]
     fn a_drone_that_rises_after_its_landing_is_landed_again() {
-        let mut guard = guard();
-        let on_ground = Circumstances { airborne: false, ..FINE };
-        guard.check(AgentCommand::TakeOff, &on_ground);
-        guard.check(AgentCommand::Standby, &on_ground);
-        assert_eq!(guard.check(AgentCommand::Hover, &on_ground).0, AgentCommand::Hover);
+        let mut monitor = monitor();
+        let on_ground = Situation { airborne: false, ..FINE };
+        monitor.check(AgentCommand::TakeOff, &on_ground);
+        monitor.check(AgentCommand::Standby, &on_ground);
+        assert_eq!(monitor.check(AgentCommand::Hover, &on_ground).0, AgentCommand::Hover);
         let lands = (AgentCommand::Land, Some(Veto::Landing));
-        assert_eq!(guard.check(AgentCommand::Hover, &FINE), lands);
+        assert_eq!(monitor.check(AgentCommand::Hover, &FINE), lands);
         let landed = (AgentCommand::TakeOff, None);
-        assert_eq!(guard.check(AgentCommand::TakeOff, &on_ground), landed);
-        assert_eq!(guard.check(AgentCommand::Hover, &FINE), (AgentCommand::Hover, None));
+        assert_eq!(monitor.check(AgentCommand::TakeOff, &on_ground), landed);
+        assert_eq!(monitor.check(AgentCommand::Hover, &FINE), (AgentCommand::Hover, None));
     }
 
     #[test]
     fn a_drone_that_is_landed_for_its_safety_is_landed_to_the_end() {
         for bad in [
-            Circumstances { blind_for: Duration::from_secs(5), ..FINE },
-            Circumstances { pose: Pose { x_m: 10.4, ..FINE.pose }, ..FINE },
-            Circumstances { pose: Pose { z_m: 3.4, ..FINE.pose }, ..FINE },
+            Situation { blind_for: Duration::from_secs(5), ..FINE },
+            Situation { pose: Pose { x_m: 10.4, ..FINE.pose }, ..FINE },
+            Situation { pose: Pose { z_m: 3.4, ..FINE.pose }, ..FINE },
         ] {
-            let mut guard = guard();
-            let veto = guard.check(AgentCommand::Hover, &bad).1;
+            let mut monitor = monitor();
+            let veto = monitor.check(AgentCommand::Hover, &bad).1;
             assert!(veto.is_some_and(Veto::lands));
-            let low = Circumstances { pose: Pose { z_m: 0.5, ..FINE.pose }, ..FINE };
-            assert_eq!(guard.check(GO_TO, &low).0, AgentCommand::Land, "it came back");
-            let landed = Circumstances { airborne: false, ..FINE };
-            assert_eq!(guard.check(AgentCommand::TakeOff, &landed).0, AgentCommand::TakeOff);
+            let low = Situation { pose: Pose { z_m: 0.5, ..FINE.pose }, ..FINE };
+            assert_eq!(monitor.check(GO_TO, &low).0, AgentCommand::Land, "it came back");
+            let landed = Situation { airborne: false, ..FINE };
+            assert_eq!(monitor.check(AgentCommand::TakeOff, &landed).0, AgentCommand::TakeOff);
         }
     }
 
     #[test]
     fn a_drone_outside_the_fence_is_flown_back_and_down() {
-        let outside = Circumstances { pose: Pose { y_m: -10.5, z_m: 2.0, ..FINE.pose }, ..FINE };
-        let stale = Circumstances { blind_for: Duration::from_millis(400), ..outside };
-        let blind = Circumstances { blind_for: Duration::from_millis(1001), ..outside };
-        let much_later = Circumstances { now: outside.now + RETREAT, ..outside };
+        let outside = Situation { pose: Pose { y_m: -10.5, z_m: 2.0, ..FINE.pose }, ..FINE };
+        let stale = Situation { blind_for: Duration::from_millis(400), ..outside };
+        let blind = Situation { blind_for: Duration::from_millis(1001), ..outside };
+        let much_later = Situation { now: outside.now + RETREAT, ..outside };
         let land = AgentCommand::Land;
-        assert_eq!(guard().check(land, &outside), (land, None), "whoever lands, lands");
+        assert_eq!(monitor().check(land, &outside), (land, None), "whoever lands, lands");
         for then in [&blind, &much_later] {
-            let mut guard = guard();
-            let (command, veto) = guard.check(GO_TO, &outside);
+            let mut monitor = monitor();
+            let (command, veto) = monitor.check(GO_TO, &outside);
             assert_eq!(veto, Some(Veto::OutsideFence));
             let AgentCommand::GoTo(target) = command else { panic!("{command:?}") };
             assert!((target.y_m + 9.5).abs() < 1e-9 && target.z_m < 0.5, "{target:?}");
             // The landing that is then ordered waits for that, but not for ever, nor blindly.
-            assert_eq!(guard.check(land, &outside).0, command);
-            assert_eq!(guard.check(land, &stale).0, AgentCommand::Hover);
-            assert_eq!(guard.check(land, then).0, land);
-            assert_eq!(guard.check(land, &outside).0, land, "a landing is not taken back");
+            assert_eq!(monitor.check(land, &outside).0, command);
+            assert_eq!(monitor.check(land, &stale).0, AgentCommand::Hover);
+            assert_eq!(monitor.check(land, then).0, land);
+            assert_eq!(monitor.check(land, &outside).0, land, "a landing is not taken back");
         }
-        let mut guard = guard();
-        guard.check(GO_TO, &outside);
-        guard.land_here();
-        assert_eq!(guard.check(land, &outside).0, land, "nor does it wait for the pilot");
+        let mut monitor = monitor();
+        monitor.check(GO_TO, &outside);
+        monitor.land_here();
+        assert_eq!(monitor.check(land, &outside).0, land, "nor does it wait for the pilot");
     }
 
     #[test]
     fn near_the_floor_the_drone_sinks_slowly() {
         let down = Demand { gaz: -1.0, ..Demand::default() };
-        let gaz = |height_m| guard().limit(&down, 1.0, height_m, 0.7).gaz;
+        let gaz = |height_m| monitor().limit(&down, 1.0, height_m, 0.7).gaz;
         assert!((gaz(2.0) + 1.0).abs() < 1e-9);
         assert!((-0.4..-0.3).contains(&gaz(0.5)), "{}", gaz(0.5));
         assert!((-0.25..-0.2).contains(&gaz(0.1)), "{}", gaz(0.1));
         let up = Demand { gaz: 1.0, ..Demand::default() };
-        assert!((guard().limit(&up, 1.0, 0.1, 0.7).gaz - 1.0).abs() < 1e-9);
+        assert!((monitor().limit(&up, 1.0, 0.1, 0.7).gaz - 1.0).abs() < 1e-9);
     }
 
     #[test]
     fn a_drone_that_does_not_come_back_is_landed_where_it_is() {
         let lands_after = |speed_m_s: f64| {
-            let mut guard = guard();
+            let mut monitor = monitor();
             (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
                 let x_m = 10.5 + speed_m_s * time.as_secs_f64();
-                let now = Circumstances {
-                    now: FINE.now + *time,
-                    pose: Pose { x_m, ..FINE.pose },
-                    ..FINE
-                };
-                guard.check(GO_TO, &now).0 == AgentCommand::Land
+                let now =
+                    Situation { now: FINE.now + *time, pose: Pose { x_m, ..FINE.pose }, ..FINE };
+                monitor.check(GO_TO, &now).0 == AgentCommand::Land
             })
         };
         let soon = NO_WAY_BACK + Duration::from_millis(60);
@@ -533,17 +530,17 @@ mod tests {
     fn a_drone_is_not_flown_back_against_a_wind_that_is_stronger_than_it() {
         // It leaves the fence at 3 m/s, and loses of that what it does.
         let lands_after = |wind: [f64; 2], brakes_m_s2: f64| {
-            let mut guard = guard();
+            let mut monitor = monitor();
             (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
                 let away_m_s = (3.0 - brakes_m_s2 * time.as_secs_f64()).max(0.1);
-                let now = Circumstances {
+                let now = Situation {
                     now: FINE.now + *time,
                     pose: Pose { y_m: -10.5 - away_m_s, ..FINE.pose },
                     velocity_m_s: [0.0, -away_m_s, 0.0],
                     wind,
                     ..FINE
                 };
-                guard.check(GO_TO, &now).0 == AgentCommand::Land
+                monitor.check(GO_TO, &now).0 == AgentCommand::Land
             })
         };
         let within = |time: Option<Duration>, most: Duration| time.is_some_and(|time| time <= most);
@@ -559,18 +556,18 @@ mod tests {
     fn a_drone_that_is_carried_off_is_flown_down_against_the_wind_and_lands() {
         // Three metres inside, backward by 1 m/s, in a storm.
         let lands_after = |height_m: f64, sinks_m_s: f64| {
-            let mut guard = guard();
+            let mut monitor = monitor();
             let mut downward = 0;
             let lands = (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
                 let sunk_m = sinks_m_s * time.saturating_sub(GUST).as_secs_f64();
-                let now = Circumstances {
+                let now = Situation {
                     now: FINE.now + *time,
                     pose: Pose { y_m: -7.0, z_m: height_m - sunk_m, ..FINE.pose },
                     velocity_m_s: [0.0, -1.0, 0.0],
                     wind: [0.0, -1.1],
                     ..FINE
                 };
-                let (command, veto) = guard.check(GO_TO, &now);
+                let (command, veto) = monitor.check(GO_TO, &now);
                 if veto == Some(Veto::CarriedOff)
                     && let AgentCommand::GoTo(target) = command
                 {
@@ -602,10 +599,10 @@ mod tests {
             Pose { z_m: 3.1, ..here },
             Pose { z_m: 0.2, ..here },
         ] {
-            let (command, veto) = guard().check(AgentCommand::GoTo(target), &FINE);
+            let (command, veto) = monitor().check(AgentCommand::GoTo(target), &FINE);
             assert_eq!(veto, Some(Veto::TargetOutside));
             let AgentCommand::GoTo(inside) = command else { panic!("{command:?}") };
-            assert!(guard().is_inside(&inside, 1e-6), "{inside:?}");
+            assert!(monitor().is_inside(&inside, 1e-6), "{inside:?}");
         }
     }
 
@@ -621,18 +618,17 @@ mod tests {
             (ceiling_m + 0.1, -0.1, true),
         ] {
             let pose = Pose { z_m, ..FINE.pose };
-            let now = Circumstances { pose, velocity_m_s: [0.0, 0.0, up_m_s], ..FINE };
-            let (_, veto) = guard().check(AgentCommand::Sticks, &now);
+            let now = Situation { pose, velocity_m_s: [0.0, 0.0, up_m_s], ..FINE };
+            let (_, veto) = monitor().check(AgentCommand::Sticks, &now);
             assert_eq!(veto, (!stays).then_some(Veto::NearFence), "{z_m} {up_m_s}");
         }
     }
 
     #[test]
-    fn the_pilots_hand_stops_before_the_fence_and_may_fly_back() {
+    fn manual_control_stops_before_the_fence_and_may_fly_back() {
         let near_the_fence = Pose { x_m: 9.0, ..FINE.pose };
-        let moving =
-            |x, up| Circumstances { pose: near_the_fence, velocity_m_s: [x, 0.0, up], ..FINE };
-        let check = |now| guard().check(AgentCommand::Sticks, &now).1;
+        let moving = |x, up| Situation { pose: near_the_fence, velocity_m_s: [x, 0.0, up], ..FINE };
+        let check = |now| monitor().check(AgentCommand::Sticks, &now).1;
         assert_eq!(check(moving(1.0, 0.0)), Some(Veto::NearFence));
         assert_eq!(check(moving(-1.0, 0.0)), None);
         assert_eq!(check(moving(0.4, 0.0)), None);
@@ -641,13 +637,13 @@ mod tests {
 
     #[test]
     fn sticks_are_limited_and_do_not_jump() {
-        let mut guard = guard();
+        let mut monitor = monitor();
         let full = Demand { roll: 1.0, pitch: -3.0, gaz: f64::NAN, yaw: 0.2 };
-        let limited = guard.limit(&full, 0.6, 2.0, 0.7);
+        let limited = monitor.limit(&full, 0.6, 2.0, 0.7);
         assert_eq!(limited, Demand { roll: 0.6, pitch: -0.6, gaz: 0.0, yaw: 0.2 });
-        let limited = guard.limit(&Demand { roll: -1.0, ..full }, 1.0, 2.0, 0.7);
+        let limited = monitor.limit(&Demand { roll: -1.0, ..full }, 1.0, 2.0, 0.7);
         assert!((limited.roll + 0.4).abs() < 1e-12, "{limited:?}");
-        guard.let_go();
-        assert!((guard.limit(&full, 1.0, 2.0, 0.7).roll - 1.0).abs() < 1e-12);
+        monitor.let_go();
+        assert!((monitor.limit(&full, 1.0, 2.0, 0.7).roll - 1.0).abs() < 1e-12);
     }
 }

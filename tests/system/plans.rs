@@ -78,7 +78,7 @@ fn fly(simulation: &Simulation, plan: &Plan) -> Flown {
             let [x_m, y_m, z_m] = state.position_m.into();
             place = Pose { x_m, y_m, z_m, yaw_deg: state.yaw_deg };
             if let Some(step) = decision.step {
-                stay_ms.insert(step, decision.senses.settings.stay_time_ms);
+                stay_ms.insert(step, decision.percepts.settings.stay_time_ms);
             }
         }
         Record::Event { event: FlightEvent::StepStarted { step }, .. } => {

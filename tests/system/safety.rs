@@ -125,7 +125,7 @@ fn furthest_m(moment: &Moment, furthest_m: &mut f64) {
 }
 
 #[test]
-fn the_pilots_hand_does_not_leave_the_fence() {
+fn manual_control_does_not_leave_the_fence() {
     let full = Demand { roll: 1.0, ..Demand::default() };
     let sticks = (0..200_u32)
         .map(|tenth| (8 * SECOND + SECOND / 10 * tenth, OperatorOrder::Steer(full)))
@@ -154,7 +154,7 @@ fn a_drone_that_was_blown_over_the_fence_comes_back_to_land() {
         let flown = plan("takeoff\nsetStayTime 20\ngoto 3.9 0 0 0\nland\n");
         let gust = "+12 wind 7 0\n+13 wind 0 0";
         let flight = watched(gust, seed, flown, simulation, |_| {});
-        let outside = FlightEvent::LandingOrdered(LandingReason::Guard(Veto::OutsideFence));
+        let outside = FlightEvent::LandingOrdered(LandingReason::Safety(Veto::OutsideFence));
         assert!(flight.events.iter().any(|(_, event)| *event == outside), "{:?}", flight.events);
         let away_m = flight.final_truth.odometry_m.norm();
         assert!(flight.final_truth.phase == Phase::Landed && away_m < 4.2, "{away_m:.2} m");
@@ -173,7 +173,7 @@ fn a_storm_that_carries_the_drone_off_lands_it_before_it_leaves_its_fence() {
         let flown = plan("takeoff\ngoto 0 2.5 1.5 0\nland\n");
         let see = |moment: &Moment| furthest_m(moment, &mut away_m);
         let flight = watched("0 wind 0 2", seed, flown, simulation, see);
-        let ordered = FlightEvent::LandingOrdered(LandingReason::Guard(Veto::CarriedOff));
+        let ordered = FlightEvent::LandingOrdered(LandingReason::Safety(Veto::CarriedOff));
         assert!(flight.events.iter().any(|(_, event)| *event == ordered), "{:?}", flight.events);
         assert!(flight.final_truth.phase == Phase::Landed && away_m < 6.0, "{away_m:.2} m");
     }
@@ -239,7 +239,7 @@ fn a_wind_that_can_be_held_against_lands_nobody() {
 fn a_wind_that_cannot_be_held_against_lands_in_time() {
     let long = "takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n";
     // Whoever notices it first: the agent at the sticks, or the guard by what cannot be braked any more.
-    let reasons = [LandingReason::Wind, LandingReason::Guard(Veto::CarriedOff)];
+    let reasons = [LandingReason::Wind, LandingReason::Safety(Veto::CarriedOff)];
     let ends = reasons.map(|reason| Outcome::Failsafe { reason: reason.to_string() });
     for (profile, wind) in [(Profile::rec(), "+10 wind 6 0"), (Profile::leo(), "+10 wind 4 0")] {
         for seed in 1..=5 {

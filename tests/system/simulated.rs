@@ -145,7 +145,7 @@ fn a_heading_across_the_jump_is_reached() {
 
 /// The way back to a target has its own time, however long the stay was.
 #[test]
-fn a_push_late_in_a_long_stay_does_not_end_the_plan() {
+fn a_disturbance_late_in_a_long_stay_does_not_end_the_plan() {
     for seed in 1..=3 {
         let text = "+70 wind 3.5 0\n+71 wind 0 0";
         let scenario = Scenario::parse("push", text).unwrap();
@@ -166,7 +166,7 @@ fn a_push_late_in_a_long_stay_does_not_end_the_plan() {
 }
 
 #[test]
-fn the_pilots_order_lands_in_the_middle_of_a_step() {
+fn the_operators_order_lands_in_the_middle_of_a_step() {
     let orders = vec![(8 * SECOND, OperatorOrder::Land)];
     let simulation = Simulation { orders, ..Simulation::default() };
     let flight = fly(&simulation, SQUARE);
@@ -212,7 +212,7 @@ fn a_landing_ordered_right_after_the_take_off_keeps_the_drone_down() {
 }
 
 #[test]
-fn the_pilots_order_is_obeyed_at_every_moment() {
+fn the_operators_order_is_obeyed_at_every_moment() {
     for tenths in 0..250 {
         let orders = vec![(SECOND / 10 * tenths, OperatorOrder::Land)];
         let simulation = Simulation { orders, ..Simulation::default() };

@@ -163,7 +163,7 @@ impl Link {
                 None => self.rests = true,
             },
         }
-        self.tell(now);
+        self.report(now);
         Ok(())
     }
 
@@ -205,7 +205,7 @@ impl Link {
     }
 
     /// Passes on what has happened to those who wait for it.
-    fn tell(&mut self, now: Duration) {
+    fn report(&mut self, now: Duration) {
         while let Some(event) = self.session.poll_event() {
             self.orders.event(&event, &self.seen(now));
             self.readiness.event(&event);

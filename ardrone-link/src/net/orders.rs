@@ -100,7 +100,7 @@ pub(super) struct Orders {
     landing: Vec<Waiting>,
     stopping: Vec<Waiting>,
     resetting: Vec<Waiting>,
-    take_off_said: Option<Duration>,
+    take_off_sent: Option<Duration>,
 }
 
 impl Orders {
@@ -113,7 +113,7 @@ impl Orders {
             landing: Vec::new(),
             stopping: Vec::new(),
             resetting: Vec::new(),
-            take_off_said: None,
+            take_off_sent: None,
         }
     }
 
@@ -131,14 +131,14 @@ impl Orders {
                 Order::LAND
             }
             Flight::TakingOff { .. } => {
-                self.take_off_said = Some(now);
+                self.take_off_sent = Some(now);
                 // Once it flies, nothing that could lift it again is ordered.
                 let flight =
                     if seen.flies() { FlightOrder::StayAirborne } else { FlightOrder::TakeOff };
                 Order { flight, motion: Motion::Hover }
             }
             Flight::Airborne => {
-                self.take_off_said = Some(now);
+                self.take_off_sent = Some(now);
                 let steered = self.steered.filter(|it| now.saturating_sub(it.since) < it.duration);
                 let motion = steered.map_or(Motion::Hover, |steered| steered.motion);
                 Order { flight: FlightOrder::StayAirborne, motion }
@@ -242,7 +242,7 @@ impl Orders {
     }
 
     fn watch_landing(&mut self, now: Duration, seen: &Seen) {
-        let settled = self.take_off_said.is_none_or(|said| now.saturating_sub(said) >= SETTLE);
+        let settled = self.take_off_sent.is_none_or(|said| now.saturating_sub(said) >= SETTLE);
         let timed_out = FlightError::LandingTimedOut { limit: self.limits.landing };
         settle(&mut self.landing, now, &timed_out, |waiting| {
             if !seen.alive {

@@ -10,7 +10,7 @@
 mod access;
 mod requests;
 mod server;
-mod story;
+mod snapshot;
 
 use std::net::{SocketAddr, TcpListener};
 
@@ -18,7 +18,7 @@ use autopilot::plan::{FlightLimits, Plan};
 
 use self::access::Access;
 use self::server::Server;
-use self::story::Story;
+use self::snapshot::Snapshot;
 use crate::flight::{Controls, Message};
 
 /// Why there is no page.
@@ -42,12 +42,12 @@ pub enum BrowserError {
 
 /// An address that is ours before the flight begins.
 #[derive(Debug)]
-pub struct Door {
+pub struct Listener {
     listener: TcpListener,
     access: Access,
 }
 
-impl Door {
+impl Listener {
     /// Takes the address.
     ///
     /// # Errors
@@ -75,8 +75,8 @@ impl Door {
         limits: &FlightLimits,
         controls: Controls,
     ) -> Result<Browser, BrowserError> {
-        let story = Story::new(plan, limits);
-        let server = Server::start(self.listener, self.access, story, controls)
+        let snapshot = Snapshot::new(plan, limits);
+        let server = Server::start(self.listener, self.access, snapshot, controls)
             .map_err(BrowserError::Thread)?;
         Ok(Browser { server })
     }
@@ -91,13 +91,13 @@ pub struct Browser {
 impl Browser {
     /// Tells them what the flight tells; never waits for any of them.
     pub fn show(&self, message: &Message) {
-        self.server.tell(|story| story.take_in(message));
+        self.server.publish(|snapshot| snapshot.take_in(message));
     }
 
     /// Tells them how it ended.
     pub fn end(&self, end: &serde_json::Value) {
-        self.server.tell(|story| {
-            story.end(end.clone());
+        self.server.publish(|snapshot| {
+            snapshot.end(end.clone());
             end.clone()
         });
     }

@@ -31,7 +31,7 @@ use tokio::time::{Instant, timeout};
 
 use super::access::{Access, Claims, Refusal};
 use super::requests::Requests;
-use super::story::Story;
+use super::snapshot::Snapshot;
 use crate::flight::Controls;
 
 /// Connections at a time that want a page; others wait in the system's queue.
@@ -73,14 +73,14 @@ impl Server {
     pub(super) fn start(
         listener: TcpListener,
         access: Access,
-        story: Story,
+        snapshot: Snapshot,
         controls: Controls,
     ) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let shared = Arc::new(Shared {
             access,
             controls,
-            stage: Mutex::new(Stage { story, told: Some(broadcast::Sender::new(BEHIND)) }),
+            stage: Mutex::new(Stage { snapshot, sender: Some(broadcast::Sender::new(BEHIND)) }),
             viewers: Arc::new(Semaphore::new(VIEWERS as usize)),
         });
         let (end, ended) = oneshot::channel();
@@ -101,12 +101,12 @@ impl Server {
     }
 
     /// Adds to the story, and tells those who are here.
-    pub(super) fn tell(&self, happen: impl FnOnce(&mut Story) -> Value) {
+    pub(super) fn publish(&self, change: impl FnOnce(&mut Snapshot) -> Value) {
         let mut stage = self.shared.stage();
-        let object = happen(&mut stage.story);
-        if let Some(told) = &stage.told {
+        let object = change(&mut stage.snapshot);
+        if let Some(sender) = &stage.sender {
             // Nobody may be here.
-            _ = told.send(ws::Utf8Bytes::from(object.to_string()));
+            _ = sender.send(ws::Utf8Bytes::from(object.to_string()));
         }
     }
 }
@@ -114,7 +114,7 @@ impl Server {
 impl Drop for Server {
     fn drop(&mut self) {
         // Those who have been told everything see the end of it.
-        self.shared.stage().told = None;
+        self.shared.stage().sender = None;
         if let Some(end) = self.end.take() {
             // The thread may have ended by itself.
             _ = end.send(());
@@ -139,8 +139,8 @@ struct Shared {
 /// What was told and is being told: whoever comes misses nothing between the two.
 #[derive(Debug)]
 struct Stage {
-    story: Story,
-    told: Option<broadcast::Sender<ws::Utf8Bytes>>,
+    snapshot: Snapshot,
+    sender: Option<broadcast::Sender<ws::Utf8Bytes>>,
 }
 
 impl Shared {
@@ -151,8 +151,8 @@ impl Shared {
     /// The story so far, and what comes after; nothing comes after the end.
     fn join(&self) -> (ws::Utf8Bytes, Option<broadcast::Receiver<ws::Utf8Bytes>>) {
         let stage = self.stage();
-        let story = stage.story.so_far().to_string();
-        (story.into(), stage.told.as_ref().map(broadcast::Sender::subscribe))
+        let snapshot = stage.snapshot.so_far().to_string();
+        (snapshot.into(), stage.sender.as_ref().map(broadcast::Sender::subscribe))
     }
 }
 
@@ -272,20 +272,20 @@ async fn write(
     shared: &Shared,
     mut answers: mpsc::Receiver<ws::Utf8Bytes>,
 ) {
-    let (mut text, mut told) = shared.join();
+    let (mut text, mut receiver) = shared.join();
     loop {
         match timeout(WRITE_TIME, sink.send(ws::Message::Text(text))).await {
             Ok(Ok(())) => {}
             Ok(Err(_)) | Err(_) => return,
         }
-        let Some(receiver) = &mut told else { break };
+        let Some(changes) = &mut receiver else { break };
         text = tokio::select! {
-            next = receiver.recv() => match next {
+            next = changes.recv() => match next {
                 Ok(next) => next,
                 Err(broadcast::error::RecvError::Lagged(_)) => {
-                    let (story, again) = shared.join();
-                    told = again;
-                    story
+                    let (snapshot, again) = shared.join();
+                    receiver = again;
+                    snapshot
                 }
                 Err(broadcast::error::RecvError::Closed) => break,
             },
@@ -296,7 +296,7 @@ async fn write(
     _ = timeout(WRITE_TIME, sink.send(ws::Message::Close(None))).await;
 }
 
-fn told() -> Value {
+fn accepted() -> Value {
     json!({ "type": "told" })
 }
 
@@ -332,7 +332,7 @@ async fn read(
                 let ordered = shared.controls.order_answered(by, order, move |answer| {
                     reply(
                         &answers,
-                        &answer.map_or_else(|why| refused(&why.to_string()), |()| told()),
+                        &answer.map_or_else(|why| refused(&why.to_string()), |()| accepted()),
                     );
                 });
                 match ordered {

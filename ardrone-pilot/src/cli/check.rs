@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::arguments::CheckPlan;
 use super::{CommandError, terminal};
 use crate::json;
-use crate::picture;
+use crate::plan_drawing;
 use crate::recording::Place;
 
 /// Checks a plan, prints what was found, and draws it if asked to. The status is 20 for a plan that cannot be
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     terminal::print(printed);
     let Some(plan) = plan else { return Ok(20) };
     if let Some(path) = &arguments.svg {
-        let drawing = picture::svg(&name, &plan, &limits)?;
+        let drawing = plan_drawing::svg(&name, &plan, &limits)?;
         std::fs::write(path, drawing).map_err(|source| CommandError::Write {
             what: "the picture",
             path: path.display().to_string(),

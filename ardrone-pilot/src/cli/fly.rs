@@ -19,7 +19,7 @@ use super::prompt::PromptLine;
 use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, leave, read, read_settings, terminal};
-use crate::browser::{Browser, Door};
+use crate::browser::{Browser, Listener};
 use crate::flight::{Controls, Flight, Message};
 use crate::json;
 use crate::recording::{Header, Recorder, Recording};
@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let prompt = PromptLine::default();
     let mut progress = Progress::new(prompt.clone(), plain);
     for note in plan.iter().flat_map(Plan::notes) {
-        progress.say(&format!("note: {note}"));
+        progress.print_line(&format!("note: {note}"));
     }
     let mock = if arguments.mock {
         Some(MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK)?)
@@ -55,10 +55,10 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         None
     };
     let drone = drone_address(arguments, mock.as_ref());
-    progress.say(&beginning(plan.as_ref(), mock.is_some(), &drone));
-    let door = arguments.ui.map(Door::bind).transpose()?;
-    if let Some(door) = &door {
-        progress.say(&format!("watch it at {}", door.url()));
+    progress.print_line(&beginning(plan.as_ref(), mock.is_some(), &drone));
+    let listener = arguments.ui.map(Listener::bind).transpose()?;
+    if let Some(listener) = &listener {
+        progress.print_line(&format!("watch it at {}", listener.url()));
     }
     let (recorder, recording) = match record(arguments, &settings, plan.as_ref(), mock.is_some())? {
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
@@ -70,8 +70,8 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     if let Err(error) = leave::on_second_signal(controls.clone()) {
         progress.warn(&format!("a second Ctrl-C waits for whoever reads: {error}"));
     }
-    let open = |door: Door| door.open(plan.as_ref(), &config.limits, controls.clone());
-    let browser = door.map(open).transpose().unwrap_or_else(|error| {
+    let open = |listener: Listener| listener.open(plan.as_ref(), &config.limits, controls.clone());
+    let browser = listener.map(open).transpose().unwrap_or_else(|error| {
         // The drone may be flying already.
         progress.warn(&terminal::Causes(&error).to_string());
         None
@@ -84,14 +84,14 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let keys = Keys::start(controls.clone(), config.limits, prompt);
     if keys.is_some() {
-        watch.say(keys::HELP);
+        watch.print_line(keys::HELP);
     } else if let Err(error) = read_orders(arguments, config.limits, controls.clone()) {
         watch.warn(&format!("no orders can be read: {error}"));
     }
-    let mut teller =
-        Teller { arguments, steps: Vec::new(), mock, browser, recording, truths: Vec::new() };
+    let mut outputs =
+        Outputs { arguments, steps: Vec::new(), mock, browser, recording, truths: Vec::new() };
     for message in flight.messages() {
-        teller.tell(&message, &mut watch);
+        outputs.send(&message, &mut watch);
     }
     drop(keys);
     watch.end();
@@ -101,9 +101,9 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         _ if stays && controls.has_quit() && finished.is_down => 0,
         status => status,
     };
-    let recorded = teller.recording.and_then(Recording::finish);
+    let recorded = outputs.recording.and_then(Recording::finish);
     let end = json::end(&finished, recorded.as_ref(), status);
-    if let Some(browser) = teller.browser {
+    if let Some(browser) = outputs.browser {
         browser.end(&end);
     }
     if arguments.json {
@@ -112,7 +112,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     }
     terminal::print(Summary {
         finished: &finished,
-        truths: &teller.truths,
+        truths: &outputs.truths,
         recorded: recorded.as_ref(),
         flew_a_plan: !stays,
     });
@@ -145,7 +145,7 @@ fn read_orders(arguments: &Fly, limits: FlightLimits, controls: Controls) -> std
 }
 
 /// Passes on what the flight says to everybody who wants to know.
-struct Teller<'a> {
+struct Outputs<'a> {
     arguments: &'a Fly,
     /// The mission's, for what is said of one of them.
     steps: Vec<Step>,
@@ -155,8 +155,8 @@ struct Teller<'a> {
     truths: Vec<TrueWaypoint>,
 }
 
-impl Teller<'_> {
-    fn tell(&mut self, message: &Message, watch: &mut Watch) {
+impl Outputs<'_> {
+    fn send(&mut self, message: &Message, watch: &mut Watch) {
         if let Message::Mission(steps) = message {
             self.steps.clone_from(steps);
         }
@@ -188,10 +188,10 @@ enum Watch {
 }
 
 impl Watch {
-    fn say(&mut self, line: &str) {
+    fn print_line(&mut self, line: &str) {
         match self {
-            Self::Lines(progress) => progress.say(line),
-            Self::Screen(screen) => screen.say(line),
+            Self::Lines(progress) => progress.print_line(line),
+            Self::Screen(screen) => screen.print_line(line),
         }
     }
 
@@ -215,7 +215,7 @@ impl Watch {
             Self::Lines(mut progress) => progress.end(),
             Self::Screen(screen) => {
                 for warning in screen.end() {
-                    terminal::tell(warning);
+                    terminal::print_message(warning);
                 }
             }
         }

@@ -27,7 +27,7 @@ use self::arguments::{Arguments, Command};
 use self::screen::Warnings;
 use crate::browser::BrowserError;
 use crate::flight::FlightError;
-use crate::picture::PictureError;
+use crate::plan_drawing::PlanDrawingError;
 use crate::recording::{LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{self, ReportError};
@@ -53,7 +53,7 @@ enum CommandError {
     #[error(transparent)]
     Report(#[from] ReportError),
     #[error(transparent)]
-    Picture(#[from] PictureError),
+    Picture(#[from] PlanDrawingError),
     #[error(transparent)]
     Mock(#[from] ServerError),
     #[error("no flight log can be written; give another file as --log, or --no-log")]
@@ -108,7 +108,7 @@ pub fn main() -> ExitCode {
     };
     let status = done.unwrap_or_else(|error| {
         let prefix = if matches!(error, CommandError::Plan(_)) { "" } else { "error: " };
-        terminal::tell(format_args!("{prefix}{}", terminal::Causes(&error)));
+        terminal::print_message(format_args!("{prefix}{}", terminal::Causes(&error)));
         error.exit_status()
     });
     ExitCode::from(status)
@@ -168,7 +168,10 @@ fn read_log(path: &Path) -> Result<Log, CommandError> {
         .map_err(|source| CommandError::Read { what: "the flight log", path: name(), source })?;
     let log = Log::read(&file).map_err(|source| CommandError::Log { path: name(), source })?;
     if !log.complete {
-        terminal::tell(format_args!("note: {} was cut off; what is there is read", name()));
+        terminal::print_message(format_args!(
+            "note: {} was cut off; what is there is read",
+            name()
+        ));
     }
     Ok(log)
 }

@@ -144,7 +144,7 @@ fn answer_typed(line: Result<String, TooLong>, limits: &FlightLimits, controls: 
         Err(error) => Err(error.to_string()),
     };
     if let Err(error) = done {
-        terminal::tell(format_args!("refused: {error}"));
+        terminal::print_message(format_args!("refused: {error}"));
     }
 }
 

@@ -39,34 +39,34 @@ impl Progress {
         match message {
             Message::Event(at, event) => {
                 let text = self.event_text(event);
-                self.say(&format!("{} {text}", time(*at)));
+                self.print_line(&format!("{} {text}", time(*at)));
             }
-            Message::Trouble(at, trouble) => self.say(&format!("{} {trouble}", time(*at))),
-            Message::Realtime(realtime) => self.say(&realtime.to_string()),
+            Message::Trouble(at, trouble) => self.print_line(&format!("{} {trouble}", time(*at))),
+            Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
             Message::Waypoint(_) => {}
             Message::Mission(steps) => self.steps.clone_from(steps),
             Message::Readiness(at, reasons) => {
                 if let Some(text) = readiness(reasons) {
-                    self.say(&format!("{} {text}", time(*at)));
+                    self.print_line(&format!("{} {text}", time(*at)));
                 }
             }
-            Message::Ended(at, outcome, _) => self.say(&format!("{} {outcome}", time(*at))),
+            Message::Ended(at, outcome, _) => self.print_line(&format!("{} {outcome}", time(*at))),
             Message::Status(at, status, _) => self.status(*at, status),
         }
     }
 
     /// One line.
-    pub(super) fn say(&mut self, line: &str) {
+    pub(super) fn print_line(&mut self, line: &str) {
         if std::mem::take(&mut self.status_shown) {
-            terminal::tell_over(line);
+            terminal::replace_line(line);
         } else {
-            terminal::tell(line);
+            terminal::print_message(line);
         }
     }
 
     /// A warning.
     pub(super) fn warn(&mut self, line: &str) {
-        self.say(&format!("warning: {line}"));
+        self.print_line(&format!("warning: {line}"));
     }
 
     /// The flight is over: the status line makes room.
@@ -97,7 +97,7 @@ impl Progress {
         // On the ground, waiting, a line a second would say nothing.
         } else if status.phase != Phase::Standby && at + TICK > self.next_plain_status {
             self.next_plain_status = at + PLAIN_STATUS_INTERVAL;
-            self.say(&line);
+            self.print_line(&line);
         }
     }
 }

@@ -56,8 +56,8 @@ impl Screen {
     }
 
     /// Something to be read by people.
-    pub(super) fn say(&mut self, line: &str) {
-        self.view.say(line);
+    pub(super) fn print_line(&mut self, line: &str) {
+        self.view.print_line(line);
         self.draw();
     }
 
@@ -114,7 +114,7 @@ impl Warnings {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let left = std::mem::replace(&mut *kept, keep.then(VecDeque::new));
         for warning in left.into_iter().flatten() {
-            terminal::tell(warning);
+            terminal::print_message(warning);
         }
     }
 

@@ -24,12 +24,12 @@ pub(super) fn print_own(result: &[u8]) {
 }
 
 /// Tells people something, in lines.
-pub(super) fn tell(said: impl Display) {
-    write(&format!("{}\n", printable_lines(&said.to_string())));
+pub(super) fn print_message(message: impl Display) {
+    write(&format!("{}\n", printable_lines(&message.to_string())));
 }
 
 /// Tells people one line, in the place of one that is to be overwritten.
-pub(super) fn tell_over(line: &str) {
+pub(super) fn replace_line(line: &str) {
     write(&format!("{CLEAR}{}\n", printable(line)));
 }
 

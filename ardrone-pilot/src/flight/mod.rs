@@ -279,7 +279,7 @@ struct TickLoop {
     intake: Intake,
     summary: LinkSummary,
     /// A flood has been told of.
-    flood_told: bool,
+    flood_reported: bool,
     /// A first request to end the flight was obeyed.
     stopping: bool,
 }
@@ -330,7 +330,7 @@ impl TickLoop {
             buffer: vec![0_u8; BUFFER_BYTES],
             intake: Intake::NOTHING,
             summary: LinkSummary::default(),
-            flood_told: false,
+            flood_reported: false,
             stopping: false,
         }
     }
@@ -340,7 +340,7 @@ impl TickLoop {
     /// However the flight ends, the landing is the last word, unless the drone is down for sure.
     fn run(mut self, before: impl FnMut(u32)) -> Result<FinishedFlight, FlightError> {
         self.realtime = Realtime::acquire();
-        self.say(Message::Realtime(self.realtime));
+        self.send(Message::Realtime(self.realtime));
         self.start = clock();
         // Parting needs nothing that a panic could have left half done.
         let flown = catch_unwind(AssertUnwindSafe(|| self.fly(before)));
@@ -382,7 +382,7 @@ impl TickLoop {
             self.tick()?;
             self.ticks.end();
             self.record_tick(late, self.start.elapsed().saturating_sub(now));
-            self.tell(now, count.is_multiple_of(STATUS_TICKS));
+            self.report(now, count.is_multiple_of(STATUS_TICKS));
             count = count.wrapping_add(1);
             if let Some(outcome) = self.end() {
                 return Ok(outcome);
@@ -439,7 +439,7 @@ impl TickLoop {
                 // The rest of this tick belongs to others.
                 self.link.rest();
                 self.summary.flooded_ticks += 1;
-                if !std::mem::replace(&mut self.flood_told, true) {
+                if !std::mem::replace(&mut self.flood_reported, true) {
                     self.warn(now, Trouble::Flood);
                 }
                 break;
@@ -509,7 +509,7 @@ impl TickLoop {
         }
     }
 
-    fn tell(&mut self, now: Duration, with_status: bool) {
+    fn report(&mut self, now: Duration, with_status: bool) {
         while let Some(output) = self.vehicle.poll() {
             let message = match output {
                 Output::Event(event) => {
@@ -531,18 +531,18 @@ impl TickLoop {
                 // Sent already; and the end is told when everything has ended.
                 Output::Transmit(_) | Output::Ended(_) => continue,
             };
-            self.say(message);
+            self.send(message);
         }
         if let Some(trouble) = self.link.poll_trouble() {
             self.warn(now, trouble);
         }
         if with_status {
             let health = self.ticks.health();
-            self.say(Message::Status(now, self.vehicle.status(now), health));
+            self.send(Message::Status(now, self.vehicle.status(now), health));
         }
     }
 
-    fn say(&mut self, message: Message) {
+    fn send(&mut self, message: Message) {
         if self.messages.try_send(message).is_err() {
             self.dropped_messages += 1;
         }
@@ -553,7 +553,7 @@ impl TickLoop {
         if let Some(recorder) = &mut self.recorder {
             recorder.note(now, trouble.to_string());
         }
-        self.say(Message::Trouble(now, trouble));
+        self.send(Message::Trouble(now, trouble));
     }
 
     /// Orders the landing in ticks of its own, and waits for nothing. Only the session is asked, which

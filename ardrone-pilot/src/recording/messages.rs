@@ -151,7 +151,7 @@ pub struct Bytes {
 impl Tick {
     /// The tick as it stands in a log.
     pub fn new(decision: &Decision, timing: Timing, datagram: &[u8]) -> Self {
-        let Decision { state, senses, .. } = decision;
+        let Decision { state, percepts, .. } = decision;
         let estimate = |Pose { x_m, y_m, z_m, yaw_deg }| Estimate {
             x_m: short(x_m),
             y_m: short(y_m),
@@ -160,13 +160,13 @@ impl Tick {
             vx_m_s: short(state.velocity_m_s.x),
             vy_m_s: short(state.velocity_m_s.y),
             vz_m_s: short(state.velocity_m_s.z),
-            horizontal_deviation_m: short(senses.doubt_m),
+            horizontal_deviation_m: short(percepts.position_sd_m),
             vertical_deviation_m: short(decision.vertical_deviation_m),
         };
         Self {
             phase: decision.phase.name().to_owned(),
             step: decision.step,
-            estimate: senses.pose.map(estimate),
+            estimate: percepts.pose.map(estimate),
             target: decision.target.map(|pose| Place::from(&pose)),
             command: Command::new(decision),
             agent: Agent::new(decision),
@@ -211,17 +211,17 @@ impl Command {
 
 impl Agent {
     fn new(decision: &Decision) -> Self {
-        let Decision { senses, .. } = decision;
+        let Decision { percepts, .. } = decision;
         let plan = |(line, trigger): (u32, &str)| ChosenPlan { trigger: trigger.to_owned(), line };
         Self {
             plans: decision.plans.places().map(plan).collect(),
             command: decision.wanted.name().to_owned(),
             report: decision.report.map(|report| report.name().to_owned()),
             danger: decision.danger.map(|danger| danger.name().to_owned()),
-            battery_percent: senses.battery_percent,
-            blind_for_ms: senses.blind_for_ms,
-            wind: short(senses.wind),
-            on_ground: senses.on_ground,
+            battery_percent: percepts.battery_percent,
+            blind_for_ms: percepts.blind_for_ms,
+            wind: short(percepts.wind),
+            on_ground: percepts.on_ground,
         }
     }
 }

@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_legal_and_unwise_is_told() {
+    fn legal_but_unwise_commands_are_reported() {
         for (lines, message) in [
             ("goto 9.7 0 0 0", "the target is 0.30 m from the fence"),
             ("goto 0 0 -0.5 0", "the target is 0.35 m above the floor"),
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_that_takes_most_of_a_battery_is_told_at_its_end() {
+    fn a_plan_that_takes_most_of_a_battery_is_reported_at_its_end() {
         let hover = "goto 0 1 0 0\ngoto 0 0 0 0\n".repeat(65);
         let warned = warned(&format!("takeoff\n{hover}land\n"));
         assert_eq!(warned, [(132, "the plan takes about 73 % of a new battery".to_owned())]);
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_flies_is_told_that_there_are_warnings() {
+    fn the_operator_sees_that_there_are_warnings() {
         let notes = |text| Plan::parse("p.txt", text).unwrap().notes().to_vec();
         assert!(notes("takeoff\ngoto 0 1 0 0\nland\n").is_empty());
         let low = notes("takeoff\ngoto 0 0 -0.5 0\nland\n");
@@ -229,7 +229,7 @@ mod tests {
 
     /// What stands before a line that cannot be read is looked at all the same.
     #[test]
-    fn every_problem_is_told_at_once() {
+    fn all_problems_are_reported_at_once() {
         let text = "takeoff\ngoto 50 0 0 0\nfly\ngoto 60 0 0 0\ngoto 1\n";
         let (plan, diagnostics) = Plan::review(text, &FlightLimits::default());
         assert!(plan.is_none());

@@ -5,7 +5,7 @@
 
 use std::time::Duration;
 
-use super::{BRAKES, BRAKES_M_S, Circumstances, GUST, MARGIN_M, REACTION_S, outward};
+use super::{BRAKES, BRAKES_M_S, GUST, MARGIN_M, REACTION_S, Situation, outward};
 
 /// A drone that goes outward no faster than this holds its place, or nearly.
 const SLOW_M_S: f64 = 0.3;
@@ -22,7 +22,7 @@ pub(super) struct CarriedOff {
 
 impl CarriedOff {
     /// Takes in how the drone moves in a fence of this radius.
-    pub(super) fn see(&mut self, now: &Circumstances, radius_m: f64) {
+    pub(super) fn see(&mut self, now: &Situation, radius_m: f64) {
         let [right_m_s, forward_m_s, _] = now.velocity_m_s;
         let away_m_s = outward(now, [right_m_s, forward_m_s]);
         if Self::stops(now, away_m_s, radius_m) {
@@ -52,7 +52,7 @@ impl CarriedOff {
 
     /// Whether it comes to rest inside, leaning against its motion as far as it can. Where it is not seen
     /// nobody knows.
-    fn stops(now: &Circumstances, away_m_s: f64, radius_m: f64) -> bool {
+    fn stops(now: &Situation, away_m_s: f64, radius_m: f64) -> bool {
         let room_m = radius_m + MARGIN_M - now.pose.x_m.hypot(now.pose.y_m);
         // What pushes it is told as that of a drone at rest: one that flies with the wind is pushed less.
         let dragged_m_s2 = now.drag_1_s * away_m_s / 2.0;
@@ -74,12 +74,12 @@ mod tests {
 
     /// After how long a drone is carried off that is 3 m inside its fence, and goes backward so fast.
     fn carried_off_after(
-        change: impl Fn(Circumstances) -> Circumstances,
+        change: impl Fn(Situation) -> Situation,
         away_m_s: impl Fn(f64) -> f64,
     ) -> Option<Duration> {
         let mut carried = CarriedOff::default();
         (0_u32..100).map(|tick| Duration::from_millis(30) * tick).find(|time| {
-            let mut now = change(Circumstances { now: FINE.now + *time, ..FINE });
+            let mut now = change(Situation { now: FINE.now + *time, ..FINE });
             now.pose.y_m = 3.0 - RADIUS_M;
             now.velocity_m_s = [0.0, -away_m_s(time.as_secs_f64()), 0.0];
             carried.see(&now, RADIUS_M);
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn a_storm_carries_off_what_cannot_brake_before_the_fence() {
         let after =
-            |wind, away_m_s| carried_off_after(|now| Circumstances { wind, ..now }, |_| away_m_s);
+            |wind, away_m_s| carried_off_after(|now| Situation { wind, ..now }, |_| away_m_s);
         let soon = Some(GUST);
         let within = |time: Option<Duration>| time.is_some_and(|time| time <= GUST * 2);
         assert!(after(STORM, 1.0) >= soon && within(after(STORM, 1.0)));
@@ -99,19 +99,19 @@ mod tests {
         assert_eq!(after([0.0, -0.5], 1.0), None, "it can brake");
         assert_eq!(after([0.0, 1.1], 1.0), None, "the wind brakes it");
         assert_eq!(after([1.1, 0.0], 1.0), None, "the wind comes from the side");
-        let blind = |now| Circumstances { wind: STORM, blind_for: Duration::from_secs(1), ..now };
+        let blind = |now| Situation { wind: STORM, blind_for: Duration::from_secs(1), ..now };
         assert_eq!(carried_off_after(blind, |_| 1.0), None, "nobody knows");
     }
 
     #[test]
     fn a_gust_passes() {
-        let wind = |now: Circumstances| {
+        let wind = |now: Situation| {
             let gust_ends = FINE.now + GUST.saturating_sub(Duration::from_millis(60));
-            Circumstances { wind: if now.now < gust_ends { STORM } else { [0.0; 2] }, ..now }
+            Situation { wind: if now.now < gust_ends { STORM } else { [0.0; 2] }, ..now }
         };
         assert_eq!(carried_off_after(wind, |_| 1.0), None);
         // What is taken for a storm is none while the drone loses its speed.
-        let storm = |now| Circumstances { wind: STORM, ..now };
+        let storm = |now| Situation { wind: STORM, ..now };
         let braking = |s: f64| (3.0 - 1.2 * s).max(0.0);
         assert_eq!(carried_off_after(storm, braking), None);
     }

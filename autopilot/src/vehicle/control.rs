@@ -23,7 +23,7 @@ impl Vehicle {
         if !matches!(command, AgentCommand::GoTo(_)) {
             self.flight.saturation.rest(state, step_s);
         }
-        let mut told: Option<Demand> = None;
+        let mut sent: Option<Demand> = None;
         let order = match command {
             AgentCommand::Standby | AgentCommand::Land => {
                 self.flight.controller.reset();
@@ -38,7 +38,7 @@ impl Vehicle {
                 self.flight.target = Some(target);
                 let limit = self.mission.max_control();
                 let demand = self.demand(now, &target, step_s);
-                let demand = self.flight.guard.limit(
+                let demand = self.flight.safety.limit(
                     &demand,
                     limit,
                     state.position_m.z,
@@ -46,26 +46,26 @@ impl Vehicle {
                 );
                 let full_m_s2 = self.full_tilt_m_s2();
                 self.flight.saturation.watch(&demand, limit, state, &target, full_m_s2, step_s);
-                told = Some(demand);
+                sent = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
             AgentCommand::Sticks => {
                 self.flight.controller.rest();
                 let demand = self.flight.manual.sticks(now).unwrap_or_default();
-                let demand = self.flight.guard.limit(
+                let demand = self.flight.safety.limit(
                     &demand,
                     self.mission.max_control(),
                     state.position_m.z,
                     self.config.estimator.limits.climb_m_s,
                 );
-                told = Some(demand);
+                sent = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
         };
-        if told.is_none() {
-            self.flight.guard.let_go();
+        if sent.is_none() {
+            self.flight.safety.let_go();
         }
-        let told = told.map_or(estimator::Order::ByItself, |demand| {
+        let sent = sent.map_or(estimator::Order::ByItself, |demand| {
             estimator::Order::Sticks(Sticks {
                 right: demand.roll,
                 forward: -demand.pitch,
@@ -73,7 +73,7 @@ impl Vehicle {
                 clockwise: demand.yaw,
             })
         });
-        self.flight.estimator.told(now, told);
+        self.flight.estimator.told(now, sent);
         order
     }
 

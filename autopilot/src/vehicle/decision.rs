@@ -7,7 +7,7 @@ use estimator::Prediction;
 use pid::Pose;
 
 use super::Phase;
-use crate::agent::{AgentCommand, ChosenPlans, Danger, Report, Senses};
+use crate::agent::{AgentCommand, ChosenPlans, Danger, Percepts, Report};
 use crate::safety::Veto;
 
 /// One tick, from what was known to what was ordered.
@@ -24,7 +24,7 @@ pub struct Decision {
     /// Standard deviation of the height.
     pub vertical_deviation_m: f64,
     /// What the agent knew.
-    pub senses: Senses,
+    pub percepts: Percepts,
     /// The plans that it chose.
     pub plans: ChosenPlans,
     /// What it wanted.

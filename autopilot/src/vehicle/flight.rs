@@ -13,7 +13,7 @@ use super::{FlightReport, LandingReason, VehicleConfig};
 use crate::agent::{Activity, Agent};
 use crate::mission::Due;
 use crate::outcome::Outcome;
-use crate::safety::{Guard, Veto};
+use crate::safety::{SafetyMonitor, Veto};
 
 /// The state of one flight. A flight from rest begins with a new one, so the tenth flight of a vehicle begins
 /// exactly as its first: the world's origin, the fence around it and the uncertainty of the place start where
@@ -24,7 +24,7 @@ pub(super) struct Flight {
     pub(super) controller: PositionController,
     pub(super) agent: Agent,
     pub(super) activity: Activity,
-    pub(super) guard: Guard,
+    pub(super) safety: SafetyMonitor,
     pub(super) veto: Option<Veto>,
     pub(super) manual: Manual,
     /// The step that is being flown.
@@ -62,7 +62,7 @@ impl Flight {
             controller: PositionController::new(config.law, config.cascade),
             agent: Agent::new(),
             activity: Activity::default(),
-            guard: Guard::new(config.limits),
+            safety: SafetyMonitor::new(config.limits),
             veto: None,
             manual: Manual::default(),
             due: None,

@@ -142,7 +142,7 @@ impl Vehicle {
             OperatorOrder::Clear => self.clear(now),
             OperatorOrder::Start { when_ready } => return self.start(now, when_ready),
             OperatorOrder::Land => {
-                self.flight.guard.land_here();
+                self.flight.safety.land_here();
                 self.land(now, LandingReason::Operator);
             }
             OperatorOrder::Cut => {

@@ -149,7 +149,7 @@ pub enum LandingReason {
     /// A drone that was taken over in the air must not be flown on.
     TakeOverRefused,
     /// The safety layer took the drone down.
-    Guard(Veto),
+    Safety(Veto),
 }
 
 impl fmt::Display for LandingReason {
@@ -169,12 +169,12 @@ impl fmt::Display for LandingReason {
             Self::Wind => f.write_str("the wind is too strong to hold the place"),
             Self::DroneFault(fault) => f.write_str(fault),
             Self::TakeOverRefused => f.write_str("the drone must not be flown on"),
-            Self::Guard(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
-            Self::Guard(Veto::CarriedOff) => {
+            Self::Safety(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
+            Self::Safety(Veto::CarriedOff) => {
                 f.write_str("the wind carries the drone over the fence")
             }
-            Self::Guard(Veto::Landing) => f.write_str("the drone lands by itself"),
-            Self::Guard(_) => f.write_str("no navdata for too long"),
+            Self::Safety(Veto::Landing) => f.write_str("the drone lands by itself"),
+            Self::Safety(_) => f.write_str("no navdata for too long"),
         }
     }
 }

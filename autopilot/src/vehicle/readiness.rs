@@ -14,7 +14,7 @@ const OLDEST_NAVDATA: Duration = Duration::from_millis(500);
 /// The drone sends 15 packets a second, or 200. A third of them may be lost.
 const LEAST_NAVDATA_HZ: f64 = 5.0;
 /// A drone that leans more than this does not stand on level ground, or its sensors are wrong.
-const LARGEST_LEAN_DEG: f64 = 8.0;
+const LARGEST_TILT_DEG: f64 = 8.0;
 
 /// A drone that stands on the floor reads about zero.
 const HIGHEST_ON_GROUND_M: f64 = 0.6;
@@ -22,7 +22,7 @@ const HIGHEST_ON_GROUND_M: f64 = 0.6;
 const FAULTS: [(DroneState, &str); 6] = [
     (DroneState::MOTORS_PROBLEM, "a motor is blocked or broken"),
     (DroneState::SOFTWARE_FAULT, "the drone reports a software fault"),
-    (DroneState::ANGLES_OUT_OF_RANGE, "the drone reports that it leans too far"),
+    (DroneState::ANGLES_OUT_OF_RANGE, "the drone reports that it is tilted too far"),
     (DroneState::CUTOUT_DETECTED, "the drone reports a motor cut-out"),
     (DroneState::ULTRASOUND_DEAF, "the drone reports that its ultrasound hears nothing"),
     (DroneState::TOO_MUCH_WIND, "the drone reports too much wind"),
@@ -62,7 +62,7 @@ pub enum NotReady {
         altitude_m: f64,
     },
     /// It does not stand level.
-    Leaning {
+    Tilted {
         /// By this angle.
         deg: f64,
     },
@@ -115,8 +115,8 @@ impl fmt::Display for NotReady {
                 f,
                 "the drone reads an altitude of {altitude_m:.1} m although it has landed: restart it"
             ),
-            Self::Leaning { deg } => {
-                write!(f, "the drone leans by {deg:.0}°: put it on level ground")
+            Self::Tilted { deg } => {
+                write!(f, "the drone is tilted by {deg:.0}°: put it on level ground")
             }
             Self::EmptyBattery { percent } => {
                 write!(f, "battery at {percent} %: more than {LEAST_BATTERY_PERCENT} % are needed")
@@ -247,8 +247,8 @@ impl Vehicle {
         let landed = |control_state| control_state == ControlState::Landed;
         if let Some(demo) = self.demo().filter(|demo| landed(demo.control_state)) {
             let deg = demo.roll_deg.abs().max(demo.pitch_deg.abs());
-            if deg > LARGEST_LEAN_DEG {
-                reasons.push(NotReady::Leaning { deg });
+            if deg > LARGEST_TILT_DEG {
+                reasons.push(NotReady::Tilted { deg });
             }
         }
         reasons

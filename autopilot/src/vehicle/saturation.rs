@@ -38,7 +38,7 @@ const NO_WAY_S: f64 = 6.0;
 pub(super) struct Saturation {
     for_s: f64,
     /// What pushes the drone, gusts apart, and what pushed it when it last held its place by itself.
-    push_m_s2: Vector2<f64>,
+    disturbance_m_s2: Vector2<f64>,
     usual_m_s2: Vector2<f64>,
     way: Way,
 }
@@ -74,9 +74,10 @@ impl Saturation {
         full_tilt_m_s2: f64,
         step_s: f64,
     ) {
-        let push_m_s2 = state.disturbance_m_s2;
-        self.push_m_s2 += (push_m_s2 - self.push_m_s2) * (step_s / GUST_TIME_S).min(1.0);
-        let storm = (self.push_m_s2 - self.usual_m_s2).norm() > STORM_SHARE * full_tilt_m_s2;
+        let disturbance_m_s2 = state.disturbance_m_s2;
+        self.disturbance_m_s2 +=
+            (disturbance_m_s2 - self.disturbance_m_s2) * (step_s / GUST_TIME_S).min(1.0);
+        let storm = (self.disturbance_m_s2 - self.usual_m_s2).norm() > STORM_SHARE * full_tilt_m_s2;
         let away = state.position_m - Vector3::new(target.x_m, target.y_m, target.z_m);
         let across_m = away.xy().norm();
         let drift_m_s = state.velocity_m_s.xy().dot(&away.xy()) / across_m.max(f64::EPSILON);
@@ -95,7 +96,7 @@ impl Saturation {
 
     /// The drone holds its place by itself: as it leans then, it is pushed.
     pub(super) fn rest(&mut self, state: &Prediction, step_s: f64) {
-        self.push_m_s2 = state.disturbance_m_s2;
+        self.disturbance_m_s2 = state.disturbance_m_s2;
         self.usual_m_s2 = state.disturbance_m_s2;
         self.way = Way::default();
         self.for_s = (self.for_s - step_s).max(0.0);
@@ -145,17 +146,17 @@ mod tests {
     }
 
     #[test]
-    fn a_push_that_was_not_there_before_is_a_storm_or_a_drift() {
-        let pushed = |m_s2| Prediction {
+    fn a_disturbance_that_was_not_there_before_is_a_storm_or_a_drift() {
+        let disturbed = |m_s2| Prediction {
             disturbance_m_s2: Vector2::new(m_s2, 0.0),
             ..Prediction::default()
         };
         let lasts_ms = |before_m_s2, then_m_s2| {
             let mut saturation = Saturation::default();
-            saturation.rest(&pushed(before_m_s2), 0.01);
+            saturation.rest(&disturbed(before_m_s2), 0.01);
             let here = Pose { z_m: 0.0, ..TARGET };
             for _ in 0..500 {
-                let state = pushed(then_m_s2);
+                let state = disturbed(then_m_s2);
                 saturation.watch(&Demand::default(), 1.0, &state, &here, 2.0, 0.01);
             }
             saturation.for_ms()

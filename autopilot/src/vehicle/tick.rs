@@ -13,8 +13,8 @@ use super::{
     NotReady, Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S,
     Waypoint, pose,
 };
-use crate::agent::{AgentCommand, AgentStep, Senses};
-use crate::safety::Circumstances;
+use crate::agent::{AgentCommand, AgentStep, Percepts};
+use crate::safety::Situation;
 
 impl Vehicle {
     /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
@@ -53,8 +53,8 @@ impl Vehicle {
         let prediction = self.flight.estimator.predicted(now);
         let state = if self.config.law.predicts() { prediction } else { self.measured_state() };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
-        let senses = self.senses(now, &state);
-        let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, senses);
+        let percepts = self.percepts(now, &state);
+        let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, percepts);
         self.flight.manual.pre_empts = false;
         // What is refused for a danger ends for that reason.
         if let Some(danger) = step.danger {
@@ -66,12 +66,12 @@ impl Vehicle {
         done(Stage::Agent);
         // An agent that asks for nothing gets a hover.
         let wanted = step.command.unwrap_or(AgentCommand::Hover);
-        let circumstances = self.circumstances(now, &state);
-        let (command, veto) = self.flight.guard.check(wanted, &circumstances);
+        let situation = self.situation(now, &state);
+        let (command, veto) = self.flight.safety.check(wanted, &situation);
         if let Some(veto) = veto.filter(|_| veto != self.flight.veto) {
             self.events.push_back(FlightEvent::Veto(veto));
             if veto.lands() {
-                self.land(now, LandingReason::Guard(veto));
+                self.land(now, LandingReason::Safety(veto));
             }
         }
         self.flight.veto = veto;
@@ -82,7 +82,7 @@ impl Vehicle {
             step: self.flight.due.as_ref().map(|active| active.due.step),
             state,
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
-            senses,
+            percepts,
             plans: step.plans,
             wanted,
             report: step.report,
@@ -148,18 +148,18 @@ impl Vehicle {
         pose(&self.state(now))
     }
 
-    fn senses(&self, now: Duration, state: &Prediction) -> Senses {
+    fn percepts(&self, now: Duration, state: &Prediction) -> Percepts {
         let hovering = self.demo().is_some_and(|demo| {
             matches!(demo.control_state, ControlState::Hovering | ControlState::Flying)
         });
-        Senses {
+        Percepts {
             now_ms: i64::try_from(now.as_millis()).unwrap_or(i64::MAX),
             pose: self.demo().map(|_| pose(state)),
             on_ground: self.on_ground(),
             hovering: hovering && self.drone_state().contains(DroneState::FLYING),
             battery_percent: self.battery_percent(),
             blind_for_ms: i64::try_from(self.blind_for(now).as_millis()).unwrap_or(i64::MAX),
-            doubt_m: self.flight.estimator.horizontal_deviation_m(now),
+            position_sd_m: self.flight.estimator.horizontal_deviation_m(now),
             saturated_for_ms: self.flight.saturation.for_ms(),
             wind: self.wind().norm(),
             steering: self.flight.manual.sticks(now).is_some(),
@@ -194,14 +194,15 @@ impl Vehicle {
         self.flight.wind_m_s2 / (self.full_tilt_m_s2() * self.least_thrust())
     }
 
-    fn feel_wind(&mut self, push_m_s2: Vector2<f64>, step_s: f64) {
-        let push_m_s2 = if self.on_ground() { Vector2::zeros() } else { push_m_s2 };
-        self.flight.wind_m_s2 += (push_m_s2 - self.flight.wind_m_s2) * (step_s / WIND_TIME_S);
+    fn feel_wind(&mut self, disturbance_m_s2: Vector2<f64>, step_s: f64) {
+        let disturbance_m_s2 = if self.on_ground() { Vector2::zeros() } else { disturbance_m_s2 };
+        self.flight.wind_m_s2 +=
+            (disturbance_m_s2 - self.flight.wind_m_s2) * (step_s / WIND_TIME_S);
     }
 
-    fn circumstances(&self, now: Duration, state: &Prediction) -> Circumstances {
+    fn situation(&self, now: Duration, state: &Prediction) -> Situation {
         let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
-        Circumstances {
+        Situation {
             now,
             blind_for: self.blind_for(now),
             emergency: self.drone_state().contains(DroneState::EMERGENCY),

@@ -20,7 +20,7 @@ pub(super) struct Mutant {
 
 const AGENT: &str = "autopilot/agent/autopilot.asl";
 const BINDING: &str = "autopilot/src/agent.rs";
-const GUARD: &str = "autopilot/src/safety.rs";
+const SAFETY: &str = "autopilot/src/safety.rs";
 const FLIGHT: &str = "autopilot/src/vehicle/flight.rs";
 const TICK: &str = "autopilot/src/vehicle/tick.rs";
 const CONTROL: &str = "autopilot/src/vehicle/control.rs";
@@ -104,7 +104,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "no fence",
         &[edit(
-            GUARD,
+            SAFETY,
             "Self {\n            fence,",
             "let fence = FlightLimits { radius_m: 1e9, ceiling_m: 1e9, floor_m: -1e9, ..fence };\n        Self {\n            fence,",
         )],
@@ -112,16 +112,16 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "no vetoes at all",
         &[edit(
-            GUARD,
+            SAFETY,
             "if now.emergency && flies {",
             "if flies == flies {\n            return (command, None);\n        }\n        if now.emergency && flies {",
         )],
     ),
-    mutant("guard off in the air", &[edit(GUARD, "if !now.airborne {", "if now.airborne {")]),
+    mutant("guard off in the air", &[edit(SAFETY, "if !now.airborne {", "if now.airborne {")]),
     mutant(
         "the fence holds the drone outside",
         &[edit(
-            GUARD,
+            SAFETY,
             "pose.x_m.hypot(pose.y_m) <= self.fence.radius_m + margin_m",
             "pose.x_m.hypot(pose.y_m) >= self.fence.radius_m + margin_m",
         )],
@@ -129,7 +129,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "the ceiling holds the drone above",
         &[edit(
-            GUARD,
+            SAFETY,
             "&& pose.z_m <= self.fence.ceiling_m + margin_m",
             "&& pose.z_m >= self.fence.ceiling_m + margin_m",
         )],
@@ -137,7 +137,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "floor and ceiling changed places",
         &[edit(
-            GUARD,
+            SAFETY,
             "Self {\n            fence,",
             "let fence = FlightLimits { ceiling_m: fence.floor_m, floor_m: fence.ceiling_m, ..fence };\n        Self {\n            fence,",
         )],
@@ -145,7 +145,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "stale navdata are flown by",
         &[
-            edit(GUARD, "moves && now.blind_for > STALE", "moves && now.blind_for > Duration::MAX"),
+            edit(
+                SAFETY,
+                "moves && now.blind_for > STALE",
+                "moves && now.blind_for > Duration::MAX",
+            ),
             edit(AGENT, "holdWhenBlind(300).", "holdWhenBlind(2000000000)."),
         ],
     ),
@@ -186,7 +190,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "@landed[req(\"SAF-2\")]\n",
                 "+!comeDown : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit\n  <- sendHover;\n     !!wait.\n\n@landed[req(\"SAF-2\")]\n",
             ),
-            edit(GUARD, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
+            edit(SAFETY, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
         ],
     ),
     mutant(
@@ -235,7 +239,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "landWhenSaturated(Most) & Weak >= 0 & Most >= 0",
             ),
             edit(
-                GUARD,
+                SAFETY,
                 "sinks || !is_hopeless),\n            Veto::CarriedOff => (Some(self.upwind), sinks),",
                 "sinks || is_hopeless || !is_hopeless),\n            Veto::CarriedOff => (Some(self.upwind), true),",
             ),
@@ -276,7 +280,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "if self.on_ground()",
             ),
             edit(AGENT, "+!hold : comingDown\n", "+!hold : comingDown & onGround\n"),
-            edit(GUARD, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
+            edit(SAFETY, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
         ],
     ),
     mutant(

@@ -16,8 +16,8 @@ use ratatui::widgets::canvas::{Canvas, Circle, Line as Segment, Points};
 use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
 
 use crate::flight::Message;
+use crate::flown_path::FlownPath;
 use crate::timing::TickHealth;
-use crate::trail::Trail;
 
 /// Lines that are remembered.
 const REMEMBERED: usize = 50;
@@ -38,7 +38,7 @@ pub(super) struct View {
     at: Duration,
     status: Option<Status>,
     ticks: TickHealth,
-    trail: Trail,
+    flown_path: FlownPath,
     /// When, and what the agent then decided otherwise.
     decisions: VecDeque<(Duration, String)>,
     /// What was told, and whether it is a warning.
@@ -55,13 +55,13 @@ impl View {
             at: Duration::ZERO,
             status: None,
             ticks: TickHealth::default(),
-            trail: Trail::default(),
+            flown_path: FlownPath::default(),
             decisions: VecDeque::new(),
             messages: VecDeque::new(),
         }
     }
 
-    pub(super) fn say(&mut self, line: &str) {
+    pub(super) fn print_line(&mut self, line: &str) {
         remember(&mut self.messages, (printable(line).into_owned(), false));
     }
 
@@ -78,7 +78,7 @@ impl View {
 
     pub(super) fn take_in(&mut self, message: &Message) {
         match message {
-            Message::Realtime(realtime) => self.say(&realtime.to_string()),
+            Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
             Message::Waypoint(_) => {}
             Message::Mission(steps) => {
                 self.steps = steps.iter().map(|step| step.text.clone()).collect();
@@ -119,7 +119,7 @@ impl View {
     }
 
     fn look(&mut self, at: Duration, status: &Status) {
-        self.trail.add(status.pose.x_m, status.pose.y_m);
+        self.flown_path.add(status.pose.x_m, status.pose.y_m);
         let decision = decision(status);
         if !decision.is_empty() && self.decisions.back().is_none_or(|(_, last)| *last != decision) {
             remember(&mut self.decisions, (at, decision));
@@ -233,7 +233,7 @@ fn headline(view: &View) -> Paragraph<'_> {
 fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let pose = view.status.map(|status| status.pose).unwrap_or_default();
     let target = view.status.and_then(|status| status.target);
-    let places = view.trail.places_m().chain(target.map(|target| (target.x_m, target.y_m)));
+    let places = view.flown_path.places_m().chain(target.map(|target| (target.x_m, target.y_m)));
     let (mut x, mut y) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
     for place in places {
         x = (x.0.min(place.0), x.1.max(place.0));
@@ -244,7 +244,7 @@ fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let wide = columns / (2.0 * rows);
     let half_m = ((y.1 - y.0) / 2.0).max((x.1 - x.0) / 2.0 / wide).max(0.7) * 1.2;
     let middle = (f64::midpoint(x.0, x.1), f64::midpoint(y.0, y.1));
-    let trail: Vec<(f64, f64)> = view.trail.places_m().collect();
+    let trail: Vec<(f64, f64)> = view.flown_path.places_m().collect();
     let title = format!("from above, {:.1} m high", 2.0 * half_m);
     let canvas = Canvas::default()
         .block(Block::bordered().title(title))

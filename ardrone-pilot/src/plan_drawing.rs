@@ -17,7 +17,7 @@ const GROUND: RGBColor = RGBColor(110, 110, 110);
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot draw the plan: {0}")]
-pub struct PictureError(String);
+pub struct PlanDrawingError(String);
 
 /// A place on the way, and when the drone is expected there.
 #[derive(Debug, Clone, Copy)]
@@ -34,14 +34,14 @@ struct Place {
 ///
 /// # Errors
 /// [`PictureError`] if the drawing library gives up.
-pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, PictureError> {
+pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, PlanDrawingError> {
     let places = places(plan, limits);
     drawing::svg(SIZE, |area| {
         let (left, right) = area.split_horizontally(SIZE.1);
         from_above(&left, name, &places, limits)?;
         over_time(&right, &places, limits)
     })
-    .map_err(|error| PictureError(error.to_string()))
+    .map_err(|error| PlanDrawingError(error.to_string()))
 }
 
 fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
