@@ -20,7 +20,7 @@ const LATER: Duration = Duration::from_millis(100);
 const BEGINNINGS: u32 = 12;
 /// None is so long that the drone lands by itself.
 const LENGTHS: [Duration; 3] =
-    [Duration::from_millis(500), Duration::from_millis(1000), Duration::from_millis(1700)];
+    [Duration::from_millis(500), Duration::from_secs(1), Duration::from_millis(1700)];
 /// The drone sinks by a third of a metre a second at least.
 const LANDS_WITHIN: Duration = Duration::from_secs(8);
 

@@ -1,4 +1,4 @@
-//! What the agent decides, step by step.
+//! The agent's decisions, step by step.
 
 use super::*;
 
@@ -18,10 +18,10 @@ const GROUND: Percepts = Percepts {
 const HOVERING: Percepts = Percepts { on_ground: false, hovering: true, ..GROUND };
 const TARGET: Pose = Pose { x_m: 1.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 };
 
-/// The state is all the memory that the agent uses; it must not grow unseen.
+/// The state is all the memory that the agent uses; this limit makes its growth visible.
 const _: () = assert!(STATE_BYTES <= 560);
 
-/// An agent and what it senses.
+/// An agent and its percepts.
 struct Bench {
     agent: Agent,
     activity: Activity,
@@ -29,7 +29,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// An agent that already waits: its initial goal took the first step.
+    /// An agent that is already waiting: its initial goal took the first step.
     fn new(percepts: Percepts) -> Self {
         let mut bench = Self { agent: Agent::new(), activity: Activity::default(), percepts };
         bench.step();
@@ -124,7 +124,7 @@ fn a_take_off_that_becomes_blind_is_landed() {
     }
 }
 
-/// Without a place there is nothing to hold but still.
+/// Without a position the drone can only hover.
 #[test]
 fn holding_and_steering_work_without_a_place() {
     let mut bench = Bench::new(Percepts { pose: None, ..HOVERING });
@@ -138,7 +138,7 @@ fn holding_and_steering_work_without_a_place() {
     assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::BatteryEmpty)));
 }
 
-/// A key that is held down says it again and again.
+/// A key that is held down repeats its order.
 #[test]
 fn manual_control_does_not_keep_a_drone_in_danger_in_the_air() {
     for pose in [Some(TARGET), None] {
@@ -152,7 +152,7 @@ fn manual_control_does_not_keep_a_drone_in_danger_in_the_air() {
     }
 }
 
-/// Orders to take off do not keep the agent from looking around.
+/// Repeated orders to take off do not keep the agent from checking for dangers.
 #[test]
 fn taking_over_in_the_air_looks_at_the_dangers() {
     for pose in [Some(TARGET), None] {
@@ -199,7 +199,7 @@ fn it_reaches_stays_and_reports() {
     assert_eq!(bench.step(), approach);
     bench.percepts.now_ms += 1900;
     assert_eq!(bench.step(), approach);
-    // Drifting off starts the stay anew.
+    // Drifting away restarts the stay time.
     bench.percepts.pose = Some(Pose { x_m: 0.4, ..TARGET });
     assert_eq!(bench.step(), approach);
     bench.percepts.pose = Some(TARGET);
@@ -211,7 +211,7 @@ fn it_reaches_stays_and_reports() {
     assert_eq!(bench.step(), approach);
 }
 
-/// However long the stay was: the way back is a new one.
+/// The time limit of the way back is independent of how long the stay lasted.
 #[test]
 fn a_drone_that_drifts_off_late_has_its_time_to_come_back() {
     let mut bench = Bench::new(HOVERING);
@@ -231,7 +231,7 @@ fn a_drone_that_drifts_off_late_has_its_time_to_come_back() {
     assert_eq!(bench.step(), there);
     bench.percepts.now_ms += 90_001;
     assert_eq!(bench.step(), (there.0, Some(Report::Done)));
-    // And not more than that.
+    // And not longer than that.
     bench.go_to(TARGET);
     bench.percepts.pose = Some(Pose { x_m: 0.2, ..TARGET });
     bench.step();
@@ -239,7 +239,7 @@ fn a_drone_that_drifts_off_late_has_its_time_to_come_back() {
     assert_eq!(bench.run().danger, Some(Danger::NoProgress));
 }
 
-/// Who arrives and drifts off again and again is given up too.
+/// A drone that keeps reaching its target and drifting away is given up too.
 #[test]
 fn arrivals_do_not_prolong_an_approach() {
     let mut bench = Bench::new(HOVERING);
@@ -254,7 +254,7 @@ fn arrivals_do_not_prolong_an_approach() {
     assert!(steps > 2000);
 }
 
-/// An approach that is interrupted by blindness does not begin anew.
+/// An approach that is interrupted by missing navdata does not restart its time limit.
 #[test]
 fn a_flickering_view_does_not_prolong_an_approach() {
     let mut bench = Bench::new(HOVERING);
@@ -290,7 +290,7 @@ fn landing_is_obeyed_in_the_next_step_whatever_runs() {
     assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
     bench.percepts = GROUND;
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
-    // The old target is forgotten: the next take-off holds the new place.
+    // The old target is dropped: after the next take-off the new place is held.
     bench.percepts = HOVERING;
     assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
 }
@@ -312,7 +312,7 @@ fn a_drone_that_lands_by_itself_is_not_lifted_again() {
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Failed)));
 }
 
-/// Brings a drone into the air by each goal that can run there.
+/// Brings a drone into the air with each goal that can run there.
 fn in_the_air() -> Vec<(&'static str, Bench)> {
     let mut benches = Vec::new();
     for name in ["wait", "hold", "approach", "stay", "steer", "take-off"] {
@@ -355,7 +355,7 @@ fn each_danger_lands_whatever_runs_and_is_reported() {
         }
     }
     for (name, mut bench) in in_the_air() {
-        // Nor is a wind that it can hold against.
+        // A wind that the drone can hold against does not land it.
         bench.percepts = Percepts { wind: 0.95, saturated_for_ms: 2000, ..bench.percepts };
         assert_ne!(bench.step().0, Some(AgentCommand::Land), "{name}: nothing is wrong");
     }
@@ -374,12 +374,12 @@ fn in_the_wind_it_comes_down_where_it_is_before_it_lands() {
     assert_eq!(bench.step().0, down);
     bench.percepts.pose = Some(Pose { z_m: 0.4, ..here });
     assert_eq!(bench.step().0, Some(AgentCommand::Land));
-    // Not for ever, not blindly, and a moment's blindness is not waited for in danger.
+    // Only for a limited time and with usable navdata; in danger it does not wait for a short gap to end.
     let mut bench = Bench::new(windy);
     assert_eq!(bench.step().0, down);
     bench.percepts.blind_for_ms = 400;
     assert_eq!(bench.step().0, Some(AgentCommand::Land));
-    // Nor where it could not hold against it.
+    // Nor where it cannot hold against the wind.
     for carried_off in
         [Percepts { wind: 0.9, ..windy }, Percepts { saturated_for_ms: 2001, ..windy }]
     {
@@ -410,7 +410,7 @@ fn a_blind_descent_does_not_wait_with_an_empty_battery() {
     }
 }
 
-/// Whoever says `land` again and again does not prolong it.
+/// Repeated `land` orders do not prolong the descent.
 #[test]
 fn a_descent_that_is_ordered_again_ends_in_its_time() {
     let here = Pose { z_m: 2.0, ..TARGET };
@@ -419,7 +419,7 @@ fn a_descent_that_is_ordered_again_ends_in_its_time() {
         assert!(bench.agent.achieve_land());
         bench.step().0 == Some(AgentCommand::Land)
     });
-    // 8 s of 30 ms each.
+    // 8 s in steps of 30 ms.
     assert_eq!(lands_after, Some(267));
 }
 
@@ -447,7 +447,7 @@ fn an_ordered_landing_comes_down_by_itself_where_it_blows() {
     }
 }
 
-/// The pre-flight check reckons with it.
+/// The pre-flight check reserves this charge.
 #[test]
 fn the_charge_at_which_it_lands_is_the_one_that_is_kept_back() {
     let kept = LANDING_BATTERY_PERCENT;
@@ -504,7 +504,7 @@ fn manual_control_comes_first() {
     assert_eq!(bench.step().0, Some(AgentCommand::Land), "a landing comes before a hold");
 }
 
-/// Every order, given on the ground and in the air, while the drone then stays or changes over.
+/// Every order, given on the ground and in the air, while the drone then stays there or changes over.
 #[test]
 fn every_event_finds_a_plan() {
     for order in 0..5 {
@@ -521,7 +521,7 @@ fn every_event_finds_a_plan() {
             });
             bench.step();
             bench.percepts = Percepts { now_ms: bench.percepts.now_ms, ..then };
-            // Long enough for a take-off to be given up.
+            // Long enough for the agent to give up a take-off.
             for _ in 0..400 {
                 bench.step();
             }
@@ -565,7 +565,7 @@ fn a_new_mission_takes_no_landing_back() {
         }
         bench.percepts = GROUND;
         assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
-        // The next flight is not that landing.
+        // The next flight does not continue that landing.
         assert!(bench.agent.achieve_take_off());
         assert_eq!(bench.step().0, Some(AgentCommand::TakeOff));
         bench.percepts = HOVERING;

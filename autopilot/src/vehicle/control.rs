@@ -1,4 +1,4 @@
-//! The agent's command, carried out: levels and sticks.
+//! Turns the agent's command into a flight order and stick positions.
 
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use super::{Vehicle, pose};
 use crate::agent::AgentCommand;
 
 impl Vehicle {
-    /// The agent's command as levels and sticks, where `state` is how the drone moves now.
+    /// Converts the agent's command to the session's order. `state` is the predicted motion at `now`.
     pub(super) fn carry_out(
         &mut self,
         now: Duration,
@@ -77,9 +77,10 @@ impl Vehicle {
         order
     }
 
-    /// The sticks for the way to a target.
+    /// Stick demand that steers towards `target`.
     fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Demand {
-        // A command acts when the dead time is over: it must suit the drone of that moment.
+        // A command takes effect after the dead time, so it is computed for the state predicted at that
+        // moment.
         let state = self.state(now + self.config.estimator.dead_time);
         let Airframe {
             tilt_gain,

@@ -64,7 +64,7 @@ fn limits_that_the_drone_has_not_taken_forbid_the_flight_and_a_missing_clock_doe
     assert_eq!(vehicle.configured.unconfirmed, ["control:altitude_max"]);
 }
 
-/// Why a vehicle that has just heard a drone on the ground does not take off.
+/// Reasons why a vehicle that has just heard a drone on the ground does not take off.
 fn refusals(plan: &str, demo: Demo, packets: u64, later: Duration) -> Vec<String> {
     let mut vehicle = vehicle(plan);
     let mut bytes = BytesMut::new();
