@@ -1,4 +1,4 @@
-//! What a browser that has just come must know, so that a reload loses nothing.
+//! Snapshot for a browser that connects, so that reloading the page loses nothing.
 
 use std::collections::VecDeque;
 
@@ -13,10 +13,10 @@ use crate::flown_path::FlownPath;
 use crate::json;
 use crate::recording::Place;
 
-/// Events that are remembered; older ones go.
+/// Capacity of the event list; the oldest events are dropped.
 const EVENTS: usize = 100;
 
-/// The vehicle so far.
+/// State of the vehicle and its recent history.
 #[derive(Debug)]
 pub(super) struct Snapshot {
     steps: Vec<Step>,
@@ -31,7 +31,7 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
-    /// It begins with a plan, or without a mission.
+    /// Initial state, with a plan or without a mission.
     pub(super) fn new(plan: Option<&Plan>, limits: &FlightLimits) -> Self {
         let name = plan.map_or("ardrone-pilot", Plan::name);
         Self {
@@ -47,7 +47,7 @@ impl Snapshot {
         }
     }
 
-    /// Something happened; returns what browsers are told.
+    /// Applies a message; returns the JSON object to send to browsers.
     pub(super) fn take_in(&mut self, message: &Message) -> Value {
         let object = json::message(message, &self.steps);
         match message {
@@ -58,7 +58,7 @@ impl Snapshot {
             Message::Event(..) | Message::Trouble(..) => {
                 self.remember(&object);
             }
-            // Everything is drawn anew.
+            // The page redraws everything.
             Message::Mission(steps) if *steps != self.steps => {
                 self.steps.clone_from(steps);
                 return self.so_far();
@@ -88,12 +88,12 @@ impl Snapshot {
         }
     }
 
-    /// It is over.
+    /// Stores the end of the flight.
     pub(super) fn end(&mut self, end: Value) {
         self.end = end;
     }
 
-    /// Everything that is needed to go on from here.
+    /// The snapshot as JSON.
     pub(super) fn so_far(&self) -> Value {
         let expected = expectations(&self.steps, &self.limits);
         let steps: Vec<Value> = (self.steps.iter().zip(&expected))

@@ -1,4 +1,4 @@
-//! Flying: a plan and then away, or a vehicle that stays and takes orders.
+//! Flying: one plan and then exit, or a vehicle that stays and takes orders.
 
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
@@ -34,7 +34,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     }
     let config = settings.pilot_config(arguments.z_origin());
     let plan = arguments.plan.as_deref().map(|path| {
-        // What is recorded is what is flown.
+        // The same text is recorded and flown.
         let text = read("the plan", path)?;
         Ok::<_, CommandError>(Plan::parse_within(
             &path.display().to_string(),
@@ -66,13 +66,13 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
     let controls = flight.controls();
-    // The drone may be flying already.
+    // Not fatal, because the drone may already be flying.
     if let Err(error) = leave::on_second_signal(controls.clone()) {
         progress.warn(&format!("a second Ctrl-C waits for whoever reads: {error}"));
     }
     let open = |listener: Listener| listener.open(plan.as_ref(), &config.limits, controls.clone());
     let browser = listener.map(open).transpose().unwrap_or_else(|error| {
-        // The drone may be flying already.
+        // Not fatal, because the drone may already be flying.
         progress.warn(&terminal::Causes(&error).to_string());
         None
     });
@@ -131,12 +131,12 @@ fn beginning(plan: Option<&Plan>, mock: bool, drone: &DroneAddress) -> String {
     }
 }
 
-/// Orders come from standard input if no keys do.
+/// Reads orders from standard input if no keys are read from it.
 fn read_orders(arguments: &Fly, limits: FlightLimits, controls: Controls) -> std::io::Result<()> {
     let lines = match (arguments.json, arguments.plan.is_some()) {
         (true, _) => Lines::Json,
         (false, false) => Lines::Typed,
-        // A plan is flown whatever is on standard input.
+        // With a plan, standard input is ignored.
         (false, true) => return Ok(()),
     };
     let elsewhere = arguments.plan.is_some() || arguments.ui.is_some();
@@ -144,10 +144,10 @@ fn read_orders(arguments: &Fly, limits: FlightLimits, controls: Controls) -> std
     program::read_orders(lines, at_end, limits, controls)
 }
 
-/// Passes on what the flight says to everybody who wants to know.
+/// Distributes the flight's messages to all displays.
 struct Outputs<'a> {
     arguments: &'a Fly,
-    /// The mission's, for what is said of one of them.
+    /// The mission's steps, for messages that refer to one of them.
     steps: Vec<Step>,
     mock: Option<MockDrone>,
     browser: Option<Browser>,
@@ -176,12 +176,12 @@ impl Outputs<'_> {
     }
 }
 
-/// One line for programs.
+/// Prints one JSON line.
 fn print_object(object: &Value) {
     terminal::print(format_args!("{}\n", json::text(object)));
 }
 
-/// Where people watch the flight.
+/// Display for people.
 enum Watch {
     Lines(Progress),
     Screen(Box<Screen>),
@@ -209,7 +209,7 @@ impl Watch {
         }
     }
 
-    /// The flight is over: the terminal is as it was.
+    /// Restores the terminal at the end of the flight.
     fn end(self) {
         match self {
             Self::Lines(mut progress) => progress.end(),
@@ -222,7 +222,7 @@ impl Watch {
     }
 }
 
-/// Starts to record the flight, unless nobody wants that.
+/// Starts recording the flight unless it is switched off.
 fn record(
     arguments: &Fly,
     settings: &Settings,
@@ -253,7 +253,7 @@ fn record(
     Ok(Some((recorder, recording)))
 }
 
-/// `flights/2026-11-21T13-45-07Z.mcap`: names in the order of time, on any file system.
+/// `flights/2026-11-21T13-45-07Z.mcap`: names that sort by time and are valid on any file system.
 fn default_log(now: UtcDateTime) -> Result<PathBuf, CommandError> {
     let folder = PathBuf::from("flights");
     std::fs::create_dir_all(&folder).map_err(|source| CommandError::Write {
