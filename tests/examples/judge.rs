@@ -1,4 +1,4 @@
-//! Flies the fault campaign, then landings with gaps in the link around them, then one wrong sensor at a time, until
+//! Flies the fault campaign, then landings with gaps and other orders around them, then one wrong sensor at a time, until
 //! something is found:
 //! `cargo run -p system-tests --example judge -- 1000`.
 //!
@@ -14,7 +14,7 @@ use std::thread;
 use autopilot::outcome::Outcome;
 use system_tests::sensors::{AIRFRAMES, led_astray};
 use system_tests::sim::SimulationError;
-use system_tests::{campaign, gaps};
+use system_tests::{campaign, landings};
 
 /// Of so many flights of the campaign at least one is flown to its end; of the pilot as it is, two of five are.
 const ONE_OF: u64 = 5;
@@ -75,7 +75,7 @@ fn astray() -> Option<String> {
 
 /// The first landing that a gap in the link made the pilot forget, or why there were none to be judged.
 fn forgotten() -> Option<String> {
-    match gaps::forgotten_landings() {
+    match landings::forgotten() {
         Ok(found) => found.into_iter().next(),
         Err(error) => Some(error.to_string()),
     }

@@ -4,7 +4,7 @@
 mod alone;
 pub mod campaign;
 pub mod drive;
-pub mod gaps;
+pub mod landings;
 pub mod sensors;
 pub mod sim;
 

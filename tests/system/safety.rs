@@ -17,7 +17,7 @@ use mock_drone::scenario::{Action, Scenario, When};
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, Quantity as Sensor, SensorFault, WorldConfig};
 use system_tests::sim::{Moment, SimulatedFlight, Simulation};
-use system_tests::{SQUARE, campaign, gaps, plan};
+use system_tests::{SQUARE, campaign, landings, plan};
 
 const SECOND: Duration = Duration::from_secs(1);
 const NEAR: FlightLimits = FlightLimits {
@@ -48,8 +48,8 @@ fn the_same_seed_is_the_same_flight() {
 
 /// Whatever a gap in the link swallows around it: the order, or the drone's answer.
 #[test]
-fn no_gap_makes_a_landing_forgotten() {
-    assert_eq!(gaps::forgotten_landings().unwrap(), Vec::<String>::new());
+fn no_gap_and_no_other_order_makes_a_landing_forgotten() {
+    assert_eq!(landings::forgotten().unwrap(), Vec::<String>::new());
 }
 
 /// A flight with a scenario, and every moment of it.

@@ -359,6 +359,12 @@ impl Session {
         self.changes.push_back(config);
     }
 
+    /// Applies all settings again, because another client may have changed them. The session is not ready until
+    /// this is complete.
+    pub fn configure_again(&mut self) {
+        self.handshake = self.new_handshake();
+    }
+
     /// Checks the acknowledge bit for the setting that is being changed.
     fn follow_change(&mut self, state: DroneState) {
         let Some(change) = &mut self.change else { return };

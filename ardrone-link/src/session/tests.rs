@@ -594,3 +594,30 @@ fn hear_silence(bench: &mut Bench) {
     let next = bench.session.last_navdata.map_or(1, |heard| heard.sequence + 1);
     bench.hear(next, DroneState::empty());
 }
+
+#[test]
+fn settings_that_another_client_may_have_changed_are_made_again() {
+    let mut bench = Bench::new(&[("control:altitude_max", "3000")]);
+    let quiet = DroneState::empty();
+    for sequence in [1, 201] {
+        bench.hear(sequence, quiet);
+        let ceiling = Command::Config(Config::new("control:altitude_max", "3000").unwrap());
+        assert!(bench.tick(FlightOrder::Land).contains(&ceiling), "{sequence}");
+        bench.hear(sequence + 1, DroneState::COMMAND_ACKNOWLEDGE);
+        while !bench.session.is_ready() {
+            bench.tick(FlightOrder::Land);
+            bench.hear(sequence + 100, quiet);
+        }
+        assert!(bench.events().contains(&Event::Ready));
+        bench.session.configure_again();
+        assert!(!bench.session.is_ready());
+    }
+}
+
+#[test]
+fn nothing_is_said_to_a_drone_that_was_not_heard() {
+    let mut bench = Bench::new(&[]);
+    assert_eq!(bench.tick(FlightOrder::TakeOff), []);
+    bench.hear(1, DroneState::empty());
+    assert_eq!(bench.tick(FlightOrder::Land)[0], Command::Ref(Ref::Land));
+}

@@ -203,8 +203,9 @@ impl Vehicle {
                     self.take_over_or_refuse(now, watched, packets);
                 }
             }
-            // The other pilot has landed the drone.
+            // Another client has landed the drone, and may have changed its settings.
             FlightPhase::Observing { .. } if self.on_ground() && self.navdata.is_some() => {
+                self.session.configure_again();
                 self.begin_to_configure(now, Authority::OnGround);
             }
             FlightPhase::Configuring { since }

@@ -3,10 +3,9 @@
 use std::time::Duration;
 
 use ardrone_link::navdata::DroneState;
+use autopilot::vehicle::TICK;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{Quantity, SensorFault, Truth};
-
-use super::judge::TICK;
 
 /// What goes wrong on a flight.
 #[derive(Debug, Clone, PartialEq, Default)]

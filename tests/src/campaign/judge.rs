@@ -6,7 +6,7 @@ use std::time::Duration;
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::DroneState;
 use autopilot::outcome::Outcome;
-use autopilot::vehicle::{Phase as PilotPhase, TICK as PILOT_TICK};
+use autopilot::vehicle::{Phase as PilotPhase, TICK};
 use mock_drone::firmware::Phase;
 use mock_drone::{Drone, Truth};
 
@@ -15,15 +15,11 @@ use super::fence::Fence;
 use super::flight::Flight;
 use super::injected::{Injected, is_airborne};
 use super::orders::Orders;
-use super::targets::Targets;
+use super::targets::{TAKE_OFF_STEP, Targets};
 use crate::sim::{Moment, SimulatedFlight};
 
-/// Time between two moments.
-pub(super) const TICK: Duration = PILOT_TICK;
 /// An order may take so long to arrive.
 const ON_ITS_WAY: Duration = Duration::from_millis(500);
-/// Each plan begins with it.
-pub(super) const TAKE_OFF_STEP: usize = 0;
 /// No flight takes longer: its plan has at most seven targets.
 const LONGEST: Duration = Duration::from_mins(10);
 /// A drone that has taken a command within this time hears us.

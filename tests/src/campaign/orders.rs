@@ -3,13 +3,12 @@
 use std::time::Duration;
 
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{OperatorOrder, Phase as PilotPhase};
+use autopilot::vehicle::{OperatorOrder, Phase as PilotPhase, TICK};
 use mock_drone::firmware::Phase;
 use nalgebra::Vector2;
 
 use super::fault::Fault;
 use super::injected::{Injected, is_airborne};
-use super::judge::TICK;
 use crate::sim::Moment;
 
 /// A drone that is told to land may come down by itself first.

@@ -5,9 +5,11 @@ use autopilot::vehicle::Phase;
 use mock_drone::Truth;
 use nalgebra::{Vector2, Vector3};
 
-use super::judge::TAKE_OFF_STEP;
 use crate::place_in_navdata_frame;
 use crate::sim::Moment;
+
+/// Each plan begins with it.
+pub(super) const TAKE_OFF_STEP: usize = 0;
 
 /// The targets of a plan of nothing but `goto`.
 #[derive(Debug)]

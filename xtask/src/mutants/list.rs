@@ -171,12 +171,19 @@ pub(super) const MUTANTS: &[Mutant] = &[
         )],
     ),
     mutant(
-        "agent without @too_weak",
-        &[edit(
-            AGENT,
-            "@too_weak[req(\"SAF-5\")]\n+!watch : ",
-            "@too_weak[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
-        )],
+        "agent without @too_weak, guard without storms",
+        &[
+            edit(
+                AGENT,
+                "@too_weak[req(\"SAF-5\")]\n+!watch : ",
+                "@too_weak[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
+            ),
+            edit(
+                GUARD,
+                "self.carried_off.lasts(now.now)",
+                "self.carried_off.lasts(Duration::ZERO)",
+            ),
+        ],
     ),
     mutant(
         "landWhenBlind(2000000000)",
