@@ -61,10 +61,10 @@ pub enum NavdataError {
 /// use ardrone_link::navdata::{Altitude, NavdataOption, Packet};
 ///
 /// fn raw_altitude_m(datagram: &[u8]) -> Option<f64> {
-/// Packet::decode(datagram).ok()?.options().find_map(|option| match option {
-/// NavdataOption::Altitude(Altitude { raw_m, .. }) => Some(raw_m),
-/// _ => None,
-/// })
+///     Packet::decode(datagram).ok()?.options().find_map(|option| match option {
+///         NavdataOption::Altitude(Altitude { raw_m, .. }) => Some(raw_m),
+///         _ => None,
+///     })
 /// }
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

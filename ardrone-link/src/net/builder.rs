@@ -31,10 +31,10 @@ const RESOLVE_LIMIT: Duration = Duration::from_secs(10);
 /// use ardrone_link::{Client, DroneAddress, NavdataMode, Setting};
 ///
 /// let builder = Client::builder()
-/// .address(DroneAddress { host: "10.0.0.7".to_owned(), ..DroneAddress::default() })
-/// .navdata(NavdataMode::Full)
-/// .setting(Setting::AltitudeMaxM(2.0))
-/// .read_back(true);
+///     .address(DroneAddress { host: "10.0.0.7".to_owned(), ..DroneAddress::default() })
+///     .navdata(NavdataMode::Full)
+///     .setting(Setting::AltitudeMaxM(2.0))
+///     .read_back(true);
 /// ```
 #[derive(Debug, Clone)]
 #[must_use = "nothing happens before `start`"]

@@ -179,7 +179,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "@too_weak[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
             ),
             edit(
-                GUARD,
+                SAFETY,
                 "self.carried_off.lasts(now.now)",
                 "self.carried_off.lasts(Duration::ZERO)",
             ),
