@@ -1,19 +1,19 @@
-//! Mistakes that the fault campaign must find. A text that is replaced stands exactly once in its file: where the code
-//! has changed, the mutant must be mended, not dropped.
+//! Mutants that the fault campaign must detect. Each replaced text must occur exactly once in its file. When
+//! the code has changed, adapt the mutant rather than drop it.
 
-/// A text and what stands in its place in the mutant.
+/// A text and its replacement.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Edit {
-    /// From the root of the workspace.
+    /// Path relative to the workspace.
     pub(super) file: &'static str,
     pub(super) from: &'static str,
     pub(super) to: &'static str,
 }
 
-/// The workspace with one mistake in it. What two layers take care of is taken away in both.
+/// The workspace with one mistake. Where two layers protect against a danger, both are disabled.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mutant {
-    /// What is wrong with it.
+    /// Description of the mistake.
     pub(super) name: &'static str,
     pub(super) edits: &'static [Edit],
 }
@@ -38,9 +38,9 @@ const fn edit(file: &'static str, from: &'static str, to: &'static str) -> Edit 
     Edit { file, from, to }
 }
 
-/// All of them.
+/// All mutants.
 pub(super) const MUTANTS: &[Mutant] = &[
-    // What is known of the place.
+    // Estimation.
     mutant(
         "no integration: the place never moves",
         &[edit(HORIZONTAL, "self.position_m = position_m;", "self.position_m = position_m * 0.0;")],
@@ -100,7 +100,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "navdata are always believed",
         &[edit(ESTIMATOR, "self.plausibility.trust()", "Trust::Sound")],
     ),
-    // The guard.
+    // Safety monitor.
     mutant(
         "no fence",
         &[edit(
@@ -252,7 +252,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
             ),
         ],
     ),
-    // What is sent.
+    // Commands sent.
     mutant(
         "the roll stick is the wrong way round",
         &[edit(
