@@ -1,7 +1,6 @@
-//! Landings with something else around the order: a gap in the link, or another order. The landing is the one thing that
-//! must not be lost in them. A gap that begins just before it swallows the order itself, one that begins just
-//! after it the drone's answer; an order in the same tick could take its place. Random flights hardly ever hit these
-//! tenths of a second.
+//! Landings with a gap in the link or another order around the landing order, which must not be lost. A gap
+//! that begins just before the order swallows it, one that begins just after it swallows the drone's answer;
+//! an order in the same tick could replace it. Random flights hardly ever hit these tenths of a second.
 
 use std::time::Duration;
 
@@ -15,21 +14,21 @@ use nalgebra::Vector2;
 use crate::plan;
 use crate::sim::{Simulation, SimulationError};
 
-/// The drone holds its place then, 1.3 m high.
+/// By then the drone holds its position, 1.3 m high.
 const ORDERED_AT: Duration = Duration::from_secs(12);
-/// The first gap begins this long before the order, the others each this much later.
+/// Time from the begin of the first gap to the order, and step of the other gaps' begins.
 const BEFORE: Duration = Duration::from_millis(500);
 const LATER: Duration = Duration::from_millis(100);
 const BEGINNINGS: u32 = 12;
-/// None is so long that the drone lands by itself.
+/// Too short for the drone to land by itself.
 const LENGTHS: [Duration; 3] =
     [Duration::from_millis(500), Duration::from_secs(1), Duration::from_millis(1700)];
-/// Other orders come in the ticks from this many before the landing to this many after it.
+/// Other orders come up to this many ticks before and after the landing.
 const TICKS_AROUND: u32 = 4;
-/// The drone sinks by a third of a metre a second at least.
+/// The drone sinks by at least a third of a metre per second.
 const LANDS_WITHIN: Duration = Duration::from_secs(8);
 
-/// Every landing that was not flown to the ground, in words.
+/// Descriptions of all landings that were not completed.
 ///
 /// # Errors
 /// [`SimulationError`] if a flight never ends.
@@ -41,16 +40,16 @@ pub fn forgotten() -> Result<Vec<String>, SimulationError> {
     Ok(found)
 }
 
-/// A landing with something around it.
+/// A landing with a disturbance around the order.
 struct Landing {
     what: String,
     scenario: Scenario,
     orders: Vec<(Duration, OperatorOrder)>,
-    /// When the drone must be down.
+    /// Deadline for being down.
     due: Duration,
 }
 
-/// Nothing passes one way, or both, for a while.
+/// Datagrams are lost in one direction, or in both, for a while.
 fn gaps() -> Vec<Landing> {
     let mut landings = Vec::new();
     for direction in [Direction::Both, Direction::Up, Direction::Down] {
@@ -70,7 +69,7 @@ fn gaps() -> Vec<Landing> {
     landings
 }
 
-/// Another order comes in nearly the same tick. In a breeze the way down begins with a descent of our own.
+/// Another order comes in nearly the same tick. In a breeze the agent flies the first part of the descent.
 fn orders() -> Vec<Landing> {
     let mut landings = Vec::new();
     let others = [
@@ -100,7 +99,7 @@ fn orders() -> Vec<Landing> {
 }
 
 impl Landing {
-    /// What became of it, if the drone was not down in time for good.
+    /// Description of the failure, if the drone was not down in time for good.
     fn forgotten(self) -> Result<Option<String>, SimulationError> {
         let Self { what, scenario, orders, due } = self;
         let simulation = Simulation {
