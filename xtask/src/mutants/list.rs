@@ -184,7 +184,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "self.carried_off.lasts(Duration::ZERO)",
             ),
             edit(
-                GUARD,
+                SAFETY,
                 "let is_hopeless = is_across && self.way_back.is_none(now);",
                 "let is_hopeless = false;",
             ),
