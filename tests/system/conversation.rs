@@ -225,6 +225,27 @@ fn a_program_that_goes_away_in_flight_leaves_no_drone_in_the_air() {
 }
 
 #[test]
+fn a_landing_overtakes_all_that_waits_in_front_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut vehicle = Conversation::start(&folder.path().join("session.mcap"));
+    vehicle.until_ready();
+    vehicle.accepted(json!({ "order": "append", "command": "takeoff" }));
+    vehicle.accepted(json!({ "order": "start" }));
+    vehicle.until_status(|status| status["pose"]["z_m"].as_f64() > Some(0.7));
+    let append = json!({ "order": "append", "command": "goto 0 0 0 0" }).to_string() + "\n";
+    let again = json!({ "id": "again", "order": "start" });
+    let land = json!({ "id": "land", "order": "land" });
+    vehicle.write(&format!("{}{again}\n{land}", append.repeat(3000)));
+    let start = Instant::now();
+    vehicle.until("a landing", |object| object["phase"] == "landing");
+    assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
+    vehicle.until("the end", |object| object["type"] == "flight_ended");
+    std::thread::sleep(Duration::from_secs(3));
+    assert_eq!(vehicle.mock.truth().phase, Phase::Landed, "what it has overtaken lifts nothing");
+    vehicle.quit();
+}
+
+#[test]
 fn orders_are_read_as_people_type_them() {
     let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
     let mut child = pilot(&mock, &["--no-log"]).spawn().unwrap();

@@ -341,3 +341,30 @@ fn one_operator_at_a_time_has_the_controls() {
     bench.accepted(OperatorOrder::Release);
     assert_eq!(bench.driver.order(REMOTE, START), Ok(()));
 }
+
+#[test]
+fn what_is_ordered_before_the_drone_has_lifted_keeps_it_down() {
+    for (ticks, order) in
+        (0..40_u32).flat_map(|ticks| [(ticks, OperatorOrder::Hold), (ticks, OperatorOrder::Cut)])
+    {
+        let mut bench = Bench::standing_by("");
+        bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+        bench.accepted(START);
+        bench.run(Duration::from_millis(30) * ticks);
+        if bench.truth().phase != firmware::Phase::Landed {
+            break;
+        }
+        let is_cut = order == OperatorOrder::Cut;
+        bench.accepted(order);
+        bench.run(Duration::from_millis(400));
+        if is_cut {
+            bench.accepted(OperatorOrder::Recover);
+        }
+        bench.run(20 * SECOND);
+        let (phase, truth) = (bench.phase(), bench.truth().phase);
+        assert_eq!((phase, truth), (Phase::Standby, firmware::Phase::Landed), "{ticks}");
+        assert!(
+            !bench.events.iter().any(|(_, event)| *event == FlightEvent::StepStarted { step: 1 })
+        );
+    }
+}

@@ -4,6 +4,7 @@ mod view;
 
 use std::collections::VecDeque;
 use std::io::{self, Stderr, stderr};
+use std::mem::ManuallyDrop;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use autopilot::plan::FlightLimits;
@@ -24,7 +25,8 @@ const LEAST: (u16, u16) = (70, 20);
 
 /// Draws the flight, and restores the terminal at the end.
 pub(super) struct Screen {
-    terminal: Terminal<CrosstermBackend<Stderr>>,
+    /// Not dropped: it would panic if the terminal is gone, to say that the cursor could not be shown.
+    terminal: ManuallyDrop<Terminal<CrosstermBackend<Stderr>>>,
     view: View,
     warnings: Warnings,
     prompt: PromptLine,
@@ -41,7 +43,7 @@ impl Screen {
         if columns < LEAST.0 || rows < LEAST.1 {
             return None;
         }
-        let terminal = Terminal::new(CrosstermBackend::new(stderr())).ok()?;
+        let terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(stderr())).ok()?);
         execute!(stderr(), EnterAlternateScreen).ok()?;
         warnings.keep(true);
         let before = std::panic::take_hook();

@@ -53,7 +53,7 @@ pub(super) enum TypedError {
 
 /// A parsed line.
 #[derive(Debug, Clone, PartialEq)]
-enum Typed {
+pub(super) enum Typed {
     Order(OperatorOrder),
     Quit,
 }
@@ -78,7 +78,11 @@ pub(super) fn obey(
     }
 }
 
-fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedError> {
+/// Parses a line.
+///
+/// # Errors
+/// [`TypedError`] if it is no order.
+pub(super) fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedError> {
     let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
     let rest = rest.trim();
     let order = match word {

@@ -74,6 +74,9 @@ pub enum Refused {
     /// The drone is landing.
     #[error("the drone is landing")]
     Landing,
+    /// Another client flies the drone.
+    #[error("another client flies the drone")]
+    FlownByAnother,
     /// The order needs a drone in the air.
     #[error("the drone is on the ground")]
     OnGround,
@@ -147,11 +150,19 @@ impl Vehicle {
                 self.land(now, LandingReason::Operator);
             }
             OperatorOrder::Cut => {
+                // A start that waits is no reason to fly once the motors have been cut.
+                if self.departure.is_some() {
+                    self.end(now, Outcome::Interrupted);
+                }
                 self.events.push_back(FlightEvent::CutOrdered);
                 self.session.request_emergency_stop();
             }
             OperatorOrder::Recover => return self.recover(),
             OperatorOrder::Release => self.controls.release(by),
+            // Before the drone has left the ground a hold keeps it there.
+            OperatorOrder::Hold if self.is_about_to_fly() => {
+                self.land(now, LandingReason::Operator);
+            }
             OperatorOrder::Hold => {
                 self.can_be_held()?;
                 self.hold_here();
@@ -183,10 +194,18 @@ impl Vehicle {
         Ok(())
     }
 
+    /// Whether a flight has been started that has not lifted the drone yet.
+    fn is_about_to_fly(&self) -> bool {
+        let takes_off = self.phase == FlightPhase::Flying && self.on_ground() && !self.lands();
+        self.departure.is_some() || takes_off
+    }
+
     /// Whether the drone flies and is not landing, so that an operator may change what it does.
     fn can_be_held(&self) -> Result<(), Refused> {
         if self.lands() {
             Err(Refused::Landing)
+        } else if self.authority == Authority::None && !self.on_ground() {
+            Err(Refused::FlownByAnother)
         } else if self.phase != FlightPhase::Flying || self.on_ground() {
             Err(Refused::OnGround)
         } else {

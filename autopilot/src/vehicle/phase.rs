@@ -473,7 +473,10 @@ impl Vehicle {
                 }
                 session::Event::Emergency => {
                     self.events.push_back(FlightEvent::Emergency);
-                    if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
+                    let flies =
+                        matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. });
+                    // A start that waits must not outlive the emergency.
+                    if flies || self.departure.is_some() {
                         self.end(now, Outcome::Emergency);
                     }
                 }
