@@ -148,9 +148,14 @@ fn the_page_shows_the_flight_and_orders_it() {
     chromium.click(&tab, "#map", [60.0, 40.0]);
     chromium.wait(&tab, "!document.querySelector('#go').hidden");
     chromium.click(&tab, "#fly", [0.0; 2]);
-    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('sent by hand')");
-    chromium
-        .wait(&tab, "document.querySelector('#events').innerText.includes('is where it was sent')");
+    chromium.wait(
+        &tab,
+        "document.querySelector('#events').innerText.includes('flying to a manual target')",
+    );
+    chromium.wait(
+        &tab,
+        "document.querySelector('#events').innerText.includes('manual target reached')",
+    );
     let target = chromium.evaluate(&tab, "status.target");
     assert!(target["x_m"].as_f64() > Some(0.1) && target["y_m"].as_f64() < Some(0.5), "{target}");
     chromium.click(&tab, "#resume", [0.0; 2]);
@@ -219,7 +224,7 @@ fn a_page_that_hears_nothing_says_so() {
     signal(&flown.child, "-STOP");
     chromium.wait(
         &tab,
-        "document.querySelector('#alarm').innerText.startsWith('No word from ardrone-pilot')",
+        "document.querySelector('#alarm').innerText.startsWith('No data from ardrone-pilot')",
     );
     signal(&flown.child, "-CONT");
     chromium.wait(&tab, hidden);

@@ -223,7 +223,7 @@ fn a_plan_can_be_checked_without_a_drone() {
     assert!(svg.starts_with("<svg") && svg.contains("height over expected time"));
     let output = pilot(&["check", plan, "--svg", "/no/such/folder/plan.svg"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("cannot write the picture /no/such/folder/plan.svg"));
+    assert!(stderr(&output).contains("cannot write the drawing /no/such/folder/plan.svg"));
 }
 
 #[test]

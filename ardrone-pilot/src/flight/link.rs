@@ -55,9 +55,9 @@ impl fmt::Display for Trouble {
         match self {
             Self::Refused { port, kind, number } => {
                 let error = number.map_or(io::Error::from(*kind), io::Error::from_raw_os_error);
-                write!(f, "the system refuses {port}: {error}; trying on")
+                write!(f, "the system refuses {port}: {error}; retrying")
             }
-            Self::Flood => f.write_str("navdata come faster than they can be looked at"),
+            Self::Flood => f.write_str("navdata arrive faster than they can be processed"),
         }
     }
 }

@@ -157,7 +157,7 @@ fn timeline(page: &mut String, flight: &Flight<'_>) {
     *page += "</tbody>\n</table>\n";
     let more = flight.decisions.len().saturating_sub(MOST_ROWS);
     if more > 0 {
-        _ = writeln!(page, "<p class=\"faint\">… and {more} more; the plots tell all of them.</p>");
+        _ = writeln!(page, "<p class=\"faint\">… and {more} more; the plots show all of them.</p>");
     }
 }
 

@@ -92,13 +92,13 @@ fn the_pre_flight_check_reports_every_reason() {
         refusals(short, tilted, 3, now),
         [
             "the drone is tilted by 9°: put it on level ground",
-            "only 3 packets of flight data a second: at least 5 are needed; go nearer, or to \
-             another channel",
+            "only 3 packets of flight data a second: at least 5 are needed; move closer, or use \
+             another Wi-Fi channel",
         ]
     );
     assert_eq!(
         refusals(short, fine, 15, Duration::from_millis(501)),
-        ["the newest flight data are 501 ms old: go nearer, or to another channel"]
+        ["the newest flight data are 501 ms old: move closer, or use another Wi-Fi channel"]
     );
     assert_eq!(
         refusals(short, Demo { battery_percent: 20, ..fine }, 15, now),
