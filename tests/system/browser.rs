@@ -344,7 +344,7 @@ fn no_client_disturbs_the_flight() {
 }
 
 #[test]
-fn a_port_that_is_taken_is_told_before_anything_flies() {
+fn a_port_in_use_is_reported_before_anything_flies() {
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let plan = plan_file("takeoff\nland\n");
     let address = taken.local_addr().unwrap().to_string();

@@ -285,8 +285,8 @@ mod tests {
         let lost = || Err(io::Error::from(io::ErrorKind::AddrNotAvailable));
         let now = Duration::from_secs(1);
         assert_eq!(link.judge(Port::At, now, lost()), None);
-        let told = link.poll_trouble().unwrap();
-        assert!(matches!(told, Trouble::Refused { port: Port::At, .. }), "{told}");
+        let reported = link.poll_trouble().unwrap();
+        assert!(matches!(reported, Trouble::Refused { port: Port::At, .. }), "{reported}");
         // Before another call can succeed.
         assert!(link.mend(Port::At, now) && link.is_silent(now));
         link.bind_navdata_anew();

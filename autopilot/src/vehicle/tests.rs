@@ -23,11 +23,11 @@ fn a_drone_that_never_answers_ends_the_flight() {
     while vehicle.poll().is_some() {}
     vehicle.tick(CONNECT_TIMEOUT).unwrap();
     assert_eq!(vehicle.outcome(), Some(&Outcome::NoDrone));
-    let said: Vec<_> =
+    let outputs: Vec<_> =
         std::iter::from_fn(|| vehicle.poll().map(|output| matches!(output, Output::Ended(_))))
             .collect();
-    assert_eq!(said.iter().filter(|ended| **ended).count(), 1, "the end is said once");
-    assert_eq!(said.last(), Some(&true), "and last");
+    assert_eq!(outputs.iter().filter(|ended| **ended).count(), 1, "the end is said once");
+    assert_eq!(outputs.last(), Some(&true), "and last");
 }
 
 #[test]
