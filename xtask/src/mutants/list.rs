@@ -183,6 +183,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "self.carried_off.lasts(now.now)",
                 "self.carried_off.lasts(Duration::ZERO)",
             ),
+            edit(
+                SAFETY,
+                "let is_hopeless = is_across && self.way_back.is_none(now);",
+                "let is_hopeless = false;",
+            ),
         ],
     ),
     mutant(
