@@ -159,14 +159,14 @@ fn the_page_shows_the_flight_and_orders_it() {
     let target = chromium.evaluate(&tab, "status.target");
     assert!(target["x_m"].as_f64() > Some(0.1) && target["y_m"].as_f64() < Some(0.5), "{target}");
     chromium.click(&tab, "#resume", [0.0; 2]);
-    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('going on')");
+    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('mission resumed')");
     // Reloading and opening the page twice loses nothing.
     chromium.reload(&tab);
     let second = chromium.open(&flown.url());
     for tab in [&tab, &second] {
         chromium.wait(tab, "document.querySelector('#events').innerText.includes('drone found')");
         chromium.wait(tab, "document.querySelector('#events').innerText.includes('holding')");
-        chromium.wait(tab, "!status.plan_waits");
+        chromium.wait(tab, "!status.mission_waits");
         // A page in the background is not drawn.
         chromium.wait(tab, "trail.length > 40");
     }
