@@ -68,7 +68,7 @@ mod tests {
     const MS: Duration = Duration::from_millis(1);
 
     #[test]
-    fn a_refusal_is_told_once_and_one_that_lasts_asks_for_a_new_socket() {
+    fn a_refusal_is_reported_once_and_one_that_lasts_asks_for_a_new_socket() {
         let mut health = SocketHealth::default();
         let refused = Error::from(ErrorKind::PermissionDenied);
         assert!(health.failed(Duration::ZERO, &refused));

@@ -60,10 +60,10 @@ fn acquire_priority() -> bool {
 
 impl fmt::Display for Realtime {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let said = |has: bool, yes: &'static str, no: &'static str| if has { yes } else { no };
-        f.write_str(said(self.priority, "real-time priority", "no real-time priority"))?;
-        f.write_str(said(self.memory, ", memory locked", ", memory not locked"))?;
-        f.write_str(said(self.timers, ", exact timers", ", coarse timers"))?;
+        let choose = |has: bool, yes: &'static str, no: &'static str| if has { yes } else { no };
+        f.write_str(choose(self.priority, "real-time priority", "no real-time priority"))?;
+        f.write_str(choose(self.memory, ", memory locked", ", memory not locked"))?;
+        f.write_str(choose(self.timers, ", exact timers", ", coarse timers"))?;
         if !self.priority {
             f.write_str(
                 ": on a busy machine ticks will be late (allow it with \
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_missing_is_said_with_its_remedy() {
+    fn what_is_missing_is_reported_with_its_remedy() {
         let all = Realtime { priority: true, memory: true, timers: true };
         assert_eq!(all.to_string(), "real-time priority, memory locked, exact timers");
         let none = Realtime::default().to_string();

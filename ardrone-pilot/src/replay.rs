@@ -20,10 +20,10 @@ use crate::settings::{Settings, SettingsError};
 #[derive(Debug, thiserror::Error)]
 pub enum ReplayError {
     /// Its settings are invalid in this version.
-    #[error("the log's settings are refused today")]
+    #[error("the log's settings are not valid in this version")]
     Settings(#[from] SettingsError),
     /// Its plan is invalid in this version.
-    #[error("the log's plan is refused today")]
+    #[error("the log's plan is not valid in this version")]
     Plan(#[from] PlanError),
     /// An order in it is invalid in this version.
     #[error(transparent)]
@@ -35,7 +35,7 @@ pub enum ReplayError {
     #[error(transparent)]
     Encode(#[from] EncodeError),
     /// The log contains no ticks.
-    #[error("there is no tick in the log: no drone was heard")]
+    #[error("the log contains no ticks: no drone answered")]
     Empty,
 }
 

@@ -423,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_told_with_their_place() {
+    fn mistakes_are_reported_with_their_place() {
         for (text, said) in [
             ("[drone]\ntilt_max = 3", "line 2, column 1"),
             ("[drone]\ntilt_max_deg = \"much\"", "line 2, column 16"),

@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn the_worst_tick_is_told_with_its_cause() {
+    fn the_worst_tick_is_reported_with_its_cause() {
         let worst = |lateness, control, held_up| {
             let mut recorder = TickRecorder::default();
             tick(&mut recorder, Duration::ZERO, 50 * US, 9 * US);

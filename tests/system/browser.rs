@@ -148,20 +148,25 @@ fn the_page_shows_the_flight_and_orders_it() {
     chromium.click(&tab, "#map", [60.0, 40.0]);
     chromium.wait(&tab, "!document.querySelector('#go').hidden");
     chromium.click(&tab, "#fly", [0.0; 2]);
-    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('sent by hand')");
-    chromium
-        .wait(&tab, "document.querySelector('#events').innerText.includes('is where it was sent')");
+    chromium.wait(
+        &tab,
+        "document.querySelector('#events').innerText.includes('flying to a manual target')",
+    );
+    chromium.wait(
+        &tab,
+        "document.querySelector('#events').innerText.includes('manual target reached')",
+    );
     let target = chromium.evaluate(&tab, "status.target");
     assert!(target["x_m"].as_f64() > Some(0.1) && target["y_m"].as_f64() < Some(0.5), "{target}");
     chromium.click(&tab, "#resume", [0.0; 2]);
-    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('going on')");
+    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('mission resumed')");
     // Reloading and opening the page twice loses nothing.
     chromium.reload(&tab);
     let second = chromium.open(&flown.url());
     for tab in [&tab, &second] {
         chromium.wait(tab, "document.querySelector('#events').innerText.includes('drone found')");
         chromium.wait(tab, "document.querySelector('#events').innerText.includes('holding')");
-        chromium.wait(tab, "!status.plan_waits");
+        chromium.wait(tab, "!status.mission_waits");
         // A page in the background is not drawn.
         chromium.wait(tab, "trail.length > 40");
     }
@@ -219,7 +224,7 @@ fn a_page_that_hears_nothing_says_so() {
     signal(&flown.child, "-STOP");
     chromium.wait(
         &tab,
-        "document.querySelector('#alarm').innerText.startsWith('No word from ardrone-pilot')",
+        "document.querySelector('#alarm').innerText.startsWith('No data from ardrone-pilot')",
     );
     signal(&flown.child, "-CONT");
     chromium.wait(&tab, hidden);
@@ -339,7 +344,7 @@ fn no_client_disturbs_the_flight() {
 }
 
 #[test]
-fn a_port_that_is_taken_is_told_before_anything_flies() {
+fn a_port_in_use_is_reported_before_anything_flies() {
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let plan = plan_file("takeoff\nland\n");
     let address = taken.local_addr().unwrap().to_string();

@@ -1,4 +1,4 @@
-//! Controls a headless Chromium through the DevTools protocol, as far as these tests need it.
+//! Controls a headless Chromium through the `DevTools` protocol, as far as these tests need it.
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;

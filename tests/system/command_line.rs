@@ -223,11 +223,11 @@ fn a_plan_can_be_checked_without_a_drone() {
     assert!(svg.starts_with("<svg") && svg.contains("height over expected time"));
     let output = pilot(&["check", plan, "--svg", "/no/such/folder/plan.svg"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("cannot write the picture /no/such/folder/plan.svg"));
+    assert!(stderr(&output).contains("cannot write the drawing /no/such/folder/plan.svg"));
 }
 
 #[test]
-fn a_bad_plan_is_told_to_programs_too() {
+fn a_bad_plan_is_reported_to_programs_too() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("plan.txt");
     std::fs::write(&path, "goto 0 1 0 0\nfly\n").unwrap();
@@ -255,7 +255,7 @@ fn shells_and_manuals_are_served() {
 }
 
 #[test]
-fn programs_are_told_of_a_flight_line_by_line() {
+fn programs_get_the_flight_line_by_line() {
     let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/../plans/square.txt");
     let output = pilot(&["--plan", plan, "--mock", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));

@@ -341,7 +341,7 @@ fn a_flood_delays_no_tick_and_loses_no_tick_of_the_log() {
     let [summary, progress] = [&output.stdout, &output.stderr].map(|t| String::from_utf8_lossy(t));
     println!("flooded for {:?}, worst gap {gap:?}\n{summary}", ended - begun);
     assert_eq!(relay.truth().phase, Phase::Landed);
-    assert!(progress.contains("navdata come faster than they can be looked at"), "{progress}");
+    assert!(progress.contains("navdata arrive faster than they can be processed"), "{progress}");
     assert!(!summary.contains("the disk was too slow"), "{summary}");
     // The machine may be busy.
     assert!(gap < Duration::from_millis(100), "{gap:?}");

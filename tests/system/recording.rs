@@ -70,7 +70,7 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
 }
 
 #[test]
-fn other_code_is_told_apart() {
+fn other_code_is_recognised() {
     let (_, file) = recorded(SQUARE, &Simulation::default());
     let mut log = Log::read(&file).unwrap();
     log.settings = log.settings.replace("law = \"cascade\"", "law = \"tum\"");
@@ -362,7 +362,7 @@ fn a_hostile_log_makes_no_large_page() {
 }
 
 #[test]
-fn a_report_tells_what_went_wrong() {
+fn a_report_shows_what_went_wrong() {
     let scenario = mock_drone::scenario::Scenario::parse("faults", "8 battery 5\n").unwrap();
     let world = mock_drone::WorldConfig { scenario, ..Default::default() };
     let (_, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
@@ -379,7 +379,7 @@ fn a_report_tells_what_went_wrong() {
 
 /// A refused flight has no warnings in flight, but its outcome is one.
 #[test]
-fn a_refused_flight_is_not_told_as_a_good_one() {
+fn a_refused_flight_is_not_reported_as_a_good_one() {
     let mut world = mock_drone::WorldConfig::default();
     world.drone.battery_percent = 10.0;
     let (flight, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });

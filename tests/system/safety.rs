@@ -275,7 +275,7 @@ fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
         assert_eq!(flight.outcome, Outcome::Completed);
         assert!(there_m < 0.25, "seed {seed}: {there_m:.2} m off");
         let count = |event| flight.events.iter().filter(|(_, told)| *told == event).count();
-        assert_eq!(count(FlightEvent::SentByHand), 3);
+        assert_eq!(count(FlightEvent::ManualTargetSet), 3);
         assert_eq!(count(FlightEvent::ManualTargetReached), 1);
     }
 }
@@ -319,6 +319,6 @@ fn a_place_given_by_hand_may_be_outside_or_never_reached() {
     assert!(events.contains(&FlightEvent::ManualTargetReached), "{events:?}");
     assert!((3.5..4.3).contains(&away_m), "{away_m:.2} m");
     let (events, _) = fly(100.0, "setMaxControl 0.05\n", vec![sent]);
-    let given_up = FlightEvent::LandingOrdered(LandingReason::HandTargetTimedOut);
+    let given_up = FlightEvent::LandingOrdered(LandingReason::ManualTargetTimedOut);
     assert!(events.contains(&given_up), "{events:?}");
 }

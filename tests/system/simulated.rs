@@ -305,7 +305,7 @@ fn a_step_that_makes_no_progress_is_given_up() {
     let scenario = Scenario::parse("gusts", "0 wind 0.5 0.5 gusts 0.4").unwrap();
     let world = WorldConfig { scenario, ..WorldConfig::default() };
     let flight = fly(&Simulation { world, ..Simulation::default() }, text);
-    let reason = "step 5 was not done in its time".to_owned();
+    let reason = "step 5 exceeded its time limit".to_owned();
     assert_eq!(flight.outcome, Outcome::Failsafe { reason });
     assert_eq!(flight.final_truth.phase, Phase::Landed);
 }

@@ -72,7 +72,7 @@ pub enum ReadyError {
     #[error("the drone's configuration could not be read back: is its TCP port 5559 reachable?")]
     NotReadBack,
     /// The drone reports other values for these keys.
-    #[error("the drone has not taken the values of {}", keys.join(", "))]
+    #[error("the drone has not applied the values of {}", keys.join(", "))]
     NotTaken {
         /// Each as `section:name`.
         keys: Vec<String>,

@@ -264,9 +264,9 @@ impl Link {
         for _ in 0..PARTING_TICKS {
             clock.tick().await;
             let now = start.elapsed();
-            let said = self.session.part(now, datagram).is_ok();
+            let sent = self.session.part(now, datagram).is_ok();
             // A drone that was never sent anything must not be landed: another client may fly it.
-            if !said || datagram.as_bytes().is_empty() || parted == PARTING_ORDERS {
+            if !sent || datagram.as_bytes().is_empty() || parted == PARTING_ORDERS {
                 return;
             }
             parted += u32::from(self.at.send(now, datagram.as_bytes()).await);

@@ -241,7 +241,7 @@ impl Orders {
     }
 
     fn watch_landing(&mut self, now: Duration, seen: &Seen) {
-        let settled = self.take_off_sent.is_none_or(|said| now.saturating_sub(said) >= SETTLE);
+        let settled = self.take_off_sent.is_none_or(|sent| now.saturating_sub(sent) >= SETTLE);
         let timed_out = FlightError::LandingTimedOut { limit: self.limits.landing };
         settle(&mut self.landing, now, &timed_out, |waiting| {
             if !seen.alive {

@@ -76,8 +76,8 @@ async fn a_panic_orders_the_landing_and_ends_every_wait() {
     assert_eq!(landing, Err(ClientError::Task.into()));
     assert_eq!(cut, Err(ClientError::Task.into()));
     let mut landings = 0;
-    while let Ok(said) = timeout(PATIENCE, ground.hear()).await {
-        landings += u32::from(said == [Command::Ref(Ref::Land), Command::Pcmd(Motion::Hover)]);
+    while let Ok(commands) = timeout(PATIENCE, ground.hear()).await {
+        landings += u32::from(commands == [Command::Ref(Ref::Land), Command::Pcmd(Motion::Hover)]);
         if landings == PARTING_ORDERS {
             break;
         }
@@ -144,7 +144,7 @@ async fn without_a_drone_every_wait_ends_with_a_reason() {
 }
 
 #[tokio::test]
-async fn what_cannot_be_sent_or_found_is_told_at_the_start() {
+async fn what_cannot_be_sent_or_found_is_reported_at_the_start() {
     let mode = Client::builder().setting(crate::Setting::NavdataDemo(false)).start().await;
     assert!(matches!(mode, Err(StartError::Setting(crate::SettingError::Navdata { .. }))));
     // The type of a port rules out invalid numbers; a host with a space cannot be resolved.

@@ -46,7 +46,7 @@ impl Wire {
             }
             Err(error) => {
                 if self.health.failed(now, &error) {
-                    tracing::warn!("the system refuses {}: {error}; trying on", self.name);
+                    tracing::warn!("the system refuses {}: {error}; retrying", self.name);
                 }
                 None
             }

@@ -343,7 +343,7 @@ fn identities_are_selected_first_and_stand_before_each_key() {
 }
 
 #[test]
-fn flying_and_landing_are_told_and_a_take_off_that_does_not_come_is_given_up() {
+fn flying_and_landing_are_reported_and_a_take_off_that_does_not_come_is_given_up() {
     let mut bench = Bench::new(&[]);
     let mut events = Vec::new();
     let take_off = |commands: &[Command]| commands.contains(&Command::Ref(Ref::TakeOff));

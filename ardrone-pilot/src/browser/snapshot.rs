@@ -136,7 +136,7 @@ mod tests {
     use autopilot::vehicle::FlightEvent;
 
     #[test]
-    fn whoever_comes_later_knows_what_happened() {
+    fn a_late_viewer_knows_what_happened() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\nland\n").unwrap();
         let mut snapshot = Snapshot::new(Some(&plan), &FlightLimits::default());
         for step in 0..EVENTS + 5 {

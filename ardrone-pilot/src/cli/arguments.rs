@@ -22,17 +22,17 @@ Exit status:
    50  emergency: the drone cut its motors
   130  the operator landed it (Ctrl-C)
 
-Without --plan it is 0 if an operator left it with the drone down, whatever became of its flights.
+Without --plan it is 0 if an operator quit with the drone down, whatever the outcomes of its flights.
 
-Ctrl-C lands the drone and waits for the ground; a second one leaves at once, with the
+Ctrl-C lands the drone and waits for the ground; a second one exits at once, with the
 landing ordered. SIGTERM and a closed terminal do the same.
 
 Keys, in a terminal:
-    space     hold the place; the mission waits
+    space     hold the position; the mission is paused
     r         resume the mission
     l         land
     q         land and quit, as Ctrl-C
-    w a s d   fly forward, left, back, right by hand, as long as pressed
+    w a s d   fly forward, left, back, right, as long as pressed
     arrows    climb, sink, turn
     e e       cut the motors: the drone falls
     :         type an order, with history and completion; :help lists them";

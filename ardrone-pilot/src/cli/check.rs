@@ -51,7 +51,7 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     if let Some(path) = &arguments.svg {
         let drawing = plan_drawing::svg(&name, &plan, &limits)?;
         std::fs::write(path, drawing).map_err(|source| CommandError::Write {
-            what: "the picture",
+            what: "the drawing",
             path: path.display().to_string(),
             source,
         })?;

@@ -68,7 +68,9 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let controls = flight.controls();
     // Not fatal, because the drone may already be flying.
     if let Err(error) = leave::on_second_signal(controls.clone()) {
-        progress.warn(&format!("a second Ctrl-C waits for whoever reads: {error}"));
+        progress.warn(&format!(
+            "a second Ctrl-C cannot end the program while its output is blocked: {error}"
+        ));
     }
     let open = |listener: Listener| listener.open(plan.as_ref(), &config.limits, controls.clone());
     let browser = listener.map(open).transpose().unwrap_or_else(|error| {

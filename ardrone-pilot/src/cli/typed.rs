@@ -41,7 +41,7 @@ pub(super) enum TypedError {
     Read { path: String, source: std::io::Error },
     #[error(transparent)]
     Plan(#[from] PlanError),
-    #[error("`{0}` stands alone")]
+    #[error("`{0}` takes no argument")]
     Alone(String),
     #[error("write `load FILE`")]
     NoFile,
@@ -157,7 +157,7 @@ mod tests {
             assert!(matches!(typed(line), Ok(Typed::Order(OperatorOrder::Append(_)))), "{line}");
         }
         assert!(typed("gotoo 0 1 0 0").unwrap_err().contains("did you mean `goto`?"));
-        assert!(typed("land now").unwrap_err().contains("stands alone"));
+        assert!(typed("land now").unwrap_err().contains("takes no argument"));
         assert!(typed("load").unwrap_err().contains("load FILE"));
         assert!(typed("load no/such/file").unwrap_err().contains("no/such/file"));
     }

@@ -55,9 +55,9 @@ impl fmt::Display for Trouble {
         match self {
             Self::Refused { port, kind, number } => {
                 let error = number.map_or(io::Error::from(*kind), io::Error::from_raw_os_error);
-                write!(f, "the system refuses {port}: {error}; trying on")
+                write!(f, "the system refuses {port}: {error}; retrying")
             }
-            Self::Flood => f.write_str("navdata come faster than they can be looked at"),
+            Self::Flood => f.write_str("navdata arrive faster than they can be processed"),
         }
     }
 }
@@ -285,8 +285,8 @@ mod tests {
         let lost = || Err(io::Error::from(io::ErrorKind::AddrNotAvailable));
         let now = Duration::from_secs(1);
         assert_eq!(link.judge(Port::At, now, lost()), None);
-        let told = link.poll_trouble().unwrap();
-        assert!(matches!(told, Trouble::Refused { port: Port::At, .. }), "{told}");
+        let reported = link.poll_trouble().unwrap();
+        assert!(matches!(reported, Trouble::Refused { port: Port::At, .. }), "{reported}");
         // Before another call can succeed.
         assert!(link.mend(Port::At, now) && link.is_silent(now));
         link.bind_navdata_anew();

@@ -528,7 +528,7 @@ impl TickLoop {
                     }
                     Message::Ended(now, outcome, Box::new(self.vehicle.report().clone()))
                 }
-                // Sent already; and the end is told when everything has ended.
+                // Sent already; the end is reported by `finish`.
                 Output::Transmit(_) | Output::Ended(_) => continue,
             };
             self.send(message);

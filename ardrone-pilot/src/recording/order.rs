@@ -43,7 +43,7 @@ enum Ordered {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum OrderError {
     /// Its plan or commands are invalid in this version.
-    #[error("a plan that was loaded is refused today")]
+    #[error("a loaded plan is not valid in this version")]
     Plan(#[from] PlanError),
     /// The operator's station is unknown in this version.
     #[error("an order came from `{0}`, which is not known")]

@@ -123,14 +123,17 @@ impl Log {
             let text = content.texts.remove(name);
             text.ok_or_else(|| LogError::Foreign { missing: name.to_owned() })
         };
-        let told = |key: &str| {
+        let metadata = |key: &str| {
             flight.get(key).cloned().ok_or_else(|| LogError::Foreign { missing: key.to_owned() })
         };
         let format = flight.get("format").map_or("1", String::as_str);
         if !format.parse().is_ok_and(|format: u32| (1..=FORMAT).contains(&format)) {
-            return Err(LogError::Newer { format: format.to_owned(), version: told("version")? });
+            return Err(LogError::Newer {
+                format: format.to_owned(),
+                version: metadata("version")?,
+            });
         }
-        let start = told("start_ns")?
+        let start = metadata("start_ns")?
             .parse()
             .map_err(|_| LogError::Foreign { missing: "start_ns that is a number".to_owned() })?;
         let start = Duration::from_nanos(start);
@@ -139,13 +142,13 @@ impl Log {
             *at = at.saturating_sub(start);
         }
         Ok(Self {
-            plan_name: told("plan")?,
+            plan_name: metadata("plan")?,
             plan: text(PLAN_FILE)?,
             settings: text(SETTINGS_FILE)?,
             agent: text(AGENT_FILE)?,
-            z_origin: ZOrigin::from_name(&told("z_origin")?).unwrap_or_default(),
-            drone: told("drone")?,
-            version: told("version")?,
+            z_origin: ZOrigin::from_name(&metadata("z_origin")?).unwrap_or_default(),
+            drone: metadata("drone")?,
+            version: metadata("version")?,
             start,
             entries,
             complete: content.complete,

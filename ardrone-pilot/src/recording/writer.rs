@@ -106,7 +106,9 @@ impl<W: Write + Seek> LogWriter<W> {
                 }
                 Ok(())
             }
-            Record::Control { at, bytes: said } => self.message(topic::CONTROL, *at, &bytes(said)),
+            Record::Control { at, bytes: block } => {
+                self.message(topic::CONTROL, *at, &bytes(block))
+            }
             Record::Order { at, by, order } => {
                 self.message(topic::ORDERS, *at, &Order::new(*by, order))
             }

@@ -111,7 +111,7 @@ impl<'a> Flight<'a> {
     fn extend_decision(&mut self, at_s: f64, until_s: f64, tick: &Tick, steps: &[String]) {
         let Tick { agent, veto, .. } = tick;
         let danger = agent.danger.iter().map(|danger| format!("danger: {}", label(danger)));
-        let veto = veto.iter().map(|veto| format!("the guard: {}", label(veto)));
+        let veto = veto.iter().map(|veto| format!("safety monitor: {}", label(veto)));
         let plans = agent.plans.iter().map(|plan| (label(&plan.trigger), plan.line));
         let step = tick.step.map_or_else(|| label(&tick.phase), |step| step_text(steps, step));
         let decision = Decision {

@@ -12,7 +12,7 @@ use crate::recording::Log;
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The log contains no navdata.
-    #[error("there is no tick in the log: no drone was heard")]
+    #[error("the log contains no ticks: no drone answered")]
     Empty,
     /// The drawing library failed.
     #[error("cannot draw the report: {0}")]

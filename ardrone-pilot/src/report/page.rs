@@ -94,8 +94,8 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
         None => (true, "the log was cut off: what is here is what was written before"),
     };
     let class = if ill || warning.is_some() { "outcome warn" } else { "outcome" };
-    let told = format!("{ended}{}", warning.unwrap_or_default());
-    _ = writeln!(page, "<p class=\"{class}\">{}</p>\n<div class=\"facts\">", escaped(&told));
+    let summary = format!("{ended}{}", warning.unwrap_or_default());
+    _ = writeln!(page, "<p class=\"{class}\">{}</p>\n<div class=\"facts\">", escaped(&summary));
     let mut fact = |name: &str, value: String| {
         _ = writeln!(page, "<div><b>{value}</b>{name}</div>");
     };
@@ -157,7 +157,7 @@ fn timeline(page: &mut String, flight: &Flight<'_>) {
     *page += "</tbody>\n</table>\n";
     let more = flight.decisions.len().saturating_sub(MOST_ROWS);
     if more > 0 {
-        _ = writeln!(page, "<p class=\"faint\">… and {more} more; the plots tell all of them.</p>");
+        _ = writeln!(page, "<p class=\"faint\">… and {more} more; the plots show all of them.</p>");
     }
 }
 

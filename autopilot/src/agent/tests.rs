@@ -97,7 +97,7 @@ fn an_empty_battery_does_not_take_off() {
 }
 
 #[test]
-fn a_drone_that_cannot_be_believed_does_not_take_off() {
+fn implausible_navdata_forbid_the_take_off() {
     for percepts in [
         Percepts { blind_for_ms: 301, ..GROUND },
         Percepts { blind_for_ms: i64::MAX, ..GROUND },

@@ -128,7 +128,7 @@ impl Plan {
             1 => "is a warning".to_owned(),
             several => format!("are {several} warnings"),
         };
-        plan.notes.push(format!("there {warnings}: `ardrone-pilot check {name}` tells"));
+        plan.notes.push(format!("there {warnings}: run `ardrone-pilot check {name}`"));
         Ok(plan)
     }
 

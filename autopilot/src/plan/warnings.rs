@@ -62,7 +62,7 @@ impl Review<'_> {
                 self.warn(
                     "the drone may stray less while it stays than when it arrives",
                     span,
-                    "each stay would begin anew until it is so near: make `setStayWithinDist` larger than \
+                    "each stay would restart until the drone is that near: make `setStayWithinDist` larger than \
                      `setInitialReachDist`",
                 );
             }
@@ -224,7 +224,7 @@ mod tests {
         let notes = |text| Plan::parse("p.txt", text).unwrap().notes().to_vec();
         assert!(notes("takeoff\ngoto 0 1 0 0\nland\n").is_empty());
         let low = notes("takeoff\ngoto 0 0 -0.5 0\nland\n");
-        assert_eq!(low, ["there is a warning: `ardrone-pilot check p.txt` tells"]);
+        assert_eq!(low, ["there is a warning: run `ardrone-pilot check p.txt`"]);
     }
 
     /// Lines before one that cannot be parsed are checked too.

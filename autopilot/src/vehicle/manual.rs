@@ -74,7 +74,7 @@ impl Vehicle {
 
     pub(super) fn send_to(&mut self, now: Duration, x_m: f64, y_m: f64) {
         let wanted = Pose { x_m, y_m, ..self.flight.target.unwrap_or_else(|| self.pose(now)) };
-        self.begin_manual(FlightEvent::SentByHand);
+        self.begin_manual(FlightEvent::ManualTargetSet);
         self.agent_holds();
         let place = self.mission.inside(&wanted, INSIDE_M);
         self.flight.manual.mode = Mode::SentTo { place, offered: false };

@@ -90,7 +90,7 @@ pub enum Refused {
     #[error("{0}")]
     Command(#[from] AppendError),
     /// A coordinate is not a finite number.
-    #[error("this is no place: its coordinates must be numbers")]
+    #[error("this is not a place: its coordinates must be numbers")]
     NoPlace,
     /// The drone is not in its emergency state, or not on the ground.
     #[error("there is no emergency to recover from on the ground")]

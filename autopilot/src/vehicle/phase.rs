@@ -137,7 +137,7 @@ pub enum LandingReason {
         step: usize,
     },
     /// The operator's manual target was not reached in time.
-    HandTargetTimedOut,
+    ManualTargetTimedOut,
     /// The navdata are not plausible.
     Distrust(Trust),
     /// The position uncertainty is too large.
@@ -160,15 +160,13 @@ impl fmt::Display for LandingReason {
             Self::LinkLost => f.write_str("link lost"),
             Self::DroneRestarted => f.write_str("the drone has restarted"),
             Self::StepFailed { step } => write!(f, "step {} failed", step + 1),
-            Self::StepTimedOut { step } => write!(f, "step {} was not done in its time", step + 1),
-            Self::HandTargetTimedOut => {
-                f.write_str("the place it was sent to by hand was not reached in time")
-            }
+            Self::StepTimedOut { step } => write!(f, "step {} exceeded its time limit", step + 1),
+            Self::ManualTargetTimedOut => f.write_str("the manual target was not reached in time"),
             Self::Distrust(trust) => trust.fmt(f),
-            Self::PlaceUncertain => f.write_str("the place is too uncertain"),
-            Self::Wind => f.write_str("the wind is too strong to hold the place"),
+            Self::PlaceUncertain => f.write_str("the position uncertainty is too large"),
+            Self::Wind => f.write_str("the wind is too strong to hold the position"),
             Self::DroneFault(fault) => f.write_str(fault),
-            Self::TakeOverRefused => f.write_str("the drone must not be flown on"),
+            Self::TakeOverRefused => f.write_str("the drone must not continue to fly"),
             Self::Safety(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
             Self::Safety(Veto::CarriedOff) => {
                 f.write_str("the wind carries the drone over the fence")
@@ -320,7 +318,7 @@ impl Vehicle {
             },
             Danger::Lost => LandingReason::PlaceUncertain,
             Danger::Wind => LandingReason::Wind,
-            Danger::NoProgress if self.flight.manual.sends() => LandingReason::HandTargetTimedOut,
+            Danger::NoProgress if self.flight.manual.sends() => LandingReason::ManualTargetTimedOut,
             Danger::NoProgress => LandingReason::StepTimedOut {
                 step: self.flight.due.map_or(0, |active| active.due.step),
             },

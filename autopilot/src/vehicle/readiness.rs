@@ -102,13 +102,13 @@ impl fmt::Display for NotReady {
             Self::Silent => f.write_str("the drone sends no flight data"),
             Self::OldNavdata { age } => write!(
                 f,
-                "the newest flight data are {} ms old: go nearer, or to another channel",
+                "the newest flight data are {} ms old: move closer, or use another Wi-Fi channel",
                 age.as_millis()
             ),
             Self::FewNavdata { hz } => write!(
                 f,
                 "only {hz:.0} packets of flight data a second: at least {LEAST_NAVDATA_HZ:.0} are \
-                 needed; go nearer, or to another channel"
+                 needed; move closer, or use another Wi-Fi channel"
             ),
             Self::Distrust(trust) => write!(f, "{trust}: restart the drone"),
             Self::NotOnFloor { altitude_m } => write!(
@@ -128,9 +128,9 @@ impl fmt::Display for NotReady {
                 flight.as_secs()
             ),
             Self::NotLanded => f.write_str(
-                "the drone is not landed: land it first, or begin the plan with `autoTakeover`",
+                "the drone is in the air: land it first, or begin the plan with `autoTakeover`",
             ),
-            Self::Settings(keys) => write!(f, "the drone has not taken its settings: {keys}"),
+            Self::Settings(keys) => write!(f, "the drone has not applied its settings: {keys}"),
             Self::SettingsNotRead => f.write_str(
                 "the drone's settings could not be read back over its control port: restart the \
                  drone, or set `read_back = false` to fly on its acknowledgements alone",

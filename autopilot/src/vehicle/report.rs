@@ -83,7 +83,7 @@ pub enum FlightEvent {
     /// An operator flies by stick.
     Steered,
     /// An operator has sent the drone to a manual target.
-    SentByHand,
+    ManualTargetSet,
     /// The manual target was reached.
     ManualTargetReached,
     /// The mission was resumed.
@@ -112,7 +112,7 @@ impl FlightEvent {
             | Self::MissionCleared
             | Self::Held
             | Self::Steered
-            | Self::SentByHand
+            | Self::ManualTargetSet
             | Self::ManualTargetReached
             | Self::Resumed => false,
             Self::ConfigurationNotRead
@@ -157,18 +157,18 @@ impl fmt::Display for FlightEvent {
             Self::BatteryLow { percent } => write!(f, "battery at {percent} %: land soon"),
             Self::EmergencyCleared => f.write_str("emergency cleared"),
             Self::Landed => f.write_str("landed"),
-            Self::FlownByAnother => {
-                f.write_str("somebody else flies the drone: nothing is sent to it until it stands")
-            }
+            Self::FlownByAnother => f.write_str(
+                "another pilot flies the drone: nothing is sent to it until it has landed",
+            ),
             Self::MissionLoaded { steps } => write!(f, "mission loaded: {}", counted(*steps)),
             Self::MissionExtended { steps } => write!(f, "mission extended: {}", counted(*steps)),
             Self::MissionCleared => f.write_str("mission cleared"),
             Self::ControlsTaken { by } => write!(f, "{by} has taken the controls"),
             Self::Held => f.write_str("holding"),
-            Self::Steered => f.write_str("flown by hand"),
-            Self::SentByHand => f.write_str("sent by hand"),
-            Self::ManualTargetReached => f.write_str("it is where it was sent by hand"),
-            Self::Resumed => f.write_str("going on with the plan"),
+            Self::Steered => f.write_str("manual control"),
+            Self::ManualTargetSet => f.write_str("flying to a manual target"),
+            Self::ManualTargetReached => f.write_str("manual target reached"),
+            Self::Resumed => f.write_str("mission resumed"),
             Self::CutOrdered => f.write_str("EMERGENCY CUT ordered"),
             Self::Veto(veto) => f.write_str(match veto {
                 Veto::StaleNavdata => "no fresh navdata: hovering",

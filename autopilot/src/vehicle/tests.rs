@@ -23,11 +23,11 @@ fn a_drone_that_never_answers_ends_the_flight() {
     while vehicle.poll().is_some() {}
     vehicle.tick(CONNECT_TIMEOUT).unwrap();
     assert_eq!(vehicle.outcome(), Some(&Outcome::NoDrone));
-    let said: Vec<_> =
+    let outputs: Vec<_> =
         std::iter::from_fn(|| vehicle.poll().map(|output| matches!(output, Output::Ended(_))))
             .collect();
-    assert_eq!(said.iter().filter(|ended| **ended).count(), 1, "the end is said once");
-    assert_eq!(said.last(), Some(&true), "and last");
+    assert_eq!(outputs.iter().filter(|ended| **ended).count(), 1, "the end is said once");
+    assert_eq!(outputs.last(), Some(&true), "and last");
 }
 
 #[test]
@@ -92,13 +92,13 @@ fn the_pre_flight_check_reports_every_reason() {
         refusals(short, tilted, 3, now),
         [
             "the drone is tilted by 9°: put it on level ground",
-            "only 3 packets of flight data a second: at least 5 are needed; go nearer, or to \
-             another channel",
+            "only 3 packets of flight data a second: at least 5 are needed; move closer, or use \
+             another Wi-Fi channel",
         ]
     );
     assert_eq!(
         refusals(short, fine, 15, Duration::from_millis(501)),
-        ["the newest flight data are 501 ms old: go nearer, or to another channel"]
+        ["the newest flight data are 501 ms old: move closer, or use another Wi-Fi channel"]
     );
     assert_eq!(
         refusals(short, Demo { battery_percent: 20, ..fine }, 15, now),

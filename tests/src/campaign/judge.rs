@@ -454,7 +454,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lasts_is_told_from_what_comes_and_goes() {
+    fn lasting_conditions_are_distinguished_from_passing_ones() {
         let mut lasting = Lasting::default();
         let longest = (0..100).map(|tick| lasting.watch(tick % 10 != 0)).max();
         assert_eq!(longest, Some(TICK * 9));

@@ -39,12 +39,12 @@ pub(crate) enum MutantsError {
         times: usize,
     },
     /// A mutant that does not build cannot be judged.
-    #[error("{name} does not build:\n{said}")]
+    #[error("{name} does not build:\n{text}")]
     Build {
         /// The mutant.
         name: String,
         /// The compiler's output.
-        said: String,
+        text: String,
     },
     /// The unmodified code must pass, or else a failing mutant proves nothing.
     #[error("the code as it is does not pass: {0}")]
@@ -89,7 +89,7 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
         workspace.put(&changed)?;
         let end = judged(&workspace, mutant.name, flights);
         workspace.restore(&changed)?;
-        let told = match end {
+        let outcome = match end {
             Ok(End::Caught(what)) => what,
             Ok(End::Survived) => {
                 survivors += 1;
@@ -103,7 +103,7 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
             Err(error) => return Err(error),
         };
         // Printed at once, because the whole run takes a while.
-        let line = format!("{:<46}{told}", mutant.name);
+        let line = format!("{:<46}{outcome}", mutant.name);
         _ = io::Write::write_all(&mut io::stderr(), format!("{line}\n").as_bytes());
         _ = writeln!(text, "{line}");
     }
@@ -124,8 +124,8 @@ fn judged(workspace: &Workspace, name: &str, flights: u64) -> Result<End, Mutant
         .output()
         .map_err(in_file("cannot run", Path::new("cargo")))?;
     if !built.status.success() {
-        let said = String::from_utf8_lossy(&built.stderr).into_owned();
-        return Err(MutantsError::Build { name: name.to_owned(), said });
+        let text = String::from_utf8_lossy(&built.stderr).into_owned();
+        return Err(MutantsError::Build { name: name.to_owned(), text });
     }
     let judge = workspace.target().join("debug/examples/judge");
     let judged = Command::new(&judge).arg(flights.to_string()).output();
@@ -134,10 +134,10 @@ fn judged(workspace: &Workspace, name: &str, flights: u64) -> Result<End, Mutant
 
 /// Evaluates the judge's output; an aborted run has found a fault too.
 fn end(output: &Output) -> End {
-    let said = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    let text = String::from_utf8_lossy(&output.stdout).trim().to_owned();
     match output.status.code() {
         Some(0) => End::Survived,
-        Some(1) if !said.is_empty() => End::Caught(said),
+        Some(1) if !text.is_empty() => End::Caught(text),
         _ => {
             let panic = String::from_utf8_lossy(&output.stderr);
             // The panic message is in the line below the thread and the place.
@@ -191,18 +191,18 @@ mod tests {
     use super::*;
 
     /// Result of a shell script in place of the judge.
-    fn told(script: &str) -> End {
+    fn outcome(script: &str) -> End {
         end(&Command::new("sh").args(["-c", script]).output().unwrap())
     }
 
     #[test]
     fn only_a_judge_that_ends_and_finds_nothing_lets_a_mutant_live() {
-        assert_eq!(told("echo nothing"), End::Survived);
+        assert_eq!(outcome("echo nothing"), End::Survived);
         let caught = |what: &str| End::Caught(what.to_owned());
-        assert_eq!(told("echo seed 3: too far; exit 1"), caught("seed 3: too far"));
+        assert_eq!(outcome("echo seed 3: too far; exit 1"), caught("seed 3: too far"));
         let panic = "echo \"thread 'main' panicked at x.rs:1:\nmin > max\" >&2; exit 101";
-        assert_eq!(told(panic), caught("min > max (exit status: 101)"));
-        let killed = told("kill -ABRT $$");
+        assert_eq!(outcome(panic), caught("min > max (exit status: 101)"));
+        let killed = outcome("kill -ABRT $$");
         assert!(matches!(&killed, End::Caught(what) if what.contains("breaks off")), "{killed:?}");
     }
 

@@ -18,7 +18,7 @@ use super::script::{End, Output, Script, Sign};
 pub(crate) enum BenchError {
     #[error("the programs cannot be built")]
     Build,
-    #[error("the mock drone does not say its ports: {0}")]
+    #[error("the mock drone does not print its ports: {0}")]
     Ports(String),
     #[error(transparent)]
     Io(#[from] io::Error),

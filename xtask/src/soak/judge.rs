@@ -118,10 +118,10 @@ fn verdict(script: &Script, times: &Times, truth: &[Moment]) -> Verdict {
             fault(in_the_air(ended + DOWN), "in the air 20 s after the pilot had ended");
         }
     }
-    let told = [times.signal, times.ended].into_iter().flatten().min();
-    let until_down = told.filter(|told| in_the_air(*told)).map(|told| {
-        let down = after(told).find(|moment| moment.is_down()).or(truth.last());
-        down.map_or(Duration::ZERO, |moment| moment.at.saturating_sub(told))
+    let ordered = [times.signal, times.ended].into_iter().flatten().min();
+    let until_down = ordered.filter(|ordered| in_the_air(*ordered)).map(|ordered| {
+        let down = after(ordered).find(|moment| moment.is_down()).or(truth.last());
+        down.map_or(Duration::ZERO, |moment| moment.at.saturating_sub(ordered))
     });
     let flew = truth.iter().any(|moment| moment.phase == "flying");
     Verdict { faults, flew, until_down }

@@ -104,8 +104,8 @@ pub(super) fn measure() -> Result<Coverage, VerifyError> {
     let output = tests.env("AGENT_COVERAGE", &counted).output();
     let output = output.map_err(in_file("cannot run", Path::new(&cargo)))?;
     if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stdout).into_owned();
-        return Err(VerifyError::Tool { tool: "cargo test", output: said });
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        return Err(VerifyError::Tool { tool: "cargo test", output: text });
     }
     let mut gcov = Command::new("gcov");
     gcov.args(["--json-format", "--stdout", "--branch-probabilities", "--branch-counts"]);

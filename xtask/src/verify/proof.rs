@@ -65,8 +65,9 @@ pub(super) fn prove(
     let mut chosen = checker.check("base", &tried, Checks::Properties)?.1;
     let mut results = loop {
         let (results, left) = checker.check("induction", &chosen, Checks::Properties)?;
-        let found =
-            |name: &str| results.iter().any(|said| said.strip_prefix("property ") == Some(name));
+        let found = |name: &str| {
+            results.iter().any(|message| message.strip_prefix("property ") == Some(name))
+        };
         if left.len() == chosen.len() || enough.is_some_and(found) {
             break results;
         }
@@ -129,8 +130,8 @@ impl Checker<'_> {
             .map_err(in_file("cannot run", self.cbmc))?;
         let text = String::from_utf8_lossy(&output.stdout);
         if !text.contains("VERIFICATION SUCCESSFUL") && !text.contains("VERIFICATION FAILED") {
-            let said = format!("{text}{}", String::from_utf8_lossy(&output.stderr));
-            let lines: Vec<&str> = said.lines().collect();
+            let message = format!("{text}{}", String::from_utf8_lossy(&output.stderr));
+            let lines: Vec<&str> = message.lines().collect();
             let end = lines[lines.len().saturating_sub(20)..].join("\n");
             return Err(VerifyError::Tool { tool: "CBMC", output: end });
         }
@@ -138,14 +139,14 @@ impl Checker<'_> {
         let mut failing = Vec::new();
         for failure in text.lines().filter_map(|line| line.strip_suffix(": FAILURE")) {
             // "[induction.assertion.1] line 12 candidate 3"
-            let said = failure.split_once(']').map_or(failure, |(_, rest)| rest.trim());
-            let said = match said.strip_prefix("line ") {
+            let message = failure.split_once(']').map_or(failure, |(_, rest)| rest.trim());
+            let message = match message.strip_prefix("line ") {
                 Some(rest) => rest.split_once(' ').map_or(rest, |(_, text)| text),
-                None => said,
+                None => message,
             };
-            match said.strip_prefix("candidate ").and_then(|index| index.parse::<usize>().ok()) {
+            match message.strip_prefix("candidate ").and_then(|index| index.parse::<usize>().ok()) {
                 Some(index) => failing.push(index),
-                None => others.push(said.to_owned()),
+                None => others.push(message.to_owned()),
             }
         }
         let left = chosen.iter().copied().filter(|index| !failing.contains(index)).collect();

@@ -103,8 +103,8 @@ fn check(needed: &[Needed], is_there: impl Fn(&Needed) -> bool) -> Result<(), Mi
 /// Version string of a tool; `None` if it cannot be run here.
 fn version(tool: impl AsRef<OsStr>, option: &str) -> Option<String> {
     let output = Command::new(tool).arg(option).output().ok()?;
-    let said = String::from_utf8_lossy(&output.stdout).trim().to_owned();
-    output.status.success().then_some(said)
+    let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    output.status.success().then_some(version)
 }
 
 #[cfg(test)]

@@ -121,7 +121,7 @@ fn a_drone_that_must_not_take_off_is_not_ordered_to() {
 }
 
 #[test]
-fn whatever_ends_a_take_off_orders_the_landing_and_is_told() {
+fn whatever_ends_a_take_off_orders_the_landing_and_is_reported() {
     let timed_out =
         FlightError::TakeOffTimedOut { limit: LIMITS.take_off, battery_percent: Some(15) };
     for (event, error) in [

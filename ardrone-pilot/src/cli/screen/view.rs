@@ -314,7 +314,7 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
         lines.insert(0, "ready to take off".to_owned());
     }
     if let Some([roll_deg, pitch_deg]) = status.attitude_deg {
-        lines.push(format!("leans   {roll_deg:+.1}° right, {:+.1}° forward", -pitch_deg));
+        lines.push(format!("tilt    {roll_deg:+.1}° right, {:+.1}° forward", -pitch_deg));
     }
     frame.render_widget(Paragraph::new(lines.join("\n")), text);
 }
