@@ -299,6 +299,7 @@ impl Settings {
                 disturbance_gain_1_s2: estimator.disturbance_gain_1_s2,
                 disturbance_max_m_s2: estimator.disturbance_max_m_s2,
                 identify: airframe.identify,
+                tags: None,
             },
             cascade: controller.cascade(&limits),
         }

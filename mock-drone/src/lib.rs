@@ -12,6 +12,7 @@
 #![forbid(unsafe_code)]
 
 pub mod airframe;
+mod camera;
 mod configuration;
 mod drone;
 mod faults;
@@ -27,6 +28,7 @@ mod truth_log;
 mod wind;
 mod world;
 
+pub use camera::{CameraModel, FloorTag, OrientationSign};
 pub use drone::{Drone, DroneConfig, Truth};
 pub use faults::{Quantity, SensorFault};
 pub use link::LinkFaults;

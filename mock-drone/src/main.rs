@@ -14,7 +14,7 @@ use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Scenario, ScenarioError};
 use mock_drone::sensors::SensorModel;
 use mock_drone::server::{Ports, Server, ServerError};
-use mock_drone::{DroneConfig, LinkFaults, Tag27, TruthLog, WorldConfig};
+use mock_drone::{CameraModel, DroneConfig, FloorTag, LinkFaults, Tag27, TruthLog, WorldConfig};
 use nalgebra::Vector2;
 use tokio::signal::unix::{SignalKind, signal};
 
@@ -52,6 +52,8 @@ start, or with a plus since the first take-off; # starts a comment.
   +22   motor 70 over 2          percent of its thrust that are left, after so many seconds
   +23   second-pilot 5           seconds of another client's orders to hover; its commands count
                                  from 1, or with `from 5000` at the end from there
+  +24   tag 1.5 -0.5 90          a roundel is laid: metres right and forward, degrees; likewise
+                                 tag-moved 1 0 0 90 (number, and where to) and tag-gone 1
   +25   restart                  or propeller, which cuts the motors
 
 loss, outage and hold concern both directions, or with up or down behind the word only what goes to
@@ -127,6 +129,10 @@ struct DroneArguments {
     /// Standard deviation of the gusts, in metres a second
     #[arg(long, value_name = "M/S", default_value_t = 0.0, value_parser = not_negative)]
     gusts: f64,
+    /// A roundel on the floor, so far to the right and forward of the start, pointing so many degrees
+    /// clockwise; it may be given several times
+    #[arg(long, value_name = "X,Y[,HEADING]", value_parser = floor_tag, allow_hyphen_values = true)]
+    tag: Vec<FloorTag>,
 }
 
 #[derive(Debug, Args)]
@@ -185,6 +191,19 @@ enum Option27 {
     Zimmu,
     /// 216 bytes of GPS, as firmware 2.4; pyardrone loses every full packet then
     Gps,
+}
+
+/// `RIGHT,FORWARD` or `RIGHT,FORWARD,HEADING`
+fn floor_tag(text: &str) -> Result<FloorTag, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some([x, y]) if x.abs() <= 100.0 && y.abs() <= 100.0 => Ok(FloorTag::new(*x, *y, 0.0)),
+        Some([x, y, heading]) if x.abs() <= 100.0 && y.abs() <= 100.0 && heading.abs() <= 360.0 => {
+            Ok(FloorTag::new(*x, *y, *heading))
+        }
+        _ => Err("expected metres to the right and forward, and degrees: 1.5,-0.5 or 1.5,-0.5,90"
+            .to_owned()),
+    }
 }
 
 fn percentage(text: &str) -> Result<f64, String> {
@@ -302,6 +321,11 @@ fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
             Sensors::Nominal => SensorModel::nominal(),
             Sensors::Hard => SensorModel::hard(),
         },
+        camera: match sensors {
+            Sensors::Perfect => CameraModel::perfect(),
+            Sensors::Nominal => CameraModel::nominal(),
+            Sensors::Hard => CameraModel::hard(),
+        },
         tag_27: match option_27 {
             Option27::Absent => Tag27::Absent,
             Option27::Zimmu => Tag27::Zimmu,
@@ -334,7 +358,7 @@ fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
         }
         None => Scenario::default(),
     };
-    Ok(WorldConfig { drone, link, scenario })
+    Ok(WorldConfig { drone, link, scenario, tags: arguments.drone.tag.clone() })
 }
 
 fn truth_log(path: &Path) -> Result<TruthLog<File>, CommandError> {

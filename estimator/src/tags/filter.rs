@@ -1,0 +1,401 @@
+//! An extended Kalman filter of what the odometry is wrong by.
+//!
+//! State: the correction of the place (2), the flow's bias in the body (2), the correction of the heading and its
+//! rate, two angles by which the camera's centre is off (mounting, level reference, calibration), and for each tag
+//! its place (2) and direction. Arrays of fixed size: nothing is allocated.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::MAX_TAGS;
+use super::camera::Look;
+use super::history::Moment;
+use crate::horizontal::world_from_body;
+
+const PLACE: usize = 0;
+const BIAS: usize = 2;
+const HEADING: usize = 4;
+const RATE: usize = 5;
+const CAMERA: usize = 6;
+const TAGS: usize = 8;
+const STATES: usize = TAGS + 3 * MAX_TAGS;
+
+/// Standard deviation of the flow's bias at the start, how it walks, and when it has forgotten what it was.
+const BIAS_M_S: f64 = 0.013;
+const BIAS_WALK_M_S: f64 = 0.003;
+const BIAS_TIME_S: f64 = 120.0;
+/// What the flow's noise adds to the place, in m² a second.
+const PLACE_WALK_M2_S: f64 = 1e-4;
+/// Of the heading's drift, and what makes it wander.
+const RATE_DEG_S: f64 = 0.03;
+const RATE_WALK_DEG_S: f64 = 0.0005;
+const HEADING_WALK_DEG: f64 = 0.02;
+/// Of the camera's centre: 50 units and a degree of mounting.
+const CAMERA_RAD: f64 = 0.03;
+/// How well a surveyed drone stands where the plan begins, and points there.
+const START_M: f64 = 0.15;
+const START_DEG: f64 = 5.0;
+/// Of one sight: the share of the height, the share of the way aside (a focal length that is wrong), the age of
+/// the picture, and what remains. Sights follow each other closely and err alike: each counts for less than its
+/// noise would make it.
+const SIGHT_HEIGHT: f64 = 0.03;
+const SIGHT_ASIDE: f64 = 0.06;
+const SIGHT_AGE_S: f64 = 0.06;
+const SIGHT_M: f64 = 0.01;
+/// Of the flow's scale, as a share of the way since the last fix.
+const SCALE: f64 = 0.06;
+/// Of one orientation.
+const ORIENTATION_DEG: f64 = 8.0;
+/// Of the mean over some of them.
+const MEAN_ORIENTATION_DEG: f64 = 3.0;
+/// Sights beyond so many deviations are of something else.
+const GATE: f64 = 5.0;
+
+/// What is to be added to the odometry.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Correction {
+    pub(super) place_m: Vector2<f64>,
+    pub(super) heading_rad: f64,
+}
+
+/// A sight in the world.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sighted {
+    /// Where the tag lies as far as is known.
+    pub(super) place_m: Vector2<f64>,
+    /// From the drone to the tag.
+    from_drone_m: Vector2<f64>,
+    /// The world's right and forward per camera angle.
+    camera_m: Matrix2<f64>,
+    variance_m2: f64,
+    /// Variance that the odometry's scale adds to what may be expected.
+    scale_m2: f64,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Filter {
+    x: [f64; STATES],
+    p: [[f64; STATES]; STATES],
+    /// States in use: nothing behind them is looked at.
+    used: usize,
+}
+
+type Row = [f64; STATES];
+
+impl Filter {
+    /// `surveyed`: the world is given by tags, and the drone stands in it as well as it was put.
+    pub(super) fn new(surveyed: bool) -> Self {
+        let mut filter = Self { x: [0.0; STATES], p: [[0.0; STATES]; STATES], used: TAGS };
+        let mut set = |state: usize, deviation: f64| filter.p[state][state] = deviation * deviation;
+        for axis in 0..2 {
+            set(BIAS + axis, BIAS_M_S);
+            set(CAMERA + axis, CAMERA_RAD);
+            if surveyed {
+                set(PLACE + axis, START_M);
+            }
+        }
+        set(RATE, RATE_DEG_S.to_radians());
+        if surveyed {
+            set(HEADING, START_DEG.to_radians());
+        }
+        filter
+    }
+
+    pub(super) fn correction(&self) -> Correction {
+        Correction {
+            place_m: Vector2::new(self.x[PLACE], self.x[PLACE + 1]),
+            heading_rad: self.x[HEADING],
+        }
+    }
+
+    pub(super) fn bias_m_s(&self) -> Vector2<f64> {
+        Vector2::new(self.x[BIAS], self.x[BIAS + 1])
+    }
+
+    /// Of the place, on the worse axis.
+    pub(super) fn place_variance_m2(&self) -> f64 {
+        self.p[PLACE][PLACE].max(self.p[PLACE + 1][PLACE + 1])
+    }
+
+    /// The odometry has gone this way, facing so, in so much time of flight.
+    pub(super) fn fly(&mut self, way_m: Vector2<f64>, yaw_deg: f64, step_s: f64) {
+        let heading_rad = self.x[HEADING];
+        let turned = world_from_body(way_m, heading_rad.to_degrees());
+        let yaw_deg = yaw_deg + heading_rad.to_degrees();
+        let (right, forward) =
+            (world_from_body(Vector2::x(), yaw_deg), world_from_body(Vector2::y(), yaw_deg));
+        let biased = (right * self.x[BIAS] + forward * self.x[BIAS + 1]) * step_s;
+        // Turned clockwise by a little more.
+        let by_heading = Vector2::new(turned.y, -turned.x);
+        let kept = (1.0 - step_s / BIAS_TIME_S).max(0.0);
+        for axis in 0..2 {
+            self.x[PLACE + axis] += turned[axis] - way_m[axis] - biased[axis];
+            self.x[BIAS + axis] *= kept;
+        }
+        self.x[HEADING] += self.x[RATE] * step_s;
+        let transition = |row: &mut dyn FnMut(usize) -> f64| -> [f64; TAGS] {
+            let mut new = [0.0; TAGS];
+            for axis in 0..2 {
+                new[PLACE + axis] = row(PLACE + axis) + by_heading[axis] * row(HEADING)
+                    - (right[axis] * row(BIAS) + forward[axis] * row(BIAS + 1)) * step_s;
+                new[BIAS + axis] = kept * row(BIAS + axis);
+                new[CAMERA + axis] = row(CAMERA + axis);
+            }
+            new[HEADING] = row(HEADING) + row(RATE) * step_s;
+            new[RATE] = row(RATE);
+            new
+        };
+        for column in 0..self.used {
+            let new = transition(&mut |state| self.p[state][column]);
+            for (state, value) in new.into_iter().enumerate() {
+                self.p[state][column] = value;
+            }
+        }
+        for row in self.p.iter_mut().take(self.used) {
+            let new = transition(&mut |state| row[state]);
+            row[..TAGS].copy_from_slice(&new);
+        }
+        let mut add = |state: usize, variance: f64| self.p[state][state] += variance * step_s;
+        for axis in 0..2 {
+            add(PLACE + axis, PLACE_WALK_M2_S);
+            add(BIAS + axis, BIAS_WALK_M_S * BIAS_WALK_M_S);
+        }
+        add(HEADING, HEADING_WALK_DEG.to_radians().powi(2));
+        add(RATE, RATE_WALK_DEG_S.to_radians().powi(2));
+    }
+
+    pub(super) fn doubt_place(&mut self, variance_m2: f64) {
+        self.p[PLACE][PLACE] += variance_m2;
+        self.p[PLACE + 1][PLACE + 1] += variance_m2;
+    }
+
+    pub(super) fn doubt_heading(&mut self, deviation_rad: f64) {
+        self.p[HEADING][HEADING] += deviation_rad * deviation_rad;
+    }
+
+    /// The flow's bias is what it was at the start: not known.
+    pub(super) fn forget_bias(&mut self) {
+        for axis in 0..2 {
+            self.forget(BIAS + axis, BIAS_M_S * BIAS_M_S);
+            self.x[BIAS + axis] = 0.0;
+        }
+    }
+
+    /// A state that nothing is known of but its variance.
+    fn forget(&mut self, state: usize, variance: f64) {
+        for other in 0..STATES {
+            self.p[state][other] = 0.0;
+            self.p[other][state] = 0.0;
+        }
+        self.p[state][state] = variance;
+    }
+
+    /// A look in the world, `way_m` from where the last tag was seen.
+    pub(super) fn sighted(&self, look: &Look, moment: &Moment, way_m: f64) -> Sighted {
+        let yaw_deg = moment.yaw_deg + self.x[HEADING].to_degrees();
+        let height_m = look.height_m;
+        let off = Vector2::new(self.x[CAMERA], self.x[CAMERA + 1]) * height_m;
+        let from_drone_m = world_from_body(look.offset_m + off, yaw_deg);
+        let camera_m = Matrix2::from_columns(&[
+            world_from_body(Vector2::x(), yaw_deg) * height_m,
+            world_from_body(Vector2::y(), yaw_deg) * height_m,
+        ]);
+        let parts = [
+            SIGHT_M,
+            SIGHT_HEIGHT * height_m,
+            SIGHT_ASIDE * look.offset_m.norm(),
+            SIGHT_AGE_S * moment.speed_m_s,
+        ];
+        Sighted {
+            place_m: moment.place_m + self.correction().place_m + from_drone_m,
+            from_drone_m,
+            camera_m,
+            variance_m2: parts.iter().map(|part| part * part).sum(),
+            scale_m2: (SCALE * way_m).powi(2),
+        }
+    }
+
+    /// How the place of a sight follows from the states, without the tag's own.
+    fn rows(sighted: &Sighted) -> [Row; 2] {
+        let mut rows = [[0.0; STATES]; 2];
+        let by_heading = Vector2::new(sighted.from_drone_m.y, -sighted.from_drone_m.x);
+        for (axis, row) in rows.iter_mut().enumerate() {
+            row[PLACE + axis] = 1.0;
+            row[HEADING] = by_heading[axis];
+            row[CAMERA] = sighted.camera_m[(axis, 0)];
+            row[CAMERA + 1] = sighted.camera_m[(axis, 1)];
+        }
+        rows
+    }
+
+    fn tag_rows(sighted: &Sighted, tag: usize) -> [Row; 2] {
+        let mut rows = Self::rows(sighted);
+        for (axis, row) in rows.iter_mut().enumerate() {
+            row[TAGS + 3 * tag + axis] = -1.0;
+        }
+        rows
+    }
+
+    pub(super) fn tag_place_m(&self, tag: usize) -> Vector2<f64> {
+        let state = TAGS + 3 * tag;
+        Vector2::new(self.x[state], self.x[state + 1])
+    }
+
+    pub(super) fn tag_heading_rad(&self, tag: usize) -> f64 {
+        self.x[TAGS + 3 * tag + 2]
+    }
+
+    pub(super) fn tag_deviation_m(&self, tag: usize) -> f64 {
+        let state = TAGS + 3 * tag;
+        self.p[state][state].max(self.p[state + 1][state + 1]).sqrt()
+    }
+
+    /// `P Hᵀ` of one row.
+    fn gain(&self, row: &Row) -> Row {
+        let mut gain = [0.0; STATES];
+        for (value, line) in gain.iter_mut().zip(&self.p).take(self.used) {
+            *value = dot(row, line, self.used);
+        }
+        gain
+    }
+
+    fn innovation(&self, sighted: &Sighted, tag: usize) -> ([Row; 2], Matrix2<f64>) {
+        let rows = Self::tag_rows(sighted, tag);
+        let gains = [self.gain(&rows[0]), self.gain(&rows[1])];
+        let spread = Matrix2::from_fn(|i, j| dot(&rows[i], &gains[j], self.used));
+        (gains, spread + Matrix2::identity() * sighted.variance_m2)
+    }
+
+    /// Whether a sight may be of this tag.
+    pub(super) fn admits(&self, sighted: &Sighted, tag: usize) -> bool {
+        let (_, spread) = self.innovation(sighted, tag);
+        let spread = spread + Matrix2::identity() * sighted.scale_m2;
+        let off = sighted.place_m - self.tag_place_m(tag);
+        spread
+            .try_inverse()
+            .is_some_and(|inverse| (off.transpose() * inverse * off).x < GATE * GATE)
+    }
+
+    /// A sight of a tag.
+    pub(super) fn correct(&mut self, sighted: &Sighted, tag: usize) {
+        let (gains, spread) = self.innovation(sighted, tag);
+        let spread = spread + Matrix2::identity() * sighted.scale_m2;
+        let Some(inverse) = spread.try_inverse() else { return };
+        let off = self.tag_place_m(tag) - sighted.place_m;
+        let weighted = inverse * off;
+        for (state, value) in self.x.iter_mut().enumerate().take(self.used) {
+            *value += gains[0][state] * weighted.x + gains[1][state] * weighted.y;
+        }
+        for i in 0..self.used {
+            let left = inverse * Vector2::new(gains[0][i], gains[1][i]);
+            for j in i..self.used {
+                let less = left.x * gains[0][j] + left.y * gains[1][j];
+                let value = self.p[i][j] - less;
+                self.p[i][j] = value;
+                self.p[j][i] = value;
+            }
+        }
+    }
+
+    /// The drone's heading less the tag's direction, as one orientation tells it, was `difference_rad` off: the
+    /// direction of the tag that follows from it.
+    pub(super) fn correct_heading(&mut self, tag: usize, direction_rad: f64) {
+        let state = TAGS + 3 * tag + 2;
+        let mut row = [0.0; STATES];
+        row[HEADING] = 1.0;
+        row[state] = -1.0;
+        let gain = self.gain(&row);
+        let spread = dot(&row, &gain, self.used) + ORIENTATION_DEG.to_radians().powi(2);
+        let off = wrap_rad(self.x[state] - direction_rad);
+        if off * off > GATE * GATE * spread {
+            return;
+        }
+        for (value, gain) in self.x.iter_mut().zip(&gain).take(self.used) {
+            *value += gain * off / spread;
+        }
+        for i in 0..self.used {
+            for j in i..self.used {
+                let value = self.p[i][j] - gain[i] * gain[j] / spread;
+                self.p[i][j] = value;
+                self.p[j][i] = value;
+            }
+        }
+    }
+
+    /// A tag that lies where it was seen, in the mean; what is wrong with our place is wrong with its.
+    pub(super) fn begin_tag(&mut self, tag: usize, place_m: Vector2<f64>, sighted: &Sighted) {
+        /// Of the sights that the mean is made of, so many are as good as independent.
+        const INDEPENDENT: f64 = 6.0;
+        let state = TAGS + 3 * tag;
+        self.used = self.used.max(state + 3);
+        for axis in 0..3 {
+            self.forget(state + axis, 0.0);
+        }
+        let rows = Self::rows(sighted);
+        let gains = [self.gain(&rows[0]), self.gain(&rows[1])];
+        let spread = Matrix2::from_fn(|i, j| dot(&rows[i], &gains[j], self.used));
+        for axis in 0..2 {
+            for other in 0..self.used {
+                self.p[state + axis][other] = gains[axis][other];
+                self.p[other][state + axis] = gains[axis][other];
+            }
+        }
+        for i in 0..2 {
+            for j in 0..2 {
+                self.p[state + i][state + j] = spread[(i, j)];
+            }
+            self.p[state + i][state + i] += sighted.variance_m2 / INDEPENDENT;
+            self.x[state + i] = place_m[i];
+        }
+    }
+
+    /// A tag whose place is known beforehand.
+    pub(super) fn survey_tag(
+        &mut self,
+        tag: usize,
+        place_m: Vector2<f64>,
+        heading_rad: Option<f64>,
+    ) {
+        /// A tape measure, and the angle of a sheet of paper.
+        const SURVEY_M: f64 = 0.02;
+        const SURVEY_DEG: f64 = 2.0;
+        let state = TAGS + 3 * tag;
+        self.used = self.used.max(state + 3);
+        for axis in 0..2 {
+            self.forget(state + axis, SURVEY_M * SURVEY_M);
+            self.x[state + axis] = place_m[axis];
+        }
+        self.forget(state + 2, 0.0);
+        if let Some(heading_rad) = heading_rad {
+            self.p[state + 2][state + 2] = SURVEY_DEG.to_radians().powi(2);
+            self.x[state + 2] = heading_rad;
+        }
+    }
+
+    /// The direction of a tag, as it seems in the mean by our heading.
+    pub(super) fn begin_heading(&mut self, tag: usize, direction_rad: f64) {
+        let state = TAGS + 3 * tag + 2;
+        self.forget(state, 0.0);
+        for other in 0..self.used {
+            let covariance = self.p[HEADING][other];
+            self.p[state][other] = covariance;
+            self.p[other][state] = covariance;
+        }
+        self.p[state][state] = self.p[HEADING][HEADING] + MEAN_ORIENTATION_DEG.to_radians().powi(2);
+        self.x[state] = direction_rad;
+    }
+
+    /// A tag is no longer known.
+    pub(super) fn forget_tag(&mut self, tag: usize) {
+        for axis in 0..3 {
+            self.forget(TAGS + 3 * tag + axis, 0.0);
+        }
+    }
+}
+
+fn dot(left: &Row, right: &Row, used: usize) -> f64 {
+    left.iter().zip(right).take(used).map(|(left, right)| left * right).sum()
+}
+
+fn wrap_rad(angle_rad: f64) -> f64 {
+    crate::angle::wrap_deg(angle_rad.to_degrees()).to_radians()
+}
