@@ -69,6 +69,15 @@ pub(super) struct SignSearch {
 }
 
 impl Vehicle {
+    /// Where the plan's coordinates begin when a take-off has ended at `pose`: there, but with tags above the
+    /// start, which is where their coordinates begin.
+    pub(super) fn plan_origin(&self, pose: Pose) -> Pose {
+        match self.config.estimator.tags {
+            Some(_) => Pose { z_m: pose.z_m, ..Pose::default() },
+            None => pose,
+        }
+    }
+
     /// The target, turned a little to and fro while that teaches how to read the tag below.
     pub(super) fn turned_to_learn(&mut self, now: Duration, target: &Pose, step_s: f64) -> Pose {
         let search = &mut self.flight.sign_search;

@@ -240,8 +240,8 @@ impl Filter {
         Vector2::new(self.x[state], self.x[state + 1])
     }
 
-    pub(super) fn tag_heading_rad(&self, tag: usize) -> f64 {
-        self.x[TAGS + 3 * tag + 2]
+    pub(super) fn tag_heading_deg(&self, tag: usize) -> f64 {
+        crate::angle::wrap_deg(self.x[TAGS + 3 * tag + 2].to_degrees())
     }
 
     pub(super) fn tag_deviation_m(&self, tag: usize) -> f64 {
@@ -258,32 +258,61 @@ impl Filter {
         gain
     }
 
-    fn innovation(&self, sighted: &Sighted, tag: usize) -> ([Row; 2], Matrix2<f64>) {
-        let rows = Self::tag_rows(sighted, tag);
+    /// `P Hᵀ` and `H P Hᵀ` of two rows.
+    fn spread(&self, rows: &[Row; 2]) -> ([Row; 2], Matrix2<f64>) {
         let gains = [self.gain(&rows[0]), self.gain(&rows[1])];
         let spread = Matrix2::from_fn(|i, j| dot(&rows[i], &gains[j], self.used));
-        (gains, spread + Matrix2::identity() * sighted.variance_m2)
+        (gains, spread)
     }
 
     /// Whether a sight may be of this tag.
     pub(super) fn admits(&self, sighted: &Sighted, tag: usize) -> bool {
-        let (_, spread) = self.innovation(sighted, tag);
-        let spread = spread + Matrix2::identity() * sighted.scale_m2;
         let off = sighted.place_m - self.tag_place_m(tag);
-        spread
-            .try_inverse()
-            .is_some_and(|inverse| (off.transpose() * inverse * off).x < GATE * GATE)
+        let (_, spread) = self.spread(&Self::tag_rows(sighted, tag));
+        is_within(
+            GATE,
+            off,
+            spread + Matrix2::identity() * (sighted.variance_m2 + sighted.scale_m2),
+        )
     }
 
     /// A sight of a tag.
     pub(super) fn correct(&mut self, sighted: &Sighted, tag: usize) {
-        let (gains, spread) = self.innovation(sighted, tag);
-        let spread = spread + Matrix2::identity() * sighted.scale_m2;
+        let off = sighted.place_m - self.tag_place_m(tag);
+        let rows = Self::tag_rows(sighted, tag);
+        self.correct_two(&rows, off, sighted.variance_m2 + sighted.scale_m2);
+    }
+
+    /// Whether two tags may be one, in so many deviations, `way_m` from where the last one was seen.
+    pub(super) fn may_be_one(&self, one: usize, other: usize, way_m: f64) -> bool {
+        let (_, spread) = self.spread(&Self::same_rows(one, other));
+        let off = self.tag_place_m(one) - self.tag_place_m(other);
+        is_within(GATE, off, spread + Matrix2::identity() * same_variance_m2(way_m))
+    }
+
+    /// Two tags are one.
+    pub(super) fn make_one(&mut self, one: usize, other: usize, way_m: f64) {
+        let off = self.tag_place_m(one) - self.tag_place_m(other);
+        self.correct_two(&Self::same_rows(one, other), off, same_variance_m2(way_m));
+    }
+
+    fn same_rows(one: usize, other: usize) -> [Row; 2] {
+        let mut rows = [[0.0; STATES]; 2];
+        for (axis, row) in rows.iter_mut().enumerate() {
+            row[TAGS + 3 * one + axis] = 1.0;
+            row[TAGS + 3 * other + axis] = -1.0;
+        }
+        rows
+    }
+
+    /// What these rows see was seen to be off by this, with a variance, and should not be.
+    fn correct_two(&mut self, rows: &[Row; 2], off: Vector2<f64>, variance_m2: f64) {
+        let (gains, spread) = self.spread(rows);
+        let spread = spread + Matrix2::identity() * variance_m2;
         let Some(inverse) = spread.try_inverse() else { return };
-        let off = self.tag_place_m(tag) - sighted.place_m;
         let weighted = inverse * off;
         for (state, value) in self.x.iter_mut().enumerate().take(self.used) {
-            *value += gains[0][state] * weighted.x + gains[1][state] * weighted.y;
+            *value -= gains[0][state] * weighted.x + gains[1][state] * weighted.y;
         }
         for i in 0..self.used {
             let left = inverse * Vector2::new(gains[0][i], gains[1][i]);
@@ -321,10 +350,8 @@ impl Filter {
         }
     }
 
-    /// A tag that lies where it was seen, in the mean; what is wrong with our place is wrong with its.
-    pub(super) fn begin_tag(&mut self, tag: usize, place_m: Vector2<f64>, sighted: &Sighted) {
-        /// Of the sights that the mean is made of, so many are as good as independent.
-        const INDEPENDENT: f64 = 6.0;
+    /// A tag that lies where it was seen; what is wrong with our place is wrong with its.
+    pub(super) fn begin_tag(&mut self, tag: usize, sighted: &Sighted) {
         let state = TAGS + 3 * tag;
         self.used = self.used.max(state + 3);
         for axis in 0..3 {
@@ -343,8 +370,8 @@ impl Filter {
             for j in 0..2 {
                 self.p[state + i][state + j] = spread[(i, j)];
             }
-            self.p[state + i][state + i] += sighted.variance_m2 / INDEPENDENT;
-            self.x[state + i] = place_m[i];
+            self.p[state + i][state + i] += sighted.variance_m2;
+            self.x[state + i] = sighted.place_m[i];
         }
     }
 
@@ -384,12 +411,28 @@ impl Filter {
         self.x[state] = direction_rad;
     }
 
+    /// Only so many tags are looked at.
+    pub(super) fn use_tags(&mut self, tags: usize) {
+        self.used = TAGS + 3 * tags;
+    }
+
     /// A tag is no longer known.
     pub(super) fn forget_tag(&mut self, tag: usize) {
         for axis in 0..3 {
             self.forget(TAGS + 3 * tag + axis, 0.0);
         }
     }
+}
+
+/// Of two places that are one: what the flow's scale makes of the way between their sights.
+fn same_variance_m2(way_m: f64) -> f64 {
+    const SAME_M: f64 = 0.02;
+    SAME_M * SAME_M + (SCALE * way_m).powi(2)
+}
+
+fn is_within(deviations: f64, off: Vector2<f64>, spread: Matrix2<f64>) -> bool {
+    let inverse = spread.try_inverse();
+    inverse.is_some_and(|inverse| (off.transpose() * inverse * off).x < deviations * deviations)
 }
 
 fn dot(left: &Row, right: &Row, used: usize) -> f64 {

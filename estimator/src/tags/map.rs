@@ -1,9 +1,11 @@
 //! Which tags are known, and which of them a sight is of.
+//!
+//! What is seen where no tag is known becomes a tag on trial at once, so that little of the drift before its
+//! first sight is lost; it is known when it was seen again and again, and forgotten if it was not.
 
 use nalgebra::Vector2;
 
 use super::MAX_TAGS;
-use super::candidates::Candidate;
 use super::filter::{Filter, Sighted};
 
 /// A tag whose place was measured.
@@ -28,18 +30,18 @@ pub struct KnownTag {
     pub surveyed: bool,
 }
 
-/// What a sight is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Association {
-    Known(usize),
-    /// Two tags could be meant, or one that was seen already.
-    Unclear,
-    Unknown,
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Standing {
+    #[default]
+    Free,
+    /// Seen so often.
+    OnTrial(u32),
+    Known,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Slot {
-    used: bool,
+    standing: Standing,
     surveyed: bool,
     has_heading: bool,
     seen_s: f64,
@@ -52,9 +54,18 @@ pub(super) struct Map {
 
 /// Another tag must be this many times as far as the one that is meant.
 const RUNNER_UP: f64 = 2.0;
-/// What lies this near to a known tag that is not seen any more is that tag: it was moved.
+/// So many sights make a tag on trial a known one, and so many make it one that was known before.
+const ENOUGH: u32 = 25;
+const AGAIN: u32 = 8;
+/// One that is not seen again within this time is forgotten.
+const TRIAL_S: f64 = 2.0;
+/// A tag that was not seen for this time is recognised by several sights only: while the place is uncertain, one
+/// sight of something else must not decide where the drone is.
+const IN_VIEW_S: f64 = 1.0;
+/// One sight moves the estimate by no more than this.
+const NEAR_M: f64 = 0.3;
+/// What is found this near to a known tag that is not seen any more is that tag: it was moved.
 const MOVED_M: f64 = 1.0;
-const MOVED_S: f64 = 1.0;
 
 impl Map {
     pub(super) fn new(surveyed: &[Option<SurveyedTag>; MAX_TAGS], filter: &mut Filter) -> Self {
@@ -63,7 +74,7 @@ impl Map {
             if let Some(SurveyedTag { place_m, heading_deg }) = surveyed {
                 filter.survey_tag(tag, *place_m, heading_deg.map(f64::to_radians));
                 slots[tag] = Slot {
-                    used: true,
+                    standing: Standing::Known,
                     surveyed: true,
                     has_heading: heading_deg.is_some(),
                     seen_s: f64::NEG_INFINITY,
@@ -73,63 +84,116 @@ impl Map {
         Self { slots }
     }
 
+    fn those(&self, wanted: fn(Standing) -> bool) -> impl Iterator<Item = usize> + '_ {
+        (0..MAX_TAGS).filter(move |tag| wanted(self.slots[*tag].standing))
+    }
+
     pub(super) fn known(&self) -> usize {
-        self.slots.iter().filter(|slot| slot.used).count()
+        self.those(is_known).count()
     }
 
     pub(super) fn iter<'a>(&'a self, filter: &'a Filter) -> impl Iterator<Item = KnownTag> + 'a {
-        let used = self.slots.iter().enumerate().filter(|(_, slot)| slot.used);
-        used.map(|(tag, slot)| KnownTag {
+        self.those(is_known).map(|tag| KnownTag {
             place_m: filter.tag_place_m(tag),
-            heading_deg: slot.has_heading.then(|| filter.tag_heading_rad(tag).to_degrees()),
+            heading_deg: self.slots[tag].has_heading.then(|| filter.tag_heading_deg(tag)),
             deviation_m: filter.tag_deviation_m(tag),
-            surveyed: slot.surveyed,
+            surveyed: self.slots[tag].surveyed,
         })
     }
 
-    /// The nearest tag, if the sight may be of it and of no other.
-    pub(super) fn associate(
-        &self,
-        filter: &Filter,
-        sighted: &Sighted,
-        seen: &[bool; MAX_TAGS],
-    ) -> Association {
-        let far = |tag: usize| (filter.tag_place_m(tag) - sighted.place_m).norm();
-        let used = || (0..MAX_TAGS).filter(|tag| self.slots[*tag].used);
-        let nearest = used().min_by(|a, b| far(*a).total_cmp(&far(*b)));
-        let Some(nearest) = nearest.filter(|tag| filter.admits(sighted, *tag)) else {
-            return Association::Unknown;
-        };
-        let alone = used()
-            .filter(|tag| *tag != nearest && filter.admits(sighted, *tag))
-            .all(|tag| far(tag) >= RUNNER_UP * far(nearest));
-        if alone && !seen[nearest] { Association::Known(nearest) } else { Association::Unclear }
+    /// Forgets tags on trial that were not seen again.
+    pub(super) fn forget_old(&mut self, filter: &mut Filter, now_s: f64) {
+        for tag in 0..MAX_TAGS {
+            let slot = self.slots[tag];
+            if is_on_trial(slot.standing) && now_s - slot.seen_s > TRIAL_S {
+                self.forget(filter, tag);
+            }
+        }
     }
 
-    /// Takes a candidate among the known tags: a new one, or one that was moved.
-    pub(super) fn add(
+    /// The tag that a sight is of; a new one if it is of none. Nothing if two could be meant, one that was seen
+    /// already, or there is no room.
+    pub(super) fn associate(
         &mut self,
         filter: &mut Filter,
         sighted: &Sighted,
-        candidate: &Candidate,
+        seen: &[bool; MAX_TAGS],
         now_s: f64,
     ) -> Option<usize> {
-        let far = |tag: usize| (filter.tag_place_m(tag) - candidate.place_m).norm();
-        let moved = (0..MAX_TAGS)
-            .filter(|tag| self.slots[*tag].used && far(*tag) < MOVED_M)
-            .min_by(|a, b| far(*a).total_cmp(&far(*b)));
-        let tag = match moved {
-            // A tag that is still seen where it was has a neighbour.
-            Some(tag) if now_s - self.slots[tag].seen_s > MOVED_S => tag,
-            _ => (0..MAX_TAGS).find(|tag| !self.slots[*tag].used)?,
-        };
-        filter.begin_tag(tag, candidate.place_m, sighted);
-        self.slots[tag] = Slot { used: true, seen_s: now_s, ..Slot::default() };
+        let far = |tag: usize| (filter.tag_place_m(tag) - sighted.place_m).norm();
+        for wanted in [is_known, is_on_trial] {
+            let in_view = |tag: &usize| now_s - self.slots[*tag].seen_s <= IN_VIEW_S;
+            let nearest =
+                self.those(wanted).filter(in_view).min_by(|a, b| far(*a).total_cmp(&far(*b)));
+            let admitted = |tag: &usize| far(*tag) < NEAR_M && filter.admits(sighted, *tag);
+            if let Some(nearest) = nearest.filter(admitted) {
+                let alone = self
+                    .those(wanted)
+                    .filter(|tag| *tag != nearest)
+                    .all(|tag| far(tag) >= RUNNER_UP * far(nearest));
+                return (alone && !seen[nearest]).then_some(nearest);
+            }
+        }
+        let free = self.those(|standing| standing == Standing::Free).next()?;
+        filter.begin_tag(free, sighted);
+        let standing = Standing::OnTrial(0);
+        self.slots[free] = Slot { standing, seen_s: now_s, ..Slot::default() };
+        None
+    }
+
+    /// A tag was seen again, `way_m` from where the last known one was; returns the known tag that it is, if it
+    /// is one.
+    pub(super) fn saw(
+        &mut self,
+        filter: &mut Filter,
+        tag: usize,
+        now_s: f64,
+        way_m: f64,
+    ) -> Option<usize> {
+        self.slots[tag].seen_s = now_s;
+        let Standing::OnTrial(sights) = self.slots[tag].standing else { return Some(tag) };
+        self.slots[tag].standing = Standing::OnTrial(sights + 1);
+        if sights < AGAIN {
+            return None;
+        }
+        if let Some(known) = self.recognised(filter, tag, now_s, way_m) {
+            filter.make_one(tag, known, way_m);
+            self.forget(filter, tag);
+            self.slots[known].seen_s = now_s;
+            return Some(known);
+        }
+        if sights < ENOUGH {
+            return None;
+        }
+        self.slots[tag].standing = Standing::Known;
+        let place_m = filter.tag_place_m(tag);
+        for other in 0..MAX_TAGS {
+            let near = (filter.tag_place_m(other) - place_m).norm() < MOVED_M;
+            if other != tag && near && self.is_out_of_view(other, now_s) {
+                self.forget(filter, other);
+            }
+        }
         Some(tag)
     }
 
-    pub(super) fn saw(&mut self, tag: usize, now_s: f64) {
-        self.slots[tag].seen_s = now_s;
+    /// The known tag that comes into view again as one on trial.
+    fn recognised(&self, filter: &Filter, trial: usize, now_s: f64, way_m: f64) -> Option<usize> {
+        let place_m = filter.tag_place_m(trial);
+        let far = |tag: usize| (filter.tag_place_m(tag) - place_m).norm();
+        let nearest = self.those(is_known).min_by(|a, b| far(*a).total_cmp(&far(*b)))?;
+        let alone = self
+            .those(is_known)
+            .filter(|tag| *tag != nearest)
+            .all(|tag| far(tag) >= RUNNER_UP * far(nearest));
+        let is_it = alone
+            && self.is_out_of_view(nearest, now_s)
+            && filter.may_be_one(trial, nearest, way_m);
+        is_it.then_some(nearest)
+    }
+
+    fn is_out_of_view(&self, tag: usize, now_s: f64) -> bool {
+        let Slot { standing, seen_s, .. } = self.slots[tag];
+        is_known(standing) && now_s - seen_s > IN_VIEW_S
     }
 
     pub(super) fn has_heading(&self, tag: usize) -> bool {
@@ -148,9 +212,23 @@ impl Map {
     }
 
     pub(super) fn forget_all(&mut self, filter: &mut Filter) {
-        for (tag, slot) in self.slots.iter_mut().enumerate() {
-            filter.forget_tag(tag);
-            *slot = Slot::default();
+        for tag in 0..MAX_TAGS {
+            self.forget(filter, tag);
         }
     }
+
+    fn forget(&mut self, filter: &mut Filter, tag: usize) {
+        self.slots[tag] = Slot::default();
+        filter.forget_tag(tag);
+        let used = self.those(|standing| standing != Standing::Free).last();
+        filter.use_tags(used.map_or(0, |tag| tag + 1));
+    }
+}
+
+fn is_known(standing: Standing) -> bool {
+    standing == Standing::Known
+}
+
+fn is_on_trial(standing: Standing) -> bool {
+    matches!(standing, Standing::OnTrial(_))
 }

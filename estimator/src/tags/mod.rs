@@ -8,7 +8,6 @@
 //! What jumps by a correction is not handed to the controller at once: see [`Tags::smooth`].
 
 mod camera;
-mod candidates;
 mod filter;
 mod history;
 mod map;
@@ -22,8 +21,7 @@ use std::time::Duration;
 use nalgebra::Vector2;
 
 use self::camera::Look;
-use self::candidates::Candidates;
-use self::filter::{Filter, Sighted};
+use self::filter::Filter;
 use self::history::{History, Moment};
 use self::map::Map;
 pub use self::map::{KnownTag, SurveyedTag};
@@ -101,6 +99,8 @@ pub struct TagStatus {
 const FASTEST_TURN_DEG_S: f64 = 60.0;
 /// Lower than this a tag is hardly whole in the picture.
 const LOWEST_M: f64 = 0.45;
+/// A drone this low stands, whatever its motors do.
+const STANDS_M: f64 = 0.1;
 /// A tag that was seen this recently is in view.
 const IN_VIEW_S: f64 = 0.5;
 
@@ -110,7 +110,6 @@ pub(crate) struct Tags {
     config: TagConfig,
     filter: Filter,
     map: Map,
-    candidates: Candidates,
     orientation: Orientation,
     history: History,
     take_back: TakeBack,
@@ -154,7 +153,6 @@ impl Tags {
         Self {
             filter,
             map,
-            candidates: Candidates::default(),
             orientation: Orientation::new(config.orientation),
             history: History::new(),
             take_back: TakeBack::default(),
@@ -173,7 +171,10 @@ impl Tags {
         }
         let unseen_m2 = (step.unseen_m2 - self.unseen_m2).max(0.0);
         self.unseen_m2 = step.unseen_m2;
-        self.filter.doubt_place(unseen_m2);
+        // A drone that spins its motors up measures nothing, and stands.
+        if step.height.1 > STANDS_M {
+            self.filter.doubt_place(unseen_m2);
+        }
     }
 
     /// The compass has made a step, which was compensated with some error.
@@ -210,6 +211,7 @@ impl Tags {
         if moment.height_m < LOWEST_M || turn_deg_s.abs() > FASTEST_TURN_DEG_S {
             return;
         }
+        self.map.forget_old(&mut self.filter, made_s);
         let before = self.filter.correction();
         let mut seen = [false; MAX_TAGS];
         for sight in newest.iter().flatten() {
@@ -224,27 +226,16 @@ impl Tags {
     }
 
     fn take_in(&mut self, look: &Look, moment: &Moment, made_s: f64, seen: &mut [bool; MAX_TAGS]) {
-        let sighted = self.filter.sighted(look, moment, self.way_since_fix_m(moment));
-        let known = self.map.associate(&self.filter, &sighted, seen);
-        match known {
-            map::Association::Known(tag) => {
-                seen[tag] = true;
-                self.filter.correct(&sighted, tag);
-                self.map.saw(tag, made_s);
-                self.fix = Some(Fix { at_s: made_s, odometry_m: moment.place_m });
-                self.orient(tag, look, moment);
-            }
-            map::Association::Unclear => {}
-            map::Association::Unknown => {
-                let confirmed = self.candidates.saw(made_s, &sighted);
-                if let Some(candidate) = confirmed {
-                    let tag = self.map.add(&mut self.filter, &sighted, &candidate, made_s);
-                    if let Some(tag) = tag {
-                        seen[tag] = true;
-                        self.fix = Some(Fix { at_s: made_s, odometry_m: moment.place_m });
-                    }
-                }
-            }
+        let way_m = self.way_since_fix_m(moment);
+        let sighted = self.filter.sighted(look, moment, way_m);
+        let tag = self.map.associate(&mut self.filter, &sighted, seen, made_s);
+        let Some(tag) = tag else { return };
+        seen[tag] = true;
+        self.filter.correct(&sighted, tag);
+        if let Some(tag) = self.map.saw(&mut self.filter, tag, made_s, way_m) {
+            seen[tag] = true;
+            self.fix = Some(Fix { at_s: made_s, odometry_m: moment.place_m });
+            self.orient(tag, look, moment);
         }
     }
 
@@ -273,7 +264,6 @@ impl Tags {
         const LED_ASTRAY_M: f64 = 0.7;
         if self.filter.bias_m_s().norm() > MOST_BIAS_M_S {
             self.map.forget_all(&mut self.filter);
-            self.candidates = Candidates::default();
             self.filter.forget_bias();
             self.filter.doubt_place(LED_ASTRAY_M * LED_ASTRAY_M);
         }
