@@ -55,8 +55,8 @@ pub(super) struct Map {
 /// Another tag must be this many times as far as the one that is meant.
 const RUNNER_UP: f64 = 2.0;
 /// So many sights make a tag on trial a known one, and so many make it one that was known before.
-const ENOUGH: u32 = 25;
-const AGAIN: u32 = 8;
+const ENOUGH: u32 = 10;
+const AGAIN: u32 = 5;
 /// One that is not seen again within this time is forgotten.
 const TRIAL_S: f64 = 2.0;
 /// A tag that was not seen for this time is recognised by several sights only: while the place is uncertain, one
