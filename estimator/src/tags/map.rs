@@ -45,6 +45,9 @@ struct Slot {
     surveyed: bool,
     has_heading: bool,
     seen_s: f64,
+    /// What its sights were off by in the mean, and whether that is too much.
+    off_m: Vector2<f64>,
+    moves: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -57,6 +60,16 @@ const RUNNER_UP: f64 = 2.0;
 /// So many sights make a tag on trial a known one, and so many make it one that was known before.
 const ENOUGH: u32 = 10;
 const AGAIN: u32 = 5;
+/// Likewise after another tag has moved, of sights that all agree.
+const STILL: u32 = 60;
+/// Over so many sights the mean of what a tag is off by is taken.
+const MEAN_SIGHTS: f64 = 20.0;
+/// It is no more than this, and these shares of the height and of the way aside, for tags that lie still.
+const OFF_M: f64 = 0.03;
+const OFF_HEIGHT: f64 = 0.025;
+const OFF_ASIDE: f64 = 0.15;
+/// A faster drone is off by its delays.
+const SLOW_M_S: f64 = 0.4;
 /// One that is not seen again within this time is forgotten.
 const TRIAL_S: f64 = 2.0;
 /// A tag that was not seen for this time is recognised by several sights only: while the place is uncertain, one
@@ -78,6 +91,7 @@ impl Map {
                     surveyed: true,
                     has_heading: heading_deg.is_some(),
                     seen_s: f64::NEG_INFINITY,
+                    ..Slot::default()
                 };
             }
         }
@@ -149,11 +163,13 @@ impl Map {
         tag: usize,
         now_s: f64,
         way_m: f64,
+        is_cautious: bool,
     ) -> Option<usize> {
         self.slots[tag].seen_s = now_s;
         let Standing::OnTrial(sights) = self.slots[tag].standing else { return Some(tag) };
         self.slots[tag].standing = Standing::OnTrial(sights + 1);
-        if sights < AGAIN {
+        let (again, enough) = if is_cautious { (STILL, STILL) } else { (AGAIN, ENOUGH) };
+        if sights < again {
             return None;
         }
         if let Some(known) = self.recognised(filter, tag, now_s, way_m) {
@@ -162,7 +178,7 @@ impl Map {
             self.slots[known].seen_s = now_s;
             return Some(known);
         }
-        if sights < ENOUGH {
+        if sights < enough {
             return None;
         }
         self.slots[tag].standing = Standing::Known;
@@ -211,9 +227,40 @@ impl Map {
         }
     }
 
-    pub(super) fn forget_all(&mut self, filter: &mut Filter) {
-        for tag in 0..MAX_TAGS {
-            self.forget(filter, tag);
+    pub(super) fn is_known(&self, tag: usize) -> bool {
+        is_known(self.slots[tag].standing)
+    }
+
+    /// A sight of a tag was off by this, of a drone so high and fast; the tag so far aside.
+    pub(super) fn watch(
+        &mut self,
+        tag: usize,
+        off_m: Vector2<f64>,
+        height_m: f64,
+        aside_m: f64,
+        speed_m_s: f64,
+    ) {
+        if speed_m_s > SLOW_M_S {
+            return;
+        }
+        let slot = &mut self.slots[tag];
+        slot.off_m += (off_m - slot.off_m) / MEAN_SIGHTS;
+        let most_m = OFF_M + OFF_HEIGHT * height_m + OFF_ASIDE * aside_m;
+        slot.moves = slot.off_m.norm() > most_m;
+    }
+
+    /// Whether a tag is off again and again.
+    pub(super) fn moves(&self, tag: usize) -> bool {
+        self.slots[tag].moves
+    }
+
+    /// Forgets a tag that moves, and what is on trial.
+    pub(super) fn forget_moving(&mut self, filter: &mut Filter, tag: usize) {
+        self.forget(filter, tag);
+        for trial in 0..MAX_TAGS {
+            if is_on_trial(self.slots[trial].standing) {
+                self.forget(filter, trial);
+            }
         }
     }
 

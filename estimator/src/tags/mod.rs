@@ -101,6 +101,8 @@ const FASTEST_TURN_DEG_S: f64 = 60.0;
 const LOWEST_M: f64 = 0.45;
 /// A drone this low stands, whatever its motors do.
 const STANDS_M: f64 = 0.1;
+/// For how long after a tag was seen to move nothing new is believed soon.
+const CAUTIOUS_S: f64 = 30.0;
 /// A tag that was seen this recently is in view.
 const IN_VIEW_S: f64 = 0.5;
 
@@ -116,6 +118,8 @@ pub(crate) struct Tags {
     last_sights: [Option<Sight>; MAX_SIGHTS],
     /// When a known tag was seen last, when its packet arrived, and where the odometry was.
     fix: Option<Fix>,
+    /// A tag has moved: until then others must prove that they lie still.
+    cautious_until_s: f64,
     /// What was counted as flown unseen or disputed so far.
     unseen_m2: f64,
 }
@@ -158,6 +162,7 @@ impl Tags {
             take_back: TakeBack::default(),
             last_sights: [None; MAX_SIGHTS],
             fix: None,
+            cautious_until_s: f64::NEG_INFINITY,
             unseen_m2: 0.0,
             config,
         }
@@ -219,7 +224,6 @@ impl Tags {
                 self.take_in(&look, &moment, made_s, &mut seen);
             }
         }
-        self.distrust_what_creeps();
         let after = self.filter.correction();
         self.take_back
             .jumped(after.place_m - before.place_m, after.heading_rad - before.heading_rad);
@@ -231,11 +235,18 @@ impl Tags {
         let tag = self.map.associate(&mut self.filter, &sighted, seen, made_s);
         let Some(tag) = tag else { return };
         seen[tag] = true;
-        self.filter.correct(&sighted, tag);
-        if let Some(tag) = self.map.saw(&mut self.filter, tag, made_s, way_m) {
+        let is_cautious = made_s < self.cautious_until_s;
+        if self.map.is_known(tag) || !is_cautious {
+            let off_m = sighted.place_m - self.filter.tag_place_m(tag);
+            self.map.watch(tag, off_m, look.height_m, look.offset_m.norm(), moment.speed_m_s);
+            self.filter.correct(&sighted, tag);
+        }
+        let known = self.map.saw(&mut self.filter, tag, made_s, way_m, is_cautious);
+        if let Some(tag) = known {
             seen[tag] = true;
             self.fix = Some(Fix { at_s: made_s, odometry_m: moment.place_m });
             self.orient(tag, look, moment);
+            self.distrust_what_moves(tag, made_s);
         }
     }
 
@@ -256,16 +267,18 @@ impl Tags {
         }
     }
 
-    /// A flow's bias that no flow has: it is the tag that moves.
-    fn distrust_what_creeps(&mut self) {
-        /// Five deviations of the flow's bias on a hard day.
-        const MOST_BIAS_M_S: f64 = 0.1;
-        /// Nobody knows for how long it has moved.
-        const LED_ASTRAY_M: f64 = 0.7;
-        if self.filter.bias_m_s().norm() > MOST_BIAS_M_S {
-            self.map.forget_all(&mut self.filter);
+    /// A tag that moves would take the drone with it: what it is off by does not average out, or makes a bias of
+    /// the flow that no flow has.
+    fn distrust_what_moves(&mut self, tag: usize, made_s: f64) {
+        /// Four deviations of the flow's bias on a hard day.
+        const MOST_BIAS_M_S: f64 = 0.09;
+        /// How far it may have led us before it was noticed.
+        const LED_ASTRAY_M: f64 = 0.2;
+        if self.map.moves(tag) || self.filter.bias_m_s().norm() > MOST_BIAS_M_S {
+            self.map.forget_moving(&mut self.filter, tag);
             self.filter.forget_bias();
             self.filter.doubt_place(LED_ASTRAY_M * LED_ASTRAY_M);
+            self.cautious_until_s = made_s + CAUTIOUS_S;
         }
     }
 
