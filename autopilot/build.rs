@@ -4,19 +4,33 @@
 //! asks the tests so.
 
 use std::error::Error;
+use std::io::Write as _;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 const COVERAGE: &str = "AGENT_COVERAGE";
 const CONFIGURATION: &str = "agent/autopilot.conf";
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match build() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // Debug output, which returning the error would print, escapes the line breaks.
+            // If stderr fails the exit status remains.
+            _ = writeln!(std::io::stderr(), "{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn build() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=agent");
     let out = PathBuf::from(std::env::var("OUT_DIR")?);
     let configuration =
         translator::parse_configuration(CONFIGURATION, &std::fs::read_to_string(CONFIGURATION)?)?;
     let agent = std::fs::read_to_string(format!("agent/{}", configuration.input()))?;
-    let translation = translator::translate(configuration, &agent)?;
-    for line in translation.warnings.lines() {
+    let translation = translator::translate(&configuration, &agent)?;
+    for line in translation.warnings.to_string().lines() {
         println!("cargo::warning={line}");
     }
     println!("cargo::rerun-if-env-changed={COVERAGE}");

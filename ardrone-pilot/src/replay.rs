@@ -20,10 +20,10 @@ use crate::settings::{Settings, SettingsError};
 #[derive(Debug, thiserror::Error)]
 pub enum ReplayError {
     /// Its settings are refused today.
-    #[error("the log's settings are refused today: {0}")]
+    #[error("the log's settings are refused today")]
     Settings(#[from] SettingsError),
     /// Its plan is refused today.
-    #[error("the log's plan is refused today:\n{0}")]
+    #[error("the log's plan is refused today")]
     Plan(#[from] PlanError),
     /// An order in it is refused today.
     #[error(transparent)]

@@ -111,7 +111,8 @@ struct Estimator {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct Controller {
-    law: LawName,
+    #[serde(with = "law_name")]
+    law: Law,
     speed_max_m_s: f64,
     acceleration_share: f64,
     jerk_max_m_s3: f64,
@@ -127,11 +128,22 @@ struct Controller {
     yaw_1_deg: f64,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum LawName {
-    Cascade,
-    Tum,
+/// How [`Law`] stands in a file: by its name.
+mod law_name {
+    use pid::Law;
+    use serde::de::{Deserialize, Deserializer, Error};
+    use serde::ser::Serializer;
+
+    #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde wants it so")]
+    pub(super) fn serialize<S: Serializer>(law: &Law, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(law.name())
+    }
+
+    pub(super) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Law, D::Error> {
+        let name = String::deserialize(from)?;
+        let law = Law::ALL.into_iter().find(|law| law.name() == name);
+        law.ok_or_else(|| Error::unknown_variant(&name, &["cascade", "tum"]))
+    }
 }
 
 impl Default for Fence {
@@ -201,7 +213,7 @@ impl Default for Controller {
     fn default() -> Self {
         let config = CascadeConfig::default();
         Self {
-            law: LawName::Cascade,
+            law: Law::default(),
             speed_max_m_s: config.speed_max_m_s,
             acceleration_share: config.acceleration_share,
             jerk_max_m_s3: config.jerk_max_m_s3,
@@ -247,10 +259,7 @@ impl Settings {
 
     /// Uses another law.
     pub fn set_law(&mut self, law: Law) {
-        self.controller.law = match law {
-            Law::Cascade => LawName::Cascade,
-            Law::Tum => LawName::Tum,
-        };
+        self.controller.law = law;
     }
 
     /// What these settings mean for a flight.
@@ -274,10 +283,7 @@ impl Settings {
                 Navdata::Full => NavdataRate::Full,
             },
             read_back: drone.read_back,
-            law: match controller.law {
-                LawName::Cascade => Law::Cascade,
-                LawName::Tum => Law::Tum,
-            },
+            law: controller.law,
             estimator: EstimatorConfig {
                 limits,
                 airframe: estimator::Airframe {

@@ -4,10 +4,13 @@
 //! drone in its emergency state is never asked to fly, and how fast sticks may move. Where it has to
 //! land the drone, it stays with that.
 
+mod carried;
+
 use std::time::Duration;
 
 use pid::{Demand, Pose};
 
+use self::carried::CarriedOff;
 use crate::agent::AgentCommand;
 use crate::plan::FlightLimits;
 
@@ -38,6 +41,12 @@ const TOO_STRONG: f64 = 1.0;
 const GUST: Duration = Duration::from_millis(1200);
 const BRAKES: Duration = Duration::from_millis(600);
 const BRAKES_M_S: f64 = 0.5;
+/// Where it cannot come back it is flown down against the wind to this height, and lands by itself there: above
+/// it sinks faster by its sticks, below no more. Each airframe sinks so fast; one that does not, or says that
+/// it does not, is let land by itself too. It is sent so far against the wind.
+const HIGH_M: f64 = 0.8;
+const SINKS_M_S: f64 = 0.4;
+const LEANS_FOR_M: f64 = 2.0;
 /// And when navdata have been so old on its way.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
 /// Near the floor of its fence the drone sinks no faster than the slowest airframe stops: this fast at the
@@ -65,6 +74,8 @@ pub enum Veto {
     NearFence,
     /// The drone has left the fence: fly it back and down, and land.
     OutsideFence,
+    /// The wind carries it over the fence faster than it can brake: fly it down against the wind, and land.
+    CarriedOff,
 }
 
 impl Veto {
@@ -78,12 +89,13 @@ impl Veto {
             Self::TargetOutside => "TargetOutside",
             Self::NearFence => "NearFence",
             Self::OutsideFence => "OutsideFence",
+            Self::CarriedOff => "CarriedOff",
         }
     }
 
     /// Whether the drone is landed for it.
     pub fn lands(self) -> bool {
-        matches!(self, Self::Blind | Self::OutsideFence | Self::Landing)
+        matches!(self, Self::Blind | Self::OutsideFence | Self::CarriedOff | Self::Landing)
     }
 }
 
@@ -106,6 +118,10 @@ pub struct Circumstances {
     pub velocity_m_s: [f64; 3],
     /// How the wind pushes it towards right and forward, as a share of what it can lean against.
     pub wind: [f64; 2],
+    /// How fast it gains speed at full tilt in still air.
+    pub full_tilt_m_s2: f64,
+    /// How fast air that stands still slows it, by its speed.
+    pub drag_1_s: f64,
 }
 
 /// The last word before the wire.
@@ -116,7 +132,12 @@ pub struct Guard {
     danger: Option<Veto>,
     /// Until then it may be flown back first.
     retreats_until: Duration,
+    /// Until then it may be flown down where it cannot come back.
+    sinks_until: Duration,
     way_back: WayBack,
+    carried_off: CarriedOff,
+    /// Where it is flown down when it is carried off.
+    upwind: Pose,
     /// It has been told to land: in the air that is not taken back.
     lands: bool,
     /// It was last told to stay on the ground: seen in the air it has risen on an order that was still on its
@@ -132,7 +153,10 @@ impl Guard {
             fence,
             danger: None,
             retreats_until: Duration::ZERO,
+            sinks_until: Duration::ZERO,
             way_back: WayBack::default(),
+            carried_off: CarriedOff::default(),
+            upwind: Pose::default(),
             lands: false,
             stays_down: false,
             sticks: Demand::default(),
@@ -156,6 +180,7 @@ impl Guard {
         }
         if !now.airborne {
             self.danger = None;
+            self.carried_off = CarriedOff::default();
             self.lands = false;
             return (command, None);
         }
@@ -173,10 +198,14 @@ impl Guard {
         if self.lands || now.landing || self.stays_down {
             return (AgentCommand::Land, flies.then(|| self.danger.unwrap_or(Veto::Landing)));
         }
+        self.carried_off.see(now, self.fence.radius_m);
         if flies && self.danger.is_none() {
             self.danger = self.reason_to_land(now);
             self.retreats_until = now.now + RETREAT;
-            self.way_back = WayBack::begin(now.now);
+            self.sinks_until = now.now + time_to_sink(now.pose.z_m);
+            self.upwind = self.place_upwind(&now.pose);
+            let gust_since = self.carried_off.since().unwrap_or(now.now);
+            self.way_back = WayBack::begin(now.now, gust_since);
         }
         self.way_back.see(now);
         if let Some(danger) = self.danger {
@@ -227,18 +256,32 @@ impl Guard {
         self.sticks = Demand::default();
     }
 
-    /// The drone's own landing drifts: with eyes open it is flown back and down first.
+    /// The drone's own landing drifts, and the longer the higher it begins: with eyes open the drone is flown
+    /// back and down first. Where that is hopeless it still leans against the wind and sinks faster than by
+    /// itself, as far as [`HIGH_M`].
     fn bring_down(&self, danger: Veto, now: &Circumstances) -> AgentCommand {
         let is_across = now.pose.x_m.hypot(now.pose.y_m) > self.fence.radius_m;
-        let retreats = danger == Veto::OutsideFence
-            && now.blind_for <= BLIND_RETREAT
-            && now.now < self.retreats_until
-            && !(is_across && self.way_back.is_none(now));
-        match self.retreat(&now.pose) {
+        let is_hopeless = is_across && self.way_back.is_none(now);
+        let sinks = now.pose.z_m > HIGH_M && now.now < self.sinks_until;
+        let (target, may_fly) = match danger {
+            Veto::OutsideFence => (self.retreat(&now.pose), sinks || !is_hopeless),
+            Veto::CarriedOff => (Some(self.upwind), sinks),
+            _ => (None, false),
+        };
+        let retreats = may_fly && now.blind_for <= BLIND_RETREAT && now.now < self.retreats_until;
+        match target {
             Some(target) if retreats && now.blind_for <= STALE => AgentCommand::GoTo(target),
             Some(_) if retreats => AgentCommand::Hover,
             _ => AgentCommand::Land,
         }
+    }
+
+    /// A low place so far towards the middle of the fence that the drone leans that way all it can.
+    fn place_upwind(&self, pose: &Pose) -> Pose {
+        let away_m = pose.x_m.hypot(pose.y_m).max(f64::EPSILON);
+        let share = 1.0 - LEANS_FOR_M / away_m;
+        let low_m = self.fence.floor_m + LOW_M;
+        Pose { x_m: pose.x_m * share, y_m: pose.y_m * share, z_m: low_m, ..*pose }
     }
 
     fn reason_to_land(&self, now: &Circumstances) -> Option<Veto> {
@@ -246,6 +289,8 @@ impl Guard {
             Some(Veto::Blind)
         } else if !self.is_inside_above(&now.pose, MARGIN_M) {
             Some(Veto::OutsideFence)
+        } else if self.carried_off.lasts(now.now) {
+            Some(Veto::CarriedOff)
         } else {
             None
         }
@@ -291,8 +336,8 @@ struct WayBack {
 }
 
 impl WayBack {
-    fn begin(now: Duration) -> Self {
-        Self { nearer_at: now, brakes_until: now + GUST, ..Self::default() }
+    fn begin(now: Duration, gust_since: Duration) -> Self {
+        Self { nearer_at: now, brakes_until: gust_since + GUST, ..Self::default() }
     }
 
     fn see(&mut self, now: &Circumstances) {
@@ -323,6 +368,11 @@ fn outward(now: &Circumstances, [right, forward]: [f64; 2]) -> f64 {
     (right * x_m + forward * y_m) / x_m.hypot(y_m).max(f64::EPSILON)
 }
 
+/// How long a drone at this height needs at most to sink to where it lands by itself.
+fn time_to_sink(height_m: f64) -> Duration {
+    Duration::try_from_secs_f64((height_m - HIGH_M) / SINKS_M_S).unwrap_or_default().min(RETREAT)
+}
+
 /// Where the drone comes to rest if it begins to brake now.
 fn stopping_place(now: &Circumstances) -> Pose {
     let way_m = |speed_m_s: f64| {
@@ -337,7 +387,7 @@ fn stopping_place(now: &Circumstances) -> Pose {
 mod tests {
     use super::*;
 
-    const FINE: Circumstances = Circumstances {
+    pub(super) const FINE: Circumstances = Circumstances {
         now: Duration::from_mins(1),
         blind_for: Duration::ZERO,
         emergency: false,
@@ -346,6 +396,8 @@ mod tests {
         pose: Pose { x_m: 0.0, y_m: 0.0, z_m: 1.0, yaw_deg: 0.0 },
         velocity_m_s: [0.0; 3],
         wind: [0.0; 2],
+        full_tilt_m_s2: 2.0,
+        drag_1_s: 0.2,
     };
     const TARGET: Pose = Pose { x_m: 1.0, ..FINE.pose };
     const GO_TO: AgentCommand = AgentCommand::GoTo(TARGET);
@@ -501,6 +553,45 @@ mod tests {
         for bearable in [[0.0, -0.9], [0.0, 1.1], [1.1, 0.0]] {
             assert!(!within(lands_after(bearable, 0.0), GUST + 5 * tick), "{bearable:?}");
         }
+    }
+
+    #[test]
+    fn a_drone_that_is_carried_off_is_flown_down_against_the_wind_and_lands() {
+        // Three metres inside, backward by 1 m/s, in a storm.
+        let lands_after = |height_m: f64, sinks_m_s: f64| {
+            let mut guard = guard();
+            let mut downward = 0;
+            let lands = (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
+                let sunk_m = sinks_m_s * time.saturating_sub(GUST).as_secs_f64();
+                let now = Circumstances {
+                    now: FINE.now + *time,
+                    pose: Pose { y_m: -7.0, z_m: height_m - sunk_m, ..FINE.pose },
+                    velocity_m_s: [0.0, -1.0, 0.0],
+                    wind: [0.0, -1.1],
+                    ..FINE
+                };
+                let (command, veto) = guard.check(GO_TO, &now);
+                if veto == Some(Veto::CarriedOff)
+                    && let AgentCommand::GoTo(target) = command
+                {
+                    assert!(target.y_m > -5.1 && target.z_m < 0.5, "{target:?}");
+                    downward += 1;
+                }
+                command == AgentCommand::Land
+            });
+            (lands.unwrap_or(Duration::MAX), downward)
+        };
+        let tick = Duration::from_millis(30);
+        assert_eq!(lands_after(0.75, 0.5), (GUST, 0), "low already");
+        let (time, downward) = lands_after(1.8, 0.5);
+        assert!(time <= GUST + Duration::from_secs(2) + 2 * tick && downward > 60, "{time:?}");
+        let (time, _) = lands_after(1.8, 0.0);
+        assert!(
+            time <= GUST + Duration::from_millis(2500) + 2 * tick,
+            "it does not sink: {time:?}"
+        );
+        assert_eq!(time_to_sink(f64::NAN), Duration::ZERO);
+        assert_eq!(time_to_sink(f64::INFINITY), Duration::ZERO);
     }
 
     #[test]

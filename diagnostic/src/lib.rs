@@ -16,6 +16,7 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod diagnostics;
 mod printable;
 
 use std::fmt;
@@ -23,6 +24,7 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
+pub use diagnostics::{Diagnostics, Located, SourceText};
 pub use printable::{is_printable, printable, printable_lines};
 
 /// A byte range of a source text.
@@ -48,19 +50,24 @@ pub enum Severity {
 
 /// One message about one place in a source text.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
     /// What is wrong, in one line without a full stop.
     pub message: String,
+    /// Index of its text among those of a [`Diagnostics`]; 0 if there is one only.
+    pub source: usize,
     /// Where: bytes of the source text.
     pub span: Span,
     /// What stands under the caret; may be empty.
     pub label: String,
     /// What to do about it.
     pub help: Option<String>,
-    /// What it is called by who wants more or less of it; may be empty.
+    /// A stable name of this kind of message, for programs; may be empty.
     pub code: &'static str,
+    /// Whether users can silence this kind by its code; the rendered message then shows the code.
+    is_lint: bool,
 }
 
 impl Diagnostic {
@@ -69,10 +76,12 @@ impl Diagnostic {
         Self {
             severity: Severity::Error,
             message: message.into(),
+            source: 0,
             span,
             label: String::new(),
             help: None,
             code: "",
+            is_lint: false,
         }
     }
 
@@ -95,10 +104,18 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the name by which such messages are silenced; it is shown behind `warning`.
+    /// Sets the stable name of this kind of message.
     #[must_use]
     pub fn code(mut self, code: &'static str) -> Self {
         self.code = code;
+        self
+    }
+
+    /// Sets the name by which such messages are silenced; it is shown behind `warning`.
+    #[must_use]
+    pub fn lint(mut self, code: &'static str) -> Self {
+        self.code = code;
+        self.is_lint = true;
         self
     }
 
@@ -115,7 +132,7 @@ impl Diagnostic {
             annotation = annotation.label(self.label.as_str());
         }
         let mut title = level.primary_title(self.message.as_str());
-        if !self.code.is_empty() {
+        if self.is_lint {
             title = title.id(self.code);
         }
         let mut group =
@@ -130,7 +147,7 @@ impl Diagnostic {
 
 /// More messages than this are counted, not shown: nobody reads them, and each costs a look at the
 /// whole text.
-const MAX_RENDERED: usize = 50;
+pub const MAX_RENDERED: usize = 50;
 
 /// Renders `diagnostics` in the order of the text, an empty line between two. Of very many the
 /// first are shown and the others counted; errors come before warnings then.
@@ -143,11 +160,14 @@ pub fn render_all(diagnostics: &[Diagnostic], source: &Source<'_>) -> String {
     }
     let mut rendered: Vec<String> =
         shown.iter().map(|diagnostic| diagnostic.render(source)).collect();
-    let more = diagnostics.len() - shown.len();
-    if more > 0 {
-        rendered.push(format!("... and {more} more"));
-    }
+    rendered.extend(more(diagnostics.len()));
     rendered.join("\n\n")
+}
+
+/// The last line if only the first of `count` messages are shown.
+fn more(count: usize) -> Option<String> {
+    let more = count.saturating_sub(MAX_RENDERED);
+    (more > 0).then(|| format!("... and {more} more"))
 }
 
 /// Line and column of a byte of `text`, both counted from 1; the column counts characters.

@@ -11,5 +11,5 @@ settables { b; }; triggerables { +!a; +b; -b; };";
 
 fuzz_target!(|text: &str| {
     let configuration = parse_configuration("a.conf", CONFIGURATION).expect("it is valid");
-    let _ = translate(configuration, text);
+    let _ = translate(&configuration, text);
 });

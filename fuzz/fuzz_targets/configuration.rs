@@ -6,6 +6,6 @@ use translator::{parse_configuration, translate};
 
 fuzz_target!(|text: &str| {
     if let Ok(configuration) = parse_configuration("a.conf", text) {
-        let _ = translate(configuration, "!a. +!a : b(X) <- act(X); !!a.");
+        let _ = translate(&configuration, "!a. +!a : b(X) <- act(X); !!a.");
     }
 });

@@ -67,6 +67,7 @@ impl Default for DroneConfig {
 
 /// What really happens, and what nobody but the simulation knows.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Truth {
     /// The drone's own time.
     pub time: Duration,

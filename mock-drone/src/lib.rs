@@ -5,7 +5,12 @@
 //!   numbers, watchdogs, configuration with acknowledge.
 //! - [`sensors`]: what the drone believes of its own motion: noise, bias, delay.
 //! - [`Drone`]: the three together, a pure state machine fed with time and bytes.
-//! - [`server`]: the drone on real sockets.
+//! - [`World`]: a drone in its air, where datagrams are late or lost and faults come by the clock.
+#![cfg_attr(feature = "server", doc = "- [`server`]: the drone on real sockets.")]
+#![cfg_attr(feature = "cli", doc = "- [`command_line`]: the program.")]
+//!
+//! Without its features the crate is pure: it opens no socket and reads no clock. `server` needs tokio, `cli` is the
+//! program `mock-drone`.
 //!
 //! A drone with the same [`DroneConfig`] that is told the same things at the same times does the
 //! same things, bit for bit. It knows its own [`Truth`], so that a flight can be judged.
@@ -13,6 +18,8 @@
 
 pub mod airframe;
 mod camera;
+#[cfg(feature = "cli")]
+pub mod command_line;
 mod configuration;
 mod drone;
 mod faults;
@@ -21,6 +28,7 @@ mod link;
 pub mod scenario;
 mod second_pilot;
 pub mod sensors;
+#[cfg(feature = "server")]
 #[expect(clippy::disallowed_methods, reason = "the server has sockets and a clock")]
 pub mod server;
 mod telemetry;

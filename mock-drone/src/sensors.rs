@@ -111,6 +111,7 @@ impl SensorModel {
 
 /// What the sensors read now.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Reading {
     /// (right, forward) in the levelled body frame.
     pub velocity_m_s: Vector2<f64>,

@@ -11,6 +11,7 @@ const PERIOD: Duration = Duration::from_millis(20);
 
 /// Writes the truth of a world.
 #[derive(Debug)]
+#[must_use = "what is not recorded is not known"]
 pub struct TruthLog<W: Write> {
     writer: csv::Writer<W>,
     next: Duration,

@@ -146,6 +146,24 @@ pub enum Law {
     Tum,
 }
 
+impl Law {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Cascade, Self::Tum];
+
+    /// Its name in settings and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cascade => "cascade",
+            Self::Tum => "tum",
+        }
+    }
+
+    /// Whether it steers by where the drone will be when a command acts, not by where it was measured.
+    pub fn predicts(self) -> bool {
+        self == Self::Cascade
+    }
+}
+
 /// Holds and approaches a pose.
 #[derive(Debug, Clone)]
 pub struct PositionController {
@@ -225,7 +243,7 @@ pub(crate) fn wrap_deg(angle_deg: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const LAWS: [Law; 2] = [Law::Cascade, Law::Tum];
+    const LAWS: [Law; 2] = Law::ALL;
 
     /// What is demanded after a while at one place.
     fn demand(law: Law, pose: Pose, target: Pose, limit: f64) -> Demand {

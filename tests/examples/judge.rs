@@ -1,4 +1,5 @@
-//! Flies the fault campaign, then one wrong sensor at a time, until something is found:
+//! Flies the fault campaign, then landings with gaps in the link around them, then one wrong sensor at a time, until
+//! something is found:
 //! `cargo run -p system-tests --example judge -- 1000`.
 //!
 //! `cargo xtask mutants` runs it on code with a mistake in it. The first fault is printed with its seed, and the exit
@@ -11,9 +12,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use autopilot::outcome::Outcome;
-use system_tests::campaign;
 use system_tests::sensors::{AIRFRAMES, led_astray};
 use system_tests::sim::SimulationError;
+use system_tests::{campaign, gaps};
 
 /// Of so many flights of the campaign at least one is flown to its end; of the pilot as it is, two of five are.
 const ONE_OF: u64 = 5;
@@ -72,6 +73,14 @@ fn astray() -> Option<String> {
     }
 }
 
+/// The first landing that a gap in the link made the pilot forget, or why there were none to be judged.
+fn forgotten() -> Option<String> {
+    match gaps::forgotten_landings() {
+        Ok(found) => found.into_iter().next(),
+        Err(error) => Some(error.to_string()),
+    }
+}
+
 fn main() -> ExitCode {
     let Some(flights) = std::env::args().nth(1).and_then(|word| word.parse().ok()) else {
         println!("usage: judge FLIGHTS");
@@ -95,11 +104,12 @@ fn main() -> ExitCode {
             format!("only {completed} of {flights} plans were flown to their end")
         }
         None => {
-            let Some(astray) = astray() else {
+            let astray = || astray().map(|astray| format!("sensors: {astray}"));
+            let Some(found) = forgotten().or_else(astray) else {
                 println!("nothing in {flights} flights, {completed} plans were flown to their end");
                 return ExitCode::SUCCESS;
             };
-            format!("sensors: {astray}")
+            found
         }
     };
     println!("{told}");

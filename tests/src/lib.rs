@@ -4,6 +4,7 @@
 mod alone;
 pub mod campaign;
 pub mod drive;
+pub mod gaps;
 pub mod sensors;
 pub mod sim;
 

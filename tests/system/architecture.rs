@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The packages of the workspace and which of them each may depend on.
-const MAY_USE: [(&str, &[&str]); 10] = [
+const MAY_USE: [(&str, &[&str]); 11] = [
     ("diagnostic", &[]),
     ("translator", &["diagnostic"]),
+    ("asl2c", &["translator"]),
     ("ardrone-link", &[]),
     ("estimator", &[]),
     ("pid", &[]),
@@ -18,7 +19,7 @@ const MAY_USE: [(&str, &[&str]); 10] = [
         &["ardrone-link", "autopilot", "diagnostic", "estimator", "mock-drone", "pid"],
     ),
     ("system-tests", &["ardrone-link", "ardrone-pilot", "autopilot", "mock-drone"]),
-    ("xtask", &["autopilot", "mock-drone", "system-tests", "translator"]),
+    ("xtask", &["asl2c", "autopilot", "mock-drone", "system-tests", "translator"]),
 ];
 
 /// All that the pilot is made of, besides our own crates. None of these opens a socket or a file, reads a clock
@@ -108,6 +109,33 @@ fn the_pilot_depends_on_nothing_that_can_do_input_or_output() {
     }
 }
 
+/// Every build script that uses the translator compiles its dependencies.
+#[test]
+fn the_translator_needs_no_command_line_and_no_files() {
+    let tree = cargo(&["tree", "--package", "translator", "--edges", "normal", "--prefix", "none"]);
+    for name in ["clap", "tempfile", "rustix", "tokio", "asl2c"] {
+        assert!(!tree.lines().any(|line| line.split(' ').next() == Some(name)), "{name}: {tree}");
+    }
+}
+
+/// Simulated flights need the mock's `World` only: without features it must not pull in sockets or a runtime.
+#[test]
+fn the_mock_drone_is_pure_without_its_features() {
+    let tree = cargo(&[
+        "tree",
+        "--package",
+        "mock-drone",
+        "--no-default-features",
+        "--edges",
+        "normal",
+        "--prefix",
+        "none",
+    ]);
+    for name in ["clap", "tokio", "tracing-subscriber"] {
+        assert!(!tree.lines().any(|line| line.split(' ').next() == Some(name)), "{name}: {tree}");
+    }
+}
+
 /// The source files of a folder, its tests apart.
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
@@ -146,10 +174,13 @@ fn what_does_input_or_output_is_seen() {
 #[test]
 fn pure_crates_name_nothing_that_does_input_or_output() {
     let mut looked_at = 0;
-    for package in ["diagnostic", "estimator", "pid", "autopilot", "ardrone-link"] {
+    for package in
+        ["diagnostic", "translator", "estimator", "pid", "autopilot", "ardrone-link", "mock-drone"]
+    {
         for path in sources(&Path::new("..").join(package).join("src")) {
-            // The client on real sockets: a feature that the pilot does not ask for.
-            if path.components().any(|folder| folder.as_os_str() == "net") {
+            // Behind features that the core does not enable.
+            let feature = ["net", "server", "command_line", "main.rs"];
+            if path.components().any(|part| feature.iter().any(|name| part.as_os_str() == *name)) {
                 continue;
             }
             let text = std::fs::read_to_string(&path).unwrap();
@@ -159,6 +190,56 @@ fn pure_crates_name_nothing_that_does_input_or_output() {
         }
     }
     assert!(looked_at > 40, "{looked_at}");
+}
+
+/// Sibling modules that a file imports.
+fn neighbours(file: &Path) -> Vec<PathBuf> {
+    let text = std::fs::read_to_string(file).unwrap();
+    let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+    let folder = file.parent().unwrap();
+    // Links in comments are not imports.
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let words = lines.flat_map(|line| line.split("super::").skip(1));
+    let names = words.map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next());
+    names
+        .filter_map(|name| {
+            let module = folder.join(name.filter(|name| !name.is_empty())?);
+            let found = [module.with_extension("rs"), module.join("mod.rs")];
+            found.into_iter().find(|path| path != file && path.exists())
+        })
+        .collect()
+}
+
+/// A circular import means that something is defined in the wrong file.
+#[test]
+fn no_files_of_a_folder_need_each_other() {
+    let packages = [
+        "diagnostic",
+        "translator",
+        "asl2c",
+        "estimator",
+        "autopilot",
+        "mock-drone",
+        "ardrone-link",
+        "pid",
+        "ardrone-pilot",
+        "xtask",
+    ];
+    let mut circles = BTreeSet::new();
+    for package in packages {
+        for file in sources(&Path::new("..").join(package).join("src")) {
+            let mut open = neighbours(&file);
+            let mut seen = BTreeSet::new();
+            while let Some(next) = open.pop() {
+                if next == file {
+                    circles.insert(file.clone());
+                } else if seen.insert(next.clone()) && !next.ends_with("mod.rs") {
+                    open.extend(neighbours(&next));
+                }
+            }
+        }
+    }
+    assert_eq!(circles, BTreeSet::new());
 }
 
 /// What the pilot says goes one way, on which foreign text is made harmless.
@@ -189,7 +270,8 @@ fn unsafe_code_is_in_one_file() {
     let forbidding = [
         "diagnostic/src/lib.rs",
         "translator/src/lib.rs",
-        "translator/src/main.rs",
+        "asl2c/src/lib.rs",
+        "asl2c/src/main.rs",
         "ardrone-link/src/lib.rs",
         "estimator/src/lib.rs",
         "pid/src/lib.rs",

@@ -92,8 +92,9 @@ impl Conversation {
 
     #[track_caller]
     fn accepted(&mut self, order: Value) {
-        let answer = self.order(order.clone());
-        assert_eq!(answer["accepted"], true, "{order}: {answer}");
+        let said = order.to_string();
+        let answer = self.order(order);
+        assert_eq!(answer["accepted"], true, "{said}: {answer}");
     }
 
     #[track_caller]

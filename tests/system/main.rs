@@ -10,6 +10,7 @@ mod chromium;
 mod client;
 mod command_line;
 mod conversation;
+mod dependencies;
 mod estimate;
 mod faults;
 mod parting;

@@ -17,16 +17,7 @@ pub(crate) fn program(name: &str) -> Command {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     let folder = FOLDER.get_or_init(|| {
         let mut build = Command::new(env!("CARGO"));
-        build.args([
-            "build",
-            "--quiet",
-            "-p",
-            "ardrone-pilot",
-            "-p",
-            "mock-drone",
-            "-p",
-            "translator",
-        ]);
+        build.args(["build", "--quiet", "-p", "ardrone-pilot", "-p", "mock-drone", "-p", "asl2c"]);
         build.arg("--bins");
         if !cfg!(debug_assertions) {
             build.arg("--release");

@@ -83,7 +83,10 @@ impl Bench {
     }
 
     fn run(&mut self, time: Duration) {
-        let end = self.driver.now() + time;
+        self.run_to(self.driver.now() + time);
+    }
+
+    fn run_to(&mut self, end: Duration) {
         while self.driver.now() < end {
             self.step();
         }
@@ -204,14 +207,14 @@ fn ten_flights_in_half_an_hour_with_all_that_happens_between_them() {
     assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
     // The drone is switched off and on while it stands by: it is found again.
     assert!(bench.driver.now() < 1290 * SECOND, "{:?}", bench.driver.now());
-    bench.run(1320 * SECOND - bench.driver.now());
+    bench.run_to(1320 * SECOND);
     assert_eq!((bench.phase(), bench.ready.as_deref()), (Phase::Standby, Some(&[][..])));
     assert!(bench.count(&FlightEvent::Configured) == 2, "{:?}", bench.events);
     // 10.
     bench.accepted(OperatorOrder::Load(plan(SQUARE)));
     bench.accepted(START);
     assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
-    bench.run(1800 * SECOND - bench.driver.now());
+    bench.run_to(1800 * SECOND);
     assert_eq!((bench.phase(), bench.outcomes.len()), (Phase::Standby, 10));
     let take_offs = bench.events.iter().filter(|(_, event)| *event == FlightEvent::Landed).count();
     assert_eq!(take_offs, 9, "but for the one that fell");
@@ -267,7 +270,7 @@ fn what_is_cleared_is_given_up_where_the_drone_is() {
 #[test]
 fn a_drone_that_disappears_is_found_again() {
     let mut bench = Bench::standing_by("20 outage 8");
-    bench.run(Duration::from_secs(24) - bench.driver.now());
+    bench.run_to(24 * SECOND);
     assert_eq!(
         (bench.phase(), bench.ready.clone()),
         (Phase::Connecting, Some(vec![NotReady::NoDrone]))

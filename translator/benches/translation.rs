@@ -103,7 +103,7 @@ fn main() {
         }
     }
     let parsed = parse_configuration("autopilot.conf", configuration).unwrap();
-    let translation = translate(parsed, agent).unwrap();
+    let translation = translate(&parsed, agent).unwrap();
     for optimisation in ["-O0", "-Os", "-O2"] {
         match instructions(&translation, optimisation) {
             Some((step, all)) => println!(
@@ -142,7 +142,7 @@ fn timed(configuration: &str, agent: &str, repetitions: usize) -> Duration {
     let once = || {
         let start = Instant::now();
         let parsed = parse_configuration("a.conf", configuration).unwrap();
-        let translation = translate(parsed, agent).unwrap();
+        let translation = translate(&parsed, agent).unwrap();
         assert!(!translation.files.is_empty());
         start.elapsed()
     };

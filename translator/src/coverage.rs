@@ -26,14 +26,14 @@ pub(crate) fn always_finds_a_plan(handler: &Handler) -> bool {
         && (0_u32..1 << questions.count).all(|answers| plans.iter().any(|plan| plan.holds(answers)))
 }
 
-/// Reachable plans that can never be chosen: an earlier one always applies, or they need what is
+/// Plans that can never be chosen: an earlier one always applies, or they need what is
 /// never believed.
 pub(crate) fn never_applicable(program: &Program) -> impl Iterator<Item = &Plan> {
     let mut covered = false;
-    program.reachable_plans().filter_map(move |(_, number, plan)| {
+    program.plans().filter_map(move |(_, number, plan)| {
         covered &= number > 0;
         let impossible = |condition: &Condition| {
-            matches!(condition, Condition::Holds { belief, .. } if !program.belief(*belief).believable)
+            matches!(condition, Condition::Holds { belief, .. } if !program.is_believable(*belief))
         };
         let never = covered || plan.context.iter().any(impossible);
         covered |= plan.always_applies();

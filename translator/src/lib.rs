@@ -13,7 +13,7 @@
 //! let configuration = "settings { input = lamp.asl; output = lamp.c; header = lamp.h; basics = actions.h; };
 //!     basics { void switchOn(void); }; types { light(void); }; triggerables { +!light; };";
 //! let parsed = translator::parse_configuration("lamp.conf", configuration)?;
-//! let translation = translator::translate(parsed, "+!light <- switchOn.")?;
+//! let translation = translator::translate(&parsed, "+!light <- switchOn.")?;
 //! assert!(translation.files[0].text.contains("switchOn();"));
 //! # Ok::<(), translator::TranslateError>(())
 //! ```
@@ -21,9 +21,10 @@
 
 mod analysis;
 mod backend;
+mod code;
 pub mod configuration;
 mod coverage;
-mod finding;
+mod gather;
 pub mod interpreter;
 mod model;
 mod obligations;
@@ -36,10 +37,11 @@ pub mod types;
 use std::collections::HashSet;
 
 use backend::rust::{camel_case, snake_case};
+pub use code::Code;
 use configuration::{Configuration, Instance};
-use diagnostic::{Diagnostic, Severity, Source};
-use finding::gather;
-pub use finding::{CODES, Finding, REFUSED};
+use diagnostic::Source;
+pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
+use gather::gather;
 pub use model::{Happening, Model};
 pub use obligations::{HARNESS, Obligations, Promise, RANDOM_TRANSITIONS};
 pub use report::Report;
@@ -67,13 +69,16 @@ impl ParsedConfiguration {
         self.configuration.included_files().into_iter()
     }
 
-    /// An error at the value of a setting: what is wrong with it, and what to do.
-    pub fn refuse(&self, setting: &str, message: &str, help: &str) -> TranslateError {
+    /// An error at the value of a setting whose file would take the place of something else: what that is, and what
+    /// to do.
+    pub fn overwrites(&self, setting: &str, message: &str, help: &str) -> TranslateError {
         let place = self.configuration.settings.places.get(setting).cloned().unwrap_or_default();
-        let diagnostic = Diagnostic::error(message, place).help(help);
-        let source = Source { name: &self.name, text: &self.text };
-        let (rendered, findings) = gather(&[(&[diagnostic], source)]);
-        TranslateError::Configuration { rendered, findings }
+        let found = vec![Code::Overwrites.at(message, place).help(help)];
+        TranslateError::Refused(gather([(found, self.source())]))
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source { name: &self.name, text: &self.text }
     }
 
     fn promises(&self) -> Vec<Promise> {
@@ -94,20 +99,20 @@ impl ParsedConfiguration {
 
 /// A finished translation.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Translation {
     /// The C file, its header, the header of the basic actions, and if asked for the Rust bindings
     /// and the trace matrix.
     pub files: Vec<GeneratedFile>,
-    /// Warnings, rendered.
-    pub warnings: String,
-    /// The same one by one, the most important first.
-    pub findings: Vec<Finding>,
+    /// Warnings, the most important first.
+    pub warnings: Diagnostics,
     /// What the agent costs: memory, call depth, calls of each action in a step.
     pub report: Report,
 }
 
 /// One generated file.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct GeneratedFile {
     /// Its name as the configuration gives it, relative to the output folder.
     pub name: String,
@@ -119,23 +124,11 @@ pub struct GeneratedFile {
 
 /// Why nothing was translated.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TranslateError {
-    /// The configuration has errors.
-    #[error("{rendered}")]
-    Configuration {
-        /// All errors with line, column and caret.
-        rendered: String,
-        /// The same one by one.
-        findings: Vec<Finding>,
-    },
-    /// The agent has errors, perhaps the configuration too.
-    #[error("{rendered}")]
-    Agent {
-        /// All errors with line, column and caret.
-        rendered: String,
-        /// The same one by one.
-        findings: Vec<Finding>,
-    },
+    /// The configuration or the agent has errors. There may be warnings behind them.
+    #[error("{0}")]
+    Refused(Diagnostics),
     /// A proof would have to make up values that only the environment knows.
     #[error("values of type `{name}` cannot be made up: nothing can be proved of this agent")]
     Unprovable {
@@ -150,30 +143,40 @@ pub enum TranslateError {
     },
 }
 
+impl TranslateError {
+    /// The errors and warnings by place; empty if the error has no place in a text.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        match self {
+            Self::Refused(found) => found,
+            Self::Unprovable { .. } | Self::Matrix { .. } => &[],
+        }
+    }
+}
+
 /// Reads a configuration; `name` is its file's name for messages.
 ///
 /// # Errors
-/// [`TranslateError::Configuration`] with everything that is wrong in it.
+/// [`TranslateError::Refused`] with everything that is wrong in it.
 pub fn parse_configuration(name: &str, text: &str) -> Result<ParsedConfiguration, TranslateError> {
     let (configuration, diagnostics) = configuration::parse(text);
     if diagnostics.is_empty() {
         let (name, text) = (name.to_owned(), text.to_owned());
         return Ok(ParsedConfiguration { name, text, configuration });
     }
-    let (rendered, findings) = gather(&[(&diagnostics, Source { name, text })]);
-    Err(TranslateError::Configuration { rendered, findings })
+    Err(TranslateError::Refused(gather([(diagnostics, Source { name, text })])))
 }
 
 /// Translates the agent in `agent_text`, the content of the configuration's input file.
 ///
 /// # Errors
-/// [`TranslateError::Agent`] with everything that is wrong in either text. Nothing is produced
+/// [`TranslateError::Refused`] with everything that is wrong in either text. Nothing is produced
 /// then: the translator refuses what it cannot translate.
 pub fn translate(
-    configuration: ParsedConfiguration,
+    configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Translation, TranslateError> {
-    let (program, warnings, findings) = check(configuration, agent_text)?;
+    let wanted = configuration.configuration.settings.instance;
+    let (program, warnings) = check(configuration, agent_text, wanted)?;
     let settings = &program.configuration.settings;
     let mut files = c_files(&program);
     if let Some(rust) = &settings.rust {
@@ -187,7 +190,7 @@ pub fn translate(
             files.push(GeneratedFile { name: format!("{name}.{ending}"), text, setting: "matrix" });
         }
     }
-    Ok(Translation { files, warnings, findings, report: Report::new(&program) })
+    Ok(Translation { files, warnings, report: Report::new(&program) })
 }
 
 /// What a model checker needs to prove the properties of an agent on its C.
@@ -198,13 +201,16 @@ pub fn translate(
 /// # Errors
 /// As [`translate`], and if a value of a type would have to be made up that only the environment knows.
 pub fn obligations(
-    configuration: ParsedConfiguration,
+    configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Obligations, TranslateError> {
-    let mut configuration = configuration;
-    configuration.configuration.settings.instance = Instance::Context;
     let properties = configuration.promises();
-    let (program, ..) = check(configuration, agent_text)?;
+    // What would not be translated is not proved either.
+    let wanted = configuration.configuration.settings.instance;
+    let (mut program, _) = check(configuration, agent_text, wanted)?;
+    if wanted != Instance::Context {
+        program = check(configuration, agent_text, Instance::Context)?.0;
+    }
     if let Some(name) = backend::c::unknown_type(&program) {
         return Err(TranslateError::Unprovable { name });
     }
@@ -226,11 +232,12 @@ pub fn obligations(
 /// # Errors
 /// As [`translate`].
 pub fn model(
-    configuration: ParsedConfiguration,
+    configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Model, TranslateError> {
     let properties = configuration.promises();
-    let (program, ..) = check(configuration, agent_text)?;
+    let wanted = configuration.configuration.settings.instance;
+    let (program, _) = check(configuration, agent_text, wanted)?;
     Ok(Model::new(program, properties))
 }
 
@@ -245,32 +252,32 @@ fn c_files(program: &program::Program) -> Vec<GeneratedFile> {
     ]
 }
 
-/// The checked program and the warnings, rendered and one by one.
+/// The checked program, for C of a form, and the warnings.
 fn check(
-    configuration: ParsedConfiguration,
+    configuration: &ParsedConfiguration,
     agent_text: &str,
-) -> Result<(program::Program, String, Vec<Finding>), TranslateError> {
+    instance: Instance,
+) -> Result<(program::Program, Diagnostics), TranslateError> {
     let ParsedConfiguration { name, text, configuration } = configuration;
     let input = configuration.settings.input.clone();
-    let configuration_source = Source { name: &name, text: &text };
+    let configuration_source = Source { name, text };
     let agent_source = Source { name: &input, text: agent_text };
 
-    let boundary = check_rust_boundary(&configuration);
+    let boundary = check_rust_boundary(configuration);
     let (agent, diagnostics) = syntax::parse(agent_text);
     if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
         // What cannot be read cannot be checked either.
-        let (rendered, findings) =
-            gather(&[(&diagnostics, agent_source), (&boundary, configuration_source)]);
-        return Err(TranslateError::Agent { rendered, findings });
+        let found = gather([(diagnostics, agent_source), (boundary, configuration_source)]);
+        return Err(TranslateError::Refused(found));
     }
-    let (program, mut findings) = analysis::analyse(configuration, &agent, agent_text);
+    let (program, mut findings) =
+        analysis::analyse(configuration.clone(), instance, &agent, agent_text);
     findings.configuration.extend(boundary);
-    let refused = findings.has_errors();
-    let (rendered, findings) =
-        gather(&[(&findings.configuration, configuration_source), (&findings.agent, agent_source)]);
-    match program.filter(|_| !refused) {
-        Some(program) => Ok((program, rendered, findings)),
-        None => Err(TranslateError::Agent { rendered, findings }),
+    let found =
+        gather([(findings.configuration, configuration_source), (findings.agent, agent_source)]);
+    match program.filter(|_| !found.has_errors()) {
+        Some(program) => Ok((program, found)),
+        None => Err(TranslateError::Refused(found)),
     }
 }
 
@@ -280,7 +287,8 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
     let Some(rust) = &configuration.settings.rust else { return findings };
     if configuration.settings.instance != Instance::Context {
         findings.push(
-            Diagnostic::error("Rust bindings need the agent's state passed in", rust.span.clone())
+            Code::RustBoundary
+                .at("Rust bindings need the agent's state passed in", rust.span.clone())
                 .help("add `instance = context;` to the settings"),
         );
     }
@@ -288,11 +296,9 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
     let mut check = |name: &str, kind: TypeKind, span: &diagnostic::Span| {
         if kind == TypeKind::Opaque {
             findings.push(
-                Diagnostic::error(
-                    format!("type `{name}` has no Rust counterpart yet"),
-                    span.clone(),
-                )
-                .help("pass its parts as numbers, or leave the setting `rust` out"),
+                Code::RustBoundary
+                    .at(format!("type `{name}` has no Rust counterpart yet"), span.clone())
+                    .help("pass its parts as numbers, or leave the setting `rust` out"),
             );
         }
     };
@@ -320,7 +326,8 @@ fn check_rust_names(configuration: &Configuration, findings: &mut Vec<Diagnostic
         if !fresh || known || is_rust_word(&name) {
             let message = format!("`{}` cannot be called `{name}` in Rust", source.text);
             findings.push(
-                Diagnostic::error(message, source.span.clone())
+                Code::ReservedName
+                    .at(message, source.span.clone())
                     .help("Rust has this word, or something else is called so there; rename it"),
             );
         }

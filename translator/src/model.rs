@@ -14,6 +14,8 @@ use crate::program::{Program, trigger_text};
 /// the comparisons that properties speak of. So a property that holds of the model holds in every
 /// environment, while a failure may need an environment that there is not.
 #[derive(Debug)]
+#[non_exhaustive]
+#[must_use = "nothing is checked yet"]
 pub struct Model {
     /// The properties, in the order of their numbers.
     pub properties: Vec<Promise>,
@@ -22,6 +24,7 @@ pub struct Model {
 
 /// Something that happens on the way to a failure, in the agent's own terms.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Happening {
     /// How deep it belongs below what comes before it: 0 for the environment and for steps, 1 for plans, 2 for
     /// what plans do.
@@ -106,7 +109,7 @@ impl Model {
             }
             "event" => at(1, None, format!("handles {}", self.event(first?)?)),
             "plan" => {
-                let (_, _, plan) = self.program.reachable_plans().nth(first?)?;
+                let (_, _, plan) = self.program.plans().nth(first?)?;
                 let head = plan.source.split("<-").next().unwrap_or_default();
                 let head = head.split_whitespace().collect::<Vec<_>>().join(" ");
                 at(1, Some(plan.lines.0), format!("plan {head}"))

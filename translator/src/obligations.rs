@@ -16,6 +16,8 @@ pub const HARNESS: &str = "harness.c";
 /// A proof needs an invariant: it begins with all candidates and drops those that do not hold in the
 /// beginning, or that some transition breaks, until the rest proves itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+#[must_use = "nothing is proved yet"]
 pub struct Obligations {
     /// The C of the agent and [`HARNESS`], with the functions `base`, `induction` and `main`.
     pub files: Vec<GeneratedFile>,
@@ -29,6 +31,7 @@ pub struct Obligations {
 
 /// A property as it was declared.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Promise {
     /// Its name.
     pub name: String,
@@ -84,7 +87,7 @@ mod tests {
     #[test]
     fn a_proof_has_an_environment_an_invariant_and_its_properties() {
         let configuration = parse_configuration("a.conf", LAMP).unwrap();
-        let obligations = obligations(configuration, "+!light <- on.").unwrap();
+        let obligations = obligations(&configuration, "+!light <- on.").unwrap();
         let formulas = obligations.properties.iter().map(|promise| promise.formula.as_str());
         assert!(formulas.eq(["at_most_one(on)", "within(1, +!light, on)"]));
         assert_eq!(obligations.properties[0].requirements, ["R-1"]);
@@ -103,7 +106,7 @@ mod tests {
     fn calls_that_return_a_value_are_counted() {
         let text = LAMP.replace("void on(void);", "bool on(void);");
         let configuration = parse_configuration("a.conf", &text).unwrap();
-        let obligations = obligations(configuration, "+!light <- X = on; +lit(1).").unwrap();
+        let obligations = obligations(&configuration, "+!light <- X = on; +lit(1).").unwrap();
         let harness = &obligations.files.last().unwrap().text;
         for part in ["calls_on = (calls_on < 2U)", "calls_on = 0U;", "return any_bool();"] {
             assert!(harness.contains(part), "{part}:\n{harness}");
@@ -114,7 +117,21 @@ mod tests {
     fn what_only_the_environment_knows_is_not_made_up() {
         let text = LAMP.replace("lit(int)", "lit(handle_t)");
         let configuration = parse_configuration("a.conf", &text).unwrap();
-        let error = obligations(configuration, "+!light <- on.").unwrap_err();
+        let error = obligations(&configuration, "+!light <- on.").unwrap_err();
         assert!(error.to_string().contains("`handle_t`"), "{error}");
+    }
+
+    /// A proof needs the state passed in, and is made of what would be translated, not of another agent.
+    #[test]
+    fn what_is_not_translated_is_not_proved() {
+        let text = LAMP.replace("basics = b.h;", "basics = b.h; rust = b.rs;");
+        let configuration = parse_configuration("a.conf", &text).unwrap();
+        let error = obligations(&configuration, "+!light <- on.").unwrap_err();
+        assert_eq!(error.diagnostics()[0].code, "rust-boundary");
+        let configuration = parse_configuration("a.conf", LAMP).unwrap();
+        let proof = obligations(&configuration, "+!light <- on.").unwrap();
+        assert!(proof.files[0].text.contains("lamp_next_step"));
+        let translation = crate::translate(&configuration, "+!light <- on.").unwrap();
+        assert!(!translation.files[0].text.contains("lamp_next_step"));
     }
 }

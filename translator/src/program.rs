@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use diagnostic::Span;
 
-use crate::configuration::{Basic, Configuration, Settings};
+use crate::configuration::{Basic, Configuration, Instance, Settings};
 use crate::syntax::ast::{Arithmetic, Operator, Relation, TriggerKind};
 use crate::types::CType;
 
@@ -16,8 +16,16 @@ use crate::types::CType;
 #[derive(Debug)]
 pub(crate) struct Program {
     pub(crate) configuration: Configuration,
+    /// The form that the C has: a proof needs another than the configuration may ask for.
+    pub(crate) instance: Instance,
     pub(crate) beliefs: Vec<Belief>,
+    /// Beliefs that something can make true.
+    pub(crate) believable: BTreeSet<BeliefId>,
+    /// Those that some event leads to, in the order of the source. There are no others here: a back end cannot
+    /// translate what never runs.
     pub(crate) handlers: Vec<Handler>,
+    /// How many plans are left out, because no event leads to them.
+    pub(crate) left_out: usize,
     /// Handlers whose events can be the one of the next step: those that a plan posts, and the
     /// initial goal's. At most one is pending.
     pub(crate) posted: Vec<HandlerId>,
@@ -63,8 +71,6 @@ pub(crate) struct Belief {
     pub(crate) settable: bool,
     /// Who handles a change by `set_b`, if it raises an event.
     pub(crate) perceived: Option<HandlerId>,
-    /// Whether anything can make it true.
-    pub(crate) believable: bool,
     /// Where a context first asks for it.
     pub(crate) asked_at: Option<Span>,
 }
@@ -79,8 +85,6 @@ pub(crate) struct Handler {
     pub(crate) plans: Vec<Plan>,
     /// The handler of `-!g` for a handler of `+!g`.
     pub(crate) failure: Option<HandlerId>,
-    /// Whether any event can lead here; what cannot be reached is not generated.
-    pub(crate) reachable: bool,
     /// Where the first trigger stands in the source.
     pub(crate) span: Span,
     /// For plans of test goals: which arguments are asked for rather than given.
@@ -470,8 +474,13 @@ impl Program {
         let adds = |step: &Step| matches!(step, Step::Add { belief: other, .. } if *other == id);
         let changes = belief.settable
             || self.external.iter().any(|external| external.belief == Some(id))
-            || self.reachable_plans().any(|(_, _, plan)| plan.steps().any(adds));
+            || self.plans().any(|(_, _, plan)| plan.steps().any(adds));
         (!changes).then_some(value)
+    }
+
+    /// Whether anything can make a belief true.
+    pub(crate) fn is_believable(&self, id: BeliefId) -> bool {
+        self.believable.contains(&id)
     }
 
     /// Whether a plan or the environment can take a belief back.
@@ -482,25 +491,21 @@ impl Program {
                 && external.name == belief.name
         };
         self.external.iter().any(takes_back)
-            || self.reachable_plans().any(|(_, _, plan)| plan.steps().any(deletes))
+            || self.plans().any(|(_, _, plan)| plan.steps().any(deletes))
     }
 
     pub(crate) fn handler(&self, id: HandlerId) -> &Handler {
         &self.handlers[id.0]
     }
 
-    /// Handlers that some event can lead to, in the order of the source.
-    pub(crate) fn reachable_handlers(&self) -> impl Iterator<Item = (HandlerId, &Handler)> {
-        self.handlers
-            .iter()
-            .enumerate()
-            .filter(|(_, handler)| handler.reachable)
-            .map(|(index, handler)| (HandlerId(index), handler))
+    /// The handlers with their ids.
+    pub(crate) fn handlers(&self) -> impl Iterator<Item = (HandlerId, &Handler)> {
+        self.handlers.iter().enumerate().map(|(index, handler)| (HandlerId(index), handler))
     }
 
-    /// The plans that are generated, with their handlers, numbered from 0.
-    pub(crate) fn reachable_plans(&self) -> impl Iterator<Item = (HandlerId, usize, &Plan)> {
-        self.reachable_handlers().flat_map(|(id, handler)| {
+    /// The plans with their handlers, numbered from 0 in each.
+    pub(crate) fn plans(&self) -> impl Iterator<Item = (HandlerId, usize, &Plan)> {
+        self.handlers().flat_map(|(id, handler)| {
             handler.plans.iter().enumerate().map(move |(number, plan)| (id, number, plan))
         })
     }
@@ -523,7 +528,7 @@ impl Program {
 
     /// What plans call in their bodies, not only to find out whether they apply.
     pub(crate) fn called_in_bodies(&self) -> BTreeSet<BasicId> {
-        let steps = self.reachable_plans().flat_map(|(_, _, plan)| plan.steps());
+        let steps = self.plans().flat_map(|(_, _, plan)| plan.steps());
         let effects = steps.flat_map(Step::effects);
         effects
             .filter_map(|effect| match effect {

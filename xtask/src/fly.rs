@@ -69,5 +69,5 @@ pub(crate) fn fly(job: Job, watch: impl FnMut(&Moment)) -> Result<SimulatedFligh
     let plan = &case.plans[job.plan];
     let plan =
         Plan::parse(plan.name, plan.text).map_err(|error| FlyError::Plan(error.to_string()))?;
-    Ok(case.simulation(LAWS[job.law].1, job.seed).fly_watched(plan, watch)?)
+    Ok(case.simulation(LAWS[job.law], job.seed).fly_watched(plan, watch)?)
 }

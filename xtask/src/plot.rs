@@ -6,6 +6,8 @@ use nalgebra::Vector3;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use autopilot::vehicle::Law;
+
 use crate::cases::{CASES, LAWS};
 use crate::fly::{FlyError, Job, fly};
 use crate::table::Row;
@@ -130,10 +132,10 @@ fn legend<'a>(
         Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
     >,
 ) -> Drawn {
-    for ((name, _), colour) in LAWS.iter().zip(COLOURS) {
+    for (name, colour) in LAWS.map(Law::name).into_iter().zip(COLOURS) {
         chart
             .draw_series(std::iter::empty::<Rectangle<(f64, f64)>>())?
-            .label(*name)
+            .label(name)
             .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 14, y + 5)], colour.filled()));
     }
     chart
@@ -173,7 +175,7 @@ fn flight(area: &Drawing<'_>, traces: &[Trace]) -> Drawn {
             .light_line_style(WHITE)
             .bold_line_style(BLACK.mix(0.1))
             .draw()?;
-        for ((trace, colour), (name, _)) in traces.iter().zip(COLOURS).zip(LAWS) {
+        for ((trace, colour), name) in traces.iter().zip(COLOURS).zip(LAWS.map(Law::name)) {
             let shown = trace.moments.iter().step_by(DRAWN_TICKS);
             let shown = shown.filter(|(since_s, ..)| *since_s <= DRAWN_S);
             let targets = shown.clone().map(|(since_s, _, target)| (*since_s, target[axis]));

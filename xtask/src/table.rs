@@ -90,7 +90,7 @@ pub(crate) fn table(rows: &[Row]) -> String {
             if hovers { "hover" } else { "figures" },
             case.airframe,
             case.conditions,
-            LAWS[row.law].0,
+            LAWS[row.law].name(),
             format!("{}/{}", row.completed, row.flights),
             if hovers { dash() } else { format!("{:.1}", row.transit_s) },
             case.bound_s.map_or_else(dash, |bound_s| format!("{:.2}", row.transit_s / bound_s)),
@@ -128,7 +128,7 @@ pub(crate) fn write_csv(path: &Path, flown: &[Flown]) -> io::Result<()> {
         writer.write_record([
             CASES[*case].airframe.to_owned(),
             CASES[*case].conditions.to_owned(),
-            LAWS[*law].0.to_owned(),
+            LAWS[*law].name().to_owned(),
             CASES[*case].plans[*plan].name.to_owned(),
             seed.to_string(),
             score.completed.to_string(),

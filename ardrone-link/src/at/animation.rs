@@ -2,8 +2,6 @@
 
 use std::time::Duration;
 
-use super::command::{Config, Hertz};
-
 macro_rules! animations {
     ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $number:literal, $text:literal;)* }) => {
         $(#[$doc])*
@@ -149,18 +147,22 @@ animations! {
     }
 }
 
-impl Config {
-    /// Starts a flight animation, for so long.
-    pub fn flight_animation(animation: FlightAnimation, duration: Duration) -> Self {
-        let value = format!("{},{}", animation.number(), duration.as_millis());
-        Self::plain("control:flight_anim", value)
+/// A frequency from 0 to 60 Hz.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hertz(f32);
+
+// A frequency is never NaN.
+impl Eq for Hertz {}
+
+impl Hertz {
+    /// The value if it is in range.
+    pub fn new(value: f32) -> Option<Self> {
+        (0.0..=60.0).contains(&value).then_some(Self(value + 0.0))
     }
 
-    /// Starts an LED animation with this frequency, for so long.
-    pub fn led_animation(animation: LedAnimation, frequency: Hertz, duration: Duration) -> Self {
-        let bits = frequency.get().to_bits().cast_signed();
-        let value = format!("{},{bits},{}", animation.number(), duration.as_secs());
-        Self::plain("leds:leds_anim", value)
+    /// The value.
+    pub fn get(self) -> f32 {
+        self.0
     }
 }
 
@@ -181,17 +183,5 @@ mod tests {
         }
         assert_eq!(LedAnimation::from_number(21), None);
         assert_eq!(FlightAnimation::from_name("barrelRoll"), None);
-    }
-
-    /// The string that node-ar-drone sends for the same.
-    #[test]
-    fn an_led_animation_is_encoded_as_other_clients_encode_it() {
-        let frequency = Hertz::new(5.0).unwrap();
-        let config =
-            Config::led_animation(LedAnimation::RedSnake, frequency, Duration::from_secs(2));
-        assert_eq!((config.key(), config.value()), ("leds:leds_anim", "9,1084227584,2"));
-        let flip = FlightAnimation::FlipLeft;
-        let config = Config::flight_animation(flip, flip.usual_duration());
-        assert_eq!((config.key(), config.value()), ("control:flight_anim", "18,15"));
     }
 }

@@ -1,8 +1,7 @@
 //! The commands, as types that cannot hold what must not be sent.
 
-use std::fmt;
-
-use super::animation::{FlightAnimation, LedAnimation};
+use super::animation::{FlightAnimation, Hertz, LedAnimation};
+use super::config::Config;
 
 /// A command to the drone. The sequence number is added when it is encoded.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -143,25 +142,6 @@ impl Fraction {
     }
 }
 
-/// A frequency from 0 to 60 Hz.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hertz(f32);
-
-// A frequency is never NaN.
-impl Eq for Hertz {}
-
-impl Hertz {
-    /// The value if it is in range.
-    pub fn new(value: f32) -> Option<Self> {
-        (0.0..=60.0).contains(&value).then_some(Self(value + 0.0))
-    }
-
-    /// The value.
-    pub fn get(self) -> f32 {
-        self.0
-    }
-}
-
 /// Whose configuration is meant. Parrot's clients take the session at random, the others from the
 /// CRC-32 of a name. Zeros are the default configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -198,84 +178,6 @@ pub enum Motion {
         /// Positive turns clockwise seen from above; of `control:control_yaw`.
         yaw: Fraction,
     },
-}
-
-/// A configuration key and its value.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Config {
-    key: String,
-    value: String,
-}
-
-/// Why a configuration key or value cannot be sent.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ConfigError {
-    /// The key is not `section:name`.
-    #[error("configuration key `{key}` is not of the form section:name")]
-    Key {
-        /// The key.
-        key: String,
-    },
-    /// The text contains a quote, a comma in the key, or a control character.
-    #[error("`{text}` contains a character that AT commands cannot carry")]
-    Character {
-        /// The text.
-        text: String,
-    },
-    /// The text is longer than any value the drone takes.
-    #[error("`{text}` is longer than {limit} bytes")]
-    Length {
-        /// The text.
-        text: String,
-        /// The longest that is sent.
-        limit: usize,
-    },
-}
-
-impl Config {
-    const MAX_TEXT_BYTES: usize = 256;
-
-    /// A setting of `key` (`section:name`) to `value`.
-    ///
-    /// # Errors
-    /// [`ConfigError`] if either cannot be carried by an AT command.
-    pub fn new(key: impl Into<String>, value: impl fmt::Display) -> Result<Self, ConfigError> {
-        let (key, value) = (key.into(), value.to_string());
-        let well_formed = key
-            .split_once(':')
-            .is_some_and(|(section, name)| !section.is_empty() && !name.is_empty());
-        if !well_formed {
-            return Err(ConfigError::Key { key });
-        }
-        for text in [&key, &value] {
-            if text.bytes().any(|byte| byte == b'"' || !(b' '..=b'~').contains(&byte)) {
-                return Err(ConfigError::Character { text: text.clone() });
-            }
-            if text.len() > Self::MAX_TEXT_BYTES {
-                return Err(ConfigError::Length {
-                    text: text.clone(),
-                    limit: Self::MAX_TEXT_BYTES,
-                });
-            }
-        }
-        Ok(Self { key, value })
-    }
-
-    /// A setting whose text is known to be short and plain.
-    pub(crate) fn plain(key: &'static str, value: String) -> Self {
-        Self { key: key.to_owned(), value }
-    }
-
-    /// `section:name`
-    pub fn key(&self) -> &str {
-        &self.key
-    }
-
-    /// The value as text.
-    pub fn value(&self) -> &str {
-        &self.value
-    }
 }
 
 /// The CTRL command's modes that a client may send.

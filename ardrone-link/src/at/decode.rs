@@ -8,11 +8,14 @@ use nom::multi::many0;
 use nom::sequence::{delimited, preceded};
 use nom::{IResult, Parser};
 
+use super::animation::Hertz;
 use super::animation::{FlightAnimation, LedAnimation};
-use super::command::{Command, Config, ControlMode, Fraction, Hertz, Identity, Motion, Ref};
+use super::command::{Command, ControlMode, Fraction, Identity, Motion, Ref};
+use super::config::Config;
 
 /// What is wrong with one command of a datagram.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DecodeError {
     /// Not of the form `AT*NAME=sequence,arguments`.
     #[error("malformed AT command `{command}`")]

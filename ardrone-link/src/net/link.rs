@@ -153,12 +153,8 @@ impl Link {
         match input {
             Input::Tick => {
                 self.rests = false;
-                datagram.clear();
-                // A REF before the first navdata would land a drone that is flying already.
-                if self.session.silence(now).is_some() {
-                    let order = self.orders.order(now, &self.seen(now));
-                    self.session.tick(now, order, datagram)?;
-                }
+                let order = self.orders.order(now, &self.seen(now));
+                self.session.tick(now, order, datagram)?;
             }
             Input::Request(request) => self.ask(now, request),
             Input::Control(block) => self.session.handle_control(&block),

@@ -407,8 +407,9 @@ impl Session {
         self.handshake.handle_control(bytes, &mut self.events);
     }
 
-    /// Fills `datagram` with this tick's commands: REF, PCMD, and what the conversation needs. An REF
-    /// that could lift the drone is left out while the drone is not heard.
+    /// Fills `datagram` with this tick's commands: REF, PCMD, and what the conversation needs. It stays empty
+    /// until the drone has been heard: it may be flying already, and any REF would land it or fight its pilot.
+    /// An REF that could lift the drone is left out while the drone is not heard.
     ///
     /// # Errors
     /// Never in practice: the commands of one tick are shorter than a datagram, whatever the
@@ -419,6 +420,10 @@ impl Session {
         order: Order,
         datagram: &mut Datagram,
     ) -> Result<(), EncodeError> {
+        datagram.clear();
+        if self.last_navdata.is_none() {
+            return Ok(());
+        }
         self.watch_silence(now);
         let take_off = self.take_off_bit(order.flight);
         self.watch_landing(now, take_off);

@@ -25,7 +25,7 @@ use crate::flight::{Controls, Message};
 #[derive(Debug, thiserror::Error)]
 pub enum BrowserError {
     /// The address cannot be had.
-    #[error("cannot serve the page at {address}: {source}; give another address as --ui")]
+    #[error("cannot serve the page at {address}; give another address as --ui")]
     Bind {
         /// What was asked for.
         address: SocketAddr,
@@ -36,7 +36,7 @@ pub enum BrowserError {
     #[error("cannot make a token for the page: {0}")]
     Token(String),
     /// A thread could not be started.
-    #[error("cannot start the page's thread: {0}")]
+    #[error("cannot start the page's thread")]
     Thread(#[source] std::io::Error),
 }
 

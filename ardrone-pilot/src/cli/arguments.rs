@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
 use autopilot::plan;
 use autopilot::vehicle::Law;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
@@ -141,8 +142,8 @@ pub(super) struct Fly {
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,
     /// How targets are approached and held; `cascade` unless the settings say otherwise
-    #[arg(long, value_enum, value_name = "LAW")]
-    law: Option<LawName>,
+    #[arg(long, value_name = "LAW", value_parser = laws())]
+    pub(super) law: Option<Law>,
     /// Record the flight to this file [default: flights/DATE.mcap]
     #[arg(long, value_name = "FILE")]
     pub(super) log: Option<PathBuf>,
@@ -171,14 +172,6 @@ pub(super) struct Fly {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum LawName {
-    /// Reference, feed-forward, and feedback on the predicted state
-    Cascade,
-    /// That of TUM's autopilot, for comparison
-    Tum,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum ZOrigin {
     /// Where the drone hovers after take-off
     Hover,
@@ -187,13 +180,6 @@ pub(super) enum ZOrigin {
 }
 
 impl Fly {
-    pub(super) fn law(&self) -> Option<Law> {
-        self.law.map(|law| match law {
-            LawName::Cascade => Law::Cascade,
-            LawName::Tum => Law::Tum,
-        })
-    }
-
     pub(super) fn z_origin(&self) -> plan::ZOrigin {
         self.z_origin.into()
     }
@@ -206,6 +192,20 @@ impl From<ZOrigin> for plan::ZOrigin {
             ZOrigin::Floor => Self::Floor,
         }
     }
+}
+
+/// Laws by their names.
+fn laws() -> impl TypedValueParser<Value = Law> {
+    let value = |law: Law| {
+        PossibleValue::new(law.name()).help(match law {
+            Law::Cascade => "Reference, feed-forward, and feedback on the predicted state",
+            Law::Tum => "That of TUM's autopilot, for comparison",
+        })
+    };
+    PossibleValuesParser::new(Law::ALL.map(value)).map(|name| {
+        // The parser has let no other name pass.
+        Law::ALL.into_iter().find(|law| law.name() == name).unwrap_or_default()
+    })
 }
 
 /// An address and a port, or a port of the loopback.

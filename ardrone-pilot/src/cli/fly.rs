@@ -29,7 +29,7 @@ use crate::timing::TimingReport;
 /// Flies the plan, or stays and takes orders; returns the exit status.
 pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let mut settings = read_settings(arguments.config.as_deref())?;
-    if let Some(law) = arguments.law() {
+    if let Some(law) = arguments.law {
         settings.set_law(law);
     }
     let config = settings.pilot_config(arguments.z_origin());
@@ -73,7 +73,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let open = |door: Door| door.open(plan.as_ref(), &config.limits, controls.clone());
     let browser = door.map(open).transpose().unwrap_or_else(|error| {
         // The drone may be flying already.
-        progress.warn(&error.to_string());
+        progress.warn(&terminal::Causes(&error).to_string());
         None
     });
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();

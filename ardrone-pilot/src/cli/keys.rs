@@ -19,7 +19,7 @@ use rustix::termios::{
 };
 
 use super::prompt::{Edited, Prompt, PromptLine};
-use super::typed;
+use super::{terminal, typed};
 use crate::flight::Controls;
 
 /// What the keys do, for people.
@@ -159,7 +159,7 @@ fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended
                 if let Edited::Entered(line) = prompt.key(key, typed::completions)
                     && let Err(error) = typed::obey(&line, limits, controls, Operator::TERMINAL)
                 {
-                    tracing::warn!("{line}: {error}");
+                    tracing::warn!("{line}: {}", terminal::Causes(&error));
                 }
                 continue;
             }

@@ -36,31 +36,31 @@ use crate::settings::{self, Settings, SettingsError};
 /// Why nothing was flown.
 #[derive(Debug, thiserror::Error)]
 enum CommandError {
-    #[error("cannot read {what} {path}: {source}")]
+    #[error("cannot read {what} {path}")]
     Read { what: &'static str, path: String, source: std::io::Error },
-    #[error("cannot write {what} {path}: {source}")]
+    #[error("cannot write {what} {path}")]
     Write { what: &'static str, path: String, source: std::io::Error },
-    #[error("{0}")]
+    #[error(transparent)]
     Settings(#[from] SettingsError),
-    #[error("cannot print the settings: {0}")]
+    #[error("cannot print the settings")]
     PrintSettings(#[from] toml::ser::Error),
-    #[error("{0}")]
+    #[error(transparent)]
     Plan(#[from] PlanError),
-    #[error("{path}: {source}")]
+    #[error("{path}")]
     Log { path: String, source: LogError },
-    #[error("{0}")]
+    #[error(transparent)]
     Replay(#[from] ReplayError),
-    #[error("{0}")]
+    #[error(transparent)]
     Report(#[from] ReportError),
-    #[error("{0}")]
+    #[error(transparent)]
     Picture(#[from] PictureError),
-    #[error("{0}")]
+    #[error(transparent)]
     Mock(#[from] ServerError),
-    #[error("{0}; give another file as --log, or --no-log")]
+    #[error("no flight log can be written; give another file as --log, or --no-log")]
     Recording(#[from] RecordingError),
-    #[error("{0}")]
+    #[error(transparent)]
     Browser(#[from] BrowserError),
-    #[error("{0}")]
+    #[error(transparent)]
     Flight(#[from] FlightError),
 }
 
@@ -108,7 +108,7 @@ pub fn main() -> ExitCode {
     };
     let status = done.unwrap_or_else(|error| {
         let prefix = if matches!(error, CommandError::Plan(_)) { "" } else { "error: " };
-        terminal::tell(format_args!("{prefix}{error}"));
+        terminal::tell(format_args!("{prefix}{}", terminal::Causes(&error)));
         error.exit_status()
     });
     ExitCode::from(status)

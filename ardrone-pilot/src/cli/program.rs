@@ -140,7 +140,7 @@ fn skip_line(input: &mut impl BufRead) -> Option<()> {
 fn answer_typed(line: Result<String, TooLong>, limits: &FlightLimits, controls: &Controls) {
     let done = match line {
         Ok(line) => typed::obey(&line, limits, controls, Operator::PROGRAM)
-            .map_err(|error| format!("{line}: {error}")),
+            .map_err(|error| format!("{line}: {}", terminal::Causes(&error))),
         Err(error) => Err(error.to_string()),
     };
     if let Err(error) = done {

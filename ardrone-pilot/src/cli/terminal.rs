@@ -2,7 +2,8 @@
 //! much of what is said; here it is made [printable](printable_lines), so that no text can do anything to the
 //! terminal but be read.
 
-use std::fmt::Display;
+use std::error::Error;
+use std::fmt::{self, Display};
 use std::io::{Write as _, stderr, stdout};
 
 use diagnostic::{printable, printable_lines};
@@ -46,4 +47,19 @@ fn write(text: &str) {
     let mut stderr = stderr().lock();
     // Nobody watches any more: the flight goes on.
     _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
+}
+
+/// An error with everything that led to it, on one line.
+pub(super) struct Causes<'a>(pub(super) &'a dyn Error);
+
+impl Display for Causes<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.0)?;
+        let mut cause = self.0.source();
+        while let Some(error) = cause {
+            write!(f, ": {error}")?;
+            cause = error.source();
+        }
+        Ok(())
+    }
 }

@@ -37,9 +37,9 @@ pub(super) const HELP: &str = "load FILE, start, hold, resume, clear, land, cut,
 /// Why what was typed was not done.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum TypedError {
-    #[error("cannot read the plan {path}: {source}")]
+    #[error("cannot read the plan {path}")]
     Read { path: String, source: std::io::Error },
-    #[error("{0}")]
+    #[error(transparent)]
     Plan(#[from] PlanError),
     #[error("`{0}` stands alone")]
     Alone(String),
@@ -47,7 +47,7 @@ pub(super) enum TypedError {
     NoFile,
     #[error("{HELP}")]
     Help,
-    #[error("{0}")]
+    #[error(transparent)]
     Refused(#[from] Refused),
 }
 
@@ -111,13 +111,11 @@ fn read(path: &str, limits: &FlightLimits) -> Result<Plan, TypedError> {
 
 /// How a line could go on: orders, commands, and files behind `load`.
 pub(super) fn completions(line: &str) -> Vec<String> {
-    match line.strip_prefix("load ") {
-        Some(path) => files(path).into_iter().map(|path| format!("load {path}")).collect(),
-        None => {
-            let words = ORDERS.iter().chain(&COMMANDS).filter(|word| word.starts_with(line));
-            words.map(ToString::to_string).collect()
-        }
+    if let Some(path) = line.strip_prefix("load ") {
+        return files(path).into_iter().map(|path| format!("load {path}")).collect();
     }
+    let words = ORDERS.iter().chain(&COMMANDS).filter(|word| word.starts_with(line));
+    words.map(ToString::to_string).collect()
 }
 
 fn files(start: &str) -> Vec<String> {

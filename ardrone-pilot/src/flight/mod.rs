@@ -102,7 +102,7 @@ pub struct FinishedFlight {
 #[derive(Debug, thiserror::Error)]
 pub enum FlightError {
     /// The drone's name has no address.
-    #[error("cannot find the drone `{host}`: {source}")]
+    #[error("cannot find the drone `{host}`")]
     Address {
         /// What was asked for.
         host: String,
@@ -110,10 +110,10 @@ pub enum FlightError {
         source: io::Error,
     },
     /// No socket can be had.
-    #[error("network: {0}")]
+    #[error("network")]
     Socket(#[source] io::Error),
     /// A thread could not be started.
-    #[error("cannot start a thread: {0}")]
+    #[error("cannot start a thread")]
     Thread(#[source] io::Error),
     /// The limits cannot be sent to a drone.
     #[error(transparent)]

@@ -43,7 +43,7 @@ enum Ordered {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum OrderError {
     /// Its plan or its commands are refused today.
-    #[error("a plan that was loaded is refused today:\n{0}")]
+    #[error("a plan that was loaded is refused today")]
     Plan(#[from] PlanError),
     /// Nobody gives orders from there today.
     #[error("an order came from `{0}`, which is not known")]

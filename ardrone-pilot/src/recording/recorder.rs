@@ -26,7 +26,7 @@ const FLUSH: Duration = Duration::from_millis(500);
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
     /// The file cannot be made.
-    #[error("cannot make the flight log {}: {source}", .path.display())]
+    #[error("cannot make the flight log {}", .path.display())]
     Create {
         /// The file.
         path: PathBuf,
@@ -34,12 +34,12 @@ pub enum RecordingError {
         source: std::io::Error,
     },
     /// It cannot be written.
-    #[error("cannot write the flight log {}: {}; the flight goes on without it", .path.display(), reason(.source))]
+    #[error("cannot write the flight log {}: {}; the flight goes on without it", .path.display(), reason(.problem))]
     Write {
         /// The file.
         path: PathBuf,
         /// What went wrong.
-        source: McapError,
+        problem: McapError,
     },
     /// The thread cannot be started.
     #[error("cannot start the thread of the flight log: {0}")]
@@ -88,7 +88,7 @@ impl Recorder {
         let create = |source| RecordingError::Create { path: path.to_owned(), source };
         // A flight that is there already is not overwritten.
         let file = File::create_new(path).map_err(create)?;
-        let problem = |source| RecordingError::Write { path: path.to_owned(), source };
+        let problem = |source| RecordingError::Write { path: path.to_owned(), problem: source };
         let mut writer = LogWriter::new(BufWriter::new(file), header).map_err(problem)?;
         writer.flush().map_err(problem)?;
         let (records, received) = bounded(WAITING);
@@ -203,7 +203,7 @@ fn write(
     match write_all(writer, records, give_back) {
         Ok(bytes) => Some(bytes),
         Err(source) => {
-            _ = report.try_send(RecordingError::Write { path: path.to_owned(), source });
+            _ = report.try_send(RecordingError::Write { path: path.to_owned(), problem: source });
             // The flight goes on: its buffers must go round.
             for record in records {
                 recycle(record, give_back);

@@ -23,7 +23,7 @@ pub enum Station {
     Program,
     /// A page in a browser.
     Browser,
-    /// A ground station that speaks MAVLink.
+    /// A ground station that speaks `MAVLink`.
     Mavlink,
 }
 

@@ -170,6 +170,9 @@ impl fmt::Display for LandingReason {
             Self::DroneFault(fault) => f.write_str(fault),
             Self::TakeOverRefused => f.write_str("the drone must not be flown on"),
             Self::Guard(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
+            Self::Guard(Veto::CarriedOff) => {
+                f.write_str("the wind carries the drone over the fence")
+            }
             Self::Guard(Veto::Landing) => f.write_str("the drone lands by itself"),
             Self::Guard(_) => f.write_str("no navdata for too long"),
         }

@@ -53,6 +53,7 @@ pub enum Output<'a> {
 }
 
 /// What has not been polled yet.
+#[allow(clippy::struct_excessive_bools, reason = "each is an output of its own")]
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pending {
     pub(super) command: bool,

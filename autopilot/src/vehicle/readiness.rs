@@ -163,9 +163,8 @@ impl Vehicle {
     /// is that in which a person would mend them.
     pub(super) fn not_ready(&self, now: Duration) -> Vec<NotReady> {
         match self.phase {
-            FlightPhase::Connecting => vec![NotReady::NoDrone],
             FlightPhase::Observing { .. } if self.navdata.is_some() => vec![NotReady::NotLanded],
-            FlightPhase::Observing { .. } => vec![NotReady::NoDrone],
+            FlightPhase::Connecting | FlightPhase::Observing { .. } => vec![NotReady::NoDrone],
             FlightPhase::Settling { .. } if self.departure.is_some() => vec![NotReady::InFlight],
             FlightPhase::Configuring { .. } | FlightPhase::Settling { .. } => {
                 vec![NotReady::Configuring]

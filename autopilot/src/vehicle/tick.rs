@@ -10,7 +10,7 @@ use pid::Pose;
 
 use super::{
     Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, GRAVITY_M_S2, LandingReason,
-    Law, NotReady, Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S,
+    NotReady, Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S,
     Waypoint, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Senses};
@@ -20,7 +20,7 @@ impl Vehicle {
     /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
     ///
     /// # Errors
-    /// See [`Session::tick`].
+    /// See [`ardrone_link::session::Session::tick`].
     pub fn tick_timed(
         &mut self,
         now: Duration,
@@ -51,10 +51,7 @@ impl Vehicle {
         self.offer_order(now);
         // The estimate is flown on to this moment once: everything below looks at the same.
         let prediction = self.flight.estimator.predicted(now);
-        let state = match self.config.law {
-            Law::Cascade => prediction,
-            Law::Tum => self.state(now),
-        };
+        let state = if self.config.law.predicts() { prediction } else { self.measured_state() };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
         let senses = self.senses(now, &state);
         let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, senses);
@@ -129,18 +126,21 @@ impl Vehicle {
 
     /// Where the drone is, and how it moves.
     pub(super) fn state(&self, at: Duration) -> Prediction {
-        match self.config.law {
-            Law::Cascade => self.flight.estimator.predicted(at),
-            // It knows no prediction.
-            Law::Tum => {
-                let estimate = self.flight.estimator.estimate();
-                Prediction {
-                    position_m: estimate.position_m,
-                    velocity_m_s: estimate.velocity_m_s,
-                    yaw_deg: estimate.yaw_deg,
-                    ..Prediction::default()
-                }
-            }
+        if self.config.law.predicts() {
+            self.flight.estimator.predicted(at)
+        } else {
+            self.measured_state()
+        }
+    }
+
+    /// Where the drone was when it was last measured.
+    fn measured_state(&self) -> Prediction {
+        let estimate = self.flight.estimator.estimate();
+        Prediction {
+            position_m: estimate.position_m,
+            velocity_m_s: estimate.velocity_m_s,
+            yaw_deg: estimate.yaw_deg,
+            ..Prediction::default()
         }
     }
 
@@ -200,6 +200,7 @@ impl Vehicle {
     }
 
     fn circumstances(&self, now: Duration, state: &Prediction) -> Circumstances {
+        let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
         Circumstances {
             now,
             blind_for: self.blind_for(now),
@@ -208,7 +209,9 @@ impl Vehicle {
             landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
             pose: pose(state),
             velocity_m_s: state.velocity_m_s.into(),
-            wind: (state.disturbance_m_s2 / (self.full_tilt_m_s2() * self.least_thrust())).into(),
+            wind: (state.disturbance_m_s2 / full_tilt_m_s2).into(),
+            full_tilt_m_s2,
+            drag_1_s: self.flight.estimator.airframe().drag_1_s.min(),
         }
     }
 

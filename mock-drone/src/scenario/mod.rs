@@ -114,6 +114,7 @@ pub enum Action {
 /// A scenario that could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{rendered}")]
+#[non_exhaustive]
 pub struct ScenarioError {
     /// Everything that is wrong, with line and column.
     pub rendered: String,

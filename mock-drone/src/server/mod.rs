@@ -69,6 +69,7 @@ impl Ports {
 
 /// Why the drone could not be put on the network.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ServerError {
     /// A port could not be bound.
     #[error("cannot listen on {address} for {purpose}: {source}")]
@@ -87,6 +88,7 @@ pub enum ServerError {
 
 /// A drone on its sockets, not yet alive.
 #[derive(Debug)]
+#[must_use = "the drone lives while `run` is awaited"]
 pub struct Server {
     at: UdpSocket,
     navdata: UdpSocket,
@@ -286,6 +288,7 @@ fn tolerate<T>(result: io::Result<T>) -> io::Result<Option<T>> {
 
 /// A drone that lives on a thread of its own, until it is dropped.
 #[derive(Debug)]
+#[must_use = "the drone is gone when this is dropped"]
 pub struct MockDrone {
     ports: Ports,
     truth: Arc<Mutex<Truth>>,

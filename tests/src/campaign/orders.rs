@@ -83,7 +83,7 @@ impl Orders {
             && at <= moment.now
         {
             self.next += 1;
-            self.ordered(moment, order, injected);
+            self.ordered(moment, &order, injected);
         }
         let airborne = is_airborne(&moment.truth);
         for (open, most, order) in
@@ -100,7 +100,7 @@ impl Orders {
         faults
     }
 
-    fn ordered(&mut self, moment: &Moment, order: OperatorOrder, injected: &Injected) {
+    fn ordered(&mut self, moment: &Moment, order: &OperatorOrder, injected: &Injected) {
         let Moment { now, truth, status, .. } = moment;
         self.watched = None;
         match order {
@@ -122,7 +122,7 @@ impl Orders {
         if !on_the_way || !undisturbed || truth.phase != Phase::Flying {
             return;
         }
-        self.watched = match order {
+        self.watched = match *order {
             OperatorOrder::Hold => Some(Watched::Hold { at: *now, place_m: None }),
             OperatorOrder::GoTo { x_m, y_m } => {
                 let wanted_m = Vector2::new(x_m, y_m);

@@ -1,11 +1,12 @@
 //! Resolves contexts.
 
-use diagnostic::{Diagnostic, Span};
+use diagnostic::Span;
 
 use super::Analysis;
 use super::constants::integer;
 use super::scope::{Mark, Scope, said_already};
 use super::values::{Resolved, check_equality, check_numeric};
+use crate::code::Code;
 use crate::program::{Alternatives, Condition, Value, VariableId};
 use crate::syntax::ast::{Atom, Expression, Name, Relation};
 use crate::types::{CType, TypeKind};
@@ -57,7 +58,8 @@ impl Analysis<'_> {
                             scope.bound(name)?;
                         }
                     }
-                    return Err(Diagnostic::error("both sides are constants", span.clone())
+                    return Err(Code::ConstantComparison
+                        .at("both sides are constants", span.clone())
                         .help("compare a variable or the result of a function"));
                 };
                 let left = self.value(left, &ctype, scope)?;
@@ -82,7 +84,8 @@ impl Analysis<'_> {
                 let bool_type = CType::named("bool");
                 Ok(Condition::Truth(self.value(expression, &bool_type, scope)?))
             }
-            _ => Err(Diagnostic::error("not a condition", expression.span())
+            _ => Err(Code::NotACondition
+                .at("not a condition", expression.span())
                 .help("a context is made of beliefs, functions of type bool and comparisons")),
         }
     }
@@ -98,12 +101,10 @@ impl Analysis<'_> {
         let call = self.call(atom, scope)?;
         let (_, basic) = self.declarations.basic(atom)?;
         if basic.result.kind != TypeKind::Bool {
-            return Err(Diagnostic::error(
-                format!("`{}` does not return `bool`", atom.name.text),
-                atom.span.clone(),
-            )
-            .label(format!("declared `{}`", basic.result.name))
-            .help("a context is made of beliefs, functions of type bool and comparisons"));
+            return Err(Code::NotACondition
+                .at(format!("`{}` does not return `bool`", atom.name.text), atom.span.clone())
+                .label(format!("declared `{}`", basic.result.name))
+                .help("a context is made of beliefs, functions of type bool and comparisons"));
         }
         Ok(Condition::Truth(Value::Call(call)))
     }
@@ -156,7 +157,7 @@ fn check_informative(
     span: &Span,
 ) -> Resolved<()> {
     if left == right && matches!(left, Value::Variable(_)) {
-        return Err(Diagnostic::error("a value is compared with itself", span.clone()));
+        return Err(Code::ConstantComparison.at("a value is compared with itself", span.clone()));
     }
     let Some((low, high)) = ctype.integer_range() else { return Ok(()) };
     // Read as `variable relation constant`, whichever side the constant is on.
@@ -168,7 +169,7 @@ fn check_informative(
     let is = |value: &Value, limit: Option<i128>| limit.is_some() && integer(value) == limit;
     if is(right, limits_decide.0) || is(left, limits_decide.1) {
         let message = format!("every value of type `{}` compares so, or none does", ctype.name);
-        return Err(Diagnostic::error(message, span.clone()));
+        return Err(Code::ConstantComparison.at(message, span.clone()));
     }
     Ok(())
 }
@@ -178,9 +179,7 @@ pub(super) fn check_fresh(variable: &Name, scope: &Scope) -> Resolved<()> {
     if scope.lookup(&variable.text).is_none() {
         return Ok(());
     }
-    Err(Diagnostic::error(
-        format!("`{}` already has a value", variable.text),
-        variable.span.clone(),
-    )
-    .help("`=` binds a new variable; `==` in a context compares"))
+    Err(Code::BoundTwice
+        .at(format!("`{}` already has a value", variable.text), variable.span.clone())
+        .help("`=` binds a new variable; `==` in a context compares"))
 }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use diagnostic::{Diagnostic, Span};
 
+use crate::code::Code;
 use crate::program::Value;
 use crate::syntax::ast::{Expression, Number};
 use crate::types::{CType, TypeKind};
@@ -15,7 +16,7 @@ pub(super) fn constant(
 ) -> Option<Result<Value, Diagnostic>> {
     let wrong = |what: &str, span: &Span| {
         let message = format!("{what} where a value of type `{}` is expected", ctype.name);
-        Err(Diagnostic::error(message, span.clone()))
+        Err(Code::WrongType.at(message, span.clone()))
     };
     let text = match expression {
         Expression::Number(number) => c_number(number, ctype),
@@ -35,7 +36,7 @@ pub(super) fn constant(
 
 /// A number as C of type `ctype`.
 pub(crate) fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnostic> {
-    let error = |message: String| Err(Diagnostic::error(message, number.span.clone()));
+    let error = |message: String| Err(Code::WrongType.at(message, number.span.clone()));
     let integral = number.digits.bytes().all(|byte| byte.is_ascii_digit());
     let sign = if number.negative { "-" } else { "" };
     match ctype.kind {

@@ -6,8 +6,9 @@ use std::collections::{HashMap, HashSet};
 use diagnostic::{Diagnostic, Span, closest};
 
 use super::constants::c_number;
+use crate::code::Code;
 use crate::configuration::{
-    Basic, Cause, Comparison, Configuration, ExternalTrigger, Formula, Operand,
+    Basic, Cause, Comparison, Configuration, ExternalTrigger, Formula, Instance, Operand,
 };
 use crate::program::BasicId;
 use crate::reserved::{
@@ -38,22 +39,28 @@ struct Declaration {
 }
 
 impl Declarations {
-    pub(super) fn new(configuration: &Configuration, findings: &mut Vec<Diagnostic>) -> Self {
+    pub(super) fn new(
+        configuration: &Configuration,
+        instance: Instance,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Self {
         let mut declarations = Self { names: HashMap::new(), basics: configuration.basics.clone() };
         for (index, basic) in configuration.basics.iter().enumerate() {
-            findings.extend(check_basic_name(basic, &configuration.settings.symbol_prefix()));
+            findings
+                .extend(check_basic_name(basic, &configuration.settings.symbol_prefix(instance)));
             declarations.declare(&basic.name, Declared::Basic(BasicId(index)), findings);
         }
-        check_types(configuration, findings);
+        check_types(configuration, instance, findings);
         for (index, class) in configuration.classes.iter().enumerate() {
             if configuration.classes[..index].iter().any(|c| c.name.text == class.name.text) {
                 let message = format!("a second class `{}`", class.name.text);
-                findings.push(Diagnostic::error(message, class.name.span.clone()));
+                findings.push(Code::DeclaredTwice.at(message, class.name.span.clone()));
             }
             if declarations.is_basic(&class.name.text) {
                 let message = format!("`{}` is an action, not a class", class.name.text);
                 findings.push(
-                    Diagnostic::error(message, class.name.span.clone())
+                    Code::DeclaredTwice
+                        .at(message, class.name.span.clone())
                         .help("a property could not tell them apart: give the class another name"),
                 );
             }
@@ -109,7 +116,8 @@ impl Declarations {
             };
             if !configuration.triggerables.iter().any(|other| same(&other)) {
                 findings.push(
-                    Diagnostic::error("the environment does not raise this", event.span.clone())
+                    Code::NotTriggerable
+                        .at("the environment does not raise this", event.span.clone())
                         .help("properties speak of events of the section `triggerables`"),
                 );
             }
@@ -127,7 +135,8 @@ impl Declarations {
             if number.is_none() {
                 let message = format!("`{}` is no belief with one number", name.text);
                 findings.push(
-                    Diagnostic::error(message, name.span.clone())
+                    Code::NotComparable
+                        .at(message, name.span.clone())
                         .help("properties compare beliefs such as `battery(int64_t)`"),
                 );
             }
@@ -140,7 +149,7 @@ impl Declarations {
                     && left != right
                 {
                     let message = format!("a `{}` is compared with a `{}`", left.name, right.name);
-                    findings.push(Diagnostic::error(message, belief.span.clone()));
+                    findings.push(Code::WrongType.at(message, belief.span.clone()));
                 }
             }
             Operand::Number(value) => {
@@ -153,7 +162,8 @@ impl Declarations {
         let declaration = Declaration { declared, span: name.span.clone(), used: Cell::new(false) };
         if self.names.insert(name.text.clone(), declaration).is_some() {
             findings.push(
-                Diagnostic::error(format!("`{}` is declared twice", name.text), name.span.clone())
+                Code::DeclaredTwice
+                    .at(format!("`{}` is declared twice", name.text), name.span.clone())
                     .help("a name is one basic action or one predicate"),
             );
         }
@@ -166,11 +176,12 @@ impl Declarations {
                 check_arity(atom, types.len())?;
                 Ok(types.clone())
             }
-            Some(Declared::Basic(_)) => Err(Diagnostic::error(
-                format!("`{}` is a basic action, not a belief or goal", atom.name.text),
-                atom.name.span.clone(),
-            )
-            .help("the section `types` declares beliefs and goals, `basics` actions")),
+            Some(Declared::Basic(_)) => Err(Code::WrongKind
+                .at(
+                    format!("`{}` is a basic action, not a belief or goal", atom.name.text),
+                    atom.name.span.clone(),
+                )
+                .help("the section `types` declares beliefs and goals, `basics` actions")),
             None => Err(self.undeclared(&atom.name, "types")),
         }
     }
@@ -196,11 +207,12 @@ impl Declarations {
                 check_arity(atom, basic.parameters.len())?;
                 Ok((*id, basic))
             }
-            Some(Declared::Predicate(_)) => Err(Diagnostic::error(
-                format!("`{}` is a belief or goal, not a basic action", atom.name.text),
-                atom.name.span.clone(),
-            )
-            .help("in a body write `!g` for a goal, `?b`, `+b` or `-b` for a belief")),
+            Some(Declared::Predicate(_)) => Err(Code::WrongKind
+                .at(
+                    format!("`{}` is a belief or goal, not a basic action", atom.name.text),
+                    atom.name.span.clone(),
+                )
+                .help("in a body write `!g` for a goal, `?b`, `+b` or `-b` for a belief")),
             None => Err(self.undeclared(&atom.name, "basics")),
         }
     }
@@ -228,9 +240,8 @@ impl Declarations {
         unused.sort_by_key(|(_, declaration)| declaration.span.start);
         let (basics, others): (Vec<_>, Vec<_>) =
             unused.into_iter().partition(|(_, d)| matches!(d.declared, Declared::Basic(_)));
-        let warning = |message: String, span: &Span| {
-            Diagnostic::warning(message, span.clone()).code("unused-declaration")
-        };
+        let warning =
+            |message: String, span: &Span| Code::UnusedDeclaration.at(message, span.clone());
         let single = |(name, declaration): &(&String, &Declaration)| {
             warning(format!("`{name}` is declared and never used"), &declaration.span)
                 .help("take it out, or use it in the agent")
@@ -260,7 +271,9 @@ impl Declarations {
             Some(candidate) => format!("did you mean `{candidate}`?"),
             None => format!("declare it in the section `{section}` of the configuration"),
         };
-        Diagnostic::error(format!("`{}` is not declared", name.text), name.span.clone()).help(help)
+        Code::NotDeclared
+            .at(format!("`{}` is not declared", name.text), name.span.clone())
+            .help(help)
     }
 }
 
@@ -271,27 +284,29 @@ fn check_basic_name(basic: &Basic, prefix: &str) -> Option<Diagnostic> {
     if is_c_word(name) || is_c(&symbol) {
         let message = format!("`{name}` cannot be the name of a C function");
         return Some(
-            Diagnostic::error(message, basic.name.span.clone())
+            Code::ReservedName
+                .at(message, basic.name.span.clone())
                 .help("C reserves this word; rename the basic action"),
         );
     }
     (is_generated(name) || is_generated(&symbol)).then(|| {
         let message = format!("`{name}` may clash with a generated function");
-        Diagnostic::error(message, basic.name.span.clone()).help(described())
+        Code::ReservedName.at(message, basic.name.span.clone()).help(described())
     })
 }
 
 /// Types have names that no function has, and none that generated C has for something of its own.
-fn check_types(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
+fn check_types(configuration: &Configuration, instance: Instance, findings: &mut Vec<Diagnostic>) {
     let settings = &configuration.settings;
-    let prefix = settings.symbol_prefix();
+    let prefix = settings.symbol_prefix(instance);
     if is_generated_prefix(&prefix) && !prefix.is_empty() {
         let place = settings.places.get("output").cloned().unwrap_or_default();
         let message = format!("names that begin with `{prefix}` may clash with generated ones");
-        findings
-            .push(Diagnostic::error(message, place).help(
-                "with `instance = context` the file's name begins all names; choose another",
-            ));
+        findings.push(
+            Code::ReservedName
+                .at(message, place)
+                .help("with `instance = context` the file's name begins all names; choose another"),
+        );
     }
     let mut symbols: HashSet<String> =
         configuration.basics.iter().map(|basic| format!("{prefix}{}", basic.name.text)).collect();
@@ -315,17 +330,20 @@ fn check_types(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
         let twice = configuration.structs[..index].iter().any(|s| s.name.text == *name);
         if known || twice || is_c(name) || own(name) {
             findings.push(
-                Diagnostic::error(
-                    format!("`{name}` cannot be the name of a struct"),
-                    declared.name.span.clone(),
-                )
-                .help("another type or a function has this name, or C or generated C reserves it"),
+                Code::ReservedName
+                    .at(
+                        format!("`{name}` cannot be the name of a struct"),
+                        declared.name.span.clone(),
+                    )
+                    .help(
+                        "another type or a function has this name, or C or generated C reserves it",
+                    ),
             );
         }
         for (field, _) in &declared.fields {
             if is_c_word(&field.text) || field.text.starts_with("ASL2C_") {
                 let message = format!("`{}` cannot be the name of a field", field.text);
-                findings.push(Diagnostic::error(message, field.span.clone()));
+                findings.push(Code::ReservedName.at(message, field.span.clone()));
             }
         }
     }
@@ -343,7 +361,7 @@ fn check_types(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
         let clash = ctype.name.split(' ').any(|word| own(word) || is_library(word));
         if clash && told.insert(&ctype.name) {
             let message = format!("the type `{}` may clash with a generated name", ctype.name);
-            findings.push(Diagnostic::error(message, span.clone()).help(described()));
+            findings.push(Code::ReservedName.at(message, span.clone()).help(described()));
         }
     }
 }
@@ -351,11 +369,9 @@ fn check_types(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
 /// Refuses results that cannot be used as a value.
 pub(super) fn check_value_result(basic: &Basic, atom: &Atom) -> Result<(), Diagnostic> {
     if basic.result.kind == TypeKind::Void {
-        return Err(Diagnostic::error(
-            format!("`{}` returns no value", atom.name.text),
-            atom.span.clone(),
-        )
-        .label("declared `void`"));
+        return Err(Code::NoValue
+            .at(format!("`{}` returns no value", atom.name.text), atom.span.clone())
+            .label("declared `void`"));
     }
     Ok(())
 }
@@ -365,7 +381,7 @@ fn check_arity(atom: &Atom, expected: usize) -> Result<(), Diagnostic> {
     if found == expected {
         return Ok(());
     }
-    Err(Diagnostic::error(
+    Err(Code::ArgumentCount.at(
         format!("`{}` takes {expected} arguments, not {found}", atom.name.text),
         atom.span.clone(),
     ))

@@ -7,6 +7,7 @@ mod conditions;
 pub(crate) mod constants;
 mod declarations;
 mod graph;
+mod leave_out;
 mod plans;
 mod reach;
 mod scope;
@@ -21,12 +22,14 @@ use diagnostic::{Diagnostic, Severity};
 use self::constants::constant;
 use self::declarations::Declarations;
 use self::graph::TriggerGraph;
+use self::leave_out::leave_out;
 use self::reach::{
-    Reached, mark_believable, reach, warn_never_believed, warn_unreachable, warn_without_plan,
+    Reached, believable, reach, warn_never_believed, warn_unreachable, warn_without_plan,
 };
 use self::tail::warn_unseen;
 use self::time::{Clock, find_clock};
-use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula};
+use crate::code::Code;
+use crate::configuration::{Cause, Configuration, ExternalTrigger, Formula, Instance};
 use crate::program::{
     Belief, BeliefId, External, Handler, HandlerId, Program, Value, deferred_room,
 };
@@ -52,14 +55,15 @@ impl Findings {
 /// A trigger: operator, kind and name.
 pub(crate) type TriggerKey = (Operator, TriggerKind, String);
 
-/// Checks `agent`, whose source is `text`. The program is there exactly if no finding is an error.
+/// Checks `agent`, whose source is `text`, for C of a form. The program is there exactly if no finding is an error.
 pub(crate) fn analyse(
     configuration: Configuration,
+    instance: Instance,
     agent: &Agent,
     text: &str,
 ) -> (Option<Program>, Findings) {
     let mut findings = Findings::default();
-    let declarations = Declarations::new(&configuration, &mut findings.configuration);
+    let declarations = Declarations::new(&configuration, instance, &mut findings.configuration);
     let clock = find_clock(&configuration, &mut findings.configuration);
     let mut analysis = Analysis {
         text,
@@ -98,7 +102,7 @@ pub(crate) fn analyse(
     if !analysis.findings.has_errors() {
         analysis.declarations.warn_unused(&named, &mut analysis.findings.configuration);
     }
-    let Analysis { mut findings, mut beliefs, mut handlers, clock, .. } = analysis;
+    let Analysis { mut findings, beliefs, handlers, clock, .. } = analysis;
     let clock = clock.map(Clock::into_parts);
     // A plan of a test goal is looked at once for each way it is asked.
     let mut seen = HashSet::new();
@@ -112,22 +116,25 @@ pub(crate) fn analyse(
         .chain(beliefs.iter().filter_map(|belief| belief.perceived))
         .chain(initial_goal.as_ref().map(|(handler, _)| *handler))
         .collect();
-    let Reached { mut posted, deferred, limited } = reach(&mut handlers, &roots);
+    let Reached { handlers: reached, mut posted, deferred, limited } = reach(&handlers, &roots);
     let posted_by_plans = posted.iter().copied().collect();
     posted.extend(initial_goal.as_ref().map(|(handler, _)| *handler));
     let events: Vec<HandlerId> = roots.iter().chain(&posted).chain(&deferred).copied().collect();
-    warn_unreachable(&handlers, &mut findings.agent);
-    mark_believable(&mut beliefs, &handlers, &external);
-    warn_never_believed(&beliefs, &mut findings.agent);
+    warn_unreachable(&handlers, &reached, &mut findings.agent);
+    let believable = believable(&beliefs, &handlers, &external);
+    warn_never_believed(&beliefs, &believable, &mut findings.agent);
     warn_without_plan(&handlers, &events, &mut findings.agent);
-    warn_unseen(&handlers, &mut findings.agent);
+    warn_unseen(&handlers, &reached, &mut findings.agent);
     let formulae = agent.plans.iter().flat_map(|plan| &plan.body);
     let defers = formulae.filter(|formula| matches!(formula, ast::Formula::Defer(_))).count();
-    let program = Program {
+    let mut program = Program {
         deferred_room: deferred_room(&configuration.settings, defers),
         configuration,
+        instance,
         beliefs,
+        believable,
         handlers,
+        left_out: 0,
         posted: posted.into_iter().collect(),
         posted_by_plans,
         deferred: deferred.into_iter().collect(),
@@ -136,6 +143,7 @@ pub(crate) fn analyse(
         external,
         initial_goal,
     };
+    leave_out(&mut program, &reached);
     (Some(program), findings)
 }
 
@@ -187,11 +195,9 @@ impl Analysis<'_> {
         for label in agent.plans.iter().filter_map(|plan| plan.label.as_ref()) {
             if !known.insert(&label.text) {
                 self.error(
-                    Diagnostic::error(
-                        format!("a second plan `@{}`", label.text),
-                        label.span.clone(),
-                    )
-                    .help("a label is the name of one plan; requirements may be shared"),
+                    Code::DeclaredTwice
+                        .at(format!("a second plan `@{}`", label.text), label.span.clone())
+                        .help("a label is the name of one plan; requirements may be shared"),
                 );
             }
         }
@@ -224,7 +230,6 @@ impl Analysis<'_> {
                 types,
                 plans: Vec::new(),
                 failure: None,
-                reachable: false,
                 span: trigger.span.clone(),
                 holes: Vec::new(),
                 resumed: false,
@@ -245,11 +250,12 @@ impl Analysis<'_> {
                 && self.handler_id(Operator::Add, TriggerKind::Achieve, name).is_none()
             {
                 self.error(
-                    Diagnostic::error(
-                        format!("`-!{name}` can never run: no plan for `+!{name}`"),
-                        trigger.span.clone(),
-                    )
-                    .help("a failure plan runs when a plan of its goal fails"),
+                    Code::MissingPlan
+                        .at(
+                            format!("`-!{name}` can never run: no plan for `+!{name}`"),
+                            trigger.span.clone(),
+                        )
+                        .help("a failure plan runs when a plan of its goal fails"),
                 );
             }
         }
@@ -270,7 +276,8 @@ impl Analysis<'_> {
                     }
                     None => {
                         self.error(
-                            Diagnostic::error("not a constant", term.span())
+                            Code::NotConstant
+                                .at("not a constant", term.span())
                                 .help("initial beliefs are numbers and strings"),
                         );
                         None
@@ -280,11 +287,12 @@ impl Analysis<'_> {
             let id = self.belief_id(&atom.name.text, &types);
             if self.beliefs[id.0].initial.is_some() {
                 self.error(
-                    Diagnostic::error(
-                        format!("a second initial belief `{}`", atom.name.text),
-                        atom.span.clone(),
-                    )
-                    .help("an agent believes at most one instance of a predicate"),
+                    Code::DeclaredTwice
+                        .at(
+                            format!("a second initial belief `{}`", atom.name.text),
+                            atom.span.clone(),
+                        )
+                        .help("an agent believes at most one instance of a predicate"),
                 );
             }
             self.beliefs[id.0].initial = values;
@@ -300,7 +308,8 @@ impl Analysis<'_> {
                 Some(Ok(value)) => values.push(value),
                 Some(Err(diagnostic)) => self.error(diagnostic),
                 None => self.error(
-                    Diagnostic::error("not a constant", term.span())
+                    Code::NotConstant
+                        .at("not a constant", term.span())
                         .help("the initial goal's arguments are numbers and strings"),
                 ),
             }
@@ -314,7 +323,8 @@ impl Analysis<'_> {
         let handler = self.handler_id(Operator::Add, TriggerKind::Achieve, name);
         if handler.is_none() {
             self.error(
-                Diagnostic::error(format!("no plan for `+!{name}`"), goal.span.clone())
+                Code::MissingPlan
+                    .at(format!("no plan for `+!{name}`"), goal.span.clone())
                     .label("this goal could never be achieved")
                     .help(format!("add a plan `+!{name} : context <- body.`")),
             );
@@ -342,14 +352,16 @@ impl Analysis<'_> {
                     }
                 }
                 _ => self.findings.configuration.push(if settable {
-                    Diagnostic::error(format!("no plan for `+{}`", name.text), name.span.clone())
+                    Code::MissingPlan
+                        .at(format!("no plan for `+{}`", name.text), name.span.clone())
                         .help("a change would raise an event that nobody handles")
                 } else {
-                    Diagnostic::error(
-                        format!("`{}` is perceived but not settable", name.text),
-                        name.span.clone(),
-                    )
-                    .help("list it in `settables` too")
+                    Code::NotSettable
+                        .at(
+                            format!("`{}` is perceived but not settable", name.text),
+                            name.span.clone(),
+                        )
+                        .help("list it in `settables` too")
                 }),
             }
         }
@@ -363,10 +375,10 @@ impl Analysis<'_> {
                 if known.insert((event.operator, event.kind, event.name.clone())) {
                     external.push(event);
                 } else {
-                    self.findings.configuration.push(Diagnostic::error(
-                        "this trigger is listed twice",
-                        trigger.span.clone(),
-                    ));
+                    self.findings.configuration.push(
+                        Code::DeclaredTwice
+                            .at("this trigger is listed twice", trigger.span.clone()),
+                    );
                 }
             }
         }
@@ -377,15 +389,14 @@ impl Analysis<'_> {
             });
             if !listed {
                 self.findings.configuration.push(
-                    Diagnostic::error(
-                        "a pre-emptive event must be triggerable",
-                        trigger.span.clone(),
-                    )
-                    .help("list it in `triggerables` too"),
+                    Code::NotTriggerable
+                        .at("a pre-emptive event must be triggerable", trigger.span.clone())
+                        .help("list it in `triggerables` too"),
                 );
             } else if trigger.kind != TriggerKind::Achieve {
                 self.findings.configuration.push(
-                    Diagnostic::error("only goals can pre-empt", trigger.span.clone())
+                    Code::NotPreemptive
+                        .at("only goals can pre-empt", trigger.span.clone())
                         .help("raise a goal, `+!goal`, where the belief matters that much"),
                 );
             }
@@ -418,7 +429,8 @@ impl Analysis<'_> {
         };
         if belief.is_none() && handler.is_none() {
             self.findings.configuration.push(
-                Diagnostic::error(format!("no plan for `+!{name}`"), trigger.span.clone())
+                Code::MissingPlan
+                    .at(format!("no plan for `+!{name}`"), trigger.span.clone())
                     .help("the environment could order what the agent can't do"),
             );
         }
@@ -453,7 +465,8 @@ impl Analysis<'_> {
                 {
                     let message = format!("`{}` is never believed", name.text);
                     self.findings.configuration.push(
-                        Diagnostic::error(message, name.span.clone())
+                        Code::ComparedUnbelieved
+                            .at(message, name.span.clone())
                             .help("a comparison of what is not believed never holds"),
                     );
                 }
@@ -474,7 +487,6 @@ impl Analysis<'_> {
             initial: None,
             settable: false,
             perceived: None,
-            believable: false,
             asked_at: None,
         });
         id

@@ -10,6 +10,7 @@ use super::scope::{Scope, said_already};
 use super::time::Place;
 use super::values::Resolved;
 use super::{Analysis, TriggerKey};
+use crate::code::Code;
 use crate::program::{Handler, HandlerId, Pattern, Placed, Plan, Raise, Step, Value, VariableId};
 use crate::syntax::ast::{
     self, Agent, Atom, Expression, Formula, Name, Operator, Trigger, TriggerKind,
@@ -50,18 +51,19 @@ impl Analysis<'_> {
             let answered = (Operator::Add, TriggerKind::Test, name.clone());
             if trigger.operator == Operator::Delete && !self.test_triggers.contains(&answered) {
                 self.error(
-                    Diagnostic::error(
-                        format!("`-?{name}` can never run: no plan for `+?{name}`"),
-                        trigger.span.clone(),
-                    )
-                    .help("a failure plan runs when a plan of its test goal fails"),
+                    Code::MissingPlan
+                        .at(
+                            format!("`-?{name}` can never run: no plan for `+?{name}`"),
+                            trigger.span.clone(),
+                        )
+                        .help("a failure plan runs when a plan of its test goal fails"),
                 );
             }
             if !is_asked(plan) {
                 let text = format!("nothing ever asks `?{name}`");
                 self.error(
-                    Diagnostic::warning(text, trigger.span.clone())
-                        .code("never-asked")
+                    Code::NeverAsked
+                        .at(text, trigger.span.clone())
                         .help("its plans are left out; ask it in a body: `?b(X)`"),
                 );
                 self.unasked_plan(plan, graph);
@@ -103,7 +105,7 @@ impl Analysis<'_> {
                 let arguments = arguments.collect::<Vec<_>>().join(", ");
                 let message = format!("the plans of `?{name}` cannot answer this");
                 let span = self.handlers[id.0].span.clone();
-                let error = Diagnostic::error(message, span).label(first).help(format!(
+                let error = Code::Unanswerable.at(message, span).label(first).help(format!(
                     "ask `?{name}({arguments})`, a value where the plan needs one and a new variable where it gives one, or change the plan"
                 ));
                 self.findings.agent.truncate(findings);
@@ -241,7 +243,6 @@ impl Analysis<'_> {
             types: types.to_vec(),
             plans: Vec::new(),
             failure: None,
-            reachable: false,
             span: atom.span.clone(),
             holes: holes.to_vec(),
             resumed: false,
@@ -276,15 +277,14 @@ impl Analysis<'_> {
         let outputs = self.outputs(&answers, &types, &mut scope);
         scope.settle();
         for (name, span) in scope.unused() {
-            let warning =
-                Diagnostic::warning(format!("variable `{name}` is never used"), span.clone())
-                    .code("unused-variable")
-                    .help("write `_` if any value will do");
+            let warning = Code::UnusedVariable
+                .at(format!("variable `{name}` is never used"), span.clone())
+                .help("write `_` if any value will do");
             self.findings.agent.push(warning);
         }
         if self.covered.contains(&handler) {
-            let warning = Diagnostic::warning("this plan is never tried", trigger.span.clone())
-                .code("never-tried")
+            let warning = Code::NeverTried
+                .at("this plan is never tried", trigger.span.clone())
                 .help("an earlier plan of the same trigger fits every event");
             self.findings.agent.push(warning);
         }
@@ -327,7 +327,8 @@ impl Analysis<'_> {
                         scope.asked.push((name.text.clone(), ctype.clone()));
                     }
                     _ => self.error(
-                        Diagnostic::error("this argument is asked for", expression.span())
+                        Code::AskedArgument
+                            .at("this argument is asked for", expression.span())
                             .help("write a new variable, which the plan gives its value"),
                     ),
                 }
@@ -355,11 +356,12 @@ impl Analysis<'_> {
                 Ok(_) => {}
                 Err(_) if scope.is_broken(&value) => {}
                 Err(_) => self.error(
-                    Diagnostic::error(
-                        format!("`{}` is asked for and never gets a value", name.text),
-                        name.span.clone(),
-                    )
-                    .help("bind it in the context, by `?b(X)` or by `X = value`"),
+                    Code::NeverAnswered
+                        .at(
+                            format!("`{}` is asked for and never gets a value", name.text),
+                            name.span.clone(),
+                        )
+                        .help("bind it in the context, by `?b(X)` or by `X = value`"),
                 ),
             }
         }
@@ -441,7 +443,8 @@ impl Analysis<'_> {
                     Ok(Step::Post { handler, values, deadline: due.transpose()? })
                 } else if let Some(deadline) = deadline {
                     let message = format!("`!{}` never takes more than a step", goal.name.text);
-                    Err(Diagnostic::error(message, deadline.span())
+                    Err(Code::IdleDeadline
+                        .at(message, deadline.span())
                         .label("a deadline that is always met")
                         .help("it is for goals that wait or post themselves again"))
                 } else {
@@ -470,20 +473,19 @@ impl Analysis<'_> {
         let plans = self.test_handler(Operator::Add, atom, &types, &holes);
         if plans.is_some() {
             if graph.is_recursive(Operator::Add, TriggerKind::Test, &atom.name.text) {
-                return Err(Diagnostic::error(
-                    format!("`?{}` leads back to itself", atom.name.text),
-                    atom.span.clone(),
-                )
-                .label("this call would be recursive")
-                .help("the answer is needed at once, so it cannot wait for the next step"));
+                return Err(Code::Recursion
+                    .at(format!("`?{}` leads back to itself", atom.name.text), atom.span.clone())
+                    .label("this call would be recursive")
+                    .help("the answer is needed at once, so it cannot wait for the next step"));
             }
             let unknown = types.iter().zip(&holes).find(|(t, hole)| **hole && t.zero().is_none());
             if let Some((ctype, _)) = unknown {
-                return Err(Diagnostic::error(
-                    format!("values of type `{}` cannot be asked for", ctype.name),
-                    atom.span.clone(),
-                )
-                .help("the translator knows no value of this type to start with"));
+                return Err(Code::UnaskableType
+                    .at(
+                        format!("values of type `{}` cannot be asked for", ctype.name),
+                        atom.span.clone(),
+                    )
+                    .help("the translator knows no value of this type to start with"));
             }
         }
         Ok(Step::Ask { belief, patterns, plans })
@@ -502,7 +504,7 @@ impl Analysis<'_> {
         if !self.crowded.insert(name.clone()) {
             return Err(said_already());
         }
-        Err(Diagnostic::error(
+        Err(Code::Limit.at(
             format!("`?{name}` is asked in more than {MOST_QUESTIONS} ways"),
             atom.span.clone(),
         )
@@ -537,7 +539,8 @@ impl Analysis<'_> {
         let name = &atom.name.text;
         let handler =
             self.handler_id(Operator::Add, TriggerKind::Achieve, name).ok_or_else(|| {
-                Diagnostic::error(format!("no plan for `+!{name}`"), atom.span.clone())
+                Code::MissingPlan
+                    .at(format!("no plan for `+!{name}`"), atom.span.clone())
                     .label("this goal could never be achieved")
                     .help(format!("add a plan `+!{name} : context <- body.`"))
             })?;
@@ -584,11 +587,9 @@ fn check_asked_once(atom: &Atom, scope: &Scope) -> Resolved<()> {
             && scope.lookup(&name.text).is_none()
         {
             if asked.contains(&name.text.as_str()) {
-                return Err(Diagnostic::error(
-                    format!("`{}` is asked for twice", name.text),
-                    name.span.clone(),
-                )
-                .help("ask for two variables and compare them in the context of a plan"));
+                return Err(Code::AskedArgument
+                    .at(format!("`{}` is asked for twice", name.text), name.span.clone())
+                    .help("ask for two variables and compare them in the context of a plan"));
             }
             asked.push(&name.text);
         }
@@ -600,10 +601,11 @@ fn check_last(atom: &Atom, last: bool) -> Resolved<()> {
     if last {
         return Ok(());
     }
-    Err(Diagnostic::error(
-        format!("`{}` leads back to itself and is not the last formula", atom.name.text),
-        atom.span.clone(),
-    )
-    .label("this call would be recursive")
-    .help("move it to the end of the body: there it becomes the event of the next step"))
+    Err(Code::Recursion
+        .at(
+            format!("`{}` leads back to itself and is not the last formula", atom.name.text),
+            atom.span.clone(),
+        )
+        .label("this call would be recursive")
+        .help("move it to the end of the body: there it becomes the event of the next step"))
 }

@@ -4,12 +4,15 @@ use std::collections::BTreeSet;
 
 use diagnostic::Diagnostic;
 
+use crate::code::Code;
 use crate::coverage::always_finds_a_plan;
 use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Plan, Raise, Step};
 use crate::syntax::ast::{Operator, TriggerKind};
 
-/// What the reachable plans do besides calling each other.
+/// Which handlers some event leads to, and what their plans do besides calling each other.
 pub(super) struct Reached {
+    /// Those that some event leads to. Whatever one of them names is among them.
+    pub(super) handlers: BTreeSet<HandlerId>,
     /// Handlers whose events they post for the next step.
     pub(super) posted: BTreeSet<HandlerId>,
     /// Handlers whose goals they defer.
@@ -18,17 +21,22 @@ pub(super) struct Reached {
     pub(super) limited: BTreeSet<HandlerId>,
 }
 
-/// Marks the handlers that can be reached from `roots`.
-pub(super) fn reach(handlers: &mut [Handler], roots: &[HandlerId]) -> Reached {
-    let mut reached =
-        Reached { posted: BTreeSet::new(), deferred: BTreeSet::new(), limited: BTreeSet::new() };
+/// Follows the plans from `roots`.
+pub(super) fn reach(handlers: &[Handler], roots: &[HandlerId]) -> Reached {
+    let mut reached = Reached {
+        handlers: BTreeSet::new(),
+        posted: BTreeSet::new(),
+        deferred: BTreeSet::new(),
+        limited: BTreeSet::new(),
+    };
     let mut open: Vec<HandlerId> = roots.to_vec();
-    while let Some(HandlerId(index)) = open.pop() {
-        if std::mem::replace(&mut handlers[index].reachable, true) {
+    while let Some(id) = open.pop() {
+        if !reached.handlers.insert(id) {
             continue;
         }
-        open.extend(handlers[index].failure);
-        for step in handlers[index].plans.iter().flat_map(Plan::steps) {
+        let handler = &handlers[id.0];
+        open.extend(handler.failure);
+        for step in handler.plans.iter().flat_map(Plan::steps) {
             match step {
                 Step::Achieve { handler, .. } => open.push(*handler),
                 Step::Post { handler, deadline, .. } => {
@@ -56,44 +64,56 @@ pub(super) fn reach(handlers: &mut [Handler], roots: &[HandlerId]) -> Reached {
     reached
 }
 
-pub(super) fn warn_unreachable(handlers: &[Handler], findings: &mut Vec<Diagnostic>) {
+pub(super) fn warn_unreachable(
+    handlers: &[Handler],
+    reached: &BTreeSet<HandlerId>,
+    findings: &mut Vec<Diagnostic>,
+) {
     // Of test goals that nobody asks it is said where they stand.
-    let idle = |handler: &&Handler| {
-        !handler.reachable && !handler.resumed && handler.kind != TriggerKind::Test
+    let idle = |(index, handler): &(usize, &Handler)| {
+        let told = handler.resumed || handler.kind == TriggerKind::Test;
+        !told && !reached.contains(&HandlerId(*index))
     };
-    for handler in handlers.iter().filter(idle) {
+    for (_, handler) in handlers.iter().enumerate().filter(idle) {
         let text = handler.text();
         findings.push(
-            Diagnostic::warning(format!("nothing ever triggers `{text}`"), handler.span.clone())
-                .code("never-triggered")
+            Code::NeverTriggered
+                .at(format!("nothing ever triggers `{text}`"), handler.span.clone())
                 .help("its plans are left out; list it in `triggerables` or let a plan post it"),
         );
     }
 }
 
-/// Marks what something can make true: an initial belief, a plan, an event, a `set_` function.
-pub(super) fn mark_believable(beliefs: &mut [Belief], handlers: &[Handler], external: &[External]) {
-    for belief in beliefs.iter_mut() {
-        belief.believable = belief.settable || belief.initial.is_some();
-    }
+/// What something can make true: an initial belief, a plan, an event, a `set_` function.
+pub(super) fn believable(
+    beliefs: &[Belief],
+    handlers: &[Handler],
+    external: &[External],
+) -> BTreeSet<BeliefId> {
+    let given = beliefs.iter().enumerate();
+    let given = given.filter(|(_, belief)| belief.settable || belief.initial.is_some());
+    let given = given.map(|(index, _)| BeliefId(index));
     let raised = external.iter().filter(|event| event.operator == Operator::Add);
     let steps = handlers.iter().flat_map(|handler| &handler.plans).flat_map(Plan::steps);
     let added = steps.filter_map(|step| match step {
         Step::Add { belief, .. } => Some(*belief),
         _ => None,
     });
-    for BeliefId(index) in raised.filter_map(|event| event.belief).chain(added) {
-        beliefs[index].believable = true;
-    }
+    given.chain(raised.filter_map(|event| event.belief)).chain(added).collect()
 }
 
 /// Warns of beliefs that a context asks for and that nothing can make true.
-pub(super) fn warn_never_believed(beliefs: &[Belief], findings: &mut Vec<Diagnostic>) {
-    for belief in beliefs.iter().filter(|belief| !belief.believable) {
+pub(super) fn warn_never_believed(
+    beliefs: &[Belief],
+    believable: &BTreeSet<BeliefId>,
+    findings: &mut Vec<Diagnostic>,
+) {
+    let beliefs = beliefs.iter().enumerate();
+    for (_, belief) in beliefs.filter(|(index, _)| !believable.contains(&BeliefId(*index))) {
         if let Some(span) = &belief.asked_at {
             let message = format!("`{}` is never believed", belief.name);
             findings.push(
-                Diagnostic::warning(message, span.clone()).code("never-believed").help(
+                Code::NeverBelieved.at(message, span.clone()).help(
                     "no initial belief, no plan, no event and no `set_` function makes it true",
                 ),
             );
@@ -127,8 +147,8 @@ pub(super) fn warn_without_plan(
         let text = handler.text();
         let failure = text.replacen('+', "-", 1);
         findings.push(
-            Diagnostic::warning(format!("`{text}` may find no plan"), handler.span.clone())
-                .code("no-plan")
+            Code::NoPlan
+                .at(format!("`{text}` may find no plan"), handler.span.clone())
                 .label("then it fails, and nothing mends that")
                 .help(format!(
                     "add a plan without context behind its others, or one for `{failure}`"

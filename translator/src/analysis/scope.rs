@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use diagnostic::{Diagnostic, Span};
 
+use crate::code::Code;
 use crate::program::{Variable, VariableId};
 use crate::syntax::ast::{Expression, Name};
 use crate::types::CType;
@@ -93,7 +94,7 @@ impl Scope {
             variable.used = true;
         }
         let message = format!("`{}` has no value here", name.text);
-        let error = Diagnostic::error(message, name.span.clone());
+        let error = Code::UnboundVariable.at(message, name.span.clone());
         Err(if self.hidden.contains(&name.text) {
             error.help("it is bound only inside `not`, or not in every branch of `|`")
         } else {

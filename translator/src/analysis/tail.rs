@@ -4,19 +4,24 @@
 //! at that moment. What fails in a later step is mended by the failure plans of the goal that fails then, and by
 //! none of those that led to it.
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::{BTreeSet, HashSet, VecDeque};
 
 use diagnostic::{Diagnostic, Span};
 
+use crate::code::Code;
 use crate::coverage::always_finds_a_plan;
 use crate::program::{Handler, HandlerId, Plan, Raise, Step};
 use crate::syntax::ast::{Operator, TriggerKind};
 
 /// Warns of failure plans that cannot see what their goal comes to.
-pub(super) fn warn_unseen(handlers: &[Handler], findings: &mut Vec<Diagnostic>) {
+pub(super) fn warn_unseen(
+    handlers: &[Handler],
+    reached: &BTreeSet<HandlerId>,
+    findings: &mut Vec<Diagnostic>,
+) {
     let fails = failing(handlers);
     let mut told: HashSet<Span> = HashSet::new();
-    for handler in handlers.iter().filter(|handler| handler.reachable) {
+    for handler in reached.iter().map(|id| &handlers[id.0]) {
         let is_goal = (handler.operator, handler.kind) == (Operator::Add, TriggerKind::Achieve);
         let Some(failure) = handler.failure.filter(|_| is_goal) else { continue };
         let guard = handlers[failure.0].text();
@@ -38,13 +43,13 @@ pub(super) fn warn_unseen(handlers: &[Handler], findings: &mut Vec<Diagnostic>) 
                 _ => "let its plans post a goal that has failure plans".to_owned(),
             };
             findings.push(
-                Diagnostic::warning(
-                    format!("`{guard}` does not see it if `{text}` fails later"),
-                    placed.span.clone(),
-                )
-                .code("unseen-failure")
-                .label("posted for the next step: with that this plan has succeeded")
-                .help(mend),
+                Code::UnseenFailure
+                    .at(
+                        format!("`{guard}` does not see it if `{text}` fails later"),
+                        placed.span.clone(),
+                    )
+                    .label("posted for the next step: with that this plan has succeeded")
+                    .help(mend),
             );
         }
     }

@@ -12,6 +12,7 @@ use super::Analysis;
 use super::graph::TriggerGraph;
 use super::scope::Scope;
 use super::values::Resolved;
+use crate::code::Code;
 use crate::configuration::Configuration;
 use crate::program::{
     BasicId, Call, Condition, Handler, HandlerId, Operation, Pattern, Placed, Plan, Step, Value,
@@ -62,13 +63,13 @@ pub(super) fn find_clock(
                 milliseconds that never run backwards";
     let Some((index, basic)) = basics.find(|(_, basic)| basic.name.text == name.text) else {
         let message = format!("the clock `{}` is not declared", name.text);
-        findings.push(Diagnostic::error(message, name.span.clone()).help(help));
+        findings.push(Code::NotDeclared.at(message, name.span.clone()).help(help));
         return None;
     };
     let wide = basic.result.integer_bits().is_some_and(|(bits, _)| bits >= 32);
     if !basic.parameters.is_empty() || !(wide || basic.result.is_float()) {
         let message = format!("`{}` cannot be a clock", name.text);
-        findings.push(Diagnostic::error(message, name.span.clone()).help(help));
+        findings.push(Code::NotAClock.at(message, name.span.clone()).help(help));
         return None;
     }
     Some(Clock { function: BasicId(index), ctype: basic.result.clone() })
@@ -83,7 +84,7 @@ impl Analysis<'_> {
         scope: &mut Scope,
     ) -> Resolved<Value> {
         let Some(clock) = &self.clock else {
-            return Err(Diagnostic::error("the agent has no clock", span.clone()).help(
+            return Err(Code::NoClock.at("the agent has no clock", span.clone()).help(
                 "declare `uint64_t now(void);` in `basics` and write `clock = now;` in `settings`",
             ));
         };
@@ -112,7 +113,8 @@ impl Analysis<'_> {
         let handler = self.resumed(place, &carried, &ctype, span, rest);
         let due = due?;
         if place.plan.trigger.kind == TriggerKind::Test {
-            return Err(Diagnostic::error("a test goal is answered at once", span.clone())
+            return Err(Code::WaitInTestGoal
+                .at("a test goal is answered at once", span.clone())
                 .help("wait in the plan that asks"));
         }
         let values = carried.into_iter().map(|carried| carried.value).chain([due]).collect();
@@ -178,7 +180,6 @@ impl Analysis<'_> {
             resumed: true,
             span: span.clone(),
             holes: Vec::new(),
-            reachable: false,
             ..*original
         };
         self.handlers.push(handler);

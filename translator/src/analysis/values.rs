@@ -6,6 +6,7 @@ use super::Analysis;
 use super::constants::constant;
 use super::declarations::check_value_result;
 use super::scope::{Scope, said_already};
+use crate::code::Code;
 use crate::program::{Call, Operation, Pattern, Value};
 use crate::syntax::ast::{Arithmetic, Atom, Expression};
 use crate::types::CType;
@@ -67,15 +68,15 @@ impl Analysis<'_> {
                 let left = self.value(left, ctype, scope)?;
                 let right = self.value(right, ctype, scope)?;
                 if *operator == Arithmetic::Remainder && ctype.is_float() {
-                    return Err(Diagnostic::error("`mod` is for integers", span.clone()));
+                    return Err(Code::WrongType.at("`mod` is for integers", span.clone()));
                 }
                 Ok(operation(*operator, left, right, ctype))
             }
-            Expression::Unnamed(span) => {
-                Err(Diagnostic::error("an unnamed variable has no value", span.clone())
-                    .help("`_` matches anything; name the variable and bind it first"))
-            }
-            _ => Err(Diagnostic::error("a condition where a value is needed", expression.span())
+            Expression::Unnamed(span) => Err(Code::UnboundVariable
+                .at("an unnamed variable has no value", span.clone())
+                .help("`_` matches anything; name the variable and bind it first")),
+            _ => Err(Code::NotAValue
+                .at("a condition where a value is needed", expression.span())
                 .help("conditions stand in contexts; bind their outcome by choosing a plan")),
         }
     }
@@ -119,7 +120,8 @@ impl Analysis<'_> {
             if scope.is_broken(expression) {
                 return Err(said_already());
             }
-            return Err(Diagnostic::error("the type of this value is unknown", expression.span())
+            return Err(Code::UnknownType
+                .at("the type of this value is unknown", expression.span())
                 .help("write the constant where it is used, or calculate with a variable"));
         };
         Ok((self.value(expression, &ctype, scope)?, ctype))
@@ -164,7 +166,7 @@ fn check_type(found: &CType, expected: &CType, name: &str, span: &Span) -> Resol
     if found == expected {
         return Ok(());
     }
-    Err(Diagnostic::error(
+    Err(Code::WrongType.at(
         format!("`{name}` has type `{}`, expected `{}`", found.name, expected.name),
         span.clone(),
     ))
@@ -175,7 +177,7 @@ pub(super) fn check_numeric(ctype: &CType, span: &Span) -> Resolved<()> {
         return Ok(());
     }
     let message = format!("values of type `{}` are no numbers", ctype.name);
-    Err(Diagnostic::error(message, span.clone()))
+    Err(Code::WrongType.at(message, span.clone()))
 }
 
 pub(super) fn check_equality(ctype: &CType, span: &Span) -> Resolved<()> {
@@ -183,6 +185,7 @@ pub(super) fn check_equality(ctype: &CType, span: &Span) -> Resolved<()> {
         return Ok(());
     }
     let message = format!("values of type `{}` cannot be compared", ctype.name);
-    Err(Diagnostic::error(message, span.clone())
+    Err(Code::NotComparable
+        .at(message, span.clone())
         .help("bind the value to a new variable and compare it with a function of type bool"))
 }

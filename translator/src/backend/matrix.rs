@@ -35,7 +35,7 @@ pub(crate) fn emit(program: &Program, input: &str, source: &str) -> Result<Matri
 fn rows(program: &Program, source: &str) -> Vec<Row> {
     let functions = function_lines(source);
     let mut rows = Vec::new();
-    for (plan_number, (id, number, plan)) in program.reachable_plans().enumerate() {
+    for (plan_number, (id, number, plan)) in program.plans().enumerate() {
         let handler = program.handler(id);
         let function = plan_name(number, &handler_name(program, id));
         let c_lines = functions.get(function.as_str()).copied().unwrap_or_default();

@@ -320,11 +320,11 @@ fn agent(writer: &mut Writer, program: &Program) {
 
 /// What the numbers that the trace function gets mean.
 fn plans(writer: &mut Writer, program: &Program) {
-    let count = program.reachable_plans().count();
+    let count = program.plans().count();
     writer.line("");
     writer.line("/// The plans by number: first line in the source, and trigger.");
     writer.open_array(format!("pub const PLANS: [(u32, &str); {count}] ="));
-    for (id, _, plan) in program.reachable_plans() {
+    for (id, _, plan) in program.plans() {
         let handler = program.handler(id);
         let trigger = handler.text();
         writer.line(format!("({}, \"{trigger}\"),", plan.lines.0));

@@ -18,9 +18,13 @@
 //!
 //! Sections may stand in any order and may be left out or empty, except `settings`.
 
+mod c_type;
+mod declarations;
+mod outputs;
 mod parser;
 mod properties;
 mod scanner;
+mod settings;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -137,10 +141,10 @@ impl Settings {
         outputs
     }
 
-    /// What stands before every external symbol: with `instance = context` several agents can be linked into one
-    /// program.
-    pub(crate) fn symbol_prefix(&self) -> String {
-        if self.instance == Instance::Static {
+    /// What stands before every external symbol of this form: with its state passed in, several agents can be
+    /// linked into one program.
+    pub(crate) fn symbol_prefix(&self, instance: Instance) -> String {
+        if instance == Instance::Static {
             return String::new();
         }
         let file = self.output.rsplit('/').next().unwrap_or_default();

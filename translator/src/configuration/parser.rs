@@ -2,13 +2,11 @@
 
 use diagnostic::{Diagnostic, Span, is_printable};
 
-use super::scanner::{Parsed, Scanner, is_word, is_word_start};
-use super::{
-    ActionClass, Basic, Configuration, ExternalTrigger, Instance, Predicate, Settings, Struct,
-};
-use crate::reserved::is_c_word;
+use super::outputs::check_outputs;
+use super::scanner::{Parsed, Scanner, advice};
+use super::{Configuration, ExternalTrigger};
+use crate::code::Code;
 use crate::syntax::ast::{Name, Operator, TriggerKind};
-use crate::types::{C_NUMBERS, CType, TypeKind};
 
 const SECTIONS: [&str; 11] = [
     "settings",
@@ -23,24 +21,6 @@ const SECTIONS: [&str; 11] = [
     "preemptive",
     "properties",
 ];
-const SETTINGS: [&str; 11] = [
-    "trace",
-    "clock",
-    "input",
-    "output",
-    "header",
-    "basics",
-    "rust",
-    "matrix",
-    "instance",
-    "inbox",
-    "max_events",
-];
-/// More waiting events than this is a mistake: each costs memory and makes commands stale.
-const MAX_INBOX: u32 = 64;
-/// C99 promises 127 parameters, of which some are ours.
-const MOST_PARAMETERS: usize = 100;
-
 /// The configuration in `text` and everything that is wrong with it.
 pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
     const BYTE_ORDER_MARK: char = '\u{feff}';
@@ -61,8 +41,8 @@ pub(super) struct Parser<'a> {
     pub(super) configuration: Configuration,
     seen: Vec<&'a str>,
     /// Where the section `settings` begins, or would have to.
-    settings: Span,
-    diagnostics: Vec<Diagnostic>,
+    pub(super) settings: Span,
+    pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 impl<'a> Parser<'a> {
@@ -85,7 +65,7 @@ impl<'a> Parser<'a> {
         self.resolve_structs();
         if self.diagnostics.is_empty() {
             self.check_settings();
-            self.check_outputs();
+            self.diagnostics.extend(check_outputs(&self.configuration));
         }
     }
 
@@ -100,11 +80,13 @@ impl<'a> Parser<'a> {
         let name = self.scanner.word("a section name")?;
         let section: &'a str = &self.scanner.text[name.span.clone()];
         if !SECTIONS.contains(&section) {
-            return Err(Diagnostic::error(format!("unknown section `{section}`"), name.span)
+            return Err(Code::UnknownSection
+                .at(format!("unknown section `{section}`"), name.span)
                 .help(advice(section, &SECTIONS)));
         }
         if self.seen.contains(&section) {
-            return Err(Diagnostic::error(format!("a second section `{section}`"), name.span)
+            return Err(Code::DeclaredTwice
+                .at(format!("a second section `{section}`"), name.span)
                 .help("put its entries into the first one"));
         }
         self.seen.push(section);
@@ -162,279 +144,14 @@ impl<'a> Parser<'a> {
                         == (trigger.operator, trigger.kind, &trigger.name.text)
                 };
                 if self.configuration.preemptive.iter().any(same) {
-                    return Err(Diagnostic::error("this trigger is listed twice", trigger.span));
+                    return Err(
+                        Code::DeclaredTwice.at("this trigger is listed twice", trigger.span)
+                    );
                 }
                 self.configuration.preemptive.push(trigger);
                 Ok(())
             }
             _ => self.property(),
-        }
-    }
-
-    fn setting(&mut self) -> Parsed<()> {
-        let key = self.scanner.word("a setting")?;
-        self.scanner.expect("=")?;
-        let value = self.setting_value()?;
-        self.scanner.expect(";")?;
-        let settings = &mut self.configuration.settings;
-        if settings.places.contains_key(&key.text) {
-            let message = format!("a second setting `{}`", key.text);
-            return Err(Diagnostic::error(message, key.span).help("only one of them could count"));
-        }
-        let same = |other: &str| settings.places.contains_key(other);
-        if matches!(key.text.as_str(), "inbox" | "max_events")
-            && (same("inbox") || same("max_events"))
-        {
-            return Err(Diagnostic::error("`inbox` and `max_events` exclude each other", key.span)
-                .help("both tell how many external events can wait"));
-        }
-        settings.places.insert(key.text.clone(), value.span.clone());
-        match key.text.as_str() {
-            "input" => settings.input = value.text,
-            "output" => settings.output = value.text,
-            "header" => settings.header = value.text,
-            "basics" => settings.basics = value.text,
-            "rust" => settings.rust = Some(value),
-            "matrix" => settings.matrix = Some(value.text),
-            "trace" => settings.trace = Some(value),
-            "clock" => settings.clock = Some(value),
-            "instance" => {
-                settings.instance = match value.text.as_str() {
-                    "static" => Instance::Static,
-                    "context" => Instance::Context,
-                    _ => {
-                        return Err(Diagnostic::error("unknown kind of instance", value.span)
-                            .help("write `static` or `context`"));
-                    }
-                };
-            }
-            "inbox" | "max_events" => match value.text.parse() {
-                Ok(inbox @ 1..=MAX_INBOX) => {
-                    settings.inbox = inbox;
-                    settings.queue |= key.text == "max_events";
-                }
-                _ => {
-                    return Err(Diagnostic::error(
-                        format!("`{}` out of range", key.text),
-                        value.span,
-                    )
-                    .help(format!("a whole number from 1 to {MAX_INBOX}")));
-                }
-            },
-            other => {
-                return Err(Diagnostic::error(format!("unknown setting `{other}`"), key.span)
-                    .help(advice(other, &SETTINGS)));
-            }
-        }
-        Ok(())
-    }
-
-    /// A word, a number or a file's name, which may stand in quotes. Comments may follow.
-    fn setting_value(&mut self) -> Parsed<Name> {
-        self.scanner.skip_blanks()?;
-        let rest = self.scanner.rest();
-        let start = self.scanner.position;
-        let (text, length) = if let Some(quoted) = rest.strip_prefix('"') {
-            match quoted.find(['"', '\n']).filter(|end| quoted[*end..].starts_with('"')) {
-                Some(end) => (&quoted[..end], end + 2),
-                None => {
-                    return Err(Diagnostic::error(
-                        "value with a quote or backslash",
-                        start..start + 1,
-                    )
-                    .help("close the quote on the same line"));
-                }
-            }
-        } else {
-            let end = rest.find([';', '\n', '}']).unwrap_or(rest.len());
-            let comment = ["/*", "//"].iter().filter_map(|open| rest[..end].find(open)).min();
-            let text = rest[..comment.unwrap_or(end)].trim_end();
-            (text, text.len())
-        };
-        let span = start..start + length;
-        self.scanner.position = span.end;
-        if text.is_empty() {
-            return Err(Diagnostic::error("setting without a value", start..start + 1));
-        }
-        if text.contains(['"', '\\']) || text.chars().any(char::is_control) {
-            return Err(Diagnostic::error("value with a quote or backslash", span)
-                .help("generated C includes files by these names"));
-        }
-        Ok(Name { text: text.to_owned(), span })
-    }
-
-    fn basic(&mut self) -> Parsed<()> {
-        let start = self.scanner.position;
-        let (result, name) = self.typed_name()?;
-        let parameters = self.parameters()?;
-        let span = start..self.scanner.position;
-        self.scanner.expect(";")?;
-        if name.text != "updateBeliefs" {
-            self.configuration.basics.push(Basic { name, result, parameters, span });
-        } else if result.name != "void" || !parameters.is_empty() {
-            return Err(Diagnostic::error("`updateBeliefs` has another signature", span)
-                .help("it is always declared, as `void updateBeliefs(void)`"));
-        }
-        Ok(())
-    }
-
-    /// `name { type field; .. };`
-    fn structure(&mut self) -> Parsed<()> {
-        let name = self.scanner.word("a struct type")?;
-        self.scanner.expect("{")?;
-        let mut fields: Vec<(Name, CType)> = Vec::new();
-        self.scanner.skip_blanks()?;
-        while !self.scanner.take("}") {
-            let (ctype, field) = self.typed_name()?;
-            self.scanner.expect(";")?;
-            if !ctype.is_numeric() && ctype.kind != TypeKind::Bool {
-                return Err(Diagnostic::error("a field must be a number or bool", field.span)
-                    .help("structs of structs and pointers are not translated"));
-            }
-            if fields.iter().any(|(other, _)| other.text == field.text) {
-                return Err(Diagnostic::error("a second field of this name", field.span));
-            }
-            fields.push((field, ctype));
-            self.scanner.skip_blanks()?;
-        }
-        self.scanner.expect(";")?;
-        if fields.is_empty() {
-            return Err(Diagnostic::error("a struct without fields", name.span));
-        }
-        self.configuration.structs.push(Struct { name, fields });
-        Ok(())
-    }
-
-    /// `name: action, action;`
-    fn class(&mut self) -> Parsed<()> {
-        let name = self.scanner.word("a class of actions")?;
-        self.scanner.expect(":")?;
-        let mut actions = vec![self.scanner.word("a basic action")?];
-        while self.scanner.take(",") {
-            actions.push(self.scanner.word("a basic action")?);
-        }
-        self.scanner.expect(";")?;
-        self.configuration.classes.push(ActionClass { name, actions });
-        Ok(())
-    }
-
-    /// The function that is told of plans is a basic action like any other.
-    fn declare_trace(&mut self) {
-        let Some(name) = self.configuration.settings.trace.clone() else { return };
-        if !name.text.starts_with(is_word_start) || !name.text.chars().all(is_word) {
-            self.diagnostics.push(
-                Diagnostic::error("not the name of a function", name.span)
-                    .help("write `trace = tracePlan;` and provide `void tracePlan(uint32_t)`"),
-            );
-            return;
-        }
-        self.configuration.basics.push(Basic {
-            span: name.span.clone(),
-            name,
-            result: CType::named("void"),
-            parameters: vec![CType::named("uint32_t")],
-        });
-    }
-
-    /// Types that the section `structs` declares are known wherever they are named.
-    fn resolve_structs(&mut self) {
-        let Configuration { structs, basics, predicates, .. } = &mut self.configuration;
-        let resolve = |ctype: &mut CType| {
-            if structs.iter().any(|declared| declared.name.text == ctype.name) {
-                ctype.kind = TypeKind::Struct;
-            }
-        };
-        for basic in basics {
-            resolve(&mut basic.result);
-            basic.parameters.iter_mut().for_each(resolve);
-        }
-        for predicate in predicates {
-            predicate.parameters.iter_mut().for_each(resolve);
-        }
-    }
-
-    fn predicate(&mut self) -> Parsed<()> {
-        let start = self.scanner.position;
-        let name = self.scanner.word("a belief or a goal")?;
-        self.scanner.skip_blanks()?;
-        if self.scanner.rest().starts_with(';') {
-            return Err(self
-                .scanner
-                .unexpected("`(`")
-                .help(format!("without arguments it is `{}(void)`", name.text)));
-        }
-        let parameters = self.parameters()?;
-        let span = start..self.scanner.position;
-        self.scanner.expect(";")?;
-        self.configuration.predicates.push(Predicate { name, parameters, span });
-        Ok(())
-    }
-
-    /// `unsigned int f` → the type and the name.
-    fn typed_name(&mut self) -> Parsed<(CType, Name)> {
-        let mut words = self.type_words()?;
-        let name = match words.pop() {
-            Some(name) if !words.is_empty() && name.text != "*" => name,
-            _ => return Err(self.scanner.unexpected("a result type and a function name")),
-        };
-        check_type(&words)?;
-        Ok((c_type(&words), name))
-    }
-
-    fn parameters(&mut self) -> Parsed<Vec<CType>> {
-        self.scanner.expect("(")?;
-        let mut parameters = Vec::new();
-        self.scanner.skip_blanks()?;
-        if self.scanner.take(")") {
-            return Ok(parameters);
-        }
-        loop {
-            let start = self.scanner.position;
-            let words = self.type_words()?;
-            if words.is_empty() {
-                return Err(self.scanner.unexpected("a type"));
-            }
-            check_type(&words)?;
-            let parameter = c_type(&words);
-            if parameter.name == "void" {
-                self.scanner.skip_blanks()?;
-                if parameters.is_empty() && self.scanner.take(")") {
-                    return Ok(parameters);
-                }
-                return Err(Diagnostic::error(
-                    "`void` is no parameter",
-                    start..self.scanner.position,
-                )
-                .help("`(void)` alone says that there is none"));
-            }
-            parameters.push(parameter);
-            if parameters.len() > MOST_PARAMETERS {
-                return Err(Diagnostic::error("too many arguments", start..self.scanner.position)
-                    .help(format!(
-                        "C promises room for 127; at most {MOST_PARAMETERS} are translated"
-                    )));
-            }
-            self.scanner.skip_blanks()?;
-            if self.scanner.take(")") {
-                return Ok(parameters);
-            }
-            self.scanner.expect(",")?;
-        }
-    }
-
-    fn type_words(&mut self) -> Parsed<Vec<Name>> {
-        let mut words = Vec::new();
-        loop {
-            self.scanner.skip_blanks()?;
-            if self.scanner.rest().starts_with('*') {
-                let span = self.scanner.position..self.scanner.position + 1;
-                self.scanner.position += 1;
-                words.push(Name { text: "*".to_owned(), span });
-            } else if self.scanner.rest().starts_with(is_word_start) {
-                words.push(self.scanner.word("a type")?);
-            } else {
-                return Ok(words);
-            }
         }
     }
 
@@ -463,7 +180,8 @@ impl<'a> Parser<'a> {
         let name = self.scanner.word("a name")?;
         let span = start..self.scanner.position;
         if operator == Operator::Delete && kind == TriggerKind::Achieve {
-            return Err(Diagnostic::error("`-!goal` cannot be raised from outside", span)
+            return Err(Code::NotTriggerable
+                .at("`-!goal` cannot be raised from outside", span)
                 .help("failure plans run when their goal fails"));
         }
         Ok(ExternalTrigger { operator, kind, name, span })
@@ -492,14 +210,13 @@ impl<'a> Parser<'a> {
             let file = &self.scanner.rest()[..length + 2];
             self.scanner.position += file.len();
             if file.ends_with('\n') {
-                return Err(Diagnostic::error(
-                    "include is never closed",
-                    start..self.scanner.position - 1,
-                ));
+                return Err(
+                    Code::NotClosed.at("include is never closed", start..self.scanner.position - 1)
+                );
             }
             let odd = |c: char| c == '\\' || !is_printable(c);
             if file.contains(odd) || ["??", "/*", "//"].iter().any(|mark| file.contains(mark)) {
-                return Err(Diagnostic::error(
+                return Err(Code::FileName.at(
                     "this is no name of a file that C includes",
                     start..self.scanner.position,
                 ));
@@ -507,173 +224,21 @@ impl<'a> Parser<'a> {
             self.configuration.includes.push(format!("#include {file}"));
         }
     }
-
-    fn check_settings(&mut self) {
-        let settings = &self.configuration.settings;
-        for (key, value) in [
-            ("input", &settings.input),
-            ("output", &settings.output),
-            ("header", &settings.header),
-            ("basics", &settings.basics),
-        ] {
-            if value.is_empty() {
-                self.diagnostics.push(
-                    Diagnostic::error(
-                        format!("the setting `{key}` is missing"),
-                        self.settings.clone(),
-                    )
-                    .help(format!("add `{key} = FILE;` to the section `settings`")),
-                );
-            }
-        }
-    }
-
-    /// What is written has names that C can include, stays in its folder, and is no other output.
-    fn check_outputs(&mut self) {
-        let outputs = self.configuration.settings.outputs();
-        let included = self.configuration.included_files();
-        let place =
-            |settings: &Settings, key: &str| settings.places.get(key).cloned().unwrap_or_default();
-        let mut findings = Vec::new();
-        for (index, (key, name)) in outputs.iter().enumerate() {
-            let span = place(&self.configuration.settings, key);
-            let odd = |c: char| "'\"\\*?<>|".contains(c) || !is_printable(c);
-            if name.contains(odd) {
-                findings.push(
-                    Diagnostic::error(
-                        format!("`{key}` is no name for a file that C includes"),
-                        span,
-                    )
-                    .help("letters, digits, `_`, `-`, `.` and `/` do"),
-                );
-            } else if name.starts_with('/') || name.split('/').any(|part| part == "..") {
-                findings.push(
-                    Diagnostic::error(format!("`{key}` leads out of the output's folder"), span)
-                        .help("name a file in the configuration's folder or below; `-o DIR` puts all elsewhere"),
-                );
-            } else if name.split('/').any(|part| matches!(part, "" | ".")) {
-                findings.push(
-                    Diagnostic::error(format!("`{key}` is no plain name of a file"), span)
-                        .help("write it without `./` and `//`"),
-                );
-            } else if ["harness.c", "invariant.h"].contains(&name.as_str()) {
-                findings.push(
-                    Diagnostic::error(format!("`{name}` is a file of the proofs"), span)
-                        .help("choose another name"),
-                );
-            } else if let Some((other, _)) =
-                outputs[..index].iter().find(|(_, other)| other == name)
-            {
-                findings.push(
-                    Diagnostic::error(format!("`{key}` and `{other}` are one file"), span)
-                        .help("the second would overwrite the first"),
-                );
-            } else if included.contains(name) {
-                findings.push(
-                    Diagnostic::error(format!("`{key}` is {name}, which is included"), span)
-                        .help("yours would be overwritten: choose another name"),
-                );
-            }
-        }
-        // A name that ends in two files is refused once.
-        findings.dedup_by(|one, other| one.message == other.message);
-        self.diagnostics.extend(findings);
-    }
 }
 
 fn listed_once(list: &[Name], name: &Name) -> Parsed<()> {
     if list.iter().any(|other| other.text == name.text) {
         let message = format!("`{}` is listed twice", name.text);
-        return Err(Diagnostic::error(message, name.span.clone()));
+        return Err(Code::DeclaredTwice.at(message, name.span.clone()));
     }
     Ok(())
-}
-
-/// Refuses what is no type of a parameter, a result or a field in C, with the reason.
-fn check_type(words: &[Name]) -> Parsed<()> {
-    let (Some(first), Some(last)) = (words.first(), words.last()) else { return Ok(()) };
-    let span = first.span.start..last.span.end;
-    let error =
-        |message: &str, help: &str| Err(Diagnostic::error(message, span.clone()).help(help));
-    let stars = words.iter().position(|word| word.text == "*").unwrap_or(words.len());
-    let (base, pointer) = words.split_at(stars);
-    if pointer.iter().any(|word| word.text != "*") {
-        return error(
-            "this is no type",
-            "the translator knows `name`, `struct name`, `const name *` and numbers",
-        );
-    }
-    let is_const = |word: &&Name| word.text == "const";
-    let constant = base.iter().filter(is_const).count();
-    if constant > 0 && pointer.is_empty() {
-        return error("a value needs no `const`", "what is passed is a copy: leave `const` out");
-    }
-    let base: Vec<&str> =
-        base.iter().filter(|word| !is_const(word)).map(|word| word.text.as_str()).collect();
-    let known = match base.as_slice() {
-        ["struct" | "union" | "enum", name] => !is_c_word(name),
-        ["void"] => true,
-        [name] if C_NUMBERS.contains(name) || *name == "_Bool" => true,
-        [name] => {
-            !is_c_word(name)
-                || CType::named(name).kind != TypeKind::Opaque
-                || name.ends_with("_t")
-                || *name == "FILE"
-        }
-        several => is_number(several),
-    };
-    if !known || constant > 1 {
-        return error(
-            "this is no type",
-            "a parameter is written without its name: `int`, not `int x`",
-        );
-    }
-    Ok(())
-}
-
-/// Whether these words are a type of numbers in C.
-fn is_number(words: &[&str]) -> bool {
-    const KNOWN: [&str; 18] = [
-        "short int",
-        "signed short",
-        "signed short int",
-        "unsigned short",
-        "unsigned short int",
-        "signed int",
-        "unsigned int",
-        "signed char",
-        "unsigned char",
-        "long int",
-        "signed long",
-        "signed long int",
-        "unsigned long",
-        "unsigned long int",
-        "long long",
-        "long long int",
-        "unsigned long long",
-        "long double",
-    ];
-    let text = words.join(" ");
-    let rarer = ["signed long long", "signed long long int", "unsigned long long int"];
-    KNOWN.contains(&text.as_str()) || rarer.contains(&text.as_str())
-}
-
-fn c_type(words: &[Name]) -> CType {
-    let words: Vec<&str> = words.iter().map(|word| word.text.as_str()).collect();
-    CType::named(&words.join(" "))
-}
-
-fn advice(word: &str, known: &[&str]) -> String {
-    match diagnostic::closest(word, known.iter().copied()) {
-        Some(candidate) => format!("did you mean `{candidate}`?"),
-        None => format!("known are: {}", known.join(", ")),
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::configuration::{CallBound, Cause, Formula, Operand};
+    use crate::types::TypeKind;
 
     const MINIMAL: &str =
         "settings { input = a.asl; output = my-a.c; header = a.h; basics = b.h; };";

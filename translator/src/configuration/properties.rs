@@ -1,10 +1,11 @@
 //! The section `properties`: what must hold of the agent in every environment.
 
-use diagnostic::{Diagnostic, Span};
+use diagnostic::Span;
 
 use super::ExternalTrigger;
 use super::parser::Parser;
 use super::scanner::Parsed;
+use crate::code::Code;
 use crate::syntax::ast::{Name, Number, Relation};
 
 /// Something that must hold, whatever the environment does and however long the agent runs.
@@ -131,7 +132,7 @@ impl Parser<'_> {
         let known = &mut self.configuration.properties;
         if known.iter().any(|property| property.name.text == name.text) {
             let message = format!("a second property `{}`", name.text);
-            return Err(Diagnostic::error(message, name.span));
+            return Err(Code::DeclaredTwice.at(message, name.span));
         }
         known.push(Property { name, requirements, formula, span });
         Ok(())
@@ -169,7 +170,9 @@ impl Parser<'_> {
             "all_handled" => return Ok(Formula::AllHandled),
             other => {
                 let message = format!("unknown formula `{other}`");
-                return Err(Diagnostic::error(message, name.span).help(format!("write {FORMULAS}")));
+                return Err(Code::UnknownFormula
+                    .at(message, name.span)
+                    .help(format!("write {FORMULAS}")));
             }
         };
         self.scanner.expect("(")?;
@@ -246,7 +249,8 @@ impl Parser<'_> {
         let span = start..self.scanner.position;
         let parts: Vec<&str> = digits.split('.').collect();
         if parts.len() > 2 || parts.iter().any(|part| part.is_empty()) {
-            return Err(Diagnostic::error("malformed number", span)
+            return Err(Code::MalformedNumber
+                .at("malformed number", span)
                 .help("numbers are decimal: `12`, `-0.5`"));
         }
         Ok(Operand::Number(Number { digits, negative, span }))
@@ -282,7 +286,8 @@ impl Parser<'_> {
                 self.scanner.position += length;
                 Ok(steps)
             }
-            _ => Err(Diagnostic::error("not a number of steps", start..start + length.max(1))
+            _ => Err(Code::MalformedNumber
+                .at("not a number of steps", start..start + length.max(1))
                 .help(format!("a whole number from 1 to {MOST_STEPS}"))),
         }
     }

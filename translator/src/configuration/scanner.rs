@@ -2,6 +2,7 @@
 
 use diagnostic::{Diagnostic, Span};
 
+use crate::code::Code;
 use crate::syntax::ast::Name;
 
 pub(super) type Parsed<T> = Result<T, Diagnostic>;
@@ -51,7 +52,8 @@ impl<'a> Scanner<'a> {
                 let start = self.position;
                 let Some(length) = trimmed.find("*/") else {
                     self.position = self.text.len();
-                    return Err(Diagnostic::error("comment is never closed", start..start + 2)
+                    return Err(Code::NotClosed
+                        .at("comment is never closed", start..start + 2)
                         .help("close it with `*/`"));
                 };
                 self.position += length + 2;
@@ -72,11 +74,11 @@ impl<'a> Scanner<'a> {
 
     pub(super) fn unexpected(&self, expected: &str) -> Diagnostic {
         match self.rest().chars().next() {
-            Some(found) => Diagnostic::error(
+            Some(found) => Code::Syntax.at(
                 format!("expected {expected}, found `{}`", found.escape_debug()),
                 span_of(self.position, found),
             ),
-            None => Diagnostic::error(
+            None => Code::Syntax.at(
                 format!("expected {expected}, found the end of the file"),
                 self.position..self.position,
             ),
@@ -94,4 +96,12 @@ pub(super) fn is_word_start(character: char) -> bool {
 
 pub(super) fn is_word(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
+}
+
+/// What to do about a word that is none of those that are known.
+pub(super) fn advice(word: &str, known: &[&str]) -> String {
+    match diagnostic::closest(word, known.iter().copied()) {
+        Some(candidate) => format!("did you mean `{candidate}`?"),
+        None => format!("known are: {}", known.join(", ")),
+    }
 }

@@ -29,6 +29,7 @@ pub trait Environment {
 /// An external event that was refused because the inbox is full.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the inbox is full")]
+#[non_exhaustive]
 pub struct Refused;
 
 /// A trigger: operator, kind and name.
@@ -110,7 +111,7 @@ impl Interpreter {
         configuration: &ParsedConfiguration,
         agent_text: &str,
     ) -> Result<Self, crate::TranslateError> {
-        crate::translate(configuration.clone(), agent_text)?;
+        crate::translate(configuration, agent_text)?;
         let (agent, _) = parse(agent_text);
         let mut interpreter = Self {
             configuration: configuration.configuration.clone(),

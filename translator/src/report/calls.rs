@@ -112,7 +112,7 @@ pub(super) fn costs(program: &Program) -> Vec<Cost> {
     let counted = Counted::new(program);
     let none = || Cost { depth: 0, succeeds: Some(counted.nothing()), fails: None };
     let mut costs: Vec<Option<Cost>> = vec![None; program.handlers.len()];
-    let mut open: Vec<HandlerId> = program.reachable_handlers().map(|(id, _)| id).collect();
+    let mut open: Vec<HandlerId> = program.handlers().map(|(id, _)| id).collect();
     while let Some(id) = open.last().copied() {
         if costs[id.0].is_some() {
             open.pop();

@@ -30,7 +30,7 @@ impl Frames {
     pub(super) fn new(program: &Program, next_step: String) -> Self {
         let mut position = vec![None; program.handlers.len()];
         let mut triggers = Vec::new();
-        for (id, handler) in program.reachable_handlers() {
+        for (id, handler) in program.handlers() {
             position[id.0] = Some(triggers.len());
             let trigger = handler_name(program, id);
             triggers.push(Trigger {
@@ -39,7 +39,7 @@ impl Frames {
                 callees: Vec::new(),
             });
         }
-        for (id, _) in program.reachable_handlers() {
+        for (id, _) in program.handlers() {
             if let Some(index) = position[id.0] {
                 let callees = callees(program, id);
                 triggers[index].callees = callees.iter().filter_map(|c| position[c.0]).collect();

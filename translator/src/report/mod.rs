@@ -107,12 +107,10 @@ fn figures(program: &Program, costs: &[Cost], events: &[HandlerId]) -> Vec<(&'st
     let at_most = |count: usize| format!("at most {count}");
     let settings = &program.configuration.settings;
     let mut figures = vec![
-        ("plans", program.reachable_plans().count().to_string()),
-        ("triggers", program.reachable_handlers().count().to_string()),
+        ("plans", program.plans().count().to_string()),
+        ("triggers", program.handlers().count().to_string()),
     ];
-    let left_out: usize =
-        program.handlers.iter().filter(|h| !h.reachable).map(|h| h.plans.len()).sum();
-    figures.push(("plans that nothing triggers", left_out.to_string()));
+    figures.push(("plans that nothing triggers", program.left_out.to_string()));
     let lines: Vec<String> =
         never_applicable(program).map(|plan| format!("line {}", plan.lines.0)).collect();
     let never = if lines.is_empty() { "0".to_owned() } else { lines.join(", ") };

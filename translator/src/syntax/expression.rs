@@ -5,6 +5,7 @@ use diagnostic::Diagnostic;
 use super::ast::{Arithmetic, Expression, Number, Relation};
 use super::lexer::TokenKind;
 use super::parser::{Parsed, Parser};
+use crate::code::Code;
 
 /// Parentheses, calls, signs and `not` may be nested this deep: the parser's stack is bounded.
 const MAX_NESTING: usize = 32;
@@ -70,7 +71,8 @@ impl Parser<'_> {
 
     fn binding(&mut self, left: Expression, depth: usize) -> Parsed<Expression> {
         let Expression::Variable(variable) = left else {
-            return Err(Diagnostic::error("`=` needs a variable on its left", left.span())
+            return Err(Code::Syntax
+                .at("`=` needs a variable on its left", left.span())
                 .help("`==` compares two values"));
         };
         self.next();
@@ -154,13 +156,14 @@ impl Parser<'_> {
         if depth <= MAX_NESTING {
             return Ok(());
         }
-        Err(Diagnostic::error("nested too deeply", self.span()).help(format!(
+        Err(Code::Limit.at("nested too deeply", self.span()).help(format!(
             "at most {MAX_NESTING} calls and parentheses may stand inside each other"
         )))
     }
 
     fn too_long(&self) -> Diagnostic {
-        Diagnostic::error("the expression is too long", self.span())
+        Code::Limit
+            .at("the expression is too long", self.span())
             .help(format!("at most {MAX_CHAIN} operators may follow each other; use a variable"))
     }
 }

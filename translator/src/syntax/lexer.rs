@@ -2,6 +2,8 @@
 
 use diagnostic::{Diagnostic, Span};
 
+use crate::code::Code;
+
 /// What a token is.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum TokenKind {
@@ -119,7 +121,8 @@ impl Lexer<'_> {
         } else {
             self.position = self.text.len();
             self.error(
-                Diagnostic::error("comment is never closed", start..start + 2)
+                Code::NotClosed
+                    .at("comment is never closed", start..start + 2)
                     .label("opened here")
                     .help("close it with `*/`"),
             );
@@ -152,7 +155,8 @@ impl Lexer<'_> {
         if self.peek().is_some_and(|c| c.is_ascii_alphanumeric() || c == '_') {
             self.take_while(|c| c.is_ascii_alphanumeric() || c == '_');
             self.error(
-                Diagnostic::error("malformed number", start..self.position)
+                Code::MalformedNumber
+                    .at("malformed number", start..self.position)
                     .help("numbers are decimal: `12`, `0.5`, `1e-3`"),
             );
             self.push(TokenKind::Invalid, start);
@@ -178,7 +182,8 @@ impl Lexer<'_> {
             let escape_start = self.position;
             let Some(character) = self.peek().filter(|c| *c != '\n') else {
                 self.error(
-                    Diagnostic::error("string is never closed", start..self.position)
+                    Code::NotClosed
+                        .at("string is never closed", start..self.position)
                         .help("close it with `\"` on the same line"),
                 );
                 break;
@@ -200,12 +205,14 @@ impl Lexer<'_> {
                         text.push('\t');
                     }
                     _ => self.error(
-                        Diagnostic::error("unknown escape in string", escape_start..self.position)
+                        Code::MalformedString
+                            .at("unknown escape in string", escape_start..self.position)
                             .help("the escapes are `\\\"`, `\\\\`, `\\n` and `\\t`"),
                     ),
                 },
                 '\0' => self.error(
-                    Diagnostic::error("string contains a NUL", escape_start..self.position)
+                    Code::MalformedString
+                        .at("string contains a NUL", escape_start..self.position)
                         .help("a C string would end here"),
                 ),
                 other => text.push(other),
@@ -267,11 +274,12 @@ impl Lexer<'_> {
             _ => "this character has no meaning in AgentSpeak",
         };
         self.error(
-            Diagnostic::error(
-                format!("unexpected character `{}`", character.escape_default()),
-                start..self.position,
-            )
-            .help(help),
+            Code::Syntax
+                .at(
+                    format!("unexpected character `{}`", character.escape_default()),
+                    start..self.position,
+                )
+                .help(help),
         );
         self.push(TokenKind::Invalid, start);
     }

@@ -7,6 +7,7 @@ use diagnostic::{Diagnostic, Span};
 
 use super::ast::{Agent, Atom, Formula, Name, Operator, Plan, Trigger, TriggerKind};
 use super::lexer::{Token, TokenKind, tokenize};
+use crate::code::Code;
 
 /// The syntax tree of `text` and everything that is wrong with it.
 pub fn parse(text: &str) -> (Agent, Vec<Diagnostic>) {
@@ -43,7 +44,8 @@ impl Parser<'_> {
         if agent.plans.is_empty() && self.diagnostics.is_empty() {
             let end = self.text.len();
             self.diagnostics.push(
-                Diagnostic::error("the agent has no plans", end..end)
+                Code::NoPlans
+                    .at("the agent has no plans", end..end)
                     .help("add at least one plan: `+!goal : context <- body.`"),
             );
         }
@@ -66,7 +68,8 @@ impl Parser<'_> {
                 }
                 let span = start..goal.span.end;
                 if agent.goal.is_some() {
-                    return Err(Diagnostic::error("a second initial goal", span)
+                    return Err(Code::DeclaredTwice
+                        .at("a second initial goal", span)
                         .help("an agent has at most one; let its plan call the other goals"));
                 }
                 self.refuse_after_plans(agent, span, "the initial goal");
@@ -95,7 +98,8 @@ impl Parser<'_> {
     fn refuse_after_plans(&mut self, agent: &Agent, span: Span, what: &str) {
         if !agent.plans.is_empty() {
             self.diagnostics.push(
-                Diagnostic::error(format!("{what} stands after a plan"), span)
+                Code::Syntax
+                    .at(format!("{what} stands after a plan"), span)
                     .help("the order is: initial beliefs, initial goal, plans"),
             );
         }
@@ -179,7 +183,8 @@ impl Parser<'_> {
             TokenKind::Bang => TriggerKind::Achieve,
             TokenKind::Question => TriggerKind::Test,
             TokenKind::BangBang => {
-                return Err(Diagnostic::error("`!!` cannot be a trigger", self.span())
+                return Err(Code::Syntax
+                    .at("`!!` cannot be a trigger", self.span())
                     .help("a goal posted with `!!g` triggers the plans of `+!g`"));
             }
             _ => TriggerKind::Belief,
@@ -252,11 +257,9 @@ impl Parser<'_> {
         let name = self.span();
         if !self.take_word("wait") {
             let found = &self.text[name.clone()];
-            return Err(Diagnostic::error(
-                format!("unknown internal action `.{found}`"),
-                start..name.end,
-            )
-            .help("the only one is `.wait(milliseconds)`; others are basic actions"));
+            return Err(Code::UnknownAction
+                .at(format!("unknown internal action `.{found}`"), start..name.end)
+                .help("the only one is `.wait(milliseconds)`; others are basic actions"));
         }
         self.expect(&TokenKind::LeftParenthesis, "`(` and a time in milliseconds")?;
         let duration = self.expression("a time in milliseconds")?;
@@ -343,7 +346,7 @@ impl Parser<'_> {
             TokenKind::End => "the end of the file".to_owned(),
             _ => format!("`{}`", self.text[self.span()].escape_debug()),
         };
-        Diagnostic::error(format!("expected {expected}, found {found}"), self.span())
+        Code::Syntax.at(format!("expected {expected}, found {found}"), self.span())
     }
 
     /// Skips behind the next full stop.

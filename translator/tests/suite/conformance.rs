@@ -213,7 +213,7 @@ impl Case {
         };
         match &self.expected {
             Expected::Refused(expected) => {
-                let found = match translate(self.configuration(), &self.agent) {
+                let found = match translate(&self.configuration(), &self.agent) {
                     Ok(_) => "it is accepted".to_owned(),
                     Err(error) => first_error(&error.to_string()),
                 };
@@ -267,7 +267,7 @@ impl Case {
     }
 
     fn compiled(&self, run: &str) -> String {
-        let translation = translate(self.configuration(), &self.agent)
+        let translation = translate(&self.configuration(), &self.agent)
             .unwrap_or_else(|error| panic!("{}\n{error}", self.title));
         let mut script = String::from("#define STEP next_step(); printf(\"|\\n\");\n");
         script.push_str("int main(void)\n{\ninit();\n");

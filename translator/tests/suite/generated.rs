@@ -86,8 +86,8 @@ fn the_autopilot_passes_strict_compilation() {
     let agent = include_str!("../../../autopilot/agent/autopilot.asl");
     let folder = tempfile::tempdir().unwrap();
     let parsed = parse_configuration("autopilot.conf", configuration).unwrap();
-    let translation = translate(parsed, agent).unwrap();
-    assert_eq!(translation.warnings, "");
+    let translation = translate(&parsed, agent).unwrap();
+    assert!(translation.warnings.is_empty(), "{}", translation.warnings);
     for file in &translation.files {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
     }
@@ -105,7 +105,7 @@ fn the_report_says_what_the_autopilot_costs() {
     let configuration = include_str!("../../../autopilot/agent/autopilot.conf");
     let agent = include_str!("../../../autopilot/agent/autopilot.asl");
     let parsed = parse_configuration("autopilot.conf", configuration).unwrap();
-    insta::assert_snapshot!("autopilot_report", translate(parsed, agent).unwrap().report);
+    insta::assert_snapshot!("autopilot_report", translate(&parsed, agent).unwrap().report);
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn trace_of(agent: &str) -> (String, usize) {
     let configuration = "settings { input = a; output = a.c; header = a.h; basics = b.h; };\n\
         basics { void act(int); bool yes(int); };\ntypes { g(int); b(int); c(int); };";
     let translation =
-        translate(parse_configuration("a.conf", configuration).unwrap(), agent).unwrap();
+        translate(&parse_configuration("a.conf", configuration).unwrap(), agent).unwrap();
     let source = &translation.files[0].text;
     assert!(depth(source) <= 127, "{}", depth(source));
     let environment = "#include <stdio.h>\nvoid updateBeliefs(void) {}\n\
@@ -246,8 +246,8 @@ fn size_grows_with_the_agent() {
     let sizes = |count: usize| {
         let parsed = || parse_configuration("a.conf", configuration).unwrap();
         let agent = plans(count);
-        let model = translator::model(parsed(), &agent).unwrap().promela().len();
-        [translate(parsed(), &agent).unwrap().files[0].text.len(), model]
+        let model = translator::model(&parsed(), &agent).unwrap().promela().len();
+        [translate(&parsed(), &agent).unwrap().files[0].text.len(), model]
     };
     let (few, many) = (sizes(200), sizes(4000));
     assert!(few.iter().zip(many).all(|(few, many)| many < 25 * few), "{few:?} {many:?}");
@@ -282,7 +282,7 @@ fn generated_c_passes_the_misra_addon() {
     )
     .unwrap();
     let autopilot =
-        translate(autopilot, include_str!("../../../autopilot/agent/autopilot.asl")).unwrap();
+        translate(&autopilot, include_str!("../../../autopilot/agent/autopilot.asl")).unwrap();
     let others = [(LAMP, ""), (EVERYTHING, CLOCK)].into_iter().flat_map(|(case, clock)| {
         ["", "instance = context;", "inbox = 3;", "max_events = 2;"]
             .map(|settings| case.translate(&format!("{clock} {settings}")).unwrap())
@@ -339,7 +339,7 @@ proptest! {
     fn any_text_is_translated_or_refused(agent in "\\PC{0,200}", configuration in "\\PC{0,200}") {
         let _ = parse_configuration("agent.conf", &configuration);
         let fixed = parse_configuration("lamp.conf", &LAMP.configuration("")).unwrap();
-        let _ = translate(fixed, &agent);
+        let _ = translate(&fixed, &agent);
     }
 
     #[test]
@@ -355,6 +355,6 @@ proptest! {
         )
     ) {
         let fixed = parse_configuration("lamp.conf", &LAMP.configuration("")).unwrap();
-        let _ = translate(fixed, &words.join(" "));
+        let _ = translate(&fixed, &words.join(" "));
     }
 }

@@ -59,7 +59,7 @@ impl Case {
 
     pub(crate) fn translate(&self, settings: &str) -> Result<Translation, TranslateError> {
         let configuration = parse_configuration("agent.conf", &self.configuration(settings))?;
-        translate(configuration, self.agent)
+        translate(&configuration, self.agent)
     }
 
     /// Compiles the C for both kinds of instance with every warning an error.
@@ -134,7 +134,7 @@ impl Case {
 /// `f` returns the variable `f_result`, which the script may set. Lines are kept.
 pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> String {
     let parsed = parse_configuration("a.conf", configuration).unwrap_or_else(|e| panic!("{e}"));
-    let translation = translate(parsed, agent).unwrap_or_else(|error| panic!("{error}"));
+    let translation = translate(&parsed, agent).unwrap_or_else(|error| panic!("{error}"));
     let folder = tempfile::tempdir().unwrap();
     for file in &translation.files {
         std::fs::write(folder.path().join(&file.name), &file.text).unwrap();

@@ -10,7 +10,7 @@ use translator::{TranslateError, Translation, parse_configuration, translate};
 use crate::harness::{Case, STRICT, from_environment};
 
 fn translated(configuration: &str, agent: &str) -> Result<Translation, TranslateError> {
-    translate(parse_configuration("a.conf", configuration)?, agent)
+    translate(&parse_configuration("a.conf", configuration)?, agent)
 }
 
 /// Compiles all C of a translation by itself, and includes both headers together.

@@ -9,12 +9,9 @@
 
 mod behaviour;
 mod conformance;
-mod files;
 mod generated;
 mod guide;
 mod harness;
 mod hostile;
 mod refused;
-mod tool;
 mod validation;
-mod verification;

@@ -1,5 +1,7 @@
 //! What is refused, and with which words.
 
+use translator::Severity;
+
 use crate::harness::Case;
 
 fn refused(agent: &'static str) -> String {
@@ -118,7 +120,7 @@ fn said(agent: &str) -> String {
         types { g(void); b(int); p(int, int); h0(int, int, int, int); h1(int, int, int, int); };\n\
         settables { b; };";
     let parsed = translator::parse_configuration("agent.conf", configuration).unwrap();
-    translator::translate(parsed, agent).map_or_else(|error| error.to_string(), |_| String::new())
+    translator::translate(&parsed, agent).map_or_else(|error| error.to_string(), |_| String::new())
 }
 
 /// A plan that is right, and asked in a way that it is not made for, is no mistake of the plan.
@@ -277,7 +279,7 @@ fn what_nothing_triggers_is_left_out_with_a_warning() {
         agent: "!g. +!g <- act(1). +!c <- act(2).",
     };
     let translation = case.translate("").unwrap();
-    assert!(translation.warnings.contains("nothing ever triggers `+!c`"));
+    assert!(translation.warnings.to_string().contains("nothing ever triggers `+!c`"));
     assert!(!translation.files[0].text.contains("act(2)"));
     case.compile();
 }
@@ -298,7 +300,7 @@ fn structs_are_checked() {
              types {{ g(void); }};"
         );
         let parsed = translator::parse_configuration("c", &configuration);
-        let error = parsed.and_then(|parsed| translator::translate(parsed, "!g. +!g."));
+        let error = parsed.and_then(|parsed| translator::translate(&parsed, "!g. +!g."));
         let error = error.unwrap_err().to_string();
         assert!(error.contains(expected), "{structs}: {error}");
     }
@@ -312,7 +314,7 @@ fn what_cannot_happen_is_warned_of() {
         sections: "settables { c; };",
         agent: "!g(1).\n+!g(1) : b(X) & not c <- act(X).\n+!g(X) <- act(X).\n+!g(2) : c <- act(2).\n",
     };
-    insta::assert_snapshot!(case.translate("").unwrap().warnings, @r"
+    insta::assert_snapshot!(case.translate("").unwrap().warnings.to_string(), @r"
     warning[never-tried]: this plan is never tried
      --> agent.asl:4:1
       |
@@ -339,7 +341,7 @@ fn warnings(agent: &'static str) -> Vec<String> {
         sections: "settables { b; c; d; };",
         agent,
     };
-    let warnings = case.translate("").unwrap().warnings;
+    let warnings = case.translate("").unwrap().warnings.to_string();
     let about_agent = warnings
         .lines()
         .filter_map(|line| Some(line.strip_prefix("warning[")?.split_once("]: ")?.1));
@@ -420,7 +422,7 @@ fn a_deadline_that_nobody_sees_is_warned_of() {
         sections: "",
         agent: "!g. +!g <- !k[deadline(5)]. -!g <- act(1). +!k <- act(2); !k.",
     };
-    let warnings = case.translate("clock = now;").unwrap().warnings;
+    let warnings = case.translate("clock = now;").unwrap().warnings.to_string();
     assert!(
         warnings.starts_with("warning[unseen-failure]: `-!g` does not see it if `+!k` fails later"),
         "{warnings}"
@@ -429,7 +431,7 @@ fn a_deadline_that_nobody_sees_is_warned_of() {
         agent: "!g. +!g <- !k[deadline(5)]. -!g <- act(1). +!k <- act(2); !k. -!k <- act(3).",
         ..case
     };
-    assert_eq!(mended.translate("clock = now;").unwrap().warnings, "");
+    assert_eq!(mended.translate("clock = now;").unwrap().warnings.to_string(), "");
 }
 
 #[test]
@@ -440,7 +442,7 @@ fn what_is_declared_and_never_used_is_warned_of() {
         sections: "classes { all: act, flag; };",
         agent: "!g. +!g <- act(1).",
     };
-    insta::assert_snapshot!(case.translate("clock = now;").unwrap().warnings, @r"
+    insta::assert_snapshot!(case.translate("clock = now;").unwrap().warnings.to_string(), @r"
     warning[unused-declaration]: `flag` is declared and never used
      --> agent.conf:2:30
       |
@@ -472,8 +474,54 @@ fn classes_are_checked() {
              basics {{ void act(int); }}; classes {{ {classes} }}; types {{ g(void); }};"
         );
         let parsed = translator::parse_configuration("c", &configuration);
-        let error = parsed.and_then(|parsed| translator::translate(parsed, "!g. +!g."));
+        let error = parsed.and_then(|parsed| translator::translate(&parsed, "!g. +!g."));
         let error = error.unwrap_err().to_string();
         assert!(error.contains(expected), "{classes}: {error}");
     }
+}
+
+#[test]
+fn slips_of_the_pen_are_understood() {
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+        basics { void on(void); };\ntypes { light(void); level(int); };\ntriggerables { +!light; };\n";
+    for (agent, help) in [
+        ("!light <- on.", "did you mean `+!light`?"),
+        ("!light : level(_) <- on.", "did you mean `+!light`?"),
+        ("light <- on.", "did you mean `+!light` or `+light`?"),
+        ("+!light <- on, on.", "separated by `;`"),
+        ("+!light <- on & on.", "separated by `;`"),
+        ("+!light : level(_), level(_) <- on.", "joined by `&`"),
+        ("+!light <- on\n+!light <- on.", "needs a full stop"),
+    ] {
+        let error = translator::translate(
+            &translator::parse_configuration("a.conf", configuration).unwrap(),
+            agent,
+        )
+        .unwrap_err();
+        assert!(error.to_string().contains(help), "{agent}\n{error}");
+    }
+    let error =
+        translator::parse_configuration("a.conf", &configuration.replace("light(void);", "light;"))
+            .unwrap_err();
+    assert!(error.to_string().contains("without arguments it is `light(void)`"), "{error}");
+}
+
+/// Editors and build scripts need no text: each finding is data, about one of the two files.
+#[test]
+fn what_is_found_is_data() {
+    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+        basics { void on(void); };\ntypes { light(void); level(int); };\ntriggerables { +!light; };\n";
+    let parsed = || translator::parse_configuration("a.conf", configuration).unwrap();
+    let error = translator::translate(&parsed(), "+!light <- off; on.").unwrap_err();
+    let [found] = error.diagnostics() else { panic!("{error}") };
+    assert_eq!((found.code, found.severity), ("not-declared", Severity::Error));
+    assert_eq!((found.span.clone(), found.message.as_str()), (11..14, "`off` is not declared"));
+    let warnings = translator::translate(&parsed(), "+!light <- on.").unwrap().warnings;
+    let [found] = &warnings[..] else { panic!("{warnings}") };
+    assert_eq!((found.code, found.severity), ("unused-declaration", Severity::Warning));
+    let place = warnings.located().next().unwrap();
+    assert_eq!((place.source.name, place.start(), place.end()), ("a.conf", (3, 22), (3, 27)));
+    let error = translator::parse_configuration("a.conf", "colours { };").unwrap_err();
+    let codes: Vec<&str> = error.diagnostics().iter().map(|found| found.code).collect();
+    assert_eq!(codes, ["unknown-section"]);
 }

@@ -236,8 +236,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
             ),
             edit(
                 GUARD,
-                "&& !(is_across && self.way_back.is_none(now));",
-                "&& now.blind_for < Duration::MAX;",
+                "sinks || !is_hopeless),\n            Veto::CarriedOff => (Some(self.upwind), sinks),",
+                "sinks || is_hopeless || !is_hopeless),\n            Veto::CarriedOff => (Some(self.upwind), true),",
             ),
         ],
     ),

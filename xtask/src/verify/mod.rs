@@ -12,9 +12,9 @@ mod tools;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use asl2c::Checked;
 use translator::TranslateError;
 
-use self::model::{Asl2c, Checked};
 use self::mutants::{MUTANTS, Mutant, Place, RUN_TIME};
 use self::proof::{Checks, Verdict, prove};
 use self::report::Report;
@@ -42,6 +42,12 @@ pub(crate) enum VerifyError {
     /// The agent is refused.
     #[error("{0}")]
     Translate(#[from] TranslateError),
+    /// The model was not checked.
+    #[error(transparent)]
+    Model(#[from] asl2c::VerifyError),
+    /// Figures that are missing: why, a line for each.
+    #[error("not everything is measured:\n{0}")]
+    Unmeasured(String),
     /// A tool said something else than a result.
     #[error("{tool} did not come to a result:\n{output}")]
     Tool {
@@ -59,8 +65,6 @@ struct Agent<'a> {
     name: &'a str,
     /// The configuration.
     configuration: &'a str,
-    /// The name that the configuration gives the agent.
-    input: &'a str,
     /// The agent.
     text: &'a str,
 }
@@ -68,13 +72,11 @@ struct Agent<'a> {
 const AUTOPILOT: Agent<'_> = Agent {
     name: "autopilot.conf",
     configuration: include_str!("../../../autopilot/agent/autopilot.conf"),
-    input: "autopilot.asl",
     text: include_str!("../../../autopilot/agent/autopilot.asl"),
 };
 const PAPER: Agent<'_> = Agent {
     name: "paper.conf",
     configuration: include_str!("../../../translator/agents/paper.conf"),
-    input: "paper.asl",
     text: include_str!("../../../translator/agents/paper.asl"),
 };
 const REPORT: &str = "docs/verification.md";
@@ -89,13 +91,15 @@ struct Findings {
 impl Findings {
     /// What was found of a property on the model.
     fn on_model(&self, name: &str) -> Option<&Checked> {
-        self.model.iter().find(|checked| checked.name == name)
+        self.model.iter().find(|checked| checked.property.name == name)
     }
 
     /// Whether every property was proved, on the model and on the C.
     fn hold(&self) -> bool {
         let mut names = self.c.properties.iter().map(|(promise, _)| &promise.name);
-        self.c.holds() && names.all(|name| self.on_model(name).is_some_and(Checked::holds))
+        self.c.holds()
+            && names
+                .all(|name| self.on_model(name).is_some_and(|checked| checked.verdict.is_proved()))
     }
 }
 
@@ -120,7 +124,7 @@ impl Caught {
 /// it down if all was proved.
 pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
     let Tools { cbmc, versions } = Tools::find(only_proofs)?;
-    let verifier = Verifier { cbmc, asl2c: Asl2c::build()? };
+    let verifier = Verifier { cbmc };
     let generated = folder("verify");
     if only_proofs {
         let autopilot = verifier.verify(&AUTOPILOT, &generated.join("autopilot"))?;
@@ -131,7 +135,7 @@ pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
         || verifier.verify(&PAPER, &generated.join("paper")),
     )?;
     let mutants = verifier.mutants(&autopilot.c.invariant)?;
-    let cost = verifier.asl2c.report(&AUTOPILOT, &generated.join("cost"))?;
+    let cost = model::cost(&AUTOPILOT)?;
     let coverage = coverage::measure()?;
     let good = autopilot.hold() && mutants.iter().all(Caught::is_caught);
     let report = Report { versions, autopilot, paper, mutants, cost, coverage };
@@ -149,13 +153,12 @@ pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
 /// Agents are verified with these.
 struct Verifier {
     cbmc: PathBuf,
-    asl2c: Asl2c,
 }
 
 impl Verifier {
     /// All that can be said of an agent.
     fn verify(&self, agent: &Agent<'_>, folder: &Path) -> Result<Findings, VerifyError> {
-        let model = self.asl2c.verify(agent, folder, None)?;
+        let model = model::check(agent, None)?;
         let mut c = prove(agent, &self.cbmc, folder, Checks::All, &[], None, |_| None)?;
         c.run_time.extend(alarms(folder)?);
         Ok(Findings { model, c })
@@ -194,12 +197,15 @@ impl Verifier {
             verdict.run_time.extend(alarms(folder)?);
         }
         let broken = verdict.broken().into_iter().map(str::to_owned).collect();
-        let on_model = if on_model {
-            let checked = self.asl2c.verify(&agent, folder, Some(mutant.breaks))?;
-            Some(checked.iter().any(|found| found.name == mutant.breaks && found.fails()))
-        } else {
-            None
-        };
+        let on_model =
+            if on_model {
+                let checked = model::check(&agent, Some(mutant.breaks))?;
+                Some(checked.iter().any(|found| {
+                    found.property.name == mutant.breaks && found.verdict.is_refuted()
+                }))
+            } else {
+                None
+            };
         Ok(Caught { mutant, broken, on_model })
     }
 }

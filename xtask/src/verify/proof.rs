@@ -52,7 +52,7 @@ pub(super) fn prove(
     change: impl Fn(&str) -> Option<String>,
 ) -> Result<Verdict, VerifyError> {
     let parsed = parse_configuration(agent.name, agent.configuration)?;
-    let obligations = obligations(parsed, agent.text)?;
+    let obligations = obligations(&parsed, agent.text)?;
     std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
     for file in &obligations.files {
         let text = change(&file.text);

@@ -31,8 +31,8 @@ impl Findings {
         self.c.properties.iter().map(|(promise, holds)| {
             let on_model = match self.on_model(&promise.name) {
                 None => "NOT CHECKED",
-                Some(checked) if checked.holds() => "holds",
-                Some(checked) if checked.fails() => "FAILS",
+                Some(checked) if checked.verdict.is_proved() => "holds",
+                Some(checked) if checked.verdict.is_refuted() => "FAILS",
                 Some(_) => "not decided",
             };
             Row { promise, on_model, on_c: if *holds { "proved" } else { "NOT PROVED" } }
@@ -57,9 +57,13 @@ pub(super) fn proved(autopilot: &Findings) -> String {
     for error in &autopilot.c.run_time {
         _ = writeln!(text, "    possible: {error}");
     }
-    for checked in autopilot.model.iter().filter(|one| !one.holds()) {
-        _ = writeln!(text, "  {} does not hold of the model, for this can happen:", checked.name);
-        for happening in &checked.trace {
+    for checked in autopilot.model.iter().filter(|one| !one.verdict.is_proved()) {
+        _ = writeln!(
+            text,
+            "  {} does not hold of the model, for this can happen:",
+            checked.property.name
+        );
+        for happening in checked.verdict.counterexample() {
             _ = writeln!(text, "    {happening}");
         }
     }
@@ -90,7 +94,7 @@ impl Report {
         let mut text = String::from(INTRODUCTION);
         text += "| property | requirement | must hold | model | C |\n|---|---|---|---|---|\n";
         for Row { promise, on_model, on_c } in self.autopilot.rows() {
-            let Promise { name, requirements, formula } = promise;
+            let Promise { name, requirements, formula, .. } = promise;
             let requirements = requirements.join(", ");
             _ = writeln!(text, "| `{name}` | {requirements} | `{formula}` | {on_model} | {on_c} |");
         }
@@ -141,12 +145,12 @@ impl Report {
         }
         _ = writeln!(text, "| no error at run time | | | {} |", self.paper.run_time());
         let told = self.paper.on_model("flying_goes_on");
-        if let Some(checked) = told.filter(|checked| checked.fails()) {
+        if let Some(checked) = told.filter(|checked| checked.verdict.is_refuted()) {
             _ = writeln!(
                 text,
                 "\nHow `flying_goes_on` fails, as `asl2c verify` tells it:\n\n```text"
             );
-            for happening in &checked.trace {
+            for happening in checked.verdict.counterexample() {
                 _ = writeln!(text, "{happening}");
             }
             *text += "```\n";

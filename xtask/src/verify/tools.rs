@@ -6,7 +6,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::model::SPIN;
+use asl2c::SPIN;
+
 use super::run_time::FRAMA_C;
 use super::{VerifyError, folder, in_file};
 

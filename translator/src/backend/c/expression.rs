@@ -3,8 +3,8 @@
 //! A condition, and a value that may have no result, opens a block that stays open to the end of
 //! the plan or of the alternative it belongs to.
 
-use super::helpers::symbol;
-use super::plan::PlanEmitter;
+use super::emitter::PlanEmitter;
+use super::spelling::{conjunction, parenthesised, symbol};
 use super::state::{belief_value, held};
 use crate::program::{
     Alternatives, BeliefId, Call, Condition, Operation, Pattern, Value, VariableId,
@@ -281,29 +281,4 @@ impl PlanEmitter<'_> {
 /// A value that needs no statement before it.
 fn is_plain(value: &Value) -> bool {
     matches!(value, Value::Variable(_) | Value::Constant(..))
-}
-
-pub(super) fn conjunction(conditions: &[String]) -> String {
-    match conditions {
-        [only] => only.clone(),
-        several => several.iter().map(|c| parenthesised(c)).collect::<Vec<_>>().join(" && "),
-    }
-}
-
-/// In parentheses, unless it already is as a whole.
-pub(super) fn parenthesised(condition: &str) -> String {
-    let mut depth = 0_u32;
-    let closed_early = condition.char_indices().any(|(index, character)| {
-        match character {
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        depth == 0 && index + 1 < condition.len()
-    });
-    if condition.starts_with('(') && !closed_early {
-        condition.to_owned()
-    } else {
-        format!("({condition})")
-    }
 }

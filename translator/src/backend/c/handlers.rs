@@ -1,15 +1,15 @@
 //! One C function for each plan, and one for each trigger that tries its plans in order.
 
+use super::emitter::PlanEmitter;
 use super::helpers::Helpers;
 use super::names::{Names, argument, argument_names, comment_safe, typed};
-use super::plan::PlanEmitter;
 use super::state::handler_name;
 use crate::backend::writer::Writer;
 use crate::program::{Handler, HandlerId, Plan, Program};
 
 /// Prototypes of the handlers, which may call each other in any order.
 pub(super) fn prototypes(writer: &mut Writer, program: &Program, names: &Names) {
-    for (id, handler) in program.reachable_handlers() {
+    for (id, handler) in program.handlers() {
         writer.line(format!("{};", handler_head(program, names, id, handler)));
     }
     writer.line("");
@@ -24,7 +24,7 @@ pub(super) fn handlers(
 ) -> Helpers {
     let mut emission = Emission { writer, program, names, input, helpers: Helpers::default() };
     let mut plans = 0;
-    for (id, handler) in program.reachable_handlers() {
+    for (id, handler) in program.handlers() {
         let trigger = handler_name(program, id);
         for (number, plan) in handler.plans.iter().enumerate() {
             emission.plan(handler, plan, plans, &plan_name(number, &trigger));

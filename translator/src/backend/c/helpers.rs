@@ -1,7 +1,7 @@
 //! Small functions that the plans turn out to need: exact comparison, arithmetic that cannot
 //! overflow.
 
-use super::expression::conjunction;
+use super::spelling::{conjunction, symbol};
 use crate::backend::writer::Writer;
 use crate::configuration::Struct;
 use crate::syntax::ast::Arithmetic;
@@ -121,17 +121,6 @@ fn emit_checked(writer: &mut Writer, operator: Arithmetic, ctype: &CType) {
     writer.line("return accepted;");
     writer.close("}");
     writer.line("");
-}
-
-/// The C operator.
-pub(super) fn symbol(operator: Arithmetic) -> &'static str {
-    match operator {
-        Arithmetic::Add => "+",
-        Arithmetic::Subtract => "-",
-        Arithmetic::Multiply => "*",
-        Arithmetic::Divide => "/",
-        Arithmetic::Remainder => "%",
-    }
 }
 
 /// The condition under which the operation has a result of its type.

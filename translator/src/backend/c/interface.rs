@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, HashSet};
 
 use super::cycle::{event_name, no_event, store, wrapped};
-use super::expression::conjunction;
 use super::header::init_prototype;
 use super::helpers::Helpers;
 use super::names::{Names, argument, argument_names};
+use super::spelling::conjunction;
 use super::state::{
     Counter, FieldType, Slot, belief_value, counters, external_count, external_name, handler_name,
     held, inbox_ring, layout, limits, pending, perceived, queued, rings, slot_value,

@@ -5,6 +5,7 @@
 //! file, or passed in, as the configuration's `instance` says.
 
 mod cycle;
+mod emitter;
 mod expression;
 mod handlers;
 mod harness;
@@ -14,6 +15,7 @@ mod interface;
 mod locals;
 mod names;
 mod plan;
+mod spelling;
 mod state;
 
 use self::names::{Names, include_path};

@@ -15,7 +15,7 @@ pub(super) struct Names {
 
 impl Names {
     pub(super) fn new(program: &Program) -> Self {
-        Self { instance: program.configuration.settings.instance, prefix: symbol_prefix(program) }
+        Self { instance: program.instance, prefix: symbol_prefix(program) }
     }
 
     pub(super) fn is_context(&self) -> bool {
@@ -73,7 +73,7 @@ impl Names {
 /// What stands before every external symbol: with `instance = context` several agents can be
 /// linked into one program.
 pub(crate) fn symbol_prefix(program: &Program) -> String {
-    program.configuration.settings.symbol_prefix()
+    program.configuration.settings.symbol_prefix(program.instance)
 }
 
 /// The linker's name of a basic action.

@@ -33,7 +33,7 @@ pub(crate) enum FieldType {
 /// The layout of `program`'s state.
 pub(crate) fn layout(program: &Program) -> StateLayout {
     let mut layout = StateLayout { fields: Vec::new(), events: Vec::new() };
-    if program.configuration.settings.instance == Instance::Context {
+    if program.instance == Instance::Context {
         layout.field("environment".to_owned(), FieldType::Environment, None);
     }
     for belief in &program.beliefs {

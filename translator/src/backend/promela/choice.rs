@@ -1,82 +1,11 @@
 //! When a context can hold and when it can fail, as far as the model knows.
 
+use super::logic::Choice;
 use super::scale::{Number, Scale};
 use crate::analysis::constants::c_number;
 use crate::configuration::{Cause, Comparison, Formula, Operand};
 use crate::program::{BeliefId, Condition, Pattern, Plan, Program, Value, VariableId};
 use crate::syntax::ast::Relation;
-
-/// Two expressions over the state of the model. Both can be true: then it is a free choice.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Choice {
-    pub(super) holds: String,
-    pub(super) fails: String,
-}
-
-impl Choice {
-    fn free() -> Self {
-        Self { holds: "true".to_owned(), fails: "true".to_owned() }
-    }
-
-    fn certain() -> Self {
-        Self { holds: "true".to_owned(), fails: "false".to_owned() }
-    }
-
-    fn when(condition: String) -> Self {
-        let fails = not(&condition);
-        Self { holds: condition, fails }
-    }
-
-    fn not(self) -> Self {
-        Self { holds: self.fails, fails: self.holds }
-    }
-
-    fn all(parts: Vec<Self>) -> Self {
-        let (holds, fails): (Vec<_>, Vec<_>) =
-            parts.into_iter().map(|part| (part.holds, part.fails)).unzip();
-        Self { holds: and(&holds), fails: or(&fails) }
-    }
-
-    fn any(parts: Vec<Self>) -> Self {
-        Self::all(parts.into_iter().map(Self::not).collect()).not()
-    }
-}
-
-/// The conjunction, without what is always true.
-pub(super) fn and(parts: &[String]) -> String {
-    joined(parts, "&&", "true", "false")
-}
-
-/// The disjunction, without what is always false.
-pub(super) fn or(parts: &[String]) -> String {
-    joined(parts, "||", "false", "true")
-}
-
-fn joined(parts: &[String], operator: &str, neutral: &str, decisive: &str) -> String {
-    if parts.iter().any(|part| part == decisive) {
-        return decisive.to_owned();
-    }
-    let mut left: Vec<&str> = Vec::new();
-    for part in parts.iter().filter(|part| *part != neutral) {
-        if !left.contains(&part.as_str()) {
-            left.push(part);
-        }
-    }
-    match left.as_slice() {
-        [] => neutral.to_owned(),
-        [one] => (*one).to_owned(),
-        several => format!("({})", several.join(&format!(" {operator} "))),
-    }
-}
-
-/// The negation of an expression that stands for itself.
-pub(super) fn not(condition: &str) -> String {
-    match condition {
-        "true" => "false".to_owned(),
-        "false" => "true".to_owned(),
-        other => format!("!{other}"),
-    }
-}
 
 /// The comparisons that properties speak of: the model remembers how they come out.
 pub(super) struct Comparisons {
@@ -336,20 +265,4 @@ impl<'a> Reader<'a> {
 pub(super) fn matches(patterns: &[Pattern]) -> Choice {
     let wanted = patterns.iter().any(|pattern| matches!(pattern, Pattern::Equal(_)));
     if wanted { Choice::free() } else { Choice::certain() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Choice, and, or};
-
-    #[test]
-    fn what_is_certain_is_left_out() {
-        let [yes, no, held] = ["true", "false", "held_b"].map(str::to_owned);
-        assert_eq!(and(&[yes.clone(), held.clone(), held.clone()]), "held_b");
-        assert_eq!(and(&[held.clone(), no.clone()]), "false");
-        assert_eq!(or(&[no, held.clone(), "x".to_owned()]), "(held_b || x)");
-        assert_eq!(or(&[held.clone(), yes]), "true");
-        let both = Choice::all(vec![Choice::when(held), Choice::free()]);
-        assert_eq!((both.holds.as_str(), both.fails.as_str()), ("held_b", "true"));
-    }
 }

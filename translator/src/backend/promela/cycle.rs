@@ -1,6 +1,6 @@
 //! The environment and the deliberation cycle.
 
-use super::choice::{not, or};
+use super::logic::{not, or};
 use super::scale::Scale;
 use super::{Emission, Waiting};
 use crate::program::{BeliefId, HandlerId};

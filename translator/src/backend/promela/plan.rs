@@ -1,6 +1,7 @@
 //! Handlers and plans.
 
-use super::choice::{Choice, Reader, and, matches};
+use super::choice::{Reader, matches};
+use super::logic::{Choice, and};
 use super::{Emission, Waiting};
 use crate::coverage::always_finds_a_plan;
 use crate::program::{
@@ -14,7 +15,7 @@ impl Emission<'_> {
     /// All handlers, each a part that is jumped to.
     pub(super) fn handlers(&mut self) {
         let mut number = 0;
-        for (id, handler) in self.program.reachable_handlers() {
+        for (id, handler) in self.program.handlers() {
             self.select(id, handler);
             for (index, plan) in handler.plans.iter().enumerate() {
                 self.writer.line(format!("plan_{}_{index}:", id.0));
@@ -287,7 +288,7 @@ impl Emission<'_> {
 
     /// Where each handler goes back to.
     pub(super) fn returns(&mut self) {
-        for (id, _) in self.program.reachable_handlers() {
+        for (id, _) in self.program.handlers() {
             let calls = self.calls.get(&id).copied().unwrap_or_default();
             self.writer.line(format!("done_{}:", id.0));
             if calls == 0 {

@@ -8,7 +8,7 @@
 use std::cmp::Ordering;
 use std::ops::RangeInclusive;
 
-use super::choice::or;
+use super::logic::or;
 use crate::analysis::constants::{float, integer};
 use crate::program::Value;
 use crate::syntax::ast::Relation;

@@ -41,7 +41,7 @@ void updateBeliefs(void) { if (pending) { pending = false; set_b2(pending1, pend
 pub(super) fn run(agent: &RandomAgent, sequences: &[Vec<Command>]) -> Result<String, String> {
     let parsed = parse_configuration("agent.conf", &agent.configuration)
         .map_err(|error| error.to_string())?;
-    let translation = translate(parsed, &agent.text).map_err(|error| error.to_string())?;
+    let translation = translate(&parsed, &agent.text).map_err(|error| error.to_string())?;
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     for file in &translation.files {
         std::fs::write(folder.path().join(&file.name), &file.text)

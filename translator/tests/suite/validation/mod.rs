@@ -8,7 +8,6 @@
 mod compiled;
 mod generate;
 mod interpreted;
-mod proved;
 
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 
@@ -149,7 +148,7 @@ fn queues_are_first_in_first_out() {
                 expected.push(format!("|{lost}"));
             }
             let parsed = translator::parse_configuration("a.conf", &configuration(room)).unwrap();
-            let translation = translator::translate(parsed, QUEUEING).unwrap();
+            let translation = translator::translate(&parsed, QUEUEING).unwrap();
             let environment = format!(
                 "#include <stdio.h>\nvoid updateBeliefs(void) {{ }}\n\
                  void a(int x, int y) {{ printf(\"%d,%d\\n\", x, y); }}\nint main(void) {{ init(); {script} return 0; }}\n"

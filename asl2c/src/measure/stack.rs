@@ -7,18 +7,18 @@ use std::process::Command;
 use translator::Translation;
 
 /// What compiles, and how: the figures hold for these options.
-pub(crate) const COMPILER: &str = "gcc -O2";
+pub(super) const COMPILER: &str = "gcc -O2";
 
 /// What the compiler says of the generated C.
-pub(crate) struct Compiled {
+pub(super) struct Compiled {
     /// Bytes of stack by function.
-    pub(crate) frame_bytes: HashMap<String, u64>,
+    pub(super) frame_bytes: HashMap<String, u64>,
     /// The assembly.
-    pub(crate) assembly: String,
+    pub(super) assembly: String,
 }
 
 /// Compiles the generated C, or says why it is not compiled.
-pub(crate) fn compiled(translation: &Translation) -> Result<Compiled, String> {
+pub(super) fn compiled(translation: &Translation) -> Result<Compiled, String> {
     let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
     for file in &translation.files {
         let path = folder.path().join(&file.name);

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 /// Instructions from the call of `entry` to its return over the longest path, or why there is no such
 /// number. Functions that the assembly does not define, the basic actions, cost nothing.
-pub(crate) fn longest(assembly: &str, entry: &str) -> Result<u64, String> {
+pub(super) fn longest(assembly: &str, entry: &str) -> Result<u64, String> {
     let functions = functions(assembly)?;
     let mut longest = Longest { functions: &functions, known: HashMap::new() };
     if !functions.contains_key(entry) {

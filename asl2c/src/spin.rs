@@ -5,9 +5,12 @@ use std::process::{Command, Output};
 
 use translator::{Happening, Model, Promise};
 
+/// The model checker.
+pub const SPIN: &str = "spin";
+
 /// What an exhaustive search found.
-#[derive(Debug)]
-pub(crate) enum Verdict {
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Verdict {
     /// Whatever the environment does, the property holds.
     Holds,
     /// The shortest way to a step that breaks it.
@@ -16,15 +19,49 @@ pub(crate) enum Verdict {
     Undecided(String),
 }
 
+impl Verdict {
+    /// Whether the property holds in every environment.
+    pub fn is_proved(&self) -> bool {
+        matches!(self, Self::Holds)
+    }
+
+    /// Whether there is an environment in which it fails.
+    pub fn is_refuted(&self) -> bool {
+        matches!(self, Self::Fails(_))
+    }
+
+    /// The shortest way to a step that breaks the property; empty unless there is one.
+    pub fn counterexample(&self) -> &[Happening] {
+        match self {
+            Self::Fails(way) => way,
+            Self::Holds | Self::Undecided(_) => &[],
+        }
+    }
+}
+
 /// Why nothing was checked.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum SpinError {
+#[non_exhaustive]
+pub enum SpinError {
+    /// A program cannot be run.
     #[error("cannot run `{program}`: {source}; `apt install spin gcc` may help")]
-    Missing { program: &'static str, source: std::io::Error },
+    Missing {
+        /// Which.
+        program: &'static str,
+        /// The system's error.
+        source: std::io::Error,
+    },
+    /// The model cannot be written.
     #[error("cannot write the model: {0}")]
     Write(#[source] std::io::Error),
+    /// A program refuses what it is given.
     #[error("`{program}` refuses the model, which should not be:\n{output}")]
-    Refused { program: &'static str, output: String },
+    Refused {
+        /// Which.
+        program: &'static str,
+        /// What it says.
+        output: String,
+    },
 }
 
 /// Memory that a search may take.
@@ -38,8 +75,8 @@ pub(crate) fn check(
     let folder = tempfile::tempdir().map_err(SpinError::Write)?;
     let folder = folder.path();
     std::fs::write(folder.join("model.pml"), model.promela()).map_err(SpinError::Write)?;
-    let mut spin = Command::new("spin");
-    succeed("spin", spin.args(["-a", "model.pml"]).current_dir(folder))?;
+    let mut spin = Command::new(SPIN);
+    succeed(SPIN, spin.args(["-a", "model.pml"]).current_dir(folder))?;
     let memory = format!("-DMEMLIM={MEGABYTES}");
     let compile = |search: &Search| {
         let mut compiler = Command::new("cc");

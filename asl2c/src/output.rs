@@ -4,7 +4,9 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile, TempPath};
-use translator::{GeneratedFile, ParsedConfiguration, TranslateError};
+use translator::{GeneratedFile, TranslateError};
+
+use crate::agent::Agent;
 
 /// Why nothing was written.
 #[derive(Debug, thiserror::Error)]
@@ -25,14 +27,17 @@ struct Prepared {
 }
 
 /// Writes `files` to `folder`. Until all are written whole none is in its place, and if one cannot take its place
-/// the others give theirs back. `read` are the files that the translation was made from, and what was done with
-/// each.
+/// the others give theirs back. What the translation was made from is never overwritten.
 pub(crate) fn write(
-    configuration: &ParsedConfiguration,
+    agent: &Agent,
     files: &[GeneratedFile],
     folder: &Path,
-    read: &[(PathBuf, &str)],
 ) -> Result<(), OutputError> {
+    let Agent { configuration, .. } = agent;
+    let mut read = Vec::from(agent.sources().map(|path| (path, "translated")));
+    for file in configuration.included_files() {
+        read.extend([agent.folder(), folder].map(|place| (place.join(&file), "included")));
+    }
     let mut prepared: Vec<Prepared> = Vec::new();
     let inside = or_here(folder).canonicalize().ok();
     for file in files {
@@ -46,17 +51,17 @@ pub(crate) fn write(
             let message =
                 format!("a link leads to {}, out of the output's folder", target.display());
             let help = "name a file in that folder or below; `-o DIR` puts all elsewhere";
-            return Err(configuration.refuse(file.setting, &message, help).into());
+            return Err(configuration.overwrites(file.setting, &message, help).into());
         }
         if let Some((source, used)) = read.iter().find(|(source, _)| is_same(&target, source)) {
             let message = format!("this is {}, which is {used}", source.display());
             let help = "it would be overwritten: choose another name, or another folder with `-o`";
-            return Err(configuration.refuse(file.setting, &message, help).into());
+            return Err(configuration.overwrites(file.setting, &message, help).into());
         }
         if let Some(other) = prepared.iter().find(|other| is_same(&target, &other.target)) {
             let message = format!("this is {}, which is written too", other.target.display());
             let help = "a link leads from one to the other: choose another name";
-            return Err(configuration.refuse(file.setting, &message, help).into());
+            return Err(configuration.overwrites(file.setting, &message, help).into());
         }
         let new = prepare(&target, &file.text);
         prepared.push(new.map_err(|source| OutputError::Write { path, source })?);

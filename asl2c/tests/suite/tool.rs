@@ -1,9 +1,7 @@
-//! The command line: warnings and who wants them, JSON, new agents, hints.
+//! The command line: warnings and who wants them, JSON, new agents.
 
 use std::path::Path;
 use std::process::{Command, Output};
-
-use translator::{parse_configuration, translate};
 
 const CONFIGURATION: &str = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
     basics { void on(void); void x1(void); void x2(void); void x3(void); int x4(void); };\n\
@@ -130,13 +128,13 @@ fn all_lines_of_json_are_alike() {
         (&[], &|_| {}, "no-plan", 0),
         (&["-D", "warnings"], &|_| {}, "no-plan", 1),
         (&[], &no_agent, "not-read", 1),
-        (&[], &wrong, "refused", 1),
-        (&[], &unread, "refused", 1),
+        (&[], &wrong, "not-declared", 1),
+        (&[], &unread, "missing-setting", 1),
         (&[], &blocked, "not-written", 1),
         (&["verify"], &|_| {}, "not-checked", 3),
         (&["verify", "-q"], &no_agent, "not-read", 1),
-        (&["verify"], &wrong, "refused", 1),
-        (&["verify", "--quiet"], &unread, "refused", 1),
+        (&["verify"], &wrong, "not-declared", 1),
+        (&["verify", "--quiet"], &unread, "missing-setting", 1),
     ];
     for (options, spoil, code, status) in cases {
         let folder = folder();
@@ -202,49 +200,4 @@ fn a_new_agent_builds_and_runs_at_once() {
         assert_eq!(output.status.code(), Some(1), "{name}");
         assert!(text.contains(reason), "{text}");
     }
-}
-
-#[test]
-fn slips_of_the_pen_are_understood() {
-    for (agent, help) in [
-        ("!light <- on.", "did you mean `+!light`?"),
-        ("!light : level(_) <- on.", "did you mean `+!light`?"),
-        ("light <- on.", "did you mean `+!light` or `+light`?"),
-        ("+!light <- on, on.", "separated by `;`"),
-        ("+!light <- on & on.", "separated by `;`"),
-        ("+!light : level(_), level(_) <- on.", "joined by `&`"),
-        ("+!light <- on\n+!light <- on.", "needs a full stop"),
-    ] {
-        let error =
-            translate(parse_configuration("a.conf", CONFIGURATION).unwrap(), agent).unwrap_err();
-        assert!(error.to_string().contains(help), "{agent}\n{error}");
-    }
-    let error = parse_configuration("a.conf", &CONFIGURATION.replace("light(void);", "light;"))
-        .unwrap_err();
-    assert!(error.to_string().contains("without arguments it is `light(void)`"), "{error}");
-}
-
-/// The answer may be of any type that can be passed on.
-#[test]
-fn test_goals_are_for_every_type() {
-    let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
-        includes { #include \"types.h\" };\n\
-        basics { void say(name_t); void go(place_t); place_t here(void); handle_t *get(void); void use(handle_t *); };\n\
-        types { g(void); who(name_t); at(place_t); by(handle_t *); known(name_t); };";
-    let agent = "known(\"me\"). !g.\n+!g <- ?who(N); say(N); ?at(P); go(P); ?by(H); use(H).\n\
-        +?who(N) : known(N). +?at(P) <- P = here. +?by(H) <- H = get.\n\
-        -?who(N) : known(N) | who(N).\n";
-    let mut translation =
-        translate(parse_configuration("a.conf", configuration).unwrap(), agent).unwrap();
-    let mut types = translation.files[1].clone();
-    types.name = "types.h".to_owned();
-    types.text = "#ifndef T\n#define T\ntypedef const char *name_t;\ntypedef struct { struct { int x; } inner; } place_t;\n\
-        typedef struct handle handle_t;\n#endif\n".to_owned();
-    translation.files.push(types);
-    let environment = "#include <stdio.h>\nvoid updateBeliefs(void) {}\nvoid say(name_t n) { puts(n); }\n\
-        void go(place_t p) { printf(\"%d\\n\", p.inner.x); }\n\
-        place_t here(void) { place_t p; p.inner.x = 7; return p; }\nhandle_t *get(void) { return 0; }\n\
-        void use(handle_t *h) { puts(h ? \"some\" : \"none\"); }\n\
-        int main(void) { init(); next_step(); return (int)unhandled_events(); }\n";
-    assert_eq!(crate::harness::compile_and_run(&translation, environment), "me 7 none");
 }

@@ -12,7 +12,7 @@ const TRANSITIONS: u32 = 4000;
 
 /// Instructions of the agent's own C in the costliest step, or why they are not known. Actions and senses
 /// are the environment's and do not count.
-pub(crate) fn costliest(obligations: &Obligations) -> Result<u64, String> {
+pub(super) fn costliest(obligations: &Obligations) -> Result<u64, String> {
     let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
     let folder = folder.path();
     let invariant = obligations.invariant(&[]);

@@ -346,7 +346,7 @@ fn what_cannot_be_checked_is_said() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("cannot read a.conf"));
     assert_eq!(output.status.code(), Some(1));
     let text = configuration("", "", WAITING, "within(1, level <= flag, on)");
-    let error = model(parse_configuration("a.conf", &text).unwrap(), WAITING).unwrap_err();
+    let error = model(&parse_configuration("a.conf", &text).unwrap(), WAITING).unwrap_err();
     let places: Vec<String> =
         error.to_string().lines().filter(|l| l.starts_with("error")).map(str::to_owned).collect();
     assert_eq!(
@@ -359,12 +359,12 @@ fn what_cannot_be_checked_is_said() {
     );
     let text = configuration("", "", WAITING, "within(1, level <= 2.5, on)");
     let error =
-        model(parse_configuration("a.conf", &text).unwrap(), "!wait. +!wait : level(_) <- on.");
+        model(&parse_configuration("a.conf", &text).unwrap(), "!wait. +!wait : level(_) <- on.");
     assert!(
         error.unwrap_err().to_string().starts_with("error: a fraction where `int` is expected")
     );
     let text = configuration("", "", WAITING, "within(1, level <= limit, on)");
     let error =
-        model(parse_configuration("a.conf", &text).unwrap(), "!wait. +!wait : level(_) <- on.");
+        model(&parse_configuration("a.conf", &text).unwrap(), "!wait. +!wait : level(_) <- on.");
     assert!(error.unwrap_err().to_string().starts_with("error: `limit` is never believed"));
 }

@@ -1,0 +1,67 @@
+//! An agent as it lies on the disk: a configuration, and the file that it names.
+
+use std::path::{Path, PathBuf};
+
+use translator::{ParsedConfiguration, TranslateError, parse_configuration};
+
+/// Why an agent cannot be had.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// A file cannot be read.
+    #[error("cannot read {path}: {source}")]
+    File {
+        /// Which.
+        path: PathBuf,
+        /// The system's error.
+        source: std::io::Error,
+    },
+    /// The configuration has errors.
+    #[error(transparent)]
+    Configuration(#[from] TranslateError),
+}
+
+/// A configuration and the text of its agent, as they were read.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Agent {
+    /// The configuration.
+    pub configuration: ParsedConfiguration,
+    /// The AgentSpeak text.
+    pub text: String,
+    /// The file of the configuration, as it was named.
+    pub path: PathBuf,
+}
+
+impl Agent {
+    /// Reads a configuration and the agent that it names, which lies in the same folder or below.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or the configuration has errors.
+    pub fn read(path: &Path) -> Result<Self, ReadError> {
+        let configuration = parse_configuration(&path.display().to_string(), &read(path)?)?;
+        let text = read(&folder(path).join(configuration.input()))?;
+        Ok(Self { configuration, text, path: path.to_owned() })
+    }
+
+    /// The configuration's folder.
+    pub(crate) fn folder(&self) -> &Path {
+        folder(&self.path)
+    }
+
+    /// The files that it was read from.
+    pub(crate) fn sources(&self) -> [PathBuf; 2] {
+        [self.folder().join(self.configuration.input()), self.path.clone()]
+    }
+}
+
+fn folder(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+fn read(path: &Path) -> Result<String, ReadError> {
+    let bytes =
+        std::fs::read(path).map_err(|source| ReadError::File { path: path.to_owned(), source })?;
+    // Bytes that are no UTF-8 become characters that the lexer refuses, with line and column.
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

@@ -1,0 +1,114 @@
+//! Command-line arguments.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+use translator::Code;
+
+/// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
+///
+/// Writes the files that the configuration's `settings` name: the C file, its header, the header
+/// of the basic actions and, with `rust = FILE`, the Rust side of the boundary. Nothing is written
+/// if anything is wrong.
+#[derive(Debug, Parser)]
+#[command(
+    name = "asl2c",
+    version,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, not printed, or a \
+                  property that does not hold; 2 usage; 3 nothing is known of some property, for want of a tool, \
+                  of memory, or of properties."
+)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Option<Task>,
+    /// The agent's configuration
+    #[arg(value_name = "AGENT.CONF", required = true)]
+    pub(super) configuration: Option<PathBuf>,
+    /// Where the generated files go [default: the configuration's folder]
+    #[arg(short, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Print what the agent costs: memory, call depth, calls of each action in a step. The stack and the
+    /// longest path of a step are gcc's, the costliest step that random events lead to is callgrind's, if they
+    /// are there
+    #[arg(long)]
+    pub(super) report: bool,
+    /// Print errors only
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+    /// Do not warn of this: a warning's code, or `all`; may be given more than once
+    #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = code("all"))]
+    pub(super) allow: Vec<String>,
+    /// Warn of this, whatever `-A` says
+    #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = code("all"))]
+    pub(super) warn: Vec<String>,
+    /// Refuse agents with this: a warning's code, or `warnings` for all that are not allowed
+    #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = code("warnings"))]
+    pub(super) deny: Vec<String>,
+    /// How errors and warnings are printed: for people, or each as a line of JSON
+    #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
+    pub(super) message_format: String,
+}
+
+impl Arguments {
+    /// Whether a warning is printed.
+    pub(super) fn is_wanted(&self, code: &str) -> bool {
+        let named = |list: &[String]| list.iter().any(|other| other == code || other == "all");
+        named(&self.warn) || !named(&self.allow) || self.deny.iter().any(|other| other == code)
+    }
+
+    /// Whether a warning that is printed forbids translation.
+    pub(super) fn is_denied(&self, code: &str) -> bool {
+        self.deny.iter().any(|other| other == code || other == "warnings")
+    }
+}
+
+/// Whether messages are lines of JSON.
+pub(super) fn is_json(message_format: &str) -> bool {
+    message_format == "json"
+}
+
+/// Codes of warnings, and a word for all of them.
+fn code(all: &'static str) -> clap::builder::PossibleValuesParser {
+    clap::builder::PossibleValuesParser::new(Code::warnings().map(Code::name).chain([all]))
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Task {
+    /// Make a folder with an agent, its configuration, a main program, and a Makefile that builds and runs all
+    New {
+        /// The agent's name, and the folder's: a word of lower-case letters, digits and `_`
+        #[arg(value_name = "NAME")]
+        name: String,
+    },
+    /// Check the configuration's properties with SPIN, on a model of the agent in any environment
+    ///
+    /// A property that does not hold is told as a way to its failure in the agent's own terms: what the
+    /// environment did, the event of each step, its plan and the actions, with lines of the agent. Values are
+    /// not part of the model, so a failure may need an environment that there is not.
+    Verify(Verify),
+}
+
+/// Arguments of `asl2c verify`.
+#[derive(Debug, Args)]
+pub(super) struct Verify {
+    /// The agent's configuration
+    #[arg(value_name = "AGENT.CONF")]
+    pub(super) configuration: PathBuf,
+    /// Check this property only; may be given more than once
+    #[arg(long, value_name = "PROPERTY")]
+    pub(super) only: Vec<String>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Print the model in Promela, and check nothing
+    #[arg(long, conflicts_with = "json")]
+    pub(super) model: bool,
+    /// Print only what does not hold; `--json` tells of all
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+    /// How errors are printed: for people, or each as a line of JSON
+    #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
+    pub(super) message_format: String,
+}

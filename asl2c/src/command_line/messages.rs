@@ -1,0 +1,82 @@
+//! Errors and warnings as lines of JSON.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+use translator::{Diagnostics, Located, Severity, TranslateError};
+
+use super::CommandError;
+use crate::agent::ReadError;
+use crate::output::OutputError;
+
+/// Most messages that are printed; each costs a pass over the whole text.
+const MOST: usize = 50;
+
+/// An error as lines of JSON.
+pub(super) fn error_lines(error: &CommandError) -> String {
+    let general = |code: &str, file: Option<&Path>| line("error", code, &error.to_string(), file);
+    match error {
+        CommandError::Translate(refused)
+        | CommandError::Read(ReadError::Configuration(refused))
+        | CommandError::Output(OutputError::Refused(refused)) => match refused {
+            TranslateError::Refused(found) => lines(found),
+            _ => general("unprovable", None),
+        },
+        CommandError::Denied(found) => {
+            format!("{}\n{}", lines(found), line("error", "denied", &denied(found), None))
+        }
+        CommandError::Read(ReadError::File { path, .. }) => general("not-read", Some(path)),
+        CommandError::Output(OutputError::Write { path, .. }) => general("not-written", Some(path)),
+        CommandError::Print { .. } => general("not-printed", None),
+        CommandError::New(_) => general("not-made", None),
+        CommandError::Verify(_) => general("not-checked", None),
+    }
+}
+
+/// Diagnostics as lines of JSON.
+pub(super) fn lines(found: &Diagnostics) -> String {
+    found.located().take(MOST).map(|found| located(&found)).collect::<Vec<_>>().join("\n")
+}
+
+fn located(found: &Located<'_>) -> String {
+    let ((line, column), (end_line, end_column)) = (found.start(), found.end());
+    let diagnostic = found.diagnostic;
+    json!({
+        "severity": if diagnostic.severity == Severity::Error { "error" } else { "warning" },
+        "code": diagnostic.code,
+        "message": diagnostic.message,
+        "file": found.source.name,
+        "line": line,
+        "column": column,
+        "end_line": end_line,
+        "end_column": end_column,
+        "label": diagnostic.label,
+        "help": diagnostic.help,
+        "rendered": found.render(),
+    })
+    .to_string()
+}
+
+/// A message without a place in a text, as a line of JSON with the same keys.
+pub(super) fn line(severity: &str, code: &str, message: &str, file: Option<&Path>) -> String {
+    json!({
+        "severity": severity,
+        "code": code,
+        "message": message,
+        "file": file.map(|file| file.display().to_string()),
+        "line": Value::Null,
+        "column": Value::Null,
+        "end_line": Value::Null,
+        "end_column": Value::Null,
+        "label": "",
+        "help": Value::Null,
+        "rendered": format!("{severity}: {message}"),
+    })
+    .to_string()
+}
+
+/// How many of the warnings forbid translation.
+pub(super) fn denied(found: &Diagnostics) -> String {
+    let denied = found.iter().filter(|found| found.severity == Severity::Error).count();
+    format!("{denied} of these are denied: nothing is translated")
+}

@@ -1,0 +1,163 @@
+//! The command line: runs what the arguments ask for, prints the result and returns the exit status.
+
+mod arguments;
+mod messages;
+mod verdicts;
+
+use std::io::Write as _;
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::Parser as _;
+use translator::{Diagnostic, Diagnostics, Severity, TranslateError, translate};
+
+use self::arguments::{Arguments, Task, Verify, is_json};
+use self::messages::{denied, error_lines, line, lines};
+use self::verdicts::Detail;
+use crate::agent::{Agent, ReadError};
+use crate::measure::measure;
+use crate::new::{NewError, make};
+use crate::output::{self, OutputError};
+use crate::verify::{VerifyError, verify};
+
+/// Why nothing came of what was asked for.
+#[derive(Debug, thiserror::Error)]
+enum CommandError {
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    #[error(transparent)]
+    Translate(#[from] TranslateError),
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error(transparent)]
+    New(#[from] NewError),
+    /// Warnings that are refused, with the others that are wanted.
+    #[error("{}\n\nerror: {}", .0, denied(.0))]
+    Denied(Diagnostics),
+    #[error("cannot print {what}: {source}")]
+    Print { what: &'static str, source: std::io::Error },
+}
+
+/// The exit status if nothing is known of what should be checked.
+const NOT_CHECKED: u8 = 3;
+
+/// Does what the program's arguments ask for, and says how to exit.
+pub fn run() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(usage) => return say(&usage),
+    };
+    let (done, json) = match (&arguments.command, &arguments.configuration) {
+        (Some(Task::New { name }), _) => {
+            (make(name, printed).map(|()| ExitCode::SUCCESS).map_err(CommandError::from), false)
+        }
+        (Some(Task::Verify(asked)), _) => (check(asked), is_json(&asked.message_format)),
+        (None, Some(configuration)) => {
+            (translate_files(&arguments, configuration), is_json(&arguments.message_format))
+        }
+        (None, None) => unreachable!("clap asks for the configuration"),
+    };
+    done.unwrap_or_else(|error| complain(&error, json))
+}
+
+fn check(asked: &Verify) -> Result<ExitCode, CommandError> {
+    let Agent { configuration, text, .. } = Agent::read(&asked.configuration)?;
+    let model = translator::model(&configuration, &text)?;
+    if asked.model {
+        print("the model", &model.promela())?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let detail = match (asked.json, asked.quiet) {
+        (true, _) => Detail::Json,
+        (false, true) => Detail::Failures,
+        (false, false) => Detail::All,
+    };
+    let only: Vec<&str> = asked.only.iter().map(String::as_str).collect();
+    let checked = verify(&model, &only)?;
+    print("what was found", &verdicts::printed(&model, &checked, detail))?;
+    Ok(verdicts::status(&checked))
+}
+
+fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, CommandError> {
+    let json = is_json(&arguments.message_format);
+    let agent = Agent::read(path)?;
+    let mut translation = translate(&agent.configuration, &agent.text)?;
+    let warnings = warnings(arguments, &translation.warnings)?;
+    let folder = arguments.output.as_deref().unwrap_or(agent.folder());
+    output::write(&agent, &translation.files, folder)?;
+    if !warnings.is_empty() && !arguments.quiet {
+        complain_of(&if json { lines(&warnings) } else { warnings.to_string() });
+    }
+    if arguments.report {
+        for unknown in measure(&mut translation, &agent.configuration, &agent.text) {
+            complain_of(&if json {
+                line("warning", "not-measured", &unknown, None)
+            } else {
+                unknown
+            });
+        }
+        print("the report", &translation.report.to_string())?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The warnings that are wanted; an error if one is denied. Those come first then, or alone if only errors are wanted.
+fn warnings(arguments: &Arguments, found: &Diagnostics) -> Result<Diagnostics, CommandError> {
+    let wanted = found.iter().filter(|warning| arguments.is_wanted(warning.code));
+    let (mut denied, others): (Vec<Diagnostic>, Vec<Diagnostic>) =
+        wanted.cloned().partition(|warning| arguments.is_denied(warning.code));
+    if denied.is_empty() {
+        return Ok(found.with(others));
+    }
+    for warning in &mut denied {
+        warning.severity = Severity::Error;
+    }
+    if !arguments.quiet {
+        denied.extend(others);
+    }
+    Err(CommandError::Denied(found.with(denied)))
+}
+
+/// Prints what went wrong, and returns how to exit.
+fn complain(error: &CommandError, as_json: bool) -> ExitCode {
+    let ours = matches!(
+        error,
+        CommandError::Read(ReadError::File { .. })
+            | CommandError::Print { .. }
+            | CommandError::New(_)
+            | CommandError::Output(OutputError::Write { .. })
+            | CommandError::Verify(_)
+    );
+    let prefix = if ours { "error: " } else { "" };
+    complain_of(&if as_json { error_lines(error) } else { format!("{prefix}{error}") });
+    if matches!(error, CommandError::Verify(_)) { NOT_CHECKED.into() } else { ExitCode::FAILURE }
+}
+
+/// Prints a message. One that cannot be printed has nowhere else to go.
+fn complain_of(message: &str) {
+    _ = writeln!(std::io::stderr(), "{message}");
+}
+
+/// Prints what was asked for.
+fn print(what: &'static str, text: &str) -> Result<(), CommandError> {
+    printed(text).map_err(|source| CommandError::Print { what, source })
+}
+
+fn printed(text: &str) -> std::io::Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    stdout.write_all(text.as_bytes())?;
+    stdout.flush()
+}
+
+/// Prints what clap says: help and version, or what is wrong with the usage.
+fn say(usage: &clap::Error) -> ExitCode {
+    let said = usage.print().and_then(|()| std::io::stdout().flush());
+    if let Err(source) = said
+        && !usage.use_stderr()
+    {
+        return complain(&CommandError::Print { what: "the help", source }, false);
+    }
+    u8::try_from(usage.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
+}

@@ -1,0 +1,93 @@
+//! Output of `asl2c verify`.
+
+use std::fmt::Write as _;
+use std::process::ExitCode;
+
+use serde_json::{Value, json};
+use translator::{Model, Promise};
+
+use super::NOT_CHECKED;
+use crate::spin::Verdict;
+use crate::verify::Checked;
+
+/// How much is printed of the properties, and for whom.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Detail {
+    /// Each, for people.
+    All,
+    /// Those that do not hold or are not decided, for people.
+    Failures,
+    /// Each, for programs.
+    Json,
+}
+
+/// The verdicts as text or JSON.
+pub(super) fn printed(model: &Model, checked: &[Checked], detail: Detail) -> String {
+    match detail {
+        Detail::Json => json(checked),
+        Detail::All => text(model, checked),
+        Detail::Failures => {
+            text(model, checked.iter().filter(|checked| !checked.verdict.is_proved()))
+        }
+    }
+}
+
+/// How to exit: well only if everything holds.
+pub(super) fn status(checked: &[Checked]) -> ExitCode {
+    let any = |wanted: fn(&Verdict) -> bool| checked.iter().any(|checked| wanted(&checked.verdict));
+    if any(|verdict| matches!(verdict, Verdict::Fails(_))) {
+        ExitCode::FAILURE
+    } else if any(|verdict| matches!(verdict, Verdict::Undecided(_))) {
+        NOT_CHECKED.into()
+    } else {
+        ExitCode::SUCCESS
+    }
+}
+
+fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    for Checked { property: promise, verdict } in checked {
+        let tags = match promise.requirements.as_slice() {
+            [] => String::new(),
+            tags => format!(" [{}]", tags.join(", ")),
+        };
+        let head = format!("{}{tags}", promise.name);
+        match verdict {
+            Verdict::Holds => _ = writeln!(text, "{head}: holds in every environment"),
+            Verdict::Undecided(reason) => {
+                _ = writeln!(text, "{head}: NOT DECIDED: {reason}");
+            }
+            Verdict::Fails(happenings) => {
+                let Promise { formula, .. } = promise;
+                _ = writeln!(text, "{head}: DOES NOT HOLD\n  {formula}");
+                _ = writeln!(text, "  for this can happen ({}):", model.input());
+                for happening in happenings {
+                    _ = writeln!(text, "    {happening}");
+                }
+            }
+        }
+    }
+    text
+}
+
+fn json(checked: &[Checked]) -> String {
+    let properties: Vec<Value> = checked
+        .iter()
+        .map(|Checked { property: promise, verdict }| {
+            let named = match verdict {
+                Verdict::Holds => "holds",
+                Verdict::Fails(_) => "fails",
+                Verdict::Undecided(_) => "undecided",
+            };
+            json!({
+                "name": promise.name,
+                "requirements": promise.requirements,
+                "formula": promise.formula,
+                "verdict": named,
+                "trace": verdict.counterexample(),
+            })
+        })
+        .collect();
+    format!("{:#}\n", json!({ "properties": properties }))
+}

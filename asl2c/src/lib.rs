@@ -1,0 +1,28 @@
+//! The AgentSpeak compiler's command line, and every analysis that runs external programs.
+//!
+//! The [`translator`] turns texts into texts. This crate reads and writes the files, and runs compilers, SPIN and
+//! valgrind: [`verify()`] decides properties on a model, [`measure()`] asks what the compiled C costs, and
+//! [`command_line`] offers both to people, with translation itself.
+//!
+//! ```no_run
+//! let agent = asl2c::Agent::read("pilot.conf".as_ref())?;
+//! let model = translator::model(&agent.configuration, &agent.text)?;
+//! for checked in asl2c::verify(&model, &[])? {
+//!     println!("{}: {}", checked.property.name, checked.verdict.is_proved());
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod agent;
+pub mod command_line;
+mod measure;
+mod new;
+mod output;
+mod spin;
+mod verify;
+
+pub use agent::{Agent, ReadError};
+pub use measure::measure;
+pub use spin::{SPIN, SpinError, Verdict};
+pub use verify::{Checked, VerifyError, verify};

@@ -1,0 +1,11 @@
+//! The compiler's command line: what it prints, writes and proves.
+#![forbid(unsafe_code)]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(clippy::format_collect, reason = "tests build texts, and read better so")]
+
+mod files;
+mod guide;
+mod harness;
+mod proved;
+mod tool;
+mod verification;

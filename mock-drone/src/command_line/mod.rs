@@ -1,0 +1,174 @@
+//! The command line: builds a drone from the arguments and serves it until it is stopped.
+
+mod arguments;
+
+use std::fs::File;
+use std::io::{IsTerminal as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::Parser as _;
+use nalgebra::Vector2;
+use tokio::signal::unix::{SignalKind, signal};
+
+use self::arguments::{Airframe, Arguments, DroneArguments, Option27, PortArguments, Sensors};
+use crate::airframe::Profile;
+use crate::scenario::{Scenario, ScenarioError};
+use crate::sensors::SensorModel;
+use crate::server::{Ports, Server, ServerError};
+use crate::{CameraModel, DroneConfig, LinkFaults, Tag27, TruthLog, WorldConfig};
+
+/// Why the mock drone could not be started or has ended.
+#[derive(Debug, thiserror::Error)]
+enum CommandError {
+    #[error("cannot {action} {}: {source}", path.display())]
+    File { action: &'static str, path: PathBuf, source: std::io::Error },
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    #[error(transparent)]
+    Server(#[from] ServerError),
+}
+
+/// Does what the program's arguments ask for, until it is stopped, and says how to exit.
+pub fn run() -> ExitCode {
+    // A closed pipe ends the log, not the drone.
+    tracing_subscriber::fmt()
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none())
+        .with_target(false)
+        .log_internal_errors(false)
+        .init();
+    match serve(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // The mistakes of a scenario stand by themselves.
+            let scenario = matches!(error, CommandError::Scenario(_));
+            let prefix = if scenario { "" } else { "error: " };
+            // A message that cannot be printed has nowhere else to go.
+            _ = writeln!(std::io::stderr(), "{prefix}{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn serve(arguments: &Arguments) -> Result<(), CommandError> {
+    let config = world(arguments)?;
+    let log = arguments.truth.as_ref().map(|path| truth_log(path)).transpose()?;
+    let PortArguments { bind, at_port, navdata_port, control_port, .. } = arguments.ports;
+    let ports = Ports {
+        host: bind,
+        at: at_port,
+        navdata: navdata_port,
+        control: control_port,
+        ftp: Some(arguments.ports.ftp_port),
+        video: Some(arguments.ports.video_port),
+        presence: arguments.ports.presence_port,
+    };
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_all()
+        .build()
+        .map_err(ServerError::Start)?;
+    runtime.block_on(async {
+        let mut server = Server::bind(&config, ports).await?;
+        if let Some(log) = log {
+            server.log_truth(log);
+        }
+        let bound = server.ports().map_err(ServerError::Start)?;
+        tracing::info!(
+            "mock drone on {}: AT {}/udp, navdata {}/udp, configuration {}/tcp",
+            bound.host,
+            bound.at,
+            bound.navdata,
+            bound.control
+        );
+        tokio::select! {
+            ended = server.run() => ended.map_err(ServerError::Start)?,
+            // The truth log is written out when the server is dropped.
+            () = stopped() => tracing::info!("stopped"),
+        }
+        Ok(())
+    })
+}
+
+/// Waits for SIGINT or SIGTERM.
+async fn stopped() {
+    let terminated = async {
+        match signal(SignalKind::terminate()) {
+            Ok(mut signal) => _ = signal.recv().await,
+            // It will end the program by itself.
+            Err(_) => std::future::pending().await,
+        }
+    };
+    tokio::select! {
+        _ = tokio::signal::ctrl_c() => {}
+        () = terminated => {}
+    }
+}
+
+fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
+    let DroneArguments { seed, battery, airframe, sensors, option_27, ref wind, gusts, .. } =
+        arguments.drone;
+    let drone = DroneConfig {
+        seed,
+        battery_percent: f64::from(battery),
+        battery_sag_percent: arguments.drone.battery_sag,
+        flies_at_m: arguments.drone.flies_at,
+        profile: match airframe {
+            Airframe::Rec => Profile::rec(),
+            Airframe::Tum => Profile::tum(),
+            Airframe::Tf => Profile::tf(),
+            Airframe::Leo => Profile::leo(),
+        },
+        sensors: match sensors {
+            Sensors::Perfect => SensorModel::perfect(),
+            Sensors::Nominal => SensorModel::nominal(),
+            Sensors::Hard => SensorModel::hard(),
+        },
+        camera: match sensors {
+            Sensors::Perfect => CameraModel::perfect(),
+            Sensors::Nominal => CameraModel::nominal(),
+            Sensors::Hard => CameraModel::hard(),
+        },
+        tag_27: match option_27 {
+            Option27::Absent => Tag27::Absent,
+            Option27::Zimmu => Tag27::Zimmu,
+            Option27::Gps => Tag27::Gps,
+        },
+        wind_m_s: match wind.as_deref() {
+            Some([right, forward]) => Vector2::new(*right, *forward),
+            _ => Vector2::zeros(),
+        },
+        gusts_m_s: gusts,
+        ..DroneConfig::default()
+    };
+    let faults = &arguments.faults;
+    let link = LinkFaults {
+        loss: faults.loss / 100.0,
+        duplication: faults.duplicate / 100.0,
+        reordering: faults.reorder / 100.0,
+        corruption: faults.corrupt / 100.0,
+        delay: Duration::from_millis(faults.delay.into()),
+        jitter: Duration::from_millis(faults.jitter.into()),
+    };
+    let scenario = match &faults.scenario {
+        Some(path) => {
+            let text = std::fs::read_to_string(path).map_err(|source| CommandError::File {
+                action: "read",
+                path: path.clone(),
+                source,
+            })?;
+            Scenario::parse(&path.display().to_string(), &text)?
+        }
+        None => Scenario::default(),
+    };
+    Ok(WorldConfig { drone, link, scenario, tags: arguments.drone.tag.clone() })
+}
+
+fn truth_log(path: &Path) -> Result<TruthLog<File>, CommandError> {
+    File::create(path).and_then(TruthLog::new).map_err(|source| CommandError::File {
+        action: "write",
+        path: path.to_owned(),
+        source,
+    })
+}
