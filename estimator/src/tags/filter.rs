@@ -6,7 +6,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::MAX_TAGS;
+use super::SLOTS;
 use super::camera::Look;
 use super::history::Moment;
 use crate::horizontal::world_from_body;
@@ -17,7 +17,7 @@ const HEADING: usize = 4;
 const RATE: usize = 5;
 const CAMERA: usize = 6;
 const TAGS: usize = 8;
-const STATES: usize = TAGS + 3 * MAX_TAGS;
+const STATES: usize = TAGS + 3 * SLOTS;
 
 /// Standard deviation of the flow's bias at the start, how it walks, and when it has forgotten what it was.
 const BIAS_M_S: f64 = 0.013;

@@ -5,8 +5,8 @@
 
 use nalgebra::Vector2;
 
-use super::MAX_TAGS;
 use super::filter::{Filter, Sighted};
+use super::{MAX_TAGS, SLOTS};
 
 /// A tag whose place was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +52,7 @@ struct Slot {
 
 #[derive(Debug, Clone)]
 pub(super) struct Map {
-    slots: [Slot; MAX_TAGS],
+    slots: [Slot; SLOTS],
 }
 
 /// Another tag must be this many times as far as the one that is meant.
@@ -60,10 +60,12 @@ const RUNNER_UP: f64 = 2.0;
 /// So many sights make a tag on trial a known one, and so many make it one that was known before.
 const ENOUGH: u32 = 10;
 const AGAIN: u32 = 5;
+/// After so many one on trial corrects the place.
+const LIKELY: u32 = 3;
 /// Likewise after another tag has moved, of sights that all agree.
 const STILL: u32 = 60;
 /// Over so many sights the mean of what a tag is off by is taken.
-const MEAN_SIGHTS: f64 = 20.0;
+const MEAN_SIGHTS: f64 = 8.0;
 /// It is no more than this, and these shares of the height and of the way aside, for tags that lie still.
 const OFF_M: f64 = 0.03;
 const OFF_HEIGHT: f64 = 0.025;
@@ -82,7 +84,7 @@ const MOVED_M: f64 = 1.0;
 
 impl Map {
     pub(super) fn new(surveyed: &[Option<SurveyedTag>; MAX_TAGS], filter: &mut Filter) -> Self {
-        let mut slots = [Slot::default(); MAX_TAGS];
+        let mut slots = [Slot::default(); SLOTS];
         for (tag, surveyed) in surveyed.iter().enumerate() {
             if let Some(SurveyedTag { place_m, heading_deg }) = surveyed {
                 filter.survey_tag(tag, *place_m, heading_deg.map(f64::to_radians));
@@ -99,7 +101,7 @@ impl Map {
     }
 
     fn those(&self, wanted: fn(Standing) -> bool) -> impl Iterator<Item = usize> + '_ {
-        (0..MAX_TAGS).filter(move |tag| wanted(self.slots[*tag].standing))
+        (0..SLOTS).filter(move |tag| wanted(self.slots[*tag].standing))
     }
 
     pub(super) fn known(&self) -> usize {
@@ -117,7 +119,7 @@ impl Map {
 
     /// Forgets tags on trial that were not seen again.
     pub(super) fn forget_old(&mut self, filter: &mut Filter, now_s: f64) {
-        for tag in 0..MAX_TAGS {
+        for tag in 0..SLOTS {
             let slot = self.slots[tag];
             if is_on_trial(slot.standing) && now_s - slot.seen_s > TRIAL_S {
                 self.forget(filter, tag);
@@ -131,7 +133,7 @@ impl Map {
         &mut self,
         filter: &mut Filter,
         sighted: &Sighted,
-        seen: &[bool; MAX_TAGS],
+        seen: &[bool; SLOTS],
         now_s: f64,
     ) -> Option<usize> {
         let far = |tag: usize| (filter.tag_place_m(tag) - sighted.place_m).norm();
@@ -181,14 +183,17 @@ impl Map {
         if sights < enough {
             return None;
         }
-        self.slots[tag].standing = Standing::Known;
         let place_m = filter.tag_place_m(tag);
-        for other in 0..MAX_TAGS {
+        for other in 0..SLOTS {
             let near = (filter.tag_place_m(other) - place_m).norm() < MOVED_M;
             if other != tag && near && self.is_out_of_view(other, now_s) {
                 self.forget(filter, other);
             }
         }
+        if self.known() >= MAX_TAGS {
+            return None;
+        }
+        self.slots[tag].standing = Standing::Known;
         Some(tag)
     }
 
@@ -231,6 +236,16 @@ impl Map {
         is_known(self.slots[tag].standing)
     }
 
+    /// Whether one on trial was seen so often that it is hardly something else.
+    pub(super) fn is_likely(&self, tag: usize) -> bool {
+        matches!(self.slots[tag].standing, Standing::OnTrial(sights) if sights >= LIKELY)
+    }
+
+    /// Whether a tag has been seen once so far.
+    pub(super) fn is_new(&self, tag: usize) -> bool {
+        self.slots[tag].standing == Standing::OnTrial(0)
+    }
+
     /// A sight of a tag was off by this, of a drone so high and fast; the tag so far aside.
     pub(super) fn watch(
         &mut self,
@@ -257,7 +272,7 @@ impl Map {
     /// Forgets a tag that moves, and what is on trial.
     pub(super) fn forget_moving(&mut self, filter: &mut Filter, tag: usize) {
         self.forget(filter, tag);
-        for trial in 0..MAX_TAGS {
+        for trial in 0..SLOTS {
             if is_on_trial(self.slots[trial].standing) {
                 self.forget(filter, trial);
             }

@@ -32,6 +32,8 @@ use crate::horizontal::world_from_body;
 
 /// Tags that can be known at a time.
 pub const MAX_TAGS: usize = 8;
+/// Besides those that are known some may be on trial.
+const SLOTS: usize = MAX_TAGS + 3;
 /// Sights in one packet.
 pub const MAX_SIGHTS: usize = 4;
 
@@ -101,6 +103,8 @@ const FASTEST_TURN_DEG_S: f64 = 60.0;
 const LOWEST_M: f64 = 0.45;
 /// A drone this low stands, whatever its motors do.
 const STANDS_M: f64 = 0.1;
+/// Four deviations of the flow's bias on a hard day.
+const MOST_BIAS_M_S: f64 = 0.09;
 /// For how long after a tag was seen to move nothing new is believed soon.
 const CAUTIOUS_S: f64 = 30.0;
 /// A tag that was seen this recently is in view.
@@ -218,7 +222,7 @@ impl Tags {
         }
         self.map.forget_old(&mut self.filter, made_s);
         let before = self.filter.correction();
-        let mut seen = [false; MAX_TAGS];
+        let mut seen = [false; SLOTS];
         for sight in newest.iter().flatten() {
             if let Some(look) = Look::new(sight, &moment, &self.config) {
                 self.take_in(&look, &moment, made_s, &mut seen);
@@ -229,17 +233,23 @@ impl Tags {
             .jumped(after.place_m - before.place_m, after.heading_rad - before.heading_rad);
     }
 
-    fn take_in(&mut self, look: &Look, moment: &Moment, made_s: f64, seen: &mut [bool; MAX_TAGS]) {
+    fn take_in(&mut self, look: &Look, moment: &Moment, made_s: f64, seen: &mut [bool; SLOTS]) {
         let way_m = self.way_since_fix_m(moment);
         let sighted = self.filter.sighted(look, moment, way_m);
         let tag = self.map.associate(&mut self.filter, &sighted, seen, made_s);
         let Some(tag) = tag else { return };
         seen[tag] = true;
+        if self.map.is_new(tag) {
+            self.orientation.forget(tag);
+        }
         let is_cautious = made_s < self.cautious_until_s;
-        if self.map.is_known(tag) || !is_cautious {
+        if self.map.is_known(tag) || self.map.is_likely(tag) && !is_cautious {
             let off_m = sighted.place_m - self.filter.tag_place_m(tag);
             self.map.watch(tag, off_m, look.height_m, look.offset_m.norm(), moment.speed_m_s);
             self.filter.correct(&sighted, tag);
+            if !self.map.is_known(tag) && self.filter.bias_m_s().norm() > MOST_BIAS_M_S {
+                self.filter.forget_bias();
+            }
         }
         let known = self.map.saw(&mut self.filter, tag, made_s, way_m, is_cautious);
         if let Some(tag) = known {
@@ -270,12 +280,11 @@ impl Tags {
     /// A tag that moves would take the drone with it: what it is off by does not average out, or makes a bias of
     /// the flow that no flow has.
     fn distrust_what_moves(&mut self, tag: usize, made_s: f64) {
-        /// Four deviations of the flow's bias on a hard day.
-        const MOST_BIAS_M_S: f64 = 0.09;
         /// How far it may have led us before it was noticed.
         const LED_ASTRAY_M: f64 = 0.2;
         if self.map.moves(tag) || self.filter.bias_m_s().norm() > MOST_BIAS_M_S {
             self.map.forget_moving(&mut self.filter, tag);
+            self.orientation.forget(tag);
             self.filter.forget_bias();
             self.filter.doubt_place(LED_ASTRAY_M * LED_ASTRAY_M);
             self.cautious_until_s = made_s + CAUTIOUS_S;

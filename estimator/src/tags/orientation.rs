@@ -3,7 +3,7 @@
 //! Clients of the real drone contradict each other. Of the two readings the right one makes a tag point the same
 //! way however the drone turns; the wrong one makes it turn twice as far. Any turn tells them apart.
 
-use super::MAX_TAGS;
+use super::SLOTS;
 use crate::angle::wrap_deg;
 
 /// Which way the reported orientation grows.
@@ -37,6 +37,8 @@ const MOST_EVIDENCE: f64 = 1.0;
 /// Logarithm of the odds at which it is decided, and beyond which they are not counted.
 const DECIDED: f64 = 8.0;
 const CERTAIN: f64 = 24.0;
+/// A smaller turn may be noise alone.
+const LEAST_TURN_DEG: f64 = 1.5;
 /// Sights over which the mean direction of a tag is taken.
 const MEMORY: f64 = 40.0;
 /// Sights before a mean means something.
@@ -78,17 +80,22 @@ pub(super) struct Orientation {
     sign: Option<OrientationSign>,
     given: bool,
     /// By the readings, in the order of [`OrientationSign::BOTH`].
-    means: [[Mean; 2]; MAX_TAGS],
+    means: [[Mean; 2]; SLOTS],
 }
 
 impl Orientation {
     pub(super) fn new(given: Option<OrientationSign>) -> Self {
-        let means = [[Mean::default(); 2]; MAX_TAGS];
+        let means = [[Mean::default(); 2]; SLOTS];
         Self { odds: 0.0, sign: given, given: given.is_some(), means }
     }
 
     pub(super) fn sign(&self) -> Option<OrientationSign> {
         self.sign
+    }
+
+    /// Another tag has this number now.
+    pub(super) fn forget(&mut self, tag: usize) {
+        self.means[tag] = [Mean::default(); 2];
     }
 
     /// A known tag was seen from a heading.
@@ -100,7 +107,9 @@ impl Orientation {
             directions[reading] = sign.direction_deg(heading_deg, orientation_deg);
             off[reading] = means[reading].join(directions[reading]);
         }
-        if means[0].sights > LEAST {
+        // The mean of both is how far the drone has turned.
+        let turned_deg = f64::midpoint(off[0], off[1]).abs();
+        if means[0].sights > LEAST && turned_deg > LEAST_TURN_DEG {
             let evidence = (off[1].powi(2) - off[0].powi(2)) / (2.0 * NOISE_DEG * NOISE_DEG);
             let evidence = evidence.clamp(-MOST_EVIDENCE, MOST_EVIDENCE);
             self.odds = (self.odds + evidence).clamp(-CERTAIN, CERTAIN);
