@@ -536,7 +536,7 @@ impl Vehicle {
 
     /// Limits that the drone has not taken forbid the flight; without the further navdata options
     /// it only flies by arrival times.
-    fn setting_unconfirmed(&mut self, key: &str) {
+    pub(super) fn setting_unconfirmed(&mut self, key: &str) {
         if key == NAVDATA_OPTIONS_KEY {
             self.events.push_back(FlightEvent::NoDroneClock);
         } else if key.starts_with(DETECTION_SECTION) {
