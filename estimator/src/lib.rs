@@ -249,7 +249,7 @@ impl Estimator {
             airborne_since_s: None,
             airborne: false,
             estimate: Estimate::default(),
-            tags: config.tags.map(|tags| Box::new(Tags::new(tags))),
+            tags: config.tags.as_ref().map(|tags| Box::new(Tags::new(tags))),
             config,
         }
     }

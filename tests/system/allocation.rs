@@ -18,10 +18,10 @@ const POLL: Duration = Duration::from_millis(5);
 fn allocations(
     navdata: NavdataRate,
     orders: &[(Duration, OperatorOrder)],
-    tags: Option<TagConfig>,
+    tags: Option<&TagConfig>,
 ) -> u64 {
     let mut config = VehicleConfig { navdata, ..VehicleConfig::default() };
-    config.estimator.tags = tags;
+    config.estimator.tags = tags.copied();
     let mut pilot = Vehicle::flying(plan(SQUARE), &config).unwrap();
     let mut world = World::new(&WorldConfig {
         tags: vec![FloorTag::new(0.0, 0.0, 0.0), FloorTag::new(1.0, 1.0, 0.0)],
@@ -98,7 +98,7 @@ fn nothing_is_allocated_in_flight() {
     for navdata in [NavdataRate::Demo, NavdataRate::Full] {
         assert_eq!(allocations(navdata, &[], None), 0, "{navdata:?}");
         assert_eq!(allocations(navdata, &orders, None), 0, "{navdata:?}, by hand");
-        let tags = Some(TagConfig::default());
-        assert_eq!(allocations(navdata, &[], tags), 0, "{navdata:?}, with tags");
+        let tags = TagConfig::default();
+        assert_eq!(allocations(navdata, &[], Some(&tags)), 0, "{navdata:?}, with tags");
     }
 }

@@ -20,10 +20,13 @@ pub(super) struct Moment {
     pub(super) height_m: f64,
 }
 
+/// Places and velocities by their times.
+type Places = VecDeque<(f64, (Vector2<f64>, Vector2<f64>))>;
+
 /// The newest odometry, tilt and height, each by its own time.
 #[derive(Debug, Clone)]
 pub(super) struct History {
-    places: VecDeque<(f64, (Vector2<f64>, Vector2<f64>))>,
+    places: Places,
     tilts: VecDeque<(f64, Vector2<f64>)>,
     heights: VecDeque<(f64, f64)>,
     newest_s: Option<f64>,
@@ -100,10 +103,7 @@ fn between<T: Copy>(
 }
 
 /// Beyond the newest place it flies on for a moment.
-fn place_at(
-    places: &VecDeque<(f64, (Vector2<f64>, Vector2<f64>))>,
-    at_s: f64,
-) -> Option<(Vector2<f64>, Vector2<f64>)> {
+fn place_at(places: &Places, at_s: f64) -> Option<(Vector2<f64>, Vector2<f64>)> {
     const LONGEST_S: f64 = 0.1;
     let (place_m, velocity_m_s) = between(places, at_s, |from, to, share| {
         (from.0 + (to.0 - from.0) * share, from.1 + (to.1 - from.1) * share)

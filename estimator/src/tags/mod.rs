@@ -154,7 +154,7 @@ pub(crate) struct OdometryStep {
 }
 
 impl Tags {
-    pub(crate) fn new(config: TagConfig) -> Self {
+    pub(crate) fn new(config: &TagConfig) -> Self {
         let surveyed = config.surveyed.iter().any(Option::is_some);
         let mut filter = Filter::new(surveyed);
         let map = Map::new(&config.surveyed, &mut filter);
@@ -168,7 +168,7 @@ impl Tags {
             fix: None,
             cautious_until_s: f64::NEG_INFINITY,
             unseen_m2: 0.0,
-            config,
+            config: *config,
         }
     }
 

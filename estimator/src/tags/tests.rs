@@ -21,8 +21,9 @@ struct Bench {
 }
 
 impl Bench {
-    fn new(tags: Option<TagConfig>) -> Self {
-        let config = EstimatorConfig { tags, identify: false, ..EstimatorConfig::default() };
+    fn new(tags: Option<&TagConfig>) -> Self {
+        let config =
+            EstimatorConfig { tags: tags.copied(), identify: false, ..EstimatorConfig::default() };
         Self {
             estimator: Estimator::new(config),
             packet: 0,
@@ -92,7 +93,7 @@ fn none(_: u32) -> Option<Sight> {
 
 #[test]
 fn a_tag_below_ends_the_drift() {
-    let mut with = Bench::new(Some(TagConfig::default()));
+    let mut with = Bench::new(Some(&TagConfig::default()));
     let mut without = Bench::new(None);
     with.fly(3000, none);
     without.fly(3000, none);
@@ -120,7 +121,7 @@ fn what_is_seen_changes_nothing_unless_tags_are_used() {
 
 #[test]
 fn a_tag_that_comes_into_view_again_takes_the_drift_back_without_a_step() {
-    let mut bench = Bench::new(Some(TagConfig::default()));
+    let mut bench = Bench::new(Some(&TagConfig::default()));
     bench.fly(40, none);
     bench.sees = false;
     bench.flow_m_s = Vector2::new(0.03, 0.02);
@@ -149,8 +150,8 @@ fn a_tag_that_comes_into_view_again_takes_the_drift_back_without_a_step() {
 
 #[test]
 fn single_sights_of_something_else_lead_nobody_astray() {
-    let mut bench = Bench { sees: false, ..Bench::new(Some(TagConfig::default())) };
-    let mut honest = Bench { sees: false, ..Bench::new(Some(TagConfig::default())) };
+    let mut bench = Bench { sees: false, ..Bench::new(Some(&TagConfig::default())) };
+    let mut honest = Bench { sees: false, ..Bench::new(Some(&TagConfig::default())) };
     let wrong = |packet: u32| {
         let place_m =
             Vector2::new(f64::from(packet * 31 % 11) - 5.0, f64::from(packet * 17 % 7) - 3.0);
@@ -166,7 +167,7 @@ fn single_sights_of_something_else_lead_nobody_astray() {
 
 #[test]
 fn a_tag_that_is_carried_away_does_not_take_the_drone_with_it() {
-    let mut bench = Bench::new(Some(TagConfig::default()));
+    let mut bench = Bench::new(Some(&TagConfig::default()));
     bench.fly(300, none);
     for _ in 0..300 {
         bench.tag_m.x += 0.02;
@@ -186,7 +187,7 @@ fn a_surveyed_tag_says_where_the_drone_stands() {
     let mut config = TagConfig::default();
     let place_m = Vector2::new(0.35, 0.0);
     config.surveyed[0] = Some(SurveyedTag { place_m, heading_deg: None });
-    let mut bench = Bench::new(Some(config));
+    let mut bench = Bench::new(Some(&config));
     bench.flow_m_s = Vector2::zeros();
     bench.fly(400, none);
     // It lies at (0.2, 0.1) from the drone, which therefore is not where it was said to start.
@@ -196,7 +197,7 @@ fn a_surveyed_tag_says_where_the_drone_stands() {
 
 #[test]
 fn orientation_holds_the_heading_once_a_turn_has_told_its_sign() {
-    let mut bench = Bench::new(Some(TagConfig::default()));
+    let mut bench = Bench::new(Some(&TagConfig::default()));
     bench.fly(40, none);
     assert!(bench.estimator.would_learn_from_a_turn(bench.now()));
     for packet in 0..180 {
@@ -228,7 +229,7 @@ fn orientation_holds_the_heading_once_a_turn_has_told_its_sign() {
 
 #[test]
 fn nothing_that_can_be_told_breaks_it() {
-    let mut bench = Bench::new(Some(TagConfig::default()));
+    let mut bench = Bench::new(Some(&TagConfig::default()));
     let odd = [f64::NAN, f64::INFINITY, -1.0, 0.0, 4e9];
     bench.fly(500, |packet| {
         let value = |i: u32| odd[usize::try_from((packet * 7 + i * 3) % 5).unwrap()];
@@ -256,7 +257,7 @@ fn what_a_sight_costs() {
         let right_m = 0.3 + 1.6 * i as f64;
         *slot = Some(SurveyedTag { place_m: Vector2::new(right_m, 0.1), heading_deg: Some(30.0) });
     }
-    let mut bench = Bench::new(Some(config));
+    let mut bench = Bench::new(Some(&config));
     bench.fly(100, none);
     let start = std::time::Instant::now();
     let packets = 20_000;
