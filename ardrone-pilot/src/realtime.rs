@@ -1,7 +1,7 @@
-//! What the system gives the flight's thread so that its ticks come in time.
+//! Real-time scheduling for the tick's thread.
 //!
-//! All of it is asked for and none of it is needed: on an idle machine a tick is late by a tenth of a
-//! millisecond without it. On a busy one only a real-time priority keeps it so.
+//! None of it is required: on an idle machine ticks are late by a tenth of a millisecond without it. On a
+//! busy machine only a real-time priority keeps them that punctual.
 
 use std::fmt;
 use std::num::NonZeroU64;
@@ -14,27 +14,27 @@ use thread_priority::{
     set_thread_priority_and_policy, thread_native_id,
 };
 
-/// Above everything ordinary, below the kernel's own interrupt threads (50).
+/// Above all ordinary threads, below the kernel's interrupt threads (50).
 const PRIORITY: u8 = 40;
 
-/// What the flight's thread was given.
+/// Scheduling properties granted to the tick's thread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Realtime {
-    /// It comes before all ordinary threads (`SCHED_FIFO`).
+    /// Real-time priority (`SCHED_FIFO`) over all ordinary threads.
     pub priority: bool,
-    /// Its memory is never paged out.
+    /// The process's memory is locked: never paged out.
     pub memory: bool,
-    /// The system does not put its timers together with others.
+    /// Timer slack is off: the system does not delay timers to batch them.
     pub timers: bool,
 }
 
 impl Realtime {
-    /// Asks for everything, for the thread that calls.
+    /// Requests all of it for the calling thread.
     pub fn acquire() -> Self {
         let priority = acquire_priority();
         Self {
             priority,
-            // Where locked memory is limited, a process may fail to get any more: not worth it.
+            // With a limit on locked memory, later allocations could fail; the benefit is not worth that.
             memory: priority
                 && may_lock_all()
                 && mlockall(MlockAllFlags::CURRENT | MlockAllFlags::FUTURE).is_ok(),

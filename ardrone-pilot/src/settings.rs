@@ -1,7 +1,7 @@
-//! `pilot.toml`: how to fly, for those who know better than the defaults.
+//! `pilot.toml`: settings for flights that need other values than the defaults.
 //!
-//! Every setting with its default and its meaning stands in [`DEFAULTS`]. What a file does not say
-//! keeps its default; what it says wrongly is refused as a whole, with every reason.
+//! [`DEFAULTS`] documents every setting. Missing settings keep their defaults; a file with an invalid one is
+//! refused as a whole, with all reasons.
 
 mod tags;
 
@@ -21,7 +21,7 @@ use self::tags::Tags;
 /// The default `pilot.toml`, with comments.
 pub const DEFAULTS: &str = include_str!("../pilot.toml");
 
-/// What a `pilot.toml` says.
+/// Content of a `pilot.toml`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
@@ -37,20 +37,20 @@ pub struct Settings {
 /// Why a `pilot.toml` cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SettingsError {
-    /// It is no TOML, or has a name or a type that is none of ours; with line and column.
+    /// Invalid TOML, unknown key or wrong type; with line and column.
     #[error("{path}: {message}")]
     Syntax {
         /// The file.
         path: String,
-        /// What is wrong, where.
+        /// The problem and its place.
         message: String,
     },
-    /// Values that no flight can have.
+    /// Values out of range.
     #[error("{path}: {}", .reasons.join("; "))]
     Values {
         /// The file.
         path: String,
-        /// One for each value.
+        /// One reason for each value.
         reasons: Vec<String>,
     },
 }
@@ -134,7 +134,7 @@ struct Controller {
     yaw_1_deg: f64,
 }
 
-/// How [`Law`] stands in a file: by its name.
+/// Serializes [`Law`] by its name.
 mod law_name {
     use pid::Law;
     use serde::de::{Deserialize, Deserializer, Error};
@@ -161,7 +161,7 @@ impl Default for Fence {
 
 impl Default for Drone {
     fn default() -> Self {
-        // Written in degrees, since one degree there and back is not the same number.
+        // Converted to degrees here, because converting back would not give exactly the same number.
         let DroneLimits { climb_m_s, turn_deg_s, .. } = DroneLimits::default();
         Self {
             tilt_max_deg: 12.0,
@@ -238,10 +238,10 @@ impl Default for Controller {
 }
 
 impl Settings {
-    /// Reads a `pilot.toml`; `path` is for messages.
+    /// Parses a `pilot.toml`; `path` is for messages.
     ///
     /// # Errors
-    /// [`SettingsError`] with every reason.
+    /// [`SettingsError`] with all reasons.
     pub fn parse(path: &str, text: &str) -> Result<Self, SettingsError> {
         let settings: Self = toml::from_str(text).map_err(|error| SettingsError::Syntax {
             path: path.to_owned(),
@@ -255,15 +255,15 @@ impl Settings {
         }
     }
 
-    /// As TOML, without comments.
+    /// Converts to TOML without comments.
     ///
     /// # Errors
-    /// Never in fact: tables of numbers, words and arrays of numbers are TOML.
+    /// Never: tables of numbers, strings and arrays of numbers can be written as TOML.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
     }
 
-    /// Uses another law.
+    /// Selects another control law.
     pub fn set_law(&mut self, law: Law) {
         self.controller.law = law;
     }
@@ -289,7 +289,7 @@ impl Settings {
         self.tags.detect.then(|| self.tags.surveyed().collect())
     }
 
-    /// What these settings mean for a flight.
+    /// The vehicle's configuration.
     pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
         let Self { fence, drone, delays, airframe, estimator, tags, controller } = self;
         let limits = DroneLimits {
@@ -390,12 +390,12 @@ impl Settings {
     }
 }
 
-/// What the estimator takes for possible.
+/// Range of gains that the estimator accepts.
 const GAIN: RangeInclusive<f64> = 0.4..=2.5;
 
 fn outside(name: &str, value: f64, range: &RangeInclusive<f64>) -> Option<String> {
     let (from, to) = (range.start(), range.end());
-    // Also for what is no number.
+    // NaN is out of range too.
     (!range.contains(&value)).then(|| format!("{name} is {value}: it must lie in {from} to {to}"))
 }
 
@@ -433,7 +433,7 @@ mod tests {
         assert_eq!(settings, Settings::default());
         let config = settings.pilot_config(ZOrigin::Hover);
         assert_eq!(config, VehicleConfig::default());
-        // Every setting is documented.
+        // Every setting must be documented in [`DEFAULTS`].
         for line in settings.to_toml().unwrap().lines().filter(|line| line.contains('=')) {
             let name = line.split(' ').next().unwrap();
             assert!(DEFAULTS.lines().any(|line| line.starts_with(name)), "{name}");

@@ -1,4 +1,4 @@
-//! A tick in the air asks the system for no memory: it could wait for it.
+//! A tick in the air must not allocate, because the allocator may block.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ use system_tests::{SQUARE, plan};
 
 const POLL: Duration = Duration::from_millis(5);
 
-/// What was asked for in flight: on the ground the configuration is read and compared.
+/// Counts allocations in flight. On the ground the configuration is read and compared, which allocates.
 fn allocations(
     navdata: NavdataRate,
     orders: &[(Duration, OperatorOrder)],

@@ -1,4 +1,4 @@
-//! A vehicle as a process that takes orders on standard input, over UDP.
+//! A vehicle process with orders on standard input, over UDP.
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
@@ -13,10 +13,10 @@ use serde_json::{Value, json};
 
 use crate::processes::program;
 
-/// Longer than a flight here takes, on a machine that is busy.
+/// Timeout, longer than any flight here takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(90);
 
-/// A process that is driven, and the drone that it drives.
+/// A vehicle process and its mock drone.
 struct Conversation {
     mock: MockDrone,
     child: Child,
@@ -67,7 +67,7 @@ impl Conversation {
         orders.write_all(b"\n").unwrap();
     }
 
-    /// The next object that is wanted.
+    /// The next message for which `is_wanted` is true.
     #[track_caller]
     fn until(&mut self, what: &str, is_wanted: impl Fn(&Value) -> bool) -> Value {
         let start = Instant::now();
@@ -80,7 +80,7 @@ impl Conversation {
         }
     }
 
-    /// The answer to an order.
+    /// Gives an order and returns its answer.
     #[track_caller]
     fn order(&mut self, mut order: Value) -> Value {
         self.next += 1;
@@ -144,13 +144,13 @@ impl Conversation {
 
 impl Drop for Conversation {
     fn drop(&mut self) {
-        // It may have ended.
+        // The process may have ended already.
         _ = self.child.kill();
         _ = self.child.wait();
     }
 }
 
-/// With `VEHICLE_SECONDS` it goes on for longer.
+/// `VEHICLE_SECONDS` makes the test longer.
 #[test]
 fn a_program_flies_a_vehicle_again_and_again() {
     let folder = tempfile::tempdir().unwrap();
@@ -163,7 +163,7 @@ fn a_program_flies_a_vehicle_again_and_again() {
     let mut flights = 0;
     loop {
         vehicle.fly();
-        // The motors are cut in the air, and a person has looked at the drone.
+        // The motors are cut in the air, and the operator has inspected the drone.
         vehicle.accepted(json!({ "order": "start" }));
         vehicle.until_status(|status| status["step"] == 2);
         vehicle.accepted(json!({ "order": "cut" }));
@@ -178,7 +178,7 @@ fn a_program_flies_a_vehicle_again_and_again() {
             break;
         }
     }
-    // Left in the air: it lands first.
+    // Quitting in the air lands first.
     vehicle.accepted(json!({ "order": "start" }));
     vehicle.until_status(|status| status["step"] == 2);
     vehicle.quit();

@@ -30,30 +30,29 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Fly plans on every airframe, by both laws, with many seeds, and tell how well it went
+    /// Fly plans on every airframe, by both laws, with many seeds, and report how well it went
     Fly {
         /// Seeds of each plan on each airframe, from 1
         #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=10_000))]
         seeds: u64,
-        /// Write one line a flight to this file
+        /// Write one line per flight to this file
         #[arg(long, value_name = "FILE")]
         csv: Option<PathBuf>,
         /// Write plots (SVG) to this folder
         #[arg(long, value_name = "FOLDER")]
         plots: Option<PathBuf>,
     },
-    /// Fly with random faults, and tell how each flight ended; fails if anything happened that must
-    /// not
+    /// Fly with random faults, and report how each flight ended; fails if anything happened that must not
     Campaign {
         /// How many flights
         #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(1..))]
         flights: u64,
-        /// The first seed; flight by flight the next one
+        /// The first seed; each further flight takes the next one
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
     },
-    /// Fly with one wrong sensor at a time, and tell how far that led the drone astray; fails if it was
-    /// too far
+    /// Fly with one wrong sensor at a time, and report how far that led the drone astray; fails if it was too
+    /// far
     Sensors {
         /// Seeds of each failure in each situation on each airframe, from 1
         #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1_000))]
@@ -74,13 +73,14 @@ enum Command {
     },
     /// Fly code with mistakes in it through the campaign; fails if it finds nothing wrong with one of them
     Mutants {
-        /// At most so many flights with each
+        /// At most this many flights with each
         #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
         flights: u64,
         /// Only mutants with this in their name
         #[arg(long, value_name = "TEXT")]
         only: Option<String>,
-        /// Instead, all mutants that cargo-mutants makes, against the tests in simulated time: takes hours
+        /// Instead, all mutants that cargo-mutants generates, against the tests in simulated time: takes
+        /// hours
         #[arg(long, conflicts_with_all = ["flights", "only"])]
         all: bool,
         /// A part of those, such as 0/20
@@ -92,7 +92,8 @@ enum Command {
     Soak(soak::Arguments),
     /// Prove the properties of the shipped agent on a model and on its C, and measure what tests exercise
     Verify {
-        /// Only prove, which is all that the shipped agent needs: no mutants, no coverage, no other agent, no report
+        /// Only the proofs, which is all that the shipped agent needs: no mutants, no coverage, no other
+        /// agent, no report
         #[arg(long)]
         only_proofs: bool,
     },
@@ -121,7 +122,7 @@ fn main() -> ExitCode {
             verify::run(only_proofs).map_err(|error| error.to_string())
         }
     };
-    // What cannot be printed has nowhere else to go.
+    // If printing fails there is nowhere else to report it.
     match done {
         Ok((table, good)) => {
             let seconds = start.elapsed().as_secs_f64();

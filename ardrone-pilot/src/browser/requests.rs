@@ -1,18 +1,18 @@
-//! What a browser may ask for: JSON objects like `{"order":"hold"}`.
+//! Requests of a browser: JSON objects like `{"order":"hold"}`.
 
 use std::time::Duration;
 
 use autopilot::vehicle::OperatorOrder;
 use serde::Deserialize;
 
-/// The motors are cut within this time after it was asked whether that is meant.
+/// A cut must be confirmed within this time.
 const CUT_AGAIN: Duration = Duration::from_secs(3);
-/// Nobody clicks faster than this.
+/// Minimum interval between orders; nobody clicks faster.
 const LEAST_APART: Duration = Duration::from_millis(20);
-/// So many requests of no meaning are forgiven.
+/// Malformed requests tolerated before disconnecting.
 const FORGIVEN: u32 = 10;
 
-/// What a page sends.
+/// A request of the page.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(tag = "order", rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
@@ -24,7 +24,7 @@ enum Request {
         x_m: f64,
         y_m: f64,
     },
-    /// The first half of a cut.
+    /// Announces a cut, which must be confirmed.
     Arm,
     Cut,
 }
@@ -32,10 +32,10 @@ enum Request {
 /// Why a request is not carried out.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(super) enum RequestError {
-    /// Not one of [`Request`].
+    /// Not a valid [`Request`].
     #[error("not understood: {0}")]
     Meaningless(String),
-    /// Orders come faster than anybody clicks.
+    /// Orders arrive faster than a person could click.
     #[error("too fast")]
     TooFast,
     /// A cut that was not announced, or too long ago.
@@ -43,7 +43,7 @@ pub(super) enum RequestError {
     NotArmed,
 }
 
-/// One browser's requests.
+/// State of one browser's requests.
 #[derive(Debug, Default)]
 pub(super) struct Requests {
     armed: Option<Duration>,
@@ -52,10 +52,10 @@ pub(super) struct Requests {
 }
 
 impl Requests {
-    /// What is to be done about a request that came at `now`; nothing for the first half of a cut.
+    /// The order of a request received at `now`; `None` if it only announces a cut.
     ///
     /// # Errors
-    /// Why nothing is.
+    /// [`RequestError`] if there is nothing to carry out.
     pub(super) fn order(
         &mut self,
         now: Duration,
@@ -88,7 +88,7 @@ impl Requests {
         }))
     }
 
-    /// Whether this is no page of ours.
+    /// Whether so many requests were malformed that the client is not this page.
     pub(super) fn is_garbage(&self) -> bool {
         self.meaningless > FORGIVEN
     }
@@ -133,7 +133,7 @@ mod tests {
         assert_eq!(order(0, CUT), Err(RequestError::NotArmed));
         assert_eq!(order(10, ARM), Ok(None));
         assert_eq!(order(39, CUT), Ok(Some(OperatorOrder::Cut)));
-        // Once is once; too late; something else between.
+        // Confirmed twice; too late; another order in between.
         assert_eq!(order(40, CUT), Err(RequestError::NotArmed));
         assert_eq!(order(50, ARM), Ok(None));
         assert_eq!(order(81, CUT), Err(RequestError::NotArmed));

@@ -1,4 +1,4 @@
-//! Orders of a program: one JSON object a line on standard input, or lines as people type them.
+//! Orders from standard input: one JSON object per line, or lines as typed at the prompt.
 
 use std::io::{BufRead, BufReader, Read as _};
 
@@ -12,24 +12,24 @@ use super::{terminal, typed};
 use crate::flight::Controls;
 use crate::json;
 
-/// Longer than any plan that can be flown.
+/// Maximum length of a line, longer than any plan that can be flown.
 const LONGEST_LINE: u64 = 1 << 20;
 
-/// How lines are to be read.
+/// Format of the lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Lines {
     /// JSON objects; each is answered by one.
     Json,
-    /// As people type them; what is refused is said on standard error.
+    /// As typed at the prompt; refusals are printed on standard error.
     Typed,
 }
 
-/// What the end of the input means.
+/// Meaning of the end of input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum AtEnd {
-    /// Nothing: orders come from elsewhere too.
+    /// Nothing: orders may come from other stations.
     GoOn,
-    /// Nobody can give orders any more: land and leave.
+    /// No more orders can come: land and exit.
     Quit,
 }
 
@@ -68,10 +68,10 @@ enum Request {
     Quit {},
 }
 
-/// Reads orders on a thread of their own, which ends with the process.
+/// Starts a thread that reads orders. It ends with the process.
 ///
 /// # Errors
-/// If no thread can be had.
+/// If the thread cannot be started.
 pub(super) fn read_orders(
     lines: Lines,
     at_end: AtEnd,
@@ -95,11 +95,11 @@ pub(super) fn read_orders(
         .map(drop)
 }
 
-/// The next line that is not empty, or that it is too long; nothing at the end.
+/// The next non-empty line, or an error if it is too long; `None` at the end of input.
 fn next_line(input: &mut impl BufRead) -> Option<Result<String, TooLong>> {
     loop {
         let mut bytes = Vec::new();
-        // An input that fails has ended.
+        // A read error counts as the end of input.
         let length = input.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut bytes).ok()?;
         if length == 0 {
             return None;
@@ -144,7 +144,7 @@ fn answer_typed(line: Result<String, TooLong>, limits: &FlightLimits, controls: 
         Err(error) => Err(error.to_string()),
     };
     if let Err(error) = done {
-        terminal::tell(format_args!("refused: {error}"));
+        terminal::print_message(format_args!("refused: {error}"));
     }
 }
 
@@ -160,7 +160,7 @@ fn answer_json(line: Result<String, TooLong>, limits: &FlightLimits, controls: &
     terminal::print(format_args!("{}\n", json::text(&answer)));
 }
 
-/// The request's `id`, and why it was not accepted.
+/// Carries out a request; returns its `id` and the refusal, if any.
 fn obey_json(
     line: &str,
     limits: &FlightLimits,
@@ -186,7 +186,7 @@ fn obey_json(
     (id, controls.ask(Operator::PROGRAM, order).map_err(|refused| refused.to_string()))
 }
 
-/// The order; nothing for the wish to leave.
+/// The order of a request; `None` for a request to quit.
 fn order(request: Request, limits: &FlightLimits) -> Result<Option<OperatorOrder>, String> {
     Ok(Some(match request {
         Request::Load { plan, name } => {

@@ -1,4 +1,4 @@
-//! What a flight tells while it lasts and when it is over.
+//! Events, status and report of a flight.
 
 use std::fmt;
 use std::time::Duration;
@@ -18,7 +18,7 @@ pub enum FlightEvent {
     Connected,
     /// The drone's configuration was read back.
     ConfigurationRead {
-        /// The firmware's version, if it said so.
+        /// Firmware version, if the drone sent it.
         version: Option<String>,
     },
     /// The drone's configuration could not be read back.
@@ -27,77 +27,77 @@ pub enum FlightEvent {
     NoDroneClock,
     /// The drone does not confirm that it looks for roundels: the place may drift.
     NoTagDetection,
-    /// All settings are made.
+    /// All settings are applied.
     Configured,
-    /// The drone flies already, and the plan takes it over.
+    /// The drone is already in the air, and the plan takes it over.
     TakingOver,
-    /// A step of the plan began.
+    /// A step of the plan has begun.
     StepStarted {
-        /// Its index.
+        /// Index of the step.
         step: usize,
     },
     /// A step of the plan was carried out.
     StepDone {
-        /// Its index.
+        /// Index of the step.
         step: usize,
     },
     /// A target was moved into the fence.
     TargetCorrected {
-        /// Its step.
+        /// Index of the step.
         step: usize,
     },
-    /// The plan is given up and the drone is landed.
+    /// The plan was given up and the drone is being landed.
     LandingOrdered(LandingReason),
     /// The drone stopped answering.
     LinkLost,
     /// The drone cut its motors.
     Emergency,
-    /// The battery will soon be empty.
+    /// The battery is nearly empty: a warning.
     BatteryLow {
-        /// What is left.
+        /// Remaining charge.
         percent: u32,
     },
-    /// The emergency was cleared: the drone could fly again.
+    /// The drone's emergency state was cleared.
     EmergencyCleared,
-    /// The drone stands on the ground again.
+    /// The drone is on the ground again.
     Landed,
-    /// Somebody else flies the drone: nothing is sent to it until it stands.
+    /// Another pilot flies the drone: nothing is sent to it until it is on the ground.
     FlownByAnother,
     /// A mission was loaded.
     MissionLoaded {
-        /// How many steps it has.
+        /// Number of its steps.
         steps: usize,
     },
-    /// Commands were added to the mission.
+    /// Commands were appended to the mission.
     MissionExtended {
-        /// How many steps it has now.
+        /// Number of its steps now.
         steps: usize,
     },
-    /// The mission was dropped.
+    /// The mission was cleared.
     MissionCleared,
     /// Another operator has the controls now.
     ControlsTaken {
-        /// Who.
+        /// The new holder.
         by: Operator,
     },
-    /// An operator holds the drone where it is.
+    /// An operator has paused the mission; the drone holds.
     Held,
     /// An operator flies by stick.
     Steered,
-    /// An operator sends the drone somewhere.
+    /// An operator has sent the drone to a manual target.
     SentByHand,
-    /// The drone is where an operator has sent it.
+    /// The manual target was reached.
     ManualTargetReached,
-    /// The mission goes on.
+    /// The mission was resumed.
     Resumed,
-    /// An operator has the motors cut.
+    /// An operator has ordered the motors to be cut.
     CutOrdered,
-    /// The safety layer replaced a command.
+    /// The safety layer has replaced a command.
     Veto(Veto),
 }
 
 impl FlightEvent {
-    /// Whether somebody should worry.
+    /// Whether the event deserves the operator's attention.
     pub fn warns(&self) -> bool {
         match self {
             Self::Connected
@@ -137,7 +137,7 @@ impl fmt::Display for FlightEvent {
         match self {
             Self::Connected => f.write_str("drone found"),
             Self::ConfigurationRead { version: Some(version) } => {
-                // The drone's own words, or those of whoever answers in its place.
+                // The version string comes over the network, so it may contain anything.
                 write!(f, "configuration read back, firmware {}", printable(version))
             }
             Self::ConfigurationRead { version: None } => f.write_str("configuration read back"),
@@ -197,40 +197,40 @@ fn counted(steps: usize) -> String {
     }
 }
 
-/// A target that was reached and stayed at.
+/// A target that was reached and held for its stay time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Waypoint {
-    /// Its step in the plan.
+    /// Index of its step in the plan.
     pub step: usize,
-    /// Where the drone was to be.
+    /// Target pose.
     pub target: Pose,
-    /// Where the estimator saw it at the end of the stay.
+    /// Estimated pose at the end of the stay.
     pub pose: Pose,
-    /// Standard deviation of that on each horizontal axis.
+    /// Standard deviation of that estimate on each horizontal axis.
     pub horizontal_deviation_m: f64,
-    /// When that was.
+    /// Time of the end of the stay.
     pub at: Duration,
 }
 
 impl Waypoint {
-    /// How far the estimate was from the target.
+    /// Distance between estimate and target.
     pub fn error_m(&self) -> f64 {
         distance(&self.pose, &self.target)
     }
 }
 
-/// What remains of a flight.
+/// Summary of a flight.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FlightReport {
-    /// Steps of the mission when the flight ended.
+    /// Number of mission steps when the flight ended.
     pub steps: usize,
-    /// Steps up to the last one that was carried out.
+    /// Number of steps up to the last one that was carried out.
     pub steps_done: usize,
     /// Targets reached, in order.
     pub waypoints: Vec<Waypoint>,
     /// When the take-off was ordered.
     pub took_off_at: Option<Duration>,
-    /// When the drone said that it has landed.
+    /// When the drone reported that it has landed.
     pub landed_at: Option<Duration>,
 }
 
@@ -240,51 +240,52 @@ impl FlightReport {
         self.landed_at?.checked_sub(self.took_off_at?)
     }
 
-    /// How far the drone was from its last target at the end of its stay.
+    /// Distance from the last target at the end of its stay.
     pub fn final_error_m(&self) -> Option<f64> {
         self.waypoints.last().map(Waypoint::error_m)
     }
 }
 
-/// A snapshot for whoever watches.
+/// A snapshot for displays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Status {
-    /// What the flight is doing, in one word.
+    /// Phase of the flight.
     pub phase: Phase,
-    /// The step that is being flown.
+    /// Index of the step being flown.
     pub step: Option<usize>,
-    /// Steps of the plan.
+    /// Number of plan steps.
     pub steps: usize,
-    /// The mission waits: an operator holds or flies the drone.
+    /// The mission is paused: an operator holds or flies the drone.
     pub mission_waits: bool,
-    /// Who has the controls.
+    /// The operator who has the controls.
     pub controls: Option<Operator>,
-    /// Where the drone is.
+    /// Estimated pose.
     pub pose: Pose,
-    /// Where it is going.
+    /// Current target pose.
     pub target: Option<Pose>,
-    /// How far that is.
+    /// Distance to the target.
     pub distance_m: Option<f64>,
     /// Remaining charge.
     pub battery_percent: Option<u32>,
-    /// Standard deviation of the place on each horizontal axis: what is integrated drifts.
+    /// Standard deviation of the position on each horizontal axis. It grows with time, because velocity is
+    /// integrated.
     pub horizontal_deviation_m: f64,
     /// Standard deviation of the height.
     pub vertical_deviation_m: f64,
     /// What is known by tags, if they are used.
     pub tags: Option<TagStatus>,
-    /// Whether navdata can be believed.
+    /// Whether navdata are plausible.
     pub trust: Trust,
-    /// How this airframe answers its sticks, as far as that is known.
+    /// Identified response of this airframe to its sticks.
     pub airframe: Airframe,
     /// Age of the newest navdata.
     pub navdata_age: Option<Duration>,
-    /// How many packets came in the last second, smoothed.
+    /// Navdata packets per second, low-pass filtered.
     pub navdata_hz: f64,
-    /// Roll and pitch as the drone tells them: right side down, nose up.
+    /// Roll and pitch reported by the drone: right side down, nose up.
     pub attitude_deg: Option<[f64; 2]>,
-    /// The plans that the agent chose in the last tick.
+    /// Agent plans chosen in the last tick.
     pub plans: ChosenPlans,
-    /// What it ordered; nothing before the first navdata.
+    /// The agent's command; `None` before the first navdata.
     pub command: Option<&'static str>,
 }

@@ -8,7 +8,7 @@ fn vehicle(plan: &str) -> Vehicle {
 }
 
 #[test]
-fn nothing_is_said_to_a_drone_that_was_not_heard() {
+fn nothing_is_sent_to_a_drone_that_was_not_heard() {
     let mut vehicle = vehicle("takeoff\nland");
     vehicle.tick(Duration::ZERO).unwrap();
     assert_eq!(vehicle.poll_transmit(), Some(Transmit::WakeUp));
@@ -64,7 +64,7 @@ fn limits_that_the_drone_has_not_taken_forbid_the_flight_and_a_missing_clock_doe
     assert_eq!(vehicle.configured.unconfirmed, ["control:altitude_max"]);
 }
 
-/// Why a vehicle that has just heard a drone on the ground does not take off.
+/// Reasons why a vehicle that has just heard a drone on the ground does not take off.
 fn refusals(plan: &str, demo: Demo, packets: u64, later: Duration) -> Vec<String> {
     let mut vehicle = vehicle(plan);
     let mut bytes = BytesMut::new();
@@ -81,17 +81,17 @@ fn refusals(plan: &str, demo: Demo, packets: u64, later: Duration) -> Vec<String
 }
 
 #[test]
-fn the_pre_flight_check_tells_every_reason() {
+fn the_pre_flight_check_reports_every_reason() {
     let control_state = ControlState::Landed;
     let fine = Demo { battery_percent: 60, control_state, ..Demo::default() };
     let short = "takeoff\nland";
     let now = Duration::from_millis(60);
     assert_eq!(refusals(short, fine, 15, now), [""; 0]);
-    let leaning = Demo { pitch_deg: -9.0, ..fine };
+    let tilted = Demo { pitch_deg: -9.0, ..fine };
     assert_eq!(
-        refusals(short, leaning, 3, now),
+        refusals(short, tilted, 3, now),
         [
-            "the drone leans by 9°: put it on level ground",
+            "the drone is tilted by 9°: put it on level ground",
             "only 3 packets of flight data a second: at least 5 are needed; go nearer, or to \
              another channel",
         ]

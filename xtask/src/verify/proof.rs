@@ -1,8 +1,8 @@
-//! Proves the properties of an agent on its C, for every environment and any number of steps.
+//! Proves properties of an agent on its C, for every environment and any number of steps.
 //!
-//! CBMC checks one transition from any state that satisfies an invariant. The invariant is found by
-//! dropping, from many candidates, those that do not hold in the beginning or that some transition
-//! breaks, until the rest proves itself (Flanagan and Leino, "Houdini", FME 2001).
+//! CBMC checks one transition from any state that satisfies an invariant. The invariant is found by starting
+//! with many candidates and dropping those that do not hold initially or that some transition breaks, until
+//! the rest is inductive (Flanagan and Leino, "Houdini", FME 2001).
 
 use std::path::Path;
 use std::process::Command;
@@ -12,16 +12,16 @@ use translator::{HARNESS, Obligations, Promise, obligations, parse_configuration
 use super::mutants::RUN_TIME;
 use super::{Agent, VerifyError, in_file, write};
 
-/// What was proved of one agent, and what was not.
+/// Result of the proof of one agent.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Verdict {
-    /// Each property, and whether it holds in every environment, however long the agent runs.
+    /// Each property, and whether it holds in every environment for any number of steps.
     pub(super) properties: Vec<(Promise, bool)>,
-    /// Errors at run time that could not be excluded, as the tools say it.
+    /// Run-time errors that could not be excluded, as reported by the tools.
     pub(super) run_time: Vec<String>,
     /// The candidates that are invariant.
     pub(super) invariant: Vec<String>,
-    /// How many candidates there were.
+    /// Number of candidates.
     pub(super) candidates: usize,
 }
 
@@ -31,7 +31,7 @@ impl Verdict {
         self.run_time.is_empty() && self.properties.iter().all(|(_, holds)| *holds)
     }
 
-    /// What was not proved.
+    /// Properties that were not proved.
     pub(super) fn broken(&self) -> Vec<&str> {
         let properties = self.properties.iter().filter(|(_, holds)| !holds);
         let run_time = (!self.run_time.is_empty()).then_some(RUN_TIME);
@@ -39,9 +39,9 @@ impl Verdict {
     }
 }
 
-/// Proves what can be proved of an agent with a CBMC; `folder` is for generated files, and `change`
-/// may spoil them. If an invariant is known that nearly holds, only its conditions are tried.
-/// It is `enough` to know that this property is not proved: with fewer conditions it is not proved either.
+/// Proves the properties of an agent with CBMC; `folder` is for generated files, and `change` may modify them
+/// (for mutants). If a nearly valid invariant is known, only its conditions are tried. With `enough`, it
+/// suffices to find that this property is not proved, which then also holds with fewer conditions.
 pub(super) fn prove(
     agent: &Agent<'_>,
     cbmc: &Path,
@@ -92,12 +92,12 @@ pub(super) fn prove(
     Ok(Verdict { properties, run_time, invariant, candidates: candidates.len() })
 }
 
-/// What is looked at besides the candidates.
+/// Checks besides the candidates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Checks {
-    /// The properties.
+    /// The properties only.
     Properties,
-    /// And whatever could be an error at run time.
+    /// The properties and all run-time errors.
     All,
 }
 
@@ -108,8 +108,8 @@ struct Checker<'a> {
 }
 
 impl Checker<'_> {
-    /// Checks a function of the harness with an invariant: what fails besides candidates, and the
-    /// candidates that do not.
+    /// Checks a function of the harness under an invariant: returns the failures other than candidates, and
+    /// the indices of candidates that fail.
     fn check(
         &self,
         function: &str,

@@ -239,9 +239,9 @@ function drawButtons() {
 
 function drawFacts() {
   $("phase").textContent = over ? "over" : status.mission_waits ? "by hand, mission waits" : status.phase;
-  const reasons = !over && readiness && status.phase !== "flying" && status.phase !== "landing" ? readiness.reasons : [];
-  $("ready").textContent = reasons.join("; ") || "–";
-  $("ready").classList.toggle("ill", reasons.length > 0);
+  const grounded = !over && readiness && status.phase !== "flying" && status.phase !== "landing";
+  $("ready").textContent = !grounded ? "–" : readiness.ready ? "yes" : `no: ${readiness.reasons.join("; ")}`;
+  $("ready").classList.toggle("ill", grounded && !readiness.ready);
   $("time").textContent = at(status.t_s);
   $("step").textContent = status.step === null ? "–" : `${status.step + 1} of ${status.steps}`;
   const charge = status.battery_percent;
