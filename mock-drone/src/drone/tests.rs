@@ -345,7 +345,7 @@ fn roundels_are_told_only_of_a_drone_that_was_asked_to_look_for_them() {
         let mut bench = Bench::ready(&config);
         bench.drone.lay_tag(FloorTag::new(0.0, 0.0, 0.0));
         for (key, value) in settings {
-            bench.send(&[Command::Config(Config::new(key, value).unwrap())]);
+            bench.send(&[Command::Config(Config::new(*key, *value).unwrap())]);
         }
         bench.wait(Duration::from_millis(200));
         assert_eq!(tags_told(&mut bench), seen, "{settings:?}");
