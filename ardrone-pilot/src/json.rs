@@ -112,6 +112,12 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "battery_percent": battery_percent,
                 "horizontal_deviation_m": status.horizontal_deviation_m,
                 "vertical_deviation_m": status.vertical_deviation_m,
+                "tags": status.tags.map(|tags| json!({
+                    "known": tags.known,
+                    "seen_s": tags.seen_ago.map(|ago| ago.as_secs_f64()),
+                    "heading_held": tags.heading_held,
+                    "drift_m": [tags.drift_m.x, tags.drift_m.y],
+                })),
                 "attitude_deg": status.attitude_deg,
                 "navdata_hz": status.navdata_hz,
                 "navdata_age_s": status.navdata_age.map(|age| age.as_secs_f64()),

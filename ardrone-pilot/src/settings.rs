@@ -3,6 +3,8 @@
 //! [`DEFAULTS`] documents every setting. Missing settings keep their defaults; a file with an invalid one is
 //! refused as a whole, with all reasons.
 
+mod tags;
+
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
@@ -12,6 +14,9 @@ use estimator::{DroneLimits, EstimatorConfig};
 use nalgebra::Vector2;
 use pid::{CascadeConfig, Law, PidGains};
 use serde::{Deserialize, Serialize};
+
+pub use self::tags::GivenTag;
+use self::tags::Tags;
 
 /// The default `pilot.toml`, with comments.
 pub const DEFAULTS: &str = include_str!("../pilot.toml");
@@ -25,6 +30,7 @@ pub struct Settings {
     delays: Delays,
     airframe: Airframe,
     estimator: Estimator,
+    tags: Tags,
     controller: Controller,
 }
 
@@ -262,9 +268,30 @@ impl Settings {
         self.controller.law = law;
     }
 
+    /// Uses roundels on the floor, and takes these for surveyed.
+    ///
+    /// # Errors
+    /// [`SettingsError::Values`] if they do not fit together, or with those of the settings.
+    pub fn use_tags(&mut self, surveyed: &[GivenTag]) -> Result<(), SettingsError> {
+        self.tags.detect = true;
+        for tag in surveyed {
+            self.tags.add(tag);
+        }
+        let reasons = self.tags.reasons_against();
+        if reasons.is_empty() {
+            return Ok(());
+        }
+        Err(SettingsError::Values { path: "--tag".to_owned(), reasons })
+    }
+
+    /// The tags that are used and surveyed; nothing if tags are not used.
+    pub fn surveyed_tags(&self) -> Option<Vec<GivenTag>> {
+        self.tags.detect.then(|| self.tags.surveyed().collect())
+    }
+
     /// The vehicle's configuration.
     pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
-        let Self { fence, drone, delays, airframe, estimator, controller } = self;
+        let Self { fence, drone, delays, airframe, estimator, tags, controller } = self;
         let limits = DroneLimits {
             tilt_rad: drone.tilt_max_deg.to_radians(),
             climb_m_s: drone.climb_max_m_s,
@@ -305,13 +332,14 @@ impl Settings {
                 disturbance_gain_1_s2: estimator.disturbance_gain_1_s2,
                 disturbance_max_m_s2: estimator.disturbance_max_m_s2,
                 identify: airframe.identify,
+                tags: tags.config(),
             },
             cascade: controller.cascade(&limits),
         }
     }
 
     fn reasons_against(&self) -> Vec<String> {
-        let Self { fence, drone, delays, airframe, estimator, controller: c } = self;
+        let Self { fence, drone, delays, airframe, estimator, tags, controller: c } = self;
         let mut reasons = Vec::new();
         for (name, value, range) in [
             ("fence.floor_m", fence.floor_m, 0.1..=3.0),
@@ -354,6 +382,7 @@ impl Settings {
         ] {
             reasons.extend(outside(name, value, &range));
         }
+        reasons.extend(tags.reasons_against());
         if fence.floor_m >= fence.ceiling_m {
             reasons.push("fence.floor_m is not below fence.ceiling_m".to_owned());
         }

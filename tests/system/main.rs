@@ -23,5 +23,6 @@ mod safety;
 mod sensors;
 mod sequence;
 mod simulated;
+mod tags;
 mod udp;
 mod vehicle;

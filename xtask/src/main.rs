@@ -11,6 +11,7 @@ mod score;
 mod sensors;
 mod soak;
 mod table;
+mod tags;
 mod verify;
 
 use std::io::Write as _;
@@ -57,6 +58,19 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1_000))]
         seeds: u64,
     },
+    /// Hover and fly over roundels on the floor, and tell how well the pilot knows where it is; fails if that is not
+    /// as good as it must be
+    Tags {
+        /// Seeds of each case, nominal and hard, from 1
+        #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=1_000))]
+        seeds: u64,
+        /// Only cases with this in their name
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+        /// One line for each flight too
+        #[arg(long)]
+        each: bool,
+    },
     /// Fly code with mistakes in it through the campaign; fails if it finds nothing wrong with one of them
     Mutants {
         /// At most this many flights with each
@@ -96,6 +110,7 @@ fn main() -> ExitCode {
             campaign::run(flights, first).map_err(|error| error.to_string())
         }
         Command::Sensors { seeds } => sensors::run(seeds).map_err(|error| error.to_string()),
+        Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each),
         Command::Mutants { all: true, shard, .. } => {
             mutants::all(shard.as_deref()).map_err(|error| error.to_string())
         }

@@ -4,7 +4,7 @@ use bytes::{BufMut, BytesMut};
 use nom::number::complete::{le_u16, le_u32};
 use nom::{IResult, Parser};
 
-use super::options::{Demo, NavdataOption, Time};
+use super::options::{Demo, NavdataOption, Time, VisionDetect};
 use super::state::DroneState;
 
 const MAGIC: u32 = 0x5566_7788;
@@ -129,6 +129,11 @@ impl<'a> Packet<'a> {
     /// Attitude, altitude, velocity and battery, if included.
     pub fn demo(&self) -> Option<Demo> {
         self.payload(0).and_then(Demo::read)
+    }
+
+    /// What the cameras have found, if it is in the packet.
+    pub fn vision_detect(&self) -> Option<VisionDetect> {
+        self.payload(16).and_then(VisionDetect::read)
     }
 
     /// The drone's clock, if included.

@@ -10,6 +10,8 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use crate::settings::GivenTag;
+
 const EXIT_STATUS: &str = "\
 Exit status:
     0  the plan was flown to its end and the drone has landed
@@ -146,6 +148,13 @@ pub(super) struct Fly {
     /// How targets are approached and held; `cascade` unless the settings say otherwise
     #[arg(long, value_name = "LAW", value_parser = laws())]
     pub(super) law: Option<Law>,
+    /// Hold the place by black and white roundels on the floor: find them and map them
+    #[arg(long)]
+    pub(super) tags: bool,
+    /// A roundel whose place is known, right and forward of the start, and which way it points; it may be given
+    /// several times
+    #[arg(long, value_name = "X,Y[,HEADING]", allow_hyphen_values = true)]
+    pub(super) tag: Vec<GivenTag>,
     /// Record the flight to this file [default: flights/DATE.mcap]
     #[arg(long, value_name = "FILE")]
     pub(super) log: Option<PathBuf>,

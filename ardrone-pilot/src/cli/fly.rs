@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{FlightLimits, Plan, Step};
-use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports};
+use mock_drone::{FloorTag, WorldConfig};
 use serde_json::Value;
 use time::UtcDateTime;
 
@@ -23,14 +23,30 @@ use crate::browser::{Browser, Listener};
 use crate::flight::{Controls, Flight, Message};
 use crate::json;
 use crate::recording::{Header, Recorder, Recording};
-use crate::settings::Settings;
+use crate::settings::{GivenTag, Settings};
 use crate::timing::TimingReport;
+
+/// The simulated drone finds its tags where they are said to be, and one below its start if none is.
+fn mock_world(settings: &Settings) -> WorldConfig {
+    let mut world = WorldConfig::default();
+    let Some(surveyed) = settings.surveyed_tags() else { return world };
+    for GivenTag { place_m: [x, y], heading_deg } in &surveyed {
+        world.tags.push(FloorTag::new(*x, *y, heading_deg.unwrap_or(0.0)));
+    }
+    if surveyed.is_empty() {
+        world.tags.push(FloorTag::new(0.0, 0.0, 0.0));
+    }
+    world
+}
 
 /// Flies the plan, or stays and takes orders; returns the exit status.
 pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
     let mut settings = read_settings(arguments.config.as_deref())?;
     if let Some(law) = arguments.law {
         settings.set_law(law);
+    }
+    if arguments.tags || !arguments.tag.is_empty() {
+        settings.use_tags(&arguments.tag)?;
     }
     let config = settings.pilot_config(arguments.z_origin());
     let plan = arguments.plan.as_deref().map(|path| {
@@ -50,7 +66,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         progress.print_line(&format!("note: {note}"));
     }
     let mock = if arguments.mock {
-        Some(MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK)?)
+        Some(MockDrone::start(&mock_world(&settings), Ports::LOOPBACK)?)
     } else {
         None
     };

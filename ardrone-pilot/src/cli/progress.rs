@@ -191,6 +191,7 @@ mod tests {
             battery_percent: Some(87),
             horizontal_deviation_m: 0.1,
             vertical_deviation_m: 0.02,
+            tags: None,
             trust: Trust::Sound,
             airframe: Airframe::default(),
             navdata_age: Some(Duration::from_millis(40)),

@@ -20,6 +20,7 @@ impl Vehicle {
         step_s: f64,
     ) -> Order {
         self.flight.target = None;
+        self.flight.estimator.advance_smooth(step_s);
         if !matches!(command, AgentCommand::GoTo(_)) {
             self.flight.saturation.rest(state, step_s);
         }
@@ -37,7 +38,8 @@ impl Vehicle {
             AgentCommand::GoTo(target) => {
                 self.flight.target = Some(target);
                 let limit = self.mission.max_control();
-                let demand = self.demand(now, &target, step_s);
+                let turned = self.turned_to_learn(now, &target, step_s);
+                let demand = self.demand(now, &turned, step_s);
                 let demand = self.flight.safety.limit(
                     &demand,
                     limit,
@@ -82,6 +84,8 @@ impl Vehicle {
         // A command takes effect after the dead time, so it is computed for the state predicted at that
         // moment.
         let state = self.state(now + self.config.estimator.dead_time);
+        // A tag that is seen again moves the estimate by a step, which comes as a motion.
+        let state = self.flight.estimator.smooth(&state);
         let Airframe {
             tilt_gain,
             tilt_lag_s,

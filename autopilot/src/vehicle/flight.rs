@@ -9,7 +9,7 @@ use pid::{Pose, PositionController};
 
 use super::manual::Manual;
 use super::saturation::Saturation;
-use super::{FlightReport, LandingReason, VehicleConfig};
+use super::{FlightReport, LandingReason, SignSearch, VehicleConfig};
 use crate::agent::{Activity, Agent};
 use crate::mission::Due;
 use crate::outcome::Outcome;
@@ -39,6 +39,7 @@ pub(super) struct Flight {
     /// Disturbance acceleration averaged over gusts: right, forward.
     pub(super) wind_m_s2: Vector2<f64>,
     pub(super) saturation: Saturation,
+    pub(super) sign_search: SignSearch,
     pub(super) target: Option<Pose>,
     /// When the drone was first asked for full navdata, or else when the flight began.
     pub(super) asked_at: Duration,
@@ -72,6 +73,7 @@ impl Flight {
             fault_since: None,
             wind_m_s2: Vector2::zeros(),
             saturation: Saturation::default(),
+            sign_search: SignSearch::default(),
             target: None,
             asked_at: begins,
             report: FlightReport::default(),

@@ -17,6 +17,7 @@ mod readiness;
 mod report;
 mod saturation;
 mod stage;
+mod tags;
 mod tick;
 
 use std::collections::VecDeque;
@@ -26,8 +27,8 @@ use ardrone_link::at::{Config, Datagram, EncodeError};
 use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use ardrone_link::session::{self, Received, Session, SessionConfig};
-use ardrone_link::settings::{Setting, SettingError};
-pub use estimator::{Airframe, Quantity, Trust};
+use ardrone_link::settings::{Detection, Setting, SettingError};
+pub use estimator::{Airframe, KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use estimator::{EstimatorConfig, Prediction};
 pub use pid::Law;
 use pid::{CascadeConfig, Pose};
@@ -44,6 +45,7 @@ pub use self::protocol::{Input, Output, Transmit};
 pub use self::readiness::NotReady;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
 pub use self::stage::Stage;
+use self::tags::{SignSearch, sights};
 use crate::agent::{Danger, Report, distance};
 use crate::mission::Mission;
 use crate::outcome::Outcome;
@@ -119,6 +121,11 @@ const READINESS_TICKS: u32 = 10;
 /// Requests the drone's clock in demo mode. Some firmware lets only a custom configuration change this key,
 /// so flying does not depend on it.
 const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
+/// What makes the drone look for roundels. A firmware may not know it, or not let the default configuration
+/// change it: the flight does not depend on it.
+const DETECTION_SECTION: &str = "detect:";
+/// The black and white oriented roundel in the selection of the bottom camera.
+const ROUNDEL_BIT: u32 = 1 << 7;
 
 /// State machine that flies one drone.
 #[derive(Debug)]
@@ -158,6 +165,8 @@ struct Configured {
     unconfirmed: Vec<String>,
     /// The configuration could not be read back.
     not_read: bool,
+    /// It does not look for roundels.
+    no_detection: bool,
 }
 
 /// Whether and why this program may send commands to the drone.
@@ -257,6 +266,9 @@ impl Vehicle {
                 self.session_events(now);
                 if let Some(demo) = &navdata.demo {
                     self.flight.estimator.update(&sample(now, &navdata, demo));
+                    if self.config.estimator.tags.is_some() {
+                        self.flight.estimator.see(&sights(datagram));
+                    }
                 }
                 self.navdata = Some(navdata);
             }
@@ -330,6 +342,11 @@ impl Vehicle {
         &self.flight.report
     }
 
+    /// The tags that are known, if they are used.
+    pub fn known_tags(&self) -> impl Iterator<Item = KnownTag> + '_ {
+        self.flight.estimator.known_tags()
+    }
+
     /// A snapshot for displays.
     pub fn status(&self, now: Duration) -> Status {
         // The last tick has already predicted the state for this moment.
@@ -349,6 +366,7 @@ impl Vehicle {
             battery_percent: self.demo().map(|demo| demo.battery_percent),
             horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
+            tags: self.flight.estimator.tag_status(now),
             trust: self.flight.estimator.trust(),
             airframe: *self.flight.estimator.airframe(),
             navdata_age: self.session.silence(now),
@@ -386,7 +404,7 @@ fn pose(state: &Prediction) -> Pose {
 /// Settings made before each flight, because other clients may have left different values.
 fn drone_settings(config: &VehicleConfig) -> Result<Vec<Config>, SettingError> {
     let limits = &config.estimator.limits;
-    [
+    let mut settings = vec![
         Setting::NavdataDemo(config.navdata == NavdataRate::Demo),
         // Options demo, time and vision_detect.
         Setting::NavdataOptions(vec![0, 1, 16]),
@@ -395,10 +413,13 @@ fn drone_settings(config: &VehicleConfig) -> Result<Vec<Config>, SettingError> {
         Setting::EulerAngleMaxDeg(limits.tilt_rad.to_degrees()),
         Setting::ClimbMaxMS(limits.climb_m_s),
         Setting::YawRateMaxDegS(limits.turn_deg_s),
-    ]
-    .iter()
-    .map(Setting::config)
-    .collect()
+    ];
+    if config.estimator.tags.is_some() {
+        // The selection counts for other values of the type; some clients of real drones set it too.
+        settings.push(Setting::DetectionsBottom(ROUNDEL_BIT));
+        settings.push(Setting::DetectType(Detection::OrientedRoundel));
+    }
+    settings.iter().map(Setting::config).collect()
 }
 
 #[cfg(test)]

@@ -6,8 +6,8 @@ use std::time::Duration;
 use super::readiness::NotReady;
 use super::{
     AgentOrder, Authority, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration,
-    Configured, Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT, NAVDATA_OPTIONS_KEY, SETTLE_TIME,
-    Trust, Vehicle, Veto, session,
+    Configured, DETECTION_SECTION, Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT,
+    NAVDATA_OPTIONS_KEY, SETTLE_TIME, Trust, Vehicle, Veto, session,
 };
 use crate::outcome::Outcome;
 
@@ -538,9 +538,13 @@ impl Vehicle {
 
     /// A limit that the drone has not applied forbids the flight. Without the additional navdata options the
     /// estimator falls back to arrival times.
-    fn setting_unconfirmed(&mut self, key: &str) {
+    pub(super) fn setting_unconfirmed(&mut self, key: &str) {
         if key == NAVDATA_OPTIONS_KEY {
             self.events.push_back(FlightEvent::NoDroneClock);
+        } else if key.starts_with(DETECTION_SECTION) {
+            if !std::mem::replace(&mut self.configured.no_detection, true) {
+                self.events.push_back(FlightEvent::NoTagDetection);
+            }
         } else if !self.configured.unconfirmed.iter().any(|other| other == key) {
             self.configured.unconfirmed.push(key.to_owned());
         }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use diagnostic::printable;
-use estimator::{Airframe, Trust};
+use estimator::{Airframe, TagStatus, Trust};
 use pid::Pose;
 
 use super::{LandingReason, Operator, Phase};
@@ -25,6 +25,8 @@ pub enum FlightEvent {
     ConfigurationNotRead,
     /// The drone does not send its clock: time is taken from the arrival of packets.
     NoDroneClock,
+    /// The drone does not confirm that it looks for roundels: the place may drift.
+    NoTagDetection,
     /// All settings are applied.
     Configured,
     /// The drone is already in the air, and the plan takes it over.
@@ -116,6 +118,7 @@ impl FlightEvent {
             | Self::ManualTargetReached
             | Self::Resumed => false,
             Self::ConfigurationNotRead
+            | Self::NoTagDetection
             | Self::TargetCorrected { .. }
             | Self::LandingOrdered(_)
             | Self::LinkLost
@@ -144,6 +147,9 @@ impl fmt::Display for FlightEvent {
             Self::NoDroneClock => {
                 f.write_str("the drone does not send its clock: taking the arrival of packets")
             }
+            Self::NoTagDetection => f.write_str(
+                "the drone does not confirm that it looks for tags: the place may drift as without them",
+            ),
             Self::Configured => f.write_str("drone configured, level reference set"),
             Self::TakingOver => f.write_str("the drone flies: taking it over"),
             Self::StepStarted { step } => write!(f, "step {}", step + 1),
@@ -266,6 +272,8 @@ pub struct Status {
     pub horizontal_deviation_m: f64,
     /// Standard deviation of the height.
     pub vertical_deviation_m: f64,
+    /// What is known by tags, if they are used.
+    pub tags: Option<TagStatus>,
     /// Whether navdata are plausible.
     pub trust: Trust,
     /// Identified response of this airframe to its sticks.

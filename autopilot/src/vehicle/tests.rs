@@ -109,3 +109,28 @@ fn the_pre_flight_check_reports_every_reason() {
         ["battery at 60 %: the plan takes about 310 s, for which 64 % are needed"]
     );
 }
+
+#[test]
+fn a_firmware_that_does_not_look_for_tags_is_reported_and_flown() {
+    let mut config = VehicleConfig::default();
+    let keys = |config: &VehicleConfig| {
+        let vehicle = Vehicle::new(config).unwrap();
+        let keys = vehicle
+            .settings
+            .iter()
+            .map(|setting| (setting.key().to_owned(), setting.value().to_owned()));
+        keys.filter(|(key, _)| key.starts_with(DETECTION_SECTION)).collect::<Vec<_>>()
+    };
+    assert_eq!(keys(&config), [], "off unless asked for");
+    config.estimator.tags = Some(TagConfig::default());
+    let detection = [("detect:detections_select_v", "128"), ("detect:detect_type", "12")]
+        .map(|(key, value)| (key.to_owned(), value.to_owned()));
+    assert_eq!(keys(&config), detection);
+    let mut vehicle = Vehicle::new(&config).unwrap();
+    for (key, _) in &detection {
+        vehicle.setting_unconfirmed(key);
+    }
+    let told = vehicle.events.iter().filter(|event| **event == FlightEvent::NoTagDetection);
+    assert_eq!(told.count(), 1);
+    assert_eq!(vehicle.configured.unconfirmed, Vec::<String>::new());
+}

@@ -281,7 +281,7 @@ impl Vehicle {
         self.flight.report.steps_done = active.due.step + 1;
         match active.due.order {
             AgentOrder::TakeOff => {
-                self.mission.take_off_ended(&pose);
+                self.mission.take_off_ended(&self.plan_origin(pose));
                 self.flight.report.took_off_at.get_or_insert(active.since);
             }
             AgentOrder::GoTo(target) => {

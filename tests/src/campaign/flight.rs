@@ -57,7 +57,12 @@ impl Flight {
         let plan = Plan::parse_within("campaign", &plan_text, &limits)
             .unwrap_or_else(|error| panic!("{error}"));
         let simulation = Simulation {
-            world: WorldConfig { drone, link, scenario: injected.scenario() },
+            world: WorldConfig {
+                drone,
+                link,
+                scenario: injected.scenario(),
+                ..WorldConfig::default()
+            },
             pilot: VehicleConfig { limits, ..VehicleConfig::default() },
             orders,
             stalls: injected.stalls.clone(),

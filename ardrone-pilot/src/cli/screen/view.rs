@@ -305,7 +305,7 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
             ),
             _ => "target  -".to_owned(),
         },
-        format!("known   to {:.2} m", status.horizontal_deviation_m),
+        format!("known   to {:.2} m{}", status.horizontal_deviation_m, tags(status)),
         ticks(&view.ticks),
     ];
     if !view.not_ready.is_empty() {
@@ -317,6 +317,15 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
         lines.push(format!("tilt    {roll_deg:+.1}° right, {:+.1}° forward", -pitch_deg));
     }
     frame.render_widget(Paragraph::new(lines.join("\n")), text);
+}
+
+/// What the place is known by besides the flow.
+fn tags(status: &Status) -> String {
+    let Some(tags) = &status.tags else { return String::new() };
+    match tags.seen_ago {
+        Some(ago) => format!(", {} tags, seen {:.1} s ago", tags.known, ago.as_secs_f64()),
+        None => ", no tag seen yet".to_owned(),
+    }
 }
 
 fn ticks(health: &TickHealth) -> String {
@@ -376,6 +385,7 @@ mod tests {
                 battery_percent: Some(87),
                 horizontal_deviation_m: 0.12,
                 vertical_deviation_m: 0.02,
+                tags: None,
                 trust: Trust::Sound,
                 airframe: Airframe::default(),
                 navdata_age: Some(Duration::from_millis(40)),
