@@ -77,6 +77,11 @@ impl ParsedConfiguration {
         TranslateError::Refused(gather([(found, self.source())]))
     }
 
+    /// What the configuration declares.
+    pub fn declarations(&self) -> &Configuration {
+        &self.configuration
+    }
+
     fn source(&self) -> Source<'_> {
         Source { name: &self.name, text: &self.text }
     }

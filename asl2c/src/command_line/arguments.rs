@@ -82,6 +82,12 @@ pub(super) enum Task {
         #[arg(value_name = "NAME")]
         name: String,
     },
+    /// Run the agent by the reference interpreter, without any C: a prompt for calls of its interface, results of
+    /// its functions, steps, and a look into its mind
+    ///
+    /// `help` tells what can be said. Input that is no terminal is carried out line by line; the exit status is 1 if
+    /// a line has an error, shows something else than a transcript says, or breaks a property.
+    Run(Run),
     /// Check the configuration's properties with SPIN, on a model of the agent in any environment
     ///
     /// A property that does not hold is told as a way to its failure in the agent's own terms: what the
@@ -111,4 +117,16 @@ pub(super) struct Verify {
     /// How errors are printed: for people, or each as a line of JSON
     #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
     pub(super) message_format: String,
+}
+
+/// Arguments of `asl2c run`.
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    /// The agent's configuration
+    #[arg(value_name = "AGENT.CONF")]
+    pub(super) configuration: PathBuf,
+    /// Carry out the lines of this file. If some begin with `>` they are a transcript: those are carried out, and
+    /// what stands between them must come of them
+    #[arg(long, value_name = "FILE")]
+    pub(super) script: Option<PathBuf>,
 }

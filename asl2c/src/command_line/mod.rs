@@ -2,6 +2,8 @@
 
 mod arguments;
 mod messages;
+mod prompt;
+mod run;
 mod verdicts;
 
 use std::io::Write as _;
@@ -36,6 +38,9 @@ enum CommandError {
     /// Warnings that are refused, with the others that are wanted.
     #[error("{}\n\nerror: {}", .0, denied(.0))]
     Denied(Diagnostics),
+    /// The prompt does not work, or what is typed cannot be read.
+    #[error("cannot read what is typed: {0}")]
+    Typed(String),
     #[error("cannot print {what}: {source}")]
     Print { what: &'static str, source: std::io::Error },
 }
@@ -53,6 +58,7 @@ pub fn run() -> ExitCode {
         (Some(Task::New { name }), _) => {
             (make(name, printed).map(|()| ExitCode::SUCCESS).map_err(CommandError::from), false)
         }
+        (Some(Task::Run(asked)), _) => (run::run(asked), false),
         (Some(Task::Verify(asked)), _) => (check(asked), is_json(&asked.message_format)),
         (None, Some(configuration)) => {
             (translate_files(&arguments, configuration), is_json(&arguments.message_format))
@@ -126,6 +132,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
         error,
         CommandError::Read(ReadError::File { .. })
             | CommandError::Print { .. }
+            | CommandError::Typed(_)
             | CommandError::New(_)
             | CommandError::Output(OutputError::Write { .. })
             | CommandError::Verify(_)
