@@ -43,7 +43,9 @@ use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
 use gather::gather;
 pub use model::{Happening, Model};
-pub use obligations::{HARNESS, Obligations, Promise, RANDOM_TRANSITIONS};
+pub use obligations::{
+    ANSWERS, CALLS, HARNESS, Obligations, Promise, RANDOM_TRANSITIONS, STEPS,
+};
 pub use report::Report;
 use reserved::is_rust_word;
 use syntax::ast::Name;

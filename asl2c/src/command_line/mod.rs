@@ -3,6 +3,7 @@
 mod arguments;
 mod messages;
 mod prompt;
+mod prove;
 mod run;
 mod verdicts;
 
@@ -20,6 +21,7 @@ use crate::agent::{Agent, ReadError};
 use crate::measure::measure;
 use crate::new::{NewError, make};
 use crate::output::{self, OutputError};
+use crate::prove::ProveError;
 use crate::verify::{VerifyError, verify};
 
 /// Why nothing came of what was asked for.
@@ -31,6 +33,8 @@ enum CommandError {
     Translate(#[from] TranslateError),
     #[error(transparent)]
     Verify(#[from] VerifyError),
+    #[error(transparent)]
+    Prove(#[from] ProveError),
     #[error(transparent)]
     Output(#[from] OutputError),
     #[error(transparent)]
@@ -59,6 +63,7 @@ pub fn run() -> ExitCode {
             (make(name, printed).map(|()| ExitCode::SUCCESS).map_err(CommandError::from), false)
         }
         (Some(Task::Run(asked)), _) => (run::run(asked), false),
+        (Some(Task::Prove(asked)), _) => (prove::run(asked), is_json(&asked.message_format)),
         (Some(Task::Verify(asked)), _) => (check(asked), is_json(&asked.message_format)),
         (None, Some(configuration)) => {
             (translate_files(&arguments, configuration), is_json(&arguments.message_format))
@@ -136,10 +141,17 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
             | CommandError::New(_)
             | CommandError::Output(OutputError::Write { .. })
             | CommandError::Verify(_)
+            | CommandError::Prove(_)
     );
     let prefix = if ours { "error: " } else { "" };
     complain_of(&if as_json { error_lines(error) } else { format!("{prefix}{error}") });
-    if matches!(error, CommandError::Verify(_)) { NOT_CHECKED.into() } else { ExitCode::FAILURE }
+    let nothing_known = matches!(
+        error,
+        CommandError::Verify(_)
+            | CommandError::Prove(_)
+            | CommandError::Translate(TranslateError::Unprovable { .. })
+    );
+    if nothing_known { NOT_CHECKED.into() } else { ExitCode::FAILURE }
 }
 
 /// Prints a message. One that cannot be printed has nowhere else to go.

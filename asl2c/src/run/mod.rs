@@ -9,5 +9,6 @@ mod values;
 mod world;
 
 pub(crate) use self::script::is_skipped;
+pub(crate) use self::session::IDLE;
 pub use self::session::Session;
 pub use self::transcript::{Replay, replay};

@@ -1,18 +1,21 @@
 //! A run of an agent: its state, and the states before, to which it can go back.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use diagnostic::Diagnostic;
 use translator::configuration::{Configuration, ExternalTrigger};
-use translator::interpreter::{Interpreter, Value};
+use translator::interpreter::{Interpreter, Value, trigger, with_values};
 use translator::types::TypeKind;
-use translator::{ParsedConfiguration, TranslateError};
+use translator::{Happening, ParsedConfiguration, TranslateError};
 
 use super::monitor::Monitors;
 use super::script::{Statement, parse_line, words};
 use super::values::zero;
 use super::world::{Answers, World};
 
+/// What is told of a step in which nothing happens.
+pub(crate) const IDLE: &str = "no event waits";
 /// States that can be gone back to.
 const KEPT: usize = 500;
 
@@ -27,9 +30,9 @@ const KEPT: usize = 500;
 /// assert_eq!(shown, ["switchOn()"]);
 /// # Ok::<(), translator::TranslateError>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Session {
-    pub(super) configuration: Configuration,
+    pub(super) configuration: Arc<Configuration>,
     pub(super) now: State,
     before: VecDeque<State>,
     pub(super) broken: Vec<String>,
@@ -62,6 +65,7 @@ impl Session {
         }
         let monitors = Monitors::new(&configuration);
         let now = State { agent, world, monitors, steps: 0 };
+        let configuration = Arc::new(configuration);
         Ok(Self { configuration, now, before: VecDeque::new(), broken: Vec::new(), ended: false })
     }
 
@@ -109,9 +113,35 @@ impl Session {
         words(&self.configuration)
     }
 
-    /// What happened in the last step and why, and how many steps there were.
-    pub(crate) fn last_step(&self) -> (u64, &[translator::Happening]) {
-        (self.now.steps, &self.now.world.story)
+    /// Steps since the beginning.
+    pub(crate) fn steps(&self) -> u64 {
+        self.now.steps
+    }
+
+    /// Does what a line says, and returns what that is in the agent's words.
+    pub(crate) fn told(&mut self, line: &str) -> Vec<Happening> {
+        let parsed = parse_line(line, &self.configuration);
+        let Ok(shown) = self.execute(line) else { return Vec::new() };
+        let at = |depth, text: String| Happening::new(depth, None, text);
+        match parsed.unwrap_or_default().first() {
+            Some(Statement::Raise(event, values)) => {
+                let event = trigger(event.operator, event.kind, &event.name.text, values);
+                let refused = shown.first().map_or("", |_| ", which is refused: the inbox is full");
+                return vec![at(0, format!("the environment raises {event}{refused}"))];
+            }
+            Some(Statement::Set(belief, values)) => {
+                let belief = with_values(belief, values);
+                return vec![at(0, format!("the environment tells {belief}"))];
+            }
+            Some(Statement::Step(_)) => {}
+            // What functions return is told where they are called.
+            _ => return Vec::new(),
+        }
+        let story = &self.now.world.story;
+        let idle = if story.is_empty() { format!(": {IDLE}") } else { String::new() };
+        let step = at(0, format!("step {}{idle}", self.now.steps));
+        // Plans that do not apply are told with all that was asked for them.
+        std::iter::once(step).chain(story.iter().cloned()).collect()
     }
 
     fn statement(&mut self, statement: Statement, shown: &mut Vec<String>) -> Result<(), String> {
@@ -127,7 +157,7 @@ impl Session {
                 self.now.steps = 0;
             }
             Statement::Clear => self.now.agent.clear(),
-            Statement::Step(count) => self.steps(count, shown)?,
+            Statement::Step(count) => self.make_steps(count, shown)?,
             Statement::Run(most) => self.run(most, shown)?,
             Statement::Mind => shown.extend(self.mind()),
             Statement::Undo(count) => self.undo(count)?,

@@ -11,7 +11,7 @@ const MOST_LINES: usize = 100_000;
 const LOOKED_BACK: usize = 64;
 
 impl Session {
-    pub(super) fn steps(&mut self, count: u32, shown: &mut Vec<String>) -> Result<(), String> {
+    pub(super) fn make_steps(&mut self, count: u32, shown: &mut Vec<String>) -> Result<(), String> {
         for _ in 0..count {
             self.step(shown)?;
         }

@@ -1,7 +1,7 @@
 //! What an interpreted agent believes, and what it has yet to do.
 
 use super::telling::{key_text, with_values};
-use super::{Interpreter, Value, key_of};
+use super::{Interpreter, Value};
 use crate::syntax::ast::{Operator, TriggerKind};
 
 impl Interpreter {
@@ -55,17 +55,5 @@ impl Interpreter {
             && self.preemptive == other.preemptive
             && self.perceived == other.perceived
             && self.deferred == other.deferred
-    }
-
-    /// Events that some plan is for: `+!land`, each once, in the order of the source.
-    pub fn triggers(&self) -> Vec<String> {
-        let mut triggers: Vec<String> = Vec::new();
-        for plan in &self.agent.plans {
-            let text = key_text(&key_of(&plan.trigger));
-            if !triggers.contains(&text) {
-                triggers.push(text);
-            }
-        }
-        triggers
     }
 }

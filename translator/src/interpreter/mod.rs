@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 use self::evaluate::Substitution;
 use self::telling::{Limit, Source};
+pub use self::telling::{trigger, with_values};
 pub use self::value::Value;
 use crate::configuration::Configuration;
 use crate::syntax::ast::{Agent, Atom, Formula, Operator, Plan, Relation, Trigger, TriggerKind};

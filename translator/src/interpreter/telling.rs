@@ -3,7 +3,7 @@
 use super::{Environment, Event, Interpreter, Key, Origin, Value};
 use crate::Happening;
 use crate::program::trigger_text;
-use crate::syntax::ast::{Atom, Formula, Plan};
+use crate::syntax::ast::{Atom, Formula, Operator, Plan, TriggerKind};
 
 /// The agent's text, to quote it and to count its lines.
 #[derive(Debug)]
@@ -82,8 +82,13 @@ impl Limit {
     }
 }
 
-/// `+!goTo(1, 2)`
-pub(super) fn with_values(head: &str, values: &[Value]) -> String {
+/// An event as agents write it: `+!goTo(1, 2)`.
+pub fn trigger(operator: Operator, kind: TriggerKind, name: &str, values: &[Value]) -> String {
+    with_values(&trigger_text(operator, kind, name), values)
+}
+
+/// A name with values behind it, if there are any: `goTo(1, 2)`.
+pub fn with_values(head: &str, values: &[Value]) -> String {
     if values.is_empty() {
         return head.to_owned();
     }
@@ -147,6 +152,10 @@ impl Interpreter {
     }
 
     pub(super) fn tell_no_plan(&self, key: &Key, environment: &mut dyn Environment) {
+        // That nobody cares for a change of a belief is nothing to tell.
+        if key.1 == TriggerKind::Belief {
+            return;
+        }
         self.tell(0, None, || format!("no plan for {} applies", key_text(key)), environment);
     }
 
