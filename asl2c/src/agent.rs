@@ -59,7 +59,8 @@ fn folder(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
-fn read(path: &Path) -> Result<String, ReadError> {
+/// The text of a file.
+pub(crate) fn read(path: &Path) -> Result<String, ReadError> {
     let bytes =
         std::fs::read(path).map_err(|source| ReadError::File { path: path.to_owned(), source })?;
     // Bytes that are no UTF-8 become characters that the lexer refuses, with line and column.

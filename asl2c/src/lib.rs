@@ -19,10 +19,14 @@ pub mod command_line;
 mod measure;
 mod new;
 mod output;
+mod prove;
+mod run;
 mod spin;
 mod verify;
 
 pub use agent::{Agent, ReadError};
 pub use measure::measure;
+pub use prove::{CBMC, Cbmc, Checks, Plan, Proof, ProveError, prove};
+pub use run::{Replay, Session, replay};
 pub use spin::{SPIN, SpinError, Verdict};
 pub use verify::{Checked, VerifyError, verify};

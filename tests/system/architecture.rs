@@ -8,7 +8,7 @@ use std::process::Command;
 const MAY_USE: [(&str, &[&str]); 11] = [
     ("diagnostic", &[]),
     ("translator", &["diagnostic"]),
-    ("asl2c", &["translator"]),
+    ("asl2c", &["diagnostic", "translator"]),
     ("ardrone-link", &[]),
     ("estimator", &[]),
     ("pid", &[]),

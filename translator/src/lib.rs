@@ -43,7 +43,7 @@ use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
 use gather::gather;
 pub use model::{Happening, Model};
-pub use obligations::{HARNESS, Obligations, Promise, RANDOM_TRANSITIONS};
+pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, RANDOM_TRANSITIONS, STEPS};
 pub use report::Report;
 use reserved::is_rust_word;
 use syntax::ast::Name;
@@ -75,6 +75,11 @@ impl ParsedConfiguration {
         let place = self.configuration.settings.places.get(setting).cloned().unwrap_or_default();
         let found = vec![Code::Overwrites.at(message, place).help(help)];
         TranslateError::Refused(gather([(found, self.source())]))
+    }
+
+    /// What the configuration declares.
+    pub fn declarations(&self) -> &Configuration {
+        &self.configuration
     }
 
     fn source(&self) -> Source<'_> {

@@ -35,6 +35,13 @@ pub struct Happening {
     pub text: String,
 }
 
+impl Happening {
+    /// Something that happens.
+    pub fn new(depth: usize, line: Option<usize>, text: String) -> Self {
+        Self { depth, line, text }
+    }
+}
+
 impl fmt::Display for Happening {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let indentation = "  ".repeat(self.depth);

@@ -6,7 +6,7 @@ use crate::GeneratedFile;
 
 /// Compiled with this defined as a number, the proof's `main` makes so many random transitions and ends; the agent's
 /// C is then compiled by itself.
-pub use crate::backend::c::RANDOM_TRANSITIONS;
+pub use crate::backend::c::{ANSWERS, CALLS, RANDOM_TRANSITIONS, STEPS};
 
 /// The file of a proof that includes all others.
 pub const HARNESS: &str = "harness.c";
@@ -93,7 +93,7 @@ mod tests {
         assert_eq!(obligations.properties[0].requirements, ["R-1"]);
         let harness = &obligations.files.last().unwrap().text;
         for part in
-            ["\"property one\"", "lamp_set_lit(self, any_int())", "lamp_achieve_light(self)"]
+            ["\"property one\"", "= any_int();", "\"calls set_lit\"", "lamp_achieve_light(self)"]
         {
             assert!(harness.contains(part), "{part}:\n{harness}");
         }
@@ -108,7 +108,12 @@ mod tests {
         let configuration = parse_configuration("a.conf", &text).unwrap();
         let obligations = obligations(&configuration, "+!light <- X = on; +lit(1).").unwrap();
         let harness = &obligations.files.last().unwrap().text;
-        for part in ["calls_on = (calls_on < 2U)", "calls_on = 0U;", "return any_bool();"] {
+        for part in [
+            "calls_on = (calls_on < 2U)",
+            "calls_on = 0U;",
+            "= any_bool();",
+            "\"answers on\", result",
+        ] {
             assert!(harness.contains(part), "{part}:\n{harness}");
         }
     }

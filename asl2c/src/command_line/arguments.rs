@@ -82,6 +82,19 @@ pub(super) enum Task {
         #[arg(value_name = "NAME")]
         name: String,
     },
+    /// Run the agent by the reference interpreter, without any C: a prompt for calls of its interface, results of
+    /// its functions, steps, and a look into its mind
+    ///
+    /// `help` tells what can be said. Input that is no terminal is carried out line by line; the exit status is 1 if
+    /// a line has an error, shows something else than a transcript says, or breaks a property.
+    Run(Run),
+    /// Prove the configuration's properties, and that there are no errors at run time, on the agent's C with CBMC
+    ///
+    /// In every environment and for any number of steps: an invariant is found, and proved with the properties. What
+    /// does not hold is told as a way to its failure, with all values, in the agent's own terms; the way is saved as a
+    /// script for `asl2c run --script`. The exit status is 0 if all is proved, 1 if there is a way to a failure, and 3
+    /// if something could not be decided or a tool is missing.
+    Prove(Prove),
     /// Check the configuration's properties with SPIN, on a model of the agent in any environment
     ///
     /// A property that does not hold is told as a way to its failure in the agent's own terms: what the
@@ -105,6 +118,47 @@ pub(super) struct Verify {
     /// Print the model in Promela, and check nothing
     #[arg(long, conflicts_with = "json")]
     pub(super) model: bool,
+    /// Print only what does not hold; `--json` tells of all
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+    /// How errors are printed: for people, or each as a line of JSON
+    #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
+    pub(super) message_format: String,
+}
+
+/// Arguments of `asl2c run`.
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    /// The agent's configuration
+    #[arg(value_name = "AGENT.CONF")]
+    pub(super) configuration: PathBuf,
+    /// Carry out the lines of this file. If some begin with `>` they are a transcript: those are carried out, and
+    /// what stands between them must come of them
+    #[arg(long, value_name = "FILE")]
+    pub(super) script: Option<PathBuf>,
+}
+
+/// Arguments of `asl2c prove`.
+#[derive(Debug, Args)]
+pub(super) struct Prove {
+    /// The agent's configuration
+    #[arg(value_name = "AGENT.CONF")]
+    pub(super) configuration: PathBuf,
+    /// Where the ways to failures go [default: the configuration's folder]
+    #[arg(short, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// The CBMC to use [default: that on the path]
+    #[arg(long, value_name = "PATH")]
+    pub(super) cbmc: Option<PathBuf>,
+    /// Look for ways to failures up to this length, in events, beliefs and steps
+    #[arg(long, value_name = "TRANSITIONS", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(super) length: u32,
+    /// Look for ways to failures for so many seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 600)]
+    pub(super) time: u64,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
     /// Print only what does not hold; `--json` tells of all
     #[arg(short, long)]
     pub(super) quiet: bool,

@@ -28,8 +28,9 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         CommandError::Read(ReadError::File { path, .. }) => general("not-read", Some(path)),
         CommandError::Output(OutputError::Write { path, .. }) => general("not-written", Some(path)),
         CommandError::Print { .. } => general("not-printed", None),
+        CommandError::Typed(_) => general("not-read", None),
         CommandError::New(_) => general("not-made", None),
-        CommandError::Verify(_) => general("not-checked", None),
+        CommandError::Verify(_) | CommandError::Prove(_) => general("not-checked", None),
     }
 }
 

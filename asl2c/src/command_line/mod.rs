@@ -2,6 +2,9 @@
 
 mod arguments;
 mod messages;
+mod prompt;
+mod prove;
+mod run;
 mod verdicts;
 
 use std::io::Write as _;
@@ -18,6 +21,7 @@ use crate::agent::{Agent, ReadError};
 use crate::measure::measure;
 use crate::new::{NewError, make};
 use crate::output::{self, OutputError};
+use crate::prove::ProveError;
 use crate::verify::{VerifyError, verify};
 
 /// Why nothing came of what was asked for.
@@ -30,12 +34,17 @@ enum CommandError {
     #[error(transparent)]
     Verify(#[from] VerifyError),
     #[error(transparent)]
+    Prove(#[from] ProveError),
+    #[error(transparent)]
     Output(#[from] OutputError),
     #[error(transparent)]
     New(#[from] NewError),
     /// Warnings that are refused, with the others that are wanted.
     #[error("{}\n\nerror: {}", .0, denied(.0))]
     Denied(Diagnostics),
+    /// The prompt does not work, or what is typed cannot be read.
+    #[error("cannot read what is typed: {0}")]
+    Typed(String),
     #[error("cannot print {what}: {source}")]
     Print { what: &'static str, source: std::io::Error },
 }
@@ -53,6 +62,8 @@ pub fn run() -> ExitCode {
         (Some(Task::New { name }), _) => {
             (make(name, printed).map(|()| ExitCode::SUCCESS).map_err(CommandError::from), false)
         }
+        (Some(Task::Run(asked)), _) => (run::run(asked), false),
+        (Some(Task::Prove(asked)), _) => (prove::run(asked), is_json(&asked.message_format)),
         (Some(Task::Verify(asked)), _) => (check(asked), is_json(&asked.message_format)),
         (None, Some(configuration)) => {
             (translate_files(&arguments, configuration), is_json(&arguments.message_format))
@@ -126,13 +137,21 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
         error,
         CommandError::Read(ReadError::File { .. })
             | CommandError::Print { .. }
+            | CommandError::Typed(_)
             | CommandError::New(_)
             | CommandError::Output(OutputError::Write { .. })
             | CommandError::Verify(_)
+            | CommandError::Prove(_)
     );
     let prefix = if ours { "error: " } else { "" };
     complain_of(&if as_json { error_lines(error) } else { format!("{prefix}{error}") });
-    if matches!(error, CommandError::Verify(_)) { NOT_CHECKED.into() } else { ExitCode::FAILURE }
+    let nothing_known = matches!(
+        error,
+        CommandError::Verify(_)
+            | CommandError::Prove(_)
+            | CommandError::Translate(TranslateError::Unprovable { .. })
+    );
+    if nothing_known { NOT_CHECKED.into() } else { ExitCode::FAILURE }
 }
 
 /// Prints a message. One that cannot be printed has nowhere else to go.

@@ -7,5 +7,6 @@ mod files;
 mod guide;
 mod harness;
 mod proved;
+mod run;
 mod tool;
 mod verification;

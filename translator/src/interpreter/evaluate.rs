@@ -5,7 +5,7 @@ use crate::syntax::ast::{Atom, Expression, Relation};
 use crate::types::CType;
 
 /// Variables and their values.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Substitution {
     bound: Vec<(String, CType, Value)>,
     /// Types of variables that are asked for and have no value yet.
@@ -96,7 +96,9 @@ impl Interpreter {
             self.configuration.basics.iter().find(|basic| basic.name.text == atom.name.text)?;
         let arguments =
             self.evaluate_all(&atom.arguments, &basic.parameters, theta, environment)?;
-        Some(environment.call(&atom.name.text, &arguments, &basic.result))
+        let result = environment.call(&atom.name.text, &arguments, &basic.result);
+        self.tell_call(atom, &arguments, result.as_ref(), environment);
+        Some(result)
     }
 
     pub(super) fn evaluate_all(

@@ -5,18 +5,23 @@
 //! what the agent says. It expects an agent that [`crate::translate`] accepts.
 
 mod evaluate;
+mod mind;
 mod plans;
+mod telling;
 mod value;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
+use std::sync::Arc;
 
 use self::evaluate::Substitution;
+use self::telling::{Limit, Source};
+pub use self::telling::{trigger, with_values};
 pub use self::value::Value;
-use crate::ParsedConfiguration;
 use crate::configuration::Configuration;
 use crate::syntax::ast::{Agent, Atom, Formula, Operator, Plan, Relation, Trigger, TriggerKind};
 use crate::syntax::parse;
 use crate::types::CType;
+use crate::{Happening, ParsedConfiguration};
 
 /// What surrounds an interpreted agent.
 pub trait Environment {
@@ -24,6 +29,10 @@ pub trait Environment {
     fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)>;
     /// A basic action or function is called; functions return a value of `result`.
     fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value>;
+    /// Where each step is told: events, plans that apply or do not, and what plans do. Nothing unless it is wanted.
+    fn story(&mut self) -> Option<&mut Vec<Happening>> {
+        None
+    }
 }
 
 /// An external event that was refused because the inbox is full.
@@ -32,10 +41,17 @@ pub trait Environment {
 #[non_exhaustive]
 pub struct Refused;
 
+/// A step that would take longer than it may. Each step comes to an end, but may take exponentially long in the
+/// number of plans.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the step is too long")]
+#[non_exhaustive]
+pub struct TooLong;
+
 /// A trigger: operator, kind and name.
 type Key = (Operator, TriggerKind, String);
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct Event {
     key: Key,
     arguments: Vec<Value>,
@@ -43,7 +59,7 @@ struct Event {
 }
 
 /// Where an event comes from.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 enum Origin {
     /// A plan, or a belief that was set.
     Agent,
@@ -55,7 +71,7 @@ enum Origin {
 }
 
 /// A plan that waits.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct Waiting {
     due: Value,
     plan: Plan,
@@ -65,7 +81,7 @@ struct Waiting {
 }
 
 /// What runs must end by this time.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct Deadline {
     goal: Key,
     arguments: Vec<Value>,
@@ -84,11 +100,13 @@ enum Outcome {
 }
 
 /// An agent that is executed without being translated.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Interpreter {
-    configuration: Configuration,
-    agent: Agent,
-    recursive: HashSet<Key>,
+    configuration: Arc<Configuration>,
+    agent: Arc<Agent>,
+    source: Arc<Source>,
+    recursive: Arc<HashSet<Key>>,
+    limit: Limit,
     beliefs: BTreeMap<String, Vec<Value>>,
     posted: Option<Event>,
     deadline: Option<Deadline>,
@@ -114,9 +132,11 @@ impl Interpreter {
         crate::translate(configuration, agent_text)?;
         let (agent, _) = parse(agent_text);
         let mut interpreter = Self {
-            configuration: configuration.configuration.clone(),
-            recursive: recursive_triggers(&agent),
-            agent,
+            configuration: Arc::new(configuration.configuration.clone()),
+            recursive: Arc::new(recursive_triggers(&agent)),
+            agent: Arc::new(agent),
+            source: Arc::new(Source::new(agent_text)),
+            limit: Limit::NONE,
             beliefs: BTreeMap::new(),
             posted: None,
             deadline: None,
@@ -209,14 +229,36 @@ impl Interpreter {
         Ok(())
     }
 
+    /// Believes `belief` with these values, one for each argument; if it is perceived, that is an event.
+    pub fn set(&mut self, belief: String, values: Vec<Value>) {
+        let watched = self.configuration.perceived.iter().any(|name| name.text == belief);
+        let old = self.beliefs.insert(belief.clone(), values);
+        let same = old.is_some_and(|old| Value::all_equal(&old, &self.beliefs[&belief]));
+        if watched && !same {
+            self.perceived.insert(belief);
+        }
+    }
+
+    /// One deliberation cycle that carries out at most so many formulae and conditions.
+    ///
+    /// # Errors
+    /// [`TooLong`] if that is not enough. The agent is then in a state that means nothing.
+    pub fn next_step_within(
+        &mut self,
+        formulae: u32,
+        environment: &mut dyn Environment,
+    ) -> Result<(), TooLong> {
+        self.limit = Limit::new(formulae);
+        self.next_step(environment);
+        let exceeded = self.limit.is_exceeded();
+        self.limit = Limit::NONE;
+        if exceeded { Err(TooLong) } else { Ok(()) }
+    }
+
     /// One deliberation cycle.
     pub fn next_step(&mut self, environment: &mut dyn Environment) {
         for (belief, values) in environment.update_beliefs() {
-            let old = self.beliefs.insert(belief.clone(), values.clone());
-            let watched = self.configuration.perceived.iter().any(|name| name.text == belief);
-            if watched && !old.is_some_and(|old| Value::all_equal(&old, &values)) {
-                self.perceived.insert(belief);
-            }
+            self.set(belief, values);
         }
         while let Some(mut event) = self.take_event(environment) {
             let (operator, kind, name) = event.key.clone();
@@ -233,6 +275,7 @@ impl Interpreter {
                     continue;
                 }
             }
+            self.tell_event(&event, environment);
             self.handle(event, environment);
             if self.posted.is_none() {
                 self.deadline = None;

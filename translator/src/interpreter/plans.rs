@@ -1,5 +1,7 @@
 //! Plans and their formulae.
 
+use std::sync::Arc;
+
 use super::evaluate::Substitution;
 use super::{
     Deadline, Environment, Event, Interpreter, Key, Origin, Outcome, Value, Waiting, key_of,
@@ -18,8 +20,13 @@ impl Interpreter {
         arguments: &[Option<Value>],
         environment: &mut dyn Environment,
     ) -> Outcome {
+        if !self.limit.descend() {
+            return Outcome::Failed;
+        }
         let outcome = self.run(key, arguments, environment);
-        self.mend(key, outcome, arguments, environment)
+        let outcome = self.mend(key, outcome, arguments, environment);
+        self.limit.ascend();
+        outcome
     }
 
     /// Where a goal was not achieved, the plans of its failure trigger have their say.
@@ -56,6 +63,7 @@ impl Interpreter {
             return Outcome::Achieved(Vec::new());
         }
         let Waiting { plan, next, theta, .. } = waiting;
+        self.tell_plan(&plan, environment);
         let outcome = self.body(&plan, next, theta, arguments, environment);
         self.mend(key, outcome, arguments, environment)
     }
@@ -66,15 +74,20 @@ impl Interpreter {
         arguments: &[Option<Value>],
         environment: &mut dyn Environment,
     ) -> Outcome {
-        let plans: Vec<Plan> =
-            self.agent.plans.iter().filter(|plan| key_of(&plan.trigger) == *key).cloned().collect();
+        let agent = Arc::clone(&self.agent);
         let types = self.types(&key.2);
-        for plan in plans {
-            let Some(theta) = self.applicable(&plan, arguments, &types, environment) else {
+        for plan in agent.plans.iter().filter(|plan| key_of(&plan.trigger) == *key) {
+            if !self.limit.spend() {
+                return Outcome::Failed;
+            }
+            let told = self.tell_plan(plan, environment);
+            let Some(theta) = self.applicable(plan, arguments, &types, environment) else {
+                Self::tell_skipped(told, environment);
                 continue;
             };
-            return self.body(&plan, 0, theta, arguments, environment);
+            return self.body(plan, 0, theta, arguments, environment);
         }
+        self.tell_no_plan(key, environment);
         Outcome::NoPlan
     }
 
@@ -112,6 +125,7 @@ impl Interpreter {
         for (index, formula) in plan.body.iter().enumerate().skip(first) {
             if let Formula::Wait { duration, .. } = formula {
                 let Some(due) = self.due(duration, &theta, environment) else {
+                    self.tell_failure(formula, environment);
                     return Outcome::Failed;
                 };
                 let waiting = Waiting { due, plan: plan.clone(), next: index + 1, theta };
@@ -122,7 +136,9 @@ impl Interpreter {
                 });
                 return Outcome::Achieved(Vec::new());
             }
-            if self.formula(formula, &mut theta, environment).is_none() {
+            let fuel = self.limit.spend();
+            if !fuel || self.formula(formula, &mut theta, environment).is_none() {
+                self.tell_failure(formula, environment);
                 return Outcome::Failed;
             }
         }
@@ -153,6 +169,7 @@ impl Interpreter {
             }
             Formula::Add(atom) => {
                 let values = self.arguments(atom, theta, environment)?;
+                self.tell_formula("+", atom, &values, environment);
                 let name = &atom.name.text;
                 let old = self.beliefs.insert(name.clone(), values.clone());
                 let same = old.is_some_and(|old| Value::all_equal(&old, &values));
@@ -167,11 +184,13 @@ impl Interpreter {
                 if matching.is_some_and(|values| matches_given(values, &given))
                     && let Some(old) = self.beliefs.remove(name)
                 {
+                    self.tell_formula("-", atom, &old, environment);
                     self.percept(Operator::Delete, name, old, environment)?;
                 }
             }
             Formula::Achieve { goal, deadline } => {
                 let arguments = self.arguments(goal, theta, environment)?;
+                self.tell_formula("!", goal, &arguments, environment);
                 let key = (Operator::Add, TriggerKind::Achieve, goal.name.text.clone());
                 if self.recursive.contains(&key) {
                     if let Some(deadline) = deadline {
@@ -190,6 +209,7 @@ impl Interpreter {
             }
             Formula::Defer(atom) => {
                 let arguments = self.arguments(atom, theta, environment)?;
+                self.tell_formula("!!", atom, &arguments, environment);
                 let key = (Operator::Add, TriggerKind::Achieve, atom.name.text.clone());
                 self.defer(key, arguments);
             }
@@ -238,7 +258,11 @@ impl Interpreter {
             return Some(());
         }
         let given: Vec<_> = arguments.into_iter().map(Some).collect();
+        if !self.limit.descend() {
+            return None;
+        }
         let outcome = self.run(&key, &given, environment);
+        self.limit.ascend();
         (outcome != Outcome::Failed).then_some(())
     }
 

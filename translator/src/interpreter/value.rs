@@ -1,6 +1,7 @@
 //! Values with their C type's range.
 
 use std::cmp::Ordering::{Equal, Greater, Less};
+use std::fmt;
 
 use crate::syntax::ast::{Arithmetic, Expression, Relation};
 use crate::types::{CType, TypeKind};
@@ -18,6 +19,34 @@ pub enum Value {
     Text(String),
     /// The fields of a struct.
     Struct(Vec<Self>),
+}
+
+impl fmt::Display for Value {
+    /// As agents and scripts write it: the shortest digits that mean exactly this value.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Bool(value) => write!(f, "{value}"),
+            Self::Integer(value) => write!(f, "{value}"),
+            Self::Float(value) => {
+                let size = value.abs();
+                if value.is_nan() {
+                    f.write_str("nan")
+                } else if size.is_finite() && size != 0.0 && !(1e-5..1e15).contains(&size) {
+                    write!(f, "{value:e}")
+                } else {
+                    write!(f, "{value}")
+                }
+            }
+            Self::Text(text) => write!(f, "{text:?}"),
+            Self::Struct(fields) => {
+                f.write_str("{")?;
+                for (index, field) in fields.iter().enumerate() {
+                    write!(f, "{}{field}", if index == 0 { "" } else { ", " })?;
+                }
+                f.write_str("}")
+            }
+        }
+    }
 }
 
 impl Value {
@@ -108,7 +137,7 @@ impl Value {
     }
 
     /// Whether two values stand in a relation.
-    pub(super) fn compare(relation: Relation, left: &Self, right: &Self) -> bool {
+    pub fn compare(relation: Relation, left: &Self, right: &Self) -> bool {
         let order = match (left, right) {
             (Self::Bool(left), Self::Bool(right)) => left.partial_cmp(right),
             (Self::Integer(left), Self::Integer(right)) => left.partial_cmp(right),

@@ -12,11 +12,11 @@ mod tools;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use asl2c::Checked;
+use asl2c::{Cbmc, Checked, Checks, Plan, Proof};
 use translator::TranslateError;
 
 use self::mutants::{MUTANTS, Mutant, Place, RUN_TIME};
-use self::proof::{Checks, Verdict, prove};
+use self::proof::{broken, prove};
 use self::report::Report;
 use self::run_time::alarms;
 use self::tools::{Missing, Tools};
@@ -42,6 +42,9 @@ pub(crate) enum VerifyError {
     /// The agent was rejected by the translator.
     #[error("{0}")]
     Translate(#[from] TranslateError),
+    /// The C was not proved.
+    #[error(transparent)]
+    Proof(#[from] asl2c::ProveError),
     /// Checking the model failed.
     #[error(transparent)]
     Model(#[from] asl2c::VerifyError),
@@ -85,7 +88,7 @@ const REPORT: &str = "docs/verification.md";
 #[derive(Debug)]
 struct Findings {
     model: Vec<Checked>,
-    c: Verdict,
+    c: Proof,
 }
 
 impl Findings {
@@ -152,14 +155,14 @@ pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
 
 /// Runs the verification with the tools found.
 struct Verifier {
-    cbmc: PathBuf,
+    cbmc: Cbmc,
 }
 
 impl Verifier {
     /// All results of an agent.
     fn verify(&self, agent: &Agent<'_>, folder: &Path) -> Result<Findings, VerifyError> {
         let model = model::check(agent, None)?;
-        let mut c = prove(agent, &self.cbmc, folder, Checks::All, &[], None, |_| None)?;
+        let mut c = prove(agent, &self.cbmc, folder, &Plan::ALL, |_| None)?;
         c.run_time.extend(alarms(folder)?);
         Ok(Findings { model, c })
     }
@@ -192,12 +195,12 @@ impl Verifier {
         // about the mutant.
         let on_model = mutant.place != Place::C;
         let known = if on_model { invariant } else { &[] };
-        let mut verdict =
-            prove(&agent, &self.cbmc, folder, checks, known, Some(mutant.breaks), spoil)?;
+        let plan = Plan { checks, known, enough: Some(mutant.breaks) };
+        let mut proof = prove(&agent, &self.cbmc, folder, &plan, spoil)?;
         if runs_wrong {
-            verdict.run_time.extend(alarms(folder)?);
+            proof.run_time.extend(alarms(folder)?);
         }
-        let broken = verdict.broken().into_iter().map(str::to_owned).collect();
+        let broken = broken(&proof).into_iter().map(str::to_owned).collect();
         let on_model =
             if on_model {
                 let checked = model::check(&agent, Some(mutant.breaks))?;

@@ -3,10 +3,10 @@
 
 use std::ffi::OsStr;
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
-use asl2c::SPIN;
+use asl2c::{Cbmc, SPIN};
 
 use super::run_time::FRAMA_C;
 use super::{VerifyError, folder, in_file};
@@ -14,8 +14,8 @@ use super::{VerifyError, folder, in_file};
 /// The tools found.
 #[derive(Debug)]
 pub(super) struct Tools {
-    /// Path of CBMC.
-    pub(super) cbmc: PathBuf,
+    /// CBMC.
+    pub(super) cbmc: Cbmc,
     /// Versions of the tools.
     pub(super) versions: Versions,
 }
@@ -85,9 +85,9 @@ impl Tools {
             return Err(VerifyError::NoCbmc);
         }
         let cbmc = folder("tools").join("cbmc");
-        let cbmc = cbmc.canonicalize().map_err(in_file("cannot find", &cbmc))?;
+        let cbmc = Cbmc::find(Some(&cbmc))?;
         let versions = Versions {
-            cbmc: version(&cbmc, "--version").ok_or(VerifyError::NoCbmc)?,
+            cbmc: cbmc.version().to_owned(),
             frama_c: version(FRAMA_C, "-version").unwrap_or_default(),
             spin: version(SPIN, "-V").unwrap_or_default(),
         };

@@ -22,6 +22,13 @@ use crate::types::{CType, TypeKind};
 /// Defined as a number, the harness runs so many random transitions.
 pub const RANDOM_TRANSITIONS: &str = "ASL2C_RANDOM";
 
+/// A trace tells so what the environment calls, with its arguments.
+pub const CALLS: &str = "calls";
+/// A trace tells so what a function returns.
+pub const ANSWERS: &str = "answers";
+/// A trace tells so that the agent takes a step.
+pub const STEPS: &str = "steps";
+
 /// The texts of a proof.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Harness {
@@ -74,6 +81,7 @@ impl Builder<'_> {
         writer.line("#ifndef __CPROVER__");
         writer.line("#define __CPROVER_assert(condition, text) ((void)(condition))");
         writer.line("#define __CPROVER_assume(condition) ((void)(condition))");
+        writer.line("#define __CPROVER_output(...) ((void)0)");
         writer.line("#endif");
         writer.line("");
         self.anything(&mut writer);
@@ -137,7 +145,10 @@ impl Builder<'_> {
             // Two are already one too many: the count stays there.
             writer.line(format!("{calls} = ({calls} < 2U) ? ({calls} + 1U) : 2U;"));
             if basic.result.kind != TypeKind::Void {
-                writer.line(format!("return {};", anything(&basic.result.name)));
+                let (ctype, name) = (&basic.result.name, &basic.name.text);
+                writer.line(format!("const {ctype} result = {};", anything(ctype)));
+                writer.line(format!("__CPROVER_output(\"{ANSWERS} {name}\", result);"));
+                writer.line("return result;");
             }
             writer.close("}");
             writer.line("");
@@ -327,17 +338,19 @@ impl Builder<'_> {
         for external in &self.program.external {
             writer.line(format!("case {case}U:"));
             self.raise(writer, external);
-            writer.line("    break;");
             case += 1;
         }
         for belief in self.program.beliefs.iter().filter(|belief| belief.settable) {
             writer.line(format!("case {case}U:"));
             let set = self.names.interface(&format!("set_{}", belief.name));
-            writer.line(format!("    {set}({});", arguments(&belief.types)));
-            writer.line("    break;");
+            let values = told(writer, &format!("set_{}", belief.name), &belief.types);
+            writer.line(format!("{set}({values});"));
+            writer.line("break;");
+            writer.close("}");
             case += 1;
         }
         writer.line("default:");
+        writer.line(format!("    __CPROVER_output(\"{STEPS}\", 0U);"));
         writer.line("    step(self);");
         writer.line("    break;");
         writer.close("}");
@@ -347,8 +360,8 @@ impl Builder<'_> {
 
     fn raise(&self, writer: &mut Writer, external: &External) {
         let raise = self.names.interface(&external_name(external));
-        let call = format!("{raise}({})", arguments(&external.types));
-        writer.open(format!("    if ({call})"));
+        let values = told(writer, &external_name(external), &external.types);
+        writer.open(format!("if ({raise}({values}))"));
         let is_this = |event: &ExternalTrigger| {
             self.external(event).is_some_and(|e| std::ptr::eq(e, external))
         };
@@ -369,6 +382,8 @@ impl Builder<'_> {
                 _ => {}
             }
         }
+        writer.close("}");
+        writer.line("break;");
         writer.close("}");
     }
 
@@ -448,10 +463,17 @@ fn occupied(ring: &str, slot: usize, length: usize) -> String {
     format!("(((({slot}U + {length}U) - self->{ring}_first) % {length}U) < self->{ring}_count)")
 }
 
-/// Anything of each type, behind the agent's state.
-fn arguments(types: &[CType]) -> String {
-    let values = types.iter().map(|ctype| anything(&ctype.name));
-    std::iter::once("self".to_owned()).chain(values).collect::<Vec<_>>().join(", ")
+/// Opens a block in which a transition of this name begins: anything of each type is made up, and told with the name.
+/// Returns the arguments with which it is made.
+fn told(writer: &mut Writer, name: &str, types: &[CType]) -> String {
+    writer.open_bare();
+    let arguments: Vec<String> = argument_names(types).collect();
+    for (ctype, argument) in types.iter().zip(&arguments) {
+        writer.line(format!("const {} {argument} = {};", ctype.name, anything(&ctype.name)));
+    }
+    let values = if arguments.is_empty() { "0U".to_owned() } else { arguments.join(", ") };
+    writer.line(format!("__CPROVER_output(\"{CALLS} {name}\", {values});"));
+    std::iter::once("self".to_owned()).chain(arguments).collect::<Vec<_>>().join(", ")
 }
 
 /// An expression of any value.

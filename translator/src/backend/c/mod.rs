@@ -24,7 +24,7 @@ use super::writer::Writer;
 use crate::program::Program;
 
 pub(crate) use self::handlers::plan_name;
-pub use self::harness::RANDOM_TRANSITIONS;
+pub use self::harness::{ANSWERS, CALLS, RANDOM_TRANSITIONS, STEPS};
 pub(crate) use self::harness::{harness, unknown_type};
 pub(crate) use self::names::{action_symbol, comment_safe, symbol_prefix};
 pub(crate) use self::state::{Counter, Field, FieldType, counters, handler_name, layout};

@@ -1,0 +1,207 @@
+//! `asl2c prove`: what is proved, and ways to what does not hold.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use serde_json::{Value, json};
+use translator::{ParsedConfiguration, Promise, obligations};
+
+use super::arguments::Prove;
+use super::{CommandError, NOT_CHECKED, print};
+use crate::agent::Agent;
+use crate::prove::{Cbmc, Found, Limits, Plan, Proof, ProveError, Searched, Way, prove, search};
+use crate::run::Session;
+
+/// A way that was saved.
+struct Saved {
+    /// Of what.
+    searched: Searched,
+    /// Where, if there is one.
+    path: Option<PathBuf>,
+}
+
+/// Proves what can be proved, looks for ways to the rest, and saves them.
+pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
+    let agent = Agent::read(&asked.configuration)?;
+    let Agent { configuration, text, .. } = &agent;
+    let obligations = obligations(configuration, text)?;
+    let cbmc = Cbmc::find(asked.cbmc.as_deref())?;
+    let folder = tempfile::tempdir()
+        .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;
+    let proof = prove(&obligations, &cbmc, folder.path(), &Plan::ALL)?;
+    let mut found = Vec::new();
+    if !proof.holds() {
+        let session = Session::new(configuration, text)?;
+        let limits = Limits { transitions: asked.length, time: Duration::from_secs(asked.time) };
+        found = search(&proof, configuration, &session, &cbmc, folder.path(), limits)?;
+    }
+    let output = asked.output.as_deref().unwrap_or(agent.folder());
+    let mut saved = Vec::new();
+    for (index, searched) in found.into_iter().enumerate() {
+        let path = save(&searched, index, &asked.configuration, output)?;
+        saved.push(Saved { searched, path });
+    }
+    let text = if asked.json {
+        as_json(&proof, &saved)
+    } else {
+        as_text(&proof, &saved, configuration, asked)
+    };
+    print("what was found", &text)?;
+    Ok(status(&proof, &saved))
+}
+
+fn status(proof: &Proof, saved: &[Saved]) -> ExitCode {
+    if proof.holds() {
+        ExitCode::SUCCESS
+    } else if saved.iter().any(|saved| matches!(saved.searched.found, Found::Way(..))) {
+        ExitCode::FAILURE
+    } else {
+        NOT_CHECKED.into()
+    }
+}
+
+/// Writes the way to a failure as a script and returns its file.
+fn save(
+    searched: &Searched,
+    index: usize,
+    configuration: &Path,
+    folder: &Path,
+) -> Result<Option<PathBuf>, CommandError> {
+    let (Found::Way(way, _) | Found::Unconfirmed(way)) = &searched.found else { return Ok(None) };
+    let stem = configuration.file_stem().unwrap_or_default().to_string_lossy();
+    let what = searched.property.clone().unwrap_or_else(|| format!("run_time_{}", index + 1));
+    let path = folder.join(format!("{stem}.{what}.script"));
+    let text = script(searched, way);
+    std::fs::write(&path, text).map_err(|source| {
+        CommandError::Prove(ProveError::Io {
+            what: format!("cannot write {}", path.display()),
+            source,
+        })
+    })?;
+    Ok(Some(path))
+}
+
+fn script(searched: &Searched, way: &Way) -> String {
+    let what = searched.property.as_deref().unwrap_or(&searched.said);
+    let mut text = format!("// How this fails: {what}\n");
+    for line in way.lines() {
+        // Writing to a string cannot fail.
+        _ = writeln!(text, "{line}");
+    }
+    text
+}
+
+fn as_text(
+    proof: &Proof,
+    saved: &[Saved],
+    configuration: &ParsedConfiguration,
+    asked: &Prove,
+) -> String {
+    let mut text = String::new();
+    for (promise, holds) in &proof.properties {
+        let tags = match promise.requirements.as_slice() {
+            [] => String::new(),
+            tags => format!(" [{}]", tags.join(", ")),
+        };
+        let Promise { name, formula, .. } = promise;
+        let of_this = |saved: &&Saved| saved.searched.property.as_deref() == Some(name.as_str());
+        if *holds && !asked.quiet {
+            _ = writeln!(text, "{name}{tags}: holds in every environment");
+        } else if let Some(saved) = saved.iter().find(of_this).filter(|_| !holds) {
+            tell(&mut text, &format!("{name}{tags}"), Some(formula), saved, configuration, asked);
+        }
+    }
+    let run_time = saved.iter().filter(|saved| saved.searched.property.is_none());
+    for saved in run_time {
+        let head = format!("no `{}`", saved.searched.said);
+        tell(&mut text, &head, None, saved, configuration, asked);
+    }
+    if proof.run_time.is_empty() && !asked.quiet {
+        text += "no error at run time: holds in every environment\n";
+    }
+    if !asked.quiet {
+        let (kept, all) = (proof.invariant.len(), proof.candidates);
+        _ = writeln!(text, "(by an invariant of {kept} conditions, of {all} that were tried)");
+    }
+    text
+}
+
+fn tell(
+    text: &mut String,
+    head: &str,
+    formula: Option<&str>,
+    saved: &Saved,
+    configuration: &ParsedConfiguration,
+    asked: &Prove,
+) {
+    let formula = formula.map_or(String::new(), |formula| format!("  {formula}\n"));
+    let path = saved.path.as_ref().map_or(String::new(), |path| path.display().to_string());
+    match &saved.searched.found {
+        Found::Way(_, story) => {
+            _ = writeln!(
+                text,
+                "{head}: DOES NOT HOLD\n{formula}  for this can happen ({}):",
+                configuration.input()
+            );
+            for happening in story {
+                _ = writeln!(text, "    {happening}");
+            }
+            let agent = asked.configuration.display();
+            _ = writeln!(text, "  to see it: asl2c run {agent} --script {path}");
+        }
+        Found::Unconfirmed(_) => {
+            _ = writeln!(
+                text,
+                "{head}: NOT DECIDED\n{formula}  CBMC found a way to a failure in the C, {path}, that the reference \
+                 interpreter does not take: C and interpreter differ"
+            );
+        }
+        Found::None(length) => {
+            _ = writeln!(
+                text,
+                "{head}: NOT DECIDED\n{formula}  neither proved, nor is there a failure within {length} events, beliefs \
+                 and steps (--length, --time)"
+            );
+        }
+    }
+}
+
+fn as_json(proof: &Proof, saved: &[Saved]) -> String {
+    let verdict = |holds: bool, saved: Option<&Saved>| {
+        let found = saved.map(|saved| &saved.searched.found);
+        let (named, trace) = match found {
+            _ if holds => ("holds", Value::Null),
+            Some(Found::Way(_, story)) => ("fails", json!(story)),
+            _ => ("undecided", Value::Null),
+        };
+        let script =
+            saved.and_then(|saved| saved.path.as_ref()).map(|path| path.display().to_string());
+        (named, trace, script)
+    };
+    let properties = proof.properties.iter().map(|(promise, holds)| {
+        let mut of_this = saved.iter();
+        let of_this = of_this.find(|saved| saved.searched.property.as_ref() == Some(&promise.name));
+        let (named, trace, script) = verdict(*holds, of_this);
+        json!({
+            "name": promise.name,
+            "requirements": promise.requirements,
+            "formula": promise.formula,
+            "verdict": named,
+            "trace": trace,
+            "script": script,
+        })
+    });
+    let run_time = saved.iter().filter(|saved| saved.searched.property.is_none()).map(|saved| {
+        let (named, trace, script) = verdict(false, Some(saved));
+        json!({ "error": saved.searched.said, "verdict": named, "trace": trace, "script": script })
+    });
+    let object = json!({
+        "properties": properties.collect::<Vec<_>>(),
+        "run_time": run_time.collect::<Vec<_>>(),
+        "invariant": proof.invariant,
+        "candidates": proof.candidates,
+    });
+    format!("{object:#}\n")
+}

@@ -1,0 +1,172 @@
+//! The model checker of C: where it is, and what it is asked.
+
+use std::io::{Read as _, Seek as _};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use translator::HARNESS;
+
+use super::trace::{Trace, traces};
+use super::{Checks, ProveError, in_file};
+
+/// The program.
+pub const CBMC: &str = "cbmc";
+/// Earlier ones have other options.
+const OLDEST: u32 = 6;
+
+/// A CBMC that runs here.
+#[derive(Debug, Clone)]
+pub struct Cbmc {
+    path: PathBuf,
+    version: String,
+}
+
+/// An assertion that is not proved.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Failure {
+    /// What CBMC calls it: `step.assertion.1`.
+    pub(crate) name: String,
+    /// What it says of it, without the line.
+    pub(crate) said: String,
+}
+
+impl Failure {
+    /// The property that it is of.
+    pub(crate) fn property(&self) -> Option<&str> {
+        self.said.strip_prefix("property ")
+    }
+}
+
+impl Cbmc {
+    /// Finds a CBMC: the one that is named, or that on the path.
+    ///
+    /// # Errors
+    /// [`ProveError::Missing`] if there is none, it is too old, or the C preprocessor that it uses is missing.
+    pub fn find(named: Option<&Path>) -> Result<Self, ProveError> {
+        let missing = |reason: String| ProveError::Missing { reason };
+        let path = named.unwrap_or(Path::new(CBMC));
+        // Where it is named from here, it is started elsewhere.
+        let path = if path.components().count() > 1 {
+            path.canonicalize().map_err(|error| missing(format!("{}: {error}", path.display())))?
+        } else {
+            path.to_owned()
+        };
+        let output = Command::new(&path).arg("--version").output();
+        let output = output.map_err(|_| missing("there is no CBMC here".to_owned()))?;
+        let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+        let major = version.split('.').next().and_then(|major| major.parse::<u32>().ok());
+        if !major.is_some_and(|major| major >= OLDEST) {
+            return Err(missing(format!("{} is `{version}`", path.display())));
+        }
+        if Command::new("gcc").arg("--version").output().is_err() {
+            return Err(missing("there is no gcc here, with which CBMC reads C".to_owned()));
+        }
+        Ok(Self { path, version })
+    }
+
+    /// What it calls itself.
+    pub fn version(&self) -> &str {
+        &self.version
+    }
+
+    /// Checks a function of the harness in a folder: what fails besides candidates, and the candidates that do not.
+    pub(super) fn check(
+        &self,
+        folder: &Path,
+        function: &str,
+        chosen: &[usize],
+        checks: Checks,
+    ) -> Result<(Vec<Failure>, Vec<usize>), ProveError> {
+        let output = Command::new(&self.path)
+            .args([HARNESS, "--function", function])
+            .args(options(checks))
+            .args(if checks == Checks::All { ["--unwind", "2"].as_slice() } else { &[] })
+            .current_dir(folder)
+            .output()
+            .map_err(in_file("cannot run", &self.path))?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        if !text.contains("VERIFICATION SUCCESSFUL") && !text.contains("VERIFICATION FAILED") {
+            let said = format!("{text}{}", String::from_utf8_lossy(&output.stderr));
+            return Err(ProveError::NoResult { output: end(&said) });
+        }
+        let mut others = Vec::new();
+        let mut failing = Vec::new();
+        for line in text.lines().filter_map(|line| line.strip_suffix(": FAILURE")) {
+            // "[induction.assertion.1] line 12 candidate 3"
+            let (name, said) = line.split_once(']').unwrap_or((line, line));
+            let said = said.trim();
+            let said = match said.strip_prefix("line ") {
+                Some(rest) => rest.split_once(' ').map_or(rest, |(_, text)| text),
+                None => said,
+            };
+            match said.strip_prefix("candidate ").and_then(|index| index.parse::<usize>().ok()) {
+                Some(index) => failing.push(index),
+                None => others.push(Failure {
+                    name: name.trim_start_matches('[').to_owned(),
+                    said: said.to_owned(),
+                }),
+            }
+        }
+        let left = chosen.iter().copied().filter(|index| !failing.contains(index)).collect();
+        Ok((others, left))
+    }
+
+    /// Looks for ways to failures from the beginning on, at most so many transitions long; nothing if the time was
+    /// not enough.
+    pub(super) fn ways(
+        &self,
+        folder: &Path,
+        wanted: &[&Failure],
+        transitions: u32,
+        until: Instant,
+    ) -> Result<Option<Vec<Trace>>, ProveError> {
+        let is_property = |failure: &&Failure| failure.property().is_some();
+        let only_properties = wanted.iter().all(is_property);
+        let checks = if only_properties { Checks::Properties } else { Checks::All };
+        // What it says may be longer than a pipe takes while it is waited for.
+        let mut said = tempfile::tempfile().map_err(in_file("cannot make", folder))?;
+        let output = said.try_clone().map_err(in_file("cannot make", folder))?;
+        let mut child = Command::new(&self.path)
+            .args([HARNESS, "--function", "main", "--trace", "--json-ui"])
+            .args(options(checks))
+            // One more than transitions, for the end of the loop.
+            .args([
+                "--unwindset",
+                &format!("main.0:{}", transitions + 1),
+                "--no-unwinding-assertions",
+            ])
+            .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]))
+            .current_dir(folder)
+            .stdout(output)
+            .stderr(Stdio::null())
+            .spawn()
+            .map_err(in_file("cannot run", &self.path))?;
+        while child.try_wait().map_err(in_file("cannot wait for", &self.path))?.is_none() {
+            if Instant::now() >= until {
+                // It may have ended by itself by now.
+                _ = child.kill();
+                child.wait().map_err(in_file("cannot wait for", &self.path))?;
+                return Ok(None);
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let mut text = String::new();
+        let read = said.rewind().and_then(|()| said.read_to_string(&mut text));
+        read.map_err(in_file("cannot read what is said by", &self.path))?;
+        traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
+    }
+}
+
+fn options(checks: Checks) -> &'static [&'static str] {
+    match checks {
+        Checks::Properties => &["--no-standard-checks"],
+        Checks::All => &["--conversion-check"],
+    }
+}
+
+/// The last lines.
+fn end(said: &str) -> String {
+    let lines: Vec<&str> = said.lines().collect();
+    lines[lines.len().saturating_sub(20)..].join("\n")
+}

@@ -1,0 +1,112 @@
+//! Whole scripts, and transcripts: scripts with what must come of each line.
+
+use std::fmt::Write as _;
+
+use diagnostic::{Diagnostic, Source};
+
+use super::script::is_skipped;
+use super::session::Session;
+
+/// What came of a script.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Replay {
+    /// Each line behind `> ` with what it shows, and errors where they happened.
+    pub shown: String,
+    /// Errors, and what a transcript says else than what came.
+    pub errors: usize,
+    /// Properties that were broken without a transcript that says so.
+    pub broken: Vec<String>,
+}
+
+impl Replay {
+    /// Whether everything went as it should.
+    pub fn is_fine(&self) -> bool {
+        self.errors == 0 && self.broken.is_empty()
+    }
+}
+
+/// Runs a script of this name. If some of its lines begin with `>` it is a transcript: those are carried out, and what
+/// stands between them must be what comes of them. Notes, `// ..`, may be left out of a transcript.
+pub fn replay(session: &mut Session, name: &str, text: &str) -> Replay {
+    let mut replay = Replay { shown: String::new(), errors: 0, broken: Vec::new() };
+    let is_transcript = text.lines().any(|line| line.starts_with('>'));
+    let source = Source { name, text };
+    let mut lines = places(text).peekable();
+    while let Some((start, line)) = lines.next() {
+        let command = if is_transcript {
+            let Some(command) = line.strip_prefix('>') else { continue };
+            command
+        } else {
+            line
+        };
+        let mut expected: Vec<&str> = Vec::new();
+        while is_transcript && lines.peek().is_some_and(|(_, line)| !line.starts_with('>')) {
+            expected.extend(lines.next().map(|(_, line)| line.trim_end()));
+        }
+        if is_skipped(command) {
+            continue;
+        }
+        let start = start + line.len() - command.len();
+        replay.line(session, &source, (start, command), is_transcript.then_some(&expected));
+        if session.is_ended() {
+            break;
+        }
+    }
+    replay
+}
+
+impl Replay {
+    fn line(
+        &mut self,
+        session: &mut Session,
+        source: &Source<'_>,
+        (start, command): (usize, &str),
+        expected: Option<&Vec<&str>>,
+    ) {
+        // Writing to a string cannot fail.
+        _ = writeln!(self.shown, "> {}", command.trim());
+        let shown = match session.execute(command) {
+            Ok(shown) => shown,
+            Err(error) => return self.error(error, start, source),
+        };
+        for line in &shown {
+            _ = writeln!(self.shown, "{line}");
+        }
+        let Some(expected) = expected else {
+            self.broken.extend_from_slice(session.broken());
+            return;
+        };
+        let is_note = |line: &&str| line.starts_with("//");
+        let blank = |line: &&str| !line.is_empty();
+        let expected: Vec<&str> = expected.iter().copied().filter(blank).collect();
+        let shown = shown.iter().map(String::as_str);
+        let shown: Vec<&str> = if expected.iter().any(is_note) {
+            shown.collect()
+        } else {
+            self.broken.extend_from_slice(session.broken());
+            shown.filter(|line| !is_note(line)).collect()
+        };
+        if shown != expected {
+            let error = Diagnostic::error("this shows something else", 0..command.len());
+            let expected = expected.join("\n");
+            self.error(error.help(format!("expected\n{expected}")), start, source);
+        }
+    }
+
+    fn error(&mut self, mut error: Diagnostic, start: usize, source: &Source<'_>) {
+        error.span = start + error.span.start..start + error.span.end;
+        _ = writeln!(self.shown, "{}", error.render(source).trim_end());
+        self.errors += 1;
+    }
+}
+
+/// Lines, and where each begins.
+fn places(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut start = 0;
+    text.split_inclusive('\n').map(move |line| {
+        let place = start;
+        start += line.len();
+        (place, line.trim_end_matches(['\n', '\r']))
+    })
+}

@@ -1,0 +1,191 @@
+//! What a step is told to have done, in the agent's own words, and how much it may do.
+
+use super::{Environment, Event, Interpreter, Key, Origin, Value};
+use crate::Happening;
+use crate::program::trigger_text;
+use crate::syntax::ast::{Atom, Formula, Operator, Plan, TriggerKind};
+
+/// The agent's text, to quote it and to count its lines.
+#[derive(Debug)]
+pub(super) struct Source {
+    text: String,
+    /// Where lines end.
+    ends: Vec<usize>,
+}
+
+impl Source {
+    pub(super) fn new(text: &str) -> Self {
+        let ends = text.match_indices('\n').map(|(index, _)| index).collect();
+        Self { text: text.to_owned(), ends }
+    }
+
+    fn line(&self, offset: usize) -> usize {
+        self.ends.partition_point(|end| *end < offset) + 1
+    }
+
+    /// Label, trigger and context of a plan, with single blanks.
+    fn head(&self, plan: &Plan) -> String {
+        let context = plan.context.as_ref().map_or(plan.trigger.span.end, |c| c.span().end);
+        let head = self.text.get(plan.trigger.span.start..context).unwrap_or_default();
+        let head = head.split_whitespace().collect::<Vec<_>>().join(" ");
+        // The context's span has no closing parentheses.
+        let open = head.matches('(').count().saturating_sub(head.matches(')').count());
+        let label = plan.label.as_ref().map_or(String::new(), |label| format!("@{} ", label.text));
+        format!("{label}{head}{}", ")".repeat(open))
+    }
+}
+
+/// How much a step may still do.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limit {
+    left: u32,
+    depth: usize,
+    deepest: usize,
+    exceeded: bool,
+}
+
+/// Calls may be nested so deep in a step that is limited.
+const DEEPEST: usize = 2000;
+
+impl Limit {
+    /// No limit.
+    pub(super) const NONE: Self =
+        Self { left: u32::MAX, depth: 0, deepest: usize::MAX, exceeded: false };
+
+    pub(super) fn new(left: u32) -> Self {
+        Self { left, deepest: DEEPEST, ..Self::NONE }
+    }
+
+    pub(super) fn is_exceeded(&self) -> bool {
+        self.exceeded
+    }
+
+    /// Whether one more formula or plan may be looked at.
+    pub(super) fn spend(&mut self) -> bool {
+        if self.deepest == usize::MAX {
+            return true;
+        }
+        self.exceeded |= self.left == 0;
+        self.left = self.left.saturating_sub(1);
+        !self.exceeded
+    }
+
+    /// Whether plans may be called from here.
+    pub(super) fn descend(&mut self) -> bool {
+        self.exceeded |= self.depth >= self.deepest;
+        self.depth += usize::from(!self.exceeded);
+        !self.exceeded
+    }
+
+    pub(super) fn ascend(&mut self) {
+        self.depth = self.depth.saturating_sub(1);
+    }
+}
+
+/// An event as agents write it: `+!goTo(1, 2)`.
+pub fn trigger(operator: Operator, kind: TriggerKind, name: &str, values: &[Value]) -> String {
+    with_values(&trigger_text(operator, kind, name), values)
+}
+
+/// A name with values behind it, if there are any: `goTo(1, 2)`.
+pub fn with_values(head: &str, values: &[Value]) -> String {
+    if values.is_empty() {
+        return head.to_owned();
+    }
+    let values: Vec<String> = values.iter().map(Value::to_string).collect();
+    format!("{head}({})", values.join(", "))
+}
+
+pub(super) fn key_text(key: &Key) -> String {
+    trigger_text(key.0, key.1, &key.2)
+}
+
+impl Event {
+    /// The event in the agent's words, and why it is there.
+    pub(super) fn text(&self, posted: &str) -> String {
+        let head = with_values(&key_text(&self.key), &self.arguments);
+        match &self.origin {
+            Origin::Agent => format!("{head}{posted}"),
+            Origin::Environment => format!("{head}, raised by the environment"),
+            Origin::Wait(waiting) => format!("{head}, which waits until {}", waiting.due),
+            Origin::Overdue => format!("the end of the time for {head}"),
+        }
+    }
+}
+
+impl Interpreter {
+    /// Plans stand one deeper than what calls them.
+    fn tell(
+        &self,
+        further: usize,
+        line: Option<usize>,
+        text: impl FnOnce() -> String,
+        environment: &mut dyn Environment,
+    ) -> Option<usize> {
+        let story = environment.story()?;
+        // What a call does stands below the formula that calls.
+        let depth = (2 * self.limit.depth.max(1) - 1) + further;
+        story.push(Happening { depth, line, text: text() });
+        Some(story.len() - 1)
+    }
+
+    pub(super) fn tell_event(&self, event: &Event, environment: &mut dyn Environment) {
+        self.tell(0, None, || format!("handles {}", event.text("")), environment);
+    }
+
+    /// Returns which of what was told it is.
+    pub(super) fn tell_plan(
+        &self,
+        plan: &Plan,
+        environment: &mut dyn Environment,
+    ) -> Option<usize> {
+        let line = self.source.line(plan.trigger.span.start);
+        self.tell(0, Some(line), || format!("plan {}", self.source.head(plan)), environment)
+    }
+
+    /// The plan does not apply after all.
+    pub(super) fn tell_skipped(told: Option<usize>, environment: &mut dyn Environment) {
+        let story = environment.story().zip(told);
+        if let Some(plan) = story.and_then(|(story, index)| story.get_mut(index)) {
+            plan.text = format!("does not apply: {}", plan.text);
+        }
+    }
+
+    pub(super) fn tell_no_plan(&self, key: &Key, environment: &mut dyn Environment) {
+        // That nobody cares for a change of a belief is nothing to tell.
+        if key.1 == TriggerKind::Belief {
+            return;
+        }
+        self.tell(0, None, || format!("no plan for {} applies", key_text(key)), environment);
+    }
+
+    pub(super) fn tell_call(
+        &self,
+        atom: &Atom,
+        arguments: &[Value],
+        result: Option<&Value>,
+        environment: &mut dyn Environment,
+    ) {
+        let text = || {
+            let call = with_values(&atom.name.text, arguments);
+            result.map_or(call.clone(), |result| format!("{call} is {result}"))
+        };
+        self.tell(1, Some(self.source.line(atom.span.start)), text, environment);
+    }
+
+    pub(super) fn tell_formula(
+        &self,
+        sign: &str,
+        atom: &Atom,
+        values: &[Value],
+        environment: &mut dyn Environment,
+    ) {
+        let text = || with_values(&format!("{sign}{}", atom.name.text), values);
+        self.tell(1, Some(self.source.line(atom.span.start)), text, environment);
+    }
+
+    pub(super) fn tell_failure(&self, formula: &Formula, environment: &mut dyn Environment) {
+        let line = self.source.line(formula.span().start);
+        self.tell(1, Some(line), || "fails".to_owned(), environment);
+    }
+}
