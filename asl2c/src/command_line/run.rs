@@ -80,8 +80,11 @@ fn talk(session: &mut Session) -> Result<(), CommandError> {
 fn show(session: &mut Session, text: &str, start: usize) -> Result<bool, CommandError> {
     match session.execute(&text[start..]) {
         Ok(lines) => {
-            let lines: String = lines.iter().map(|line| format!("{line}\n")).collect();
-            print("what was shown", &lines)?;
+            let mut shown = lines.join("\n");
+            if !lines.is_empty() {
+                shown.push('\n');
+            }
+            print("what was shown", &shown)?;
             Ok(true)
         }
         Err(mut error) => {

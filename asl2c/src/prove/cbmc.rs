@@ -56,7 +56,7 @@ impl Cbmc {
         let output = output.map_err(|_| missing("there is no CBMC here".to_owned()))?;
         let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
         let major = version.split('.').next().and_then(|major| major.parse::<u32>().ok());
-        if !major.is_some_and(|major| major >= OLDEST) {
+        if major.is_none_or(|major| major < OLDEST) {
             return Err(missing(format!("{} is `{version}`", path.display())));
         }
         if Command::new("gcc").arg("--version").output().is_err() {
