@@ -157,7 +157,7 @@ impl Vehicle {
                 self.events.push_back(FlightEvent::CutOrdered);
                 self.session.request_emergency_stop();
             }
-            OperatorOrder::Recover => return self.recover(),
+            OperatorOrder::Recover => return self.recover(now),
             OperatorOrder::Release => self.controls.release(by),
             // Before the drone has left the ground a hold keeps it there.
             OperatorOrder::Hold if self.is_about_to_fly() => {
@@ -302,10 +302,14 @@ impl Vehicle {
         Ok(())
     }
 
-    fn recover(&mut self) -> Result<(), Refused> {
+    fn recover(&mut self, now: Duration) -> Result<(), Refused> {
         let emergency = self.drone_state().contains(DroneState::EMERGENCY);
         if !emergency || !self.on_ground() || self.authority == Authority::None {
             return Err(Refused::NoEmergency);
+        }
+        // A start that waits must not outlive the emergency.
+        if self.departure.is_some() {
+            self.end(now, Outcome::Interrupted);
         }
         self.session.request_emergency_reset();
         Ok(())

@@ -471,10 +471,7 @@ impl Vehicle {
                 }
                 session::Event::Emergency => {
                     self.events.push_back(FlightEvent::Emergency);
-                    let flies =
-                        matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. });
-                    // A start that waits must not outlive the emergency.
-                    if flies || self.departure.is_some() {
+                    if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
                         self.end(now, Outcome::Emergency);
                     }
                 }
