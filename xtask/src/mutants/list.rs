@@ -297,7 +297,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "the pilot's landing order is lost",
-        &[edit(ORDERS, "self.land(now, LandingReason::Operator);", "")],
+        &[edit(
+            ORDERS,
+            "land_here();\n                self.land(now, LandingReason::Operator);",
+            "land_here();",
+        )],
     ),
     mutant(
         "a step that failed counts as done",
