@@ -28,6 +28,17 @@ impl Due {
     }
 }
 
+/// A flight to which commands are appended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Underway {
+    /// Where the drone is.
+    pub here: Pose,
+    /// Whether it is in the air.
+    pub airborne: bool,
+    /// The order that it carries out.
+    pub due: Option<Due>,
+}
+
 /// Why commands cannot be appended: all reasons, as [`Plan::parse`] would give them.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", .reasons.join("; "))]
@@ -59,31 +70,38 @@ impl Mission {
             if airborne { self.interpreter.of_new_plan() } else { Interpreter::new(self.limits) };
     }
 
-    /// Appends commands, before a landing that the plan implies. The drone is at `here` and carries out
-    /// `due`.
+    /// Appends commands, before a landing that the plan implies. At rest, where the next flight begins with the
+    /// first step, commands behind a mission that has ended begin a new one.
     ///
     /// # Errors
-    /// [`AppendError`] if a command leads outside the fence or does not fit there.
+    /// [`AppendError`] if a command leads outside the fence or does not fit there. Nothing has changed then.
     pub fn append(
         &mut self,
         commands: Commands,
-        here: &Pose,
-        airborne: bool,
-        due: Option<Due>,
+        underway: Option<Underway>,
     ) -> Result<(), AppendError> {
+        let begins_anew = underway.is_none() && (self.has_ended() || commands.clears());
         let end = self.steps.len() - usize::from(self.lands_implicitly());
-        let next = if commands.clears() { end } else { self.next.min(end) };
-        let mut run = DryRun::from_here(self.interpreter.clone(), *here, airborne);
-        run.finish(due.map(|due| due.order));
-        for step in self.steps.get(next..end).unwrap_or_default() {
+        let (mut run, next) = match underway {
+            None => (DryRun::new(&self.limits), 0),
+            Some(Underway { here, airborne, due }) => {
+                let mut run = DryRun::from_here(self.interpreter.clone(), here, airborne);
+                run.finish(due.map(|due| due.order));
+                (run, self.next.min(end))
+            }
+        };
+        let kept = if begins_anew || commands.clears() { end } else { next };
+        for step in self.steps.get(kept..end).unwrap_or_default() {
             run.step(step.command);
         }
         let reasons = commands.problems_behind(run, &self.limits);
         if !reasons.is_empty() {
             return Err(AppendError { reasons });
         }
-        if commands.clears() {
-            self.steps.drain(self.next.min(end)..end);
+        if begins_anew {
+            self.clear();
+        } else if commands.clears() {
+            self.steps.drain(next..end);
         }
         let end = self.steps.len() - usize::from(self.lands_implicitly());
         self.steps.splice(end..end, commands.into_steps());
@@ -222,9 +240,8 @@ mod tests {
 
     fn append(mission: &mut Mission, text: &str, due: Option<Due>) -> Result<(), String> {
         let commands = Commands::parse("command", text).unwrap();
-        let airborne = due.is_some();
-        let here = if airborne { HOVER } else { Pose::default() };
-        mission.append(commands, &here, airborne, due).map_err(|error| error.to_string())
+        let underway = due.map(|due| Underway { here: HOVER, airborne: true, due: Some(due) });
+        mission.append(commands, underway).map_err(|error| error.to_string())
     }
 
     fn texts(mission: &Mission) -> Vec<&str> {
@@ -290,5 +307,22 @@ mod tests {
         let AgentOrder::GoTo(target) = due.order else { panic!("{due:?}") };
         assert!((target.pose.x_m - HOVER.x_m).abs() < 1e-9);
         assert!((target.pose.y_m - HOVER.y_m - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn at_rest_commands_count_from_the_next_take_off() {
+        let mut mission = mission("takeoff\ngoto 3 0 0 0\nland");
+        mission.advance(&Pose::default());
+        mission.take_off_ended(&HOVER);
+        while mission.advance(&Pose { x_m: 3.0, ..HOVER }).is_some() {}
+        assert!(mission.has_ended());
+        assert!(append(&mut mission, "goto 0 50 0 0", None).is_err());
+        assert_eq!(
+            texts(&mission),
+            ["takeoff", "goto 3 0 0 0", "land"],
+            "what is refused changes nothing"
+        );
+        append(&mut mission, "takeoff\nmoveBy 8 0 0 0", None).unwrap();
+        assert_eq!(texts(&mission), ["takeoff", "moveBy 8 0 0 0"]);
     }
 }

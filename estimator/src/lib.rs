@@ -310,6 +310,9 @@ impl Estimator {
 
     /// The odometry has gone on: so does its place in the world.
     fn update_tags(&mut self, made_s: f64, sample: &Sample) {
+        if self.tags.is_none() {
+            return;
+        }
         let at_s = self.velocity_at_s.unwrap_or(made_s);
         let yaw_deg = self.heading_at(at_s);
         let Some(tags) = &mut self.tags else { return };

@@ -344,9 +344,9 @@ fn one_operator_at_a_time_has_the_controls() {
 
 #[test]
 fn what_is_ordered_before_the_drone_has_lifted_keeps_it_down() {
-    for (ticks, order) in
-        (0..40_u32).flat_map(|ticks| [(ticks, OperatorOrder::Hold), (ticks, OperatorOrder::Cut)])
-    {
+    for (ticks, order) in (0..40_u32).flat_map(|ticks| {
+        [(ticks, OperatorOrder::Hold), (ticks, OperatorOrder::Clear), (ticks, OperatorOrder::Cut)]
+    }) {
         let mut bench = Bench::standing_by("");
         bench.accepted(OperatorOrder::Load(plan(SQUARE)));
         bench.accepted(START);

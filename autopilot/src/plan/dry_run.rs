@@ -15,7 +15,7 @@ pub(crate) struct DryRun {
 }
 
 impl DryRun {
-    pub(super) fn new(limits: &FlightLimits) -> Self {
+    pub(crate) fn new(limits: &FlightLimits) -> Self {
         let interpreter = Interpreter::new(*limits);
         Self { interpreter, place: Pose::default(), airborne: false }
     }

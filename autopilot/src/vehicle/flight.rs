@@ -43,6 +43,8 @@ pub(super) struct Flight {
     pub(super) target: Option<Pose>,
     /// When the drone was first asked for full navdata, or else when the flight began.
     pub(super) asked_at: Duration,
+    /// The agent was allowed to take off. A take-off that was ordered may lift the drone later.
+    pub(super) has_begun: bool,
     pub(super) report: FlightReport,
     pub(super) outcome: Option<Outcome>,
 }
@@ -76,6 +78,7 @@ impl Flight {
             sign_search: SignSearch::default(),
             target: None,
             asked_at: begins,
+            has_begun: false,
             report: FlightReport::default(),
             outcome: None,
         }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::readiness::NotReady;
 use super::{Authority, FlightEvent, FlightPhase, LandingReason, Operator, Vehicle};
-use crate::mission::AppendError;
+use crate::mission::{AppendError, Underway};
 use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, Commands, Plan};
 use ardrone_link::navdata::DroneState;
@@ -132,7 +132,8 @@ impl Vehicle {
     /// Handles an order from an operator. An accepted order takes effect in the next tick.
     ///
     /// # Errors
-    /// [`Refused`] with the reason; nothing has changed then.
+    /// [`Refused`] with the reason. Nothing has changed then, except that a local operator's hold takes the
+    /// controls from a remote one even if there is nothing to hold.
     pub fn order(
         &mut self,
         now: Duration,
@@ -227,8 +228,8 @@ impl Vehicle {
     }
 
     fn clear(&mut self, now: Duration) {
-        if self.departure.is_some() {
-            self.end(now, Outcome::Interrupted);
+        if self.is_about_to_fly() {
+            self.land(now, LandingReason::Operator);
         }
         self.mission.clear();
         self.events.push_back(FlightEvent::MissionCleared);
@@ -256,13 +257,12 @@ impl Vehicle {
         if self.lands() {
             return Err(Refused::Landing);
         }
-        let airborne = self.phase == FlightPhase::Flying;
-        if !airborne && self.mission.has_ended() {
-            self.mission.clear();
-        }
-        let here = self.pose(now);
-        let due = self.flight.due.map(|active| active.due);
-        self.mission.append(commands, &here, airborne && !self.on_ground(), due)?;
+        let underway = (self.phase == FlightPhase::Flying).then(|| Underway {
+            here: self.pose(now),
+            airborne: !self.on_ground(),
+            due: self.flight.due.map(|active| active.due),
+        });
+        self.mission.append(commands, underway)?;
         self.mission_changed();
         self.events.push_back(FlightEvent::MissionExtended { steps: self.mission.steps().len() });
         Ok(())

@@ -234,7 +234,7 @@ impl Vehicle {
 
     /// Handles a drone that took off while standing by.
     fn has_risen(&mut self, now: Duration, since: Duration) {
-        if self.flight.report.took_off_at.is_some() && now.saturating_sub(since) < OURS {
+        if self.flight.has_begun && now.saturating_sub(since) < OURS {
             self.phase = FlightPhase::Landing { since: now };
             // Pre-empting goals are always accepted.
             let accepted = self.flight.agent.achieve_land();

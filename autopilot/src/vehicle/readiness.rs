@@ -153,6 +153,7 @@ impl Vehicle {
         reasons.extend(self.problems_of_the_settings());
         if reasons.is_empty() {
             self.departure = None;
+            self.flight.has_begun = true;
             self.phase = FlightPhase::Flying;
         } else {
             self.refuse(now, reasons.iter().map(ToString::to_string).collect());
