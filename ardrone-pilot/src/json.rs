@@ -106,7 +106,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "steps": steps,
                 "mission_waits": status.mission_waits,
                 "controls": status.controls.map(|operator| operator.to_string()),
-                "pose": Place::from(&status.pose),
+                "pose": status.pose.map(|pose| Place::from(&pose)),
                 "target": target.map(|target| Place::from(&target)),
                 "distance_m": distance_m,
                 "battery_percent": battery_percent,

@@ -199,7 +199,10 @@ fn one_click_cuts_nothing_and_two_do() {
     };
     let flown = Flown::start(HOVER);
     let tab = chromium.open(&flown.url());
-    chromium.wait(&tab, "!!status && status.phase === 'flying' && status.pose.z_m > 0.5");
+    chromium.wait(
+        &tab,
+        "!!status && status.phase === 'flying' && status.pose && status.pose.z_m > 0.5",
+    );
     chromium.click(&tab, "#cut", [0.0; 2]);
     chromium.wait(&tab, "document.querySelector('#cut').innerText === 'Again: the drone FALLS'");
     chromium.wait(&tab, "document.querySelector('#cut').innerText === 'Cut motors'");

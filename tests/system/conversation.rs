@@ -6,6 +6,7 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
+use ardrone_pilot::recording::Log;
 use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::server::{MockDrone, Ports};
@@ -18,7 +19,8 @@ const PATIENCE: Duration = Duration::from_secs(90);
 
 /// A vehicle process and its mock drone.
 struct Conversation {
-    mock: MockDrone,
+    /// None once it has been switched off.
+    mock: Option<MockDrone>,
     child: Child,
     orders: Option<ChildStdin>,
     said: Receiver<Value>,
@@ -58,7 +60,7 @@ impl Conversation {
             }
         });
         let orders = child.stdin.take();
-        Self { mock, child, orders, said, next: 0 }
+        Self { mock: Some(mock), child, orders, said, next: 0 }
     }
 
     fn write(&mut self, line: &str) {
@@ -97,6 +99,10 @@ impl Conversation {
         assert_eq!(answer["accepted"], true, "{said}: {answer}");
     }
 
+    fn drone_phase(&self) -> Phase {
+        self.mock.as_ref().unwrap().truth().phase
+    }
+
     #[track_caller]
     fn until_ready(&mut self) {
         self.until("ready", |object| object["type"] == "ready" && object["ready"] == true);
@@ -112,8 +118,15 @@ impl Conversation {
         self.until("a landing", |object| object["type"] == "landed");
         let ended = self.until("an end", |object| object["type"] == "flight_ended");
         self.until_ready();
-        assert_eq!(self.mock.truth().phase, Phase::Landed);
+        assert_eq!(self.drone_phase(), Phase::Landed);
         ended
+    }
+
+    fn take_off(&mut self) {
+        self.until_ready();
+        self.accepted(json!({ "order": "append", "command": "takeoff" }));
+        self.accepted(json!({ "order": "start" }));
+        self.until_status(|status| status["pose"]["z_m"].as_f64() > Some(0.7));
     }
 
     /// A flight in which the mission is changed, held, resumed and extended.
@@ -215,23 +228,17 @@ fn what_is_no_order_is_answered_and_changes_nothing() {
 fn a_program_that_goes_away_in_flight_leaves_no_drone_in_the_air() {
     let folder = tempfile::tempdir().unwrap();
     let mut vehicle = Conversation::start(&folder.path().join("session.mcap"));
-    vehicle.until_ready();
-    vehicle.accepted(json!({ "order": "append", "command": "takeoff" }));
-    vehicle.accepted(json!({ "order": "start" }));
-    vehicle.until_status(|status| status["pose"]["z_m"].as_f64() > Some(0.7));
+    vehicle.take_off();
     vehicle.orders = None;
     let end = vehicle.until("the end", |object| object["type"] == "end");
-    assert_eq!((&end["exit_status"], vehicle.mock.truth().phase), (&json!(0), Phase::Landed));
+    assert_eq!((&end["exit_status"], vehicle.drone_phase()), (&json!(0), Phase::Landed));
 }
 
 #[test]
 fn a_landing_overtakes_all_that_waits_in_front_of_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut vehicle = Conversation::start(&folder.path().join("session.mcap"));
-    vehicle.until_ready();
-    vehicle.accepted(json!({ "order": "append", "command": "takeoff" }));
-    vehicle.accepted(json!({ "order": "start" }));
-    vehicle.until_status(|status| status["pose"]["z_m"].as_f64() > Some(0.7));
+    vehicle.take_off();
     let append = json!({ "order": "append", "command": "goto 0 0 0 0" }).to_string() + "\n";
     let again = json!({ "id": "again", "order": "start" });
     let land = json!({ "id": "land", "order": "land" });
@@ -241,7 +248,7 @@ fn a_landing_overtakes_all_that_waits_in_front_of_it() {
     assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
     vehicle.until("the end", |object| object["type"] == "flight_ended");
     std::thread::sleep(Duration::from_secs(3));
-    assert_eq!(vehicle.mock.truth().phase, Phase::Landed, "what it has overtaken lifts nothing");
+    assert_eq!(vehicle.drone_phase(), Phase::Landed, "what it has overtaken lifts nothing");
     vehicle.quit();
 }
 
@@ -263,4 +270,19 @@ fn orders_are_read_as_people_type_them() {
     until("landed");
     orders.write_all(b"quit\n").unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(0));
+}
+
+#[test]
+fn a_drone_that_is_gone_leaves_no_ticks_in_the_log() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("session.mcap");
+    let mut vehicle = Conversation::start(&log);
+    vehicle.until_ready();
+    vehicle.mock = None;
+    vehicle.until("no drone", |object| object["type"] == "ready" && object["ready"] == false);
+    std::thread::sleep(Duration::from_secs(2));
+    vehicle.quit();
+    let log = Log::read(&std::fs::read(&log).unwrap()).unwrap();
+    let ticks: Vec<Duration> = log.ticks().map(|(at, _)| at).collect();
+    assert!(ticks.len() > 30 && ticks.is_sorted_by(|a, b| a < b), "{ticks:?}");
 }

@@ -61,7 +61,7 @@ fn drifts_m(sensors: SensorModel, scenario: &str) -> (f64, f64) {
         let mut last = (0.0, 0.0);
         let watch = |moment: &Moment| {
             if moment.status.target.is_some() {
-                let pose = &moment.status.pose;
+                let pose = moment.status.pose.unwrap_or_default();
                 let truth = moment.truth.position_m;
                 last = (
                     (truth.x - pose.x_m).powi(2) + (truth.y - pose.y_m).powi(2),
@@ -102,7 +102,7 @@ fn the_prediction_is_where_the_drone_is() {
                 .fly_watched(plan(SQUARE), |moment| {
                     if moment.status.target.is_some() {
                         let place = place_in_navdata_frame(&moment.truth);
-                        let pose = &moment.status.pose;
+                        let pose = moment.status.pose.unwrap_or_default();
                         let off = (place.x - pose.x_m).hypot(place.y - pose.y_m);
                         worst_m = worst_m.max(off.hypot(place.z - pose.z_m));
                     }
@@ -124,7 +124,8 @@ fn the_uncertainty_is_honest() {
                 if moment.status.target.is_none() {
                     return;
                 }
-                let (pose, truth) = (&moment.status.pose, &moment.truth.position_m);
+                let (pose, truth) =
+                    (moment.status.pose.unwrap_or_default(), &moment.truth.position_m);
                 let deviation_m = moment.status.horizontal_deviation_m;
                 for off_m in [truth.x - pose.x_m, truth.y - pose.y_m] {
                     all += 1.0;

@@ -59,7 +59,7 @@ fn hover(seed: u64, hard: bool, scenario: &str) -> (Kept, SimulatedFlight) {
             return;
         }
         let truth = moment.truth.position_m.xy();
-        let pose = &moment.status.pose;
+        let pose = moment.status.pose.unwrap_or_default();
         let off = truth - Vector2::new(pose.x_m, pose.y_m);
         let astray = truth - Vector2::new(target.x_m, target.y_m);
         kept.truth_worst_m = kept.truth_worst_m.max(astray.norm());

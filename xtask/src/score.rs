@@ -49,7 +49,7 @@ impl Scorer {
         let (Some(step), Some(target)) = (moment.status.step, moment.status.target) else { return };
         let target = Vector3::new(target.x_m, target.y_m, target.z_m);
         let truth = moment.truth.position_m.xy();
-        let pose = &moment.status.pose;
+        let pose = moment.status.pose.unwrap_or_default();
         self.drift_m = (
             (moment.truth.odometry_m - truth).norm(),
             (Vector2::new(pose.x_m, pose.y_m) - truth).norm(),

@@ -333,7 +333,7 @@ fn fly(job: Job) -> Result<Flown, TagError> {
             return;
         }
         let truth = moment.truth.position_m.xy();
-        let pose = &moment.status.pose;
+        let pose = moment.status.pose.unwrap_or_default();
         let off = truth - Vector2::new(pose.x_m, pose.y_m);
         let astray_m = (truth - Vector2::new(target.x_m, target.y_m)).norm();
         flown.time_s = since.as_secs_f64();

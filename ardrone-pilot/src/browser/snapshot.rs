@@ -52,7 +52,9 @@ impl Snapshot {
         let object = json::message(message, &self.steps);
         match message {
             Message::Status(_, status, _) => {
-                self.flown_path.add(status.pose.x_m, status.pose.y_m);
+                if let Some(pose) = status.pose {
+                    self.flown_path.add(pose.x_m, pose.y_m);
+                }
                 self.status = object.clone();
             }
             Message::Event(..) | Message::Trouble(..) => {

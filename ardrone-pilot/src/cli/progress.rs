@@ -119,15 +119,16 @@ fn status_line(at: Duration, status: &Status) -> String {
     if let Some(step) = status.step {
         parts.push(format!("{}/{}", step + 1, status.steps));
     }
-    let pose = &status.pose;
-    parts.push(format!(
-        " at {:+.2} {:+.2} {:.2} m {:+.0}°",
-        pose.x_m,
-        pose.y_m,
-        pose.z_m,
-        // Avoids printing "-0".
-        pose.yaw_deg.round() + 0.0
-    ));
+    if let Some(pose) = status.pose {
+        parts.push(format!(
+            " at {:+.2} {:+.2} {:.2} m {:+.0}°",
+            pose.x_m,
+            pose.y_m,
+            pose.z_m,
+            // Avoids printing "-0".
+            pose.yaw_deg.round() + 0.0
+        ));
+    }
     if let (Some(target), Some(distance_m)) = (status.target, status.distance_m) {
         parts.push(format!(
             " to {:+.2} {:+.2} {:.2} m, {distance_m:.2} m away",
@@ -185,7 +186,7 @@ mod tests {
             steps: 6,
             mission_waits: false,
             controls: None,
-            pose: Pose { x_m: 0.12, y_m: 0.98, z_m: 0.85, yaw_deg: -1.0 },
+            pose: Some(Pose { x_m: 0.12, y_m: 0.98, z_m: 0.85, yaw_deg: -1.0 }),
             target: Some(Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 }),
             distance_m: Some(0.88),
             battery_percent: Some(87),

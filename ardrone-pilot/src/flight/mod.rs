@@ -502,6 +502,10 @@ impl TickLoop {
     }
 
     fn record_tick(&mut self, late: Duration, work: Duration) {
+        // While the drone is not spoken to nothing is decided: the last decision is an old one.
+        if self.vehicle.datagram().is_empty() {
+            return;
+        }
         if let (Some(recorder), Some(decision)) = (&mut self.recorder, self.vehicle.decision()) {
             let ms = |time: Duration| time.as_secs_f64() * 1e3;
             let timing = Timing { late_ms: ms(late), work_ms: ms(work) };

@@ -360,7 +360,7 @@ impl Vehicle {
             steps: self.flight.report.steps,
             mission_waits: self.flight.manual.holds_mission,
             controls: self.controls.holder(),
-            pose,
+            pose: self.session.silence(now).map(|_| pose),
             target: self.flight.target,
             distance_m: self.flight.target.map(|target| distance(&pose, &target)),
             battery_percent: self.demo().map(|demo| demo.battery_percent),

@@ -259,8 +259,8 @@ pub struct Status {
     pub mission_waits: bool,
     /// The operator who has the controls.
     pub controls: Option<Operator>,
-    /// Estimated pose.
-    pub pose: Pose,
+    /// Estimated pose; `None` until the drone has been heard.
+    pub pose: Option<Pose>,
     /// Current target pose.
     pub target: Option<Pose>,
     /// Distance to the target.

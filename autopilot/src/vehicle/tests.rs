@@ -11,6 +11,7 @@ fn vehicle(plan: &str) -> Vehicle {
 fn nothing_is_sent_to_a_drone_that_was_not_heard() {
     let mut vehicle = vehicle("takeoff\nland");
     vehicle.tick(Duration::ZERO).unwrap();
+    assert_eq!(vehicle.status(Duration::ZERO).pose, None, "unknown, not zero");
     assert_eq!(vehicle.poll_transmit(), Some(Transmit::WakeUp));
     assert_eq!(vehicle.poll_transmit(), None);
 }

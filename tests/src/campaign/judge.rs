@@ -327,7 +327,7 @@ impl Judge {
             && !moment.is_over
             && !self.injected.has_lied(*now)
             && !self.injected.has_restarted(*now);
-        let pose = &status.pose;
+        let pose = status.pose.unwrap_or_default();
         let place_error_m = (truth.position_m.x - pose.x_m).hypot(truth.position_m.y - pose.y_m);
         let height_error_m = (truth.position_m.z - pose.z_m).abs();
         let is_wrong = |error_m: f64, claimed_m: f64| {

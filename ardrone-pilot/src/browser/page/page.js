@@ -72,7 +72,7 @@ function take(told) {
       status = told;
       clock = Math.max(clock, told.t_s * 1000 - performance.now());
       behind = clock - (told.t_s * 1000 - performance.now());
-      extendTrail(told.pose);
+      if (told.pose) extendTrail(told.pose);
       decide(told);
       break;
     case "event":
@@ -197,6 +197,7 @@ function draw() {
   drawButtons();
   if (!flight || !status) return;
   drawFacts();
+  if (!status.pose) return;
   drawMap();
   drawGauges();
   drawSteps();

@@ -119,7 +119,9 @@ impl View {
     }
 
     fn look(&mut self, at: Duration, status: &Status) {
-        self.flown_path.add(status.pose.x_m, status.pose.y_m);
+        if let Some(pose) = status.pose {
+            self.flown_path.add(pose.x_m, pose.y_m);
+        }
         let decision = decision(status);
         if !decision.is_empty() && self.decisions.back().is_none_or(|(_, last)| *last != decision) {
             remember(&mut self.decisions, (at, decision));
@@ -231,7 +233,7 @@ fn headline(view: &View) -> Paragraph<'_> {
 
 /// Map from above: fence, flown path, drone with its heading, target.
 fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
-    let pose = view.status.map(|status| status.pose).unwrap_or_default();
+    let pose = view.status.and_then(|status| status.pose).unwrap_or_default();
     let target = view.status.and_then(|status| status.target);
     let places = view.flown_path.places_m().chain(target.map(|target| (target.x_m, target.y_m)));
     let (mut x, mut y) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
@@ -280,24 +282,21 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let Some(status) = &view.status else { return };
     let [height, text] =
         Layout::vertical([Constraint::Length(1), Constraint::Min(1)]).areas(inside);
-    let share = (status.pose.z_m / view.limits.ceiling_m).clamp(0.0, 1.0);
+    let height_m = status.pose.map_or(0.0, |pose| pose.z_m);
+    let share = (height_m / view.limits.ceiling_m).clamp(0.0, 1.0);
     let share = if share.is_nan() { 0.0 } else { share };
     frame.render_widget(
-        Gauge::default()
-            .ratio(share)
-            .gauge_style(Style::new().fg(HERE))
-            .label(format!("height {:.2} of {} m", status.pose.z_m, view.limits.ceiling_m)),
+        Gauge::default().ratio(share).gauge_style(Style::new().fg(HERE)).label(match status.pose {
+            Some(pose) => format!("height {:.2} of {} m", pose.z_m, view.limits.ceiling_m),
+            None => "height unknown".to_owned(),
+        }),
         height,
     );
-    let pose = &status.pose;
     let mut lines = vec![
-        format!(
-            "at      {:+.2} {:+.2} {:.2} m {:+.0}°",
-            pose.x_m,
-            pose.y_m,
-            pose.z_m,
-            pose.yaw_deg.round() + 0.0
-        ),
+        status.pose.map_or("at      -".to_owned(), |pose| {
+            let yaw_deg = pose.yaw_deg.round() + 0.0;
+            format!("at      {:+.2} {:+.2} {:.2} m {yaw_deg:+.0}°", pose.x_m, pose.y_m, pose.z_m)
+        }),
         match (status.target, status.distance_m) {
             (Some(target), Some(distance_m)) => format!(
                 "target  {:+.2} {:+.2} {:.2} m, {distance_m:.2} m off",
@@ -379,7 +378,7 @@ mod tests {
                 steps: 4,
                 mission_waits: false,
                 controls: None,
-                pose: Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 },
+                pose: Some(Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 }),
                 target: Some(target),
                 distance_m: Some(1.0 - share),
                 battery_percent: Some(87),
