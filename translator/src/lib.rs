@@ -43,9 +43,7 @@ use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
 use gather::gather;
 pub use model::{Happening, Model};
-pub use obligations::{
-    ANSWERS, CALLS, HARNESS, Obligations, Promise, RANDOM_TRANSITIONS, STEPS,
-};
+pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, RANDOM_TRANSITIONS, STEPS};
 pub use report::Report;
 use reserved::is_rust_word;
 use syntax::ast::Name;

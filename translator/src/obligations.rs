@@ -108,7 +108,12 @@ mod tests {
         let configuration = parse_configuration("a.conf", &text).unwrap();
         let obligations = obligations(&configuration, "+!light <- X = on; +lit(1).").unwrap();
         let harness = &obligations.files.last().unwrap().text;
-        for part in ["calls_on = (calls_on < 2U)", "calls_on = 0U;", "= any_bool();", "\"answers on\", result"] {
+        for part in [
+            "calls_on = (calls_on < 2U)",
+            "calls_on = 0U;",
+            "= any_bool();",
+            "\"answers on\", result",
+        ] {
             assert!(harness.contains(part), "{part}:\n{harness}");
         }
     }

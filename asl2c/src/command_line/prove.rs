@@ -34,8 +34,7 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     let mut found = Vec::new();
     if !proof.holds() {
         let session = Session::new(configuration, text)?;
-        let limits =
-            Limits { transitions: asked.length, time: Duration::from_secs(asked.time) };
+        let limits = Limits { transitions: asked.length, time: Duration::from_secs(asked.time) };
         found = search(&proof, configuration, &session, &cbmc, folder.path(), limits)?;
     }
     let output = asked.output.as_deref().unwrap_or(agent.folder());
@@ -76,7 +75,10 @@ fn save(
     let path = folder.join(format!("{stem}.{what}.script"));
     let text = script(searched, way);
     std::fs::write(&path, text).map_err(|source| {
-        CommandError::Prove(ProveError::Io { what: format!("cannot write {}", path.display()), source })
+        CommandError::Prove(ProveError::Io {
+            what: format!("cannot write {}", path.display()),
+            source,
+        })
     })?;
     Ok(Some(path))
 }
@@ -138,7 +140,11 @@ fn tell(
     let path = saved.path.as_ref().map_or(String::new(), |path| path.display().to_string());
     match &saved.searched.found {
         Found::Way(_, story) => {
-            _ = writeln!(text, "{head}: DOES NOT HOLD\n{formula}  for this can happen ({}):", configuration.input());
+            _ = writeln!(
+                text,
+                "{head}: DOES NOT HOLD\n{formula}  for this can happen ({}):",
+                configuration.input()
+            );
             for happening in story {
                 _ = writeln!(text, "    {happening}");
             }
@@ -170,7 +176,8 @@ fn as_json(proof: &Proof, saved: &[Saved]) -> String {
             Some(Found::Way(_, story)) => ("fails", json!(story)),
             _ => ("undecided", Value::Null),
         };
-        let script = saved.and_then(|saved| saved.path.as_ref()).map(|path| path.display().to_string());
+        let script =
+            saved.and_then(|saved| saved.path.as_ref()).map(|path| path.display().to_string());
         (named, trace, script)
     };
     let properties = proof.properties.iter().map(|(promise, holds)| {

@@ -132,8 +132,7 @@ impl Cbmc {
             // Each transition has objects of its own.
             .args(["--object-bits", "20"])
             .args(options(checks))
-            // One more than transitions, for the end of the loop.
-            .args(["--unwindset", &format!("main.0:{}", transitions + 1), "--no-unwinding-assertions"])
+            .args(["--unwindset", &format!("main.0:{}", transitions), "--no-unwinding-assertions"])
             .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]))
             .current_dir(folder)
             .stdout(output)

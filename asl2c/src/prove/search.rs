@@ -51,11 +51,15 @@ pub(crate) fn search(
     limits: Limits,
 ) -> Result<Vec<Searched>, ProveError> {
     let until = Instant::now() + limits.time;
-    let mut results: Vec<Searched> = proof.open.iter().map(|failure| Searched {
-        property: failure.property().map(str::to_owned),
-        said: failure.said.clone(),
-        found: Found::None(0),
-    }).collect();
+    let mut results: Vec<Searched> = proof
+        .open
+        .iter()
+        .map(|failure| Searched {
+            property: failure.property().map(str::to_owned),
+            said: failure.said.clone(),
+            found: Found::None(0),
+        })
+        .collect();
     let mut length = 0;
     while length < limits.transitions {
         length = if length == 0 { 4 } else { length * 2 }.min(limits.transitions);

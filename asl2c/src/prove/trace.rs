@@ -56,9 +56,8 @@ pub(super) fn traces(text: &str) -> Option<Vec<Trace>> {
     let failing = checked.into_iter().filter(|checked| !checked.trace.is_empty());
     let traces = failing.map(|Checked { property, trace }| {
         let outputs = trace.into_iter().filter(|step| step.step_type == "output");
-        let told = outputs.filter_map(|step| {
-            Some(Output { what: step.output_id?, values: step.values })
-        });
+        let told =
+            outputs.filter_map(|step| Some(Output { what: step.output_id?, values: step.values }));
         Trace { name: property, told: told.collect() }
     });
     Some(traces.collect())
@@ -187,7 +186,10 @@ mod tests {
         assert_eq!(value(&"1".repeat(64), "int64_t"), Value::Integer(-1));
         assert_eq!(value("00000001", "bool"), Value::Bool(true));
         assert_eq!(value(&format!("{:064b}", 1.5_f64.to_bits()), "double"), Value::Float(1.5));
-        assert_eq!(value(&format!("{:032b}", 0.1_f32.to_bits()), "float"), Value::Float(0.1_f32.into()));
+        assert_eq!(
+            value(&format!("{:032b}", 0.1_f32.to_bits()), "float"),
+            Value::Float(0.1_f32.into())
+        );
         assert_eq!(decode("", &CType::named("int")), None);
     }
 }

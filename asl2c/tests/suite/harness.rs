@@ -18,6 +18,7 @@ pub(crate) fn skip(tool: &str) {
 
 /// A CBMC: the one that `ASL2C_CBMC` names, or that on the path.
 pub(crate) fn cbmc() -> Option<std::path::PathBuf> {
-    let named = std::env::var_os("ASL2C_CBMC").map_or_else(|| "cbmc".into(), std::path::PathBuf::from);
+    let named =
+        std::env::var_os("ASL2C_CBMC").map_or_else(|| "cbmc".into(), std::path::PathBuf::from);
     asl2c::Cbmc::find(Some(&named)).ok().map(|_| named)
 }
