@@ -79,16 +79,12 @@ pub fn run() -> ExitCode {
 
 /// The explanation of a kind of error or warning, or all codes.
 fn explained(code: Option<&str>) -> String {
-    match code.and_then(Code::named) {
-        Some(code) => {
-            let severity = if code.severity() == Severity::Error { "error" } else { "warning" };
-            format!("{severity} `{}`: {}\n\n{}\n", code.name(), code.meaning(), code.explanation())
-        }
-        None => Code::ALL
-            .iter()
-            .map(|code| format!("{:<20} {}\n", code.name(), code.meaning()))
-            .collect(),
-    }
+    let Some(code) = code.and_then(Code::named) else {
+        let line = |code: &Code| format!("{:<20} {}", code.name(), code.meaning());
+        return Code::ALL.iter().map(line).collect::<Vec<_>>().join("\n") + "\n";
+    };
+    let severity = if code.severity() == Severity::Error { "error" } else { "warning" };
+    format!("{severity} `{}`: {}\n\n{}\n", code.name(), code.meaning(), code.explanation())
 }
 
 fn check(asked: &Verify) -> Result<ExitCode, CommandError> {

@@ -80,8 +80,8 @@ fn talk(session: &mut Session) -> Result<(), CommandError> {
 fn show(session: &mut Session, text: &str, start: usize) -> Result<bool, CommandError> {
     match session.execute(&text[start..]) {
         Ok(lines) => {
-            let lines: String = lines.iter().map(|line| format!("{line}\n")).collect();
-            print("what was shown", &lines)?;
+            let end = if lines.is_empty() { "" } else { "\n" };
+            print("what was shown", &(lines.join("\n") + end))?;
             Ok(true)
         }
         Err(mut error) => {

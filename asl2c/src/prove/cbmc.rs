@@ -56,7 +56,7 @@ impl Cbmc {
         let output = output.map_err(|_| missing("there is no CBMC here".to_owned()))?;
         let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
         let major = version.split('.').next().and_then(|major| major.parse::<u32>().ok());
-        if !major.is_some_and(|major| major >= OLDEST) {
+        if major.is_none_or(|major| major < OLDEST) {
             return Err(missing(format!("{} is `{version}`", path.display())));
         }
         if Command::new("gcc").arg("--version").output().is_err() {
@@ -114,6 +114,7 @@ impl Cbmc {
 
     /// Looks for ways to failures from the beginning on, at most so many transitions long; nothing if the time was
     /// not enough.
+    #[allow(clippy::disallowed_methods, reason = "a search that has no end is given up")]
     pub(super) fn ways(
         &self,
         folder: &Path,
@@ -132,7 +133,7 @@ impl Cbmc {
             // Each transition has objects of its own.
             .args(["--object-bits", "20"])
             .args(options(checks))
-            .args(["--unwindset", &format!("main.0:{}", transitions), "--no-unwinding-assertions"])
+            .args(["--unwindset", &format!("main.0:{transitions}"), "--no-unwinding-assertions"])
             .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]))
             .current_dir(folder)
             .stdout(output)

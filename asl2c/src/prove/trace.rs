@@ -28,9 +28,9 @@ struct Checked {
 
 /// A step of a trace; only outputs matter.
 #[derive(Debug, Clone, Deserialize)]
-#[serde(rename_all = "camelCase")]
 struct Step {
-    step_type: String,
+    #[serde(rename = "stepType")]
+    kind: String,
     #[serde(rename = "outputID")]
     output_id: Option<String>,
     #[serde(default)]
@@ -55,7 +55,7 @@ pub(super) fn traces(text: &str) -> Option<Vec<Trace>> {
     let checked = messages.into_iter().find_map(|message| message.result)?;
     let failing = checked.into_iter().filter(|checked| !checked.trace.is_empty());
     let traces = failing.map(|Checked { property, trace }| {
-        let outputs = trace.into_iter().filter(|step| step.step_type == "output");
+        let outputs = trace.into_iter().filter(|step| step.kind == "output");
         let told =
             outputs.filter_map(|step| Some(Output { what: step.output_id?, values: step.values }));
         Trace { name: property, told: told.collect() }
