@@ -1,7 +1,7 @@
 //! Translates the agent to C and Rust, and compiles the C.
 //!
-//! With `AGENT_COVERAGE` set to a folder, what runs of the C is counted there (gcov): `cargo xtask verify`
-//! asks the tests so.
+//! If `AGENT_COVERAGE` names a folder, the C is instrumented and its coverage (gcov) is collected there;
+//! `cargo xtask verify` uses this.
 
 use std::error::Error;
 use std::io::Write as _;
@@ -15,8 +15,8 @@ fn main() -> ExitCode {
     match build() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // Debug output, which returning the error would print, escapes the line breaks.
-            // If stderr fails the exit status remains.
+            // Returning the error would print its debug form, which escapes line breaks. If stderr fails, the
+            // exit status remains.
             _ = writeln!(std::io::stderr(), "{error}");
             ExitCode::FAILURE
         }
@@ -40,7 +40,7 @@ fn build() -> Result<(), Box<dyn Error>> {
     let mut c = cc::Build::new();
     c.include(sources).std("c99").warnings(true).extra_warnings(true);
     for file in &translation.files {
-        // The bindings are included from where cargo wants them.
+        // Cargo expects the bindings in `OUT_DIR`.
         std::fs::write(out.join(&file.name), &file.text)?;
         let path = sources.join(&file.name);
         std::fs::write(&path, &file.text)?;
@@ -49,7 +49,7 @@ fn build() -> Result<(), Box<dyn Error>> {
         }
     }
     if counted.is_some() {
-        // Optimized code has other branches than the source; threads of tests count together.
+        // Optimized code has other branches than the source; atomic counters allow tests on several threads.
         c.opt_level(0).flag("--coverage").flag("-fprofile-update=atomic").out_dir(sources);
         println!("cargo::rerun-if-changed={}", sources.join(&translation.files[0].name).display());
     }

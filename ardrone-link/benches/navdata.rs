@@ -1,4 +1,4 @@
-//! How long decoding takes, and what it allocates: `cargo bench -p ardrone-link`.
+//! Duration and allocations of decoding: `cargo bench -p ardrone-link`.
 #![allow(
     clippy::print_stdout,
     clippy::unwrap_used,

@@ -1,5 +1,5 @@
-//! Sets some limits with an identity of its own, reads the drone's configuration back, and tells what
-//! happens meanwhile.
+//! Sets some limits under a custom identity, reads the drone's configuration back, and prints events
+//! meanwhile.
 //!
 //! `cargo run -p ardrone-link --features net --example configure [HOST]`
 #![allow(clippy::print_stdout, reason = "it shows what happens")]
@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use ardrone_link::{Client, ClientBuilder, Configuration, Event, Identity, Setting};
 
-/// Configures the drone; returns what it then says of itself.
+/// Configures the drone; returns the configuration that it reports afterwards.
 pub(crate) async fn configure(drone: ClientBuilder) -> Result<Configuration, Box<dyn Error>> {
     let drone = drone
         .identity(Identity { session: 0x5E55_1011, user: 0x0000_0A5E, application: 0xA9B1 })
@@ -19,7 +19,7 @@ pub(crate) async fn configure(drone: ClientBuilder) -> Result<Configuration, Box
         .read_back(true)
         .start()
         .await?;
-    // Refuses a drone that has not taken every setting.
+    // Fails unless the drone has applied every setting.
     drone.ready().await?;
     let mut events = drone.events();
     loop {

@@ -1,4 +1,4 @@
-//! The configuration dump of the control port: `section:key = value` lines, a NUL at the end.
+//! The configuration dump of the control port: `section:key = value` lines, terminated by NUL.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +9,7 @@ pub struct Configuration {
 }
 
 impl Configuration {
-    /// Reads a dump. A line without ` = ` continues the value before it, as the drone prints
-    /// matrices.
+    /// Parses a dump. A line without ` = ` continues the previous value, as the drone prints matrices.
     pub fn parse(text: &str) -> Self {
         let mut values = BTreeMap::new();
         let mut last: Option<String> = None;
@@ -27,13 +26,13 @@ impl Configuration {
         Self { values }
     }
 
-    /// The value of `key`, `section:name`.
+    /// The value of `key` (`section:name`).
     pub fn get(&self, key: &str) -> Option<&str> {
         self.values.get(key).map(String::as_str)
     }
 
-    /// Whether the drone has taken `value` for `key`: equal as numbers where both are numbers,
-    /// since the drone prints `0.2` as `2.0000000e-01`.
+    /// Whether the drone reports `value` for `key`. Numbers are compared as numbers, because the drone prints
+    /// `0.2` as `2.0000000e-01`.
     pub fn has(&self, key: &str, value: &str) -> bool {
         let Some(reported) = self.get(key) else { return false };
         match (reported.parse::<f64>(), value.parse::<f64>()) {

@@ -1,15 +1,15 @@
-//! What the errors of a datagram socket mean for a conversation that must not end because of them.
+//! Evaluates the errors of a datagram socket, for a conversation that must survive them.
 
 use std::io::{Error, ErrorKind};
 use std::time::Duration;
 
-/// Errors that last so long come from the socket itself: it is bound anew.
+/// Duration of errors after which the socket itself is considered broken and is reopened.
 const PATIENCE: Duration = Duration::from_millis(300);
-/// Trouble that comes again is told again after so long.
+/// Interval at which a lasting problem is reported again.
 const QUIET: Duration = Duration::from_secs(5);
 
-/// Watches over a datagram socket: counts its errors, tells of trouble once, and says when the socket
-/// must be bound anew. It knows no socket and no clock.
+/// Monitors a datagram socket: counts its errors, reports a problem once, and decides when the socket must be
+/// reopened. It uses neither a socket nor a clock itself.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct SocketHealth {
     errors: u64,
@@ -20,18 +20,18 @@ pub struct SocketHealth {
 }
 
 impl SocketHealth {
-    /// A call has succeeded.
+    /// Records a successful call.
     pub fn succeeded(&mut self) {
         self.failing_since = None;
         self.lost = false;
     }
 
-    /// A call has failed at `now`; returns whether somebody should be told.
+    /// Records a failed call at `now`; returns whether to report it.
     pub fn failed(&mut self, now: Duration, error: &Error) -> bool {
         match error.kind() {
-            // There was nothing to read, or no room at this moment.
+            // Nothing to read, or no buffer space at the moment.
             ErrorKind::WouldBlock | ErrorKind::Interrupted => return false,
-            // The other side is not there now. Silence is judged by the session.
+            // The drone is not there at the moment; the session monitors its silence.
             ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset => {
                 self.errors += 1;
                 return false;
@@ -44,7 +44,7 @@ impl SocketHealth {
         last.is_none_or(|last| now.saturating_sub(last) >= QUIET)
     }
 
-    /// Whether the socket is to be bound anew now; at most once in 300 ms.
+    /// Whether the socket must be reopened now; true at most once in 300 ms.
     pub fn rebind_due(&mut self, now: Duration) -> bool {
         let Some(since) = self.failing_since else { return false };
         let lasts = |since: Duration| now.saturating_sub(since) >= PATIENCE;
@@ -55,7 +55,7 @@ impl SocketHealth {
         due
     }
 
-    /// Calls that failed, but for those that had nothing to do.
+    /// Number of failed calls, except those that merely had nothing to do.
     pub fn errors(&self) -> u64 {
         self.errors
     }
@@ -68,7 +68,7 @@ mod tests {
     const MS: Duration = Duration::from_millis(1);
 
     #[test]
-    fn a_refusal_is_told_once_and_one_that_lasts_asks_for_a_new_socket() {
+    fn a_refusal_is_reported_once_and_one_that_lasts_asks_for_a_new_socket() {
         let mut health = SocketHealth::default();
         let refused = Error::from(ErrorKind::PermissionDenied);
         assert!(health.failed(Duration::ZERO, &refused));
@@ -78,7 +78,7 @@ mod tests {
         }
         assert!(!health.failed(300 * MS, &refused));
         assert!(health.rebind_due(300 * MS));
-        // The new one is no better: it gets its time.
+        // The new socket fails too: it gets its own waiting time.
         assert!(!health.failed(330 * MS, &refused) && !health.rebind_due(330 * MS));
         assert!(!health.failed(600 * MS, &refused) && health.rebind_due(600 * MS));
         health.succeeded();

@@ -1,17 +1,17 @@
-//! The AR.Drone 2.0's own protocol, without sockets or clocks.
+//! The AR.Drone 2.0's protocol, without sockets or clocks.
 //!
 //! - [`at`]: AT commands (UDP 5556), typed, encoded and decoded.
-//! - [`navdata`]: what the drone says (UDP 5554), decoded to SI values and encoded again.
+//! - [`navdata`]: the drone's telemetry (UDP 5554), decoded to SI values and encoded again.
 //! - [`configuration`]: the text that the drone sends on its control port (TCP 5559).
-//! - [`settings`]: the configuration's keys with their types, units and ranges.
-//! - [`session`]: the client's side of the conversation as a pure state machine: wake-up,
-//!   configuration with acknowledge, sequence rules, watchdogs, loss and restart.
-//! - [`health`]: what the errors of a datagram socket mean.
+//! - [`settings`]: configuration keys with their types, units and ranges.
+//! - [`session`]: the client's side of the protocol as a pure state machine: wake-up, configuration with
+//!   acknowledgement, sequence numbers, watchdogs, loss and restart of the drone.
+//! - [`health`]: evaluation of socket errors.
 //!
-//! - `net`, with the feature of that name: a client on real sockets, by tokio.
+//! - `net`, with the feature of that name: a client on real sockets, using tokio.
 //!
-//! Both directions are coded here, so that a pilot and a simulated drone share one definition of
-//! the wire. Wire units end at this crate's edge: everything inside is metres, seconds and degrees.
+//! Both directions are implemented here, so that an autopilot and a simulated drone share one definition of
+//! the wire format. Wire units do not leave this crate: its types use metres, seconds and degrees.
 //!
 //! ```
 //! use ardrone_link::at::{Command, Datagram, Ref};
@@ -24,7 +24,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
-/// The README's examples are compiled here; the first is flown by the system tests.
+/// Compiles the README's examples; the first one is also flown by the system tests.
 #[cfg(all(doctest, feature = "net"))]
 #[doc = include_str!("../README.md")]
 pub struct Readme;
@@ -54,27 +54,27 @@ pub use settings::{NavdataMode, Setting, SettingError};
 pub const DRONE_HOST: &str = "192.168.1.1";
 /// UDP: AT commands to the drone.
 pub const AT_PORT: u16 = 5556;
-/// UDP: navdata, answered to the address that woke it.
+/// UDP: navdata, sent to the address that last sent [`WAKE_UP`].
 pub const NAVDATA_PORT: u16 = 5554;
 /// TCP: the configuration dump.
 pub const CONTROL_PORT: u16 = 5559;
 /// TCP: live video.
 pub const VIDEO_PORT: u16 = 5555;
-/// TCP: FTP with the firmware's version.
+/// TCP: FTP, with the firmware version in a file.
 pub const FTP_PORT: u16 = 5551;
 /// The datagram that makes the drone send navdata to its sender.
 pub const WAKE_UP: [u8; 4] = [1, 0, 0, 0];
 
-/// Where a drone is.
+/// Network address of a drone.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DroneAddress {
-    /// Name or address.
+    /// Host name or IP address.
     pub host: String,
-    /// UDP, AT commands.
+    /// UDP port for AT commands.
     pub at_port: u16,
-    /// UDP, navdata.
+    /// UDP port of the navdata.
     pub navdata_port: u16,
-    /// TCP, configuration.
+    /// TCP port of the configuration.
     pub control_port: u16,
 }
 
@@ -89,8 +89,8 @@ impl Default for DroneAddress {
     }
 }
 
-/// Whether a datagram socket's error is only of the moment: there is nothing to read, or the other
-/// side is not there now. Silence is judged by the session.
+/// Whether a socket error is only temporary: there is nothing to read, or the drone is not there at the
+/// moment. The session monitors the drone's silence.
 pub fn is_passing(error: &std::io::Error) -> bool {
     use std::io::ErrorKind::{
         ConnectionRefused, ConnectionReset, HostUnreachable, Interrupted, NetworkDown,

@@ -1,8 +1,7 @@
 //! Configuration keys with their types, units and ranges.
 //!
-//! [`Setting::config`] refuses what the drone would refuse, or take and misunderstand. Ranges and
-//! defaults are those of Parrot's developer guide. Keys that are not here can be sent as a
-//! [`Config`] of plain text.
+//! [`Setting::config`] rejects values that the drone would reject, or accept and misinterpret. Ranges and
+//! defaults are those of Parrot's developer guide. Other keys can be sent as a plain [`Config`].
 //!
 //! ```
 //! use ardrone_link::settings::Setting;
@@ -19,19 +18,19 @@ use crate::at::{Config, ConfigError};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingError {
-    /// The value is outside of the key's range.
+    /// The value is out of the key's range.
     #[error("{key} takes {from} to {to}, not {value}")]
     Range {
         /// The key.
         key: &'static str,
         /// The value, in the unit of the setting.
         value: f64,
-        /// The lowest that is allowed.
+        /// The lowest allowed value.
         from: f64,
-        /// The highest that is allowed.
+        /// The highest allowed value.
         to: f64,
     },
-    /// The setting is one of those that [`NavdataMode`] chooses, which come first.
+    /// The setting belongs to [`NavdataMode`], whose settings come first.
     #[error("{key} is chosen by the navdata mode, not by a setting")]
     Navdata {
         /// The key.
@@ -42,10 +41,10 @@ pub enum SettingError {
     Text(#[from] ConfigError),
 }
 
-/// Which configuration a key belongs to. With custom identities each but the first has its own.
+/// Configuration to which a key belongs. With custom identities each category but the first has its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Category {
-    /// One for all.
+    /// Shared by all clients.
     Common,
     /// One for each application.
     Application,
@@ -58,24 +57,24 @@ pub enum Category {
 /// A camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Camera {
-    /// The one that looks ahead.
+    /// The forward camera.
     Front,
-    /// The one that looks down.
+    /// The downward camera.
     Bottom,
 }
 
-/// What holds the drone in its place.
+/// Reference for holding the position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlyingMode {
-    /// The ground as the bottom camera sees it.
+    /// The ground texture seen by the bottom camera.
     Free,
     /// A roundel on the ground.
     HoverOnRoundel,
-    /// A roundel on the ground, and its direction.
+    /// A roundel on the ground, including its direction.
     HoverOnOrientedRoundel,
 }
 
-/// The colours of the other drones' hulls.
+/// Colours of the other drones' hulls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnemyColors {
     /// Orange and green.
@@ -86,37 +85,37 @@ pub enum EnemyColors {
     Blue,
 }
 
-/// What the cameras look for.
+/// Tags that the cameras detect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detection {
     /// Nothing.
     None,
-    /// What the selections of the cameras say.
+    /// As selected for each camera.
     Selected,
-    /// The black and white roundel with its direction.
+    /// The black and white oriented roundel.
     OrientedRoundel,
-    /// Hulls and roundels by the newer algorithm.
+    /// Hulls and roundels, with the newer algorithm.
     VisionV2,
 }
 
-/// Which options the drone sends, and how often.
+/// Options that the drone sends, and their rate.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum NavdataMode {
     /// Attitude, altitude, velocity and battery, 15 times a second.
     #[default]
     Demo,
-    /// As [`NavdataMode::Demo`], with the options of these tags too, each below 28.
+    /// As [`NavdataMode::Demo`], plus the options with these tags, each below 28.
     DemoWith(Vec<u16>),
     /// Every option, 200 times a second.
     Full,
 }
 
 impl NavdataMode {
-    /// Tag of [`crate::navdata::Demo`], without which nobody could fly.
+    /// Tag of [`crate::navdata::Demo`], which every client needs.
     const DEMO_TAG: u16 = 0;
 
-    /// The settings that choose it. They come before all others, since the first ends the bootstrap.
+    /// The settings that select it. They come before all others, because the first ends the bootstrap mode.
     pub fn settings(&self) -> Vec<Setting> {
         let mut settings = vec![Setting::NavdataDemo(*self != Self::Full)];
         if let Self::DemoWith(tags) = self {
@@ -150,17 +149,17 @@ macro_rules! settings {
                 }
             }
 
-            /// Which configuration it belongs to.
+            /// The configuration to which it belongs.
             pub fn category(&self) -> Category {
                 match self {
                     $(Self::$name(_) => Category::$category,)*
                 }
             }
 
-            /// What is sent.
+            /// The key and value to send.
             ///
             /// # Errors
-            /// [`SettingError`] if the drone would refuse or misunderstand the value.
+            /// [`SettingError`] if the drone would reject or misinterpret the value.
             pub fn config(&self) -> Result<Config, SettingError> {
                 match self {
                     $(Self::$name(value) => {
@@ -174,88 +173,89 @@ macro_rules! settings {
 }
 
 settings! {
-    /// Whether only the demo set of options is sent, 15 times a second, or all of them, 200 times.
-    /// It also ends the bootstrap, so it comes first.
+    /// Whether only the demo set of options is sent, 15 times a second, or all of them, 200 times. It also
+    /// ends the bootstrap mode, so it comes first.
     NavdataDemo(bool) = "general:navdata_demo", Common, |_, on| flag(*on);
-    /// Tags of the options that are sent in demo mode too, each below 28.
+    /// Tags of additional options in demo mode, each below 28.
     NavdataOptions(Vec<u16>) = "general:navdata_options", Application, |key, tags| mask(key, tags);
-    /// Silence after which the drone lands by itself, 1 to 60; 2 by default.
+    /// Silence after which the drone lands by itself, 1 to 60 s; 2 s by default.
     CommunicationWatchdogS(u32) = "general:com_watchdog", Common, |key, s| whole(key, *s, 1, 60);
-    /// Whether the outdoor limits and the wind estimator are used. To be set before the limits.
+    /// Whether the outdoor limits and the wind estimator are used. Set it before the limits.
     Outdoor(bool) = "control:outdoor", Common, |_, on| flag(*on);
-    /// Whether the outdoor hull is on, which changes the control gains.
+    /// Whether the outdoor hull is mounted, which changes the control gains.
     FlightWithoutShell(bool) = "control:flight_without_shell", Common, |_, on| flag(*on);
-    /// Ceiling, 0.5 to 100; 3 by default.
+    /// Ceiling, 0.5 to 100 m; 3 m by default.
     AltitudeMaxM(f64) = "control:altitude_max", Common, |key, m| milli(key, *m, 0.5, 100.0);
-    /// Floor, 0.05 to 1; 0.05 by default.
+    /// Floor, 0.05 to 1 m; 0.05 m by default.
     AltitudeMinM(f64) = "control:altitude_min", Common, |key, m| milli(key, *m, 0.05, 1.0);
-    /// Largest tilt, 0 to 30; 12 by default.
+    /// Maximum tilt, 0° to 30°; 12° by default.
     EulerAngleMaxDeg(f64) = "control:euler_angle_max", User, |key, deg| degrees(key, *deg, 0.0, 30.0);
-    /// Largest climb, 0.2 to 2; 0.7 by default.
+    /// Maximum rate of climb, 0.2 to 2 m/s; 0.7 m/s by default.
     ClimbMaxMS(f64) = "control:control_vz_max", User, |key, m_s| milli(key, *m_s, 0.2, 2.0);
-    /// Largest turn, 40 to 350; 100 by default.
+    /// Maximum yaw rate, 40 to 350 °/s; 100 °/s by default.
     YawRateMaxDegS(f64) = "control:control_yaw", User, |key, deg| degrees(key, *deg, 40.0, 350.0);
-    /// What the largest tilt becomes indoors.
+    /// Maximum tilt indoors.
     IndoorEulerAngleMaxDeg(f64) = "control:indoor_euler_angle_max", User, |key, deg| degrees(key, *deg, 0.0, 30.0);
-    /// What the largest climb becomes indoors.
+    /// Maximum rate of climb indoors.
     IndoorClimbMaxMS(f64) = "control:indoor_control_vz_max", User, |key, m_s| milli(key, *m_s, 0.2, 2.0);
-    /// What the largest turn becomes indoors.
+    /// Maximum yaw rate indoors.
     IndoorYawRateMaxDegS(f64) = "control:indoor_control_yaw", User, |key, deg| degrees(key, *deg, 40.0, 350.0);
-    /// What the largest tilt becomes outdoors.
+    /// Maximum tilt outdoors.
     OutdoorEulerAngleMaxDeg(f64) = "control:outdoor_euler_angle_max", User, |key, deg| degrees(key, *deg, 0.0, 30.0);
-    /// What the largest climb becomes outdoors.
+    /// Maximum rate of climb outdoors.
     OutdoorClimbMaxMS(f64) = "control:outdoor_control_vz_max", User, |key, m_s| milli(key, *m_s, 0.2, 2.0);
-    /// What the largest turn becomes outdoors.
+    /// Maximum yaw rate outdoors.
     OutdoorYawRateMaxDegS(f64) = "control:outdoor_control_yaw", User, |key, deg| degrees(key, *deg, 40.0, 350.0);
-    /// What holds the drone in its place.
+    /// Reference for holding the position.
     FlyingMode(FlyingMode) = "control:flying_mode", Session, |_, mode| Ok(match mode {
         FlyingMode::Free => "0",
         FlyingMode::HoverOnRoundel => "1",
         FlyingMode::HoverOnOrientedRoundel => "2",
     }.to_owned());
-    /// How far it may stray from a roundel, 0.1 to 5; 1 by default.
+    /// Maximum distance from a roundel, 0.1 to 5 m; 1 m by default.
     HoveringRangeM(f64) = "control:hovering_range", Session, |key, m| milli(key, *m, 0.1, 5.0);
-    /// With which camera the video is made.
+    /// Camera of the video stream.
     VideoChannel(Camera) = "video:video_channel", Session, |_, camera| Ok(match camera {
         Camera::Front => "0",
         Camera::Bottom => "1",
     }.to_owned());
-    /// Pictures a second, 15 to 30. Needs custom identities.
+    /// Video frames per second, 15 to 30. Needs custom identities.
     VideoFramesPerSecond(u32) = "video:codec_fps", Session, |key, fps| whole(key, *fps, 15, 30);
-    /// 250 to 4000. Needs custom identities.
+    /// Bit rate of the video, 250 to 4000 kbit/s. Needs custom identities.
     VideoBitRateKbitS(u32) = "video:bitrate", Application, |key, rate| whole(key, *rate, 250, 4000);
-    /// Whether a recording goes to a USB key.
+    /// Whether video is recorded to a USB key.
     VideoOnUsb(bool) = "video:video_on_usb", Common, |_, on| flag(*on);
-    /// What the cameras look for.
+    /// Tags that the cameras detect.
     DetectType(Detection) = "detect:detect_type", Session, |_, detection| Ok(match detection {
         Detection::None => "3",
         Detection::Selected => "10",
         Detection::OrientedRoundel => "12",
         Detection::VisionV2 => "13",
     }.to_owned());
-    /// Bits of what the front camera looks for.
+    /// Bit mask of tags for the front camera.
     DetectionsFront(u32) = "detect:detections_select_h", Session, |_, bits| Ok(bits.to_string());
-    /// Bits of what the bottom camera looks for, 30 times a second.
+    /// Bit mask of tags for the bottom camera, at 30 Hz.
     DetectionsBottom(u32) = "detect:detections_select_v", Session, |_, bits| Ok(bits.to_string());
-    /// Bits of what the bottom camera looks for, in step with the hover.
+    /// Bit mask of tags for the bottom camera, in sync with the hover control.
     DetectionsBottomInStep(u32) = "detect:detections_select_v_hsync", Session, |_, bits| Ok(bits.to_string());
-    /// The colours of the other drones' hulls.
+    /// Colours of the other drones' hulls.
     EnemyColors(EnemyColors) = "detect:enemy_colors", Common, |_, colors| Ok(match colors {
         EnemyColors::Green => "1",
         EnemyColors::Yellow => "2",
         EnemyColors::Blue => "3",
     }.to_owned());
-    /// Whether the ultrasound uses 22.22 Hz and not 25 Hz: of two drones near each other one should.
+    /// Whether the ultrasound uses 22.22 Hz instead of 25 Hz, so that two drones near each other do not
+    /// interfere.
     SlowUltrasound(bool) = "pic:ultrasound_freq", Common, |_, slow| {
         Ok(if *slow { "7" } else { "8" }.to_owned())
     };
-    /// The network's name after the next start.
+    /// Network name after the next start.
     NetworkName(String) = "network:ssid_single_player", Common, |_, name| Ok(name.clone());
-    /// Where the pilot is, -90 to 90, north positive.
+    /// Latitude of the ground station, -90° to 90°, north positive.
     LatitudeDeg(f64) = "gps:latitude", Session, |key, deg| number(key, *deg, -90.0, 90.0);
-    /// Where the pilot is, -180 to 180, east positive.
+    /// Longitude of the ground station, -180° to 180°, east positive.
     LongitudeDeg(f64) = "gps:longitude", Session, |key, deg| number(key, *deg, -180.0, 180.0);
-    /// Where the pilot is, -500 to 9000 above the sea.
+    /// Elevation of the ground station, -500 to 9000 m above sea level.
     ElevationM(f64) = "gps:altitude", Session, |key, m| number(key, *m, -500.0, 9000.0);
 }
 
@@ -264,7 +264,7 @@ fn flag(on: bool) -> Result<String, SettingError> {
     Ok(if on { "TRUE" } else { "FALSE" }.to_owned())
 }
 
-/// A decimal point whatever the locale: a comma makes the drone forget its tilt.
+/// Formats with a decimal point whatever the locale; a decimal comma would make the drone drop its tilt setting.
 fn number(key: &'static str, value: f64, from: f64, to: f64) -> Result<String, SettingError> {
     if (from..=to).contains(&value) {
         Ok(value.to_string())
@@ -277,13 +277,13 @@ fn whole(key: &'static str, value: u32, from: u32, to: u32) -> Result<String, Se
     number(key, value.into(), from.into(), to.into())
 }
 
-/// The drone takes thousandths, as whole numbers.
+/// Formats as whole thousandths, which the drone expects.
 fn milli(key: &'static str, value: f64, from: f64, to: f64) -> Result<String, SettingError> {
     number(key, value, from, to)?;
     Ok((value * 1000.0).round().to_string())
 }
 
-/// The drone takes radians.
+/// Formats in radians, which the drone expects.
 fn degrees(key: &'static str, value: f64, from: f64, to: f64) -> Result<String, SettingError> {
     number(key, value, from, to)?;
     Ok(format!("{:.6}", value.to_radians()))

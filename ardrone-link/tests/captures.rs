@@ -1,4 +1,4 @@
-//! Navdata that real drones sent, against reference values made by other decoders.
+//! Navdata captured from real drones, compared with the results of other decoders.
 
 use ardrone_link::navdata::{
     ControlState, DroneState, Navdata, NavdataError, NavdataOption, Packet, PacketWriter,

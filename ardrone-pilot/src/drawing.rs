@@ -1,19 +1,19 @@
-//! What all drawings have in common.
+//! Common parts of all drawings.
 
 use std::error::Error;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// Of all labels.
+/// Font of all labels.
 pub(crate) const FONT: &str = "sans-serif";
 
 /// A part of a drawing.
 pub(crate) type Drawing<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-/// What the drawing library says.
+/// Result of a drawing function.
 pub(crate) type Drawn = Result<(), Box<dyn Error>>;
 
-/// A drawing on white, as SVG.
+/// Creates an SVG with a white background.
 pub(crate) fn svg(
     size: (u32, u32),
     draw: impl FnOnce(&Drawing<'_>) -> Drawn,

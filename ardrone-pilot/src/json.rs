@@ -1,4 +1,4 @@
-//! What programs and browsers are told of a flight: JSON objects, each with its `type`.
+//! JSON objects for programs and browsers, each with its `type`.
 
 use std::fmt::Write as _;
 
@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 use crate::flight::{FinishedFlight, Message};
 use crate::recording::{Place, Recorded};
 
-/// The text of a value, which can stand anywhere: on a terminal, in a page, in a script. What could be obeyed
-/// there is written as `\u003c`, which means the same to whoever reads JSON.
+/// A value as text that is safe anywhere: on a terminal, in a page, in a script. Characters with a meaning
+/// there are written as escapes like `\u003c`, which are equivalent in JSON.
 pub(crate) fn text(value: &Value) -> String {
     escaped(&value.to_string())
 }
@@ -21,7 +21,8 @@ pub(crate) fn text_in_lines(value: &Value) -> String {
     escaped(&format!("{value:#}"))
 }
 
-/// Outside strings JSON has none of these characters but line feeds, which in strings are escaped already.
+/// Escapes unsafe characters. Outside strings JSON contains none of them except line feeds, which are already
+/// escaped inside strings.
 fn escaped(json: &str) -> String {
     let mut text = String::with_capacity(json.len());
     for character in json.chars() {
@@ -37,7 +38,7 @@ fn escaped(json: &str) -> String {
     text
 }
 
-/// What the flight tells while it lasts.
+/// A message of the flight.
 pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
     match message {
         Message::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
@@ -111,6 +112,12 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "battery_percent": battery_percent,
                 "horizontal_deviation_m": status.horizontal_deviation_m,
                 "vertical_deviation_m": status.vertical_deviation_m,
+                "tags": status.tags.map(|tags| json!({
+                    "known": tags.known,
+                    "seen_s": tags.seen_ago.map(|ago| ago.as_secs_f64()),
+                    "heading_held": tags.heading_held,
+                    "drift_m": [tags.drift_m.x, tags.drift_m.y],
+                })),
                 "attitude_deg": status.attitude_deg,
                 "navdata_hz": status.navdata_hz,
                 "navdata_age_s": status.navdata_age.map(|age| age.as_secs_f64()),
@@ -123,7 +130,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
     }
 }
 
-/// How it ended.
+/// The end of the flight.
 pub(crate) fn end(
     finished: &FinishedFlight,
     recorded: Option<&Recorded>,

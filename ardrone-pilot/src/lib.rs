@@ -1,9 +1,9 @@
-//! The program `ardrone-pilot`: everything around the pure pilot of the crate `autopilot`.
+//! The program `ardrone-pilot`: everything with I/O around the pure crate `autopilot`.
 //!
-//! - [`flight`] runs the pilot in real time over UDP. [`realtime`] and [`timing`] say what the system gives the
-//!   tick, and how regular it was.
-//! - [`recording`] is the flight log, [`replay`] flies a log again, [`report`] makes a page of it, [`picture`] draws
-//!   a plan.
+//! - [`flight`] runs the vehicle in real time over UDP. [`realtime`] requests real-time scheduling, and
+//!   [`timing`] measures the ticks.
+//! - [`recording`] is the flight log, [`replay`] replays a log, [`report`] makes a page of it,
+//!   [`plan_drawing`] draws a plan.
 //! - [`browser`] shows the flight in a browser, [`cli`] in the terminal.
 //! - [`settings`] reads `pilot.toml`.
 #![forbid(unsafe_code)]
@@ -16,12 +16,12 @@ pub mod browser;
 pub mod cli;
 mod drawing;
 pub mod flight;
+mod flown_path;
 mod json;
-pub mod picture;
+pub mod plan_drawing;
 pub mod realtime;
 pub mod recording;
 pub mod replay;
 pub mod report;
 pub mod settings;
 pub mod timing;
-mod trail;

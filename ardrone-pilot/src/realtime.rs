@@ -1,7 +1,7 @@
-//! What the system gives the flight's thread so that its ticks come in time.
+//! Real-time scheduling for the tick's thread.
 //!
-//! All of it is asked for and none of it is needed: on an idle machine a tick is late by a tenth of a
-//! millisecond without it. On a busy one only a real-time priority keeps it so.
+//! None of it is required: on an idle machine ticks are late by a tenth of a millisecond without it. On a
+//! busy machine only a real-time priority keeps them that punctual.
 
 use std::fmt;
 use std::num::NonZeroU64;
@@ -14,27 +14,27 @@ use thread_priority::{
     set_thread_priority_and_policy, thread_native_id,
 };
 
-/// Above everything ordinary, below the kernel's own interrupt threads (50).
+/// Above all ordinary threads, below the kernel's interrupt threads (50).
 const PRIORITY: u8 = 40;
 
-/// What the flight's thread was given.
+/// Scheduling properties granted to the tick's thread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Realtime {
-    /// It comes before all ordinary threads (`SCHED_FIFO`).
+    /// Real-time priority (`SCHED_FIFO`) over all ordinary threads.
     pub priority: bool,
-    /// Its memory is never paged out.
+    /// The process's memory is locked: never paged out.
     pub memory: bool,
-    /// The system does not put its timers together with others.
+    /// Timer slack is off: the system does not delay timers to batch them.
     pub timers: bool,
 }
 
 impl Realtime {
-    /// Asks for everything, for the thread that calls.
+    /// Requests all of it for the calling thread.
     pub fn acquire() -> Self {
         let priority = acquire_priority();
         Self {
             priority,
-            // Where locked memory is limited, a process may fail to get any more: not worth it.
+            // With a limit on locked memory, later allocations could fail; the benefit is not worth that.
             memory: priority
                 && may_lock_all()
                 && mlockall(MlockAllFlags::CURRENT | MlockAllFlags::FUTURE).is_ok(),
@@ -60,10 +60,10 @@ fn acquire_priority() -> bool {
 
 impl fmt::Display for Realtime {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let said = |has: bool, yes: &'static str, no: &'static str| if has { yes } else { no };
-        f.write_str(said(self.priority, "real-time priority", "no real-time priority"))?;
-        f.write_str(said(self.memory, ", memory locked", ", memory not locked"))?;
-        f.write_str(said(self.timers, ", exact timers", ", coarse timers"))?;
+        let choose = |has: bool, yes: &'static str, no: &'static str| if has { yes } else { no };
+        f.write_str(choose(self.priority, "real-time priority", "no real-time priority"))?;
+        f.write_str(choose(self.memory, ", memory locked", ", memory not locked"))?;
+        f.write_str(choose(self.timers, ", exact timers", ", coarse timers"))?;
         if !self.priority {
             f.write_str(
                 ": on a busy machine ticks will be late (allow it with \
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_missing_is_said_with_its_remedy() {
+    fn what_is_missing_is_reported_with_its_remedy() {
         let all = Realtime { priority: true, memory: true, timers: true };
         assert_eq!(all.to_string(), "real-time priority, memory locked, exact timers");
         let none = Realtime::default().to_string();

@@ -1,7 +1,7 @@
-//! Flies a recorded flight again: the same navdata, orders and moments, decided by today's code.
+//! Replays a recorded flight: the same inputs at the same times, decided by today's code.
 //!
-//! What was heard does not depend on what is decided now. So up to the first difference the comparison is
-//! exact; behind it, it tells what today's code would do in the situations in which the drone then was.
+//! The recorded inputs do not depend on the new decisions. Up to the first difference the comparison is
+//! therefore exact; after it, it shows what today's code would do in the recorded situations.
 
 use std::fmt;
 use std::time::Duration;
@@ -16,76 +16,76 @@ use diagnostic::printable;
 use crate::recording::{Entry, Log, OrderError, Tick, Timing};
 use crate::settings::{Settings, SettingsError};
 
-/// Why a log cannot be flown again.
+/// Why a log cannot be replayed.
 #[derive(Debug, thiserror::Error)]
 pub enum ReplayError {
-    /// Its settings are refused today.
-    #[error("the log's settings are refused today")]
+    /// Its settings are invalid in this version.
+    #[error("the log's settings are not valid in this version")]
     Settings(#[from] SettingsError),
-    /// Its plan is refused today.
-    #[error("the log's plan is refused today")]
+    /// Its plan is invalid in this version.
+    #[error("the log's plan is not valid in this version")]
     Plan(#[from] PlanError),
-    /// An order in it is refused today.
+    /// An order in it is invalid in this version.
     #[error(transparent)]
     Order(#[from] OrderError),
-    /// Its limits cannot be sent to a drone.
+    /// Its limits cannot be encoded as drone settings.
     #[error(transparent)]
     Config(#[from] SettingError),
     /// See [`Vehicle::tick`].
     #[error(transparent)]
     Encode(#[from] EncodeError),
-    /// Nothing was flown.
-    #[error("there is no tick in the log: no drone was heard")]
+    /// The log contains no ticks.
+    #[error("the log contains no ticks: no drone answered")]
     Empty,
 }
 
-/// A recorded flight and today's, side by side.
+/// Comparison of a recorded flight with its replay.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
     /// Ticks that were compared.
     pub ticks: usize,
-    /// Ticks whose datagram is the same, byte for byte.
+    /// Ticks with identical datagrams.
     pub same_datagrams: usize,
     /// Ticks in which the agent chose other plans.
     pub other_plans: usize,
-    /// The largest difference of a stick, as a fraction.
+    /// Largest difference of a stick, as a fraction.
     pub largest_stick_difference: f64,
-    /// Where the flights part, at most [`Replay::MOST`].
+    /// Ticks at which the decisions begin to differ, at most [`Replay::MOST`].
     pub differences: Vec<Difference>,
-    /// How the flight ends today, if it does.
+    /// Outcome of the replayed flight, if it ends.
     pub outcome: Option<Outcome>,
 }
 
-/// A tick in which today's code decides otherwise than the tick before it.
+/// A tick in which the decision begins to differ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
-    /// When.
+    /// Its time.
     pub at: Duration,
-    /// What was decided then.
+    /// The recorded decision.
     pub then: String,
-    /// What is decided now.
+    /// Today's decision.
     pub now: String,
 }
 
-/// Sticks that differ by less are the same.
+/// Sticks that differ by less than this count as equal.
 const SAME_STICK: f64 = 0.01;
 
 impl Replay {
-    /// Differences that are kept.
+    /// Maximum number of differences kept.
     pub const MOST: usize = 20;
 
-    /// Whether everything that was sent is sent today.
+    /// Whether all datagrams are identical.
     pub fn is_same(&self) -> bool {
         self.same_datagrams == self.ticks
     }
 
-    /// Flies a log again.
+    /// Replays a log.
     ///
     /// # Errors
-    /// [`ReplayError`] if plan or settings are refused today, or nothing was flown.
+    /// [`ReplayError`] if its plan or settings are invalid in this version, or it is empty.
     pub fn new(log: &Log) -> Result<Self, ReplayError> {
         let config = Settings::parse("pilot.toml", &log.settings)?.pilot_config(log.z_origin);
-        // A log without a plan is a vehicle's, which was loaded with its missions by orders.
+        // A log without a plan belongs to a vehicle that got its missions by orders.
         let mut vehicle = if log.plan.is_empty() {
             Vehicle::new(&config)?
         } else {

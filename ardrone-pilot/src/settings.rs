@@ -1,7 +1,9 @@
-//! `pilot.toml`: how to fly, for those who know better than the defaults.
+//! `pilot.toml`: settings for flights that need other values than the defaults.
 //!
-//! Every setting with its default and its meaning stands in [`DEFAULTS`]. What a file does not say
-//! keeps its default; what it says wrongly is refused as a whole, with every reason.
+//! [`DEFAULTS`] documents every setting. Missing settings keep their defaults; a file with an invalid one is
+//! refused as a whole, with all reasons.
+
+mod tags;
 
 use std::ops::RangeInclusive;
 use std::time::Duration;
@@ -13,10 +15,13 @@ use nalgebra::Vector2;
 use pid::{CascadeConfig, Law, PidGains};
 use serde::{Deserialize, Serialize};
 
+pub use self::tags::GivenTag;
+use self::tags::Tags;
+
 /// The default `pilot.toml`, with comments.
 pub const DEFAULTS: &str = include_str!("../pilot.toml");
 
-/// What a `pilot.toml` says.
+/// Content of a `pilot.toml`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
@@ -25,26 +30,27 @@ pub struct Settings {
     delays: Delays,
     airframe: Airframe,
     estimator: Estimator,
+    tags: Tags,
     controller: Controller,
 }
 
 /// Why a `pilot.toml` cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SettingsError {
-    /// It is no TOML, or has a name or a type that is none of ours; with line and column.
+    /// Invalid TOML, unknown key or wrong type; with line and column.
     #[error("{path}: {message}")]
     Syntax {
         /// The file.
         path: String,
-        /// What is wrong, where.
+        /// The problem and its place.
         message: String,
     },
-    /// Values that no flight can have.
+    /// Values out of range.
     #[error("{path}: {}", .reasons.join("; "))]
     Values {
         /// The file.
         path: String,
-        /// One for each value.
+        /// One reason for each value.
         reasons: Vec<String>,
     },
 }
@@ -128,7 +134,7 @@ struct Controller {
     yaw_1_deg: f64,
 }
 
-/// How [`Law`] stands in a file: by its name.
+/// Serializes [`Law`] by its name.
 mod law_name {
     use pid::Law;
     use serde::de::{Deserialize, Deserializer, Error};
@@ -155,7 +161,7 @@ impl Default for Fence {
 
 impl Default for Drone {
     fn default() -> Self {
-        // Written in degrees, since one degree there and back is not the same number.
+        // Converted to degrees here, because converting back would not give exactly the same number.
         let DroneLimits { climb_m_s, turn_deg_s, .. } = DroneLimits::default();
         Self {
             tilt_max_deg: 12.0,
@@ -232,10 +238,10 @@ impl Default for Controller {
 }
 
 impl Settings {
-    /// Reads a `pilot.toml`; `path` is for messages.
+    /// Parses a `pilot.toml`; `path` is for messages.
     ///
     /// # Errors
-    /// [`SettingsError`] with every reason.
+    /// [`SettingsError`] with all reasons.
     pub fn parse(path: &str, text: &str) -> Result<Self, SettingsError> {
         let settings: Self = toml::from_str(text).map_err(|error| SettingsError::Syntax {
             path: path.to_owned(),
@@ -249,22 +255,43 @@ impl Settings {
         }
     }
 
-    /// As TOML, without comments.
+    /// Converts to TOML without comments.
     ///
     /// # Errors
-    /// Never in fact: tables of numbers, words and arrays of numbers are TOML.
+    /// Never: tables of numbers, strings and arrays of numbers can be written as TOML.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
     }
 
-    /// Uses another law.
+    /// Selects another control law.
     pub fn set_law(&mut self, law: Law) {
         self.controller.law = law;
     }
 
-    /// What these settings mean for a flight.
+    /// Uses roundels on the floor, and takes these for surveyed.
+    ///
+    /// # Errors
+    /// [`SettingsError::Values`] if they do not fit together, or with those of the settings.
+    pub fn use_tags(&mut self, surveyed: &[GivenTag]) -> Result<(), SettingsError> {
+        self.tags.detect = true;
+        for tag in surveyed {
+            self.tags.add(tag);
+        }
+        let reasons = self.tags.reasons_against();
+        if reasons.is_empty() {
+            return Ok(());
+        }
+        Err(SettingsError::Values { path: "--tag".to_owned(), reasons })
+    }
+
+    /// The tags that are used and surveyed; nothing if tags are not used.
+    pub fn surveyed_tags(&self) -> Option<Vec<GivenTag>> {
+        self.tags.detect.then(|| self.tags.surveyed().collect())
+    }
+
+    /// The vehicle's configuration.
     pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
-        let Self { fence, drone, delays, airframe, estimator, controller } = self;
+        let Self { fence, drone, delays, airframe, estimator, tags, controller } = self;
         let limits = DroneLimits {
             tilt_rad: drone.tilt_max_deg.to_radians(),
             climb_m_s: drone.climb_max_m_s,
@@ -305,13 +332,14 @@ impl Settings {
                 disturbance_gain_1_s2: estimator.disturbance_gain_1_s2,
                 disturbance_max_m_s2: estimator.disturbance_max_m_s2,
                 identify: airframe.identify,
+                tags: tags.config(),
             },
             cascade: controller.cascade(&limits),
         }
     }
 
     fn reasons_against(&self) -> Vec<String> {
-        let Self { fence, drone, delays, airframe, estimator, controller: c } = self;
+        let Self { fence, drone, delays, airframe, estimator, tags, controller: c } = self;
         let mut reasons = Vec::new();
         for (name, value, range) in [
             ("fence.floor_m", fence.floor_m, 0.1..=3.0),
@@ -354,6 +382,7 @@ impl Settings {
         ] {
             reasons.extend(outside(name, value, &range));
         }
+        reasons.extend(tags.reasons_against());
         if fence.floor_m >= fence.ceiling_m {
             reasons.push("fence.floor_m is not below fence.ceiling_m".to_owned());
         }
@@ -361,12 +390,12 @@ impl Settings {
     }
 }
 
-/// What the estimator takes for possible.
+/// Range of gains that the estimator accepts.
 const GAIN: RangeInclusive<f64> = 0.4..=2.5;
 
 fn outside(name: &str, value: f64, range: &RangeInclusive<f64>) -> Option<String> {
     let (from, to) = (range.start(), range.end());
-    // Also for what is no number.
+    // NaN is out of range too.
     (!range.contains(&value)).then(|| format!("{name} is {value}: it must lie in {from} to {to}"))
 }
 
@@ -404,7 +433,7 @@ mod tests {
         assert_eq!(settings, Settings::default());
         let config = settings.pilot_config(ZOrigin::Hover);
         assert_eq!(config, VehicleConfig::default());
-        // Every setting is documented.
+        // Every setting must be documented in [`DEFAULTS`].
         for line in settings.to_toml().unwrap().lines().filter(|line| line.contains('=')) {
             let name = line.split(' ').next().unwrap();
             assert!(DEFAULTS.lines().any(|line| line.starts_with(name)), "{name}");
@@ -423,7 +452,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_told_with_their_place() {
+    fn mistakes_are_reported_with_their_place() {
         for (text, said) in [
             ("[drone]\ntilt_max = 3", "line 2, column 1"),
             ("[drone]\ntilt_max_deg = \"much\"", "line 2, column 16"),

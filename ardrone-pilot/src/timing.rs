@@ -1,4 +1,4 @@
-//! How regular the ticks were, what they cost, and which was the worst.
+//! Timing of the ticks: regularity, cost, and the worst tick.
 
 use std::fmt;
 use std::time::Duration;
@@ -7,11 +7,11 @@ use autopilot::vehicle::Stage;
 
 use crate::realtime::Realtime;
 
-/// A tick that comes later than this after its deadline is late.
+/// Delay after the deadline from which a tick counts as late.
 const LATE: Duration = Duration::from_millis(3);
 const US: Duration = Duration::from_micros(1);
 
-/// Collects the times of ticks. Its memory is allocated once.
+/// Collects the times of ticks in memory that is allocated once.
 #[derive(Debug, Clone)]
 pub struct TickRecorder {
     periods: Histogram,
@@ -23,39 +23,39 @@ pub struct TickRecorder {
     last: Option<Duration>,
     tick: Tick,
     worst: Option<Tick>,
-    /// The longest lateness since somebody asked.
+    /// Largest lateness since the last call of [`TickRecorder::health`].
     latest: Duration,
 }
 
-/// How the ticks are now, for whoever watches.
+/// Current timing of the ticks, for displays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TickHealth {
-    /// The longest time after a deadline since the last look.
+    /// Largest delay after a deadline since the last call.
     pub lateness: Duration,
-    /// Deadlines since the start that passed without a tick.
+    /// Deadlines missed entirely since the start.
     pub skipped: u64,
 }
 
-/// A tick.
+/// Times of one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Tick {
     /// When it began, since the start of the flight.
     pub at: Duration,
-    /// After its deadline.
+    /// Delay after its deadline.
     pub lateness: Duration,
-    /// The deadline passed while navdata were taken in: it was not the system that came late.
+    /// The deadline passed while navdata were being handled, so the delay is not the system's.
     pub held_up: bool,
-    /// What each stage took.
+    /// Duration of each stage.
     pub costs: [Duration; Stage::ALL.len()],
 }
 
 impl Tick {
-    /// All that was done for it.
+    /// Total duration of its stages.
     pub fn work(&self) -> Duration {
         self.costs.iter().sum()
     }
 
-    /// From the deadline until the command was on its way.
+    /// Time from the deadline until the command was sent.
     fn behind(&self) -> Duration {
         self.lateness + self.work()
     }
@@ -97,8 +97,8 @@ impl Default for TickRecorder {
 }
 
 impl TickRecorder {
-    /// A tick begins at `now` that was due at `deadline`; `skipped` deadlines before it were missed.
-    /// It was `held_up` if the deadline passed during other work.
+    /// Begins a tick at `now` that was due at `deadline`; `skipped` deadlines before it were missed. It was
+    /// `held_up` if the deadline passed during other work.
     pub fn begin(&mut self, now: Duration, deadline: Duration, skipped: u64, held_up: bool) {
         let lateness = now.saturating_sub(deadline);
         self.tick = Tick { at: now, lateness, held_up, ..self.tick };
@@ -111,14 +111,14 @@ impl TickRecorder {
         }
     }
 
-    /// A stage of this tick took so long, or so much longer.
+    /// Adds to the duration of a stage of this tick.
     pub fn spend(&mut self, stage: Stage, time: Duration) {
         if let Some(cost) = self.tick.costs.get_mut(stage as usize) {
             *cost += time;
         }
     }
 
-    /// The tick is over.
+    /// Ends the tick.
     pub fn end(&mut self) {
         let tick = std::mem::take(&mut self.tick);
         for (histogram, cost) in self.costs.iter_mut().zip(tick.costs) {
@@ -130,12 +130,12 @@ impl TickRecorder {
         }
     }
 
-    /// How the ticks were since the last call.
+    /// Timing since the last call.
     pub fn health(&mut self) -> TickHealth {
         TickHealth { lateness: std::mem::take(&mut self.latest), skipped: self.skipped }
     }
 
-    /// What was collected.
+    /// Statistics of all ticks.
     pub fn summary(&self, realtime: Realtime) -> TickSummary {
         TickSummary {
             realtime,
@@ -151,8 +151,7 @@ impl TickRecorder {
     }
 }
 
-/// Bins of one width; what is longer than all of them shares the last one, and is remembered exactly
-/// by the maximum.
+/// Histogram with bins of equal width. Larger values share the last bin; the maximum is exact.
 #[derive(Debug, Clone)]
 struct Histogram {
     width: Duration,
@@ -189,7 +188,7 @@ impl Histogram {
         }
     }
 
-    /// The upper edge of the bin in which the quantile lies, or the maximum if that is smaller.
+    /// Upper edge of the bin that contains the quantile, or the maximum if that is smaller.
     fn quantile(&self, fraction: f64) -> Duration {
         let wanted = fraction * self.count as f64;
         let mut seen = 0_u64;
@@ -212,18 +211,18 @@ impl Histogram {
     }
 }
 
-/// What a histogram comes to.
+/// Summary of a histogram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Quantiles {
-    /// How many there were.
+    /// Number of values.
     pub count: u64,
-    /// Their mean.
+    /// Mean.
     pub mean: Duration,
-    /// Half of them were no longer.
+    /// Median.
     pub p50: Duration,
-    /// 99 % of them were no longer.
+    /// 99th percentile.
     pub p99: Duration,
-    /// The longest.
+    /// Maximum.
     pub max: Duration,
 }
 
@@ -238,26 +237,26 @@ const LATENESS_EDGES: [Duration; 7] = [
     Duration::from_millis(10),
 ];
 
-/// How regular the ticks of a flight were, and what they cost.
+/// Statistics of a flight's ticks.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct TickSummary {
-    /// What the system gave.
+    /// Scheduling granted by the system.
     pub realtime: Realtime,
-    /// Between the beginnings of two ticks.
+    /// Time between the beginnings of two ticks.
     pub periods: Quantiles,
-    /// After the deadline.
+    /// Delay after the deadline.
     pub lateness: Quantiles,
     /// Ticks that were late by less than 50, 100, 200, 500 µs, 1, 3, 10 ms.
     pub lateness_counts: [u64; LATENESS_EDGES.len()],
-    /// What each of [`Stage::ALL`] took.
+    /// Duration of each of [`Stage::ALL`].
     pub costs: [Quantiles; Stage::ALL.len()],
-    /// What all of them took.
+    /// Total duration of a tick's stages.
     pub work: Quantiles,
     /// Ticks more than 3 ms behind their deadline.
     pub late: u64,
-    /// Deadlines that passed without a tick.
+    /// Deadlines missed entirely.
     pub skipped: u64,
-    /// The one whose command came last after its deadline.
+    /// The tick whose command was sent latest after its deadline.
     pub worst: Option<Tick>,
 }
 
@@ -273,7 +272,7 @@ impl fmt::Display for TickSummary {
     }
 }
 
-/// A summary in full, in several lines.
+/// The statistics as text in several lines.
 pub struct TimingReport<'a>(pub &'a TickSummary);
 
 impl fmt::Display for TimingReport<'_> {
@@ -352,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn the_worst_tick_is_told_with_its_cause() {
+    fn the_worst_tick_is_reported_with_its_cause() {
         let worst = |lateness, control, held_up| {
             let mut recorder = TickRecorder::default();
             tick(&mut recorder, Duration::ZERO, 50 * US, 9 * US);

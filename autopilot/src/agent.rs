@@ -1,7 +1,7 @@
 //! The agent: `agent/autopilot.asl`, translated to C, behind a safe interface.
 //!
-//! [`AgentStep`] is what the agent sees and does in one step. This is the only file with `unsafe`
-//! code: the bindings that the translator generates, each block with its argument.
+//! [`AgentStep`] runs one deliberation cycle. This is the only file with `unsafe` code: the bindings that the
+//! translator generates, each block with a comment on its soundness.
 
 use pid::Pose;
 
@@ -22,14 +22,14 @@ mod source;
 pub use bindings::{Agent, PLANS, STATE_BYTES};
 pub use source::{SOURCE, plan_text};
 
-/// How orders are flown; plans can change it.
+/// Parameters of approaching and holding a target; plans can change them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ApproachSettings {
-    /// A target is reached within this distance.
+    /// A target is reached within this distance, in metres.
     pub reach_distance_m: f64,
-    /// While staying at a target the drone may be this far from it.
+    /// Largest distance from the target while staying at it, in metres.
     pub stay_distance_m: f64,
-    /// How long the drone stays at a target.
+    /// Stay time at a target, in milliseconds.
     pub stay_time_ms: i64,
 }
 
@@ -40,59 +40,58 @@ impl Default for ApproachSettings {
     }
 }
 
-/// Charge at which the agent lands: its belief `landingBattery`.
+/// Charge at which the agent lands, in percent: its belief `landingBattery`.
 pub const LANDING_BATTERY_PERCENT: u32 = 12;
 
-/// A target's heading is reached within this angle.
+/// Heading tolerance for reaching a target, in degrees.
 const REACH_ANGLE_DEG: f64 = 5.0;
 
-/// What the agent can know in one step.
+/// The agent's inputs in one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Senses {
-    /// Milliseconds since the program started.
+pub struct Percepts {
+    /// Time since the program started, in milliseconds.
     pub now_ms: i64,
-    /// Where the drone is, once it is known.
+    /// Predicted pose; `None` until it is known.
     pub pose: Option<Pose>,
-    /// The drone says that it has landed.
+    /// The drone reports that it has landed.
     pub on_ground: bool,
-    /// The drone says that it hovers or flies.
+    /// The drone reports that it hovers or flies.
     pub hovering: bool,
-    /// Charge, once it is known.
+    /// Remaining charge; `None` until it is known.
     pub battery_percent: Option<u32>,
-    /// Milliseconds since the newest navdata that could be believed.
+    /// Time since the newest plausible navdata, in milliseconds.
     pub blind_for_ms: i64,
-    /// Standard deviation of the place.
-    pub doubt_m: f64,
-    /// Milliseconds for which the sticks have been at their limit while the drone came no nearer to where
-    /// it is sent.
+    /// Position uncertainty: standard deviation on each horizontal axis, in metres.
+    pub position_sd_m: f64,
+    /// How long the sticks have been at their limit without progress towards the target, in milliseconds.
     pub saturated_for_ms: i64,
-    /// What pushes the drone, as a share of what full tilt gives.
+    /// Wind disturbance as a fraction of the acceleration at full tilt.
     pub wind: f64,
-    /// The pilot moves the sticks.
+    /// An operator flies by stick.
     pub steering: bool,
-    /// How orders are flown.
+    /// Parameters of approaching and holding a target.
     pub settings: ApproachSettings,
 }
 
-/// What the agent wants the drone to do.
+/// The agent's command to the drone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AgentCommand {
     /// Stay on the ground.
     Standby,
     /// Take off.
     TakeOff,
-    /// Stay in the air and hold still.
+    /// Hold position in the air.
     Hover,
     /// Fly towards a pose.
     GoTo(Pose),
-    /// Fly as the pilot moves the sticks.
+    /// Fly by the operator's sticks.
     Sticks,
     /// Land.
     Land,
 }
 
 impl AgentCommand {
-    /// What it is called in the agent, without `send`.
+    /// The name of its action in the agent, without `send`.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Standby => "Standby",
@@ -105,20 +104,20 @@ impl AgentCommand {
     }
 }
 
-/// Why the agent lands, or warns that it soon will.
+/// Reason for which the agent lands, or warns of a landing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Danger {
-    /// The battery will soon be empty: a warning.
+    /// The battery is nearly empty: a warning.
     BatteryLow,
-    /// The battery is nearly empty.
+    /// The battery is too low to fly on.
     BatteryEmpty,
-    /// No navdata that could be believed.
+    /// No usable navdata.
     Blind,
-    /// The place is not known well enough.
+    /// The position uncertainty is too large.
     Lost,
     /// The wind is stronger than the drone.
     Wind,
-    /// A take-off, or the way to a target, was not done in its time.
+    /// A take-off, or an approach, exceeded its time limit.
     NoProgress,
 }
 
@@ -141,9 +140,9 @@ impl Danger {
 pub enum Report {
     /// It was carried out.
     Done,
-    /// It cannot be carried out now.
+    /// It was not accepted.
     Refused,
-    /// It was tried and did not succeed.
+    /// It was given up.
     Failed,
 }
 
@@ -158,7 +157,7 @@ impl Report {
     }
 }
 
-/// What the agent makes the drone do that takes its time.
+/// Activities of the drone whose duration the agent limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Pursuit {
     TakingOff,
@@ -167,19 +166,19 @@ enum Pursuit {
     Descending,
 }
 
-/// What the agent has been making the drone do, and for how long: the agent is told that, and knows no
-/// other clock. That it hovers meanwhile does not end it.
+/// The drone's current activity and its duration. The agent has no clock of its own and gets these durations
+/// as percepts. A hover in between does not end the activity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Activity {
-    /// And the milliseconds at its first command.
+    /// The activity, and the time of its first command in milliseconds.
     pursuit: Option<(Pursuit, i64)>,
-    /// How long the drone had approached its target before it last arrived there. A drone that arrives
-    /// and drifts off again and again would else never be given up.
+    /// Duration of the approach before the target was last reached. Without it, a drone that keeps reaching
+    /// its target and drifting away would never exceed the time limit.
     approached_ms: i64,
 }
 
 impl Activity {
-    /// How long this has lasted, in milliseconds; 0 if something else goes on.
+    /// Duration of this activity in milliseconds; 0 if another one is current.
     fn lasted_ms(self, pursuit: Pursuit, now_ms: i64) -> i64 {
         let Some((current, since_ms)) = self.pursuit else { return 0 };
         let lasted_ms = now_ms.saturating_sub(since_ms);
@@ -202,24 +201,24 @@ impl Activity {
     }
 }
 
-/// One step of the agent: what it senses, and what it decided.
+/// One step of the agent: its percepts and its decisions.
 #[derive(Debug)]
 pub struct AgentStep {
-    senses: Senses,
+    percepts: Percepts,
     activity: Activity,
-    /// What it wants the drone to do; the last word counts.
+    /// The command to the drone; the last one issued.
     pub command: Option<AgentCommand>,
-    /// How many commands it issued; always one.
+    /// Number of commands issued in the step; always one.
     pub commands: u32,
-    /// What it said of its last order.
+    /// How the last order ended, if it ended in this step.
     pub report: Option<Report>,
-    /// What it said of the flight.
+    /// Danger reported in this step.
     pub danger: Option<Danger>,
-    /// The plans that it chose.
+    /// Plans chosen in this step.
     pub plans: ChosenPlans,
 }
 
-/// The plans of one step in the order in which they were chosen, as indices into [`PLANS`].
+/// Plans of one step in the order in which they were chosen, as indices into [`PLANS`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ChosenPlans {
     numbers: [u32; Self::MOST],
@@ -227,16 +226,16 @@ pub struct ChosenPlans {
 }
 
 impl ChosenPlans {
-    /// A step of this agent chooses at most four: for its event, to watch, to mend, and to go down. What is
-    /// beyond this is forgotten.
+    /// Capacity. A step of this agent chooses at most four plans: for its event, for watching, for
+    /// correcting, and for landing. Further ones are dropped.
     const MOST: usize = 8;
 
-    /// Their numbers.
+    /// Indices of the plans.
     pub fn numbers(&self) -> &[u32] {
         &self.numbers[..self.count]
     }
 
-    /// The first line of each in the agent's source, and its trigger.
+    /// Line in the agent's source and trigger of each plan.
     pub fn places(&self) -> impl Iterator<Item = (u32, &'static str)> + '_ {
         let plan = |number: &u32| PLANS.get(usize::try_from(*number).ok()?).copied();
         self.numbers().iter().filter_map(plan)
@@ -251,10 +250,10 @@ impl ChosenPlans {
 }
 
 impl AgentStep {
-    /// Runs one deliberation cycle of `agent`, which goes on with its `activity`.
-    pub fn run(agent: &mut Agent, activity: &mut Activity, senses: Senses) -> Self {
+    /// Runs one deliberation cycle of `agent` and updates its `activity`.
+    pub fn run(agent: &mut Agent, activity: &mut Activity, percepts: Percepts) -> Self {
         let mut step = Self {
-            senses,
+            percepts,
             activity: *activity,
             command: None,
             commands: 0,
@@ -272,13 +271,13 @@ impl AgentStep {
         self.commands += 1;
     }
 
-    /// A command of something that takes its time.
+    /// A command that belongs to an activity with a time limit.
     fn pursue(&mut self, pursuit: Pursuit, command: AgentCommand) {
-        self.activity.go_on(pursuit, self.senses.now_ms);
+        self.activity.go_on(pursuit, self.percepts.now_ms);
         self.issue(command);
     }
 
-    /// A command that ends whatever went on.
+    /// A command that ends the current activity.
     fn end(&mut self, command: AgentCommand) {
         self.activity = Activity::default();
         self.issue(command);
@@ -287,22 +286,22 @@ impl AgentStep {
 
 impl Environment for AgentStep {
     fn update_beliefs(&mut self, beliefs: &mut Beliefs<'_>) {
-        if let Some(pose) = self.senses.pose {
+        if let Some(pose) = self.percepts.pose {
             beliefs.set_position(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg);
         }
-        if let Some(percent) = self.senses.battery_percent {
+        if let Some(percent) = self.percepts.battery_percent {
             beliefs.set_battery(percent.into());
         }
-        beliefs.set_blind_for(self.senses.blind_for_ms);
-        beliefs.set_doubt(self.senses.doubt_m);
-        beliefs.set_saturated_for(self.senses.saturated_for_ms);
-        beliefs.set_wind(self.senses.wind);
-        let lasted_ms = |pursuit| self.activity.lasted_ms(pursuit, self.senses.now_ms);
+        beliefs.set_blind_for(self.percepts.blind_for_ms);
+        beliefs.set_doubt(self.percepts.position_sd_m);
+        beliefs.set_saturated_for(self.percepts.saturated_for_ms);
+        beliefs.set_wind(self.percepts.wind);
+        let lasted_ms = |pursuit| self.activity.lasted_ms(pursuit, self.percepts.now_ms);
         beliefs.set_taking_off_for(lasted_ms(Pursuit::TakingOff));
         beliefs.set_approaching_for(lasted_ms(Pursuit::Approaching));
         beliefs.set_staying_for(lasted_ms(Pursuit::Staying));
         beliefs.set_descending_for(lasted_ms(Pursuit::Descending));
-        let settings = self.senses.settings;
+        let settings = self.percepts.settings;
         beliefs.set_reach_distance(settings.reach_distance_m);
         beliefs.set_stay_distance(settings.stay_distance_m);
         beliefs.set_stay_time(settings.stay_time_ms);
@@ -357,15 +356,15 @@ impl Environment for AgentStep {
     }
 
     fn on_ground(&mut self) -> bool {
-        self.senses.on_ground
+        self.percepts.on_ground
     }
 
     fn hovering(&mut self) -> bool {
-        self.senses.hovering
+        self.percepts.hovering
     }
 
     fn steering(&mut self) -> bool {
-        self.senses.steering
+        self.percepts.steering
     }
 
     fn close_enough(
@@ -377,7 +376,7 @@ impl Environment for AgentStep {
         distance_m: f64,
     ) -> bool {
         let target = Pose { x_m, y_m, z_m, yaw_deg };
-        self.senses.pose.is_some_and(|pose| {
+        self.percepts.pose.is_some_and(|pose| {
             distance(&pose, &target) <= distance_m
                 && estimator::wrap_deg(yaw_deg - pose.yaw_deg).abs() <= REACH_ANGLE_DEG
         })
@@ -424,7 +423,7 @@ impl Environment for AgentStep {
     }
 }
 
-/// The distance between two places; headings don't count.
+/// Distance between two poses; their headings are ignored.
 pub fn distance(a: &Pose, b: &Pose) -> f64 {
     (a.x_m - b.x_m).hypot(a.y_m - b.y_m).hypot(a.z_m - b.z_m)
 }

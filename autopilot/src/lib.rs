@@ -1,15 +1,16 @@
-//! The pilot of an AR.Drone 2.0, without any input or output: bytes and time in, one datagram every 30 ms out.
+//! Autopilot of an AR.Drone 2.0 without any I/O: bytes and time in, one datagram every 30 ms out.
 //!
-//! Inside [`Vehicle`] data goes round one way: navdata → estimate → beliefs → the agent's decision → the
+//! Inside [`Vehicle`] data flows in one direction: navdata → estimate → beliefs → the agent's decision →
 //! controller → command. The agent is `agent/autopilot.asl`, translated to C when this crate is built.
 //!
-//! Nothing here reads a clock, opens a socket or a file, or starts a thread: the crate has no dependency that
-//! could. So whole flights run in simulated time, deterministically, and a recorded flight can be repeated.
+//! Nothing here reads a clock, opens a socket or a file, or starts a thread, and no dependency of this crate
+//! can. Whole flights therefore run in simulated time, deterministically, and a recorded flight can be
+//! replayed.
 //!
 //! - [`plan`]: flight plans as text.
-//! - [`mission`]: which step of the plan is next, and where that is.
-//! - [`vehicle`]: the tick.
-//! - [`safety`]: what the agent may not overrule.
+//! - [`mission`]: the steps to be flown, and which is next.
+//! - [`vehicle`]: the state machine and its tick.
+//! - [`safety`]: limits that the agent cannot override.
 //! - [`outcome`]: how a flight ends.
 #![deny(unsafe_code)]
 

@@ -1,24 +1,24 @@
-//! What is to be flown, and how far the flight has come.
+//! The mission and its progress.
 //!
-//! A mission is a plan that was loaded, commands that were appended to it, or both. What a command means is
-//! the plan's business ([`crate::plan`]); here is which of them is next.
+//! A mission consists of a loaded plan, of appended commands, or of both. The meaning of commands is defined
+//! in [`crate::plan`]; this module keeps track of the next one.
 
 use pid::Pose;
 
 use crate::agent::ApproachSettings;
 use crate::plan::{AgentOrder, Command, Commands, DryRun, FlightLimits, Interpreter, Plan, Step};
 
-/// The order that is due.
+/// An order that is due.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Due {
-    /// Its step, from 0.
+    /// Index of its step, from 0.
     pub step: usize,
-    /// What the agent is to do.
+    /// The order to the agent.
     pub order: AgentOrder,
 }
 
 impl Due {
-    /// Whether the target was moved into the fence: the drone hovers elsewhere than was expected when
+    /// Whether the target was moved inside the fence because the drone hovers elsewhere than expected when
     /// the plan was checked.
     pub fn is_corrected(&self) -> bool {
         match self.order {
@@ -28,7 +28,7 @@ impl Due {
     }
 }
 
-/// Why commands cannot stand at the end of a mission: each reason, as [`Plan::parse`] would give it.
+/// Why commands cannot be appended: all reasons, as [`Plan::parse`] would give them.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", .reasons.join("; "))]
 pub struct AppendError {
@@ -36,7 +36,7 @@ pub struct AppendError {
     pub reasons: Vec<String>,
 }
 
-/// The mission of a vehicle; it may be empty.
+/// The mission of a vehicle; may be empty.
 #[derive(Debug)]
 pub struct Mission {
     limits: FlightLimits,
@@ -46,13 +46,12 @@ pub struct Mission {
 }
 
 impl Mission {
-    /// An empty mission within these limits.
+    /// An empty mission within this fence.
     pub fn new(limits: FlightLimits) -> Self {
         Self { limits, steps: Vec::new(), next: 0, interpreter: Interpreter::new(limits) }
     }
 
-    /// Takes a plan in place of what was there. Where coordinates begin stays the same while the drone is
-    /// `airborne`.
+    /// Replaces the mission by a plan. The origin of coordinates is kept while the drone is `airborne`.
     pub fn load(&mut self, plan: Plan, airborne: bool) {
         self.steps = plan.into_steps();
         self.next = 0;
@@ -60,8 +59,8 @@ impl Mission {
             if airborne { self.interpreter.of_new_plan() } else { Interpreter::new(self.limits) };
     }
 
-    /// Adds commands at the end, before a landing that the plan did not spell out. The drone is at `here`,
-    /// and `due` is what it is doing.
+    /// Appends commands, before a landing that the plan implies. The drone is at `here` and carries out
+    /// `due`.
     ///
     /// # Errors
     /// [`AppendError`] if a command leads outside the fence or does not fit there.
@@ -91,24 +90,24 @@ impl Mission {
         Ok(())
     }
 
-    /// Drops everything. The reference and the settings stay as they are.
+    /// Removes all steps. The reference and the settings are kept.
     pub fn clear(&mut self) {
         self.steps.clear();
         self.next = 0;
     }
 
-    /// Goes back to the first step, on the ground.
+    /// Returns to the first step, on the ground.
     pub fn rewind(&mut self) {
         self.next = 0;
         self.interpreter = Interpreter::new(self.limits);
     }
 
-    /// The commands in order.
+    /// All steps in order.
     pub fn steps(&self) -> &[Step] {
         &self.steps
     }
 
-    /// Whether it has steps, and all of them have been begun.
+    /// Whether all steps have begun; false for an empty mission.
     pub fn has_ended(&self) -> bool {
         !self.steps.is_empty() && self.next >= self.steps.len()
     }
@@ -118,8 +117,8 @@ impl Mission {
         self.steps.iter().any(|step| matches!(step.command, Command::TakeOff { .. }))
     }
 
-    /// Carries out the settings that come next and returns the order behind them; nothing at the
-    /// end of the mission. `pose` is where the drone is.
+    /// Applies the settings that come next and returns the order after them; `None` at the end of the
+    /// mission. The drone is at `pose`.
     pub fn advance(&mut self, pose: &Pose) -> Option<Due> {
         while let Some(command) = self.steps.get(self.next).map(|step| step.command) {
             let step = self.next;
@@ -131,37 +130,37 @@ impl Mission {
         None
     }
 
-    /// The agent has taken off, and the drone is at `pose`. To be called before the mission advances.
+    /// The take-off has ended with the drone at `pose`. Call this before the mission advances.
     pub fn take_off_ended(&mut self, pose: &Pose) {
         self.interpreter.take_off_ended(pose);
     }
 
-    /// The nearest place in the fence, at least `by_m` inside across the ground.
+    /// The nearest place inside the fence, at least `by_m` from its edge.
     pub fn inside(&self, target: &Pose, by_m: f64) -> Pose {
         self.limits.nearest_inside(target, by_m)
     }
 
-    /// How orders are to be flown now.
+    /// Current approach parameters.
     pub fn settings(&self) -> ApproachSettings {
         self.interpreter.settings()
     }
 
-    /// No stick is to be moved further than this.
+    /// Current limit of the sticks, as a fraction.
     pub fn max_control(&self) -> f64 {
         self.interpreter.max_control()
     }
 
-    /// Whether the mission may start with a drone that is in the air.
+    /// Whether the mission may start with a drone that is already in the air.
     pub fn takes_over(&self) -> bool {
         crate::plan::takes_over(&self.steps)
     }
 
-    /// How long it takes from its beginning.
+    /// Expected duration from its beginning.
     pub fn expected_time(&self) -> std::time::Duration {
         crate::plan::expected_time(&self.steps, &self.limits)
     }
 
-    /// Whether the last step is a landing that the plan did not spell out.
+    /// Whether the last step is a landing that the plan implies but does not contain.
     fn lands_implicitly(&self) -> bool {
         self.steps.last().is_some_and(Step::is_implied)
     }
@@ -233,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn commands_are_appended_before_a_landing_that_nobody_wrote() {
+    fn commands_are_appended_before_an_implied_landing() {
         let mut implied = mission("takeoff\ngoto 0 1 0 0");
         append(&mut implied, "goto 0 2 0 0", None).unwrap();
         assert_eq!(texts(&implied), ["takeoff", "goto 0 1 0 0", "goto 0 2 0 0", "land"]);

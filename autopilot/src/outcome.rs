@@ -1,4 +1,4 @@
-//! How a flight ended, and the exit status that says so.
+//! Outcomes of flights and their exit statuses.
 
 use std::fmt;
 
@@ -13,19 +13,19 @@ pub enum Outcome {
     LinkLost,
     /// The flight was refused before take-off.
     PreflightRefused {
-        /// Every reason.
+        /// All reasons.
         reasons: Vec<String>,
     },
     /// A failsafe ended the flight.
     Failsafe {
-        /// Which.
+        /// The reason.
         reason: String,
     },
     /// The drone cut its motors.
     Emergency,
-    /// The operator ordered the landing, and the drone has landed.
+    /// An operator ordered the landing, and the drone has landed.
     Interrupted,
-    /// The operator ordered the landing, and nobody waited any longer for the drone to confirm it.
+    /// An operator ordered the landing, and the program ended before the drone confirmed that it is down.
     LeftLanding,
 }
 

@@ -1,8 +1,8 @@
-//! What nobody may overrule: checked once more, after the decision and before the wire.
+//! The safety monitor: a last check between the agent's decision and the wire.
 //!
-//! The agent decides; this file only takes away. It knows the fence, how old navdata may be, that a
-//! drone in its emergency state is never asked to fly, and how fast sticks may move. Where it has to
-//! land the drone, it stays with that.
+//! The agent decides; the monitor only restricts. It enforces the fence, the maximum age of navdata, the
+//! limits of stick motion, and that a drone in its emergency state is never ordered to fly. A landing that it
+//! has ordered is not taken back in the air.
 
 mod carried;
 
@@ -14,46 +14,54 @@ use self::carried::CarriedOff;
 use crate::agent::AgentCommand;
 use crate::plan::FlightLimits;
 
-/// Navdata older than this are no basis for moving.
+/// Navdata older than this are too old to move by: the drone hovers.
 const STALE: Duration = Duration::from_millis(300);
-/// A drone that flies blindly for so long is landed, whatever the agent says.
+/// After this time without usable navdata the drone is landed, whatever the agent orders.
 const BLIND: Duration = Duration::from_secs(4);
-/// The drone overshoots a little, and navdata are not exact: this far beyond the fence is too far.
+/// Distance beyond the fence that is tolerated, because the drone overshoots and its position is not exact.
 const MARGIN_M: f64 = 0.35;
-/// What the drone flies on before it brakes, per metre a second, and how it brakes then,
-/// against the wind.
+/// Delay before the drone starts to brake.
 const REACTION_S: f64 = 0.5;
+/// Deceleration that the drone reaches even against the wind.
 const BRAKING_M_S2: f64 = 0.6;
-/// By hand the drone is stopped so far inside the fence, and sent no nearer to it: in the wind it would be
-/// blown over it, and that lands. One that left it is flown back that far, and
-/// down to so far above its floor, and is landed there.
+/// Under manual control the drone is stopped this far inside the fence, and manual targets are moved as far
+/// inside: nearer to it, wind could carry the drone over the fence, which lands it. A drone that has left the
+/// fence is flown back this far.
 pub(crate) const INSIDE_M: f64 = 0.5;
+/// Height above the fence's floor to which a drone that has left the fence is flown down before it lands.
 const LOW_M: f64 = 0.15;
-/// It is landed wherever it is after so long.
+/// Longest flight back into the fence; then the drone is landed where it is.
 const RETREAT: Duration = Duration::from_secs(10);
-/// And when it has come no nearer by so much for so long: it cannot hold against the wind.
+/// The flight back is given up when the drone comes no nearer by [`WAY_BACK_M`] in this time, because then it
+/// cannot hold against the wind.
 const NO_WAY_BACK: Duration = Duration::from_millis(1500);
+/// Smallest approach that counts as progress on the way back.
 const WAY_BACK_M: f64 = 0.05;
-/// Or at once where the wind pushes it outward by this share of all that it can lean against.
+/// The flight back is given up at once where the outward wind exceeds this fraction of full tilt.
 const TOO_STRONG: f64 = 1.0;
-/// Neither holds while a gust may last, nor of a drone that has just lost so much of its speed: a gust had
-/// thrown it out, and it brakes.
+/// Longest gust: during it the flight back is not given up.
 const GUST: Duration = Duration::from_millis(1200);
+/// Nor is it given up for this time after the drone has lost [`BRAKES_M_S`] of its outward speed: it was thrown
+/// out by a gust, and is braking.
 const BRAKES: Duration = Duration::from_millis(600);
+/// Loss of outward speed that shows that the drone is braking.
 const BRAKES_M_S: f64 = 0.5;
-/// Where it cannot come back it is flown down against the wind to this height, and lands by itself there: above
-/// it sinks faster by its sticks, below no more. Each airframe sinks so fast; one that does not, or says that
-/// it does not, is let land by itself too. It is sent so far against the wind.
+/// A drone that cannot come back is flown down against the wind to this height, and lands by itself from there.
+/// Above this height it sinks faster by its sticks than in its own landing.
 const HIGH_M: f64 = 0.8;
+/// Slowest descent of any airframe. A drone that takes longer than this allows, or reports no descent, is left to
+/// its own landing.
 const SINKS_M_S: f64 = 0.4;
-const LEANS_FOR_M: f64 = 2.0;
-/// And when navdata have been so old on its way.
+/// Distance of the target that makes the drone tilt fully against the wind on its way down.
+const UPWIND_TARGET_M: f64 = 2.0;
+/// Without usable navdata for this time the drone is landed instead of flown back or down.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
-/// Near the floor of its fence the drone sinks no faster than the slowest airframe stops: this fast at the
-/// floor, and so much faster for each metre above.
+/// Largest rate of descent at the fence's floor. Towards the floor the descent is limited to what the slowest
+/// airframe can stop.
 const SINK_AT_FLOOR_M_S: f64 = 0.15;
+/// Increase of that limit for each metre above the floor, in m/s.
 const SINK_1_S: f64 = 0.5;
-/// No stick jumps further within one tick.
+/// Largest change of a stick within one tick.
 const LARGEST_JUMP: f64 = 1.0;
 
 /// Why a command was replaced.
@@ -61,20 +69,21 @@ const LARGEST_JUMP: f64 = 1.0;
 pub enum Veto {
     /// The newest navdata are too old: hover instead of flying on.
     StaleNavdata,
-    /// They have been for too long: land.
+    /// Navdata have been unusable for too long: land.
     Blind,
-    /// The drone is in its emergency state: it is never asked to fly.
+    /// The drone is in its emergency state and must not be ordered to fly.
     Emergency,
-    /// The drone lands, by itself or as it was told: it is let land. An order to fly would lift it
-    /// again once it is down.
+    /// The drone is landing, by itself or by order, and must not be ordered to fly: such an order would lift
+    /// it again once it is down.
     Landing,
     /// The target lies outside the fence: fly to the nearest place inside.
     TargetOutside,
-    /// The drone comes too near the fence by the pilot's hand: stop inside.
+    /// Manual control leads the drone too near to the fence: stop inside.
     NearFence,
     /// The drone has left the fence: fly it back and down, and land.
     OutsideFence,
-    /// The wind carries it over the fence faster than it can brake: fly it down against the wind, and land.
+    /// The wind carries the drone over the fence faster than it can brake: fly it down against the wind, and
+    /// land.
     CarriedOff,
 }
 
@@ -93,61 +102,61 @@ impl Veto {
         }
     }
 
-    /// Whether the drone is landed for it.
+    /// Whether this veto ends in a landing.
     pub fn lands(self) -> bool {
         matches!(self, Self::Blind | Self::OutsideFence | Self::CarriedOff | Self::Landing)
     }
 }
 
-/// What the safety layer looks at.
+/// Inputs of the safety monitor in one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Circumstances {
-    /// Since the flight program started.
+pub struct Situation {
+    /// Time since the program started.
     pub now: Duration,
-    /// Since the newest navdata that could be believed.
+    /// Time since the newest plausible navdata.
     pub blind_for: Duration,
-    /// The drone's motors are cut.
+    /// The drone has cut its motors.
     pub emergency: bool,
-    /// The drone flies.
+    /// The drone is in the air.
     pub airborne: bool,
-    /// The drone is landing, whoever ordered it.
+    /// The drone is landing, by itself or by order.
     pub landing: bool,
-    /// Where the drone is.
+    /// Predicted pose.
     pub pose: Pose,
-    /// How it moves: right, forward, up.
+    /// Predicted velocity: right, forward, up.
     pub velocity_m_s: [f64; 3],
-    /// How the wind pushes it towards right and forward, as a share of what it can lean against.
+    /// Wind disturbance towards right and forward, as a fraction of the acceleration at full tilt.
     pub wind: [f64; 2],
-    /// How fast it gains speed at full tilt in still air.
+    /// Acceleration at full tilt in still air.
     pub full_tilt_m_s2: f64,
-    /// How fast air that stands still slows it, by its speed.
+    /// Linear drag: deceleration in still air divided by speed, in 1/s.
     pub drag_1_s: f64,
 }
 
-/// The last word before the wire.
+/// Replaces unsafe commands of the agent; the last stage before the session.
 #[derive(Debug, Clone)]
-pub struct Guard {
+pub struct SafetyMonitor {
     fence: FlightLimits,
-    /// The drone is brought down for this.
+    /// The veto for which the drone is being landed.
     danger: Option<Veto>,
-    /// Until then it may be flown back first.
+    /// End of the time for flying back into the fence.
     retreats_until: Duration,
-    /// Until then it may be flown down where it cannot come back.
+    /// End of the time for flying down outside the fence.
     sinks_until: Duration,
     way_back: WayBack,
     carried_off: CarriedOff,
-    /// Where it is flown down when it is carried off.
+    /// Target of the descent against the wind.
     upwind: Pose,
-    /// It has been told to land: in the air that is not taken back.
+    /// The drone has been ordered to land; in the air this is not taken back.
     lands: bool,
-    /// It was last told to stay on the ground: seen in the air it has risen on an order that was still on its
-    /// way, and any order to fly would keep it there.
+    /// The last order was to stay on the ground. If the drone is in the air all the same, it has followed an
+    /// older take-off order, and any order to fly would keep it there.
     stays_down: bool,
     sticks: Demand,
 }
 
-impl Guard {
-    /// A guard of this fence.
+impl SafetyMonitor {
+    /// A monitor for this fence.
     pub fn new(fence: FlightLimits) -> Self {
         Self {
             fence,
@@ -163,11 +172,11 @@ impl Guard {
         }
     }
 
-    /// The command itself, or a safer one and the reason.
+    /// Returns the command itself, or a safer one with the reason.
     pub fn check(
         &mut self,
         command: AgentCommand,
-        now: &Circumstances,
+        now: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
         let flies = !matches!(command, AgentCommand::Standby | AgentCommand::Land);
         if now.emergency && flies {
@@ -193,7 +202,7 @@ impl Guard {
         &mut self,
         command: AgentCommand,
         flies: bool,
-        now: &Circumstances,
+        now: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
         if self.lands || now.landing || self.stays_down {
             return (AgentCommand::Land, flies.then(|| self.danger.unwrap_or(Veto::Landing)));
@@ -226,13 +235,13 @@ impl Guard {
         }
     }
 
-    /// The drone is to land where it is, not to be flown back first.
+    /// Ends a flight back into the fence: the drone lands where it is.
     pub fn land_here(&mut self) {
         self.lands |= self.danger.is_some();
     }
 
-    /// The sticks within their limit, and no further from the last ones than they may jump. At a height
-    /// above the start, where full gaz sinks by `climb_m_s`, the drone stays able to stop above the floor.
+    /// Limits the sticks to `most`, and their change since the last tick. The descent is limited further so
+    /// that the drone can stop above the fence's floor; full gaz descends at `climb_m_s`.
     pub fn limit(&mut self, demand: &Demand, most: f64, height_m: f64, climb_m_s: f64) -> Demand {
         let most = most.clamp(0.0, 1.0);
         let room_m = (height_m - self.fence.floor_m).max(0.0);
@@ -251,15 +260,15 @@ impl Guard {
         self.sticks
     }
 
-    /// The drone holds or lands by itself: its sticks are let go.
+    /// The sticks are released: the drone holds or lands by itself.
     pub fn let_go(&mut self) {
         self.sticks = Demand::default();
     }
 
-    /// The drone's own landing drifts, and the longer the higher it begins: with eyes open the drone is flown
-    /// back and down first. Where that is hopeless it still leans against the wind and sinks faster than by
-    /// itself, as far as [`HIGH_M`].
-    fn bring_down(&self, danger: Veto, now: &Circumstances) -> AgentCommand {
+    /// The next command of a landing for `danger`. The drone's own landing drifts, the more the higher it
+    /// begins; while navdata are usable the drone is therefore flown back and down first. If it cannot come
+    /// back, it still tilts against the wind and sinks faster than by itself, down to [`HIGH_M`].
+    fn bring_down(&self, danger: Veto, now: &Situation) -> AgentCommand {
         let is_across = now.pose.x_m.hypot(now.pose.y_m) > self.fence.radius_m;
         let is_hopeless = is_across && self.way_back.is_none(now);
         let sinks = now.pose.z_m > HIGH_M && now.now < self.sinks_until;
@@ -276,15 +285,15 @@ impl Guard {
         }
     }
 
-    /// A low place so far towards the middle of the fence that the drone leans that way all it can.
+    /// A low target in the direction of the fence's centre, far enough for full tilt.
     fn place_upwind(&self, pose: &Pose) -> Pose {
         let away_m = pose.x_m.hypot(pose.y_m).max(f64::EPSILON);
-        let share = 1.0 - LEANS_FOR_M / away_m;
+        let share = 1.0 - UPWIND_TARGET_M / away_m;
         let low_m = self.fence.floor_m + LOW_M;
         Pose { x_m: pose.x_m * share, y_m: pose.y_m * share, z_m: low_m, ..*pose }
     }
 
-    fn reason_to_land(&self, now: &Circumstances) -> Option<Veto> {
+    fn reason_to_land(&self, now: &Situation) -> Option<Veto> {
         if now.blind_for > BLIND {
             Some(Veto::Blind)
         } else if !self.is_inside_above(&now.pose, MARGIN_M) {
@@ -296,7 +305,7 @@ impl Guard {
         }
     }
 
-    /// A low place inside the fence, unless the drone is near it.
+    /// A low place inside the fence; `None` if the drone is near it.
     fn retreat(&self, pose: &Pose) -> Option<Pose> {
         let low_m = self.fence.floor_m + LOW_M;
         let target = Pose { z_m: low_m, ..self.fence.nearest_inside(pose, INSIDE_M) };
@@ -309,13 +318,13 @@ impl Guard {
         pose.z_m >= self.fence.floor_m - margin_m && self.is_inside_above(pose, margin_m)
     }
 
-    /// A drone that sinks too low is not mended by landing it.
+    /// Ignores the fence's floor, because landing does not correct a height that is too low.
     fn is_inside_above(&self, pose: &Pose, margin_m: f64) -> bool {
         pose.x_m.hypot(pose.y_m) <= self.fence.radius_m + margin_m
             && pose.z_m <= self.fence.ceiling_m + margin_m
     }
 
-    fn stops_inside(&self, now: &Circumstances) -> bool {
+    fn stops_inside(&self, now: &Situation) -> bool {
         let (here, end) = (now.pose, stopping_place(now));
         let (away_m, end_away_m) = (here.x_m.hypot(here.y_m), end.x_m.hypot(end.y_m));
         (end_away_m <= self.fence.radius_m - INSIDE_M || end_away_m < away_m)
@@ -324,13 +333,14 @@ impl Guard {
     }
 }
 
-/// Whether a drone outside its fence is on its way back.
+/// Progress of a drone outside the fence on its way back.
 #[derive(Debug, Clone, Copy, Default)]
 struct WayBack {
-    /// How far from the middle of the fence it is or was, and when it last came nearer.
+    /// Smallest distance from the fence's centre so far, and when it was reached.
     away_m: f64,
     nearer_at: Duration,
-    /// How fast it goes or went away, and until when it is waited for it because it has lost much of that.
+    /// Largest outward speed since it last fell by [`BRAKES_M_S`], and until when a braking drone is given
+    /// time.
     away_m_s: f64,
     brakes_until: Duration,
 }
@@ -340,7 +350,7 @@ impl WayBack {
         Self { nearer_at: now, brakes_until: gust_since + GUST, ..Self::default() }
     }
 
-    fn see(&mut self, now: &Circumstances) {
+    fn see(&mut self, now: &Situation) {
         let away_m = now.pose.x_m.hypot(now.pose.y_m);
         let [right_m_s, forward_m_s, _] = now.velocity_m_s;
         let away_m_s = outward(now, [right_m_s, forward_m_s]);
@@ -355,26 +365,26 @@ impl WayBack {
         self.away_m_s = self.away_m_s.max(away_m_s);
     }
 
-    fn is_none(&self, now: &Circumstances) -> bool {
+    fn is_none(&self, now: &Situation) -> bool {
         let no_nearer = now.now >= self.nearer_at + NO_WAY_BACK;
         let too_strong = outward(now, now.wind) > TOO_STRONG;
         (no_nearer || too_strong) && now.now >= self.brakes_until
     }
 }
 
-/// The part of (right, forward) that leads away from the middle of the fence.
-fn outward(now: &Circumstances, [right, forward]: [f64; 2]) -> f64 {
+/// The component of (right, forward) that points away from the fence's centre.
+fn outward(now: &Situation, [right, forward]: [f64; 2]) -> f64 {
     let Pose { x_m, y_m, .. } = now.pose;
     (right * x_m + forward * y_m) / x_m.hypot(y_m).max(f64::EPSILON)
 }
 
-/// How long a drone at this height needs at most to sink to where it lands by itself.
+/// Longest descent from this height to [`HIGH_M`].
 fn time_to_sink(height_m: f64) -> Duration {
     Duration::try_from_secs_f64((height_m - HIGH_M) / SINKS_M_S).unwrap_or_default().min(RETREAT)
 }
 
 /// Where the drone comes to rest if it begins to brake now.
-fn stopping_place(now: &Circumstances) -> Pose {
+fn stopping_place(now: &Situation) -> Pose {
     let way_m = |speed_m_s: f64| {
         speed_m_s * REACTION_S + speed_m_s * speed_m_s.abs() / (2.0 * BRAKING_M_S2)
     };
@@ -387,7 +397,7 @@ fn stopping_place(now: &Circumstances) -> Pose {
 mod tests {
     use super::*;
 
-    pub(super) const FINE: Circumstances = Circumstances {
+    pub(super) const FINE: Situation = Situation {
         now: Duration::from_mins(1),
         blind_for: Duration::ZERO,
         emergency: false,
@@ -402,124 +412,122 @@ mod tests {
     const TARGET: Pose = Pose { x_m: 1.0, ..FINE.pose };
     const GO_TO: AgentCommand = AgentCommand::GoTo(TARGET);
 
-    fn guard() -> Guard {
-        Guard::new(FlightLimits::default())
+    fn monitor() -> SafetyMonitor {
+        SafetyMonitor::new(FlightLimits::default())
     }
 
     #[test]
     fn only_what_moves_the_drone_needs_fresh_navdata() {
-        let stale = Circumstances { blind_for: Duration::from_millis(301), ..FINE };
-        assert_eq!(guard().check(GO_TO, &FINE), (GO_TO, None));
+        let stale = Situation { blind_for: Duration::from_millis(301), ..FINE };
+        assert_eq!(monitor().check(GO_TO, &FINE), (GO_TO, None));
         let held = (AgentCommand::Hover, Some(Veto::StaleNavdata));
-        assert_eq!(guard().check(GO_TO, &stale), held);
-        assert_eq!(guard().check(AgentCommand::Sticks, &stale), held);
-        assert_eq!(guard().check(AgentCommand::Land, &stale), (AgentCommand::Land, None));
+        assert_eq!(monitor().check(GO_TO, &stale), held);
+        assert_eq!(monitor().check(AgentCommand::Sticks, &stale), held);
+        assert_eq!(monitor().check(AgentCommand::Land, &stale), (AgentCommand::Land, None));
     }
 
     #[test]
     fn nothing_flies_in_an_emergency() {
-        let emergency = Circumstances { emergency: true, ..FINE };
+        let emergency = Situation { emergency: true, ..FINE };
         for command in [AgentCommand::TakeOff, AgentCommand::Hover, GO_TO, AgentCommand::Sticks] {
             let vetoed = (AgentCommand::Standby, Some(Veto::Emergency));
-            assert_eq!(guard().check(command, &emergency), vetoed);
+            assert_eq!(monitor().check(command, &emergency), vetoed);
         }
-        assert_eq!(guard().check(AgentCommand::Land, &emergency), (AgentCommand::Land, None));
+        assert_eq!(monitor().check(AgentCommand::Land, &emergency), (AgentCommand::Land, None));
     }
 
     #[test]
     fn a_drone_that_lands_is_let_land() {
-        let landing = Circumstances { landing: true, ..FINE };
+        let landing = Situation { landing: true, ..FINE };
         for command in [AgentCommand::TakeOff, AgentCommand::Hover, GO_TO, AgentCommand::Sticks] {
             let vetoed = (AgentCommand::Land, Some(Veto::Landing));
-            assert_eq!(guard().check(command, &landing), vetoed);
+            assert_eq!(monitor().check(command, &landing), vetoed);
         }
-        let outside = Circumstances { pose: Pose { x_m: 11.0, ..FINE.pose }, ..FINE };
-        let mut guard = guard();
-        assert_ne!(guard.check(GO_TO, &outside).0, AgentCommand::Land);
-        let command = guard.check(AgentCommand::Land, &Circumstances { landing: true, ..outside });
+        let outside = Situation { pose: Pose { x_m: 11.0, ..FINE.pose }, ..FINE };
+        let mut monitor = monitor();
+        assert_ne!(monitor.check(GO_TO, &outside).0, AgentCommand::Land);
+        let command = monitor.check(AgentCommand::Land, &Situation { landing: true, ..outside });
         assert_eq!(command, (AgentCommand::Land, None), "no retreat any more");
     }
 
     #[test]
     fn a_drone_that_rises_after_its_landing_is_landed_again() {
-        let mut guard = guard();
-        let on_ground = Circumstances { airborne: false, ..FINE };
-        guard.check(AgentCommand::TakeOff, &on_ground);
-        guard.check(AgentCommand::Standby, &on_ground);
-        assert_eq!(guard.check(AgentCommand::Hover, &on_ground).0, AgentCommand::Hover);
+        let mut monitor = monitor();
+        let on_ground = Situation { airborne: false, ..FINE };
+        monitor.check(AgentCommand::TakeOff, &on_ground);
+        monitor.check(AgentCommand::Standby, &on_ground);
+        assert_eq!(monitor.check(AgentCommand::Hover, &on_ground).0, AgentCommand::Hover);
         let lands = (AgentCommand::Land, Some(Veto::Landing));
-        assert_eq!(guard.check(AgentCommand::Hover, &FINE), lands);
+        assert_eq!(monitor.check(AgentCommand::Hover, &FINE), lands);
         let landed = (AgentCommand::TakeOff, None);
-        assert_eq!(guard.check(AgentCommand::TakeOff, &on_ground), landed);
-        assert_eq!(guard.check(AgentCommand::Hover, &FINE), (AgentCommand::Hover, None));
+        assert_eq!(monitor.check(AgentCommand::TakeOff, &on_ground), landed);
+        assert_eq!(monitor.check(AgentCommand::Hover, &FINE), (AgentCommand::Hover, None));
     }
 
     #[test]
     fn a_drone_that_is_landed_for_its_safety_is_landed_to_the_end() {
         for bad in [
-            Circumstances { blind_for: Duration::from_secs(5), ..FINE },
-            Circumstances { pose: Pose { x_m: 10.4, ..FINE.pose }, ..FINE },
-            Circumstances { pose: Pose { z_m: 3.4, ..FINE.pose }, ..FINE },
+            Situation { blind_for: Duration::from_secs(5), ..FINE },
+            Situation { pose: Pose { x_m: 10.4, ..FINE.pose }, ..FINE },
+            Situation { pose: Pose { z_m: 3.4, ..FINE.pose }, ..FINE },
         ] {
-            let mut guard = guard();
-            let veto = guard.check(AgentCommand::Hover, &bad).1;
+            let mut monitor = monitor();
+            let veto = monitor.check(AgentCommand::Hover, &bad).1;
             assert!(veto.is_some_and(Veto::lands));
-            let low = Circumstances { pose: Pose { z_m: 0.5, ..FINE.pose }, ..FINE };
-            assert_eq!(guard.check(GO_TO, &low).0, AgentCommand::Land, "it came back");
-            let landed = Circumstances { airborne: false, ..FINE };
-            assert_eq!(guard.check(AgentCommand::TakeOff, &landed).0, AgentCommand::TakeOff);
+            let low = Situation { pose: Pose { z_m: 0.5, ..FINE.pose }, ..FINE };
+            assert_eq!(monitor.check(GO_TO, &low).0, AgentCommand::Land, "it came back");
+            let landed = Situation { airborne: false, ..FINE };
+            assert_eq!(monitor.check(AgentCommand::TakeOff, &landed).0, AgentCommand::TakeOff);
         }
     }
 
     #[test]
     fn a_drone_outside_the_fence_is_flown_back_and_down() {
-        let outside = Circumstances { pose: Pose { y_m: -10.5, z_m: 2.0, ..FINE.pose }, ..FINE };
-        let stale = Circumstances { blind_for: Duration::from_millis(400), ..outside };
-        let blind = Circumstances { blind_for: Duration::from_millis(1001), ..outside };
-        let much_later = Circumstances { now: outside.now + RETREAT, ..outside };
+        let outside = Situation { pose: Pose { y_m: -10.5, z_m: 2.0, ..FINE.pose }, ..FINE };
+        let stale = Situation { blind_for: Duration::from_millis(400), ..outside };
+        let blind = Situation { blind_for: Duration::from_millis(1001), ..outside };
+        let much_later = Situation { now: outside.now + RETREAT, ..outside };
         let land = AgentCommand::Land;
-        assert_eq!(guard().check(land, &outside), (land, None), "whoever lands, lands");
+        assert_eq!(monitor().check(land, &outside), (land, None), "whoever lands, lands");
         for then in [&blind, &much_later] {
-            let mut guard = guard();
-            let (command, veto) = guard.check(GO_TO, &outside);
+            let mut monitor = monitor();
+            let (command, veto) = monitor.check(GO_TO, &outside);
             assert_eq!(veto, Some(Veto::OutsideFence));
             let AgentCommand::GoTo(target) = command else { panic!("{command:?}") };
             assert!((target.y_m + 9.5).abs() < 1e-9 && target.z_m < 0.5, "{target:?}");
-            // The landing that is then ordered waits for that, but not for ever, nor blindly.
-            assert_eq!(guard.check(land, &outside).0, command);
-            assert_eq!(guard.check(land, &stale).0, AgentCommand::Hover);
-            assert_eq!(guard.check(land, then).0, land);
-            assert_eq!(guard.check(land, &outside).0, land, "a landing is not taken back");
+            // The landing waits for the flight back, but only for a limited time and only with usable
+            // navdata.
+            assert_eq!(monitor.check(land, &outside).0, command);
+            assert_eq!(monitor.check(land, &stale).0, AgentCommand::Hover);
+            assert_eq!(monitor.check(land, then).0, land);
+            assert_eq!(monitor.check(land, &outside).0, land, "a landing is not taken back");
         }
-        let mut guard = guard();
-        guard.check(GO_TO, &outside);
-        guard.land_here();
-        assert_eq!(guard.check(land, &outside).0, land, "nor does it wait for the pilot");
+        let mut monitor = monitor();
+        monitor.check(GO_TO, &outside);
+        monitor.land_here();
+        assert_eq!(monitor.check(land, &outside).0, land, "nor does it wait for the pilot");
     }
 
     #[test]
     fn near_the_floor_the_drone_sinks_slowly() {
         let down = Demand { gaz: -1.0, ..Demand::default() };
-        let gaz = |height_m| guard().limit(&down, 1.0, height_m, 0.7).gaz;
+        let gaz = |height_m| monitor().limit(&down, 1.0, height_m, 0.7).gaz;
         assert!((gaz(2.0) + 1.0).abs() < 1e-9);
         assert!((-0.4..-0.3).contains(&gaz(0.5)), "{}", gaz(0.5));
         assert!((-0.25..-0.2).contains(&gaz(0.1)), "{}", gaz(0.1));
         let up = Demand { gaz: 1.0, ..Demand::default() };
-        assert!((guard().limit(&up, 1.0, 0.1, 0.7).gaz - 1.0).abs() < 1e-9);
+        assert!((monitor().limit(&up, 1.0, 0.1, 0.7).gaz - 1.0).abs() < 1e-9);
     }
 
     #[test]
     fn a_drone_that_does_not_come_back_is_landed_where_it_is() {
         let lands_after = |speed_m_s: f64| {
-            let mut guard = guard();
+            let mut monitor = monitor();
             (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
                 let x_m = 10.5 + speed_m_s * time.as_secs_f64();
-                let now = Circumstances {
-                    now: FINE.now + *time,
-                    pose: Pose { x_m, ..FINE.pose },
-                    ..FINE
-                };
-                guard.check(GO_TO, &now).0 == AgentCommand::Land
+                let now =
+                    Situation { now: FINE.now + *time, pose: Pose { x_m, ..FINE.pose }, ..FINE };
+                monitor.check(GO_TO, &now).0 == AgentCommand::Land
             })
         };
         let soon = NO_WAY_BACK + Duration::from_millis(60);
@@ -531,19 +539,19 @@ mod tests {
 
     #[test]
     fn a_drone_is_not_flown_back_against_a_wind_that_is_stronger_than_it() {
-        // It leaves the fence at 3 m/s, and loses of that what it does.
+        // The drone leaves the fence at 3 m/s and decelerates by `brakes_m_s2`.
         let lands_after = |wind: [f64; 2], brakes_m_s2: f64| {
-            let mut guard = guard();
+            let mut monitor = monitor();
             (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
                 let away_m_s = (3.0 - brakes_m_s2 * time.as_secs_f64()).max(0.1);
-                let now = Circumstances {
+                let now = Situation {
                     now: FINE.now + *time,
                     pose: Pose { y_m: -10.5 - away_m_s, ..FINE.pose },
                     velocity_m_s: [0.0, -away_m_s, 0.0],
                     wind,
                     ..FINE
                 };
-                guard.check(GO_TO, &now).0 == AgentCommand::Land
+                monitor.check(GO_TO, &now).0 == AgentCommand::Land
             })
         };
         let within = |time: Option<Duration>, most: Duration| time.is_some_and(|time| time <= most);
@@ -557,20 +565,20 @@ mod tests {
 
     #[test]
     fn a_drone_that_is_carried_off_is_flown_down_against_the_wind_and_lands() {
-        // Three metres inside, backward by 1 m/s, in a storm.
+        // Three metres inside the fence, moving backward at 1 m/s in a storm.
         let lands_after = |height_m: f64, sinks_m_s: f64| {
-            let mut guard = guard();
+            let mut monitor = monitor();
             let mut downward = 0;
             let lands = (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
                 let sunk_m = sinks_m_s * time.saturating_sub(GUST).as_secs_f64();
-                let now = Circumstances {
+                let now = Situation {
                     now: FINE.now + *time,
                     pose: Pose { y_m: -7.0, z_m: height_m - sunk_m, ..FINE.pose },
                     velocity_m_s: [0.0, -1.0, 0.0],
                     wind: [0.0, -1.1],
                     ..FINE
                 };
-                let (command, veto) = guard.check(GO_TO, &now);
+                let (command, veto) = monitor.check(GO_TO, &now);
                 if veto == Some(Veto::CarriedOff)
                     && let AgentCommand::GoTo(target) = command
                 {
@@ -602,10 +610,10 @@ mod tests {
             Pose { z_m: 3.1, ..here },
             Pose { z_m: 0.2, ..here },
         ] {
-            let (command, veto) = guard().check(AgentCommand::GoTo(target), &FINE);
+            let (command, veto) = monitor().check(AgentCommand::GoTo(target), &FINE);
             assert_eq!(veto, Some(Veto::TargetOutside));
             let AgentCommand::GoTo(inside) = command else { panic!("{command:?}") };
-            assert!(guard().is_inside(&inside, 1e-6), "{inside:?}");
+            assert!(monitor().is_inside(&inside, 1e-6), "{inside:?}");
         }
     }
 
@@ -621,18 +629,17 @@ mod tests {
             (ceiling_m + 0.1, -0.1, true),
         ] {
             let pose = Pose { z_m, ..FINE.pose };
-            let now = Circumstances { pose, velocity_m_s: [0.0, 0.0, up_m_s], ..FINE };
-            let (_, veto) = guard().check(AgentCommand::Sticks, &now);
+            let now = Situation { pose, velocity_m_s: [0.0, 0.0, up_m_s], ..FINE };
+            let (_, veto) = monitor().check(AgentCommand::Sticks, &now);
             assert_eq!(veto, (!stays).then_some(Veto::NearFence), "{z_m} {up_m_s}");
         }
     }
 
     #[test]
-    fn the_pilots_hand_stops_before_the_fence_and_may_fly_back() {
+    fn manual_control_stops_before_the_fence_and_may_fly_back() {
         let near_the_fence = Pose { x_m: 9.0, ..FINE.pose };
-        let moving =
-            |x, up| Circumstances { pose: near_the_fence, velocity_m_s: [x, 0.0, up], ..FINE };
-        let check = |now| guard().check(AgentCommand::Sticks, &now).1;
+        let moving = |x, up| Situation { pose: near_the_fence, velocity_m_s: [x, 0.0, up], ..FINE };
+        let check = |now| monitor().check(AgentCommand::Sticks, &now).1;
         assert_eq!(check(moving(1.0, 0.0)), Some(Veto::NearFence));
         assert_eq!(check(moving(-1.0, 0.0)), None);
         assert_eq!(check(moving(0.4, 0.0)), None);
@@ -641,13 +648,13 @@ mod tests {
 
     #[test]
     fn sticks_are_limited_and_do_not_jump() {
-        let mut guard = guard();
+        let mut monitor = monitor();
         let full = Demand { roll: 1.0, pitch: -3.0, gaz: f64::NAN, yaw: 0.2 };
-        let limited = guard.limit(&full, 0.6, 2.0, 0.7);
+        let limited = monitor.limit(&full, 0.6, 2.0, 0.7);
         assert_eq!(limited, Demand { roll: 0.6, pitch: -0.6, gaz: 0.0, yaw: 0.2 });
-        let limited = guard.limit(&Demand { roll: -1.0, ..full }, 1.0, 2.0, 0.7);
+        let limited = monitor.limit(&Demand { roll: -1.0, ..full }, 1.0, 2.0, 0.7);
         assert!((limited.roll + 0.4).abs() < 1e-12, "{limited:?}");
-        guard.let_go();
-        assert!((guard.limit(&full, 1.0, 2.0, 0.7).roll - 1.0).abs() < 1e-12);
+        monitor.let_go();
+        assert!((monitor.limit(&full, 1.0, 2.0, 0.7).roll - 1.0).abs() < 1e-12);
     }
 }

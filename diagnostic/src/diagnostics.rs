@@ -1,4 +1,4 @@
-//! Messages about several texts, together with these texts.
+//! Diagnostics about several source texts.
 
 use std::fmt;
 use std::ops::Deref;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::{Diagnostic, MAX_RENDERED, Severity, Source, line_column, more};
 
-/// A text and its name, kept for messages about it.
+/// A source text with its name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SourceText {
     /// The file's name as the user gave it.
@@ -21,10 +21,10 @@ impl From<Source<'_>> for SourceText {
     }
 }
 
-/// A list of [`Diagnostic`]s with the texts that they are about: data for programs, and by its `Display` rendered for
+/// A list of [`Diagnostic`]s with their source texts: data for programs, and rendered by `Display` for
 /// people. It dereferences to the list.
 ///
-/// The texts are shared, so that a list can be filtered without a copy of them.
+/// The texts are shared, so that a list can be filtered without copying them.
 #[derive(Clone, PartialEq, Eq, Default)]
 #[must_use]
 pub struct Diagnostics {
@@ -33,12 +33,12 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// Messages about `sources`: each says by [`Diagnostic::source`] which one it is about.
+    /// Diagnostics about `sources`; [`Diagnostic::source`] is the index into them.
     pub fn new(sources: impl IntoIterator<Item = SourceText>, list: Vec<Diagnostic>) -> Self {
         Self { sources: sources.into_iter().collect(), list }
     }
 
-    /// Other messages about the same texts.
+    /// Other diagnostics about the same texts.
     pub fn with(&self, list: Vec<Diagnostic>) -> Self {
         Self { sources: Arc::clone(&self.sources), list }
     }
@@ -48,7 +48,7 @@ impl Diagnostics {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// The messages with their places, in the order of the list.
+    /// The diagnostics with their places, in the order of the list.
     pub fn located(&self) -> impl ExactSizeIterator<Item = Located<'_>> {
         self.list.iter().map(|diagnostic| {
             let source = self.sources.get(diagnostic.source);
@@ -74,15 +74,15 @@ impl Deref for Diagnostics {
     }
 }
 
-/// Only the list: the texts may be long.
+/// Only the list, because the texts may be long.
 impl fmt::Debug for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(&self.list).finish()
     }
 }
 
-/// Each [rendered](Diagnostic::render), an empty line between two. Of very many the first are shown and the others
-/// counted.
+/// All diagnostics [rendered](Diagnostic::render), separated by empty lines. Of very many, the first are
+/// shown and the rest counted.
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let shown = self.located().take(MAX_RENDERED);
@@ -93,18 +93,18 @@ impl fmt::Display for Diagnostics {
     }
 }
 
-/// A message with the text that it is about.
+/// A diagnostic with its source text.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Located<'a> {
-    /// The message.
+    /// The diagnostic.
     pub diagnostic: &'a Diagnostic,
     /// The text.
     pub source: Source<'a>,
 }
 
 impl Located<'_> {
-    /// Line and column where it begins, both from 1; columns are counted in characters.
+    /// Line and column of its begin, both from 1; columns count characters.
     pub fn start(&self) -> (usize, usize) {
         line_column(self.source.text, self.diagnostic.span.start)
     }

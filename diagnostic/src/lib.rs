@@ -1,8 +1,8 @@
-//! Messages that point at the text they are about.
+//! Diagnostics with places in a source text.
 //!
-//! The translator's sources and flight plans are both texts that people write and get wrong.
-//! They share one [`Diagnostic`] type, so that an error in either looks the same: the message, the
-//! file with line and column, the source line with a caret under the exact span, and what to do.
+//! Agents and flight plans are both texts that people write, with mistakes. They share one [`Diagnostic`]
+//! type, so that errors in either look the same: the message, the file with line and column, the source line
+//! with a caret under the exact span, and advice.
 //!
 //! ```
 //! use diagnostic::{Diagnostic, Source};
@@ -39,34 +39,34 @@ pub struct Source<'a> {
     pub text: &'a str,
 }
 
-/// How much a [`Diagnostic`] matters.
+/// Severity of a [`Diagnostic`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// Legal, but probably not what was meant.
+    /// Legal, but probably a mistake.
     Warning,
-    /// Nothing is produced.
+    /// The source cannot be used.
     Error,
 }
 
-/// One message about one place in a source text.
+/// A message about a place in a source text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
-    /// What is wrong, in one line without a full stop.
+    /// The problem, in one line without a full stop.
     pub message: String,
-    /// Index of its text among those of a [`Diagnostics`]; 0 if there is one only.
+    /// Index of its source text in a [`Diagnostics`]; 0 if there is only one.
     pub source: usize,
-    /// Where: bytes of the source text.
+    /// Its place: bytes of the source text.
     pub span: Span,
-    /// What stands under the caret; may be empty.
+    /// Text under the caret; may be empty.
     pub label: String,
-    /// What to do about it.
+    /// Advice.
     pub help: Option<String>,
-    /// A stable name of this kind of message, for programs; may be empty.
+    /// Stable identifier of this kind of diagnostic, for programs; may be empty.
     pub code: &'static str,
-    /// Whether users can silence this kind by its code; the rendered message then shows the code.
+    /// Whether users can silence this kind by its code, which the rendered text then shows.
     is_lint: bool,
 }
 
@@ -104,14 +104,14 @@ impl Diagnostic {
         self
     }
 
-    /// Sets the stable name of this kind of message.
+    /// Sets the stable identifier of this kind of diagnostic.
     #[must_use]
     pub fn code(mut self, code: &'static str) -> Self {
         self.code = code;
         self
     }
 
-    /// Sets the name by which such messages are silenced; it is shown behind `warning`.
+    /// Sets the identifier by which users silence it; it is shown behind `warning`.
     #[must_use]
     pub fn lint(mut self, code: &'static str) -> Self {
         self.code = code;
@@ -119,9 +119,9 @@ impl Diagnostic {
         self
     }
 
-    /// The message with file, line, column, source line and caret, as rustc prints it, without
-    /// colours, and [printable](printable_lines) whatever the text holds. A span outside the text is moved to
-    /// its nearest place inside.
+    /// Renders the message with file, line, column, source line and caret, in the style of rustc, without
+    /// colours. The result is [printable](printable_lines) whatever the text contains. A span outside the
+    /// text is moved to the nearest place inside.
     pub fn render(&self, source: &Source<'_>) -> String {
         let level = match self.severity {
             Severity::Error => Level::ERROR,
@@ -140,17 +140,17 @@ impl Diagnostic {
         if let Some(help) = &self.help {
             group = group.element(Level::HELP.message(help.as_str()));
         }
-        // Names and quoted text may hold anything; the renderer replaces only what it knows.
+        // Names and quoted text may contain any character; the renderer escapes only some of them.
         printable_lines(&Renderer::plain().render(&[group])).into_owned()
     }
 }
 
-/// More messages than this are counted, not shown: nobody reads them, and each costs a look at the
-/// whole text.
+/// Maximum number of rendered diagnostics; further ones are counted. Nobody reads more, and each costs a scan
+/// of the text.
 pub const MAX_RENDERED: usize = 50;
 
-/// Renders `diagnostics` in the order of the text, an empty line between two. Of very many the
-/// first are shown and the others counted; errors come before warnings then.
+/// Renders `diagnostics` in the order of the text, separated by empty lines. Of very many, the first are
+/// shown and the rest counted; errors come before warnings then.
 pub fn render_all(diagnostics: &[Diagnostic], source: &Source<'_>) -> String {
     let mut shown: Vec<&Diagnostic> = diagnostics.iter().collect();
     shown.sort_by_key(|diagnostic| diagnostic.span.start);
@@ -164,13 +164,13 @@ pub fn render_all(diagnostics: &[Diagnostic], source: &Source<'_>) -> String {
     rendered.join("\n\n")
 }
 
-/// The last line if only the first of `count` messages are shown.
+/// Last line if only the first of `count` diagnostics are shown.
 fn more(count: usize) -> Option<String> {
     let more = count.saturating_sub(MAX_RENDERED);
     (more > 0).then(|| format!("... and {more} more"))
 }
 
-/// Line and column of a byte of `text`, both counted from 1; the column counts characters.
+/// Line and column of a byte of `text`, both from 1; columns count characters.
 pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     let offset = floor_char_boundary(text, offset);
     let before = &text[..offset];
@@ -179,7 +179,7 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (line, before[line_start..].chars().count() + 1)
 }
 
-/// The candidate that is most like `name`, if any is close enough to be a slip of the pen.
+/// The candidate most similar to `name`, if any is similar enough to suggest a typing error.
 pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = (name.chars().count() / 3).max(1);
     candidates
@@ -210,7 +210,7 @@ fn floor_char_boundary(text: &str, offset: usize) -> usize {
     offset
 }
 
-/// Levenshtein distance, case ignored.
+/// Levenshtein distance, ignoring case.
 fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().flat_map(char::to_lowercase).collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
@@ -265,7 +265,7 @@ mod tests {
         assert_eq!(render_all(&many[..3], &source).matches("warning").count(), 3);
     }
 
-    /// Neither the text nor its name nor the message can do anything to the terminal.
+    /// Neither the text nor its name nor the message may control the terminal.
     #[test]
     fn rendered_errors_hold_no_control_characters() {
         let text = "go\x1b[2J \u{9b}2J\u{202e} \u{200b}\n";

@@ -1,13 +1,13 @@
-//! Makes text from elsewhere safe to show: from a drone, a log, a plan, a file's name.
+//! Makes text from outside safe to display: from a drone, a log, a plan, or a file name.
 //!
-//! A terminal obeys control characters: text can clear it, retitle it, or answer in the user's place.
-//! Characters that turn the direction of writing, or are not seen, make a line read as something that it is
-//! not. Both are shown by their code, `\u{1b}`, so that nothing is hidden and nothing is obeyed.
+//! Terminals obey control characters: text could clear the screen, change the title, or answer in the user's
+//! place. Characters that change the writing direction, or are invisible, can make a line read differently
+//! from what it is. Both are shown as escapes such as `\u{1b}`, so that nothing is hidden or obeyed.
 
 use std::borrow::Cow;
 
-/// Whether a character stands for itself wherever it is shown: no control character, none that changes the
-/// direction or the lines of the text around it, and none that is invisible.
+/// Whether a character can be displayed as itself: not a control character, not one that changes the
+/// direction or the lines of the text around it, and not an invisible one.
 pub fn is_printable(character: char) -> bool {
     let invisible = matches!(
         character,
@@ -24,7 +24,7 @@ pub fn is_printable(character: char) -> bool {
     !invisible && !character.is_control()
 }
 
-/// The text as one line in which every character stands for itself.
+/// Escapes a text as a single line.
 ///
 /// ```
 /// use diagnostic::printable;
@@ -36,7 +36,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_printable)
 }
 
-/// Like [`printable`], but line feeds end lines.
+/// Like [`printable`], but keeps line feeds.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |character| character == '\n' || is_printable(character))
 }

@@ -101,6 +101,16 @@ impl Heading {
         })
     }
 
+    /// The newest heading that was measured.
+    pub(crate) fn newest_deg(&self) -> f64 {
+        self.measured.back().map_or(0.0, |(_, deg)| *deg)
+    }
+
+    /// How fast it turned then, as far as the sticks tell.
+    pub(crate) fn newest_turn_deg_s(&self) -> f64 {
+        self.turn_deg_s
+    }
+
     /// The heading when the drone's compass starts anew: the next one continues the last.
     pub(crate) fn handle_restart(&mut self) {
         self.baseline_deg = None;

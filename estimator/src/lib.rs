@@ -47,6 +47,7 @@ mod identification;
 mod orders;
 mod plausibility;
 mod response;
+mod tags;
 mod trust;
 mod uncertainty;
 mod vertical;
@@ -58,6 +59,9 @@ use nalgebra::{Vector2, Vector3};
 pub use airframe::{Airframe, DroneLimits};
 pub use angle::wrap_deg;
 pub use orders::{Order, Sticks};
+pub use tags::{
+    KnownTag, MAX_SIGHTS, MAX_TAGS, OrientationSign, Sight, SurveyedTag, TagConfig, TagStatus,
+};
 pub use trust::{Quantity, Trust};
 
 use crate::clock::SampleClock;
@@ -67,7 +71,8 @@ use crate::identification::Identification;
 use crate::orders::Orders;
 use crate::plausibility::{Plausibility, VelocityGate, Verdict};
 use crate::response::{Measured, Response};
-use crate::uncertainty::Uncertainty;
+use crate::tags::{OdometryStep, Tags};
+use crate::uncertainty::{HEADING_STEP_DEG, Uncertainty};
 use crate::vertical::{AltitudeFilter, Echo, Vertical};
 
 /// What one navdata packet says of the drone's motion.
@@ -118,6 +123,8 @@ pub struct EstimatorConfig {
     pub disturbance_max_m_s2: f64,
     /// Whether the airframe is learnt in flight.
     pub identify: bool,
+    /// How roundels on the floor are used, if they are.
+    pub tags: Option<TagConfig>,
 }
 
 impl Default for EstimatorConfig {
@@ -133,6 +140,7 @@ impl Default for EstimatorConfig {
             disturbance_gain_1_s2: 5.0,
             disturbance_max_m_s2: 2.0,
             identify: true,
+            tags: None,
         }
     }
 }
@@ -192,6 +200,8 @@ pub struct Estimator {
     airborne_since_s: Option<f64>,
     airborne: bool,
     estimate: Estimate,
+    /// Where the odometry lies in the world.
+    tags: Option<Box<Tags>>,
 }
 
 impl Default for Estimator {
@@ -239,6 +249,7 @@ impl Estimator {
             airborne_since_s: None,
             airborne: false,
             estimate: Estimate::default(),
+            tags: config.tags.as_ref().map(|tags| Box::new(Tags::new(tags))),
             config,
         }
     }
@@ -294,6 +305,52 @@ impl Estimator {
             yaw_deg: wrap_deg(self.heading_at(attitude_s)),
             above_floor_m: self.altitude.above_floor_m(vertical.height_m),
         };
+        self.update_tags(made_s, sample);
+    }
+
+    /// The odometry has gone on: so does its place in the world.
+    fn update_tags(&mut self, made_s: f64, sample: &Sample) {
+        let at_s = self.velocity_at_s.unwrap_or(made_s);
+        let yaw_deg = self.heading_at(at_s);
+        let Some(tags) = &mut self.tags else { return };
+        let attitude_s = made_s - self.config.attitude_delay.as_secs_f64();
+        let height_s = made_s - self.config.altitude_delay.as_secs_f64();
+        tags.fly(&OdometryStep {
+            made_s,
+            at_s,
+            place_m: self.horizontal.position_m,
+            velocity_m_s: self.horizontal.measured_m_s(),
+            yaw_deg,
+            tilt: (attitude_s, Vector2::new(sample.roll_deg, sample.pitch_deg)),
+            height: (height_s, self.estimate.above_floor_m),
+            airborne: sample.airborne,
+            unseen_m2: self.uncertainty.unmeasured_m2(),
+        });
+        self.move_into_world();
+    }
+
+    /// The estimate of the odometry's newest moment, in the world.
+    fn move_into_world(&mut self) {
+        let Some(tags) = &self.tags else { return };
+        let at_s = self.velocity_at_s.unwrap_or_default();
+        let heading_deg = self.heading_at(at_s);
+        let velocity_m_s = self.horizontal.measured_m_s();
+        let estimate = &mut self.estimate;
+        let yaw_deg = self.heading.newest_deg();
+        estimate.position_m = tags.place_m(self.horizontal.position_m).push(estimate.position_m.z);
+        estimate.velocity_m_s =
+            tags.velocity_m_s(velocity_m_s, heading_deg).push(estimate.velocity_m_s.z);
+        estimate.yaw_deg = wrap_deg(tags.heading_deg(yaw_deg));
+    }
+
+    /// Takes in the roundels that the packet of the newest sample tells of. Without
+    /// [`EstimatorConfig::tags`] they are not used.
+    pub fn see(&mut self, sights: &[Sight]) {
+        let Some(mut tags) = self.tags.take() else { return };
+        let turn_deg_s = self.heading.newest_turn_deg_s();
+        tags.see(sights, |at_s| self.heading_at(at_s), turn_deg_s, self.airborne);
+        self.tags = Some(tags);
+        self.move_into_world();
     }
 
     /// Whether the compass has made a step.
@@ -303,6 +360,9 @@ impl Estimator {
         let stepped = heading.update(attitude_s, sample.yaw_deg, orders, &airframe, &config.limits);
         if stepped {
             self.uncertainty.step_of_the_heading();
+            if let Some(tags) = &mut self.tags {
+                tags.step_of_the_heading(HEADING_STEP_DEG);
+            }
         }
         if config.identify {
             let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
@@ -467,7 +527,7 @@ impl Estimator {
             Some((from_s, _)) if self.airborne => self.vertical_at(from_s, until(from_s)),
             _ => self.altitude.state(),
         };
-        Prediction {
+        let odometry = Prediction {
             position_m: horizontal.position_m.push(vertical.height_m),
             velocity_m_s: horizontal.velocity_m_s.push(vertical.climb_m_s),
             yaw_deg: wrap_deg(self.heading_at(at_s)),
@@ -478,14 +538,71 @@ impl Estimator {
                 &self.config.limits,
             ),
             disturbance_m_s2: horizontal.disturbance_m_s2,
+        };
+        self.in_world(odometry)
+    }
+
+    fn in_world(&self, odometry: Prediction) -> Prediction {
+        let Some(tags) = &self.tags else { return odometry };
+        let Prediction { position_m, velocity_m_s, yaw_deg, disturbance_m_s2, .. } = odometry;
+        Prediction {
+            position_m: tags.place_m(position_m.xy()).push(position_m.z),
+            velocity_m_s: tags.velocity_m_s(velocity_m_s.xy(), yaw_deg).push(velocity_m_s.z),
+            yaw_deg: wrap_deg(tags.heading_deg(yaw_deg)),
+            disturbance_m_s2: tags.turned(disturbance_m_s2),
+            ..odometry
         }
+    }
+
+    /// A prediction as the controller is to have it: where a tag has moved the estimate by a step, the
+    /// step comes over time, as a motion. Without tags it is the prediction.
+    pub fn smooth(&self, prediction: &Prediction) -> Prediction {
+        let Some(tags) = &self.tags else { return *prediction };
+        let (place_m, velocity_m_s, yaw_deg) = tags.smooth(
+            prediction.position_m.xy(),
+            prediction.velocity_m_s.xy(),
+            prediction.yaw_deg,
+        );
+        Prediction {
+            position_m: place_m.push(prediction.position_m.z),
+            velocity_m_s: velocity_m_s.push(prediction.velocity_m_s.z),
+            yaw_deg: wrap_deg(yaw_deg),
+            ..*prediction
+        }
+    }
+
+    /// So much time has passed for what [`Estimator::smooth`] hands over as a motion.
+    pub fn advance_smooth(&mut self, step_s: f64) {
+        if let Some(tags) = &mut self.tags {
+            tags.advance(step_s);
+        }
+    }
+
+    /// What is known by tags; nothing if they are not used.
+    pub fn tag_status(&self, now: Duration) -> Option<TagStatus> {
+        self.tags.as_ref().map(|tags| tags.status(now.as_secs_f64()))
+    }
+
+    /// The tags that are known.
+    pub fn known_tags(&self) -> impl Iterator<Item = KnownTag> + '_ {
+        self.tags.iter().flat_map(|tags| tags.known())
+    }
+
+    /// Whether a tag is in view and a turn of some degrees would tell which way its orientation counts, without
+    /// which tags do not hold the heading.
+    pub fn would_learn_from_a_turn(&self, now: Duration) -> bool {
+        self.tags.as_ref().is_some_and(|tags| tags.would_learn_from_a_turn(now.as_secs_f64()))
     }
 
     /// Standard deviation of the place on each horizontal axis: grows with time, distance from the
     /// start, and silence.
     pub fn horizontal_deviation_m(&self, now: Duration) -> f64 {
-        let distance_m = self.horizontal.position_m.norm();
         let speed_m_s = self.horizontal.measured_m_s().norm();
+        if let Some(tags) = &self.tags {
+            let known_m = tags.deviation_m(self.horizontal.position_m, self.estimate.above_floor_m);
+            return known_m.hypot(Uncertainty::silence_m(self.silence_s(now), speed_m_s));
+        }
+        let distance_m = self.horizontal.position_m.norm();
         self.uncertainty.horizontal_m(distance_m, self.silence_s(now), speed_m_s)
     }
 
@@ -525,6 +642,9 @@ impl Estimator {
         self.altitude_at = None;
         self.plausibility = Plausibility::default();
         self.response = Response::default();
+        if let Some(tags) = &mut self.tags {
+            tags.handle_restart();
+        }
     }
 }
 

@@ -28,7 +28,7 @@ const UNSEEN_M_S2: f64 = 0.3;
 /// A velocity that was not believed counts up to this: more is hardly a drone's.
 const MAX_DISPUTED_M_S: f64 = 1.2;
 /// Of the heading after each step of the compass.
-const HEADING_STEP_DEG: f64 = 2.0;
+pub(crate) const HEADING_STEP_DEG: f64 = 2.0;
 /// Of the place while navdata are late.
 const FLOOR_M: f64 = 0.02;
 /// Of the climb while nothing is heard.
@@ -72,6 +72,16 @@ impl Uncertainty {
     /// A velocity was not believed that would have led elsewhere this fast.
     pub(crate) fn fly_disputed(&mut self, step_s: f64, surprise_m_s: f64) {
         self.disputed_m += surprise_m_s.min(MAX_DISPUTED_M_S) * step_s;
+    }
+
+    /// Variance of the place, on each axis, by what was not seen or not believed.
+    pub(crate) fn unmeasured_m2(&self) -> f64 {
+        self.unseen_m2 + self.disputed_m * self.disputed_m
+    }
+
+    /// What a silence adds to the deviation of the place, at a speed.
+    pub(crate) fn silence_m(silence_s: f64, speed_m_s: f64) -> f64 {
+        (UNSEEN_M_S + UNSEEN_SPEED * speed_m_s + UNSEEN_M_S2 * silence_s) * silence_s
     }
 
     pub(crate) fn step_of_the_heading(&mut self) {

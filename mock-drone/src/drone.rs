@@ -12,6 +12,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution as _, Uniform};
 
 use crate::airframe::{Airframe, Profile, STEP_S};
+use crate::camera::{Camera, CameraModel, FloorTag};
 use crate::faults::{Quantity, SensorFault, SensorFaults, Told};
 use crate::firmware::{Firmware, Phase};
 use crate::sensors::{SensorModel, Sensors};
@@ -25,6 +26,8 @@ pub struct DroneConfig {
     pub profile: Profile,
     /// Noise and delays of its sensors.
     pub sensors: SensorModel,
+    /// Its bottom camera, which finds roundels when it is told to look for them.
+    pub camera: CameraModel,
     /// Everything random follows from it.
     pub seed: u64,
     /// Charge at the start.
@@ -49,6 +52,7 @@ impl Default for DroneConfig {
         Self {
             profile: Profile::rec(),
             sensors: SensorModel::nominal(),
+            camera: CameraModel::nominal(),
             seed: 1,
             battery_percent: 90.0,
             battery_sag_percent: 0.0,
@@ -143,6 +147,9 @@ pub struct Drone {
     firmware: Firmware,
     airframe: Airframe,
     sensors: Sensors,
+    camera: Camera,
+    /// On the floor around the place of the start.
+    tags: Vec<FloorTag>,
     steps: u64,
     sequence: u32,
     listener: bool,
@@ -151,6 +158,8 @@ pub struct Drone {
 }
 
 const STEP: Duration = Duration::from_micros(2500);
+/// So many pictures in so many steps: 30 a second.
+const PICTURES: (u64, u64) = (3, 40);
 const DEMO_PERIOD: Duration = Duration::from_micros(66_667);
 const FULL_PERIOD: Duration = Duration::from_millis(5);
 /// A full packet fits.
@@ -195,6 +204,8 @@ impl Drone {
             firmware,
             airframe,
             sensors,
+            camera: Camera::new(config.camera, config.seed),
+            tags: Vec::new(),
             steps: 0,
             sequence: 0,
             listener: false,
@@ -215,6 +226,10 @@ impl Drone {
                 self.floor_contacts += self.airframe.floor_contacts() - contacts;
             }
             self.sensors.step(self.steps, time, &self.airframe);
+            if self.steps * PICTURES.0 % PICTURES.1 < PICTURES.0 {
+                let detector = self.firmware.detector();
+                self.camera.take(time, &self.airframe, &self.tags, detector);
+            }
             if self.listener && time >= self.next_navdata {
                 self.send_navdata(time);
             }
@@ -278,6 +293,25 @@ impl Drone {
         let now = self.time();
         let told = self.told(now);
         self.faults.begin(now, quantity, fault, time, &told);
+    }
+
+    /// A roundel is laid on the floor.
+    pub fn lay_tag(&mut self, tag: FloorTag) {
+        self.tags.push(tag);
+    }
+
+    /// The roundels on the floor, in the order in which they were laid.
+    pub fn tags(&self) -> &[FloorTag] {
+        &self.tags
+    }
+
+    /// Somebody moves a roundel, the first laid being 0, or takes it away.
+    pub fn move_tag(&mut self, tag: usize, to: Option<FloorTag>) {
+        match (self.tags.get_mut(tag), to) {
+            (Some(tag), Some(to)) => *tag = to,
+            (Some(_), None) => _ = self.tags.remove(tag),
+            (None, _) => {}
+        }
     }
 
     /// The firmware raises bits of its state word for a time. They are only said: nothing else
@@ -366,6 +400,7 @@ impl Drone {
             let Told { reading, clock } = self.told(now);
             let telemetry = Telemetry {
                 reading,
+                tags: self.camera.read(now),
                 minor_state: self.claims.minor(),
                 firmware: &self.firmware,
                 airframe: &self.airframe,

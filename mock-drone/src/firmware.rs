@@ -7,6 +7,7 @@ use ardrone_link::navdata::{ControlState, DroneState};
 use nalgebra::Vector2;
 
 use crate::airframe::{Airframe, Attitude, Profile, STEP_S, Scaling, Thrust, body_from_world};
+use crate::camera::Detector;
 use crate::configuration::ConfigurationStore;
 
 /// Motors turn this long before the drone climbs.
@@ -450,6 +451,23 @@ impl Firmware {
     pub fn wants_option(&self, tag: u16) -> bool {
         let mask = self.configuration.text("general:navdata_options");
         mask.and_then(|mask| mask.parse::<u32>().ok()).is_some_and(|mask| mask >> tag & 1 == 1)
+    }
+
+    /// What looks for roundels in the bottom camera's pictures, if the configuration says so.
+    pub(crate) fn detector(&self) -> Option<Detector> {
+        /// The black and white oriented roundel, as a kind and as a bit of a selection.
+        const ROUNDEL: u32 = 8;
+        let selected = |key| {
+            let bits = self.configuration.text(key).and_then(|bits| bits.parse::<u32>().ok());
+            bits.is_some_and(|bits| bits >> (ROUNDEL - 1) & 1 == 1)
+        };
+        let source = match self.configuration.text("detect:detect_type") {
+            Some("12") => 1,
+            Some("10") if selected("detect:detections_select_v") => 1,
+            Some("10") if selected("detect:detections_select_v_hsync") => 2,
+            _ => return None,
+        };
+        (!self.bootstrapping).then_some(Detector { source, kind: ROUNDEL })
     }
 
     /// Sets the charge.

@@ -17,6 +17,7 @@
 #![forbid(unsafe_code)]
 
 pub mod airframe;
+mod camera;
 #[cfg(feature = "cli")]
 pub mod command_line;
 mod configuration;
@@ -35,6 +36,7 @@ mod truth_log;
 mod wind;
 mod world;
 
+pub use camera::{CameraModel, FloorTag, OrientationSign};
 pub use drone::{Drone, DroneConfig, Truth};
 pub use faults::{Quantity, SensorFault};
 pub use link::LinkFaults;

@@ -33,6 +33,8 @@ pub(crate) struct Telemetry<'a> {
     pub(crate) firmware: &'a Firmware,
     pub(crate) airframe: &'a Airframe,
     pub(crate) reading: Reading,
+    /// What was found in the pictures.
+    pub(crate) tags: VisionDetect,
     /// The detail of the control state; 0 when all is well.
     pub(crate) minor_state: u16,
     pub(crate) wind_m_s: Vector2<f64>,
@@ -77,7 +79,7 @@ impl Telemetry<'_> {
             9 => NavdataOption::Pwm(self.pwm()),
             10 => NavdataOption::Altitude(self.altitude()),
             13 => NavdataOption::Vision(self.vision()),
-            16 => NavdataOption::VisionDetect(VisionDetect::default()),
+            16 => NavdataOption::VisionDetect(self.tags),
             17 => NavdataOption::Watchdog(Watchdog { watchdog: 4822 }),
             21 => NavdataOption::PressureRaw(self.pressure()),
             22 => NavdataOption::Magneto(self.magneto()),

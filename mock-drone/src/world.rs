@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use bytes::Bytes;
 
+use crate::camera::FloorTag;
 use crate::drone::{Drone, DroneConfig, Truth};
 use crate::faults::{Quantity, SensorFault};
 use crate::firmware::Phase;
@@ -22,6 +23,8 @@ pub struct WorldConfig {
     pub link: LinkFaults,
     /// What happens over time.
     pub scenario: Scenario,
+    /// Roundels on the floor.
+    pub tags: Vec<FloorTag>,
 }
 
 /// What comes back from the drone.
@@ -58,8 +61,12 @@ impl World {
     /// A world in which nothing has happened yet.
     pub fn new(config: &WorldConfig) -> Self {
         let seed = config.drone.seed;
+        let mut drone = Drone::new(&config.drone);
+        for tag in &config.tags {
+            drone.lay_tag(*tag);
+        }
         Self {
-            drone: Drone::new(&config.drone),
+            drone,
             up: Link::new(config.link, seed).dropping_spoiled(),
             down: Link::new(config.link, seed.wrapping_add(1)),
             scenario: config.scenario.clone(),
@@ -210,6 +217,8 @@ impl World {
             Action::Minor(minor, time) => self.drone.claim_minor_state(minor, time),
             Action::Motor(share, within) => self.drone.weaken_motor(share, within),
             Action::Wind(steady_m_s, gusts_m_s) => self.drone.set_wind(steady_m_s, gusts_m_s),
+            Action::LayTag(tag) => self.drone.lay_tag(tag),
+            Action::MoveTag(number, to) => self.drone.move_tag(number, to),
             Action::Battery(percent) => self.drone.set_battery_percent(percent),
             Action::BatterySag(percent) => self.drone.set_battery_sag_percent(percent),
             Action::SecondPilot(time, sequence) => {

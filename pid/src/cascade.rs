@@ -1,9 +1,9 @@
-//! Reference, feed-forward, feedback: our own law.
+//! The cascade law: reference trajectory, feed-forward and feedback.
 //!
-//! A reference that the airframe can follow runs to the target; feed-forward is the command with
-//! which a drone without errors would follow it; feedback mends what is left, on the state predicted
-//! to the moment at which the command acts. What pushes the drone besides its sticks is known from
-//! the estimate and answered at once; an integral learns what is left, and keeps it over targets.
+//! A reference that the airframe can follow leads to the target. Feed-forward is the command with which an
+//! ideal drone would follow it. Feedback corrects the remaining error, using the state predicted for the
+//! moment at which the command takes effect. The estimated disturbance is compensated at once; an integral
+//! learns the rest and keeps it across targets.
 
 use nalgebra::Vector2;
 
@@ -17,32 +17,32 @@ const GRAVITY_M_S2: f64 = 9.81;
 /// Gains and limits of the law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CascadeConfig {
-    /// Tilt at full stick.
+    /// Tilt at full stick, in radians.
     pub tilt_max_rad: f64,
-    /// Climb at full stick.
+    /// Rate of climb at full stick.
     pub climb_max_m_s: f64,
-    /// The reference is never faster across the ground.
+    /// Maximum horizontal speed of the reference.
     pub speed_max_m_s: f64,
-    /// Share of the full tilt's acceleration that the reference uses; the rest is for errors and
+    /// Fraction of the acceleration at full tilt that the reference uses; the rest is reserved for errors and
     /// drag.
     pub acceleration_share: f64,
-    /// Of the reference.
+    /// Maximum jerk of the reference.
     pub jerk_max_m_s3: f64,
-    /// The reference never climbs or drops faster.
+    /// Maximum vertical speed of the reference.
     pub climb_speed_max_m_s: f64,
-    /// Share of the climb's limits that the reference uses for braking; the rest is for errors.
+    /// Fraction of the vertical limits that the reference uses for braking; the rest is reserved for errors.
     pub braking_share: f64,
-    /// Acceleration across the ground, per metre, per metre and second, per metre a second.
+    /// Horizontal gains: acceleration per metre, per metre-second, and per m/s.
     pub horizontal: PidGains,
-    /// Natural frequency of the height's loop.
+    /// Natural frequency of the height loop.
     pub vertical_frequency_rad_s: f64,
-    /// Its damping ratio.
+    /// Damping ratio of the height loop.
     pub vertical_damping: f64,
-    /// Climb per metre of error and second.
+    /// Integral gain of the height loop: rate of climb per metre-second.
     pub vertical_integral_1_s2: f64,
-    /// Share of the yaw stick that is used on the way.
+    /// Fraction of the yaw stick used on the way to a target.
     pub turn_share: f64,
-    /// Turn: stick per degree, per degree and second, per degree a second.
+    /// Yaw gains: stick fraction per degree, per degree-second, and per degree/s.
     pub yaw: PidGains,
 }
 
@@ -76,7 +76,7 @@ pub(crate) struct Cascade {
     yaw: Pid,
 }
 
-/// The way that is being flown.
+/// References of the current approach.
 #[derive(Debug, Clone)]
 struct Way {
     horizontal: Trajectory,
@@ -95,12 +95,12 @@ impl Cascade {
         }
     }
 
-    /// Forgets where the drone was going, and what was learnt.
+    /// Resets the reference and the integrals.
     pub(crate) fn reset(&mut self) {
         *self = Self::new(self.config);
     }
 
-    /// Forgets where the drone was going.
+    /// Resets the reference, keeps the integrals.
     pub(crate) fn rest(&mut self) {
         self.way = None;
     }
@@ -121,20 +121,20 @@ impl Cascade {
             measured_rate: inputs.motion.yaw_deg_s,
             ..PidInputs::default()
         });
-        // A drone that turns slower on its way is flown straighter.
+        // A drone that turns more slowly while moving flies a straighter path.
         let moves = self.way.as_ref().is_some_and(|way| way.horizontal.is_moving());
         let most = if moves { inputs.limit * self.config.turn_share } else { inputs.limit };
         Demand { roll: right, pitch: -forward, gaz, yaw: yaw.clamp(-most, most) }
     }
 
-    /// Sticks (right, forward).
+    /// Horizontal stick demand (right, forward).
     fn across(&mut self, inputs: &Inputs<'_>) -> (f64, f64) {
         let Inputs { pose, motion, target, airframe, disturbance_m_s2, step_s, limit } = *inputs;
         let Some(way) = &mut self.way else { return (0.0, 0.0) };
         let config = self.config;
         let thrust = airframe.thrust_gain;
         let full_m_s2 = GRAVITY_M_S2 * config.tilt_max_rad.tan() * thrust.amin();
-        // What wind and trim need is not there for the way.
+        // Acceleration needed against the disturbance is not available to the reference.
         let free_m_s2 = (full_m_s2 - disturbance_m_s2.norm()).max(full_m_s2 / 3.0);
         let limits = MotionLimits {
             velocity_m_s: config.speed_max_m_s * limit,
@@ -143,7 +143,7 @@ impl Cascade {
         };
         way.horizontal.set_target(Vector2::new(target.x_m, target.y_m), &limits);
         let reference = way.horizontal.at(0.0);
-        // The command holds for the step: it is that of the step's middle.
+        // The command holds for one step, so it is computed for the middle of the step.
         let ahead = way.horizontal.at(step_s / 2.0);
         way.horizontal.advance(step_s);
         let speed = body_from_world(ahead.velocity_m_s.x, ahead.velocity_m_s.y, pose.yaw_deg);
@@ -161,14 +161,14 @@ impl Cascade {
         };
         let (x, y) = (axis(0, pose.x_m, motion.x_m_s), axis(1, pose.y_m, motion.y_m_s));
         let wanted = Vector2::new(self.right.output(&x), self.forward.output(&y));
-        // The tilt turns with the drone while it follows its stick.
+        // While the tilt follows its stick the drone turns, and the tilt with it.
         let ahead_s = airframe.tilt_lag_s + step_s / 2.0;
         let yaw_deg = pose.yaw_deg + motion.yaw_deg_s * ahead_s;
         let (right, forward) = body_from_world(wanted.x, wanted.y, yaw_deg);
         let pull = Vector2::new(right, forward).component_div(&(thrust * GRAVITY_M_S2));
         let sticks = pull.map(f64::atan) / (config.tilt_max_rad * airframe.tilt_gain);
-        // Keep the direction where one axis asks for more than there is. The drone tilts no further
-        // than its limit, whatever its gain.
+        // Keeps the direction if one axis exceeds the limit. The drone does not tilt beyond its limit,
+        // whatever its gain.
         let most = limit.min(1.0 / airframe.tilt_gain);
         let largest = sticks.amax();
         let scale = if largest > most { most / largest } else { 1.0 };
@@ -178,7 +178,7 @@ impl Cascade {
         (sticks.x, sticks.y)
     }
 
-    /// The stick up.
+    /// Vertical stick demand.
     fn up(&mut self, inputs: &Inputs<'_>) -> f64 {
         let Inputs { pose, motion, target, airframe, step_s, limit, .. } = *inputs;
         let Some(way) = &mut self.way else { return 0.0 };
@@ -212,8 +212,9 @@ impl Cascade {
         climb_m_s / (config.climb_max_m_s * gain)
     }
 
-    /// A drone that follows its climb with a lag `τ`, under `k_p e + k_d ė`, has the natural frequency
-    /// `√(k_p / τ)` and the damping `(1 + k_d) / (2 √(k_p τ))`.
+    /// Gains from natural frequency and damping: a drone whose climb follows with a lag `τ`, controlled by
+    /// `k_p e + k_d ė`, has the natural frequency `√(k_p / τ)` and the damping ratio `(1 + k_d) / (2 √(k_p
+    /// τ))`.
     fn climb_gains(&self, airframe: &Airframe) -> PidGains {
         let CascadeConfig { vertical_frequency_rad_s: frequency, vertical_damping, .. } =
             self.config;

@@ -1,37 +1,37 @@
-//! The reference of the height: the fastest climb or drop that this airframe can follow.
+//! Time-optimal height reference within the limits of the airframe.
 //!
-//! The climb follows its stick with a lag, and up and down have different limits. So full stick
-//! first, then the other way: a braking drone whose lag is `τ` and whose counter-command is `B` comes
-//! from speed `v` to rest within `τ (v - B ln(1 + v / B))`. The reference keeps to that curve, so it
-//! may change its target or its limits at any time.
+//! The rate of climb follows its stick with a lag, and its limits differ upwards and downwards. The reference
+//! therefore uses the full command first, then the opposite one: with lag `τ` and counter-command `B`, a
+//! drone at speed `v` comes to rest within `τ (v - B ln(1 + v / B))`. The reference stays on that braking
+//! curve, so target and limits may change at any time.
 
-/// What the airframe can do upward and downward, with some authority kept back.
+/// Vertical limits of the airframe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ClimbLimits {
-    /// The fastest climb that can be asked for.
+    /// Maximum rate of climb.
     pub(crate) rise_m_s: f64,
-    /// The fastest drop, positive.
+    /// Maximum rate of descent, positive.
     pub(crate) drop_m_s: f64,
-    /// The reference is never faster.
+    /// Maximum speed of the reference.
     pub(crate) speed_m_s: f64,
-    /// Time constant of the climb.
+    /// Time constant of the rate of climb.
     pub(crate) lag_s: f64,
-    /// Share of the limits that is used for braking.
+    /// Fraction of the limits that is used for braking.
     pub(crate) braking: f64,
 }
 
-/// Where the drone should be on its way up or down.
+/// Height and vertical speed of the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ClimbReference {
     pub(crate) height_m: f64,
     pub(crate) climb_m_s: f64,
 }
 
-/// No airframe is quicker.
+/// Lower limit of the lag; every airframe is slower.
 const SHORTEST_LAG_S: f64 = 0.02;
-/// Fine against the shortest lag.
+/// Integration steps, fine enough for the shortest lag.
 const SUBSTEPS: u32 = 6;
-/// Nearer than this is there.
+/// Distance below which the target counts as reached.
 const THERE_M: f64 = 5e-4;
 
 impl ClimbReference {
@@ -39,7 +39,7 @@ impl ClimbReference {
         Self { height_m, climb_m_s: 0.0 }
     }
 
-    /// Goes on towards a target. Returns the climb to ask for meanwhile, if there were no errors.
+    /// Advances towards a target. Returns the rate of climb that follows the reference without error.
     pub(crate) fn advance(&mut self, target_m: f64, step_s: f64, limits: &ClimbLimits) -> f64 {
         let substep_s = step_s / f64::from(SUBSTEPS);
         let commands = (0..SUBSTEPS).map(|_| self.substep(target_m, substep_s, limits));
@@ -71,13 +71,14 @@ impl ClimbReference {
     }
 }
 
-/// The speed from which the counter-command stops within a distance: the inverse of the stopping
-/// distance, by Newton's method.
+/// Speed from which the counter-command stops within a distance: inverts the stopping distance by Newton's
+/// method.
 fn speed_before_stop(distance_m: f64, counter_m_s: f64, lag_s: f64) -> f64 {
     if counter_m_s <= 0.0 {
         return 0.0;
     }
-    // From below: a constant deceleration as the one at rest is the weakest.
+    // Starts below the solution: the deceleration at rest is the weakest, so assuming it throughout
+    // underestimates the speed.
     let mut speed_m_s = (2.0 * counter_m_s / lag_s * distance_m).sqrt();
     for _ in 0..3 {
         let ratio = speed_m_s / counter_m_s;

@@ -1,8 +1,8 @@
-//! From where the drone is and should be to what the sticks do.
+//! Position control: from the current and the target pose to stick positions.
 //!
-//! [`Pid`] is a controller of one axis. [`PositionController`] flies to a pose by one of two laws.
-//! [`Law::Cascade`] is ours: a reference that the airframe can follow, feed-forward, and a [`Pid`] for
-//! each axis on the predicted state. [`Law::Tum`] is that of `tum_ardrone`, to compare with.
+//! [`Pid`] controls one axis. [`PositionController`] flies to a pose with one of two control laws.
+//! [`Law::Cascade`] combines a reference trajectory that the airframe can follow, feed-forward, and a [`Pid`]
+//! for each axis on the predicted state. [`Law::Tum`] is the law of `tum_ardrone`, for comparison.
 #![forbid(unsafe_code)]
 
 mod cascade;

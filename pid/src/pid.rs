@@ -1,38 +1,37 @@
-//! Proportional, integral, derivative: one axis.
+//! PID controller of one axis.
 
 /// Gains of one axis, in units of output per unit of error.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PidGains {
-    /// Per error.
+    /// Output per error.
     pub proportional: f64,
-    /// Per error and second.
+    /// Output per error and second.
     pub integral: f64,
-    /// Per rate of error.
+    /// Output per rate of error.
     pub derivative: f64,
 }
 
-/// What one axis decides by.
+/// Inputs of one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PidInputs {
-    /// Where it is to be.
+    /// Setpoint.
     pub setpoint: f64,
-    /// How fast that moves: zero for a step, so that a step kicks nothing.
+    /// Rate of the setpoint. Zero for a step, so that a step causes no derivative kick.
     pub setpoint_rate: f64,
-    /// Where it is.
+    /// Measured value.
     pub measured: f64,
-    /// How fast that moves, as measured: no difference of errors is taken.
+    /// Measured rate; errors are not differentiated.
     pub measured_rate: f64,
-    /// What would do without errors.
+    /// Output that would suffice without errors.
     pub feed_forward: f64,
 }
 
-/// A controller of one axis, in the parallel form.
+/// PID controller of one axis, in the parallel form.
 ///
-/// The derivative is that of the measurement; the integral gives up what the actuator could not carry
-/// out, as fast as it learns (back-calculation with the integral's own time, K. J. Åström and
-/// T. Hägglund, *Advanced PID Control*, 2006, §3.5); and the controller can take over from another one
-/// without a jump. The caller limits: several axes may
-/// share an actuator.
+/// The derivative acts on the measurement. Anti-windup is by back-calculation: the integral gives up the part
+/// of the output that the actuator could not apply, with the integral's own time constant (K. J. Åström and
+/// T. Hägglund, *Advanced PID Control*, 2006, §3.5). The controller can take over from another one without a
+/// jump. Limiting is left to the caller, because several axes may share an actuator.
 ///
 /// ```
 /// use pid::{Pid, PidGains, PidInputs};
@@ -51,18 +50,18 @@ pub struct Pid {
 }
 
 impl Pid {
-    /// A controller that has learnt nothing.
+    /// A controller with its integral at zero.
     pub fn new(gains: PidGains) -> Self {
         Self { gains, integral: 0.0 }
     }
 
-    /// The output, not limited.
+    /// The output before limiting.
     pub fn output(&self, inputs: &PidInputs) -> f64 {
         self.without_integral(inputs) + self.integral
     }
 
-    /// Learns for the next step of `step_s` seconds: from the error, and from what became of the
-    /// output that was wanted.
+    /// Updates the integral for the next step of `step_s` seconds, from the error and from the `applied` part
+    /// of the `wanted` output.
     pub fn learn(&mut self, inputs: &PidInputs, wanted: f64, applied: f64, step_s: f64) {
         let PidGains { integral, proportional, .. } = self.gains;
         let error = inputs.setpoint - inputs.measured;
@@ -71,17 +70,17 @@ impl Pid {
         self.integral += integral * (error + not_carried_out) * step_s;
     }
 
-    /// Sets the integral so that the next output is this one: for taking over without a jump.
+    /// Sets the integral so that the next output is `output` (bumpless transfer).
     pub fn take_over(&mut self, inputs: &PidInputs, output: f64) {
         self.integral = output - self.without_integral(inputs);
     }
 
-    /// Changes the gains; what was learnt stays.
+    /// Changes the gains and keeps the integral.
     pub fn set_gains(&mut self, gains: PidGains) {
         self.gains = gains;
     }
 
-    /// What was learnt.
+    /// The integral.
     pub fn integral(&self) -> f64 {
         self.integral
     }
@@ -99,7 +98,7 @@ mod tests {
 
     const GAINS: PidGains = PidGains { proportional: 2.0, integral: 1.0, derivative: 0.5 };
 
-    /// A body that is pushed by the output and something else; returns where it is each step.
+    /// A mass driven by the output and a disturbance; returns its position in each step.
     fn push(pid: &mut Pid, setpoint: f64, disturbance: f64, limit: f64, steps: u32) -> Vec<f64> {
         let (mut place, mut speed) = (0.0, 0.0);
         (0..steps)

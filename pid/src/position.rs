@@ -1,11 +1,11 @@
-//! Position and heading to stick fractions, by one of two laws.
+//! Position control with one of two laws.
 
 use nalgebra::Vector2;
 
 use crate::cascade::{Cascade, CascadeConfig};
 use crate::tum::TumLaw;
 
-/// A place and a heading. x right, y forward, z up in metres; yaw in degrees, clockwise.
+/// Position and heading: x right, y forward, z up in metres; yaw in degrees, clockwise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pose {
     /// Right.
@@ -18,7 +18,7 @@ pub struct Pose {
     pub yaw_deg: f64,
 }
 
-/// How the drone moves, in the world.
+/// Velocity in the world frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Motion {
     /// Right.
@@ -31,27 +31,27 @@ pub struct Motion {
     pub yaw_deg_s: f64,
 }
 
-/// How the airframe answers its sticks: gains are multiples of what the sticks ask for.
+/// Response of the airframe to its sticks. Gains are relative to the nominal response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Airframe {
-    /// Of tilt.
+    /// Achieved over commanded tilt.
     pub tilt_gain: f64,
     /// Time constant of the tilt.
     pub tilt_lag_s: f64,
-    /// Of climb, upward.
+    /// Achieved over commanded rate of climb.
     pub climb_gain: f64,
-    /// Of climb, downward.
+    /// Achieved over commanded rate of descent.
     pub drop_gain: f64,
-    /// Time constant of the climb.
+    /// Time constant of the rate of climb.
     pub climb_lag_s: f64,
-    /// Of the acceleration that gravity gives at a tilt (right, forward).
+    /// Achieved acceleration over that of gravity at the same tilt (right, forward).
     pub thrust_gain: Vector2<f64>,
-    /// Slows by its speed (right, forward).
+    /// Linear drag (right, forward).
     pub drag_1_s: Vector2<f64>,
 }
 
 impl Default for Airframe {
-    /// In the middle of the published models.
+    /// Mean of the published models.
     fn default() -> Self {
         Self {
             tilt_gain: 1.0,
@@ -78,22 +78,22 @@ pub struct Demand {
     pub yaw: f64,
 }
 
-/// What a law decides by.
+/// Inputs of a control law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inputs<'a> {
-    /// Where the drone is when the demand begins to act.
+    /// Pose at the time when the demand takes effect.
     pub pose: &'a Pose,
-    /// How it moves then.
+    /// Velocity at that time.
     pub motion: &'a Motion,
-    /// What pushes it besides its sticks (right, forward).
+    /// Disturbance acceleration (right, forward).
     pub disturbance_m_s2: Vector2<f64>,
-    /// How it answers.
+    /// Identified response of the airframe.
     pub airframe: Airframe,
-    /// Where it is to be.
+    /// Target pose.
     pub target: &'a Pose,
-    /// How long the demand will hold.
+    /// Time for which the demand will hold.
     pub step_s: f64,
-    /// No stick is moved further, from 0 to 1.
+    /// Limit of the sticks, from 0 to 1.
     pub limit: f64,
 }
 
@@ -136,18 +136,18 @@ impl Inputs<'_> {
     }
 }
 
-/// How a pose is approached and held.
+/// Control law for approaching and holding a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Law {
-    /// Reference, feed-forward, feedback on the predicted state.
+    /// Reference trajectory, feed-forward, and feedback on the predicted state.
     #[default]
     Cascade,
-    /// That of `tum_ardrone`, for comparison.
+    /// The law of `tum_ardrone`, for comparison.
     Tum,
 }
 
 impl Law {
-    /// All of them.
+    /// All laws.
     pub const ALL: [Self; 2] = [Self::Cascade, Self::Tum];
 
     /// Its name in settings and on the command line.
@@ -158,13 +158,14 @@ impl Law {
         }
     }
 
-    /// Whether it steers by where the drone will be when a command acts, not by where it was measured.
+    /// Whether it uses the state predicted for the time when a command takes effect, instead of the measured
+    /// one.
     pub fn predicts(self) -> bool {
         self == Self::Cascade
     }
 }
 
-/// Holds and approaches a pose.
+/// Approaches and holds a pose.
 #[derive(Debug, Clone)]
 pub struct PositionController {
     law: Flying,
@@ -183,7 +184,7 @@ impl Default for PositionController {
 }
 
 impl PositionController {
-    /// A controller that has learnt nothing yet; the configuration is that of [`Law::Cascade`].
+    /// A controller in its initial state; `config` applies to [`Law::Cascade`].
     pub fn new(law: Law, config: CascadeConfig) -> Self {
         let law = match law {
             Law::Cascade => Flying::Cascade(Box::new(Cascade::new(config))),
@@ -192,8 +193,7 @@ impl PositionController {
         Self { law }
     }
 
-    /// The stick fractions for the next step, none larger than the limit. Inputs that are no
-    /// numbers move nothing.
+    /// Stick fractions for the next step, within the limit. Inputs that are NaN result in no motion.
     pub fn step(&mut self, inputs: &Inputs<'_>) -> Demand {
         if !inputs.is_finite() {
             return Demand::default();
@@ -205,7 +205,7 @@ impl PositionController {
         }
     }
 
-    /// The drone holds still by itself: forgets where it was going, and keeps what was learnt.
+    /// The drone holds by itself: resets the reference and keeps the integrals.
     pub fn rest(&mut self) {
         match &mut self.law {
             Flying::Cascade(law) => law.rest(),
@@ -213,7 +213,7 @@ impl PositionController {
         }
     }
 
-    /// Forgets where the drone was going, and what was learnt.
+    /// Resets the reference and the integrals.
     pub fn reset(&mut self) {
         match &mut self.law {
             Flying::Cascade(law) => law.reset(),
@@ -222,19 +222,19 @@ impl PositionController {
     }
 }
 
-/// (right, forward) of the body to (right, forward) of the world, at a clockwise heading.
+/// Rotates (right, forward) from the body to the world frame at a clockwise heading.
 pub(crate) fn world_from_body(body: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
     let (sin, cos) = yaw_deg.to_radians().sin_cos();
     Vector2::new(cos * body.x + sin * body.y, cos * body.y - sin * body.x)
 }
 
-/// World to body at a clockwise heading: (right, forward).
+/// Rotates (right, forward) from the world to the body frame at a clockwise heading.
 pub(crate) fn body_from_world(x: f64, y: f64, yaw_deg: f64) -> (f64, f64) {
     let (sin, cos) = yaw_deg.to_radians().sin_cos();
     (cos * x - sin * y, sin * x + cos * y)
 }
 
-/// The same direction in [-180, 180): the short way round.
+/// Wraps an angle to [-180, 180).
 pub(crate) fn wrap_deg(angle_deg: f64) -> f64 {
     (angle_deg + 180.0).rem_euclid(360.0) - 180.0
 }
@@ -245,7 +245,7 @@ mod tests {
 
     const LAWS: [Law; 2] = Law::ALL;
 
-    /// What is demanded after a while at one place.
+    /// Demand after a while at one place.
     fn demand(law: Law, pose: Pose, target: Pose, limit: f64) -> Demand {
         let mut controller = PositionController::new(law, CascadeConfig::default());
         let step = |controller: &mut PositionController, target: &Pose| {

@@ -1,7 +1,7 @@
-//! Where the drone should be on its way across the ground: jerk-limited, from rest to rest.
+//! Horizontal reference: jerk-limited motions from rest to rest.
 //!
-//! A target that changes on the way adds a second motion to the first, which runs to its end: the sum
-//! is as smooth as its parts and ends at the new target.
+//! If the target changes on the way, a second motion is added to the first, which runs to its end. The sum is
+//! as smooth as its parts and ends at the new target.
 
 use arrayvec::ArrayVec;
 use nalgebra::Vector2;
@@ -9,15 +9,15 @@ use nalgebra::Vector2;
 /// Limits of a motion along a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MotionLimits {
-    /// Largest speed.
+    /// Maximum speed.
     pub(crate) velocity_m_s: f64,
-    /// Largest acceleration.
+    /// Maximum acceleration.
     pub(crate) acceleration_m_s2: f64,
-    /// Largest change of acceleration.
+    /// Maximum jerk.
     pub(crate) jerk_m_s3: f64,
 }
 
-/// Place, velocity, acceleration and jerk at one time.
+/// Position, velocity, acceleration and jerk at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Reference {
     pub(crate) position_m: Vector2<f64>,
@@ -30,9 +30,9 @@ pub(crate) struct Reference {
 #[derive(Debug, Clone, Copy)]
 struct Profile {
     jerk_m_s3: f64,
-    /// How long the jerk lasts, four times.
+    /// Duration of each of the four jerk phases.
     jerk_s: f64,
-    /// How long the acceleration is constant, twice.
+    /// Duration of each of the two phases of constant acceleration.
     acceleration_s: f64,
     cruise_s: f64,
     length_m: f64,
@@ -46,7 +46,7 @@ impl Profile {
         if length_m <= 0.0 || v <= 0.0 || a <= 0.0 || j <= 0.0 {
             return nothing;
         }
-        // The acceleration that is reached on the way to the largest speed.
+        // The acceleration reached on the way to the maximum speed.
         let jerk_s = (a / j).min((v / j).sqrt());
         let ramp_s = if v * j < a * a { 2.0 * jerk_s } else { jerk_s + v / a };
         if length_m >= v * ramp_s {
@@ -54,14 +54,14 @@ impl Profile {
             let acceleration_s = ramp_s - 2.0 * jerk_s;
             return Self { jerk_m_s3: j, jerk_s, acceleration_s, cruise_s, length_m };
         }
-        // The largest speed is not reached.
+        // The maximum speed is not reached.
         if length_m >= 2.0 * a.powi(3) / (j * j) {
             let jerk_s = a / j;
             let ramp_s = jerk_s / 2.0 + ((jerk_s / 2.0).powi(2) + length_m / a).sqrt();
             let acceleration_s = (ramp_s - 2.0 * jerk_s).max(0.0);
             return Self { jerk_m_s3: j, jerk_s, acceleration_s, ..nothing };
         }
-        // Nor is the largest acceleration.
+        // Neither is the maximum acceleration.
         Self { jerk_m_s3: j, jerk_s: (length_m / (2.0 * j)).cbrt(), ..nothing }
     }
 
@@ -83,7 +83,7 @@ impl Profile {
         self.phases().iter().map(|(seconds, _)| seconds).sum()
     }
 
-    /// Way, speed, acceleration and jerk at a time since the start.
+    /// Distance, speed, acceleration and jerk at a time since the start.
     fn at(&self, time_s: f64) -> [f64; 4] {
         if time_s >= self.duration_s() {
             return [self.length_m, 0.0, 0.0, 0.0];
@@ -124,16 +124,16 @@ impl Leg {
     }
 }
 
-/// The way to a target that may change.
+/// Trajectory to a target that may change.
 #[derive(Debug, Clone)]
 pub(crate) struct Trajectory {
-    /// Where the motions that are over have led.
+    /// Sum of the motions that have ended.
     origin_m: Vector2<f64>,
     target_m: Vector2<f64>,
     legs: ArrayVec<Leg, MAX_LEGS>,
 }
 
-/// More motions than this at a time are not added up: the oldest are taken as over.
+/// Maximum number of motions added up at a time; beyond it the oldest are treated as ended.
 const MAX_LEGS: usize = 4;
 
 impl Trajectory {
@@ -142,7 +142,7 @@ impl Trajectory {
         Self { origin_m: place_m, target_m: place_m, legs: ArrayVec::new() }
     }
 
-    /// Sets out for a target, unless it is the old one.
+    /// Starts a motion to a target, unless it is the current one.
     pub(crate) fn set_target(&mut self, target_m: Vector2<f64>, limits: &MotionLimits) {
         let way = target_m - self.target_m;
         if way.norm() <= f64::EPSILON {
@@ -176,7 +176,7 @@ impl Trajectory {
         !self.legs.is_empty()
     }
 
-    /// The reference so long from now.
+    /// The reference `lead_s` seconds from now.
     pub(crate) fn at(&self, lead_s: f64) -> Reference {
         let mut sums = [Vector2::zeros(); 4];
         for leg in &self.legs {
@@ -212,7 +212,7 @@ mod tests {
                 assert!(acceleration.abs() <= LIMITS.acceleration_m_s2 + 1e-9);
                 last = way;
             }
-            // Just before the end it is there and at rest.
+            // Just before its end the motion is at the target and at rest.
             let [way, speed, ..] = profile.at(duration_s - 1e-6);
             assert!(
                 (way - length_m).abs() < 1e-5 && speed.abs() < 1e-3,

@@ -1,8 +1,8 @@
 //! The control law of `tum_ardrone`, from its published formulas, for comparison.
 //!
-//! Proportional and derivative on each axis, an integral on the height alone, the drop limited to a
-//! quarter of the stick, and a climb that is amplified by 2.5 (J. Engel, J. Sturm, D. Cremers,
-//! "Camera-based navigation of a low-cost quadrocopter", IROS 2012, with the gains of its package).
+//! Proportional and derivative terms on each axis, an integral on the height only, descent limited to a
+//! quarter of the stick, and climb amplified by 2.5 (J. Engel, J. Sturm, D. Cremers, "Camera-based navigation
+//! of a low-cost quadrocopter", IROS 2012, with the gains of its package).
 
 use crate::position::{Demand, Inputs, Pose, body_from_world, wrap_deg};
 
@@ -15,9 +15,9 @@ const GAZ_INTEGRAL: f64 = 0.001;
 const RISE_FACTOR: f64 = 2.5;
 const MAX_RISE: f64 = 0.8;
 const MAX_DROP: f64 = -0.25;
-/// The integral's share of gaz.
+/// Limit of the integral as a fraction of gaz.
 const MAX_INTEGRAL_SHARE: f64 = 0.2;
-/// An error that opposes the integral takes it down so much faster.
+/// Factor by which the integral falls faster when the error opposes it.
 const UNWIND_FACTOR: f64 = 2.5;
 
 #[derive(Debug, Clone, Default)]

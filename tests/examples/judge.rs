@@ -1,10 +1,10 @@
-//! Flies the fault campaign, then landings with gaps in the link around them, then one wrong sensor at a time, until
-//! something is found:
+//! Flies the fault campaign, then landings with gaps and other orders around them, then one wrong sensor at a
+//! time, until a fault is found:
 //! `cargo run -p system-tests --example judge -- 1000`.
 //!
-//! `cargo xtask mutants` runs it on code with a mistake in it. The first fault is printed with its seed, and the exit
-//! status is 1; it is 0 if nothing was found. Hardly any plan flown to its end is a fault too: a drone that never flies
-//! does no harm, and whoever is content with that would be content with any mistake.
+//! `cargo xtask mutants` runs it on code with a mistake in it. The first fault is printed with its seed, and
+//! the exit status is 1; it is 0 if no fault was found. Too few completed plans are a fault too: a drone that
+//! never flies does no harm, and a judge that accepts it would accept any mistake.
 #![allow(clippy::print_stdout, reason = "it prints what it finds")]
 
 use std::process::ExitCode;
@@ -14,22 +14,22 @@ use std::thread;
 use autopilot::outcome::Outcome;
 use system_tests::sensors::{AIRFRAMES, led_astray};
 use system_tests::sim::SimulationError;
-use system_tests::{campaign, gaps};
+use system_tests::{campaign, landings};
 
-/// Of so many flights of the campaign at least one is flown to its end; of the pilot as it is, two of five are.
+/// At least one of this many flights of the campaign must complete its plan; of the unmodified code, two of
+/// five do.
 const ONE_OF: u64 = 5;
 
-/// Seeds that are to be flown, and the lowest in which something was found.
+/// Seeds to be flown, and the lowest with a fault.
 struct Hunt {
     next: AtomicU64,
     last: AtomicU64,
-    /// Plans flown to their end.
+    /// Number of completed plans.
     completed: AtomicU64,
 }
 
 impl Hunt {
-    /// Flies seeds until there are none left below the lowest in which something was found; returns what was found
-    /// last.
+    /// Flies seeds until there are none left below the lowest with a fault; returns the last fault found.
     fn fly(&self) -> Option<(u64, String)> {
         let mut found = None;
         loop {
@@ -44,7 +44,7 @@ impl Hunt {
         }
     }
 
-    /// What is wrong with the flight of a seed.
+    /// The fault of a seed's flight, if any.
     fn fault(&self, seed: u64) -> Option<String> {
         match campaign::fly(seed) {
             Ok(verdict) => {
@@ -57,7 +57,7 @@ impl Hunt {
     }
 }
 
-/// What led a drone astray, if one wrong sensor did.
+/// The first sensor failure that led a drone too far.
 fn astray() -> Option<String> {
     const SEED: u64 = 1;
     let flown = thread::scope(|scope| {
@@ -73,9 +73,9 @@ fn astray() -> Option<String> {
     }
 }
 
-/// The first landing that a gap in the link made the pilot forget, or why there were none to be judged.
+/// The first landing that was not carried out, or the reason why none could be judged.
 fn forgotten() -> Option<String> {
-    match gaps::forgotten_landings() {
+    match landings::forgotten() {
         Ok(found) => found.into_iter().next(),
         Err(error) => Some(error.to_string()),
     }
@@ -91,7 +91,7 @@ fn main() -> ExitCode {
     let found = thread::scope(|scope| {
         let cores = thread::available_parallelism().map_or(1, usize::from);
         let threads: Vec<_> = (0..cores).map(|_| scope.spawn(|| hunt.fly())).collect();
-        // A flight that panics is a fault: its thread passes the panic on, and the process ends by it.
+        // A flight that panics is a fault: its thread passes the panic on, which ends the process.
         let ends = threads
             .into_iter()
             .map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));

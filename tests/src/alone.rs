@@ -1,5 +1,4 @@
-//! What becomes of a drone that its pilot lets go: as far as it goes then, nobody could have kept it
-//! from going.
+//! The course of a drone without control. How far it goes then is beyond the responsibility of the pilot.
 
 use std::time::Duration;
 
@@ -7,19 +6,20 @@ use ardrone_link::at::{Command, Datagram, Motion, Ref};
 use mock_drone::firmware::Phase;
 use mock_drone::{Drone, Truth};
 
-/// Time between two orders.
+/// Interval of orders.
 const TICK: Duration = Duration::from_millis(30);
-/// It hovers for so long before it is told to land.
+/// Time of hovering before the landing is ordered.
 const HOVERS: Duration = Duration::from_secs(2);
-/// Each drone is down after so long.
+/// Time after which every drone is down.
 const ENOUGH: Duration = Duration::from_secs(25);
 
-/// A drone that hears nothing any more: it flies on by its last sticks, hovers and lands.
+/// A drone that receives nothing any more: it flies on with its last sticks, then hovers and lands by itself.
 pub(crate) fn unheard(drone: &Drone, see: impl FnMut(&Truth)) {
     live(drone, Duration::MAX, see);
 }
 
-/// A drone that flies on by its last sticks for `time`, is told to hover then, and two seconds later to land.
+/// A drone that flies on with its last sticks for `time`, is then ordered to hover, and two seconds later to
+/// land.
 pub(crate) fn flies_on_and_lands(drone: &Drone, time: Duration, see: impl FnMut(&Truth)) {
     live(drone, time, see);
 }
@@ -34,9 +34,9 @@ fn live(drone: &Drone, silent: Duration, mut see: impl FnMut(&Truth)) {
             let reference = if lived < silent + HOVERS { Ref::TakeOff } else { Ref::Land };
             let mut datagram = Datagram::new();
             for command in [Command::Ref(reference), Command::Pcmd(Motion::Hover)] {
-                // The first number begins the count anew.
+                // Number 1 resets the sequence.
                 sequence += 1;
-                // Two commands are much shorter than a datagram may be.
+                // Two commands always fit into a datagram.
                 _ = datagram.push(sequence, &command);
             }
             drone.handle_at(start + lived, datagram.as_bytes());
@@ -60,7 +60,7 @@ mod tests {
 
     use super::*;
 
-    /// A drone that flies forward at full tilt, one second after it began to.
+    /// A drone that has been flying forward at full tilt for one second.
     fn on_its_way() -> Drone {
         let mut drone = Drone::new(&DroneConfig::default());
         drone.handle_wake_up(Duration::ZERO);

@@ -1,4 +1,4 @@
-//! A vehicle over a simulated drone: the loop that in real time is `ardrone_pilot::flight`.
+//! Drives a vehicle with a simulated drone; the counterpart of `ardrone_pilot::flight` in simulated time.
 
 use std::time::Duration;
 
@@ -8,53 +8,53 @@ use autopilot::Vehicle;
 use autopilot::vehicle::{Input, Operator, OperatorOrder, Output, Refused, TICK, Transmit};
 use mock_drone::{Message, World, WorldConfig};
 
-/// Navdata is taken in at this interval; the drone's own steps are finer.
+/// Interval of handling navdata; the drone's own steps are finer.
 pub(crate) const POLL: Duration = Duration::from_millis(5);
 
-/// A vehicle, its drone, and the time of both.
+/// A vehicle and its world, with their common time.
 #[derive(Debug)]
 pub struct Driver {
     /// The vehicle.
     pub vehicle: Vehicle,
-    /// The drone and its air.
+    /// The drone and the air around it.
     pub world: World,
     now: Duration,
     next_tick: Duration,
 }
 
-/// Everything that goes in and comes out: what a recording is made of.
+/// Inputs and outputs of the vehicle, as a recording contains them.
 #[derive(Debug)]
 pub enum Passed<'a> {
     /// From the drone's navdata port.
     Navdata(&'a [u8]),
     /// From the drone's control port.
     Control(&'a str),
-    /// What the vehicle says, after it was sent if it is to be sent.
+    /// An output of the vehicle; datagrams have been delivered.
     Output(Output<'a>),
 }
 
 impl Driver {
-    /// At the beginning of time.
+    /// A driver at time zero.
     pub fn new(vehicle: Vehicle, world: &WorldConfig) -> Self {
         let world = World::new(world);
         Self { vehicle, world, now: Duration::ZERO, next_tick: Duration::ZERO }
     }
 
-    /// Since the beginning.
+    /// Time since the beginning.
     pub fn now(&self) -> Duration {
         self.now
     }
 
-    /// An operator orders something.
+    /// Gives an operator's order.
     ///
     /// # Errors
-    /// Why the vehicle refuses.
+    /// [`Refused`] if the vehicle refuses it.
     pub fn order(&mut self, by: Operator, order: OperatorOrder) -> Result<(), Refused> {
         self.vehicle.order(self.now, by, order)
     }
 
-    /// Takes in what has come by now, and ticks if that is due; returns whether it was. Time has not gone on
-    /// yet, so that everything can be looked at as the tick has left it.
+    /// Handles all input of the present time, and ticks if a tick is due; returns whether it was. Time does
+    /// not advance, so that the state after the tick can be inspected.
     ///
     /// # Errors
     /// See [`Vehicle::tick`].
@@ -90,13 +90,14 @@ impl Driver {
         Ok(true)
     }
 
-    /// The program does not run: the drone lives on, and what comes waits. Returns whether a tick was missed.
+    /// Simulates a program that does not run: the world advances, and input is queued. Returns whether a tick
+    /// was missed.
     pub fn stall(&mut self) -> bool {
         self.world.advance(self.now);
         self.is_tick_due()
     }
 
-    /// Time goes on.
+    /// Advances the time.
     pub fn pass(&mut self) {
         self.now += POLL;
     }

@@ -1,10 +1,10 @@
-//! What the whole-system tests share: plans, and how a flight is judged.
+//! Common code of the whole-system tests: plans, simulations, and judges of flights.
 #![forbid(unsafe_code)]
 
 mod alone;
 pub mod campaign;
 pub mod drive;
-pub mod gaps;
+pub mod landings;
 pub mod sensors;
 pub mod sim;
 
@@ -16,7 +16,7 @@ use nalgebra::{Vector2, Vector3};
 /// The square of the README.
 pub const SQUARE: &str = include_str!("../../plans/square.txt");
 
-/// A plan, which must be valid.
+/// Parses a plan that must be valid.
 ///
 /// # Panics
 /// If it is not.
@@ -24,12 +24,12 @@ pub fn plan(text: &str) -> Plan {
     Plan::parse("plan.txt", text).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Where the drone really was, in the frame that navdata spans: what a pilot could know at best.
+/// The true position in the frame that navdata span: the best that could be known in flight.
 pub fn place_in_navdata_frame(truth: &Truth) -> Vector3<f64> {
     truth.odometry_m.push(truth.position_m.z)
 }
 
-/// How far the drone really was from a waypoint's target, in the frame that navdata spans.
+/// True distance from a waypoint's target, in the frame that navdata span.
 pub fn true_error_m(waypoint: &Waypoint, truth: &Truth) -> f64 {
     let target = Vector2::new(waypoint.target.x_m, waypoint.target.y_m).push(waypoint.target.z_m);
     (place_in_navdata_frame(truth) - target).norm()

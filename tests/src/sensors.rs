@@ -1,7 +1,7 @@
-//! One sensor at a time: how far a drone is led astray when one thing that navdata tell is wrong.
+//! Single sensor failures: how far a drone is led astray when one measured quantity is wrong.
 //!
-//! Each flight has a healthy twin with the same seed, which is the same flight up to the moment of
-//! the fault: so the fault comes where it was meant to, and what would have been is known.
+//! Each flight has a healthy twin with the same seed, which is identical up to the fault. The fault therefore
+//! starts at the intended moment, and the undisturbed course is known.
 
 use std::fmt;
 use std::time::Duration;
@@ -20,37 +20,37 @@ use rand_chacha::ChaCha8Rng;
 use crate::alone;
 use crate::sim::{Simulation, SimulationError};
 
-/// No single fault may take the drone further outside its fence.
+/// Largest allowed distance outside the fence after a single fault, in metres.
 pub const MOST_OUTSIDE_M: f64 = 3.0;
-/// Nor further from where it was to hold, or from its way there.
+/// Largest allowed distance from the target or from the way to it, in metres.
 pub const MOST_AWAY_M: f64 = 1.5;
-/// Where the drone's own hover and landing drift further in the wind than that, nothing can do better:
-/// then by no more than this beyond them.
+/// Allowed distance beyond that of the drone's own hover and landing, in metres, where wind makes those drift
+/// further than the limits above: nothing can do better.
 pub const OWN_MARGIN_M: f64 = 0.3;
-/// Nor may it scrape along the floor for longer.
+/// Longest allowed contact with the floor.
 pub const MOST_SCRAPING: Duration = Duration::from_secs(3);
 
 const FENCE: FlightLimits =
     FlightLimits { radius_m: 4.0, ceiling_m: 3.0, floor_m: 0.3, z_origin: ZOrigin::Hover };
-/// The step of each plan in which a sensor fails: its second `goto`, behind its setting.
+/// The step of each plan in which a sensor fails: its second `goto`, after its setting.
 const STEP: usize = 3;
-/// The fault stays.
+/// The fault does not end.
 const FOR_EVER: Duration = Duration::from_mins(30);
-/// The drone hovers so high after its take-off.
+/// Hover height after take-off, in metres.
 const HOVER_M: f64 = 0.85;
 const AFTERMATH: Duration = Duration::from_secs(30);
 const TICK: Duration = Duration::from_millis(30);
 
-/// One of the published models of how the drone moves.
+/// A published model of the airframe.
 #[derive(Debug, Clone, Copy)]
 pub struct Model {
-    /// For people.
+    /// Name for reports.
     pub name: &'static str,
     /// The model.
     pub profile: fn() -> Profile,
 }
 
-/// All of them.
+/// All airframes.
 pub const AIRFRAMES: [Model; 4] = [
     Model { name: "rec", profile: Profile::rec },
     Model { name: "tum", profile: Profile::tum },
@@ -58,12 +58,12 @@ pub const AIRFRAMES: [Model; 4] = [
     Model { name: "leo", profile: Profile::leo },
 ];
 
-/// What the drone is doing when a sensor fails.
+/// Activity of the drone when a sensor fails.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Situation {
-    /// Holding its place in a wind of 0.5 m/s.
+    /// Holding position in a wind of 0.5 m/s.
     Holding,
-    /// On the way to a place 3 m to the right.
+    /// Flying to a target 3 m to the right.
     Moving,
     /// Climbing by 1.4 m.
     Climbing,
@@ -74,11 +74,11 @@ pub enum Situation {
 }
 
 impl Situation {
-    /// All of them.
+    /// All situations.
     pub const ALL: [Self; 5] =
         [Self::Holding, Self::Moving, Self::Climbing, Self::Descending, Self::Turning];
 
-    /// The plan, and between which places the drone is to be in its step [`STEP`].
+    /// The plan, and start and end of the motion in its step [`STEP`].
     fn plan(self) -> (&'static str, [Vector3<f64>; 2]) {
         let at = |right_m, up_m| Vector3::new(right_m, 0.0, HOVER_M + up_m);
         match self {
@@ -118,19 +118,19 @@ impl fmt::Display for Situation {
     }
 }
 
-/// Something that can be wrong, under a name.
+/// A sensor failure with its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Failure {
-    /// For people.
+    /// Name for reports.
     pub name: String,
-    /// What begins at once, and stays.
+    /// Faults that begin at the same time and do not end.
     pub faults: Vec<(Quantity, SensorFault)>,
 }
 
 impl Failure {
-    /// Whether navdata can show it. A velocity that drifts, or that is dead but rattles, cannot be told
-    /// from a wind that rises while the drone holds its place, and one that is late by half a second only
-    /// makes the control worse: how far these lead is told and not judged.
+    /// Whether navdata can reveal the failure. A velocity that drifts, or that is frozen but noisy, cannot be
+    /// distinguished from a rising wind while the drone holds its position, and one that is late by half a
+    /// second only degrades the control. How far these lead is reported but not judged.
     pub fn shows(&self) -> bool {
         !self.faults.iter().all(|(quantity, fault)| {
             matches!(quantity, Quantity::VelocityRight | Quantity::VelocityForward)
@@ -142,7 +142,7 @@ impl Failure {
     }
 }
 
-/// Every quantity with every fault alone; then all that sensors read frozen, with the clock running
+/// Every quantity with every fault, one at a time; then all sensors frozen, with the drone's clock running
 /// and without.
 pub fn failures() -> Vec<Failure> {
     let mut failures = Vec::new();
@@ -199,18 +199,18 @@ fn faults(quantity: Quantity) -> Vec<(&'static str, SensorFault)> {
 /// How far a drone was led astray.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Excursion {
-    /// Furthest outside the fence, less what healthy sensors were wrong by.
+    /// Largest distance outside the fence, corrected by the error of healthy sensors.
     pub outside_m: f64,
-    /// Furthest from where it was to hold or from its way there: to the side or above.
+    /// Largest distance from its target or from the way to it, horizontally or upwards.
     pub away_m: f64,
-    /// How long it stood or slid on the floor while it was to fly.
+    /// Time of floor contact while it was to fly.
     pub scraping: Duration,
-    /// It was still in the air at the end.
+    /// Whether it was still in the air at the end.
     pub airborne: bool,
 }
 
 impl Excursion {
-    /// Whether that was too much, where the drone's own hover and landing alone lead it as far as `own`.
+    /// Whether it is too far, given that the drone's own hover and landing alone lead to `own`.
     pub fn is_too_far(&self, own: &Self) -> bool {
         self.outside_m > MOST_OUTSIDE_M
             || self.away_m > MOST_AWAY_M.max(own.away_m + OWN_MARGIN_M)
@@ -219,7 +219,7 @@ impl Excursion {
     }
 
     fn see(&mut self, truth: &Truth, between: [Vector3<f64>; 2]) {
-        // What healthy sensors are wrong by nobody can know.
+        // The error of healthy sensors cannot be known in flight.
         let place_m = truth.position_m - truth.drift_m().push(0.0);
         let across_m = place_m.xy().norm() - FENCE.radius_m;
         self.outside_m = self.outside_m.max(across_m).max(place_m.z - FENCE.ceiling_m);
@@ -240,24 +240,25 @@ fn nearest_on_way(place: Vector2<f64>, from: Vector2<f64>, to: Vector2<f64>) -> 
     from + way * share.clamp(0.0, 1.0)
 }
 
-/// What became of flights that were alike up to the moment of the fault.
+/// Flights that are identical up to the fault.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Siblings {
-    /// When the sensor failed.
+    /// Time of the fault.
     pub at: Duration,
-    /// The drone's own hover for two seconds, then its own landing: the least that can be done.
+    /// The drone's own hover for two seconds, then its own landing: the best that can be achieved.
     pub own: Excursion,
     /// With each of the failures, in their order.
     pub flown: Vec<Excursion>,
 }
 
-/// Flies every situation with each of the failures, and tells which of those that show led the drone too far.
+/// Flies every situation with each failure, and returns descriptions of detectable failures that led the
+/// drone too far.
 ///
 /// # Errors
 /// [`SimulationError`] if a flight never ends.
 ///
 /// # Panics
-/// If a healthy flight does not come so far that a sensor could fail.
+/// If a healthy flight ends before the sensor could fail.
 pub fn led_astray(airframe: Model, seed: u64) -> Result<Vec<String>, SimulationError> {
     let Model { name, profile } = airframe;
     let failures = failures();
@@ -279,7 +280,7 @@ pub fn led_astray(airframe: Model, seed: u64) -> Result<Vec<String>, SimulationE
 /// [`SimulationError`] if a flight never ends.
 ///
 /// # Panics
-/// If the healthy flight does not come so far that a sensor could fail.
+/// If the healthy flight ends before the sensor could fail.
 pub fn fly(
     profile: Profile,
     situation: Situation,

@@ -1,6 +1,6 @@
-//! Flights in simulated time: the same pilot, a simulated drone, no sockets, no clock.
+//! Flights in simulated time: the same vehicle with a simulated drone, without sockets or clocks.
 //!
-//! The same configuration gives the same flight, bit for bit, thousands of times faster than real.
+//! The same configuration gives the same flight, bit for bit, thousands of times faster than real time.
 
 use std::time::Duration;
 
@@ -20,79 +20,79 @@ use crate::drive::{Driver, Passed};
 /// A world to fly in.
 #[derive(Debug, Clone, Default)]
 pub struct Simulation {
-    /// The drone, the air around it, and what goes wrong with both.
+    /// The drone, the air around it, and the faults of both.
     pub world: WorldConfig,
-    /// The pilot.
+    /// The vehicle.
     pub pilot: VehicleConfig,
-    /// What the person at the controls orders, and when, in the order of time.
+    /// Operator orders with their times, in the order of time.
     pub orders: Vec<(Duration, OperatorOrder)>,
-    /// When the pilot's program does not run, and for how long: it neither hears nor says anything,
-    /// and then finds all that came meanwhile. In the order of time.
+    /// Times and durations in which the program does not run: it neither receives nor sends, and afterwards
+    /// finds all queued input. In the order of time.
     pub stalls: Vec<(Duration, Duration)>,
-    /// How long the drone is watched after the flight, when it hears nothing more.
+    /// Time for which the drone is simulated after the flight without receiving anything.
     pub aftermath: Duration,
 }
 
-/// A flight that was simulated.
+/// A simulated flight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SimulatedFlight {
-    /// How it ended.
+    /// Its outcome.
     pub outcome: Outcome,
-    /// What the pilot says of it.
+    /// The vehicle's report.
     pub report: FlightReport,
-    /// What happened, and when.
+    /// Events with their times.
     pub events: Vec<(Duration, FlightEvent)>,
-    /// What the simulation knows: the truth at the end of each waypoint's stay.
+    /// The true state at the end of each waypoint's stay.
     pub truth_at_waypoints: Vec<Truth>,
-    /// The truth at the end of the aftermath.
+    /// The true state at the end of the aftermath.
     pub final_truth: Truth,
-    /// Simulated time from the start to the flight's end.
+    /// Simulated time from the start to the end of the flight.
     pub duration: Duration,
 }
 
 /// A tick of a simulated flight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
-    /// Since the start.
+    /// Time since the start.
     pub now: Duration,
-    /// What really happens.
+    /// The true state.
     pub truth: Truth,
-    /// What the pilot knows.
+    /// The vehicle's status.
     pub status: Status,
-    /// Whether the flight is over.
+    /// Whether the flight has ended.
     pub is_over: bool,
 }
 
 /// Why a flight could not be simulated.
 #[derive(Debug, thiserror::Error)]
 pub enum SimulationError {
-    /// The limits cannot be sent to a drone.
+    /// The limits cannot be encoded as drone settings.
     #[error(transparent)]
     Config(#[from] SettingError),
     /// See [`Vehicle::tick`].
     #[error(transparent)]
     Encode(#[from] EncodeError),
-    /// The flight went on for an hour.
+    /// The flight did not end within an hour.
     #[error("the flight did not end within {} s", .limit.as_secs())]
     Endless {
-        /// How long it was watched.
+        /// Simulated time.
         limit: Duration,
     },
 }
 
-/// No battery lasts that long.
+/// Longest simulated time; no battery lasts that long.
 const LIMIT: Duration = Duration::from_hours(1);
 
 impl Simulation {
     /// Flies `plan` to its end.
     ///
     /// # Errors
-    /// [`SimulationError`]; a flight that goes wrong is no error but an [`Outcome`].
+    /// [`SimulationError`]; a flight that fails is not an error but an [`Outcome`].
     pub fn fly(&self, plan: Plan) -> Result<SimulatedFlight, SimulationError> {
         self.fly_watched(plan, |_| {})
     }
 
-    /// As [`Simulation::fly`]; `watch` sees every tick.
+    /// As [`Simulation::fly`]; `watch` is called for every tick.
     ///
     /// # Errors
     /// As [`Simulation::fly`].
@@ -105,8 +105,7 @@ impl Simulation {
         self.run(plan, |moment, _| watch(moment), |_| {})
     }
 
-    /// As [`Simulation::fly_watched`]; `watch` sees the world too, from which it may ask what would
-    /// happen if.
+    /// As [`Simulation::fly_watched`]; `watch` also gets the world, from which it may simulate other courses.
     ///
     /// # Errors
     /// As [`Simulation::fly`].
@@ -152,7 +151,7 @@ impl Simulation {
             }
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
                 let by = Operator::TERMINAL;
-                // What is refused changes nothing.
+                // A refused order changes nothing.
                 _ = driver.order(by, order.clone());
                 record(Record::Order { at: now, by, order: order.clone() });
             }
@@ -210,7 +209,7 @@ fn moment(driver: &Driver, is_over: bool) -> Moment {
     Moment { now, truth: driver.world.truth(), status: driver.vehicle.status(now), is_over }
 }
 
-/// What a flight log has of it.
+/// The entry of the flight log for an input or output.
 fn recorded(at: Duration, passed: Passed<'_>) -> Option<Record> {
     Some(match passed {
         Passed::Navdata(packet) => Record::Navdata { at, packet: packet.to_vec() },

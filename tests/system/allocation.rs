@@ -1,23 +1,32 @@
-//! A tick in the air asks the system for no memory: it could wait for it.
+//! A tick in the air must not allocate, because the allocator may block.
 
 use std::time::Duration;
 
 use allocation_counter::measure;
 use ardrone_pilot::recording::{Header, Recorder, Timing};
 use autopilot::vehicle::{
-    Input, NavdataRate, Operator, OperatorOrder, Output, Phase, TICK, Transmit, VehicleConfig,
+    Input, NavdataRate, Operator, OperatorOrder, Output, Phase, TICK, TagConfig, Transmit,
+    VehicleConfig,
 };
 use autopilot::{Demand, Vehicle};
-use mock_drone::{Message, World, WorldConfig};
+use mock_drone::{FloorTag, Message, World, WorldConfig};
 use system_tests::{SQUARE, plan};
 
 const POLL: Duration = Duration::from_millis(5);
 
-/// What was asked for in flight: on the ground the configuration is read and compared.
-fn allocations(navdata: NavdataRate, orders: &[(Duration, OperatorOrder)]) -> u64 {
-    let config = VehicleConfig { navdata, ..VehicleConfig::default() };
+/// Counts allocations in flight. On the ground the configuration is read and compared, which allocates.
+fn allocations(
+    navdata: NavdataRate,
+    orders: &[(Duration, OperatorOrder)],
+    tags: Option<&TagConfig>,
+) -> u64 {
+    let mut config = VehicleConfig { navdata, ..VehicleConfig::default() };
+    config.estimator.tags = tags.copied();
     let mut pilot = Vehicle::flying(plan(SQUARE), &config).unwrap();
-    let mut world = World::new(&WorldConfig::default());
+    let mut world = World::new(&WorldConfig {
+        tags: vec![FloorTag::new(0.0, 0.0, 0.0), FloorTag::new(1.0, 1.0, 0.0)],
+        ..WorldConfig::default()
+    });
     let mut orders = orders.iter().peekable();
     let mut allocations = 0;
     let mut wakes_up = false;
@@ -87,7 +96,9 @@ fn nothing_is_allocated_in_flight() {
         (18 * second, OperatorOrder::Land),
     ];
     for navdata in [NavdataRate::Demo, NavdataRate::Full] {
-        assert_eq!(allocations(navdata, &[]), 0, "{navdata:?}");
-        assert_eq!(allocations(navdata, &orders), 0, "{navdata:?}, by hand");
+        assert_eq!(allocations(navdata, &[], None), 0, "{navdata:?}");
+        assert_eq!(allocations(navdata, &orders, None), 0, "{navdata:?}, by hand");
+        let tags = TagConfig::default();
+        assert_eq!(allocations(navdata, &[], Some(&tags)), 0, "{navdata:?}, with tags");
     }
 }

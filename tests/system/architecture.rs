@@ -1,10 +1,10 @@
-//! Which crate may depend on which, and what the pure ones cannot do.
+//! Dependencies between crates, and purity of the core crates.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The packages of the workspace and which of them each may depend on.
+/// The packages of the workspace and the packages that each may depend on.
 const MAY_USE: [(&str, &[&str]); 11] = [
     ("diagnostic", &[]),
     ("translator", &["diagnostic"]),
@@ -22,8 +22,8 @@ const MAY_USE: [(&str, &[&str]); 11] = [
     ("xtask", &["asl2c", "autopilot", "mock-drone", "system-tests", "translator"]),
 ];
 
-/// All that the pilot is made of, besides our own crates. None of these opens a socket or a file, reads a clock
-/// or starts a thread: a new one is looked at before it stands here.
+/// All external dependencies of the autopilot. None of them opens a socket or a file, reads a clock or starts
+/// a thread; review a new one before adding it.
 const PURE: [&str; 27] = [
     "annotate-snippets",
     "anstyle",
@@ -54,7 +54,7 @@ const PURE: [&str; 27] = [
     "wide",
 ];
 
-/// What a pure crate does not name. `cargo tree` cannot see the standard library.
+/// Names that a pure crate must not use. `cargo tree` does not show uses of the standard library.
 const IMPURE: [&str; 10] = [
     "std::net",
     "std::fs",
@@ -65,7 +65,7 @@ const IMPURE: [&str; 10] = [
     "SystemTime",
     "tokio::",
     "io::std",
-    // It would hide which.
+    // Would hide the imported names.
     "use std::{",
 ];
 
@@ -118,7 +118,8 @@ fn the_translator_needs_no_command_line_and_no_files() {
     }
 }
 
-/// Simulated flights need the mock's `World` only: without features it must not pull in sockets or a runtime.
+/// Simulated flights need only the mock's `World`: without features it must not depend on sockets or a
+/// runtime.
 #[test]
 fn the_mock_drone_is_pure_without_its_features() {
     let tree = cargo(&[
@@ -136,7 +137,7 @@ fn the_mock_drone_is_pure_without_its_features() {
     }
 }
 
-/// The source files of a folder, its tests apart.
+/// Source files of a folder, except tests.
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
@@ -152,7 +153,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// A word in some code that a pure crate does not use.
+/// The first forbidden name in some code.
 fn impure_word(code: &str) -> Option<&'static str> {
     let mut lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
     lines.find_map(|line| IMPURE.into_iter().find(|word| line.contains(word)))
@@ -224,6 +225,7 @@ fn no_files_of_a_folder_need_each_other() {
         "pid",
         "ardrone-pilot",
         "xtask",
+        "tests",
     ];
     let mut circles = BTreeSet::new();
     for package in packages {
@@ -242,7 +244,7 @@ fn no_files_of_a_folder_need_each_other() {
     assert_eq!(circles, BTreeSet::new());
 }
 
-/// What the pilot says goes one way, on which foreign text is made harmless.
+/// The pilot's output goes through one file, which makes foreign text printable.
 #[test]
 fn standard_streams_are_written_to_in_one_file() {
     let mut folders = vec![PathBuf::from("../ardrone-pilot/src")];
@@ -264,7 +266,7 @@ fn standard_streams_are_written_to_in_one_file() {
     assert_eq!(writers, [Path::new("../ardrone-pilot/src/cli/terminal.rs")]);
 }
 
-/// `unsafe` stands in one file, the boundary to C.
+/// `unsafe` is used in one file only, the boundary to C.
 #[test]
 fn unsafe_code_is_in_one_file() {
     let forbidding = [

@@ -1,4 +1,4 @@
-//! The flight in a browser, end to end: a real Chromium, the program, the mock drone.
+//! The browser display end to end: a real Chromium, the program, the mock drone.
 
 use std::io::{BufRead as _, BufReader, ErrorKind, Read as _, Write as _};
 use std::net::TcpStream;
@@ -28,7 +28,7 @@ impl Flown {
         flown
     }
 
-    /// With a page at this address; returns what is printed of it.
+    /// With a page at this address; also returns the printed URL.
     fn at(address: &str, plan: &str) -> (Self, String) {
         let plan = plan_file(plan);
         let (child, printed) = Self::fly(address, plan.path());
@@ -53,7 +53,7 @@ impl Flown {
         (child, printed)
     }
 
-    /// Waits for its end: the exit status, and what it printed.
+    /// Waits for the end: the exit status and the output.
     fn end(mut self) -> (Option<i32>, String) {
         let mut printed = String::new();
         self.child.stdout.take().unwrap().read_to_string(&mut printed).unwrap();
@@ -64,18 +64,18 @@ impl Flown {
         format!("http://{}/", self.host)
     }
 
-    /// What the server says to a request, all of it.
+    /// The server's complete response to a request.
     fn request(&self, head: &str) -> String {
         let mut stream = TcpStream::connect(&self.host).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
         stream.write_all(head.as_bytes()).unwrap();
         let mut answer = Vec::new();
-        // It may be cut off.
+        // The connection may be reset.
         _ = stream.read_to_end(&mut answer);
         String::from_utf8_lossy(&answer).into_owned()
     }
 
-    /// A page's way to the flight.
+    /// Opens a WebSocket like the page's.
     fn live(&self) -> Live {
         Live::from(&self.host, "/live", None).unwrap()
     }
@@ -83,13 +83,13 @@ impl Flown {
 
 impl Drop for Flown {
     fn drop(&mut self) {
-        // It may have ended.
+        // The process may have ended already.
         _ = self.child.kill();
         _ = self.child.wait();
     }
 }
 
-/// A program instead of a page.
+/// A WebSocket client in place of the page.
 struct Live(WebSocket<TcpStream>);
 
 impl Live {
@@ -107,11 +107,11 @@ impl Live {
         Ok(Self(tungstenite::client(request, stream)?.0))
     }
 
-    /// The next object of this type.
+    /// The next message of this type.
     fn next(&mut self, kind: &str) -> Value {
         loop {
             let message = match self.0.read() {
-                // A signal, which says nothing of the page.
+                // An interrupted system call, which is unrelated to the page.
                 Err(tungstenite::Error::Io(error)) if error.kind() == ErrorKind::Interrupted => {
                     continue;
                 }
@@ -144,25 +144,30 @@ fn the_page_shows_the_flight_and_orders_it() {
     chromium.wait(&tab, "!document.querySelector('#hold').disabled");
     chromium.click(&tab, "#hold", [0.0; 2]);
     chromium.wait(&tab, "document.querySelector('#events').innerText.includes('holding')");
-    // A click on the map, and that it is meant: the drone goes there.
+    // A click on the map with a confirmation: the drone flies there.
     chromium.click(&tab, "#map", [60.0, 40.0]);
     chromium.wait(&tab, "!document.querySelector('#go').hidden");
     chromium.click(&tab, "#fly", [0.0; 2]);
-    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('sent by hand')");
-    chromium
-        .wait(&tab, "document.querySelector('#events').innerText.includes('is where it was sent')");
+    chromium.wait(
+        &tab,
+        "document.querySelector('#events').innerText.includes('flying to a manual target')",
+    );
+    chromium.wait(
+        &tab,
+        "document.querySelector('#events').innerText.includes('manual target reached')",
+    );
     let target = chromium.evaluate(&tab, "status.target");
     assert!(target["x_m"].as_f64() > Some(0.1) && target["y_m"].as_f64() < Some(0.5), "{target}");
     chromium.click(&tab, "#resume", [0.0; 2]);
-    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('going on')");
-    // Reloaded, and seen twice: nothing is lost.
+    chromium.wait(&tab, "document.querySelector('#events').innerText.includes('mission resumed')");
+    // Reloading and opening the page twice loses nothing.
     chromium.reload(&tab);
     let second = chromium.open(&flown.url());
     for tab in [&tab, &second] {
         chromium.wait(tab, "document.querySelector('#events').innerText.includes('drone found')");
         chromium.wait(tab, "document.querySelector('#events').innerText.includes('holding')");
-        chromium.wait(tab, "!status.plan_waits");
-        // What is behind another tab is not drawn.
+        chromium.wait(tab, "!status.mission_waits");
+        // A page in the background is not drawn.
         chromium.wait(tab, "trail.length > 40");
     }
     chromium.click(&second, "#land", [0.0; 2]);
@@ -206,7 +211,7 @@ fn one_click_cuts_nothing_and_two_do() {
     assert_eq!(flown.end().0, Some(50));
 }
 
-/// The pilot's process stands still for a moment: what the page shows is old, and it says so.
+/// If the pilot's process is stopped, the page reports that its data are old.
 #[test]
 fn a_page_that_hears_nothing_says_so() {
     let Some(mut chromium) = Chromium::start() else {
@@ -219,7 +224,7 @@ fn a_page_that_hears_nothing_says_so() {
     signal(&flown.child, "-STOP");
     chromium.wait(
         &tab,
-        "document.querySelector('#alarm').innerText.startsWith('No word from ardrone-pilot')",
+        "document.querySelector('#alarm').innerText.startsWith('No data from ardrone-pilot')",
     );
     signal(&flown.child, "-CONT");
     chromium.wait(&tab, hidden);
@@ -288,19 +293,19 @@ fn other_machines_need_the_token() {
     assert_eq!(flown.end().0, Some(130));
 }
 
-/// Clients of every bad kind, at once: the others see the flight, and it is flown to its end.
+/// Misbehaving clients of every kind at once: other clients and the flight are not affected.
 #[test]
 fn no_client_disturbs_the_flight() {
     let flown = Flown::start("takeoff\ngoto 0 1 0 0\nsetStayTime 6\ngoto 1 1 0 0\nland\n");
     let mut good = flown.live();
-    // Slow ones: they open, and read nothing of what they are told, or say nothing at all.
+    // Slow clients: they read nothing, or send nothing.
     let deaf: Vec<Live> = (0..5).map(|_| flown.live()).collect();
     let silent: Vec<TcpStream> =
         (0..40).map(|_| TcpStream::connect(&flown.host).unwrap()).collect();
-    // One that talks nonsense is shown the door.
+    // A client that sends garbage is disconnected.
     let mut garbage = flown.live();
     for text in ["", "{", "{\"order\":\"fall\"}", "[1,2,3]", "land"].iter().cycle().take(30) {
-        // It may be closed by now.
+        // The connection may be closed by now.
         _ = garbage.0.send(Message::text(*text));
         std::thread::sleep(Duration::from_millis(25));
     }
@@ -308,12 +313,12 @@ fn no_client_disturbs_the_flight() {
         drop(message);
     }
     let mut binary = flown.live();
-    // More than it takes.
+    // A message that is too large.
     _ = binary.0.send(Message::binary(vec![0; 1 << 20]));
     while let Ok(message) = binary.0.read() {
         drop(message);
     }
-    // One that comes and goes, a thousand times.
+    // Clients that connect and disconnect a thousand times.
     for count in 0..1000 {
         let mut stream = TcpStream::connect(&flown.host).unwrap();
         if count % 2 == 0 {
@@ -323,7 +328,7 @@ fn no_client_disturbs_the_flight() {
     drop(silent);
     let mut late = flown.live();
     assert_eq!(late.next("flight")["steps"][4]["text"], "land");
-    // Too many at a time.
+    // Too many clients at a time.
     let mut all = Vec::new();
     while let Ok(live) = Live::from(&flown.host, "/live", None) {
         all.push(live);
@@ -339,7 +344,7 @@ fn no_client_disturbs_the_flight() {
 }
 
 #[test]
-fn a_port_that_is_taken_is_told_before_anything_flies() {
+fn a_port_in_use_is_reported_before_anything_flies() {
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let plan = plan_file("takeoff\nland\n");
     let address = taken.local_addr().unwrap().to_string();

@@ -1,4 +1,4 @@
-//! Drives a headless Chromium over its own protocol, as far as these tests need it.
+//! Controls a headless Chromium through the `DevTools` protocol, as far as these tests need it.
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;
@@ -11,10 +11,10 @@ use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
-/// Nothing that a page does takes longer than this, even on a busy machine.
+/// Timeout of all operations of a page, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(40);
 
-/// A browser, killed when the test ends.
+/// A browser process, killed when dropped.
 pub(crate) struct Chromium {
     child: Child,
     socket: WebSocket<TcpStream>,
@@ -27,11 +27,11 @@ pub(crate) struct Chromium {
 pub(crate) struct Tab(String);
 
 impl Chromium {
-    /// Starts it; nothing if this machine has none, which is said, and in CI is a failure: what was not tried must not
-    /// look as if it was.
+    /// Starts a browser. `None` if this machine has none, which is printed; in CI it is a failure, so that a
+    /// skipped test does not pass unnoticed.
     ///
     /// # Panics
-    /// In CI, if there is none.
+    /// In CI, if there is no browser.
     #[allow(clippy::print_stdout, reason = "what is left out is said")]
     pub(crate) fn start() -> Option<Self> {
         let profile = tempfile::tempdir().unwrap();
@@ -53,7 +53,7 @@ impl Chromium {
         let address = lines
             .find_map(|line| Some(line.unwrap().strip_prefix("DevTools listening on ")?.to_owned()))
             .expect("it tells where it listens");
-        // Whatever else it complains of must not fill the pipe.
+        // Further messages must not fill the pipe.
         std::thread::spawn(move || lines.for_each(drop));
         let host = address.strip_prefix("ws://").unwrap().split('/').next().unwrap();
         let stream = TcpStream::connect(host).unwrap();
@@ -87,18 +87,18 @@ impl Chromium {
         Tab(session["sessionId"].as_str().unwrap().to_owned())
     }
 
-    /// Loads the page again.
+    /// Reloads the page.
     pub(crate) fn reload(&mut self, tab: &Tab) {
         self.call(Some(tab), "Page.reload", &json!({}));
     }
 
-    /// What an expression is in the page.
+    /// The value of an expression in the page.
     pub(crate) fn evaluate(&mut self, tab: &Tab, expression: &str) -> Value {
         let parameters = json!({ "expression": expression, "returnByValue": true });
         self.call(Some(tab), "Runtime.evaluate", &parameters)["result"]["value"].clone()
     }
 
-    /// Waits until something is so in the page.
+    /// Waits until a condition is true in the page.
     pub(crate) fn wait(&mut self, tab: &Tab, condition: &str) {
         let start = Instant::now();
         while self.evaluate(tab, condition) != json!(true) {
@@ -108,7 +108,7 @@ impl Chromium {
         }
     }
 
-    /// Clicks into the middle of an element, as a mouse does, and so far off the middle.
+    /// Clicks with a mouse at an offset from the middle of an element.
     pub(crate) fn click(&mut self, tab: &Tab, selector: &str, off: [f64; 2]) {
         let place = self.evaluate(
             tab,
@@ -124,7 +124,7 @@ impl Chromium {
         }
     }
 
-    /// Keeps what is seen as a picture.
+    /// Saves a screenshot.
     pub(crate) fn screenshot(&mut self, tab: &Tab, file: &Path) {
         let picture = self.call(Some(tab), "Page.captureScreenshot", &json!({ "format": "png" }));
         let bytes = BASE64_STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
@@ -134,7 +134,7 @@ impl Chromium {
 
 impl Drop for Chromium {
     fn drop(&mut self) {
-        // It may be gone already.
+        // The process may have ended already.
         _ = self.child.kill();
         _ = self.child.wait();
     }

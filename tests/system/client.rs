@@ -1,4 +1,4 @@
-//! `ardrone-link`'s own client against the mock drone, over UDP and TCP.
+//! The client of `ardrone-link` with the mock drone, over UDP and TCP.
 
 use std::process::{Command, Stdio};
 use std::sync::Arc;
@@ -20,11 +20,11 @@ use crate::parting::{EACCES, ended_within, refuse, refusing_library, wait_until}
 use crate::relay::Relay;
 use crate::udp::address;
 
-/// Longer than any machine takes for what has to come.
+/// Timeout, longer than any machine should need.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 fn builder(mock: &MockDrone) -> ClientBuilder {
-    // A busy machine needs longer than a drone does.
+    // A busy machine needs more time than a real drone.
     Client::builder()
         .address(address(mock))
         .ready_limit(PATIENCE)
@@ -64,7 +64,7 @@ async fn until(what: &str, so: impl Fn() -> bool) {
     assert!(timeout(PATIENCE, waiting).await.is_ok(), "{what} did not come");
 }
 
-/// All events up to the one that is waited for.
+/// All events up to and including `wanted`.
 async fn events_until(drone: &Client, wanted: &Event) -> Vec<Event> {
     let (mut stream, mut events) = (drone.events(), Vec::new());
     while events.last() != Some(wanted) {
@@ -95,7 +95,7 @@ async fn a_client_takes_off_flies_and_lands() {
     assert_eq!(mock.truth().phase, Phase::Landed);
     assert_eq!(drone.hover(), Err(Refusal::NotFlying.into()));
     assert_eq!(events_until(&drone, &Event::Landed).await.len(), 6);
-    // A new order takes it off again.
+    // A new order takes off again.
     drone.take_off().await.unwrap();
     assert_eq!(mock.truth().phase, Phase::Flying);
     drone.close().await.unwrap();
@@ -121,7 +121,7 @@ async fn a_take_off_that_the_drone_refuses_ends_with_an_error() {
     let expected = FlightError::TakeOffTimedOut { limit, battery_percent: Some(15) };
     assert_eq!(error, expected, "the drone says nothing, it only stays where it is");
     assert_eq!(drone.steer(Steering::forward(0.5), limit), Err(Refusal::NotFlying.into()));
-    // One that says so is not even asked.
+    // A drone that reports an empty battery is not ordered to take off at all.
     let mock = mock_with_battery(9.0);
     let drone = builder(&mock).start().await.unwrap();
     drone.ready().await.unwrap();
@@ -190,7 +190,7 @@ async fn tasks_share_a_client() {
         }
     });
     sleep(Duration::from_millis(500)).await;
-    // The landing overrules whoever steers, and a take-off behind it.
+    // The landing overrides steering, and a take-off after it.
     let (landed, refused) = tokio::join!(drone.land(), drone.take_off());
     assert_eq!((landed, refused), (Ok(()), Err(Refusal::Landing.into())));
     assert_eq!(steers.await.unwrap(), Refusal::NotFlying.into());
@@ -208,7 +208,7 @@ async fn a_take_off_for_which_nobody_waits_lands() {
     }
     until("the ground", || mock.truth().phase == Phase::Landed).await;
     drone.land().await.unwrap();
-    // The future of a landing may be dropped: the landing goes on.
+    // If the future of a landing is dropped, the landing goes on.
     drone.take_off().await.unwrap();
     drop(drone.land());
     until("the ground", || mock.truth().phase == Phase::Landed).await;
@@ -250,7 +250,7 @@ async fn a_client_selects_its_identity_and_reads_the_configuration_back() {
     assert_eq!(read.unwrap().get("custom:profile_id"), Some("00000002"));
 }
 
-/// By the drone's own clock, whatever the machine is doing.
+/// Measured by the drone's own clock, so independent of the machine's load.
 #[tokio::test]
 async fn a_client_hears_every_option_two_hundred_times_a_second() {
     let drone = DroneConfig { tag_27: Tag27::Gps, ..DroneConfig::default() };
@@ -266,7 +266,7 @@ async fn a_client_hears_every_option_two_hundred_times_a_second() {
         let tags: Vec<u16> = packet.options().map(|option| option.tag()).collect();
         let known = packet.options().all(|option| !matches!(option, NavdataOption::Unknown { .. }));
         assert!(known);
-        // What was sent before the setting may still be on its way.
+        // Packets sent before the setting may still arrive.
         if first.is_none() && tags.len() <= 3 {
             continue;
         }
@@ -292,7 +292,7 @@ async fn an_emergency_stop_cuts_the_motors_and_can_be_cleared() {
     assert_eq!(drone.land().await, Err(FlightError::Emergency));
     drone.reset_emergency().await.unwrap();
     events_until(&drone, &Event::EmergencyCleared).await;
-    // The old order to take off is spent.
+    // The old take-off order is no longer valid.
     sleep(Duration::from_millis(500)).await;
     assert_eq!(mock.truth().phase, Phase::Landed);
 }
@@ -320,7 +320,7 @@ async fn the_examples_do_what_they_say() {
     assert_eq!(configuration.get("control:altitude_max"), Some("2500"));
 }
 
-/// What the READMEs show is what has just been flown.
+/// The READMEs show the example that was flown above.
 #[test]
 fn the_readmes_show_the_example_that_is_flown() {
     let example = include_str!("../../ardrone-link/examples/takeoff_land.rs");
@@ -337,7 +337,7 @@ fn the_readmes_show_the_example_that_is_flown() {
 
 const PORTS: &str = "CLIENT_PORTS";
 
-/// The client of the test below.
+/// The client process of the next test.
 #[tokio::test]
 #[ignore = "flown by another test, in a process of its own"]
 async fn in_a_process_of_its_own() {
@@ -398,12 +398,12 @@ async fn a_flood_delays_no_tick_of_a_client() {
     let gap = meanwhile.map(|pair| pair[1].at - pair[0].at).max().unwrap();
     println!("flooded for {:?}, worst gap {gap:?}, machine late by {lateness:?}", ended - begun);
     drone.close().await.unwrap();
-    // The machine may be busy with other things: then a thread that does nothing wakes up late too. Client and relay
-    // both wait for it.
+    // On a busy machine a thread that only sleeps wakes up late too, and both client and relay are delayed by
+    // that.
     assert!(gap < Duration::from_millis(100) + 3 * lateness, "{gap:?}");
 }
 
-/// How late a thread wakes up that only sleeps, in the worst case.
+/// The longest delay with which a sleeping thread wakes up.
 fn lateness_until(busy: &AtomicBool) -> Duration {
     const NAP: Duration = Duration::from_millis(10);
     let mut worst = Duration::ZERO;

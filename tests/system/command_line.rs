@@ -1,4 +1,4 @@
-//! What people type, and what goes wrong.
+//! The command line and its errors.
 
 use std::net::UdpSocket;
 use std::path::Path;
@@ -17,7 +17,7 @@ fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// Flies a plan with this content and expects it to be refused with exit status 20.
+/// Flies a plan with this content and expects exit status 20.
 fn refused_plan(content: &[u8]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("plan.txt");
@@ -70,10 +70,10 @@ fn random_bytes_are_no_plan() {
     assert!(refused_plan(&bytes).contains("unknown command"));
 }
 
-/// Characters that a terminal obeys, or that make a line read as something else.
+/// Characters that control a terminal, or make a line read differently.
 const HOSTILE: &str = "\x1b]0;title\x07\x1b[2J\u{9b}2J\u{202e}\u{200b}\r\x08";
 
-/// Nothing but lines of text that stands for itself.
+/// Checks that the output contains only printable lines.
 #[track_caller]
 fn is_harmless(output: &Output) {
     for said in [&output.stdout, &output.stderr] {
@@ -84,7 +84,7 @@ fn is_harmless(output: &Output) {
     }
 }
 
-/// Whatever a plan, its name or the settings hold, the terminal is only written to.
+/// Plans, file names and settings cannot control the terminal.
 #[test]
 fn what_a_file_holds_does_nothing_to_the_terminal() {
     let folder = tempfile::tempdir().unwrap();
@@ -223,11 +223,11 @@ fn a_plan_can_be_checked_without_a_drone() {
     assert!(svg.starts_with("<svg") && svg.contains("height over expected time"));
     let output = pilot(&["check", plan, "--svg", "/no/such/folder/plan.svg"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("cannot write the picture /no/such/folder/plan.svg"));
+    assert!(stderr(&output).contains("cannot write the drawing /no/such/folder/plan.svg"));
 }
 
 #[test]
-fn a_bad_plan_is_told_to_programs_too() {
+fn a_bad_plan_is_reported_to_programs_too() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("plan.txt");
     std::fs::write(&path, "goto 0 1 0 0\nfly\n").unwrap();
@@ -255,7 +255,7 @@ fn shells_and_manuals_are_served() {
 }
 
 #[test]
-fn programs_are_told_of_a_flight_line_by_line() {
+fn programs_get_the_flight_line_by_line() {
     let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/../plans/square.txt");
     let output = pilot(&["--plan", plan, "--mock", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -272,7 +272,7 @@ fn programs_are_told_of_a_flight_line_by_line() {
     assert_eq!((&end["type"], &end["exit_status"]), (&"end".into(), &0.into()));
 }
 
-/// The first block of a documentation page in this language.
+/// The first code block of a documentation page in this language.
 fn block(page: &str, language: &str) -> String {
     let text = std::fs::read_to_string(format!("../docs/{page}")).unwrap();
     let (_, rest) = text.split_once(&format!("```{language}\n")).unwrap();

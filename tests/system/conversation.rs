@@ -1,4 +1,4 @@
-//! A vehicle as a process that takes orders on standard input, over UDP.
+//! A vehicle process with orders on standard input, over UDP.
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
@@ -13,10 +13,10 @@ use serde_json::{Value, json};
 
 use crate::processes::program;
 
-/// Longer than a flight here takes, on a machine that is busy.
+/// Timeout, longer than any flight here takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(90);
 
-/// A process that is driven, and the drone that it drives.
+/// A vehicle process and its mock drone.
 struct Conversation {
     mock: MockDrone,
     child: Child,
@@ -67,7 +67,7 @@ impl Conversation {
         orders.write_all(b"\n").unwrap();
     }
 
-    /// The next object that is wanted.
+    /// The next message for which `is_wanted` is true.
     #[track_caller]
     fn until(&mut self, what: &str, is_wanted: impl Fn(&Value) -> bool) -> Value {
         let start = Instant::now();
@@ -80,7 +80,7 @@ impl Conversation {
         }
     }
 
-    /// The answer to an order.
+    /// Gives an order and returns its answer.
     #[track_caller]
     fn order(&mut self, mut order: Value) -> Value {
         self.next += 1;
@@ -144,13 +144,13 @@ impl Conversation {
 
 impl Drop for Conversation {
     fn drop(&mut self) {
-        // It may have ended.
+        // The process may have ended already.
         _ = self.child.kill();
         _ = self.child.wait();
     }
 }
 
-/// With `VEHICLE_SECONDS` it goes on for longer.
+/// `VEHICLE_SECONDS` makes the test longer.
 #[test]
 fn a_program_flies_a_vehicle_again_and_again() {
     let folder = tempfile::tempdir().unwrap();
@@ -163,7 +163,7 @@ fn a_program_flies_a_vehicle_again_and_again() {
     let mut flights = 0;
     loop {
         vehicle.fly();
-        // The motors are cut in the air, and a person has looked at the drone.
+        // The motors are cut in the air, and the operator has inspected the drone.
         vehicle.accepted(json!({ "order": "start" }));
         vehicle.until_status(|status| status["step"] == 2);
         vehicle.accepted(json!({ "order": "cut" }));
@@ -178,7 +178,7 @@ fn a_program_flies_a_vehicle_again_and_again() {
             break;
         }
     }
-    // Left in the air: it lands first.
+    // Quitting in the air lands first.
     vehicle.accepted(json!({ "order": "start" }));
     vehicle.until_status(|status| status["step"] == 2);
     vehicle.quit();
@@ -222,6 +222,27 @@ fn a_program_that_goes_away_in_flight_leaves_no_drone_in_the_air() {
     vehicle.orders = None;
     let end = vehicle.until("the end", |object| object["type"] == "end");
     assert_eq!((&end["exit_status"], vehicle.mock.truth().phase), (&json!(0), Phase::Landed));
+}
+
+#[test]
+fn a_landing_overtakes_all_that_waits_in_front_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut vehicle = Conversation::start(&folder.path().join("session.mcap"));
+    vehicle.until_ready();
+    vehicle.accepted(json!({ "order": "append", "command": "takeoff" }));
+    vehicle.accepted(json!({ "order": "start" }));
+    vehicle.until_status(|status| status["pose"]["z_m"].as_f64() > Some(0.7));
+    let append = json!({ "order": "append", "command": "goto 0 0 0 0" }).to_string() + "\n";
+    let again = json!({ "id": "again", "order": "start" });
+    let land = json!({ "id": "land", "order": "land" });
+    vehicle.write(&format!("{}{again}\n{land}", append.repeat(3000)));
+    let start = Instant::now();
+    vehicle.until("a landing", |object| object["phase"] == "landing");
+    assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
+    vehicle.until("the end", |object| object["type"] == "flight_ended");
+    std::thread::sleep(Duration::from_secs(3));
+    assert_eq!(vehicle.mock.truth().phase, Phase::Landed, "what it has overtaken lifts nothing");
+    vehicle.quit();
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
-/// Licences that only require their text to be distributed with a program.
+/// Licences whose only condition is to distribute their text.
 const ALLOWED: [&str; 9] = [
     "Apache-2.0",
     "BSD-2-Clause",
@@ -17,8 +17,8 @@ const ALLOWED: [&str; 9] = [
     "Zlib",
 ];
 
-/// Crates that are compiled in two versions: for the log's format (mcap) and the page's connection (axum, tungstenite),
-/// which are behind the rest. A new one is looked at before it stands here.
+/// Crates that are compiled in two versions, for the log format (mcap) and the page's connection (axum,
+/// tungstenite), whose dependencies are older. Review a new one before adding it.
 const TWICE: [&str; 9] = [
     "cpufeatures",
     "darling",
@@ -33,12 +33,12 @@ const TWICE: [&str; 9] = [
 
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
-/// A crate that is compiled for the programs or their tests.
+/// A compiled dependency of the programs or their tests.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Package {
     name: String,
     version: String,
-    /// Where it is from, unless that is the registry.
+    /// Its source, unless it is the registry.
     from: Option<String>,
     licence: String,
 }
@@ -53,12 +53,12 @@ fn packages() -> BTreeSet<Package> {
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).unwrap();
-    // A crate that is needed again ends in a star.
+    // Repeated crates are marked with an asterisk.
     let first = text.lines().filter(|line| !line.ends_with("(*)"));
     let lines = first.filter_map(|line| line.split_once('|'));
     lines
         .filter_map(|(package, licence)| {
-            // `name v1.2.3`, then where it is from, and that it is a macro of procedures.
+            // `name v1.2.3`, then the source, and a mark for procedural macros.
             let mut words = package.split(' ').filter(|word| *word != "(proc-macro)");
             let name = words.next()?.to_owned();
             let version = words.next()?.strip_prefix('v')?.to_owned();
@@ -68,7 +68,7 @@ fn packages() -> BTreeSet<Package> {
         .collect()
 }
 
-/// Whether a licence expression (SPDX, or of the old form `MIT/Apache-2.0`) can be met with the allowed ones.
+/// Whether a licence expression (SPDX, or the old form `MIT/Apache-2.0`) can be met by allowed licences.
 fn is_allowed(expression: &str) -> bool {
     let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let mut words = spaced.split_whitespace().peekable();
@@ -100,7 +100,7 @@ fn single(words: &mut Words<'_>) -> bool {
         return words.next_if_eq(&")").is_some() && allowed;
     }
     let allowed = words.next().is_some_and(|word| ALLOWED.contains(&word));
-    // An exception takes nothing away.
+    // An exception only grants additional rights.
     if words.next_if_eq(&"WITH").is_some() {
         words.next();
     }

@@ -1,4 +1,4 @@
-//! What the pilot believes, against the truth.
+//! The estimate compared with the truth.
 
 use std::time::Duration;
 
@@ -53,7 +53,7 @@ fn every_airframe_is_learnt_in_one_flight() {
     }
 }
 
-/// Root of the mean squares of both drifts at the end: the estimate's and the odometry's.
+/// Root mean square of the drift at the end, of the estimate and of the odometry.
 fn drifts_m(sensors: SensorModel, scenario: &str) -> (f64, f64) {
     let (mut estimate, mut odometry) = (0.0, 0.0);
     for seed in 1..=20 {
@@ -89,7 +89,7 @@ fn the_estimate_drifts_no_more_than_the_drones_own_velocity() {
     }
 }
 
-/// While the drone flies it is nearly where the prediction says, in the frame that navdata span.
+/// In flight the drone is close to the predicted state, in the frame that navdata span.
 #[test]
 fn the_prediction_is_where_the_drone_is() {
     for (scenario, most_m) in
@@ -139,7 +139,7 @@ fn the_uncertainty_is_honest() {
     }
 }
 
-/// The moments at which navdata were not trusted, and why, in seconds after the take-off.
+/// Times at which trust was lost, and why, in seconds after the take-off.
 fn distrust(scenario: &str) -> Vec<(f64, Trust)> {
     let simulation = with(DroneConfig::default(), scenario);
     let mut distrusted = Vec::new();
@@ -160,7 +160,7 @@ fn distrust(scenario: &str) -> Vec<(f64, Trust)> {
 
 #[test]
 fn frozen_and_impossible_navdata_are_noticed_and_sound_ones_are_not() {
-    // A velocity that has lied so long is not believed for four seconds more.
+    // After this long a wrong velocity is not trusted again for four seconds.
     for (scenario, why, until_s) in [
         ("+6 freeze 1.5", Trust::Frozen(Quantity::Velocity), 7.0),
         ("+6 lie velocity 4 0 for 1.5", Trust::Implausible(Quantity::Velocity), 10.5),

@@ -1,5 +1,5 @@
-//! Each fault of the mock drone, and what the pilot makes of it: the flight is finished, or the
-//! drone is landed, always with a reason, never taken off again.
+//! Each fault of the mock drone: the flight is completed, or the drone is landed with a reason and does not
+//! take off again.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ use system_tests::sim::{SimulatedFlight, Simulation};
 
 use crate::simulated::fly;
 
-/// Flies the square while the scenario happens, with several seeds.
+/// Flies the square with this scenario, with several seeds.
 fn flights(scenario: &str) -> Vec<SimulatedFlight> {
     let scenario = Scenario::parse("scenario", scenario).unwrap();
     (1..=10)
@@ -36,12 +36,12 @@ fn flights(scenario: &str) -> Vec<SimulatedFlight> {
         .collect()
 }
 
-/// Faults that a flight survives.
+/// Faults that do not end a flight.
 fn completes(scenario: &str) {
     completes_within(scenario, 0.8);
 }
 
-/// Faults that a flight survives, so that the drone lands so near the place of its start.
+/// Faults that do not end a flight, with the largest distance from the start at the end.
 fn completes_within(scenario: &str, distance_m: f64) {
     for flight in flights(scenario) {
         assert_eq!(flight.outcome, Outcome::Completed, "{scenario}");
@@ -92,7 +92,7 @@ fn a_long_outage_lands_as_soon_as_the_drone_is_heard_again() {
     }
 }
 
-/// A session and the drone that it talks to, without a pilot.
+/// A session with a simulated drone, without a vehicle.
 #[test]
 fn navdata_are_back_within_a_second_of_the_links_return() {
     for (text, back) in [("3 outage 1", 4), ("3 outage 3", 6), ("3 outage 9", 12), ("3 restart", 4)]
@@ -139,11 +139,11 @@ fn a_restart_in_flight_is_noticed_and_the_drone_never_takes_off_again() {
 
 #[test]
 fn gusts_are_flown_through() {
-    // The wind carries the drone off while it lands.
+    // The wind carries the drone along while it lands.
     completes_within("0 wind 1 0.5 gusts 0.4", 2.0);
 }
 
-/// Values of fresh packets that are old or wrong for a moment are not noticed, or waited for.
+/// Sensors that are frozen or wrong for a moment are not noticed, or only cause a wait.
 #[test]
 fn frozen_and_lying_sensors_are_survived_for_a_moment() {
     completes("+4 freeze 0.5");

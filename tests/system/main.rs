@@ -1,4 +1,4 @@
-//! The whole system: the pilot, its agent, and a simulated drone.
+//! Tests of the whole system: the pilot, its agent, and a simulated drone.
 #![forbid(unsafe_code)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::disallowed_methods, reason = "these tests run real processes in real time")]
@@ -23,5 +23,6 @@ mod safety;
 mod sensors;
 mod sequence;
 mod simulated;
+mod tags;
 mod udp;
 mod vehicle;

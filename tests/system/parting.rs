@@ -1,4 +1,4 @@
-//! Whatever ends a pilot, its last words are the landing, and the drone comes down.
+//! However a pilot process ends, its last datagrams order the landing and the drone comes down.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ fn breeze() -> WorldConfig {
     WorldConfig { drone, ..WorldConfig::default() }
 }
 
-/// A pilot that flies a plan over a relay.
+/// A pilot process that flies a plan over a relay.
 fn pilot(relay: &Relay, plan: &Path) -> Command {
     let mut pilot = command(relay, plan);
     pilot.arg("--no-log");
@@ -61,7 +61,7 @@ pub(crate) fn wait_until(what: &str, patience: Duration, so: impl Fn() -> bool) 
     }
 }
 
-/// Waits for the drone to fly for a while.
+/// Waits until the drone has flown for a while.
 fn flying(relay: &Relay) {
     wait_until("the flight", Duration::from_secs(20), || relay.truth().phase == Phase::Flying);
     std::thread::sleep(Duration::from_secs(2));
@@ -82,9 +82,10 @@ pub(crate) fn ended_within(mut child: Child, patience: Duration) -> Option<i32> 
     }
 }
 
-/// The last words were ten landings, a tick apart, numbers going on; and the drone comes down.
+/// Checks that the last datagrams were ten landing orders, one tick apart, with rising numbers, and that the
+/// drone comes down.
 fn assert_parted(relay: &Relay) {
-    // What was sent last is on its way.
+    // The last datagrams may still be on their way.
     std::thread::sleep(Duration::from_millis(100));
     let said = relay.said();
     let parting: Vec<&Said> = said.iter().rev().take_while(|said| said.parts()).collect();
@@ -98,7 +99,7 @@ fn assert_parted(relay: &Relay) {
     wait_until("the ground", Duration::from_secs(10), down);
 }
 
-/// When a second Ctrl-C comes.
+/// Time of the second Ctrl-C.
 #[derive(Debug, Clone, Copy)]
 enum Moment {
     Configuring,
@@ -131,7 +132,7 @@ fn leave_at(moment: Moment) {
     }
     signal(&child, "-INT");
     match moment {
-        // By itself: it leaves the landing to the drone near the ground.
+        // The agent is descending by now; near the ground it leaves the landing to the drone.
         Moment::Descending => std::thread::sleep(Duration::from_millis(700)),
         Moment::Landing => {
             wait_until("the landing", patience, || relay.truth().phase == Phase::Landing);
@@ -153,10 +154,10 @@ fn a_second_control_c_at_any_moment_leaves_with_the_landing_ordered() {
     }
 }
 
-/// Nobody reads what it says, and the pipe is full.
+/// Its output is not read, and the pipe is full.
 #[test]
 fn a_second_signal_ends_a_pilot_whose_output_is_stuck() {
-    /// What a pipe of Linux holds.
+    /// Capacity of a pipe on Linux.
     const PIPE_BYTES: usize = 65_536;
     let (_reader, mut writer) = std::io::pipe().unwrap();
     writer.write_all(&vec![b'x'; PIPE_BYTES]).unwrap();
@@ -175,7 +176,7 @@ fn a_busy_control_port_swallows_no_signal() {
     let relay = Relay::start(&WorldConfig::default());
     relay.keep_control_port_busy();
     let plan = plan_file(LONG);
-    // Without what is read there the drone is flown only where the settings say so.
+    // Without the read-back the drone is flown only if the settings allow it.
     let settings = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(settings.path(), "[drone]\nread_back = false\n").unwrap();
     let mut command = pilot(&relay, plan.path());
@@ -233,7 +234,7 @@ fn a_flight_that_is_dropped_lands() {
     assert_parted(&relay);
 }
 
-/// A library that lets `send` of datagrams fail while a file is there, with the error that stands in it.
+/// Builds a library that makes `send` fail with the error in a file while that file exists.
 pub(crate) fn refusing_library(folder: &Path) -> PathBuf {
     let source = folder.join("refuse.c");
     std::fs::write(
@@ -274,9 +275,9 @@ ssize_t send(int fd, const void *bytes, size_t length, int flags) {
 pub(crate) const EACCES: &str = "13";
 const EINVAL: &str = "22";
 
-/// Lets `send` fail for a while.
+/// Makes `send` fail for a while.
 pub(crate) fn refuse(refused: &Path, error: &str, time: Duration) {
-    // Written elsewhere first: it is never read half.
+    // Written elsewhere and renamed, so that it is never read incomplete.
     let new = refused.with_extension("new");
     std::fs::write(&new, error).unwrap();
     std::fs::rename(&new, refused).unwrap();
@@ -284,7 +285,7 @@ pub(crate) fn refuse(refused: &Path, error: &str, time: Duration) {
     std::fs::remove_file(refused).unwrap();
 }
 
-/// Flies a plan while `send` is refused for a while; returns the exit status when the drone is down.
+/// Flies a plan while `send` fails for a while; returns the exit status when the drone is down.
 fn flown_with(text: &str, error: &str, time: Duration) -> Option<i32> {
     let folder = tempfile::tempdir().unwrap();
     let library = refusing_library(folder.path());
@@ -315,7 +316,7 @@ fn a_refused_datagram_ends_no_flight() {
 #[test]
 fn a_drone_that_cannot_be_told_anything_lands_by_itself_and_that_is_said() {
     let status = flown_with(LONG, EACCES, Duration::from_secs(15));
-    // Link lost, or a drone that lands by itself: whichever it sees first.
+    // Link loss, or a landing by the drone itself: whichever is noticed first.
     assert!(matches!(status, Some(10 | 40)), "{status:?}");
 }
 
@@ -340,8 +341,8 @@ fn a_flood_delays_no_tick_and_loses_no_tick_of_the_log() {
     let [summary, progress] = [&output.stdout, &output.stderr].map(|t| String::from_utf8_lossy(t));
     println!("flooded for {:?}, worst gap {gap:?}\n{summary}", ended - begun);
     assert_eq!(relay.truth().phase, Phase::Landed);
-    assert!(progress.contains("navdata come faster than they can be looked at"), "{progress}");
+    assert!(progress.contains("navdata arrive faster than they can be processed"), "{progress}");
     assert!(!summary.contains("the disk was too slow"), "{summary}");
-    // The machine may be busy with other things.
+    // The machine may be busy.
     assert!(gap < Duration::from_millis(100), "{gap:?}");
 }

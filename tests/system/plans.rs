@@ -1,4 +1,4 @@
-//! A plan has one meaning: what `check` prints is what is flown.
+//! Plans have one meaning: the targets that `check` prints are flown.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -14,11 +14,11 @@ use rand_chacha::ChaCha8Rng;
 use system_tests::plan;
 use system_tests::sim::{SimulatedFlight, Simulation};
 
-/// Small enough that flights are short and many targets lie at the fence.
+/// Small, so that flights are short and many targets are at the fence.
 const LIMITS: FlightLimits =
     FlightLimits { floor_m: 0.3, ceiling_m: 2.0, radius_m: 3.0, z_origin: ZOrigin::Hover };
 const PLANS: u64 = 300;
-/// A drone that hovers or stands is no further from where it is to be.
+/// Largest distance of a hovering or standing drone from its target.
 const HOVER_M: f64 = 0.3;
 
 fn simulation(seed: u64, limits: FlightLimits) -> Simulation {
@@ -28,10 +28,10 @@ fn simulation(seed: u64, limits: FlightLimits) -> Simulation {
     Simulation { world, pilot, ..Simulation::default() }
 }
 
-/// Sums in another order differ in their last bits.
+/// Rounding error of sums in a different order.
 const TOLERANCE: f64 = 1e-9;
 
-/// How far `pose` is from `other`, in each coordinate. Headings are not wrapped.
+/// Difference of two poses, in each coordinate. Headings are not wrapped.
 fn apart(pose: &Pose, other: &Pose) -> Pose {
     Pose {
         x_m: pose.x_m - other.x_m,
@@ -57,14 +57,14 @@ fn is_same(pose: &Pose, other: &Pose) -> bool {
     lengths_m.into_iter().chain([turns - turns.round()]).all(|off| off.abs() < TOLERANCE)
 }
 
-/// A flight, and where the drone was when it mattered to the plan's meaning.
+/// A flight, with the poses that affect the meaning of the plan.
 struct Flown {
     flight: SimulatedFlight,
-    /// Where each step began: what `$POSE$` and `moveByRel` before it, or in it, count from.
+    /// Pose at the begin of each step, used by `$POSE$` and `moveByRel`.
     began: BTreeMap<usize, Pose>,
-    /// Where each step ended.
+    /// Pose at the end of each step.
     ended: BTreeMap<usize, Pose>,
-    /// How long each step was to stay at its target, in milliseconds.
+    /// Stay time of each step, in milliseconds.
     stay_ms: BTreeMap<usize, i64>,
 }
 
@@ -72,13 +72,13 @@ fn fly(simulation: &Simulation, plan: &Plan) -> Flown {
     let (mut began, mut ended, mut stay_ms) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
     let mut place = Pose::default();
     let record = |record: Record| match record {
-        // Stands before the events of its tick.
+        // Recorded before the events of its tick.
         Record::Tick { decision, .. } => {
             let state = decision.state;
             let [x_m, y_m, z_m] = state.position_m.into();
             place = Pose { x_m, y_m, z_m, yaw_deg: state.yaw_deg };
             if let Some(step) = decision.step {
-                stay_ms.insert(step, decision.senses.settings.stay_time_ms);
+                stay_ms.insert(step, decision.percepts.settings.stay_time_ms);
             }
         }
         Record::Event { event: FlightEvent::StepStarted { step }, .. } => {
@@ -93,15 +93,15 @@ fn fly(simulation: &Simulation, plan: &Plan) -> Flown {
     Flown { flight, began, ended, stay_ms }
 }
 
-/// Follows how far a flight is from what `check` assumes: that the drone hovers at the expected height over
-/// its place of take-off, and reaches each target exactly. Every target is off by as much as what it counts
-/// from.
+/// Accumulated difference between a flight and the assumptions of `check`: that the drone hovers at the
+/// expected height above its take-off place, and reaches each target exactly. The target of each step differs
+/// as much as its reference.
 #[derive(Default)]
 struct Deviation {
     take_off: Option<Pose>,
     reference: Reference,
     target: Pose,
-    /// Where the drone is in the dry run.
+    /// Place of the drone in the dry run.
     place: Pose,
 }
 
@@ -113,7 +113,7 @@ enum Reference {
 }
 
 impl Deviation {
-    /// How far the drone is from where the dry run has it. All that is new of that is how well it hovers.
+    /// Difference between the drone and the dry run. Its only new part is the accuracy of hovering.
     fn known_in_flight(&self, pose: &Pose, place: &Pose) -> Pose {
         let off = apart(pose, place);
         let new = apart(&off, &self.target);
@@ -122,7 +122,7 @@ impl Deviation {
         off
     }
 
-    /// The target of a step as it must have been flown, and whether the fence has moved it.
+    /// The target that must have been flown in a step, and whether it was moved inside the fence.
     fn follow(
         &mut self,
         index: usize,
@@ -131,7 +131,7 @@ impl Deviation {
         (flown, limits): (&Flown, &FlightLimits),
     ) -> Option<(Pose, bool)> {
         let before = std::mem::replace(&mut self.place, expected.place);
-        // A setting is carried out with the next step.
+        // A setting takes effect with the next step.
         let here = || self.known_in_flight(flown.began.range(index..).next().unwrap().1, &before);
         let off = match command {
             Command::TakeOff { .. } => {
@@ -175,7 +175,8 @@ impl Deviation {
     }
 }
 
-/// Flies `text` and compares each target with what `check` prints. Returns how many the fence has moved.
+/// Flies `text` and compares each target with the output of `check`. Returns how many were moved inside the
+/// fence.
 fn fly_and_compare(simulation: &Simulation, text: &str) -> usize {
     let limits = simulation.pilot.limits;
     let plan = Plan::parse_within("plan.txt", text, &limits).unwrap();
@@ -211,7 +212,7 @@ fn fly_and_compare(simulation: &Simulation, text: &str) -> usize {
     corrected.len()
 }
 
-/// A plan that `check` accepts: a line that would be an error is left out.
+/// A random plan that `check` accepts: invalid lines are left out.
 fn random_plan(random: &mut ChaCha8Rng, limits: &FlightLimits) -> String {
     let mut text = String::new();
     if random.random_bool(0.1) {
@@ -227,7 +228,7 @@ fn random_plan(random: &mut ChaCha8Rng, limits: &FlightLimits) -> String {
     }
     for line in lines {
         let longer = format!("{text}{line}\n");
-        // What comes before the take-off is judged with one.
+        // Commands before the take-off are checked together with one.
         let judged = format!("{longer}takeoff\nland\n");
         if Plan::review(&judged, limits).0.is_some() {
             text = longer;
@@ -256,7 +257,7 @@ fn random_lines(random: &mut ChaCha8Rng, limits: &FlightLimits) -> Vec<String> {
     match random.random_range(0..16) {
         0..=2 => one(format!("goto {}", random_pose(random, 1.4))),
         3 => {
-            // At the fence: where the drone hovers decides on which side.
+            // At the fence the actual hover height decides whether a target is inside.
             let angle = random.random_range(0.0..std::f64::consts::TAU);
             let (x_m, y_m) = (limits.radius_m * angle.sin(), limits.radius_m * angle.cos());
             one(format!("goto {x_m:.3} {y_m:.3} 0 0"))
@@ -293,7 +294,7 @@ fn a_random_plan_is_flown_to_exactly_the_targets_that_check_prints() {
         corrected += fly_and_compare(&simulation(seed, limits), &text);
         lines += &text;
     }
-    // The generator has tried everything.
+    // Ensures that the generator covers targets outside the fence.
     assert!(corrected > 25, "{corrected} targets were moved");
     for command in [
         "takeoff",
@@ -338,7 +339,7 @@ fn a_reference_that_is_set_before_the_take_off_counts_in_flight() {
     assert_eq!(fly_and_compare(&Simulation::default(), text), 0);
 }
 
-/// On the ground the drone's pose is on the floor.
+/// The pose of a drone on the ground is on the floor.
 #[test]
 fn a_reference_on_the_floor_is_one_in_flight_too() {
     let text = "setReference $POSE$\ntakeoff\ngoto 0 1 1.2 0\nland\n";

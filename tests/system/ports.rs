@@ -1,4 +1,4 @@
-//! The mock drone's other ports, as far as clients need them to get going.
+//! The mock drone's other ports, as far as clients need them.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
@@ -18,7 +18,7 @@ fn connect(mock: &MockDrone, port: Option<u16>) -> TcpStream {
     stream
 }
 
-/// Says something and returns the answer.
+/// Sends a command and returns the answer.
 fn ask(stream: &mut BufReader<TcpStream>, command: &str) -> String {
     stream.get_mut().write_all(format!("{command}\r\n").as_bytes()).unwrap();
     let mut answer = String::new();

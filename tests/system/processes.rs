@@ -1,4 +1,4 @@
-//! The two programs as two processes.
+//! Both programs as separate processes.
 
 use std::fs::File;
 use std::io::{BufRead as _, BufReader};
@@ -12,7 +12,7 @@ use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::server::{MockDrone, Ports};
 
-/// A program of this workspace, built like this test.
+/// A program of this workspace, built in the same profile.
 pub(crate) fn program(name: &str) -> Command {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     let folder = FOLDER.get_or_init(|| {
@@ -23,14 +23,14 @@ pub(crate) fn program(name: &str) -> Command {
             build.arg("--release");
         }
         assert!(build.status().unwrap().success());
-        // The test itself is in `deps` beside the programs.
+        // The test is in `deps`, below the folder of the programs.
         let test = std::env::current_exe().unwrap();
         test.ancestors().nth(2).unwrap().to_owned()
     });
     Command::new(folder.join(name))
 }
 
-/// A mock drone in a process of its own, killed when the test ends.
+/// A mock drone process, killed when dropped.
 struct MockProcess {
     child: Child,
     /// AT, navdata, control.
@@ -82,7 +82,7 @@ pub(crate) fn plan_file(text: &str) -> tempfile::NamedTempFile {
     file
 }
 
-/// Starts a pilot whose standard error goes to a file that can be looked at meanwhile.
+/// Starts a pilot whose standard error goes to a file that can be read meanwhile.
 fn start(pilot: &mut Command) -> (Child, tempfile::NamedTempFile) {
     let log = tempfile::NamedTempFile::new().unwrap();
     let child =
@@ -117,7 +117,7 @@ fn two_processes_fly_the_plan() {
     let output = mock.pilot(plan.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(text(&output).contains("commands done   4 of 4"), "{}", text(&output));
-    // The drone is still there for a second flight.
+    // The drone is still available for a second flight.
     let output = mock.pilot(plan.path()).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
 }
@@ -164,21 +164,21 @@ fn a_terminated_pilot_and_a_closed_terminal_land() {
     }
 }
 
-/// The pilot whose command line names this plan, if it runs.
+/// Whether a pilot with this plan is running.
 fn runs(plan: &Path) -> bool {
     let processes = std::fs::read_dir("/proc").unwrap().filter_map(Result::ok);
     let mut commands = processes.filter_map(|process| {
         let command = std::fs::read(process.path().join("cmdline")).ok()?;
         Some(String::from_utf8_lossy(&command).into_owned())
     });
-    // `script` and its shell name it too.
+    // The command line of `script` and its shell contains the path too.
     commands.any(|command| {
         command.contains(plan.to_str().unwrap())
             && command.split('\0').next().is_some_and(|name| name.ends_with("ardrone-pilot"))
     })
 }
 
-/// A window that is closed hangs its terminal up: the drone lands, and the process ends.
+/// Closing a terminal window hangs up its terminal: the drone lands and the process ends.
 #[test]
 fn a_real_terminal_that_is_closed_lands_and_ends() {
     let mock = MockProcess::start();
@@ -207,7 +207,7 @@ fn a_real_terminal_that_is_closed_lands_and_ends() {
     assert!(closed.elapsed() > Duration::from_secs(1), "it lands first");
 }
 
-/// Nothing of ours runs any more: the drone's own watchdog lands it where it is.
+/// No process of ours is left: the drone's own watchdog lands it where it is.
 #[test]
 fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
     let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
@@ -227,7 +227,7 @@ fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
     }
     let (mut child, log) = start(&mut pilot);
     wait_for(log.path(), "step 3/4");
-    // Under way it would keep its last stick for the 2 s in which it waits for the pilot.
+    // While moving it would keep its last sticks for the 2 s of its watchdog.
     std::thread::sleep(Duration::from_secs(3));
     let before = mock.truth();
     assert_eq!(before.phase, Phase::Flying);
@@ -241,7 +241,7 @@ fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
     assert!(killed.elapsed() > Duration::from_secs(2), "it hovers first");
     let moved_m = (mock.truth().position_m - before.position_m).xy().norm();
     assert!(moved_m < 2.0, "{moved_m:.2} m");
-    // What it had recorded is there.
+    // Its records up to then are in the log.
     let recorded = Log::read(&std::fs::read(&flight_log).unwrap()).unwrap();
     assert!(!recorded.complete);
     assert!(recorded.ticks().count() > 250, "{}", recorded.ticks().count());

@@ -1,4 +1,4 @@
-//! Flight logs: what is written can be read, also when it was cut off, and flown again.
+//! Flight logs can be read, even if truncated, and replayed.
 
 use std::io::Cursor;
 use std::time::Duration;
@@ -24,14 +24,14 @@ fn header(text: &str) -> Header {
     }
 }
 
-/// Flies in simulated time and returns the flight with its log.
+/// Flies in simulated time; returns the flight and its log.
 fn recorded(text: &str, simulation: &Simulation) -> (SimulatedFlight, Vec<u8>) {
     let mut writer = LogWriter::new(Cursor::new(Vec::new()), &header(text)).unwrap();
     let mut written = 0_u32;
     let record = |record| {
         writer.write(&record).unwrap();
         written += 1;
-        // As often as in a real flight.
+        // The same interval as in a real flight.
         if written.is_multiple_of(50) {
             writer.flush().unwrap();
         }
@@ -70,7 +70,7 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
 }
 
 #[test]
-fn other_code_is_told_apart() {
+fn other_code_is_recognised() {
     let (_, file) = recorded(SQUARE, &Simulation::default());
     let mut log = Log::read(&file).unwrap();
     log.settings = log.settings.replace("law = \"cascade\"", "law = \"tum\"");
@@ -82,7 +82,7 @@ fn other_code_is_told_apart() {
     assert!(replay.to_string().contains("then: Goto by"), "{replay}");
 }
 
-/// Wherever a process is killed, what was flushed before is there.
+/// However a process is killed, flushed records are in the log.
 #[test]
 fn a_log_that_was_cut_off_is_read_as_far_as_it_goes() {
     let (_, file) = recorded(SQUARE, &Simulation::default());
@@ -97,7 +97,7 @@ fn a_log_that_was_cut_off_is_read_as_far_as_it_goes() {
                 continue;
             }
         };
-        // Behind the last entry there is an index.
+        // The index follows the last entry.
         assert!(!log.complete && (log.entries.len() < whole || part > 35));
         assert!(log.entries.len() >= longest);
         longest = log.entries.len();
@@ -111,7 +111,7 @@ fn what_is_no_log_is_refused() {
     for bytes in [&b""[..], b"takeoff\nland\n", &file[..7], &[0x89; 4096]] {
         assert!(Log::read(bytes).is_err());
     }
-    // Whatever is spoiled, nothing panics.
+    // Damaged logs never cause a panic.
     for place in (0..file.len()).step_by(file.len() / 500) {
         let old = std::mem::replace(&mut file[place], 0xff);
         _ = Log::read(&file);
@@ -119,7 +119,7 @@ fn what_is_no_log_is_refused() {
     }
 }
 
-/// A file like a flight log, with messages of our choice, packed as a flight log is.
+/// A file like a flight log with arbitrary messages, compressed like a flight log.
 fn foreign_log(
     plan: &str,
     agent: &str,
@@ -164,7 +164,7 @@ fn foreign_log(
     writer.into_inner().into_inner()
 }
 
-/// Nothing in a small file makes much of itself: not the name of a topic, and not what is packed well.
+/// Neither the name of a topic nor compressed data can make a small file need much memory.
 #[test]
 fn a_small_log_needs_little_memory() {
     let long = "t".repeat(4000);
@@ -176,7 +176,7 @@ fn a_small_log_needs_little_memory() {
     assert!(used.bytes_max < 64 << 20, "{} bytes", used.bytes_max);
 }
 
-/// A file that is packed better than any flight is no flight: it is not unpacked to its end.
+/// A file with an implausible compression ratio is not unpacked to its end.
 #[test]
 fn a_log_that_unpacks_to_too_much_is_refused() {
     let words = "{\"data\":\"\"}".to_owned() + &" ".repeat(4000);
@@ -186,14 +186,14 @@ fn a_log_that_unpacks_to_too_much_is_refused() {
     let used = allocation_counter::measure(|| read = Some(Log::read(&file)));
     assert!(matches!(read, Some(Err(LogError::Bomb))), "{read:?}");
     assert!(used.bytes_max < 100 << 20, "{} bytes", used.bytes_max);
-    // A real one is far from that.
+    // Real logs are far below the limit.
     let (_, file) = recorded(SQUARE, &Simulation::default());
     let unpacked: usize =
         mcap::MessageStream::new(&file).unwrap().map(|message| message.unwrap().data.len()).sum();
     assert!(unpacked < 8 * file.len(), "{unpacked} of {}", file.len());
 }
 
-/// Whether a value keeps a JSON schema, of which ours use `type`, `properties`, `required` and `items`.
+/// Checks a value against a JSON schema that uses only `type`, `properties`, `required` and `items`.
 fn keeps(rules: &Value, value: &Value, path: &str) {
     let kind = match value {
         Value::Null => "null",
@@ -223,7 +223,7 @@ fn keeps(rules: &Value, value: &Value, path: &str) {
     }
 }
 
-/// Others read it too: JSON with schemas, of which Foxglove knows some.
+/// Other tools read the log too: JSON with schemas, some of them Foxglove's.
 #[test]
 fn each_topic_has_a_schema_that_its_messages_keep() {
     let (_, file) = recorded(SQUARE, &Simulation::default());
@@ -258,7 +258,7 @@ fn ten_minutes_are_less_than_30_megabytes() {
     }
 }
 
-/// The page needs nothing but itself, and text of the log stays text.
+/// The page is self-contained, and text of the log is escaped.
 #[test]
 fn a_report_answers_why() {
     let (flight, file) = recorded(SQUARE, &Simulation::default());
@@ -270,7 +270,7 @@ fn a_report_answers_why() {
         let inside = page.replace("http://www.w3.org/2000/svg", "");
         assert!(!inside.contains(outside), "{outside}");
     }
-    // The decision that ended the first stay, with the plan's line and its text.
+    // The decision that ended the first stay, with line and text of the plan.
     let plan = "+!stay : target(X, Y, Z, Yaw) & stayingFor(Time)";
     let line = 1 + log.agent.lines().position(|line| line.starts_with(plan)).unwrap();
     assert!(page.contains(&format!("<pre>{line}: {}", plan.replace('&', "&amp;"))));
@@ -281,7 +281,7 @@ fn a_report_answers_why() {
     assert!(report::html(&log).is_err());
 }
 
-/// A log may come from anywhere. What it says is read, not obeyed: not by the page, nor by a terminal.
+/// Logs may come from anywhere. Their text must not be executed by the page or a terminal.
 #[test]
 fn a_hostile_log_does_nothing_to_page_and_terminal() {
     const HOSTILE: &str =
@@ -327,7 +327,7 @@ fn a_hostile_log_does_nothing_to_page_and_terminal() {
     }
 }
 
-/// The firmware's version is what whoever answers at the control port says.
+/// The firmware version comes over the network and may contain anything.
 #[test]
 fn the_drone_says_nothing_to_the_terminal() {
     let version = Some("2.4.8\x1b]0;x\x07\u{9b}2J\u{202e}\n".to_owned());
@@ -336,7 +336,7 @@ fn the_drone_says_nothing_to_the_terminal() {
     assert!(!told.contains(|c: char| c.is_control() || c == '\u{202e}'), "{told:?}");
 }
 
-/// A page is about as large as what is told: a plan's text or a step's that is long is not told in each moment.
+/// The size of the page is bounded by that of the log: long texts are not repeated for each moment.
 #[test]
 fn a_hostile_log_makes_no_large_page() {
     let tick = {
@@ -362,7 +362,7 @@ fn a_hostile_log_makes_no_large_page() {
 }
 
 #[test]
-fn a_report_tells_what_went_wrong() {
+fn a_report_shows_what_went_wrong() {
     let scenario = mock_drone::scenario::Scenario::parse("faults", "8 battery 5\n").unwrap();
     let world = mock_drone::WorldConfig { scenario, ..Default::default() };
     let (_, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
@@ -377,9 +377,9 @@ fn a_report_tells_what_went_wrong() {
     }
 }
 
-/// Nothing was flown, and nothing was warned of in flight: the end itself is the news.
+/// A refused flight has no warnings in flight, but its outcome is one.
 #[test]
-fn a_refused_flight_is_not_told_as_a_good_one() {
+fn a_refused_flight_is_not_reported_as_a_good_one() {
     let mut world = mock_drone::WorldConfig::default();
     world.drone.battery_percent = 10.0;
     let (flight, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });

@@ -1,4 +1,5 @@
-//! A drone behind a relay that hears what the pilot says, floods it, or keeps its control port busy.
+//! A relay in front of the drone that records the pilot's datagrams, floods it, or keeps its control port
+//! busy.
 
 use std::io::Write as _;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, UdpSocket};
@@ -12,7 +13,7 @@ use ardrone_link::at::{Command, Motion, Ref, decode};
 use mock_drone::server::{MockDrone, Ports};
 use mock_drone::{Truth, WorldConfig};
 
-/// What the pilot has said in one datagram.
+/// A datagram of the pilot.
 #[derive(Debug, Clone)]
 pub(crate) struct Said {
     pub(crate) at: Instant,
@@ -24,7 +25,7 @@ impl Said {
         self.commands.iter().any(|(_, command)| command == wanted)
     }
 
-    /// Land, with the sticks at rest, and nothing else.
+    /// Whether it contains only a landing order and centred sticks.
     pub(crate) fn parts(&self) -> bool {
         self.commands.len() == 2
             && self.says(&Command::Ref(Ref::Land))
@@ -32,7 +33,7 @@ impl Said {
     }
 }
 
-/// A simulated drone and the relay before it.
+/// A simulated drone with the relay in front of it.
 pub(crate) struct Relay {
     mock: MockDrone,
     shared: Arc<Shared>,
@@ -43,7 +44,7 @@ pub(crate) struct Relay {
 #[derive(Default)]
 struct Shared {
     said: Mutex<Vec<Said>>,
-    /// Where the pilot's navdata go.
+    /// Address of the pilot's navdata socket.
     pilot: Mutex<Option<SocketAddr>>,
     flood: AtomicU64,
     busy: AtomicBool,
@@ -59,7 +60,7 @@ fn socket() -> UdpSocket {
 }
 
 impl Relay {
-    /// A drone in this world behind a relay.
+    /// Starts a drone in this world behind a relay.
     pub(crate) fn start(world: &WorldConfig) -> Self {
         let mock = MockDrone::start(world, Ports::LOOPBACK).unwrap();
         let ports = mock.ports();
@@ -93,7 +94,7 @@ impl Relay {
         Self { mock, shared, address, threads }
     }
 
-    /// Where the pilot finds the drone.
+    /// Address of the drone for the pilot.
     pub(crate) fn address(&self) -> &DroneAddress {
         &self.address
     }
@@ -102,12 +103,12 @@ impl Relay {
         self.mock.truth()
     }
 
-    /// Everything that was said.
+    /// All datagrams of the pilot.
     pub(crate) fn said(&self) -> Vec<Said> {
         self.shared.said.lock().unwrap().clone()
     }
 
-    /// Sends the pilot so many datagrams that mean nothing, from the drone's address, as fast as it can.
+    /// Sends the pilot invalid datagrams from the drone's address, as fast as possible.
     pub(crate) fn flood(&self, datagrams: u64) {
         self.shared.flood.store(datagrams, Ordering::Relaxed);
     }
@@ -116,7 +117,7 @@ impl Relay {
         self.shared.flood.load(Ordering::Relaxed) > 0
     }
 
-    /// The control port talks without end, from the next connection.
+    /// From the next connection on, the control port sends data without end.
     pub(crate) fn keep_control_port_busy(&self) {
         self.shared.busy.store(true, Ordering::Relaxed);
     }
@@ -142,7 +143,7 @@ fn relay_commands(shared: &Shared, at: &UdpSocket, drone: &UdpSocket) {
     while shared.goes_on() {
         let Ok(length) = at.recv(&mut buffer) else { continue };
         let said = Instant::now();
-        // A drone that is gone hears nothing.
+        // The drone may have ended.
         _ = drone.send(&buffer[..length]);
         let commands = decode(&buffer[..length]).map(Result::unwrap).collect();
         shared.said.lock().unwrap().push(Said { at: said, commands });
@@ -183,7 +184,7 @@ fn flood(shared: &Shared, pilot: &UdpSocket, _: &UdpSocket) {
     }
 }
 
-/// Passes the control port on, or talks without end.
+/// Relays the control port, or sends data without end.
 fn keep_busy(shared: &Shared, listener: &TcpListener, drone: u16) {
     listener.set_nonblocking(true).unwrap();
     while shared.goes_on() {
@@ -194,7 +195,7 @@ fn keep_busy(shared: &Shared, listener: &TcpListener, drone: u16) {
         pilot.set_nonblocking(false).unwrap();
         pilot.set_write_timeout(Some(LOOK)).unwrap();
         if shared.busy.load(Ordering::Relaxed) {
-            // Until the pilot is gone.
+            // Until the pilot disconnects.
             while shared.goes_on() {
                 match pilot.write_all(&[b'x'; 4096]) {
                     Ok(()) => {}

@@ -1,5 +1,4 @@
-//! Nothing that goes wrong becomes a crash: a campaign of random faults, and each way in which a flight
-//! once went wrong.
+//! No fault leads to a crash: a campaign of random faults, and regression tests of single flights.
 
 use std::thread;
 use std::time::Duration;
@@ -17,7 +16,7 @@ use mock_drone::scenario::{Action, Scenario, When};
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, Quantity as Sensor, SensorFault, WorldConfig};
 use system_tests::sim::{Moment, SimulatedFlight, Simulation};
-use system_tests::{SQUARE, campaign, gaps, plan};
+use system_tests::{SQUARE, campaign, landings, plan};
 
 const SECOND: Duration = Duration::from_secs(1);
 const NEAR: FlightLimits = FlightLimits {
@@ -37,7 +36,7 @@ fn five_hundred_flights_with_random_faults_end_well() {
         assert!(verdict.faults.is_empty(), "seed {}: {:?}", verdict.seed, verdict.faults);
         flown += usize::from(verdict.is_success());
     }
-    // A campaign in which nobody flies proves nothing.
+    // A campaign without completed flights would prove nothing.
     assert!(flown > 100, "only {flown} plans were flown to their end");
 }
 
@@ -46,13 +45,13 @@ fn the_same_seed_is_the_same_flight() {
     assert_eq!(campaign::fly(5).unwrap(), campaign::fly(5).unwrap());
 }
 
-/// Whatever a gap in the link swallows around it: the order, or the drone's answer.
+/// Neither a gap that swallows the order or the drone's answer, nor another order, cancels a landing.
 #[test]
-fn no_gap_makes_a_landing_forgotten() {
-    assert_eq!(gaps::forgotten_landings().unwrap(), Vec::<String>::new());
+fn no_gap_and_no_other_order_makes_a_landing_forgotten() {
+    assert_eq!(landings::forgotten().unwrap(), Vec::<String>::new());
 }
 
-/// A flight with a scenario, and every moment of it.
+/// A flight with a scenario; `watch` is called for every moment.
 fn watched(
     text: &str,
     seed: u64,
@@ -66,7 +65,7 @@ fn watched(
     Simulation { world, ..simulation }.fly_watched(plan, watch).unwrap()
 }
 
-/// How often the drone took off on the square.
+/// Number of take-offs on the square.
 fn take_offs(text: &str, seed: u64) -> u32 {
     let mut count = 0;
     let mut rose = false;
@@ -80,8 +79,8 @@ fn take_offs(text: &str, seed: u64) -> u32 {
     count
 }
 
-/// The drone lands by itself after 2 s of silence. When it is heard again, shortly before it stands,
-/// the order to stay in the air must not reach it on the ground.
+/// The drone lands by itself after 2 s of silence. If it is heard again shortly before touch-down, the order
+/// to stay in the air must not reach it on the ground.
 #[test]
 fn a_drone_that_landed_by_itself_is_not_lifted_again() {
     for quarters in 8_u32..40 {
@@ -90,7 +89,7 @@ fn a_drone_that_landed_by_itself_is_not_lifted_again() {
     }
 }
 
-/// It does not remember that it flew, and orders to stay in the air still came.
+/// It has lost its state, while orders to stay in the air still arrive.
 #[test]
 fn a_drone_that_restarts_unheard_is_not_lifted() {
     for tenths in 0_u32..20 {
@@ -100,14 +99,14 @@ fn a_drone_that_restarts_unheard_is_not_lifted() {
     }
 }
 
-/// Its own landing drifts with the wind: we come down by ourselves first.
+/// The drone's own landing drifts with the wind, so the agent flies the first part of the descent.
 #[test]
 fn a_landing_in_the_wind_does_not_drift_far() {
     for seed in 1..=10 {
         let flown = plan("takeoff\ngoto 2 0 1 0\nland\n");
         let mut from_m = 0.0;
         let lands = |moment: &Moment| {
-            // Where it was before the last step, which is the landing.
+            // The place before the last step, which is the landing.
             if moment.status.step == Some(1) {
                 from_m = moment.truth.odometry_m.x;
             }
@@ -119,13 +118,13 @@ fn a_landing_in_the_wind_does_not_drift_far() {
     }
 }
 
-/// The furthest that the drone is from the start.
+/// Largest distance from the start.
 fn furthest_m(moment: &Moment, furthest_m: &mut f64) {
     *furthest_m = furthest_m.max(moment.truth.odometry_m.norm());
 }
 
 #[test]
-fn the_pilots_hand_does_not_leave_the_fence() {
+fn manual_control_does_not_leave_the_fence() {
     let full = Demand { roll: 1.0, ..Demand::default() };
     let sticks = (0..200_u32)
         .map(|tenth| (8 * SECOND + SECOND / 10 * tenth, OperatorOrder::Steer(full)))
@@ -145,7 +144,7 @@ fn the_pilots_hand_does_not_leave_the_fence() {
     }
 }
 
-/// A gust that nobody could have resisted: the drone comes back, low, and lands there.
+/// After a gust that no drone could resist, the drone comes back, low, and lands inside.
 #[test]
 fn a_drone_that_was_blown_over_the_fence_comes_back_to_land() {
     for seed in 1..=5 {
@@ -154,14 +153,14 @@ fn a_drone_that_was_blown_over_the_fence_comes_back_to_land() {
         let flown = plan("takeoff\nsetStayTime 20\ngoto 3.9 0 0 0\nland\n");
         let gust = "+12 wind 7 0\n+13 wind 0 0";
         let flight = watched(gust, seed, flown, simulation, |_| {});
-        let outside = FlightEvent::LandingOrdered(LandingReason::Guard(Veto::OutsideFence));
+        let outside = FlightEvent::LandingOrdered(LandingReason::Safety(Veto::OutsideFence));
         assert!(flight.events.iter().any(|(_, event)| *event == outside), "{:?}", flight.events);
         let away_m = flight.final_truth.odometry_m.norm();
         assert!(flight.final_truth.phase == Phase::Landed && away_m < 4.2, "{away_m:.2} m");
     }
 }
 
-/// It is brought down while it is carried off, not when it has left its fence.
+/// The drone is landed while it is being carried off, not after it has left the fence.
 #[test]
 fn a_storm_that_carries_the_drone_off_lands_it_before_it_leaves_its_fence() {
     for seed in 1..=5 {
@@ -173,7 +172,7 @@ fn a_storm_that_carries_the_drone_off_lands_it_before_it_leaves_its_fence() {
         let flown = plan("takeoff\ngoto 0 2.5 1.5 0\nland\n");
         let see = |moment: &Moment| furthest_m(moment, &mut away_m);
         let flight = watched("0 wind 0 2", seed, flown, simulation, see);
-        let ordered = FlightEvent::LandingOrdered(LandingReason::Guard(Veto::CarriedOff));
+        let ordered = FlightEvent::LandingOrdered(LandingReason::Safety(Veto::CarriedOff));
         assert!(flight.events.iter().any(|(_, event)| *event == ordered), "{:?}", flight.events);
         assert!(flight.final_truth.phase == Phase::Landed && away_m < 6.0, "{away_m:.2} m");
     }
@@ -191,7 +190,7 @@ fn navdata_that_stay_frozen_or_lie_too_much_land_the_drone() {
     }
 }
 
-/// Whatever was wrong before: the motors do not spin up.
+/// Whatever was wrong: the motors do not start.
 #[test]
 fn a_drone_that_lies_from_the_first_packet_does_not_take_off() {
     for (sensor, fault) in [
@@ -211,7 +210,7 @@ fn a_drone_that_lies_from_the_first_packet_does_not_take_off() {
     }
 }
 
-/// A flight of an airframe in a wind, and the furthest that it was from the start.
+/// A flight of an airframe in wind, and its largest distance from the start.
 fn in_the_wind(profile: Profile, seed: u64, text: &str, wind: &str) -> (SimulatedFlight, f64) {
     let scenario = Scenario::parse("wind", wind).unwrap();
     let sensors = SensorModel::hard();
@@ -225,7 +224,7 @@ fn in_the_wind(profile: Profile, seed: u64, text: &str, wind: &str) -> (Simulate
     (flight, away_m)
 }
 
-/// However much of its tilt it takes: what counts is that the place is held.
+/// Whatever tilt it needs, as long as the position is held.
 #[test]
 fn a_wind_that_can_be_held_against_lands_nobody() {
     for seed in 1..=5 {
@@ -234,12 +233,13 @@ fn a_wind_that_can_be_held_against_lands_nobody() {
     }
 }
 
-/// What carries the drone off at full tilt does so until it stands: it is landed after two seconds of that.
+/// A wind that carries the drone off at full tilt does so until the landing, which is ordered after two
+/// seconds.
 #[test]
 fn a_wind_that_cannot_be_held_against_lands_in_time() {
     let long = "takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n";
-    // Whoever notices it first: the agent at the sticks, or the guard by what cannot be braked any more.
-    let reasons = [LandingReason::Wind, LandingReason::Guard(Veto::CarriedOff)];
+    // Either the agent notices it by the saturated sticks, or the safety monitor by the braking distance.
+    let reasons = [LandingReason::Wind, LandingReason::Safety(Veto::CarriedOff)];
     let ends = reasons.map(|reason| Outcome::Failsafe { reason: reason.to_string() });
     for (profile, wind) in [(Profile::rec(), "+10 wind 6 0"), (Profile::leo(), "+10 wind 4 0")] {
         for seed in 1..=5 {
@@ -250,14 +250,14 @@ fn a_wind_that_cannot_be_held_against_lands_in_time() {
     }
 }
 
-/// A place given by hand is flown to and held while the plan waits; the plan then goes on.
+/// A manual target is flown to and held while the plan waits; the plan then goes on.
 #[test]
 fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
     let go_to = |x_m, y_m| OperatorOrder::GoTo { x_m, y_m };
     let orders = vec![
         (8 * SECOND, go_to(f64::NAN, 0.0)),
         (8 * SECOND, go_to(0.5, 2.0)),
-        // Elsewhere, in flight and twice at once: the last word counts.
+        // Changed in flight, and twice at once: the last order counts.
         (10 * SECOND, go_to(1.0, -1.0)),
         (10 * SECOND, go_to(-1.5, 0.5)),
         (22 * SECOND, OperatorOrder::Resume),
@@ -275,12 +275,12 @@ fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
         assert_eq!(flight.outcome, Outcome::Completed);
         assert!(there_m < 0.25, "seed {seed}: {there_m:.2} m off");
         let count = |event| flight.events.iter().filter(|(_, told)| *told == event).count();
-        assert_eq!(count(FlightEvent::SentByHand), 3);
+        assert_eq!(count(FlightEvent::ManualTargetSet), 3);
         assert_eq!(count(FlightEvent::ManualTargetReached), 1);
     }
 }
 
-/// Whoever holds in the tick in which the drone was sent somewhere, or just after, means it.
+/// A hold in the tick of a manual target, or just after it, cancels the target.
 #[test]
 fn a_hold_takes_back_where_the_drone_was_sent() {
     for after_ms in [0, 10, 30, 40, 60, 100] {
@@ -301,7 +301,7 @@ fn a_hold_takes_back_where_the_drone_was_sent() {
     }
 }
 
-/// Beyond the fence the drone is sent to its edge; what is not reached in time is given up.
+/// A target outside the fence is moved to its edge; one that is not reached in time is given up.
 #[test]
 fn a_place_given_by_hand_may_be_outside_or_never_reached() {
     let sent = (8 * SECOND, OperatorOrder::GoTo { x_m: 80.0, y_m: 0.0 });
@@ -319,6 +319,6 @@ fn a_place_given_by_hand_may_be_outside_or_never_reached() {
     assert!(events.contains(&FlightEvent::ManualTargetReached), "{events:?}");
     assert!((3.5..4.3).contains(&away_m), "{away_m:.2} m");
     let (events, _) = fly(100.0, "setMaxControl 0.05\n", vec![sent]);
-    let given_up = FlightEvent::LandingOrdered(LandingReason::HandTargetTimedOut);
+    let given_up = FlightEvent::LandingOrdered(LandingReason::ManualTargetTimedOut);
     assert!(events.contains(&given_up), "{events:?}");
 }

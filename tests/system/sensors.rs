@@ -1,4 +1,4 @@
-//! No single sensor leads the drone far astray: `cargo xtask sensors` is the same with more seeds.
+//! No single sensor failure leads the drone far astray. `cargo xtask sensors` is the same with more seeds.
 
 use std::thread;
 

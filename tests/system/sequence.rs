@@ -1,4 +1,4 @@
-//! Sequence numbers: any one datagram may be lost, and the drone obeys the next.
+//! Sequence numbers: any single datagram may be lost, and the drone obeys the next.
 
 use std::time::Duration;
 
@@ -15,13 +15,13 @@ struct Bench {
     session: Session,
     world: World,
     now: Duration,
-    /// Ticks until the datagram that is lost.
+    /// Number of ticks until the datagram that is lost.
     lost: Option<u32>,
     hears: bool,
 }
 
 impl Bench {
-    /// `lost` is the number of the datagram that is lost, from now on.
+    /// A session and its simulated drone, without losses.
     fn new() -> Self {
         let settings = vec![Setting::NavdataDemo(true).config().unwrap()];
         let config = SessionConfig { settings, ..SessionConfig::default() };
@@ -30,7 +30,7 @@ impl Bench {
         Self { session: Session::new(config), world, now: TICK, lost: None, hears: true }
     }
 
-    /// Another pilot has spoken just now, and counts far above us.
+    /// Another pilot has just sent commands with numbers far above ours.
     fn after_another_pilot(mut self) -> Self {
         let mut datagram = Datagram::new();
         datagram.push(5000, &Command::Ref(Ref::Land)).unwrap();
@@ -61,7 +61,7 @@ impl Bench {
         }
     }
 
-    /// Ticks until it is so.
+    /// Ticks until the condition is true.
     fn until(&mut self, flight: FlightOrder, so: impl Fn(&Self) -> bool) -> u32 {
         for ticks in 0..1000 {
             if so(self) {
@@ -84,7 +84,7 @@ fn behind_another_pilot_no_single_loss_leaves_us_unheard() {
     for lost in 0..=usual {
         let mut bench = Bench { lost: Some(lost), ..Bench::new().after_another_pilot() };
         let ticks = bench.until(FlightOrder::Land, ready);
-        // A key is said again after 150 ms.
+        // An unacknowledged key is sent again after 150 ms.
         assert!(
             ticks <= usual + 10,
             "datagram {lost} lost: ready after {ticks} ticks, not {usual}"
@@ -94,7 +94,7 @@ fn behind_another_pilot_no_single_loss_leaves_us_unheard() {
 
 #[test]
 fn after_a_loss_no_single_datagram_delays_the_landing() {
-    // Lost from just before the session notices the loss to just behind it.
+    // From just before the session notices the loss to just after it.
     for lost in 0..12 {
         let mut bench = Bench::new();
         bench.until(FlightOrder::Land, |bench| bench.session.is_ready());
@@ -102,7 +102,7 @@ fn after_a_loss_no_single_datagram_delays_the_landing() {
         for _ in 0..30 {
             bench.tick(FlightOrder::StayAirborne);
         }
-        // The drone hears us, and we do not hear it.
+        // The drone receives us, but we do not receive it.
         bench.hears = false;
         for _ in 0..62 {
             bench.tick(FlightOrder::StayAirborne);

@@ -29,7 +29,7 @@ fn with_drone(drone: DroneConfig) -> Simulation {
     Simulation { world, ..Simulation::default() }
 }
 
-/// A world in which one thing goes wrong.
+/// A world with one fault.
 fn happens(at: Duration, action: Action) -> Simulation {
     let scenario = Scenario::default().and(When::SinceStart(at), action);
     let world = WorldConfig { scenario, ..WorldConfig::default() };
@@ -75,7 +75,7 @@ fn the_same_flight_twice_is_the_same_bit_for_bit() {
 
 #[test]
 fn perfect_sensors_make_the_estimate_the_truth() {
-    // Without any noise a sensor looks frozen.
+    // A sensor without noise would look frozen.
     let sensors = SensorModel {
         flow_noise_m_s: 1e-4,
         altitude_noise_m: 0.002,
@@ -99,12 +99,12 @@ fn a_turn_goes_the_short_way_and_the_frame_does_not_turn_with_the_drone() {
     let flight = fly(&Simulation::default(), text);
     assert_eq!(flight.outcome, Outcome::Completed);
     assert!(largest_true_error_m(&flight) < 0.2);
-    // A whole turn or none: what counts is where it points.
+    // Whole turns do not matter, only the final heading.
     let off_deg = (flight.final_truth.yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
     assert!(off_deg.abs() < 8.0, "{off_deg}");
 }
 
-/// How far from the line x = 0 the drone was, in the frame of its own odometry.
+/// Largest distance from the line x = 0 in the frame of the drone's own odometry.
 fn off_the_line_m(simulation: &Simulation, text: &str) -> f64 {
     let mut worst_m: f64 = 0.0;
     let flight = simulation
@@ -143,9 +143,9 @@ fn a_heading_across_the_jump_is_reached() {
     }
 }
 
-/// The way back to a target has its own time, however long the stay was.
+/// The time limit of the way back does not depend on the length of the stay.
 #[test]
-fn a_push_late_in_a_long_stay_does_not_end_the_plan() {
+fn a_disturbance_late_in_a_long_stay_does_not_end_the_plan() {
     for seed in 1..=3 {
         let text = "+70 wind 3.5 0\n+71 wind 0 0";
         let scenario = Scenario::parse("push", text).unwrap();
@@ -166,7 +166,7 @@ fn a_push_late_in_a_long_stay_does_not_end_the_plan() {
 }
 
 #[test]
-fn the_pilots_order_lands_in_the_middle_of_a_step() {
+fn the_operators_order_lands_in_the_middle_of_a_step() {
     let orders = vec![(8 * SECOND, OperatorOrder::Land)];
     let simulation = Simulation { orders, ..Simulation::default() };
     let flight = fly(&simulation, SQUARE);
@@ -175,7 +175,8 @@ fn the_pilots_order_lands_in_the_middle_of_a_step() {
     assert!(flight.duration < 13 * SECOND);
 }
 
-/// Each way takes longer than two ticks: the drone is seen on the ground while the take-off is on its way to it.
+/// Delays of more than two ticks each way: the drone is seen on the ground while the take-off order is on its
+/// way.
 #[test]
 fn a_landing_ordered_right_after_the_take_off_keeps_the_drone_down() {
     let link = LinkFaults {
@@ -195,7 +196,7 @@ fn a_landing_ordered_right_after_the_take_off_keeps_the_drone_down() {
         let mut rises = false;
         let flight = simulation
             .fly_watched(plan(SQUARE), |moment| {
-                // By then it is down again wherever the landing met it.
+                // By then the drone is down again whenever the landing was ordered.
                 let late = moment.now > ordered_at + 8 * SECOND;
                 rises |= late && moment.truth.phase == Phase::Flying;
                 overtaken += u32::from(
@@ -212,7 +213,7 @@ fn a_landing_ordered_right_after_the_take_off_keeps_the_drone_down() {
 }
 
 #[test]
-fn the_pilots_order_is_obeyed_at_every_moment() {
+fn the_operators_order_is_obeyed_at_every_moment() {
     for tenths in 0..250 {
         let orders = vec![(SECOND / 10 * tenths, OperatorOrder::Land)];
         let simulation = Simulation { orders, ..Simulation::default() };
@@ -237,11 +238,11 @@ fn a_short_outage_is_survived_and_a_long_one_lands() {
         .unwrap();
     assert_eq!(flight.outcome, Outcome::Completed);
     assert!((15..30).contains(&hovered), "the pilot hovered for {hovered} ticks");
-    // Three seconds: lost, landed as soon as the drone is heard again.
+    // After three seconds the link counts as lost, and the drone is landed as soon as it is heard again.
     let flight = fly(&outage(80, 110), SQUARE);
     assert_eq!(flight.outcome, Outcome::LinkLost);
     assert_eq!(flight.final_truth.phase, Phase::Landed);
-    // For ever: the drone lands by itself.
+    // Without end: the drone lands by itself.
     let flight = fly(&outage(80, 10_000), SQUARE);
     assert_eq!(flight.outcome, Outcome::LinkLost);
     assert!(flight.duration < 16 * SECOND, "{:?}", flight.duration);
@@ -273,7 +274,7 @@ fn a_drone_that_cuts_its_motors_ends_the_flight_and_is_not_flown_again() {
     assert_eq!(flight.outcome, Outcome::Emergency);
     assert_eq!(flight.outcome.exit_status(), 50);
     assert!(flight.events.iter().any(|(_, event)| *event == FlightEvent::Emergency));
-    // Before the flight it is refused, with every reason.
+    // Before take-off the flight is refused with all reasons.
     let flight = fly(&blocked(0), SQUARE);
     assert!(matches!(&flight.outcome, Outcome::PreflightRefused { reasons } if reasons.len() == 2));
 }
@@ -290,7 +291,7 @@ fn an_empty_battery_is_refused_before_take_off_and_lands_in_flight() {
     let flight = fly(&battery(30.0), long);
     assert!(matches!(&flight.outcome, Outcome::PreflightRefused { reasons }
         if reasons.len() == 1 && reasons[0].contains("the plan takes about 1")));
-    // One that is older than it seems.
+    // An old battery, which empties suddenly.
     let flight = fly(&happens(9 * SECOND, Action::Battery(11.0)), SQUARE);
     assert!(matches!(&flight.outcome, Outcome::Failsafe { reason } if reason.contains("battery")));
     assert_eq!(flight.final_truth.phase, Phase::Landed);
@@ -298,13 +299,13 @@ fn an_empty_battery_is_refused_before_take_off_and_lands_in_flight() {
 
 #[test]
 fn a_step_that_makes_no_progress_is_given_up() {
-    // Nearer than the gusts let it stay: reached for a moment, and never for a whole stay.
+    // Smaller than the drone's motion in gusts: the target is reached, but never held for a whole stay.
     let text = "takeoff\nsetInitialReachDist 0.01\nsetStayWithinDist 0.01\nsetStayTime 30\n\
                 goto 0 1 0 0\nland";
     let scenario = Scenario::parse("gusts", "0 wind 0.5 0.5 gusts 0.4").unwrap();
     let world = WorldConfig { scenario, ..WorldConfig::default() };
     let flight = fly(&Simulation { world, ..Simulation::default() }, text);
-    let reason = "step 5 was not done in its time".to_owned();
+    let reason = "step 5 exceeded its time limit".to_owned();
     assert_eq!(flight.outcome, Outcome::Failsafe { reason });
     assert_eq!(flight.final_truth.phase, Phase::Landed);
 }
@@ -332,7 +333,7 @@ fn a_second_flight_in_one_plan_takes_off_again() {
     let flight = fly(&Simulation::default(), text);
     assert_eq!(flight.outcome, Outcome::Completed);
     assert_eq!(flight.report.waypoints.len(), 2);
-    // The reference is still where the first take-off ended: it flew the way back.
+    // The reference is still the end of the first take-off, so the drone flew back.
     assert!(flight.final_truth.position_m.y < 0.3, "{}", flight.final_truth.position_m);
 }
 
@@ -357,8 +358,8 @@ fn every_airframe_is_flown_without_going_far_beyond_a_target() {
     }
 }
 
-/// Worse sensors with wrong echoes, wind with gusts, a level reference that is wrong, packets lost: the
-/// place is held all the same, whatever share of the tilt that takes.
+/// Worse sensors with wrong echoes, wind with gusts, a wrong level reference, lost packets: the position is
+/// held whatever tilt that needs.
 #[test]
 fn every_airframe_flies_every_plan_on_a_hard_day() {
     let plans = ["square1x1", "xyz", "NikolausVertical"];

@@ -1,4 +1,4 @@
-//! The same flight over real sockets.
+//! Flights over real sockets.
 
 use ardrone_link::DroneAddress;
 use ardrone_pilot::flight::{Flight, Message};
@@ -11,7 +11,7 @@ use mock_drone::{Truth, WorldConfig};
 use system_tests::sim::Simulation;
 use system_tests::{SQUARE, place_in_navdata_frame, plan, true_error_m};
 
-/// The address of a drone that runs in this process.
+/// Address of a drone simulated in this process.
 pub(crate) fn address(mock: &MockDrone) -> DroneAddress {
     let ports = mock.ports();
     DroneAddress {
@@ -50,7 +50,7 @@ fn a_flight_over_udp_is_the_simulated_one() {
     }
 }
 
-/// How a flight over UDP ends with this scenario, and what is then true of the drone.
+/// Outcome of a flight over UDP with this scenario, and the true state at its end.
 fn ends(scenario: &str) -> (Outcome, Truth) {
     let scenario = Scenario::parse("scenario", scenario).unwrap();
     let world = WorldConfig { scenario, ..WorldConfig::default() };

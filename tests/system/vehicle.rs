@@ -1,4 +1,4 @@
-//! A vehicle that stays: many flights, missions that change, orders while it flies, and what can happen between.
+//! A vehicle that stays: many flights, changing missions, orders in flight, and faults in between.
 
 use std::time::Duration;
 
@@ -17,7 +17,7 @@ const SECOND: Duration = Duration::from_secs(1);
 const START: OperatorOrder = OperatorOrder::Start { when_ready: false };
 const REMOTE: Operator = Operator { station: Station::Mavlink, number: 1, local: false };
 
-/// A vehicle without a mission, and everything that it has said.
+/// A vehicle without a mission, with its collected outputs.
 struct Bench {
     driver: Driver,
     events: Vec<(Duration, FlightEvent)>,
@@ -34,7 +34,7 @@ impl Bench {
         Self { driver, events: Vec::new(), outcomes: Vec::new(), ready: None, missions: 0 }
     }
 
-    /// One that stands by.
+    /// A vehicle in standby.
     fn standing_by(scenario: &str) -> Self {
         let mut bench = Self::new(scenario);
         bench.until(10 * SECOND, |bench| bench.ready.as_ref().is_some_and(Vec::is_empty));
@@ -92,7 +92,7 @@ impl Bench {
         }
     }
 
-    /// Until something is so; it must be so in this time.
+    /// Runs until the condition is true, which must happen within `time`.
     #[track_caller]
     fn until(&mut self, time: Duration, mut is_so: impl FnMut(&Self) -> bool) {
         let end = self.driver.now() + time;
@@ -102,7 +102,7 @@ impl Bench {
         }
     }
 
-    /// Until the flight that was started is over and the vehicle stands by.
+    /// Runs until the flight has ended and the vehicle is in standby.
     #[track_caller]
     fn until_it_stands_by(&mut self) -> Outcome {
         let flights = self.outcomes.len();
@@ -145,7 +145,7 @@ fn ten_flights_in_half_an_hour_with_all_that_happens_between_them() {
         assert_eq!(bench.driver.vehicle.report().waypoints.len(), 4);
         bench.run(20 * SECOND);
     }
-    // 5: orders one by one. The drone holds when it has done all of them.
+    // 5: single orders. The drone holds after the last of them.
     bench.accepted(OperatorOrder::Clear);
     bench.append("takeoff").unwrap();
     bench.append("setStayTime 0.5").unwrap();
@@ -185,12 +185,12 @@ fn ten_flights_in_half_an_hour_with_all_that_happens_between_them() {
     bench.run(3 * SECOND);
     bench.accepted(OperatorOrder::Land);
     assert_eq!(bench.order(OperatorOrder::Hold), Err(Refused::Landing));
-    // A new mission while it lands is for the next flight.
+    // A mission loaded during the landing is for the next flight.
     bench.accepted(OperatorOrder::Load(plan("takeoff\ngoto 0 0.5 0 0\nland\n")));
     assert_eq!(bench.until_it_stands_by(), Outcome::Interrupted);
     bench.run(10 * SECOND);
     assert_eq!(bench.phase(), Phase::Standby);
-    // 8: the motors are cut in the air. Nothing flies until a person has cleared that.
+    // 8: the motors are cut in the air. Nothing flies until the operator has cleared the emergency.
     bench.accepted(START);
     bench.until(20 * SECOND, is_flying);
     bench.run(SECOND);
@@ -205,7 +205,7 @@ fn ten_flights_in_half_an_hour_with_all_that_happens_between_them() {
     // 9: and again.
     bench.accepted(START);
     assert_eq!(bench.until_it_stands_by(), Outcome::Completed);
-    // The drone is switched off and on while it stands by: it is found again.
+    // The drone is switched off and on in standby: it is found again.
     assert!(bench.driver.now() < 1290 * SECOND, "{:?}", bench.driver.now());
     bench.run_to(1320 * SECOND);
     assert_eq!((bench.phase(), bench.ready.as_deref()), (Phase::Standby, Some(&[][..])));
@@ -259,7 +259,7 @@ fn what_is_cleared_is_given_up_where_the_drone_is() {
     assert!(is_flying(&bench) && (0.9..2.5).contains(&away_m), "{away_m} {:?}", bench.events);
     bench.accepted(OperatorOrder::Land);
     bench.until_it_stands_by();
-    // Before it takes off, that ends the flight.
+    // Before the take-off this ends the flight.
     bench.accepted(OperatorOrder::Load(plan(SQUARE)));
     bench.accepted(START);
     bench.accepted(OperatorOrder::Clear);
@@ -300,7 +300,7 @@ fn a_drone_that_is_lost_in_the_air_is_landed_when_it_is_heard_again() {
 
 #[test]
 fn a_drone_that_somebody_else_flies_is_left_alone_until_it_stands() {
-    // The other pilot's commands are numbered far above ours: the drone hears only it.
+    // The other pilot's numbers are far above ours: the drone obeys only that one.
     let mut bench = Bench::standing_by("10 second-pilot 10 from 100000");
     bench.until(15 * SECOND, is_flying);
     bench.run(SECOND);
@@ -324,7 +324,7 @@ fn one_operator_at_a_time_has_the_controls() {
     assert_eq!(bench.driver.order(REMOTE, START), Ok(()));
     bench.run(10 * SECOND);
     bench.accepted(OperatorOrder::Hold);
-    // The hold was a local operator's: a remote one does not end it.
+    // The hold came from a local operator: a remote one cannot end it.
     let held = Err(Refused::ControlsHeld(Operator::TERMINAL));
     assert_eq!(bench.driver.order(REMOTE, OperatorOrder::Resume), held);
     assert_eq!(bench.driver.order(REMOTE, load()), held);
@@ -333,11 +333,38 @@ fn one_operator_at_a_time_has_the_controls() {
     assert_eq!(bench.count(&FlightEvent::ControlsTaken { by: Operator::TERMINAL }), 1);
     bench.accepted(OperatorOrder::Resume);
     bench.run(SECOND);
-    // But anyone may land.
+    // Anyone may land.
     assert_eq!(bench.driver.order(REMOTE, OperatorOrder::Land), Ok(()));
     assert_eq!(bench.until_it_stands_by(), Outcome::Interrupted);
     assert_eq!(bench.count(&FlightEvent::LandingOrdered(LandingReason::Operator)), 1);
     assert_eq!(bench.driver.order(REMOTE, START), held);
     bench.accepted(OperatorOrder::Release);
     assert_eq!(bench.driver.order(REMOTE, START), Ok(()));
+}
+
+#[test]
+fn what_is_ordered_before_the_drone_has_lifted_keeps_it_down() {
+    for (ticks, order) in
+        (0..40_u32).flat_map(|ticks| [(ticks, OperatorOrder::Hold), (ticks, OperatorOrder::Cut)])
+    {
+        let mut bench = Bench::standing_by("");
+        bench.accepted(OperatorOrder::Load(plan(SQUARE)));
+        bench.accepted(START);
+        bench.run(Duration::from_millis(30) * ticks);
+        if bench.truth().phase != firmware::Phase::Landed {
+            break;
+        }
+        let is_cut = order == OperatorOrder::Cut;
+        bench.accepted(order);
+        bench.run(Duration::from_millis(400));
+        if is_cut {
+            bench.accepted(OperatorOrder::Recover);
+        }
+        bench.run(20 * SECOND);
+        let (phase, truth) = (bench.phase(), bench.truth().phase);
+        assert_eq!((phase, truth), (Phase::Standby, firmware::Phase::Landed), "{ticks}");
+        assert!(
+            !bench.events.iter().any(|(_, event)| *event == FlightEvent::StepStarted { step: 1 })
+        );
+    }
 }

@@ -1,5 +1,4 @@
-//! The fault campaign: thousands of flights on which anything may go wrong, and a table of how they
-//! ended.
+//! The fault campaign: thousands of flights with random faults, and a table of their outcomes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -11,20 +10,20 @@ use system_tests::sim::SimulationError;
 
 use crate::parallel;
 
-/// Flies seeds from `first`, and tells; the second value is whether nothing happened that must not.
+/// Flies seeds from `first` and returns the report; the second value is whether no fault was found.
 pub(crate) fn run(flights: u64, first: u64) -> Result<(String, bool), SimulationError> {
     let seeds: Vec<u64> = (first..first.saturating_add(flights)).collect();
     let verdicts = parallel::map(&seeds, fly)?;
     let good = verdicts.iter().all(|verdict| verdict.faults.is_empty());
     let text = match verdicts.as_slice() {
-        [verdict] => story(verdict),
+        [verdict] => describe(verdict),
         _ => table(&verdicts) + &faults(&verdicts),
     };
     Ok((text, good))
 }
 
-/// What happened on one flight.
-fn story(verdict: &Verdict) -> String {
+/// Description of one flight.
+fn describe(verdict: &Verdict) -> String {
     let mut text = String::new();
     for line in &verdict.circumstances {
         _ = writeln!(text, "{line}");
@@ -74,9 +73,9 @@ fn table(verdicts: &[Verdict]) -> String {
     text
 }
 
-/// What must never happen and did: how often, and on which flights first.
+/// Faults found: how often, and the first flights with each.
 fn faults(verdicts: &[Verdict]) -> String {
-    /// So many flights of a kind are named.
+    /// Maximum number of flights listed for each kind.
     const NAMED: usize = 20;
     let mut by_kind: BTreeMap<String, Vec<(u64, &Fault)>> = BTreeMap::new();
     for verdict in verdicts {
@@ -96,7 +95,7 @@ fn faults(verdicts: &[Verdict]) -> String {
     text
 }
 
-/// One line for flights that ended alike.
+/// One line for flights with the same outcome.
 fn end(verdict: &Verdict) -> String {
     match (&verdict.outcome, verdict.landing) {
         (Outcome::PreflightRefused { .. }, _) => "refused before take-off".to_owned(),

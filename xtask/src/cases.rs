@@ -1,4 +1,4 @@
-//! What is flown: plans, airframes, conditions, laws.
+//! Cases to fly: plans, airframes, conditions, control laws.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use mock_drone::{DroneConfig, LinkFaults, WorldConfig};
 use nalgebra::Vector2;
 use system_tests::sim::Simulation;
 
-/// A plan and how long it stays at each target.
+/// A plan and its stay time at each target.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlanText {
     pub(crate) name: &'static str,
@@ -19,7 +19,7 @@ pub(crate) struct PlanText {
 
 const STAY: Duration = Duration::from_secs(2);
 
-/// The plans of the figures that we compare with.
+/// The plans of the published figures used for comparison.
 const FIGURES: [PlanText; 3] = [
     PlanText { name: "square1x1", text: include_str!("../../plans/square1x1.txt"), stay: STAY },
     PlanText { name: "xyz", text: include_str!("../../plans/xyz.txt"), stay: STAY },
@@ -36,18 +36,18 @@ const HOVER: [PlanText; 1] = [PlanText {
     stay: Duration::from_secs(30),
 }];
 
-/// The air and the link.
+/// Conditions of air and link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Day {
     /// No wind, nothing lost.
     Calm,
     /// Wind, a worse level reference, 3 % of all datagrams lost.
     Bad,
-    /// 10 % of all datagrams lost, and 100 ms more from the drone's motion to its next command.
+    /// 10 % of all datagrams lost, and 100 ms of additional delay round the loop.
     Late,
 }
 
-/// A case: what is flown with what.
+/// One case: an airframe under given conditions.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Case {
     pub(crate) airframe: &'static str,
@@ -57,8 +57,8 @@ pub(crate) struct Case {
     day: Day,
     navdata: NavdataRate,
     pub(crate) plans: &'static [PlanText],
-    /// The time that nobody can beat on the three plans together: per leg the time-optimal way from
-    /// rest to rest into the ball of 0.2 m.
+    /// Lower bound of the time for the three plans together: for each leg the time-optimal motion from rest
+    /// to rest into the ball of 0.2 m.
     pub(crate) bound_s: Option<f64>,
 }
 
@@ -90,11 +90,11 @@ pub(crate) const CASES: [Case; 12] = [
     Case { plans: &HOVER, bound_s: None, ..HARD },
 ];
 
-/// The one to beat first.
+/// The reference law first.
 pub(crate) const LAWS: [Law; 2] = [Law::Tum, Law::Cascade];
 
 impl Case {
-    /// The world and the pilot of one flight.
+    /// Simulated world and vehicle of one flight.
     pub(crate) fn simulation(&self, law: Law, seed: u64) -> Simulation {
         let mut drone = DroneConfig {
             seed,
@@ -113,7 +113,7 @@ impl Case {
             }
             Day::Late => {
                 link.loss = 0.1;
-                // There and back.
+                // In each direction.
                 link.delay = Duration::from_millis(50);
             }
         }

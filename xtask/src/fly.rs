@@ -1,4 +1,4 @@
-//! Flies every case with many seeds, on all cores, and tells how well it went.
+//! Flies every case with many seeds, on all cores, and reports how well it went.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use crate::plot;
 use crate::score::Scorer;
 use crate::table::{self, Flown};
 
-/// What went wrong with the measurement, not with a flight.
+/// Failure of the measurement itself, not of a flight.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum FlyError {
     #[error("a plan that is built in is wrong: {0}")]
@@ -23,7 +23,7 @@ pub(crate) enum FlyError {
     Write { path: PathBuf, source: io::Error },
 }
 
-/// Which flight of which case.
+/// One flight of one case.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Job {
     pub(crate) case: usize,

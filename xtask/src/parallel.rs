@@ -1,9 +1,9 @@
-//! Work on all cores.
+//! Parallel execution.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Does each job once, on as many threads as there are cores; results come in the order of the jobs.
+/// Runs all jobs on as many threads as there are cores; results are in the order of the jobs.
 ///
 /// # Errors
 /// One of the errors, if there are any.
@@ -36,7 +36,7 @@ pub(crate) fn map<J: Copy + Sync, R: Send, E: Send>(
     Ok(done.into_iter().map(|(_, result)| result).collect())
 }
 
-/// Does two things at once.
+/// Runs two functions in parallel.
 ///
 /// # Errors
 /// One of the errors, if there are any.
@@ -52,7 +52,7 @@ pub(crate) fn both<R: Send, E: Send>(
     })
 }
 
-/// A poisoned lock holds what was pushed before; nothing of it is half done.
+/// Ignores poisoning: values are pushed whole, so the data are consistent after a panic.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }

@@ -12,16 +12,15 @@ use crate::cases::{CASES, LAWS};
 use crate::fly::{FlyError, Job, fly};
 use crate::table::Row;
 
-/// The tum law and ours; told apart in print too.
+/// Colours of the tum and the cascade law, distinguishable in print too.
 const COLOURS: [RGBColor; 2] = [RGBColor(214, 96, 26), RGBColor(25, 95, 170)];
 const FONT: &str = "sans-serif";
 
-/// Which flight is drawn: the airframe that differs most from what is assumed, with the plan that
-/// moves it most.
+/// The flight to draw: the airframe that differs most from the assumed one, with the plan that moves it most.
 const DRAWN: Job = Job { case: 1, law: 0, plan: 2, seed: 1 };
-/// Seconds of it.
+/// Seconds of it to draw.
 const DRAWN_S: f64 = 55.0;
-/// A point for so many ticks.
+/// Ticks per point.
 const DRAWN_TICKS: usize = 4;
 
 pub(crate) fn write_all(folder: &Path, rows: &[Row]) -> Result<(), FlyError> {
@@ -52,9 +51,9 @@ fn write(
         })
 }
 
-/// Where a flight was and was to be.
+/// Positions and targets of a flight.
 struct Trace {
-    /// Seconds since the first target, place, target.
+    /// Seconds since the first target, position, target.
     moments: Vec<(f64, Vector3<f64>, Vector3<f64>)>,
 }
 
@@ -71,7 +70,7 @@ fn trace(job: Job) -> Result<Trace, FlyError> {
     Ok(Trace { moments })
 }
 
-/// Transit and overshoot of each case, both laws side by side.
+/// Transit time and overshoot of each case, both laws side by side.
 fn figures(area: &Drawing<'_>, rows: &[Row]) -> Drawn {
     let rows: Vec<&Row> = rows.iter().filter(|row| CASES[row.case].bound_s.is_some()).collect();
     let (left, right) = area.split_horizontally(450);
@@ -147,7 +146,7 @@ fn legend<'a>(
     Ok(())
 }
 
-/// Target and place over time, right, forward and up.
+/// Target and position over time: right, forward and up.
 fn flight(area: &Drawing<'_>, traces: &[Trace]) -> Drawn {
     let case = &CASES[DRAWN.case];
     let plan = case.plans[DRAWN.plan].name;

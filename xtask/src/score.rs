@@ -1,4 +1,4 @@
-//! How well a flight was flown, in the frame that navdata spans: drift is nobody's fault.
+//! Scores of flights, in the frame that navdata span, so that drift does not count.
 
 use std::time::Duration;
 
@@ -7,34 +7,33 @@ use autopilot::vehicle::FlightEvent;
 use nalgebra::{Vector2, Vector3};
 use system_tests::sim::{Moment, SimulatedFlight};
 
-/// The figures of one flight.
+/// Scores of one flight.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Score {
     /// Whether the plan was flown to its end.
     pub(crate) completed: bool,
-    /// Targets that were reached and stayed at.
+    /// Targets that were reached and held for their stay time.
     pub(crate) waypoints: usize,
-    /// From the start of the first target to the end of the last stay, without the stays.
+    /// Time from the start of the first target to the end of the last stay, without the stays.
     pub(crate) transit_s: f64,
-    /// How far each leg went beyond its target, along its direction.
+    /// Overshoot of each leg along its direction.
     pub(crate) overshoots_m: Vec<f64>,
-    /// Mean squared distance from the target late in each stay.
+    /// Mean squared distance from the target in the late part of each stay.
     pub(crate) late_square_m2: Vec<f64>,
-    /// How far the place had drifted from the truth at the end: the drone's own velocity, integrated
-    /// without delay.
+    /// Position drift at the end of integrated odometry: the drone's own velocity, without delay.
     pub(crate) odometry_drift_m: f64,
-    /// Likewise the pilot's estimate.
+    /// Position drift at the end of the estimate.
     pub(crate) estimate_drift_m: f64,
 }
 
-/// A leg: its step and how it was flown.
+/// A leg: its step and its measurements.
 struct Leg {
     step: usize,
     target: Vector3<f64>,
     places: Vec<(Duration, Vector3<f64>)>,
 }
 
-/// Watches a flight whose plan stays so long at each target.
+/// Measures a flight with a given stay time at each target.
 pub(crate) struct Scorer {
     stay: Duration,
     legs: Vec<Leg>,
@@ -63,18 +62,18 @@ impl Scorer {
                 return;
             }
         };
-        // The agent holds the last target for a tick before it takes the next.
+        // The agent holds the last target for one tick before it takes the next.
         leg.target = target;
         leg.places.push((moment.now, place));
     }
 
-    /// How long before a stay's end the place is judged: the second half of a short one; all but the
-    /// first five seconds of a long one.
+    /// Duration of the evaluated part of a stay: the second half of a short one; all but the first five
+    /// seconds of a long one.
     fn late(&self) -> Duration {
         (self.stay / 2).max(self.stay.saturating_sub(Duration::from_secs(5)))
     }
 
-    /// The figures, once the flight is over.
+    /// The scores of the finished flight.
     pub(crate) fn score(&self, flight: &SimulatedFlight) -> Score {
         let when = |wanted: fn(&FlightEvent) -> Option<usize>, step: usize| {
             let mut events = flight.events.iter();

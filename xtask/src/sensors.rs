@@ -1,4 +1,4 @@
-//! One sensor at a time, and a table of how far the drone was led astray.
+//! One failing sensor at a time, and a table of how far the drone was led astray.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use system_tests::sim::SimulationError;
 
 use crate::parallel;
 
-/// One flight that was furthest astray, and which it was.
+/// The worst flight, and which it was.
 #[derive(Debug, Clone, Copy)]
 struct Worst {
     metres: f64,
@@ -25,7 +25,7 @@ impl Worst {
     }
 }
 
-/// What became of one failure.
+/// Results of one failure.
 #[derive(Debug, Clone)]
 struct Row {
     name: String,
@@ -67,8 +67,8 @@ impl Row {
     }
 }
 
-/// Flies every failure in every situation on every airframe with so many seeds; the second value is
-/// whether no drone was led too far.
+/// Flies every failure in every situation on every airframe with `seeds` seeds; the second value is whether
+/// no drone was led too far.
 pub(crate) fn run(seeds: u64) -> Result<(String, bool), SimulationError> {
     let failures = failures();
     let mut jobs = Vec::new();
@@ -94,7 +94,7 @@ pub(crate) fn run(seeds: u64) -> Result<(String, bool), SimulationError> {
     Ok((table(&rows), good))
 }
 
-/// What navdata cannot show is marked: it is told and not judged.
+/// Failures that navdata cannot show are marked: they are reported but not judged.
 fn row_of(failure: &Failure) -> Row {
     Row::new(&format!("{}{}", failure.name, if failure.shows() { "" } else { " *" }))
 }

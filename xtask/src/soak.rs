@@ -1,6 +1,6 @@
-//! Flights in a row over UDP, as processes: random faults of the air, signals, floods, closed output.
-//! Whatever is done to the pilot, the drone must come down; that is judged from what really happened to
-//! the drone, never from what the pilot says.
+//! Soak test: flights over UDP, as processes, with random faults of the air, signals, floods and closed
+//! output. Whatever is done to the pilot process, the drone must come down. This is judged by the mock
+//! drone's log, never by the pilot's output.
 
 mod bench;
 mod judge;
@@ -17,27 +17,28 @@ use self::bench::{BenchError, Programs};
 use self::judge::Verdict;
 use self::script::Script;
 
-/// What is flown.
+/// Arguments of the soak test.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct Arguments {
-    /// No flight begins after so many minutes
+    /// No flight begins after this many minutes
     #[arg(long, value_name = "N", default_value_t = 60)]
     minutes: u64,
-    /// The first seed; flight by flight the next one
+    /// The first seed; each further flight takes the next one
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     first: u64,
-    /// Flights at a time
+    /// Number of flights at a time
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u64).range(1..=64))]
     parallel: u64,
-    /// Not more flights than this
+    /// Maximum number of flights
     #[arg(long, value_name = "N")]
     flights: Option<u64>,
-    /// Another pilot, to see whether the judge finds its faults
+    /// Another pilot program, to see whether the judge finds its faults
     #[arg(long, value_name = "PROGRAM")]
     pilot: Option<PathBuf>,
 }
 
-/// Flies until the time is over, and tells; the second value is whether nothing was left in the air.
+/// Flies until the time is over and returns the report; the second value is whether no drone was left in the
+/// air.
 pub(crate) fn run(arguments: &Arguments) -> Result<(String, bool), BenchError> {
     let programs = Programs::build(arguments.pilot.clone())?;
     let time = Duration::from_mins(arguments.minutes);
@@ -109,7 +110,7 @@ fn table(flown: &[(Script, Verdict)]) -> String {
     text
 }
 
-/// What really goes on is watched in real time.
+/// Processes are watched in real time.
 fn now() -> Instant {
     #[allow(clippy::disallowed_methods, reason = "processes are watched in real time")]
     Instant::now()

@@ -1,4 +1,4 @@
-//! The figures of many flights, as a table and as lines of CSV.
+//! Scores of many flights as a table and as CSV.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use std::path::Path;
 use crate::cases::{CASES, LAWS};
 use crate::score::{Score, mean};
 
-/// One flight and its figures.
+/// One flight with its scores.
 pub(crate) struct Flown {
     pub(crate) law: usize,
     pub(crate) case: usize,
@@ -17,7 +17,7 @@ pub(crate) struct Flown {
     pub(crate) score: Score,
 }
 
-/// What one law did in one case: sums over the plans, means over the seeds.
+/// Results of one law in one case: sums over the plans, means over the seeds.
 pub(crate) struct Row {
     pub(crate) case: usize,
     pub(crate) law: usize,
@@ -27,7 +27,7 @@ pub(crate) struct Row {
     pub(crate) overshoot_mean_m: f64,
     pub(crate) overshoot_worst_m: f64,
     pub(crate) late_rmse_m: f64,
-    /// The estimate's drift as a multiple of the odometry's, both as root mean squares.
+    /// Drift of the estimate relative to that of the odometry, both as root mean squares.
     pub(crate) drift: f64,
 }
 

@@ -14,7 +14,7 @@ macro_rules! animations {
             /// All of them, in the order of their numbers.
             pub const ALL: &[Self] = &[$(Self::$variant),*];
 
-            /// The number on the wire.
+            /// The number in the AT command.
             pub fn number(self) -> u32 {
                 match self {
                     $(Self::$variant => $number,)*
@@ -42,7 +42,7 @@ macro_rules! animations {
 }
 
 animations! {
-    /// A motion that the drone carries out by itself. All need height and charge.
+    /// A motion that the drone carries out by itself. All of them need height and battery charge.
     FlightAnimation {
         /// Rolls left by 30°.
         PhiMinus30 = 0, "phiM30Deg";
@@ -88,7 +88,7 @@ animations! {
 }
 
 impl FlightAnimation {
-    /// The duration that Parrot gives it.
+    /// The duration recommended by Parrot.
     pub fn usual_duration(self) -> Duration {
         Duration::from_millis(match self.number() {
             0..=5 => 1000,
@@ -114,7 +114,7 @@ animations! {
         SnakeGreenRed = 4, "snakeGreenRed";
         /// Fire.
         Fire = 5, "fire";
-        /// What the drone shows by itself.
+        /// The drone's own display.
         Standard = 6, "standard";
         /// Red.
         Red = 7, "red";
@@ -142,7 +142,7 @@ animations! {
         LeftGreenRightRed = 18, "leftGreenRightRed";
         /// Left red, right green.
         LeftRedRightGreen = 19, "leftRedRightGreen";
-        /// Blinks what the drone shows by itself.
+        /// Blinks the drone's own display.
         BlinkStandard = 20, "blinkStandard";
     }
 }

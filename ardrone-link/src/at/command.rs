@@ -1,4 +1,4 @@
-//! The commands, as types that cannot hold what must not be sent.
+//! AT commands, as types that cannot represent invalid values.
 
 use super::animation::{FlightAnimation, Hertz, LedAnimation};
 use super::config::Config;
@@ -8,19 +8,19 @@ use super::config::Config;
 pub enum Command {
     /// Take-off, landing, emergency: a level that is repeated in every datagram.
     Ref(Ref),
-    /// How to move, or to hold still.
+    /// Stick positions, or hold position.
     Pcmd(Motion),
-    /// As [`Command::Pcmd`], and where the pilot's own compass points: the drone then takes roll and
-    /// pitch as the pilot sees them.
+    /// As [`Command::Pcmd`], with the heading of the operator's compass: roll and pitch are then relative to
+    /// the operator.
     PcmdMagneto {
         /// The motion.
         motion: Motion,
-        /// The pilot's heading as a fraction of 180°, east positive.
+        /// The operator's heading as a fraction of 180°, east positive.
         heading: Fraction,
-        /// Its error, or less than zero if it is not known.
+        /// Accuracy of the heading; negative if unknown.
         accuracy: Fraction,
     },
-    /// Level reference. Only on flat ground, landed.
+    /// Sets the level reference. Only on flat ground, landed.
     FlatTrim,
     /// Calibrates the compass. Only in flight: the drone turns on itself.
     CalibrateMagneto,
@@ -30,7 +30,7 @@ pub enum Command {
         animation: LedAnimation,
         /// Its frequency in hertz, 0 to 60.
         frequency: Hertz,
-        /// How long, in seconds.
+        /// Duration in seconds.
         seconds: u32,
     },
     /// Starts a flight animation; the drone's second generation prefers
@@ -38,14 +38,14 @@ pub enum Command {
     Animation {
         /// The animation.
         animation: FlightAnimation,
-        /// How long, in milliseconds.
+        /// Duration in milliseconds.
         milliseconds: u32,
     },
-    /// What Parrot's clients send once at the start; its meaning is not documented.
+    /// Sent once at the start by Parrot's clients; its meaning is not documented.
     Pmode(i32),
     /// Likewise.
     Misc([i32; 4]),
-    /// Trims of the first generation.
+    /// Trims of the first generation of the drone.
     ManualTrim {
         /// Pitch.
         pitch: Fraction,
@@ -95,8 +95,8 @@ impl Ref {
         }
     }
 
-    /// What a drone makes of an argument: it looks at bits 8 and 9 only, and the emergency bit
-    /// is the stronger one.
+    /// Decodes an argument as the drone does: it uses only bits 8 and 9, and the emergency bit takes
+    /// precedence.
     pub fn from_bits(bits: u32) -> Self {
         if bits & Self::EMERGENCY != 0 {
             Self::ToggleEmergency
@@ -112,7 +112,7 @@ impl Ref {
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub struct Fraction(f32);
 
-// A fraction is never NaN.
+// A fraction is never NaN, so equality is reflexive.
 impl Eq for Fraction {}
 
 impl Fraction {
@@ -121,16 +121,16 @@ impl Fraction {
 
     /// The value if it is in \[-1, 1\].
     pub fn new(value: f32) -> Option<Self> {
-        // Adding zero turns -0.0, which prints as -2147483648, into 0.0.
+        // Adding zero turns -0.0, which would be sent as -2147483648, into 0.0.
         (-1.0..=1.0).contains(&value).then_some(Self(value + 0.0))
     }
 
-    /// The nearest value in \[-1, 1\]; NaN becomes zero, the value that moves nothing.
+    /// The nearest value in \[-1, 1\]; NaN becomes zero, which is no motion.
     pub fn saturating(value: f64) -> Self {
         if value.is_nan() {
             return Self::ZERO;
         }
-        // The range check makes the narrowing harmless.
+        // Narrowing is safe after the range check.
         #[allow(clippy::cast_possible_truncation)]
         let narrowed = value.clamp(-1.0, 1.0) as f32;
         Self(narrowed + 0.0)
@@ -142,20 +142,20 @@ impl Fraction {
     }
 }
 
-/// Whose configuration is meant. Parrot's clients take the session at random, the others from the
+/// Identifies a custom configuration. Parrot's clients choose the session at random, other clients take the
 /// CRC-32 of a name. Zeros are the default configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Identity {
-    /// This session.
+    /// The session.
     pub session: u32,
-    /// The person who flies.
+    /// The user.
     pub user: u32,
-    /// The program that flies.
+    /// The application.
     pub application: u32,
 }
 
 impl Identity {
-    /// An id as the drone wants it: eight lower-case hexadecimal digits.
+    /// An id as the drone expects it: eight lower-case hexadecimal digits.
     pub fn text(id: u32) -> String {
         format!("{id:08x}")
     }
@@ -167,15 +167,15 @@ pub enum Motion {
     /// Flag 0: the drone holds its position with the bottom camera.
     #[default]
     Hover,
-    /// Flag 1: fractions of the configured limits.
+    /// Flag 1: stick positions as fractions of the configured limits.
     Progressive {
-        /// Positive flies right; of `control:euler_angle_max`.
+        /// Positive rolls right; fraction of `control:euler_angle_max`.
         roll: Fraction,
-        /// Positive flies **backward**; of `control:euler_angle_max`.
+        /// Positive pitches nose up and flies **backward**; fraction of `control:euler_angle_max`.
         pitch: Fraction,
-        /// Positive climbs; of `control:control_vz_max`.
+        /// Positive climbs; fraction of `control:control_vz_max`.
         gaz: Fraction,
-        /// Positive turns clockwise seen from above; of `control:control_yaw`.
+        /// Positive turns clockwise seen from above; fraction of `control:control_yaw`.
         yaw: Fraction,
     },
 }
@@ -194,7 +194,7 @@ pub enum ControlMode {
 }
 
 impl ControlMode {
-    /// The argument on the wire.
+    /// The argument in the AT command.
     pub fn number(self) -> i32 {
         match self {
             Self::SendConfiguration => 4,

@@ -1,4 +1,4 @@
-//! The settings that AT*CONFIG carries.
+//! Keys and values of AT*CONFIG.
 
 use std::fmt;
 use std::time::Duration;
@@ -28,12 +28,12 @@ pub enum ConfigError {
         /// The text.
         text: String,
     },
-    /// The text is longer than any value the drone takes.
+    /// The text is longer than any value that the drone accepts.
     #[error("`{text}` is longer than {limit} bytes")]
     Length {
         /// The text.
         text: String,
-        /// The longest that is sent.
+        /// The maximum length.
         limit: usize,
     },
 }
@@ -67,7 +67,7 @@ impl Config {
         Ok(Self { key, value })
     }
 
-    /// A setting whose text is known to be short and plain.
+    /// A setting whose text is known to be valid.
     pub(crate) fn plain(key: &'static str, value: String) -> Self {
         Self { key: key.to_owned(), value }
     }
@@ -84,13 +84,13 @@ impl Config {
 }
 
 impl Config {
-    /// Starts a flight animation, for so long.
+    /// Starts a flight animation of this duration.
     pub fn flight_animation(animation: FlightAnimation, duration: Duration) -> Self {
         let value = format!("{},{}", animation.number(), duration.as_millis());
         Self::plain("control:flight_anim", value)
     }
 
-    /// Starts an LED animation with this frequency, for so long.
+    /// Starts an LED animation with this frequency and duration.
     pub fn led_animation(animation: LedAnimation, frequency: Hertz, duration: Duration) -> Self {
         let bits = frequency.get().to_bits().cast_signed();
         let value = format!("{},{bits},{}", animation.number(), duration.as_secs());
@@ -102,7 +102,7 @@ impl Config {
 mod tests {
     use super::*;
 
-    /// The string that node-ar-drone sends for the same.
+    /// The string that node-ar-drone sends for this setting.
     #[test]
     fn an_led_animation_is_encoded_as_other_clients_encode_it() {
         let frequency = Hertz::new(5.0).unwrap();

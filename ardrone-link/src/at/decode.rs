@@ -1,4 +1,4 @@
-//! Bytes to commands, as lenient as the firmware is known to be.
+//! Decodes AT commands, as leniently as the firmware is known to do.
 
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_till, take_while1};
@@ -13,14 +13,14 @@ use super::animation::{FlightAnimation, LedAnimation};
 use super::command::{Command, ControlMode, Fraction, Identity, Motion, Ref};
 use super::config::Config;
 
-/// What is wrong with one command of a datagram.
+/// Why a command of a datagram cannot be decoded.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DecodeError {
     /// Not of the form `AT*NAME=sequence,arguments`.
     #[error("malformed AT command `{command}`")]
     Malformed {
-        /// The command as far as it can be printed.
+        /// The command, made printable.
         command: String,
     },
     /// Too few arguments, or some of the wrong type or out of range.
@@ -31,8 +31,8 @@ pub enum DecodeError {
     },
 }
 
-/// The commands of a datagram with their sequence numbers, in order. Empty lines are skipped;
-/// carriage return, line feed or both end a command; further arguments are ignored.
+/// Decodes the commands of a datagram with their sequence numbers, in order. Empty lines are skipped;
+/// carriage return, line feed or both end a command; surplus arguments are ignored.
 pub fn decode(datagram: &[u8]) -> impl Iterator<Item = Result<(u32, Command), DecodeError>> {
     datagram
         .split(|byte| matches!(byte, b'\r' | b'\n' | 0))
@@ -47,7 +47,7 @@ enum Argument<'a> {
 }
 
 impl Argument<'_> {
-    /// An integer; clients print 32 bits signed or unsigned.
+    /// An integer. Clients print 32 bits signed or unsigned.
     fn bits(&self) -> Option<u32> {
         match self {
             Self::Number(number) => u32::try_from(*number)
@@ -202,7 +202,7 @@ mod tests {
                 Ok((3, Command::Ref(Ref::TakeOff))),
             ]
         );
-        // A float printed unsigned, as one client does.
+        // A float printed as an unsigned integer, as one client does.
         let fraction = Fraction::new(-0.2).unwrap();
         let motion = Motion::Progressive {
             roll: fraction,

@@ -1,4 +1,4 @@
-//! Commands to bytes.
+//! Encodes AT commands.
 
 use std::fmt::Write as _;
 
@@ -6,20 +6,20 @@ use bytes::BytesMut;
 
 use super::command::{Command, Identity, Motion};
 
-/// The drone takes at most this many bytes in one datagram.
+/// Maximum size of a datagram that the drone accepts.
 pub const MAX_DATAGRAM_BYTES: usize = 1024;
 
 /// Why a command was not added to a datagram.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EncodeError {
-    /// The datagram would become longer than the drone takes; it is unchanged.
+    /// The datagram would exceed the drone's limit; it is unchanged.
     #[error("datagram is full: {bytes} bytes are needed, {MAX_DATAGRAM_BYTES} are allowed")]
     Full {
-        /// The length it would have.
+        /// The size it would have.
         bytes: usize,
     },
-    /// The command is only ever decoded.
+    /// The command exists only for decoding.
     #[error("`AT*{name}` is not a command that a client sends")]
     NotSendable {
         /// The command's name.
@@ -42,7 +42,7 @@ impl Default for Datagram {
 impl Datagram {
     /// An empty datagram.
     pub fn new() -> Self {
-        // Twice the limit: a command is written first and taken back if it was too long.
+        // Twice the limit, because a command is written first and removed if it was too long.
         Self { buffer: BytesMut::with_capacity(2 * MAX_DATAGRAM_BYTES) }
     }
 
@@ -79,7 +79,7 @@ impl Datagram {
             }
             Command::PcmdMagneto { motion, heading, accuracy } => {
                 let [flag, roll, pitch, gaz, yaw] = motion_arguments(*motion);
-                // The absolute mode, unless the drone is to hover.
+                // Sets the absolute mode unless the drone shall hover.
                 let flag = if flag == 0 { 0 } else { flag | ABSOLUTE };
                 let heading = float_argument(heading.get());
                 let accuracy = float_argument(accuracy.get());
@@ -125,7 +125,7 @@ impl Datagram {
     }
 }
 
-/// Bit 2 of a motion's flag: roll and pitch are as the pilot sees them.
+/// Bit 2 of the flag: roll and pitch are relative to the operator (absolute control).
 const ABSOLUTE: i32 = 4;
 
 /// Flag, roll, pitch, gaz, yaw.
@@ -140,7 +140,7 @@ fn motion_arguments(motion: Motion) -> [i32; 5] {
     }
 }
 
-/// A float's IEEE-754 bits, printed as a signed integer.
+/// The IEEE-754 bits of a float, printed as a signed integer.
 fn float_argument(value: f32) -> i32 {
     value.to_bits().cast_signed()
 }

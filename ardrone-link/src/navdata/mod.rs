@@ -1,7 +1,7 @@
-//! What the drone says: state bits and tagged options, little-endian and packed.
+//! Navdata, the drone's telemetry: state bits and tagged options, little-endian and packed.
 //!
-//! [`Packet`] checks a datagram without copying it and gives out its [`NavdataOption`]s; [`Navdata`]
-//! is the part that every pilot needs. [`PacketWriter`] is the drone's side.
+//! [`Packet`] validates a datagram without copying it and yields its [`NavdataOption`]s; [`Navdata`] is the
+//! part that every client needs. [`PacketWriter`] is the drone's side.
 
 mod options;
 mod packet;

@@ -4,11 +4,11 @@ use bytes::{BufMut, BytesMut};
 use nom::number::complete::{le_u16, le_u32};
 use nom::{IResult, Parser};
 
-use super::options::{Demo, NavdataOption, Time};
+use super::options::{Demo, NavdataOption, Time, VisionDetect};
 use super::state::DroneState;
 
 const MAGIC: u32 = 0x5566_7788;
-/// The firmware's own buffer; nothing longer is navdata.
+/// Size of the firmware's own buffer; no packet is longer.
 const MAX_PACKET_BYTES: usize = 4096;
 pub(super) const OPTION_HEADER_BYTES: usize = 4;
 const CHECKSUM_BYTES: usize = 8;
@@ -18,10 +18,10 @@ const TAG_CHECKSUM: u16 = 0xFFFF;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NavdataError {
-    /// The packet ends early.
+    /// The packet ends too early.
     #[error("navdata ends within its {part}")]
     Truncated {
-        /// What was being read.
+        /// The part that was being read.
         part: &'static str,
     },
     /// It does not start with the navdata magic number.
@@ -30,7 +30,7 @@ pub enum NavdataError {
         /// The first word.
         found: u32,
     },
-    /// An option says that it is shorter than its own header, or longer than the packet.
+    /// An option's size is smaller than its header, or exceeds the packet.
     #[error("navdata option {tag} with impossible size {size}")]
     OptionSize {
         /// The option's tag.
@@ -38,24 +38,24 @@ pub enum NavdataError {
         /// The size it claims.
         size: u16,
     },
-    /// The sum does not fit.
+    /// The checksum is wrong.
     #[error("navdata checksum is {found:#010x}, the bytes sum to {computed:#010x}")]
     Checksum {
-        /// What the packet says.
+        /// Checksum in the packet.
         found: u32,
-        /// What its bytes sum to.
+        /// Checksum of its bytes.
         computed: u32,
     },
-    /// More bytes than the firmware ever sends.
+    /// The packet is longer than any that the firmware sends.
     #[error("navdata packet of {bytes} bytes")]
     TooLong {
-        /// The datagram's length.
+        /// Length of the datagram.
         bytes: usize,
     },
 }
 
-/// A packet that has been checked: its header, the size of each option, its checksum. Nothing is
-/// copied and nothing allocated; options are read when they are asked for.
+/// A validated packet: header, option sizes and checksum are correct. Nothing is copied or allocated; options
+/// are decoded on demand.
 ///
 /// ```
 /// use ardrone_link::navdata::{Altitude, NavdataOption, Packet};
@@ -71,7 +71,7 @@ pub enum NavdataError {
 pub struct Packet<'a> {
     /// The state bits.
     pub state: DroneState,
-    /// Counts packets; starts again when the drone does.
+    /// Sequence number; restarts when the drone does.
     pub sequence: u32,
     /// The header's vision word.
     pub vision: u32,
@@ -79,11 +79,11 @@ pub struct Packet<'a> {
 }
 
 impl<'a> Packet<'a> {
-    /// Checks a packet.
+    /// Validates a packet.
     ///
     /// # Errors
-    /// [`NavdataError`]: nothing of a damaged packet is used. Unknown options and options of
-    /// unknown size are no damage.
+    /// [`NavdataError`] if the packet is damaged; none of it is used then. Unknown options, and known ones
+    /// with an unknown size, are not damage.
     pub fn decode(packet: &'a [u8]) -> Result<Self, NavdataError> {
         if packet.len() > MAX_PACKET_BYTES {
             return Err(NavdataError::TooLong { bytes: packet.len() });
@@ -116,28 +116,33 @@ impl<'a> Packet<'a> {
         }
     }
 
-    /// The options in their order, the checksum not among them.
+    /// The options in their order, without the checksum.
     pub fn options(&self) -> impl Iterator<Item = NavdataOption<'a>> + use<'a> {
         RawOptions { rest: self.options }.map(|(tag, payload)| NavdataOption::decode(tag, payload))
     }
 
-    /// The first option with this tag, without tag and size.
+    /// Payload of the first option with this tag.
     fn payload(&self, tag: u16) -> Option<&'a [u8]> {
         RawOptions { rest: self.options }.find(|(found, _)| *found == tag).map(|(_, bytes)| bytes)
     }
 
-    /// Attitude, altitude, velocity, battery, if they are in the packet.
+    /// Attitude, altitude, velocity and battery, if included.
     pub fn demo(&self) -> Option<Demo> {
         self.payload(0).and_then(Demo::read)
     }
 
-    /// The drone's clock, if it is in the packet.
+    /// What the cameras have found, if it is in the packet.
+    pub fn vision_detect(&self) -> Option<VisionDetect> {
+        self.payload(16).and_then(VisionDetect::read)
+    }
+
+    /// The drone's clock, if included.
     pub fn time(&self) -> Option<Time> {
         self.payload(1).and_then(Time::read)
     }
 }
 
-/// Tags and payloads of options whose sizes have been checked.
+/// Tags and payloads of options with validated sizes.
 struct RawOptions<'a> {
     rest: &'a [u8],
 }
@@ -184,11 +189,11 @@ impl<'a> PacketWriter<'a> {
         Self { out, start }
     }
 
-    /// Adds an option.
+    /// Appends an option.
     ///
     /// # Errors
-    /// [`NavdataError::TooLong`] if the packet would become longer than any that the firmware
-    /// sends; it is unchanged then.
+    /// [`NavdataError::TooLong`] if the packet would become longer than any that the firmware sends; it is
+    /// unchanged then.
     pub fn option(&mut self, option: &NavdataOption<'_>) -> Result<(), NavdataError> {
         let before = self.out.len();
         self.out.put_u16_le(option.tag());
@@ -204,7 +209,7 @@ impl<'a> PacketWriter<'a> {
         Ok(())
     }
 
-    /// Ends the packet with its checksum.
+    /// Completes the packet with its checksum.
     pub fn finish(self) {
         let sum = checksum(&self.out[self.start..]);
         self.out.put_u16_le(TAG_CHECKSUM);

@@ -24,23 +24,23 @@ bitflags! {
         const NAVDATA_BOOTSTRAP = 1 << 11;
         /// A motor is broken or blocked.
         const MOTORS_PROBLEM = 1 << 12;
-        /// The drone has not heard from its pilot for two seconds.
+        /// The drone has not received commands for two seconds.
         const COMMUNICATION_LOST = 1 << 13;
-        /// The firmware has found a fault in itself.
+        /// The firmware has detected an internal fault.
         const SOFTWARE_FAULT = 1 << 14;
-        /// The battery is too low to fly: the drone lands by itself soon.
+        /// The battery is too low to fly: the drone will soon land by itself.
         const BATTERY_LOW = 1 << 15;
-        /// The pilot's emergency bit stopped the motors.
+        /// A client's emergency bit stopped the motors.
         const USER_EMERGENCY = 1 << 16;
         /// The attitude left the range in which the drone can fly.
         const ANGLES_OUT_OF_RANGE = 1 << 19;
         /// The wind is too strong.
         const TOO_MUCH_WIND = 1 << 20;
-        /// The ultrasound sensor hears nothing.
+        /// The ultrasound sensor receives no echo.
         const ULTRASOUND_DEAF = 1 << 21;
         /// A motor was cut out.
         const CUTOUT_DETECTED = 1 << 22;
-        /// The version of the motor controller fits.
+        /// The version of the motor controller is compatible.
         const PIC_VERSION_OK = 1 << 23;
         /// The thread that reads AT commands runs.
         const AT_THREAD = 1 << 24;
@@ -50,17 +50,17 @@ bitflags! {
         const VIDEO_THREAD = 1 << 26;
         /// The acquisition thread runs.
         const ACQUISITION_THREAD = 1 << 27;
-        /// The drone has not heard from its pilot for 50 ms.
+        /// The drone has not received commands for 50 ms.
         const COMMUNICATION_WATCHDOG = 1 << 30;
         /// Emergency: the motors are cut.
         const EMERGENCY = 1 << 31;
 
-        // The drone sets bits that have no name here; they must survive a round trip.
+        // The drone sets bits without a name here, which must survive a round trip.
         const _ = !0;
     }
 }
 
-/// What the drone's controller is doing: the high half of the demo option's first word.
+/// The major control state: the high half of the demo option's first word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ControlState {
     /// Before anything else.
@@ -84,12 +84,12 @@ pub enum ControlState {
     Landing,
     /// A flip.
     Looping,
-    /// A number that the documents do not name.
+    /// A number that Parrot's documents do not name.
     Unknown(u16),
 }
 
 impl ControlState {
-    /// Its name, the same in every version: for logs. Numbers without a name are `Unknown`.
+    /// Name for logs, stable across versions. Numbers without a name are `Unknown`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Default => "Default",
@@ -106,7 +106,7 @@ impl ControlState {
         }
     }
 
-    /// The major number on the wire.
+    /// The major number in the packet.
     pub fn number(self) -> u16 {
         match self {
             Self::Default => 0,

@@ -1,4 +1,4 @@
-//! What a pilot needs of a packet, as a value of its own.
+//! The part of a packet that every client needs, as a value of its own.
 
 use std::time::Duration;
 
@@ -6,12 +6,12 @@ use super::options::Demo;
 use super::packet::{NavdataError, Packet};
 use super::state::DroneState;
 
-/// The part of a packet that every pilot needs. What was not sent is `None`.
+/// The part of a packet that every client needs. Options that were not sent are `None`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Navdata {
     /// The state bits.
     pub state: DroneState,
-    /// Counts packets; starts again when the drone does.
+    /// Sequence number; restarts when the drone does.
     pub sequence: u32,
     /// The header's vision word.
     pub vision: u32,
@@ -22,10 +22,10 @@ pub struct Navdata {
 }
 
 impl Navdata {
-    /// Reads a packet.
+    /// Decodes a packet.
     ///
     /// # Errors
-    /// [`NavdataError`]: nothing of a damaged packet is used.
+    /// [`NavdataError`] if the packet is damaged; none of it is used then.
     pub fn decode(packet: &[u8]) -> Result<Self, NavdataError> {
         Packet::decode(packet).map(|packet| Self::from(&packet))
     }

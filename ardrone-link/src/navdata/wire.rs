@@ -1,7 +1,6 @@
-//! How values lie on the wire: little-endian, packed, in the firmware's units.
+//! Wire representation of values: little-endian, packed, in the firmware's units.
 //!
-//! `option!` makes a struct, its decoder and its encoder from one table, so that
-//! they cannot disagree.
+//! `option!` generates a struct, its decoder and its encoder from one table, so that they always agree.
 
 use std::time::Duration;
 
@@ -9,14 +8,14 @@ use bytes::{Buf, BufMut};
 
 use super::state::ControlState;
 
-/// Something that stands at a fixed place in an option.
+/// A field with a fixed offset in an option.
 pub(super) trait Wire {
-    /// What it means.
+    /// The decoded value.
     type Value;
-    /// How long it is.
+    /// Size in bytes.
     const BYTES: usize;
 
-    /// Reads it; the caller has looked that there are enough bytes.
+    /// Decodes it; the caller has checked that there are enough bytes.
     fn read(bytes: &mut &[u8]) -> Self::Value;
     fn write(value: Self::Value, out: &mut impl BufMut);
 }
@@ -63,7 +62,7 @@ impl<W: Wire<Value: Copy>, const N: usize> Wire for [W; N] {
     }
 }
 
-/// A number that can be turned into `f64` without loss, and back to the nearest one.
+/// A number that converts to `f64` without loss, and back to the nearest value.
 pub(super) trait Number: Wire<Value = Self> + Copy {
     fn widen(self) -> f64;
     fn narrow(value: f64) -> Self;
@@ -158,7 +157,7 @@ impl Wire for ClockWord {
     fn read(bytes: &mut &[u8]) -> Duration {
         let word = bytes.get_u32_le();
         let micros = u64::from(word >> 21) * 1_000_000 + u64::from(word & 0x1F_FFFF);
-        // More than a million microseconds make no time, but they must not make one beyond the wrap.
+        // More than a million microseconds are invalid, but must not lead beyond the wrap-around.
         Duration::from_micros(micros % (Self::WRAP_S * 1_000_000))
     }
 
@@ -168,8 +167,8 @@ impl Wire for ClockWord {
     }
 }
 
-/// Makes the struct of an option. `field: type as wire` says what it means and how it lies; a field
-/// behind `newer` is only in packets of newer firmware.
+/// Generates the struct of an option. `field: type as wire` gives the type of the decoded value and its wire
+/// representation; fields behind `newer` exist only in packets of newer firmware.
 macro_rules! option {
     (
         $(#[$doc:meta])*
@@ -188,7 +187,7 @@ macro_rules! option {
         impl $name {
             const PAYLOAD_BYTES: usize = $size - crate::navdata::packet::OPTION_HEADER_BYTES;
 
-            /// Reads the option; nothing if it is too short. What newer firmware appends is left.
+            /// Decodes the option; `None` if it is too short. Bytes appended by newer firmware are ignored.
             pub(in crate::navdata) fn read(payload: &[u8]) -> Option<Self> {
                 const {
                     let sum = 0 $(+ <$wire as crate::navdata::wire::Wire>::BYTES)*;

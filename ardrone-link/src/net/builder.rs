@@ -1,4 +1,4 @@
-//! How a client is set up.
+//! Builder of the client.
 
 use std::io;
 use std::net::SocketAddr;
@@ -19,12 +19,12 @@ use crate::at::Identity;
 use crate::session::{Session, SessionConfig};
 use crate::settings::{NavdataMode, Setting};
 
-/// Blocks of the configuration that wait to be taken in.
+/// Capacity of the queue of configuration blocks.
 const MAX_CONTROL_BLOCKS: usize = 16;
-/// The system's resolver may take much longer.
+/// Timeout of name resolution; the system's own may be much longer.
 const RESOLVE_LIMIT: Duration = Duration::from_secs(10);
 
-/// Sets up a [`Client`]. Without any call it is for a drone at its own address, in demo mode, with the
+/// Configures a [`Client`]. By default it connects to a drone at its standard address, in demo mode, with the
 /// drone's own limits.
 ///
 /// ```
@@ -65,78 +65,78 @@ impl Default for ClientBuilder {
 }
 
 impl Client {
-    /// A client for a drone at its own address, to be set up and started.
+    /// A builder with the default values.
     pub fn builder() -> ClientBuilder {
         ClientBuilder::default()
     }
 }
 
 impl ClientBuilder {
-    /// Where the drone is; 192.168.1.1 with the drone's own ports by default.
+    /// Address of the drone; by default 192.168.1.1 with the drone's standard ports.
     pub fn address(mut self, address: DroneAddress) -> Self {
         self.address = address;
         self
     }
 
-    /// The drone's name or address, with the ports as they are.
+    /// Host name or IP address of the drone; the ports are not changed.
     pub fn host(mut self, host: impl Into<String>) -> Self {
         self.address.host = host.into();
         self
     }
 
-    /// What navdata the drone sends; [`NavdataMode::Demo`] by default.
+    /// Navdata requested from the drone; [`NavdataMode::Demo`] by default.
     pub fn navdata(mut self, mode: NavdataMode) -> Self {
         self.navdata = mode;
         self
     }
 
-    /// Adds a setting. They are made in the order of these calls, also after the drone was lost or has
-    /// started again.
+    /// Adds a setting. Settings are applied in the order of these calls, and applied again after the drone
+    /// was lost or has restarted.
     pub fn setting(mut self, setting: Setting) -> Self {
         self.settings.push(setting);
         self
     }
 
-    /// Whose configuration is set; the drone's default configuration unless given.
+    /// Selects a custom configuration; by default the drone's default configuration is changed.
     pub fn identity(mut self, identity: Identity) -> Self {
         self.identity = Some(identity);
         self
     }
 
-    /// Whether the configuration is read back over TCP and compared with the settings before the drone
+    /// Whether the configuration must be read back over TCP and agree with the settings before the drone
     /// counts as ready; `false` by default.
     pub fn read_back(mut self, read_back: bool) -> Self {
         self.read_back = read_back;
         self
     }
 
-    /// How long [`Client::ready`] waits; 30 s by default. A drone may take 2 s for each setting, and 6 s for
+    /// Timeout of [`Client::ready`]; 30 s by default. A drone may take 2 s for each setting, and 6 s for
     /// reading back.
     pub fn ready_limit(mut self, limit: Duration) -> Self {
         self.limits.ready = limit;
         self
     }
 
-    /// How long a take-off may take until the drone hovers; 15 s by default. Then the landing is ordered.
+    /// Timeout of a take-off, until the drone hovers; 15 s by default. After it the landing is ordered.
     pub fn take_off_limit(mut self, limit: Duration) -> Self {
         self.limits.take_off = limit;
         self
     }
 
-    /// How long [`Client::land`] waits for the drone to stand; 30 s by default.
+    /// Timeout of [`Client::land`]; 30 s by default.
     pub fn landing_limit(mut self, limit: Duration) -> Self {
         self.limits.landing = limit;
         self
     }
 
-    /// Begins to look for the drone. A drone that is not there is no error: it may come. A drone that is
-    /// found in the air is landed, since nobody has ordered it to fly.
+    /// Starts connecting to the drone. A missing drone is not an error, because it may appear later. A drone
+    /// that is found in the air is landed, because this client has not ordered it to fly.
     ///
-    /// The client lives in a task of the tokio runtime in which this is called.
+    /// The client runs in a task of the current tokio runtime.
     ///
     /// # Errors
-    /// [`StartError`] if a setting is out of range, the name has no address (asked for 10 s at most) or no
-    /// socket can be had.
+    /// [`StartError`] if a setting is out of range, the host name cannot be resolved within 10 s, or no
+    /// socket can be opened.
     pub async fn start(self) -> Result<Client, StartError> {
         let mut config = SessionConfig::new(&self.navdata, &self.settings)?;
         config.identity = self.identity;

@@ -1,4 +1,4 @@
-//! The client as its users see it.
+//! The public client.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
@@ -17,25 +17,25 @@ use crate::navdata::Navdata;
 use crate::session::Event;
 use crate::settings::{Setting, SettingError};
 
-/// A drone that is talked to every 30 ms by a task of its own.
+/// A connection to a drone, driven every 30 ms by a task of its own.
 ///
-/// All methods take `&self`: tasks may share a client, by reference or in an `Arc`. Every wait has a limit
-/// and a typed error, and once the client has ended every call answers so within 30 ms.
+/// All methods take `&self`: tasks may share a client, by reference or in an `Arc`. Every wait has a timeout
+/// and a typed error, and once the client has ended every call returns that error within 30 ms.
 ///
-/// Only datagrams from the drone's address are taken. No error of a socket ends the client: it warns, goes
-/// on, and binds a socket anew that fails for long.
+/// Only datagrams from the drone's address are accepted. Socket errors never end the client: it logs a
+/// warning, continues, and reopens a socket that keeps failing.
 ///
-/// **Dropping the client lands the drone**: the landing is ordered ten times, for as long as the runtime
-/// lives, and also if the task panics. [`Client::close`] waits for that.
+/// **Dropping the client lands the drone**: the landing is ordered ten times, provided that the runtime still
+/// runs, even if the task panics. [`Client::close`] waits for these orders.
 #[derive(Debug)]
 #[must_use = "dropping the client lands the drone"]
 pub struct Client {
     requests: mpsc::UnboundedSender<Request>,
     steering: watch::Sender<Option<Steered>>,
     status: watch::Receiver<Status>,
-    /// Without a sender of its own: the end of the task must end the subscriptions.
+    /// A weak sender, so that the end of the task ends the subscriptions.
     events: broadcast::WeakSender<Event>,
-    /// What has happened since the start, for the first subscription.
+    /// Events since the start, for the first subscription.
     first_events: Mutex<Option<broadcast::Receiver<Event>>>,
     packets: watch::Receiver<Option<Bytes>>,
     task: JoinHandle<Result<(), ClientError>>,
@@ -54,7 +54,7 @@ impl Client {
         Self { requests, steering, status, events, first_events, packets, task }
     }
 
-    /// Waits until the drone is heard and all settings are made, acknowledged and, with
+    /// Waits until the drone is connected and all settings are applied, acknowledged and, with
     /// [`super::ClientBuilder::read_back`], found in the configuration that it reports.
     ///
     /// # Errors
@@ -64,8 +64,8 @@ impl Client {
         self.wait(answer).await
     }
 
-    /// Makes one more setting, or changes one, in flight too; ends when the drone has acknowledged it. It is
-    /// made again if the drone is lost or starts again.
+    /// Adds or changes a setting, also in flight; completes when the drone has acknowledged it. The setting
+    /// is applied again if the drone is lost or restarts.
     ///
     /// # Errors
     /// [`ConfigureError`]; after [`super::CONFIGURE_LIMIT`] at the latest.
@@ -78,44 +78,44 @@ impl Client {
         self.wait(answer).await
     }
 
-    /// Takes off; ends when the drone hovers. A drone that hovers already is left as it is, and tasks that
-    /// call this at the same time wait for the same take-off.
+    /// Takes off; completes when the drone hovers. A drone that already hovers is not affected, and tasks
+    /// that call this at the same time wait for the same take-off.
     ///
-    /// If this future is dropped while nobody else waits for the take-off, the landing is ordered: a program
-    /// that has given up waiting does not know that its drone flies.
+    /// If this future is dropped and no other task waits for the take-off, the landing is ordered: a program
+    /// that has stopped waiting does not know that its drone flies.
     ///
     /// # Errors
-    /// [`FlightError`]; after [`super::ClientBuilder::take_off_limit`] at the latest. Unless the order was refused
-    /// at once, the landing is ordered then.
+    /// [`FlightError`]; after [`super::ClientBuilder::take_off_limit`] at the latest. Unless the order was
+    /// refused at once, the landing is ordered then.
     pub async fn take_off(&self) -> Result<(), FlightError> {
         let answer = self.ask(Request::TakeOff);
         self.wait(answer).await
     }
 
-    /// Lands; the future ends when the drone stands. The landing is ordered at once, even if the future is
-    /// dropped, and never taken back: a take-off that is under way fails, and another is refused until the
-    /// drone stands.
+    /// Lands; the future completes when the drone is on the ground. The landing is ordered at once, even if
+    /// the future is dropped, and never taken back: a take-off in progress fails, and another one is refused
+    /// until the drone is on the ground.
     ///
     /// # Errors
-    /// [`FlightError`]; after [`super::ClientBuilder::landing_limit`] at the latest. The landing stays ordered
-    /// whatever the error.
+    /// [`FlightError`]; after [`super::ClientBuilder::landing_limit`] at the latest. The landing stays
+    /// ordered whatever the error.
     pub fn land(&self) -> impl Future<Output = Result<(), FlightError>> {
         let answer = self.ask(Request::Land);
         self.wait(answer)
     }
 
-    /// Flies so for `duration`, then hovers; a later call takes the place of this one. It returns at once.
-    /// The duration is what lets the drone stop if the program hangs: give what a lost order may cost, and
-    /// repeat the call.
+    /// Flies with these stick positions for `duration`, then hovers; a later call replaces this one. Returns
+    /// at once. The duration stops the drone if the program hangs: choose it as short as the distance flown
+    /// by mistake must be, and repeat the call.
     ///
     /// # Errors
-    /// [`Refusal::NotFlying`] unless a take-off is complete and nothing has ended the flight since;
+    /// [`Refusal::NotFlying`] unless a take-off has completed and nothing has ended the flight since;
     /// [`FlightError::Ended`].
     pub fn steer(&self, steering: Steering, duration: Duration) -> Result<(), FlightError> {
         self.set_motion(steering.motion(), duration)
     }
 
-    /// Ends steering: the drone holds its position.
+    /// Stops steering: the drone holds its position.
     ///
     /// # Errors
     /// As [`Client::steer`].
@@ -123,17 +123,17 @@ impl Client {
         self.set_motion(Motion::Hover, Duration::ZERO)
     }
 
-    /// Takes the drone's present attitude for level. It must stand on level ground.
+    /// Sets the drone's current attitude as level. It must stand on level ground.
     ///
     /// # Errors
-    /// [`Refusal::NotStanding`] unless the drone is heard and stands; [`FlightError::Ended`].
+    /// [`Refusal::NotStanding`] unless the drone is connected and on the ground; [`FlightError::Ended`].
     pub fn flat_trim(&self) -> Result<(), FlightError> {
         self.check(|status| status.standing, Refusal::NotStanding)?;
         self.requests.send(Request::FlatTrim).map_err(|_| self.reason().into())
     }
 
-    /// Cuts the motors, wherever the drone is: **it falls**. The future ends when the drone says that it has
-    /// done so. The order is given at once, even if the future is dropped.
+    /// Cuts the motors, wherever the drone is: **it falls**. The future completes when the drone reports it.
+    /// The order is given at once, even if the future is dropped.
     ///
     /// # Errors
     /// [`FlightError`]; after [`super::EMERGENCY_LIMIT`] at the latest.
@@ -142,8 +142,8 @@ impl Client {
         self.wait(answer)
     }
 
-    /// Clears an emergency, so that the drone can fly again; ends when the drone says that it has done so.
-    /// Only on the ground, and only when a person has looked at the drone.
+    /// Clears an emergency, so that the drone can fly again; completes when the drone reports it. Use it only
+    /// on the ground, after a person has inspected the drone.
     ///
     /// # Errors
     /// [`FlightError`]; after [`super::EMERGENCY_LIMIT`] at the latest.
@@ -152,19 +152,19 @@ impl Client {
         self.wait(answer).await
     }
 
-    /// Subscribes to events. The first subscription begins with what has happened since the start, each
-    /// later one with what happens from now on.
+    /// Subscribes to events. The first subscription starts with the events since the start, each later one
+    /// with those that follow.
     pub fn events(&self) -> Events {
         let first = self.first_events.lock().unwrap_or_else(PoisonError::into_inner).take();
         let receiver = first.unwrap_or_else(|| {
             let subscribed = self.events.upgrade().map(|events| events.subscribe());
-            // The task has ended: a subscription that says so.
+            // The task has ended: a subscription that reports it.
             subscribed.unwrap_or_else(|| broadcast::channel(1).1)
         });
         Events { receiver, status: self.status.clone(), missed: 0 }
     }
 
-    /// Subscribes to navdata packets, whole, as they come.
+    /// Subscribes to whole navdata packets.
     pub fn packets(&self) -> Packets {
         Packets { packets: self.packets.clone(), status: self.status.clone() }
     }
@@ -176,11 +176,11 @@ impl Client {
         packet.as_ref().and_then(|packet| Navdata::decode(packet).ok())
     }
 
-    /// Orders the landing ten times and ends, without waiting for the drone to stand: [`Client::land`] does.
+    /// Orders the landing ten times and ends, without waiting for the drone to land; [`Client::land`] does.
     /// It takes 0.3 s, and at most 2 s if the system refuses to send.
     ///
     /// # Errors
-    /// Why the client had ended before.
+    /// [`ClientError`] if the client had ended before.
     pub async fn close(self) -> Result<(), ClientError> {
         let Self { requests, task, .. } = self;
         drop(requests);
@@ -209,7 +209,8 @@ impl Client {
         self.status.borrow().ended.clone().unwrap_or(ClientError::Task)
     }
 
-    /// A task that has ended drops the request, and with it the reply that is waited for.
+    /// Sends a request and waits for the reply. A task that has ended drops the request and with it the
+    /// reply's sender.
     fn ask<E>(
         &self,
         request: impl FnOnce(oneshot::Sender<Result<(), E>>) -> Request,

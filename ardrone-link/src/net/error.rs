@@ -1,4 +1,4 @@
-//! What can go wrong, one type for each kind of call.
+//! Errors, one type for each kind of call.
 
 use std::io;
 use std::time::Duration;
@@ -10,21 +10,21 @@ use crate::settings::SettingError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StartError {
-    /// A setting is out of range, cannot be sent, or is not for the list of settings.
+    /// A setting is out of range, cannot be sent, or is not allowed in the list of settings.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// The drone's name has no address.
+    /// The host name cannot be resolved.
     #[error("the name `{host}` has no address: check the spelling, or give the address itself")]
     Resolve {
-        /// The name.
+        /// The host name.
         host: String,
-        /// The system's error; a time-out if there was no answer within 10 s.
+        /// The system's error; a timeout if there was no answer within 10 s.
         source: io::Error,
     },
-    /// No socket could be had.
+    /// A socket could not be opened.
     #[error("cannot open a UDP socket for {purpose}")]
     Socket {
-        /// What it is for.
+        /// Purpose of the socket.
         purpose: &'static str,
         /// The system's error.
         source: io::Error,
@@ -50,31 +50,31 @@ pub enum ClientError {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadyError {
-    /// No navdata came at all, or none any more.
+    /// No navdata arrived, or none any more.
     #[error("no navdata from the drone within {limit:?}: is this computer in the drone's network?")]
     NotHeard {
         /// See [`super::ClientBuilder::ready_limit`].
         limit: Duration,
     },
-    /// The drone is heard, and its settings are still being made.
+    /// Navdata arrive, but the settings are not complete.
     #[error("the drone is not configured within {limit:?}")]
     NotConfigured {
         /// See [`super::ClientBuilder::ready_limit`].
         limit: Duration,
     },
-    /// The drone never acknowledged these keys: it may fly with other limits than asked for.
+    /// The drone never acknowledged these keys: it may fly with other limits than requested.
     #[error("the drone did not acknowledge {}", keys.join(", "))]
     NotAcknowledged {
-        /// `section:name` each
+        /// Each as `section:name`.
         keys: Vec<String>,
     },
-    /// The configuration was to be read back, and did not come.
+    /// The configuration could not be read back.
     #[error("the drone's configuration could not be read back: is its TCP port 5559 reachable?")]
     NotReadBack,
-    /// The drone reports other values for these keys than were set.
-    #[error("the drone has not taken the values of {}", keys.join(", "))]
+    /// The drone reports other values for these keys.
+    #[error("the drone has not applied the values of {}", keys.join(", "))]
     NotTaken {
-        /// `section:name` each
+        /// Each as `section:name`.
         keys: Vec<String>,
     },
     /// The client has ended.
@@ -82,20 +82,20 @@ pub enum ReadyError {
     Ended(#[from] ClientError),
 }
 
-/// Why a setting was not made.
+/// Why a setting was not applied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConfigureError {
     /// The value is out of range, or belongs to the navdata mode. Nothing was sent.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// The drone is not heard or not configured. Nothing was sent.
+    /// The drone is not connected or not configured. Nothing was sent.
     #[error("the drone is not ready: wait for `ready()`")]
     NotReady,
     /// The drone did not acknowledge it within [`super::CONFIGURE_LIMIT`].
     #[error("the drone did not acknowledge {key}")]
     NotAcknowledged {
-        /// `section:name`
+        /// As `section:name`.
         key: String,
     },
     /// The client has ended.
@@ -115,10 +115,10 @@ pub enum FlightError {
     TakeOffTimedOut {
         /// See [`super::ClientBuilder::take_off_limit`].
         limit: Duration,
-        /// Remaining charge, if it is known. Drones refuse to take off below about 20.
+        /// Remaining charge, if known. Drones refuse to take off below about 20 %.
         battery_percent: Option<u32>,
     },
-    /// The drone does not stand within the limit. The landing stays ordered.
+    /// The drone is not on the ground within the limit. The landing stays ordered.
     #[error("the drone does not stand {limit:?} after the landing order, which stays in force")]
     LandingTimedOut {
         /// See [`super::ClientBuilder::landing_limit`].
@@ -133,14 +133,14 @@ pub enum FlightError {
     /// The drone has cut its motors.
     #[error("emergency: the drone has cut its motors")]
     Emergency,
-    /// The drone is not heard any more, or waits to be configured again. The landing is ordered, and
-    /// the drone lands by itself after some seconds of silence.
+    /// The drone is silent, or waits to be configured again. The landing is ordered, and the drone lands by
+    /// itself after some seconds of silence.
     #[error("the link to the drone is lost; the landing is ordered")]
     LinkLost,
-    /// The drone has started again. Take-off has to be ordered anew.
+    /// The drone has restarted. Take-off must be ordered again.
     #[error("the drone has started again")]
     DroneRestarted,
-    /// Before the take-off was complete a landing was ordered, or the drone landed by itself.
+    /// A landing was ordered, or the drone landed by itself, before the take-off was complete.
     #[error("the drone lands instead of taking off")]
     Landing,
     /// The client has ended.
@@ -156,7 +156,7 @@ fn percent(battery_percent: Option<u32>) -> String {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// The drone is not heard or not configured.
+    /// The drone is not connected or not configured.
     #[error("the drone is not ready: wait for `ready()`")]
     NotReady,
     /// The drone is in its emergency state.
@@ -164,25 +164,25 @@ pub enum Refusal {
         "the drone is in its emergency state: look at it, then clear it with `reset_emergency()`"
     )]
     Emergency,
-    /// The drone says that its battery is too low to fly.
+    /// The drone reports that its battery is too low to fly.
     #[error("the drone's battery is too low to take off")]
     BatteryLow,
     /// The drone is in the air with the landing ordered: a landing is never taken back.
     #[error("the drone is landing: wait for `land()`")]
     Landing,
-    /// The order is for a drone that hovers or flies.
+    /// The order requires a drone that hovers or flies.
     #[error("the drone is not in flight: wait for `take_off()`")]
     NotFlying,
-    /// The order is for a drone that stands on the ground.
+    /// The order requires a drone on the ground.
     #[error("the drone does not stand on the ground: wait for `land()`")]
     NotStanding,
 }
 
-/// Why nothing was heard from the drone.
+/// Why a wait for events or packets failed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WaitError {
-    /// Nothing came within the caller's limit.
+    /// Nothing arrived within the caller's limit.
     #[error("nothing came within {limit:?}")]
     TimedOut {
         /// The caller's limit.

@@ -1,22 +1,22 @@
-//! Periods, sizes, and how long is waited.
+//! Periods, sizes and timeouts.
 
 use std::time::Duration;
 
-/// How long [`super::Client::emergency_stop`] and [`super::Client::reset_emergency`] wait for the drone's
-/// answer. The order itself is given up after 5 s.
+/// Timeout of [`super::Client::emergency_stop`] and [`super::Client::reset_emergency`]. The order itself is
+/// given up after 5 s.
 pub const EMERGENCY_LIMIT: Duration = Duration::from_secs(6);
 
-/// How long [`super::Client::configure`] waits for the drone to acknowledge a setting.
+/// Timeout of [`super::Client::configure`].
 pub const CONFIGURE_LIMIT: Duration = Duration::from_secs(10);
 
-/// The period of AT commands that Parrot recommends.
+/// Period of AT commands recommended by Parrot.
 pub(super) const TICK: Duration = Duration::from_millis(30);
-/// Longer than any navdata packet.
+/// Receive buffer, larger than any navdata packet.
 pub(super) const BUFFER_BYTES: usize = 4096;
-/// Events that wait for a slow reader.
+/// Capacity of an event subscription.
 pub(super) const MAX_EVENTS: usize = 256;
 
-/// How long an order may take until its caller is told that it has failed.
+/// Timeouts of orders.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     pub(super) ready: Duration,

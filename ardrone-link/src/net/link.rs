@@ -1,4 +1,4 @@
-//! The client's task: the session on its sockets.
+//! The client's task: runs the session on its sockets.
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -18,12 +18,12 @@ use crate::at::{Config, Datagram, Motion};
 use crate::navdata::{ControlState, Navdata};
 use crate::session::{Event, Received, Session};
 
-/// Landing orders that are sent when the client ends: a datagram may be lost.
+/// Landing orders sent when the client ends; several, because a datagram may be lost.
 pub(super) const PARTING_ORDERS: u32 = 10;
-/// If the system refuses them, it is tried in this many ticks.
+/// Maximum ticks for sending them if the system refuses.
 const PARTING_TICKS: u32 = 3 * PARTING_ORDERS;
 
-/// What is asked of the task, with the way back for the answer.
+/// A request to the task, with the channel for its reply.
 #[derive(Debug)]
 pub(super) enum Request {
     Ready(ReadyReply),
@@ -37,7 +37,7 @@ pub(super) enum Request {
     Panic,
 }
 
-/// How the drone is to be steered, from a moment on.
+/// Steering that begins at a given time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Steered {
     pub(super) at: Instant,
@@ -45,7 +45,7 @@ pub(super) struct Steered {
     pub(super) motion: Motion,
 }
 
-/// What the client's methods know without asking the task.
+/// State available to the client's methods without asking the task.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Status {
     pub(super) airborne: bool,
@@ -65,15 +65,15 @@ pub(super) struct Link {
     pub(super) status: watch::Sender<Status>,
     pub(super) events: broadcast::Sender<Event>,
     pub(super) packets: watch::Sender<Option<Bytes>>,
-    /// Of the newest packet.
+    /// Control state in the newest packet.
     pub(super) control_state: Option<ControlState>,
-    /// Of the newest packet that has it.
+    /// Charge in the newest packet that contains it.
     pub(super) battery_percent: Option<u32>,
     /// Receiving failed: it is not tried again before the next tick.
     pub(super) rests: bool,
 }
 
-/// What the task is woken by.
+/// Events that wake the task.
 enum Input {
     Tick,
     Request(Request),
@@ -89,12 +89,12 @@ impl Link {
         clock.set_missed_tick_behavior(MissedTickBehavior::Skip);
         let end = self.fly(start, &mut clock, &mut datagram).await;
         self.dismiss(end.clone().err().unwrap_or(ClientError::Closed));
-        // Whatever the end was.
+        // The landing is ordered whatever ended the flight.
         self.part(start, &mut clock, &mut datagram).await;
         end
     }
 
-    /// Goes on until the client is gone.
+    /// Runs until the client is dropped.
     async fn fly(
         &mut self,
         start: Instant,
@@ -103,7 +103,7 @@ impl Link {
     ) -> Result<(), ClientError> {
         let mut buffer = [0_u8; BUFFER_BYTES];
         loop {
-            // The tick comes first, however much navdata there are, and orders before navdata.
+            // Ticks have priority, however much navdata arrive, then orders, then navdata.
             let input = tokio::select! {
                 biased;
                 _ = clock.tick() => Input::Tick,
@@ -121,7 +121,7 @@ impl Link {
             if ticks {
                 self.take_in_steering(start);
             }
-            // A session that panics has still a landing to order.
+            // After a panic of the session the landing must still be ordered.
             let handled =
                 catch_unwind(AssertUnwindSafe(|| self.handle(now, input, &buffer, datagram)));
             handled.map_err(|_| ClientError::Task)??;
@@ -135,7 +135,7 @@ impl Link {
     }
 
     fn take_in_steering(&mut self, start: Instant) {
-        // An error means that the client is gone, which ends the loop.
+        // An error means that the client was dropped, which ends the loop.
         if self.steering.has_changed().unwrap_or(false)
             && let Some(Steered { at, duration, motion }) = *self.steering.borrow_and_update()
         {
@@ -163,7 +163,7 @@ impl Link {
                 None => self.rests = true,
             },
         }
-        self.tell(now);
+        self.report(now);
         Ok(())
     }
 
@@ -204,16 +204,16 @@ impl Link {
         }
     }
 
-    /// Passes on what has happened to those who wait for it.
-    fn tell(&mut self, now: Duration) {
+    /// Passes on events to those who wait for them.
+    fn report(&mut self, now: Duration) {
         while let Some(event) = self.session.poll_event() {
             self.orders.event(&event, &self.seen(now));
             self.readiness.event(&event);
             if event == Event::LinkLost {
-                // What was true of the drone may not be any more.
+                // The last packet may not be valid any more.
                 self.packets.send_replace(None);
             }
-            // Without a subscription nobody wants to know.
+            // Without subscriptions there is no receiver.
             _ = self.events.send(event);
         }
         let seen = self.seen(now);
@@ -248,7 +248,7 @@ impl Link {
         }
     }
 
-    /// Ends every wait, before the last datagrams are sent: those who wait may have somebody to warn.
+    /// Fails every wait, before the last datagrams are sent, so that callers learn of the end early.
     fn dismiss(&mut self, reason: ClientError) {
         self.status.send_replace(Status { ended: Some(reason), ..Status::default() });
         self.packets.send_replace(None);
@@ -258,15 +258,15 @@ impl Link {
         self.readiness.end();
     }
 
-    /// Orders the landing, again and again for a while.
+    /// Orders the landing repeatedly.
     async fn part(&mut self, start: Instant, clock: &mut Interval, datagram: &mut Datagram) {
         let mut parted = 0;
         for _ in 0..PARTING_TICKS {
             clock.tick().await;
             let now = start.elapsed();
-            let said = self.session.part(now, datagram).is_ok();
-            // A drone that was never spoken to is not ours to land.
-            if !said || datagram.as_bytes().is_empty() || parted == PARTING_ORDERS {
+            let sent = self.session.part(now, datagram).is_ok();
+            // A drone that was never sent anything must not be landed: another client may fly it.
+            if !sent || datagram.as_bytes().is_empty() || parted == PARTING_ORDERS {
                 return;
             }
             parted += u32::from(self.at.send(now, datagram.as_bytes()).await);

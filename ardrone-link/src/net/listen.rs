@@ -1,4 +1,4 @@
-//! What the drone tells, as it comes.
+//! Subscriptions to events and packets.
 
 use std::time::Duration;
 
@@ -28,8 +28,8 @@ impl Events {
     ///
     /// # Errors
     /// [`WaitError::TimedOut`] if there is none within `limit`. [`WaitError::Ended`] once the client has
-    /// ended and all its events are read; this takes 30 ms each time, so that a loop that ignores it does
-    /// not occupy a processor.
+    /// ended and all its events were read; this takes 30 ms each time, so that a loop that ignores the error
+    /// does not occupy a processor.
     pub async fn next(&mut self, limit: Duration) -> Result<Event, WaitError> {
         let next = async {
             loop {
@@ -43,10 +43,10 @@ impl Events {
         timeout(limit, next).await.unwrap_or(Err(WaitError::TimedOut { limit }))
     }
 
-    /// The next event that is `wanted`; those before it are dropped.
+    /// The next event for which `wanted` is true; earlier ones are dropped.
     ///
     /// # Errors
-    /// As [`Events::next`]; `limit` is for the whole wait.
+    /// As [`Events::next`]; `limit` applies to the whole wait.
     pub async fn wait_for(
         &mut self,
         limit: Duration,
@@ -63,7 +63,7 @@ impl Events {
         timeout(limit, search).await.unwrap_or(Err(WaitError::TimedOut { limit }))
     }
 
-    /// Number of events that this reader was too slow for.
+    /// Number of events lost because this reader was too slow.
     pub fn missed(&self) -> u64 {
         self.missed
     }
@@ -78,8 +78,8 @@ pub struct Packets {
 }
 
 impl Packets {
-    /// The newest packet, whole, once there is one that this reader has not had; a slow reader misses those
-    /// between. [`crate::navdata::Packet`] decodes it.
+    /// The newest packet that this reader has not had yet; a slow reader misses those in between. Decode it
+    /// with [`crate::navdata::Packet`].
     ///
     /// # Errors
     /// [`WaitError::TimedOut`] if there is none within `limit`. [`WaitError::Ended`] once the client has
@@ -90,7 +90,7 @@ impl Packets {
                 if self.packets.changed().await.is_err() {
                     return Err(ended(&self.status).await.into());
                 }
-                // Nothing stands there while the drone is lost.
+                // The value is `None` while the drone is lost.
                 if let Some(packet) = self.packets.borrow_and_update().clone() {
                     return Ok(packet);
                 }
@@ -100,9 +100,9 @@ impl Packets {
     }
 }
 
-/// Why the client has ended. It takes a tick: a loop that ignores the answer must not spin.
+/// Why the client has ended. Takes one tick, so that a loop that ignores the error does not spin.
 pub(super) async fn ended(status: &watch::Receiver<Status>) -> ClientError {
     sleep(TICK).await;
-    // A task that could not leave a reason did not end by itself.
+    // A task that left no reason has panicked or was aborted.
     status.borrow().ended.clone().unwrap_or(ClientError::Task)
 }

@@ -16,9 +16,9 @@
 //! # }
 //! ```
 //!
-//! [`ClientBuilder`] sets a client up, [`Client`] flies, [`Events`] and [`Packets`] are what it hears.
-//! Inside, `link` is the task with the sockets (`wire`); what it decides is in `orders` and `readiness`,
-//! which know no socket and no clock.
+//! [`ClientBuilder`] configures a client, [`Client`] flies, [`Events`] and [`Packets`] are its subscriptions.
+//! Internally, `link` is the task with the sockets (`wire`); its decisions are made in `orders` and
+//! `readiness`, which use neither sockets nor clocks.
 
 mod builder;
 mod client;

@@ -1,5 +1,4 @@
-//! What the client orders of the drone in each tick, and how each order ends. No socket and no clock:
-//! it is fed with time and what the session knows.
+//! The client's order for each tick, and how each call ends. Pure: times and the session's state are inputs.
 
 use std::time::Duration;
 
@@ -11,24 +10,24 @@ use crate::at::Motion;
 use crate::navdata::{ControlState, DroneState};
 use crate::session::{Event, FlightOrder, Order};
 
-/// How one who waits for an order hears of its end.
+/// Channel on which a caller learns how its order ended.
 pub(super) type Reply = oneshot::Sender<Result<(), FlightError>>;
 
-/// After the last take-off order a drone that stands may still be about to obey it.
+/// For this time after the last take-off order, a drone on the ground may still be about to take off.
 const SETTLE: Duration = Duration::from_secs(1);
 
-/// The drone as the session knows it.
+/// The drone's state as known to the session.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Seen {
-    /// Heard within the loss timeout.
+    /// Navdata arrived within the loss timeout.
     pub(super) alive: bool,
-    /// Heard and configured.
+    /// Connected and configured.
     pub(super) ready: bool,
     pub(super) state: DroneState,
-    /// If the newest packet has it.
+    /// Control state, if the newest packet contains it.
     pub(super) control_state: Option<ControlState>,
     pub(super) battery_percent: Option<u32>,
-    /// When the newest packet came.
+    /// Arrival of the newest packet.
     pub(super) heard_at: Option<Duration>,
 }
 
@@ -48,7 +47,7 @@ impl Seen {
         self.flies() && complete
     }
 
-    /// Neither in the air nor about to be.
+    /// On the ground, and not about to take off.
     pub(super) fn stands(&self) -> bool {
         let moves = matches!(
             self.control_state,
@@ -67,11 +66,11 @@ impl Seen {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Flight {
-    /// The landing is ordered, from the start on.
+    /// Landing is ordered; the initial state.
     Down,
     TakingOff {
         deadline: Duration,
-        /// The session has seen the landing ordered first, which makes the take-off a new order.
+        /// The session has had a landing order first, which makes the take-off a new order.
         renewed: bool,
     },
     Airborne,
@@ -100,7 +99,7 @@ pub(super) struct Orders {
     landing: Vec<Waiting>,
     stopping: Vec<Waiting>,
     resetting: Vec<Waiting>,
-    take_off_said: Option<Duration>,
+    take_off_sent: Option<Duration>,
 }
 
 impl Orders {
@@ -113,16 +112,16 @@ impl Orders {
             landing: Vec::new(),
             stopping: Vec::new(),
             resetting: Vec::new(),
-            take_off_said: None,
+            take_off_sent: None,
         }
     }
 
-    /// The take-off is complete, and nothing has ended the flight since.
+    /// A take-off has completed, and nothing has ended the flight since.
     pub(super) fn is_airborne(&self) -> bool {
         self.flight == Flight::Airborne
     }
 
-    /// The order of this tick.
+    /// The order for this tick.
     pub(super) fn order(&mut self, now: Duration, seen: &Seen) -> Order {
         match &mut self.flight {
             Flight::Down => Order::LAND,
@@ -131,14 +130,14 @@ impl Orders {
                 Order::LAND
             }
             Flight::TakingOff { .. } => {
-                self.take_off_said = Some(now);
-                // Once it flies, nothing that could lift it again is ordered.
+                self.take_off_sent = Some(now);
+                // Once the drone flies, it is no longer sent an order that could lift it again after a landing.
                 let flight =
                     if seen.flies() { FlightOrder::StayAirborne } else { FlightOrder::TakeOff };
                 Order { flight, motion: Motion::Hover }
             }
             Flight::Airborne => {
-                self.take_off_said = Some(now);
+                self.take_off_sent = Some(now);
                 let steered = self.steered.filter(|it| now.saturating_sub(it.since) < it.duration);
                 let motion = steered.map_or(Motion::Hover, |steered| steered.motion);
                 Order { flight: FlightOrder::StayAirborne, motion }
@@ -147,7 +146,7 @@ impl Orders {
     }
 
     pub(super) fn take_off(&mut self, now: Duration, seen: &Seen, reply: Reply) {
-        // One who has stopped waiting already wants no take-off.
+        // A caller that has stopped waiting does not want the take-off.
         if reply.is_closed() {
             return;
         }
@@ -183,14 +182,14 @@ impl Orders {
         self.resetting.push(Waiting { since: now, deadline, reply });
     }
 
-    /// Steers a drone in flight from `since` for `duration`; [`Motion::Hover`] ends it.
+    /// Steers a drone in flight from `since` for `duration`; [`Motion::Hover`] ends steering.
     pub(super) fn steer(&mut self, since: Duration, duration: Duration, motion: Motion) {
         if self.is_airborne() {
             self.steered = Some(Steered { since, duration, motion });
         }
     }
 
-    /// Takes in an event of the session.
+    /// Handles an event of the session.
     pub(super) fn event(&mut self, event: &Event, seen: &Seen) {
         let error = match event {
             Event::LinkLost => FlightError::LinkLost,
@@ -201,7 +200,7 @@ impl Orders {
             _ => return,
         };
         self.come_down(&error);
-        // A landing is known by what the drone says of itself, below.
+        // The end of a landing is detected from the drone's state, below.
         if matches!(event, Event::LinkLost | Event::DroneRestarted | Event::Emergency) {
             answer_all(&mut self.landing, &error);
         }
@@ -211,7 +210,7 @@ impl Orders {
         }
     }
 
-    /// Looks at the drone and at the time, and answers those whose order has come to its end.
+    /// Updates the state, and answers callers whose order has ended or timed out.
     pub(super) fn observe(&mut self, now: Duration, seen: &Seen) {
         if self.flight != Flight::Down && !seen.ready {
             self.come_down(&FlightError::LinkLost);
@@ -227,7 +226,7 @@ impl Orders {
                 let error = self.take_off_timed_out(seen);
                 self.come_down(&error);
             } else if self.taking_off.is_empty() {
-                // A program that has stopped waiting does not know that it has a drone in the air.
+                // A program that has stopped waiting does not know that its drone is in the air.
                 self.flight = Flight::Down;
             }
         }
@@ -242,7 +241,7 @@ impl Orders {
     }
 
     fn watch_landing(&mut self, now: Duration, seen: &Seen) {
-        let settled = self.take_off_said.is_none_or(|said| now.saturating_sub(said) >= SETTLE);
+        let settled = self.take_off_sent.is_none_or(|sent| now.saturating_sub(sent) >= SETTLE);
         let timed_out = FlightError::LandingTimedOut { limit: self.limits.landing };
         settle(&mut self.landing, now, &timed_out, |waiting| {
             if !seen.alive {
@@ -257,7 +256,7 @@ impl Orders {
         });
     }
 
-    /// Forgets everybody who waits; each learns from the lost reply that the client has ended.
+    /// Drops all callers' channels, by which they learn that the client has ended.
     pub(super) fn end(&mut self) {
         self.flight = Flight::Down;
         self.taking_off.clear();
@@ -271,7 +270,7 @@ impl Orders {
         FlightError::TakeOffTimedOut { limit, battery_percent }
     }
 
-    /// The landing is ordered from now on, and a take-off on its way fails.
+    /// Orders the landing from now on, and fails a take-off in progress.
     fn come_down(&mut self, error: &FlightError) {
         self.flight = Flight::Down;
         self.steered = None;
@@ -281,9 +280,9 @@ impl Orders {
     }
 }
 
-/// Why a drone must not take off.
+/// Why a take-off must be refused.
 fn refusal(seen: &Seen) -> Option<Refusal> {
-    // The emergency first: it is what somebody has to look after.
+    // The emergency comes first, because it needs attention.
     if seen.is_in_emergency() {
         Some(Refusal::Emergency)
     } else if !seen.ready {
@@ -301,7 +300,7 @@ fn heard_since(seen: &Seen, since: Duration) -> bool {
     seen.heard_at.is_some_and(|at| at > since)
 }
 
-/// One who does not wait any more needs no answer.
+/// Answers a caller, which may have stopped waiting.
 fn answer(reply: Reply, result: Result<(), FlightError>) {
     _ = reply.send(result);
 }
@@ -312,7 +311,7 @@ fn answer_all(waiting: &mut Vec<Waiting>, error: &FlightError) {
     }
 }
 
-/// Answers those whose end has come, and those whose time is over.
+/// Answers callers whose order has ended, and those that have timed out.
 fn settle(
     all: &mut Vec<Waiting>,
     now: Duration,

@@ -1,4 +1,4 @@
-//! Whether the drone is configured as it was asked to be. No socket and no clock.
+//! Whether the drone is configured as requested. Pure: neither sockets nor clocks.
 
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ use crate::session::Event;
 pub(super) type ReadyReply = oneshot::Sender<Result<(), ReadyError>>;
 pub(super) type ConfigureReply = oneshot::Sender<Result<(), ConfigureError>>;
 
-/// A setting that was asked for since.
+/// A setting that was requested later.
 #[derive(Debug)]
 struct Change {
     key: String,
@@ -33,7 +33,7 @@ pub(super) struct Readiness {
 }
 
 impl Readiness {
-    /// `wanted` are the settings of the session; they are to be met within `limit`.
+    /// `wanted` are the settings of the session, to be applied within `limit`.
     pub(super) fn new(wanted: Vec<Config>, limit: Duration) -> Self {
         Self {
             wanted,
@@ -50,7 +50,7 @@ impl Readiness {
         self.waiting.push((now.saturating_add(self.limit), reply));
     }
 
-    /// One more setting is asked of the session; returns whether it may be.
+    /// Registers one more requested setting; returns whether it may be sent.
     pub(super) fn change(
         &mut self,
         now: Duration,
@@ -68,7 +68,7 @@ impl Readiness {
         true
     }
 
-    /// Takes in an event of the session. A drone that is configured again is judged by the last time.
+    /// Handles an event of the session. If the drone is configured again, the last result counts.
     pub(super) fn event(&mut self, event: &Event) {
         if let Event::Configured { key } | Event::ConfigurationTimedOut { key } = event
             && let Some(place) = self.changes.iter().position(|change| change.key == *key)
@@ -92,7 +92,7 @@ impl Readiness {
         }
     }
 
-    /// Answers those who wait if the drone is ready or their time is over.
+    /// Answers callers if the drone is ready or they have timed out.
     pub(super) fn observe(&mut self, now: Duration, ready: bool, heard: bool) {
         for change in self.changes.extract_if(.., |change| now >= change.deadline) {
             answer(change.reply, Err(ConfigureError::NotAcknowledged { key: change.key }));
@@ -112,7 +112,7 @@ impl Readiness {
         }
     }
 
-    /// Forgets everybody who waits.
+    /// Drops all callers' channels.
     pub(super) fn end(&mut self) {
         self.waiting.clear();
         self.changes.clear();
@@ -131,13 +131,12 @@ impl Readiness {
     }
 }
 
-/// One who does not wait any more needs no answer.
+/// Answers a caller, which may have stopped waiting.
 fn answer<T>(reply: oneshot::Sender<T>, result: T) {
     _ = reply.send(result);
 }
 
-/// The keys for which the drone reports another value, or none. Of a key that is set twice the last
-/// value counts.
+/// Keys for which the drone reports another value, or none. If a key is set twice, the last value counts.
 fn not_taken(wanted: &[Config], configuration: &Configuration) -> Vec<String> {
     let is_last = |place: usize, key: &str| !wanted[place + 1..].iter().any(|it| it.key() == key);
     let differing = wanted.iter().enumerate().filter(|(place, config)| {
@@ -162,7 +161,7 @@ mod tests {
         Readiness::new(wanted, LIMIT)
     }
 
-    /// What one who waits hears if the drone is ready.
+    /// Result for a caller once the drone is ready.
     fn judged(readiness: &mut Readiness) -> Result<(), ReadyError> {
         let (reply, mut answer) = oneshot::channel();
         readiness.wait(Duration::ZERO, reply);

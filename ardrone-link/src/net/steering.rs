@@ -1,9 +1,9 @@
-//! Steering in the drone's own directions.
+//! Stick positions as directions of flight.
 
 use crate::at::{Fraction, Motion};
 
-/// How to fly, each as a fraction in \[-1, 1\] of the limit that the drone is configured with. What is beyond
-/// is taken as the limit, and what is no number as zero.
+/// Stick positions, each as a fraction in \[-1, 1\] of the limit configured in the drone. Larger values are
+/// clamped, and NaN is treated as zero.
 ///
 /// ```
 /// use ardrone_link::Steering;
@@ -12,13 +12,13 @@ use crate::at::{Fraction, Motion};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Steering {
-    /// Of [`crate::Setting::EulerAngleMaxDeg`]; negative flies backward.
+    /// Fraction of [`crate::Setting::EulerAngleMaxDeg`]; negative flies backward.
     pub forward: f64,
-    /// Of [`crate::Setting::EulerAngleMaxDeg`]; negative flies left.
+    /// Fraction of [`crate::Setting::EulerAngleMaxDeg`]; negative flies left.
     pub right: f64,
-    /// Of [`crate::Setting::ClimbMaxMS`]; negative descends.
+    /// Fraction of [`crate::Setting::ClimbMaxMS`]; negative descends.
     pub up: f64,
-    /// Of [`crate::Setting::YawRateMaxDegS`], seen from above; negative turns the other way.
+    /// Fraction of [`crate::Setting::YawRateMaxDegS`], seen from above; negative turns anticlockwise.
     pub clockwise: f64,
 }
 
@@ -47,7 +47,7 @@ impl Steering {
         Self { clockwise: fraction, ..Self::default() }
     }
 
-    /// The command. All zeros hold the position: level sticks alone would let the drone drift.
+    /// The PCMD arguments. All zeros mean hover, because level sticks alone would let the drone drift.
     pub(super) fn motion(self) -> Motion {
         let [roll, pitch, gaz, yaw] =
             [self.right, -self.forward, self.up, self.clockwise].map(Fraction::saturating);

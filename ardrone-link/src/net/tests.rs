@@ -13,10 +13,10 @@ use crate::at::{Command, Motion, Ref, decode};
 use crate::navdata::{DroneState, PacketWriter};
 use crate::session::Event;
 
-/// Longer than any machine takes for what has to come.
+/// Timeout, longer than any machine should need.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Sockets where a drone would be.
+/// The sockets of a fake drone.
 struct Ground {
     at: UdpSocket,
     navdata: UdpSocket,
@@ -47,7 +47,7 @@ impl Ground {
         self.navdata.send_to(&packet, from).await.unwrap();
     }
 
-    /// What one datagram orders.
+    /// Commands of the next datagram.
     async fn hear(&self) -> Vec<Command> {
         let mut buffer = [0; BUFFER_BYTES];
         let length = self.at.recv(&mut buffer).await.unwrap();
@@ -65,7 +65,7 @@ async fn a_panic_orders_the_landing_and_ends_every_wait() {
     let mut packets = client.packets();
     assert_eq!(events.next(PATIENCE).await, Ok(Event::Connected));
     let panics = async {
-        // Behind the requests of those who wait.
+        // Behind the pending requests.
         tokio::task::yield_now().await;
         client.panic();
     };
@@ -76,8 +76,8 @@ async fn a_panic_orders_the_landing_and_ends_every_wait() {
     assert_eq!(landing, Err(ClientError::Task.into()));
     assert_eq!(cut, Err(ClientError::Task.into()));
     let mut landings = 0;
-    while let Ok(said) = timeout(PATIENCE, ground.hear()).await {
-        landings += u32::from(said == [Command::Ref(Ref::Land), Command::Pcmd(Motion::Hover)]);
+    while let Ok(commands) = timeout(PATIENCE, ground.hear()).await {
+        landings += u32::from(commands == [Command::Ref(Ref::Land), Command::Pcmd(Motion::Hover)]);
         if landings == PARTING_ORDERS {
             break;
         }
@@ -100,7 +100,7 @@ async fn a_panic_orders_the_landing_and_ends_every_wait() {
     assert_eq!(client.close().await, Err(ClientError::Task));
 }
 
-/// Not even of a program that looks away.
+/// Not even if the program ignores the errors.
 #[tokio::test]
 async fn no_loop_spins_once_the_client_has_ended() {
     let ground = Ground::new().await;
@@ -144,10 +144,10 @@ async fn without_a_drone_every_wait_ends_with_a_reason() {
 }
 
 #[tokio::test]
-async fn what_cannot_be_sent_or_found_is_told_at_the_start() {
+async fn what_cannot_be_sent_or_found_is_reported_at_the_start() {
     let mode = Client::builder().setting(crate::Setting::NavdataDemo(false)).start().await;
     assert!(matches!(mode, Err(StartError::Setting(crate::SettingError::Navdata { .. }))));
-    // A port number that is too large cannot be given; a host with a space has no address.
+    // The type of a port rules out invalid numbers; a host with a space cannot be resolved.
     let nowhere = Client::builder().host("no such host").start().await;
     assert!(matches!(nowhere, Err(StartError::Resolve { host, .. }) if host == "no such host"));
 }

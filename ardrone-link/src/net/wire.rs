@@ -1,4 +1,4 @@
-//! The drone's sockets: two for datagrams, and the reader of its control port.
+//! The client's sockets: two for datagrams, and the reader of the control port.
 
 use std::io;
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr};
@@ -13,10 +13,10 @@ use tokio::time::{sleep, timeout};
 use super::limits::{BUFFER_BYTES, TICK};
 use crate::health::SocketHealth;
 
-/// Time between two attempts to reach the control port.
+/// Interval between attempts to connect to the control port.
 const CONTROL_RETRY: Duration = Duration::from_millis(500);
 
-/// A socket that receives only from the drone, and whose errors end nothing.
+/// A connected socket that receives only from the drone and survives errors.
 pub(super) struct Wire {
     name: &'static str,
     drone: SocketAddr,
@@ -30,14 +30,14 @@ impl Wire {
         Ok(Self { name, drone, socket, health: SocketHealth::default() })
     }
 
-    /// Sends a datagram; returns whether the system took it.
+    /// Sends a datagram; returns whether the system accepted it.
     pub(super) async fn send(&mut self, now: Duration, datagram: &[u8]) -> bool {
         let sent = timeout(TICK, self.socket.send(datagram)).await;
         let sent = sent.unwrap_or_else(|_| Err(io::ErrorKind::WouldBlock.into()));
         self.judge(now, sent).is_some()
     }
 
-    /// The length that a call returned, if it succeeded; counts its error otherwise.
+    /// Returns the length that a call returned if it succeeded, and counts its error otherwise.
     pub(super) fn judge(&mut self, now: Duration, result: io::Result<usize>) -> Option<usize> {
         match result {
             Ok(length) => {
@@ -46,14 +46,14 @@ impl Wire {
             }
             Err(error) => {
                 if self.health.failed(now, &error) {
-                    tracing::warn!("the system refuses {}: {error}; trying on", self.name);
+                    tracing::warn!("the system refuses {}: {error}; retrying", self.name);
                 }
                 None
             }
         }
     }
 
-    /// Binds the socket anew if it needs that; returns whether it did.
+    /// Reopens the socket if necessary; returns whether it did.
     pub(super) async fn mend(&mut self, now: Duration) -> bool {
         if !self.health.rebind_due(now) {
             return false;
@@ -62,7 +62,7 @@ impl Wire {
     }
 }
 
-/// The system drops datagrams from any other address.
+/// A connected socket: the system drops datagrams from any other address.
 async fn connected(drone: SocketAddr) -> io::Result<UdpSocket> {
     let any: SocketAddr = match drone {
         SocketAddr::V4(_) => (Ipv4Addr::UNSPECIFIED, 0).into(),
@@ -73,8 +73,8 @@ async fn connected(drone: SocketAddr) -> io::Result<UdpSocket> {
     Ok(socket)
 }
 
-/// Reads the control port until `out` has no receiver, connecting again and again: the drone may come
-/// and go.
+/// Reads the control port until `out` has no receiver. It reconnects again and again, because the drone may
+/// disappear and come back.
 pub(super) async fn read_control(address: SocketAddr, out: mpsc::Sender<Bytes>) {
     tokio::select! {
         // An idle connection must not outlive the client.

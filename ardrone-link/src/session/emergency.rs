@@ -2,27 +2,27 @@
 
 use std::time::Duration;
 
-/// The bit stays up this long. A drone that has not answered by then has missed the edge.
+/// Time for which the bit stays up. A drone that has not reacted by then has missed the edge.
 const UP: Duration = Duration::from_millis(500);
-/// The bit stays down this long before it rises again.
+/// Time for which the bit stays down before it rises again.
 const DOWN: Duration = Duration::from_millis(120);
-/// Nothing is wished any longer after this time.
+/// After this time the request is given up.
 const TIMEOUT: Duration = Duration::from_secs(5);
 
-/// What is wished of the drone.
+/// A request to change the drone's emergency state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum EmergencyWish {
-    /// That it cuts its motors.
+    /// Cut the motors.
     Stop,
-    /// That it can fly again.
+    /// Clear the emergency.
     Reset,
 }
 
-/// Raises and lowers the bit until the wish has come true.
+/// Raises and lowers the bit until the request is fulfilled.
 #[derive(Debug, Default)]
 pub(super) struct EmergencySwitch {
     wish: Option<EmergencyWish>,
-    /// When the wish was first acted on.
+    /// Time of the request's first tick.
     since: Option<Duration>,
 }
 
@@ -32,14 +32,14 @@ impl EmergencySwitch {
         self.since = None;
     }
 
-    /// Whether the bit is up now; `emergency` is what the drone says of itself.
+    /// Whether the bit is up now; `emergency` is the drone's reported state.
     pub(super) fn level(&mut self, now: Duration, emergency: bool) -> bool {
         let Some(wish) = self.wish else { return false };
         let since = *self.since.get_or_insert(now);
         let elapsed = now.saturating_sub(since);
         let come_true = emergency == (wish == EmergencyWish::Stop);
         if come_true || elapsed >= TIMEOUT {
-            // The bit is never left up.
+            // The bit must not stay up after the request.
             self.wish = None;
             return false;
         }
@@ -61,7 +61,7 @@ mod tests {
         assert!(switch.level(MS(30), false));
         assert!(switch.level(MS(60), false));
         assert!(!switch.level(MS(90), true));
-        // It does not come back when the emergency ends.
+        // The request does not come back when the emergency ends.
         assert!(!switch.level(MS(120), false));
     }
 

@@ -1,4 +1,4 @@
-//! Configuration after contact: each key set, acknowledged and cleared, then read back.
+//! Configuration after connecting: each key is set, acknowledged and cleared, then all are read back.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -8,26 +8,26 @@ use crate::at::{Command, Config, ControlMode};
 use crate::configuration::Configuration;
 use crate::navdata::DroneState;
 
-/// A key that is not acknowledged is sent again after this time.
+/// Interval at which an unacknowledged key is sent again.
 const RESEND_INTERVAL: Duration = Duration::from_millis(150);
-/// A key that is not acknowledged for this time is given up.
+/// Time after which an unacknowledged key is given up.
 const KEY_TIMEOUT: Duration = Duration::from_secs(2);
-/// Time between two requests for the configuration.
+/// Interval between requests for the configuration.
 const READ_INTERVAL: Duration = Duration::from_millis(500);
-/// The read-back is given up after this time.
+/// Time after which the read-back is given up.
 const READ_TIMEOUT: Duration = Duration::from_secs(6);
-/// A dump has about 4 kB; more than this is no dump.
+/// Maximum size of a dump; a real one has about 4 kB.
 const MAX_DUMP_BYTES: usize = 65_536;
 
 #[derive(Debug)]
 pub(super) struct Handshake {
     step: Step,
-    /// When the current step began, once it has been acted on.
+    /// When the current step first sent something.
     since: Option<Duration>,
     last_sent: Option<Duration>,
     keys: usize,
     read_back: bool,
-    /// It makes the session ready.
+    /// This handshake makes the session ready.
     first: bool,
     dump: Vec<u8>,
 }
@@ -38,13 +38,13 @@ enum Step {
     Clear(usize),
     /// Send key number `.0` until it is acknowledged.
     Set(usize),
-    /// Ask for the configuration until it has come.
+    /// Request the configuration until it has arrived.
     Read,
     Done,
 }
 
 impl Handshake {
-    /// All settings of a session, which is ready then.
+    /// Handshake for all settings of a session, after which it is ready.
     pub(super) fn new(keys: usize, read_back: bool) -> Self {
         Self {
             step: Step::Clear(0),
@@ -57,7 +57,7 @@ impl Handshake {
         }
     }
 
-    /// One setting of a session that is ready already.
+    /// Handshake for one setting of a session that is already ready.
     pub(super) fn change() -> Self {
         Self { first: false, ..Self::new(1, false) }
     }
@@ -66,8 +66,8 @@ impl Handshake {
         self.step == Step::Done
     }
 
-    /// Looks at the acknowledge bit of a new packet; returns whether the drone has answered a key of
-    /// ours.
+    /// Checks the acknowledge bit of a new packet; returns whether the drone has acknowledged one of our
+    /// keys.
     pub(super) fn handle_state(
         &mut self,
         state: DroneState,
@@ -85,7 +85,7 @@ impl Handshake {
                     self.finish(events);
                 }
             }
-            // Only an acknowledge after the key was sent is about this key.
+            // Only an acknowledgement after the key was sent can refer to this key.
             Step::Set(key) if acknowledged && self.last_sent.is_some() => {
                 let name = settings[key].key().to_owned();
                 events.push_back(Event::Configured { key: name });
@@ -97,7 +97,7 @@ impl Handshake {
         false
     }
 
-    /// Collects a dump up to its NUL.
+    /// Collects a dump up to its terminating NUL.
     pub(super) fn handle_control(&mut self, bytes: &[u8], events: &mut VecDeque<Event>) {
         if self.step != Step::Read {
             return;

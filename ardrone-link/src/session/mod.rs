@@ -1,21 +1,22 @@
-//! The client's side of the conversation: a state machine fed with time and bytes.
+//! The client's side of the protocol: a state machine with time and bytes as inputs.
 //!
-//! A shell owns the sockets and the clock and drives a [`Session`] so:
-//! - each navdata datagram goes to [`Session::handle_navdata`], each block of bytes from the
-//!   control port to [`Session::handle_control`];
+//! A shell owns the sockets and the clock and drives a [`Session`] as follows:
+//! - each navdata datagram goes to [`Session::handle_navdata`], each block of bytes from the control port to
+//!   [`Session::handle_control`];
 //! - every 30 ms [`Session::tick`] fills exactly one datagram for the AT port;
-//! - when [`Session::wake_up_due`] says so, [`crate::WAKE_UP`] goes to the navdata port;
-//! - [`Session::poll_event`] tells what happened.
+//! - when [`Session::wake_up_due`] is true, [`crate::WAKE_UP`] goes to the navdata port;
+//! - [`Session::poll_event`] returns events.
 //!
-//! Rules of the drone that are kept here (Parrot's developer guide, and what other clients found out):
-//! - REF and PCMD are levels and stand in every datagram.
-//! - The drone takes number 1 always, and other numbers only if they are greater than the last. So
-//!   that any datagram may be lost, every one begins with number 1 until the drone shows that it
-//!   hears us; from then on numbers only rise, also after a loss and after a restart of the drone.
-//! - A drone that has restarted or was lost must never take off because of an old order: the
-//!   take-off bit is withheld until take-off is ordered anew.
-//! - Navdata whose sequence number is not higher than the last is dropped, unless the drone has
-//!   visibly started again.
+//! Rules of the drone that are enforced here (from Parrot's developer guide and the experience of other
+//! clients):
+//! - REF and PCMD are levels and must be in every datagram.
+//! - The drone always accepts sequence number 1, and other numbers only if they are greater than the last. So
+//!   that any datagram may be lost, every one starts with number 1 until the drone shows that it receives
+//!   them; from then on numbers only rise, also after a loss and after a restart of the drone.
+//! - A drone that has restarted or was lost must never take off because of an old order: the take-off bit is
+//!   withheld until take-off is ordered again.
+//! - Navdata whose sequence number is not higher than the last is dropped, unless the drone has evidently
+//!   restarted.
 
 mod emergency;
 mod handshake;
@@ -30,22 +31,22 @@ use crate::configuration::Configuration;
 use crate::navdata::{ControlState, DroneState, Navdata, NavdataError};
 use crate::settings::{NavdataMode, Setting, SettingError};
 
-/// How a session behaves.
+/// Configuration of a session.
 #[derive(Debug, Clone)]
 pub struct SessionConfig {
-    /// Keys set one after the other when the drone is found, each acknowledged. The first must
-    /// be `general:navdata_demo`, which ends the bootstrap: [`SessionConfig::new`] sees to that.
+    /// Keys set one after the other when the drone is found, each acknowledged. The first must be
+    /// `general:navdata_demo`, which ends the bootstrap mode; [`SessionConfig::new`] ensures this.
     pub settings: Vec<Config>,
-    /// Whose configuration is meant. Keys that are not common to all need it, except the limits
-    /// and the cameras, which the default configuration takes too.
+    /// Custom configuration to be used. Keys outside the common category need one, except the limits and the
+    /// cameras, which the default configuration contains too.
     pub identity: Option<Identity>,
     /// Whether the configuration is read back over the control port before the session is ready.
     pub read_back: bool,
-    /// Silence after which the drone is asked for navdata again.
+    /// Silence after which navdata are requested again.
     pub wake_up_interval: Duration,
-    /// Silence after which the link counts as lost. The drone itself uses 2 s.
+    /// Silence after which the link counts as lost. The drone's own limit is 2 s.
     pub loss_timeout: Duration,
-    /// A take-off that takes longer has failed: its order is withdrawn.
+    /// Timeout of a take-off, after which its order is withdrawn.
     pub take_off_timeout: Duration,
 }
 
@@ -63,7 +64,7 @@ impl Default for SessionConfig {
 }
 
 impl SessionConfig {
-    /// A configuration whose settings begin with what [`NavdataMode`] needs, the rest as in the default.
+    /// A configuration whose settings begin with those of [`NavdataMode`]; other fields have their defaults.
     ///
     /// # Errors
     /// [`SettingError`] if a value is out of range or a setting belongs to the [`NavdataMode`].
@@ -77,18 +78,17 @@ impl SessionConfig {
     }
 }
 
-/// Nothing is allocated in flight: so many events may wait to be told.
+/// Event queue capacity; preallocated, because a tick must not allocate.
 const EVENTS: usize = 32;
-/// A drone that has been silent for so long is not heard.
+/// Silence after which the drone may have restarted unnoticed, so it must not be sent anything that lifts it.
 const UNHEARD: Duration = Duration::from_millis(300);
-/// Packets that come within so long after a silence may all have been held up on their way, since before a
-/// restart.
+/// Packets that arrive within this time after a silence may have been delayed since before a restart.
 const HELD_UP: Duration = Duration::from_millis(100);
 
-/// A drone that is told to land begins to within this time, if it hears.
+/// Time within which a drone that receives a landing order begins to land.
 const DISOBEYED: Duration = Duration::from_millis(500);
 
-/// What the pilot wants in this tick.
+/// The client's order for one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Order {
     /// The REF level.
@@ -102,7 +102,7 @@ impl Order {
     pub const LAND: Self = Self { flight: FlightOrder::Land, motion: Motion::Hover };
 }
 
-/// Take-off and landing, as the pilot wants it.
+/// Take-off and landing level of an order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FlightOrder {
     /// Land, or stay on the ground.
@@ -114,7 +114,7 @@ pub enum FlightOrder {
     StayAirborne,
 }
 
-/// What happened in a session.
+/// An event of a session.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Event {
     /// First navdata since the start or since a loss.
@@ -133,15 +133,15 @@ pub enum Event {
     ConfigurationRead(Configuration),
     /// The configuration could not be read back.
     ConfigurationNotRead,
-    /// All settings are made: the drone may fly.
+    /// All settings are applied: the drone may fly.
     Ready,
     /// No navdata for the loss timeout.
     LinkLost,
-    /// The drone has started again: its state is forgotten, take-off orders are withdrawn.
+    /// The drone has restarted: its state is reset, take-off orders are withdrawn.
     DroneRestarted,
     /// The drone has left the ground.
     Airborne,
-    /// The drone stands on the ground again.
+    /// The drone is on the ground again.
     Landed,
     /// The drone has not left the ground within the take-off timeout.
     TakeOffTimedOut,
@@ -151,12 +151,12 @@ pub enum Event {
     EmergencyCleared,
 }
 
-/// What a navdata datagram turned out to be.
+/// Result of handling a navdata datagram.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Received {
     /// New navdata.
     Navdata(Navdata),
-    /// A packet that is older than the last one, or the same again.
+    /// A packet that is older than the last one, or a repetition of it.
     Stale,
     /// A damaged packet.
     Damaged(NavdataError),
@@ -165,7 +165,7 @@ pub enum Received {
 /// Counters of a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Statistics {
-    /// Packets taken.
+    /// Packets accepted.
     pub received: u64,
     /// Packets dropped because they were old or repeated.
     pub stale: u64,
@@ -179,7 +179,7 @@ pub struct Session {
     config: SessionConfig,
     link: Link,
     handshake: Handshake,
-    /// Settings that were asked for since, and how far the first of them is.
+    /// Requested changes of settings, and the handshake of the first of them.
     changes: VecDeque<Config>,
     change: Option<Handshake>,
     sequence: SequenceNumbers,
@@ -188,12 +188,12 @@ pub struct Session {
     last_wake_up: Option<Duration>,
     flat_trim_due: bool,
     take_off: TakeOffLatch,
-    /// Since when take-off is ordered of a drone that stands.
+    /// Start of a take-off order to a drone on the ground.
     taking_off_since: Option<Duration>,
-    /// Since when landing is ordered of a drone that flies, and whether it does.
+    /// Start of a landing order to a drone in the air, and whether it has begun to land.
     landing_since: Option<Duration>,
     lands: bool,
-    /// The last words have begun.
+    /// The final landing orders have begun, see [`Session::part`].
     parts: bool,
     emergency: EmergencySwitch,
     events: VecDeque<Event>,
@@ -202,18 +202,18 @@ pub struct Session {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Link {
-    /// Nothing heard yet, or not since a loss.
+    /// No navdata yet, or none since a loss.
     Silent,
     Alive,
 }
 
-/// Counts commands.
+/// Assigns sequence numbers to commands.
 #[derive(Debug, Clone, Copy)]
 struct SequenceNumbers {
     next: u32,
-    /// The greatest number that was said.
+    /// The greatest number used.
     greatest: u32,
-    /// The drone has shown that it hears us.
+    /// The drone has shown that it receives our commands.
     confirmed: bool,
 }
 
@@ -224,8 +224,8 @@ impl SequenceNumbers {
         Self { next: Self::FIRST, greatest: 0, confirmed: false }
     }
 
-    /// A datagram begins. The drone may still count where another pilot has left it, far above us,
-    /// and the datagram that told it otherwise may be lost.
+    /// Starts a datagram. Until the drone has confirmed our numbering it may still expect numbers above those
+    /// of another client, and the datagram that resets them may be lost.
     fn begin_datagram(&mut self) {
         self.next = match self.greatest.checked_add(1) {
             Some(next) if self.confirmed => next,
@@ -233,8 +233,8 @@ impl SequenceNumbers {
         };
     }
 
-    /// Beyond whatever another client may have counted to. Number 1 would be heard as well, but behind it
-    /// so would any old datagram that is still under way.
+    /// Skips beyond any number that another client may have reached. Number 1 would be accepted as well, but
+    /// so would any delayed old datagram after it.
     fn leap(&mut self) {
         const FAR: u32 = 1 << 20;
         self.greatest = self.greatest.saturating_add(FAR);
@@ -253,12 +253,12 @@ struct Heard {
     at: Duration,
     sequence: u32,
     bootstrapping: bool,
-    /// When a silence ended, while what has come since may have been held up.
+    /// End of the last silence, while packets may still have been delayed since before it.
     returned_at: Option<Duration>,
 }
 
 impl Heard {
-    /// The same of a packet that comes now.
+    /// The same for a packet that arrives now.
     fn returned_at(&self, now: Duration) -> Option<Duration> {
         if now.saturating_sub(self.at) >= UNHEARD {
             return Some(now);
@@ -267,21 +267,21 @@ impl Heard {
     }
 }
 
-/// Guards the take-off bit.
+/// State of the take-off bit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TakeOffLatch {
     /// The bit follows the orders.
     Follow { airborne: bool },
-    /// Something happened that ends every old order: the bit stays down until the pilot has
-    /// ordered landing and then take-off again.
+    /// An event has invalidated all older orders: the bit stays down until landing and then take-off are
+    /// ordered again.
     Withheld { landing_ordered: bool },
 }
 
 impl Session {
-    /// A session that has heard nothing yet.
+    /// A session that has not received anything yet.
     pub fn new(mut config: SessionConfig) -> Self {
         if let Some(identity) = config.identity {
-            // The first key ends the bootstrap; those that follow belong to the identity.
+            // The first key ends the bootstrap mode; the keys of the identity follow it.
             let place = config.settings.len().min(1);
             config.settings.splice(place..place, custom_settings(identity));
         }
@@ -308,7 +308,7 @@ impl Session {
         }
     }
 
-    /// Takes in a datagram from the drone's navdata port.
+    /// Handles a datagram from the drone's navdata port.
     pub fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) -> Received {
         let navdata = match Navdata::decode(datagram) {
             Ok(navdata) => navdata,
@@ -340,7 +340,7 @@ impl Session {
         }
         self.watch_state(&navdata);
         if bootstrapping && self.handshake.is_done() {
-            // It has lost us, and waits to be configured again.
+            // The drone has lost its client and waits to be configured again.
             self.withhold_take_off();
             self.handshake = self.new_handshake();
         }
@@ -352,14 +352,20 @@ impl Session {
         Received::Navdata(navdata)
     }
 
-    /// Sets one more key, once the session is ready and behind those that were asked for before; it takes
-    /// the place of an earlier value. [`Event::Configured`] or [`Event::ConfigurationTimedOut`] tells what
-    /// became of it. It is among the settings from then on: made again after a loss or a restart.
+    /// Changes one more key once the session is ready and earlier requests are complete; it replaces an
+    /// earlier value. The result is [`Event::Configured`] or [`Event::ConfigurationTimedOut`]. From then on
+    /// it is one of the settings, which are applied again after a loss or a restart.
     pub fn request_setting(&mut self, config: Config) {
         self.changes.push_back(config);
     }
 
-    /// Looks at the acknowledge bit for the setting that is being changed.
+    /// Applies all settings again, because another client may have changed them. The session is not ready until
+    /// this is complete.
+    pub fn configure_again(&mut self) {
+        self.handshake = self.new_handshake();
+    }
+
+    /// Checks the acknowledge bit for the setting that is being changed.
     fn follow_change(&mut self, state: DroneState) {
         let Some(change) = &mut self.change else { return };
         self.sequence.confirmed |=
@@ -372,7 +378,7 @@ impl Session {
         }
     }
 
-    /// Makes a setting one of those that are made when the drone is found.
+    /// Adds a setting to those that are applied when the drone is found.
     fn keep(&mut self, config: Config) {
         match self.config.settings.iter_mut().rfind(|other| other.key() == config.key()) {
             Some(other) => *other = config,
@@ -380,7 +386,7 @@ impl Session {
         }
     }
 
-    /// All settings are made anew, with those that wait among them.
+    /// A handshake for all settings, including requested changes.
     fn new_handshake(&mut self) -> Handshake {
         self.change = None;
         while let Some(config) = self.changes.pop_front() {
@@ -389,7 +395,7 @@ impl Session {
         Handshake::new(self.config.settings.len(), self.config.read_back)
     }
 
-    /// What the conversation about settings adds to this tick.
+    /// Command for settings in this tick, if any.
     fn setting_command(&mut self, now: Duration) -> Option<Command> {
         if !self.handshake.is_done() {
             let settings = &self.config.settings;
@@ -402,18 +408,18 @@ impl Session {
         change.command(now, self.state, self.changes.make_contiguous(), &mut self.events)
     }
 
-    /// Takes in bytes from the drone's control port.
+    /// Handles bytes from the drone's control port.
     pub fn handle_control(&mut self, bytes: &[u8]) {
         self.handshake.handle_control(bytes, &mut self.events);
     }
 
-    /// Fills `datagram` with this tick's commands: REF, PCMD, and what the conversation needs. It stays empty
-    /// until the drone has been heard: it may be flying already, and any REF would land it or fight its pilot.
-    /// An REF that could lift the drone is left out while the drone is not heard.
+    /// Fills `datagram` with this tick's commands: REF, PCMD, and commands for settings. It stays empty until
+    /// navdata arrive, because the drone may already be flying: any REF would land it or compete with its
+    /// pilot. A REF that could lift the drone is left out while the drone is silent.
     ///
     /// # Errors
-    /// Never in practice: the commands of one tick are shorter than a datagram, whatever the
-    /// settings; the error is passed on rather than hidden.
+    /// Never in practice: the commands of one tick are shorter than a datagram, whatever the settings. The
+    /// error is returned rather than hidden.
     pub fn tick(
         &mut self,
         now: Duration,
@@ -444,7 +450,7 @@ impl Session {
         if self.state.contains(DroneState::COMMUNICATION_WATCHDOG) {
             self.push(datagram, &Command::CommunicationWatchdog)?;
         }
-        // A drone in the air does not stand level, whoever asked for it.
+        // In the air the drone is not level, so flat trim would set a wrong reference.
         let flies = self.state.contains(DroneState::FLYING);
         if std::mem::take(&mut self.flat_trim_due) && !flies {
             self.push(datagram, &Command::FlatTrim)?;
@@ -452,7 +458,7 @@ impl Session {
         if self.link == Link::Alive
             && let Some(command) = self.setting_command(now)
         {
-            // The identity holds for the command behind it.
+            // The identity applies to the next command.
             if let (Command::Config(_), Some(identity)) = (&command, self.config.identity) {
                 self.push(datagram, &Command::ConfigIds(identity))?;
             }
@@ -461,14 +467,14 @@ impl Session {
         Ok(())
     }
 
-    /// A tick in which nothing is said, to a drone that is not ours to speak to: its silence is noticed all
-    /// the same.
+    /// A tick without a datagram, for a drone that another pilot flies: its silence is still detected.
     pub fn idle(&mut self, now: Duration) {
         self.watch_silence(now);
     }
 
-    /// Fills `datagram` with the last words of a pilot that leaves: land, with the sticks at rest. A cut
-    /// that was asked for goes on. It stays empty if nothing was ever said to this drone: it is not ours.
+    /// Fills `datagram` with a final landing order and centred sticks, for a program that is about to exit. A
+    /// requested cut of the motors continues. The datagram stays empty if nothing was ever sent to this
+    /// drone, because another client may fly it.
     ///
     /// # Errors
     /// Never in practice, see [`Session::tick`].
@@ -489,12 +495,12 @@ impl Session {
         self.push(datagram, &Command::Pcmd(Motion::Hover))
     }
 
-    /// Whether anything was ever said to the drone.
+    /// Whether anything was ever sent to the drone.
     pub fn has_spoken(&self) -> bool {
         self.sequence.greatest > 0
     }
 
-    /// Whether [`crate::WAKE_UP`] is to be sent to the navdata port now.
+    /// Whether [`crate::WAKE_UP`] must be sent to the navdata port now.
     pub fn wake_up_due(&mut self, now: Duration) -> bool {
         let heard = self.last_navdata.map(|heard| heard.at);
         let quiet = |since: Option<Duration>| {
@@ -507,35 +513,35 @@ impl Session {
         due
     }
 
-    /// Sends one level reference with the next tick. The drone must stand level on the ground.
+    /// Sets the level reference in the next tick. The drone must stand on level ground.
     pub fn request_flat_trim(&mut self) {
         self.flat_trim_due = true;
     }
 
-    /// Cuts the motors at once, wherever the drone is: **it falls**. Repeated until the drone says
-    /// that it has done so.
+    /// Cuts the motors at once, wherever the drone is: **it falls**. Repeated until the drone reports that
+    /// they are cut.
     pub fn request_emergency_stop(&mut self) {
         self.withhold_take_off();
         self.emergency.request(EmergencyWish::Stop);
     }
 
-    /// Clears an emergency, so that the drone can fly again. Only on the ground, and only when a
-    /// person has looked at the drone.
+    /// Clears an emergency so that the drone can fly again. Use it only on the ground, after a person has
+    /// inspected the drone.
     pub fn request_emergency_reset(&mut self) {
         self.emergency.request(EmergencyWish::Reset);
     }
 
-    /// What happened, oldest first.
+    /// The next event, oldest first.
     pub fn poll_event(&mut self) -> Option<Event> {
         self.events.pop_front()
     }
 
-    /// Whether the drone is heard and configured.
+    /// Whether the drone is connected and configured.
     pub fn is_ready(&self) -> bool {
         self.link == Link::Alive && self.handshake.is_done()
     }
 
-    /// Whether the drone is being heard.
+    /// Whether the drone is connected.
     pub fn is_alive(&self) -> bool {
         self.link == Link::Alive
     }
@@ -545,7 +551,7 @@ impl Session {
         self.state
     }
 
-    /// Time since the newest packet; nothing if there was none.
+    /// Time since the newest packet; `None` if there was none.
     pub fn silence(&self, now: Duration) -> Option<Duration> {
         self.last_navdata.map(|heard| now.saturating_sub(heard.at))
     }
@@ -577,11 +583,11 @@ impl Session {
         let flying = |state: DroneState| state.contains(DroneState::FLYING);
         match (flying(self.state), flying(navdata.state)) {
             (false, true) => {
-                // It does what it was told.
+                // The drone obeys the take-off order, so it receives our commands.
                 self.sequence.confirmed |= self.taking_off_since.is_some();
                 self.events.push_back(Event::Airborne);
             }
-            // With its motors cut it falls.
+            // With its motors cut it falls instead of landing.
             (true, false) if !emergency(navdata.state) => self.events.push_back(Event::Landed),
             _ => {}
         }
@@ -593,14 +599,14 @@ impl Session {
             if navdata.state.contains(DroneState::FLYING) {
                 self.take_off = TakeOffLatch::Follow { airborne: true };
             } else if airborne && landed {
-                // It flew and has landed: the order to fly is spent.
+                // It has flown and landed: the order to fly is used up.
                 self.withhold_take_off();
             }
         }
     }
 
-    /// A drone that is not heard may have started again, and stand on the ground: nothing that could
-    /// lift it is sent. One that flies goes on as if a datagram had been lost.
+    /// A silent drone may have restarted and stand on the ground: commands that could lift it are left out.
+    /// One that still flies sees this as a lost datagram.
     fn is_heard(&self, now: Duration) -> bool {
         self.last_navdata.is_some_and(|heard| {
             heard.returned_at.is_none() && now.saturating_sub(heard.at) < UNHEARD
@@ -618,7 +624,7 @@ impl Session {
         }
     }
 
-    /// Gives up a take-off that does not come.
+    /// Withdraws a take-off that does not happen in time.
     fn watch_take_off(&mut self, now: Duration, ordered: bool) {
         if !ordered || self.state.contains(DroneState::FLYING) {
             self.taking_off_since = None;
@@ -632,7 +638,8 @@ impl Session {
         }
     }
 
-    /// A drone that flies on although it is told to land may obey somebody who has counted further.
+    /// Detects a drone that flies on although landing is ordered: it may accept only numbers above those of
+    /// another client.
     fn watch_landing(&mut self, now: Duration, take_off: bool) {
         if take_off || !self.state.contains(DroneState::FLYING) || self.lands {
             self.landing_since = None;
@@ -668,7 +675,7 @@ impl Session {
     }
 }
 
-/// The keys that select an identity's configurations, or make them.
+/// The keys that select or create the configurations of an identity.
 fn custom_settings(identity: Identity) -> [Config; 3] {
     [
         ("custom:session_id", identity.session),
@@ -678,20 +685,19 @@ fn custom_settings(identity: Identity) -> [Config; 3] {
     .map(|(key, id)| Config::plain(key, Identity::text(id)))
 }
 
-/// A sequence number that does not rise means a late or repeated packet, unless the drone says
-/// that it is bootstrapping, as a drone does that nobody has configured yet, or counts from the very
-/// start, and there was a silence, as there is while a drone starts: old packets that come again amid new
-/// ones are old.
+/// Whether a packet with a lower sequence number shows a restart rather than a late or repeated packet. After
+/// a restart the drone is in bootstrap mode, or counts from the very start, and there was a silence while it
+/// started; old packets that are repeated among new ones come without a silence.
 fn has_restarted(now: Duration, navdata: &Navdata, last: Heard) -> bool {
     const FIRST_PACKETS: u32 = 3;
-    /// Packets overtake no more than so many others.
+    /// Maximum number of packets by which a packet can be overtaken.
     const OVERTAKEN: u32 = 32;
     let behind = last.sequence.saturating_sub(navdata.sequence);
     if behind == 0 || last.returned_at(now).is_none() {
         return false;
     }
     let bootstrapping = navdata.state.contains(DroneState::NAVDATA_BOOTSTRAP);
-    // One that was bootstrapping already may just have been overtaken.
+    // A drone that was already in bootstrap mode may just have had a packet overtaken.
     let is_new = !last.bootstrapping || behind > OVERTAKEN;
     let from_the_start = navdata.sequence <= FIRST_PACKETS && last.sequence > 10 * FIRST_PACKETS;
     bootstrapping && is_new || from_the_start

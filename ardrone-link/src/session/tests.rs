@@ -6,7 +6,7 @@ use crate::navdata::{Demo, NavdataOption, PacketWriter};
 
 const TICK: Duration = Duration::from_millis(30);
 
-/// A session and the time it lives in.
+/// A session with its simulated time.
 struct Bench {
     session: Session,
     now: Duration,
@@ -38,7 +38,7 @@ impl Bench {
         self.session.handle_navdata(self.now, &bytes)
     }
 
-    /// The first packets of a drone that has started again, which takes its time.
+    /// The first packets of a restarted drone, after the time that it takes to start.
     fn hear_restart(&mut self, first: u32) {
         self.now += UNHEARD;
         for sequence in first..first + 4 {
@@ -47,7 +47,7 @@ impl Bench {
         }
     }
 
-    /// The commands of one tick.
+    /// Commands of one tick.
     fn tick(&mut self, flight: FlightOrder) -> Vec<Command> {
         self.now += TICK;
         let mut datagram = Datagram::new();
@@ -74,7 +74,7 @@ fn the_handshake_sets_acknowledges_and_clears_each_key() {
     let acknowledge = DroneState::COMMAND_ACKNOWLEDGE;
     let quiet = DroneState::empty();
     let config = |key: &str, value: &str| Command::Config(Config::new(key, value).unwrap());
-    // Some other client left the acknowledge bit set.
+    // Another client has left the acknowledge bit set.
     bench.hear(1, acknowledge | DroneState::NAVDATA_BOOTSTRAP);
     assert_eq!(bench.tick(FlightOrder::Land)[2..], [CLEAR]);
     bench.hear(2, DroneState::NAVDATA_BOOTSTRAP);
@@ -176,7 +176,7 @@ fn silence_wakes_the_drone_again_and_becomes_a_loss() {
     let datagram = bench.tick(FlightOrder::StayAirborne);
     assert!(!bench.session.is_alive());
     assert_eq!(datagram[0], Command::Ref(Ref::Land));
-    // The drone is heard again with low numbers: nobody is offended.
+    // The drone is back with low numbers, which is accepted.
     assert!(matches!(bench.hear(1, DroneState::empty()), Received::Navdata(_)));
     assert_eq!(
         bench.events(),
@@ -201,7 +201,7 @@ fn a_drone_that_restarts_in_flight_does_not_take_off_again() {
     assert!(bench.takes_off(FlightOrder::StayAirborne));
     bench.hear_restart(1);
     assert!(bench.events().contains(&Event::DroneRestarted));
-    // Neither the order to stay in the air nor the one that is still being given counts.
+    // Neither staying in the air nor the order that is still given counts as new.
     assert!(!bench.takes_off(FlightOrder::StayAirborne));
     assert!(!bench.takes_off(FlightOrder::TakeOff));
     // A new order does.
@@ -226,7 +226,7 @@ fn nothing_that_could_lift_the_drone_is_said_into_the_silence() {
     assert!(bench.takes_off(FlightOrder::StayAirborne));
 }
 
-/// A drone needs longer to start than packets that come again.
+/// A restart takes longer than packets are delayed.
 #[test]
 fn old_packets_that_come_again_are_no_restart() {
     let mut bench = Bench::new(&[]);
@@ -236,7 +236,7 @@ fn old_packets_that_come_again_are_no_restart() {
     for old in [1, 2, 39, 40] {
         assert_eq!(bench.hear(old, bootstrapping), Received::Stale, "amid new ones");
     }
-    // The drone was lost, and waits to be configured again while it flies.
+    // The drone was lost, and waits in the air to be configured again.
     bench.now += UNHEARD;
     bench.hear(140, bootstrapping | DroneState::FLYING);
     assert_eq!(bench.hear(139, bootstrapping | DroneState::FLYING), Received::Stale, "overtaken");
@@ -245,7 +245,7 @@ fn old_packets_that_come_again_are_no_restart() {
     assert_eq!(restarts.count(), 1, "that was one");
 }
 
-/// What was said before a restart and was held up tells nothing of the drone as it is.
+/// Delayed packets from before a restart do not describe the current state.
 #[test]
 fn packets_that_were_held_up_do_not_show_that_the_drone_still_flies() {
     let mut bench = Bench::new(&[]);
@@ -264,7 +264,7 @@ fn packets_that_were_held_up_do_not_show_that_the_drone_still_flies() {
     assert!(lifts(&bench.tick(FlightOrder::StayAirborne)), "it goes on telling");
 }
 
-/// The limits themselves: the drone is heard until just before, and again from just then.
+/// The exact limits of the silence.
 #[test]
 fn a_drone_is_heard_for_as_long_as_it_was_silent_for_less_than_the_limit() {
     let just_before = |limit: Duration| limit.saturating_sub(Duration::from_millis(1));
@@ -343,7 +343,7 @@ fn identities_are_selected_first_and_stand_before_each_key() {
 }
 
 #[test]
-fn flying_and_landing_are_told_and_a_take_off_that_does_not_come_is_given_up() {
+fn flying_and_landing_are_reported_and_a_take_off_that_does_not_come_is_given_up() {
     let mut bench = Bench::new(&[]);
     let mut events = Vec::new();
     let take_off = |commands: &[Command]| commands.contains(&Command::Ref(Ref::TakeOff));
@@ -398,7 +398,7 @@ fn a_drone_that_falls_or_has_restarted_has_not_landed() {
     assert!(!events.contains(&Event::Landed), "{events:?}");
 }
 
-/// The numbers of one tick's commands.
+/// Sequence numbers of one tick's commands.
 fn numbers(bench: &mut Bench) -> Vec<u32> {
     bench.now += TICK;
     let mut datagram = Datagram::new();
@@ -460,14 +460,14 @@ fn a_parting_says_land_and_nothing_else_and_only_to_a_drone_that_was_spoken_to()
     assert_eq!(first.iter().map(|(_, command)| command.clone()).collect::<Vec<_>>(), landing);
     assert!(first[0].0 > 1_000_000, "beyond whatever another client has counted to");
     assert_eq!(part(&mut bench)[0].0, first[1].0 + 1, "numbers go on");
-    // A cut is not taken back.
+    // A cut of the motors is not taken back.
     bench.session.request_emergency_stop();
     assert_eq!(part(&mut bench)[0].1, Command::Ref(Ref::ToggleEmergency));
     bench.hear(3, DroneState::EMERGENCY);
     assert_eq!(part(&mut bench)[0].1, Command::Ref(Ref::Land));
 }
 
-/// Another client may have counted on, far above us.
+/// Another client may have used numbers far above ours.
 #[test]
 fn a_landing_that_is_not_obeyed_is_counted_far_ahead() {
     let mut bench = Bench::new(&[]);
@@ -490,7 +490,7 @@ fn a_landing_that_is_not_obeyed_is_counted_far_ahead() {
     assert!((0..30).any(|_| first_number(&mut bench) > 2_000_000), "until it lands");
 }
 
-/// It does so after two seconds in which it has not heard us, although we may have heard it.
+/// A drone waits for configuration after two seconds without our commands, even if its navdata still arrive.
 #[test]
 fn a_drone_that_waits_to_be_configured_again_is() {
     let mut bench = Bench::new(&[("general:navdata_demo", "TRUE")]);
@@ -532,14 +532,14 @@ fn the_navdata_mode_comes_first_and_only_once() {
     assert!(matches!(unknown, Err(SettingError::Range { .. })));
 }
 
-/// A setting that is asked for later is made like those at the start, and again after a restart.
+/// A setting requested later is applied like those at the start, and again after a restart.
 #[test]
 fn a_setting_can_be_changed_once_the_session_is_ready() {
     let acknowledge = DroneState::COMMAND_ACKNOWLEDGE;
     let key = |key: &str| Event::Configured { key: key.to_owned() };
     let mut bench = Bench::new(&[("general:navdata_demo", "TRUE"), ("control:outdoor", "FALSE")]);
     let mut sequence = 0;
-    // Answers whatever is set; returns what was.
+    // Acknowledges every key; returns the keys.
     let mut converse = |bench: &mut Bench, bits: DroneState| -> Vec<String> {
         let (mut state, mut set) = (bits, Vec::new());
         for _ in 0..20 {
@@ -570,7 +570,7 @@ fn a_setting_can_be_changed_once_the_session_is_ready() {
     assert_eq!(bench.events(), [key("control:outdoor"), key("control:altitude_max")]);
     assert!(bench.session.is_ready());
     assert_eq!(converse(&mut bench, quiet), [""; 0], "that was all");
-    // It has lost us, and is configured again: with one change behind the others that still waits.
+    // The drone has lost its client and is configured again, while one change is still queued.
     bench.session.request_setting(Config::new("control:outdoor", "FALSE").unwrap());
     bench.hear(1000, DroneState::NAVDATA_BOOTSTRAP);
     assert!(!bench.session.is_ready());
@@ -578,7 +578,7 @@ fn a_setting_can_be_changed_once_the_session_is_ready() {
     bench.tick(FlightOrder::Land);
     let all = ["general:navdata_demo=TRUE", "control:outdoor=FALSE", "control:altitude_max=2000"];
     assert_eq!(converse(&mut bench, quiet), all);
-    // One that is never acknowledged is given up like any other.
+    // A change that is never acknowledged is given up like any other.
     bench.session.request_setting(Config::new("video:codec_fps", "30").unwrap());
     bench.events();
     for _ in 0..100 {
@@ -589,8 +589,35 @@ fn a_setting_can_be_changed_once_the_session_is_ready() {
     assert_eq!(bench.events(), [Event::ConfigurationTimedOut { key: name }]);
 }
 
-/// A packet behind the last, in which nothing is said.
+/// The next packet, without any state.
 fn hear_silence(bench: &mut Bench) {
     let next = bench.session.last_navdata.map_or(1, |heard| heard.sequence + 1);
     bench.hear(next, DroneState::empty());
+}
+
+#[test]
+fn settings_that_another_client_may_have_changed_are_made_again() {
+    let mut bench = Bench::new(&[("control:altitude_max", "3000")]);
+    let quiet = DroneState::empty();
+    for sequence in [1, 201] {
+        bench.hear(sequence, quiet);
+        let ceiling = Command::Config(Config::new("control:altitude_max", "3000").unwrap());
+        assert!(bench.tick(FlightOrder::Land).contains(&ceiling), "{sequence}");
+        bench.hear(sequence + 1, DroneState::COMMAND_ACKNOWLEDGE);
+        while !bench.session.is_ready() {
+            bench.tick(FlightOrder::Land);
+            bench.hear(sequence + 100, quiet);
+        }
+        assert!(bench.events().contains(&Event::Ready));
+        bench.session.configure_again();
+        assert!(!bench.session.is_ready());
+    }
+}
+
+#[test]
+fn nothing_is_said_to_a_drone_that_was_not_heard() {
+    let mut bench = Bench::new(&[]);
+    assert_eq!(bench.tick(FlightOrder::TakeOff), []);
+    bench.hear(1, DroneState::empty());
+    assert_eq!(bench.tick(FlightOrder::Land)[0], Command::Ref(Ref::Land));
 }

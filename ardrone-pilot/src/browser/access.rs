@@ -1,44 +1,45 @@
-//! Who may see and order: pages of this server alone, and whoever has the token.
+//! Access control: only pages of this server, and only clients with the token.
 
 use std::net::{IpAddr, SocketAddr};
 
 use super::BrowserError;
 
-/// Decides by what a request says of itself.
+/// Decides by the headers and the address of a request.
 #[derive(Debug)]
 pub(super) struct Access {
     address: SocketAddr,
-    /// Needed where others than this machine can connect.
+    /// Required where other machines can connect.
     token: Option<String>,
 }
 
 /// Why a request is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub(super) enum Refusal {
-    /// A name that may belong to somebody else's page.
+    /// The host name may belong to another site's page.
     #[error("this machine is not called that here: open the address that ardrone-pilot printed")]
     Host,
     /// Another site's page.
     #[error("only the page of this server may do that")]
     Origin,
-    /// No token, or a wrong one.
+    /// The token is missing or wrong.
     #[error("the token is missing or wrong: open the whole address that ardrone-pilot printed")]
     Token,
 }
 
-/// What a request says of itself.
+/// The parts of a request that are checked.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Claims<'a> {
     /// The header `Host`.
     pub(super) host: Option<&'a str>,
-    /// The header `Origin`; browsers always send it with what could do harm.
+    /// The header `Origin`; browsers always send it with requests that could do harm.
     pub(super) origin: Option<&'a str>,
-    /// The token in the address.
+    /// The token in the request's address.
     pub(super) token: Option<&'a str>,
 }
 
 impl Access {
-    /// For a server at this address: on the loopback without a token, otherwise with a fresh one.
+    /// Access control of a server at this address: without a token on the loopback interface, otherwise with
+    /// a new one.
     ///
     /// # Errors
     /// [`BrowserError::Token`] if the system has no random numbers.
@@ -52,7 +53,7 @@ impl Access {
         Ok(Self { address, token: Some(token) })
     }
 
-    /// What to open in a browser.
+    /// The address to open in a browser.
     pub(super) fn url(&self) -> String {
         match &self.token {
             None => format!("http://{}/", self.address),
@@ -67,18 +68,19 @@ impl Access {
         }
     }
 
-    /// Whether the request may be served at all, and with `orders` whether it may see the flight and
-    /// order.
+    /// Checks whether a request may be served, and with `orders` whether it may watch the flight and give
+    /// orders.
     ///
     /// # Errors
-    /// The reason against it.
+    /// The reason for refusing it.
     pub(super) fn check(&self, claims: Claims<'_>, orders: bool) -> Result<(), Refusal> {
         let host = claims.host.ok_or(Refusal::Host)?;
-        // A foreign page can have its own name lead here. Where a token is needed, it has none.
+        // Guards against DNS rebinding, by which another site's name leads here. With a token that site would
+        // lack it.
         if self.token.is_none() && !self.is_our_name(host) {
             return Err(Refusal::Host);
         }
-        // Programs send no origin.
+        // Clients other than browsers send no origin.
         if claims.origin.is_some_and(|origin| origin.strip_prefix("http://") != Some(host)) {
             return Err(Refusal::Origin);
         }
@@ -102,7 +104,7 @@ impl Access {
     }
 }
 
-/// Compares in a time that does not tell how much was right.
+/// Compares in constant time, so that the duration reveals nothing about the token.
 fn same(one: &str, other: &str) -> bool {
     let differences =
         one.bytes().zip(other.bytes()).fold(0, |all, (one, other)| all | (one ^ other));
@@ -129,8 +131,7 @@ mod tests {
             ("127.0.0.1:8080", None, Ok(())),
             ("localhost:8080", Some("http://localhost:8080"), Ok(())),
             ("[::1]:8080", Some("http://[::1]:8080"), Ok(())),
-            // Another site, another program's page on this machine, a file, and a site whose name was
-            // made to lead here.
+            // Another site, another program's page on this machine, a file, and a site using DNS rebinding.
             ("127.0.0.1:8080", Some("http://evil.example"), Err(Refusal::Origin)),
             ("127.0.0.1:8080", Some("http://127.0.0.1:3000"), Err(Refusal::Origin)),
             ("127.0.0.1:8080", Some("https://127.0.0.1:8080"), Err(Refusal::Origin)),

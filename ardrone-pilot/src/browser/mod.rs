@@ -1,16 +1,16 @@
-//! The flight in a browser: a page that shows it live and takes operators' orders.
+//! Browser display: a page that shows the flight live and takes operators' orders.
 //!
-//! The page is served by a thread of its own, which has nothing of the flight but its [`Controls`]:
-//! whatever a client does, the tick does not see it. A page that falls behind is told the whole story
-//! again; one that cannot be written to is dropped.
+//! The page is served by a thread of its own, which has no access to the flight except its [`Controls`]: no
+//! client can affect the tick. A page that falls behind gets a new snapshot; one that does not read is
+//! disconnected.
 //!
-//! On the loopback whoever is on this machine may order. At any other address the page wants a token,
-//! which is new for each flight. Pages of other sites are refused everywhere.
+//! On the loopback interface every user of this machine may give orders. At any other address the page
+//! requires a token, which is new for each flight. Pages of other sites are refused everywhere.
 
 mod access;
 mod requests;
 mod server;
-mod story;
+mod snapshot;
 
 use std::net::{SocketAddr, TcpListener};
 
@@ -18,18 +18,18 @@ use autopilot::plan::{FlightLimits, Plan};
 
 use self::access::Access;
 use self::server::Server;
-use self::story::Story;
+use self::snapshot::Snapshot;
 use crate::flight::{Controls, Message};
 
-/// Why there is no page.
+/// Why the page cannot be served.
 #[derive(Debug, thiserror::Error)]
 pub enum BrowserError {
-    /// The address cannot be had.
+    /// The address cannot be bound.
     #[error("cannot serve the page at {address}; give another address as --ui")]
     Bind {
-        /// What was asked for.
+        /// The requested address.
         address: SocketAddr,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The system has no random numbers.
@@ -40,18 +40,18 @@ pub enum BrowserError {
     Thread(#[source] std::io::Error),
 }
 
-/// An address that is ours before the flight begins.
+/// A bound address, reserved before the flight begins.
 #[derive(Debug)]
-pub struct Door {
+pub struct Listener {
     listener: TcpListener,
     access: Access,
 }
 
-impl Door {
-    /// Takes the address.
+impl Listener {
+    /// Binds the address.
     ///
     /// # Errors
-    /// [`BrowserError`] if it cannot be had.
+    /// [`BrowserError`] if it cannot be bound.
     pub fn bind(address: SocketAddr) -> Result<Self, BrowserError> {
         let error = |source| BrowserError::Bind { address, source };
         let listener = TcpListener::bind(address).map_err(error)?;
@@ -60,44 +60,44 @@ impl Door {
         Ok(Self { listener, access })
     }
 
-    /// What to open in a browser.
+    /// The address to open in a browser.
     pub fn url(&self) -> String {
         self.access.url()
     }
 
-    /// Lets browsers in to watch a flight and to order it.
+    /// Starts serving the page.
     ///
     /// # Errors
-    /// [`BrowserError::Thread`] if no thread can be had.
+    /// [`BrowserError::Thread`] if the thread cannot be started.
     pub fn open(
         self,
         plan: Option<&Plan>,
         limits: &FlightLimits,
         controls: Controls,
     ) -> Result<Browser, BrowserError> {
-        let story = Story::new(plan, limits);
-        let server = Server::start(self.listener, self.access, story, controls)
+        let snapshot = Snapshot::new(plan, limits);
+        let server = Server::start(self.listener, self.access, snapshot, controls)
             .map_err(BrowserError::Thread)?;
         Ok(Browser { server })
     }
 }
 
-/// Browsers that watch a flight. When it goes, they have been told everything.
+/// The server of the page. Dropping it delivers all messages first.
 #[derive(Debug)]
 pub struct Browser {
     server: Server,
 }
 
 impl Browser {
-    /// Tells them what the flight tells; never waits for any of them.
+    /// Publishes a message of the flight; never blocks.
     pub fn show(&self, message: &Message) {
-        self.server.tell(|story| story.take_in(message));
+        self.server.publish(|snapshot| snapshot.take_in(message));
     }
 
-    /// Tells them how it ended.
+    /// Publishes the end of the flight.
     pub fn end(&self, end: &serde_json::Value) {
-        self.server.tell(|story| {
-            story.end(end.clone());
+        self.server.publish(|snapshot| {
+            snapshot.end(end.clone());
             end.clone()
         });
     }

@@ -1,18 +1,18 @@
-//! What a browser may ask for: JSON objects like `{"order":"hold"}`.
+//! Requests of a browser: JSON objects like `{"order":"hold"}`.
 
 use std::time::Duration;
 
 use autopilot::vehicle::OperatorOrder;
 use serde::Deserialize;
 
-/// The motors are cut within this time after it was asked whether that is meant.
+/// A cut must be confirmed within this time.
 const CUT_AGAIN: Duration = Duration::from_secs(3);
-/// Nobody clicks faster than this.
+/// Minimum interval between orders; nobody clicks faster.
 const LEAST_APART: Duration = Duration::from_millis(20);
-/// So many requests of no meaning are forgiven.
+/// Malformed requests tolerated before disconnecting.
 const FORGIVEN: u32 = 10;
 
-/// What a page sends.
+/// A request of the page.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(tag = "order", rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
@@ -24,7 +24,7 @@ enum Request {
         x_m: f64,
         y_m: f64,
     },
-    /// The first half of a cut.
+    /// Announces a cut, which must be confirmed.
     Arm,
     Cut,
 }
@@ -32,10 +32,10 @@ enum Request {
 /// Why a request is not carried out.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(super) enum RequestError {
-    /// Not one of [`Request`].
+    /// Not a valid [`Request`].
     #[error("not understood: {0}")]
     Meaningless(String),
-    /// Orders come faster than anybody clicks.
+    /// Orders arrive faster than a person could click.
     #[error("too fast")]
     TooFast,
     /// A cut that was not announced, or too long ago.
@@ -43,7 +43,7 @@ pub(super) enum RequestError {
     NotArmed,
 }
 
-/// One browser's requests.
+/// State of one browser's requests.
 #[derive(Debug, Default)]
 pub(super) struct Requests {
     armed: Option<Duration>,
@@ -52,25 +52,27 @@ pub(super) struct Requests {
 }
 
 impl Requests {
-    /// What is to be done about a request that came at `now`; nothing for the first half of a cut.
+    /// The order of a request received at `now`; `None` if it only announces a cut.
     ///
     /// # Errors
-    /// Why nothing is.
+    /// [`RequestError`] if there is nothing to carry out.
     pub(super) fn order(
         &mut self,
         now: Duration,
         text: &str,
     ) -> Result<Option<OperatorOrder>, RequestError> {
-        let last = self.last.replace(now);
-        if last.is_some_and(|last| now.saturating_sub(last) < LEAST_APART) {
-            self.meaningless += 1;
-            return Err(RequestError::TooFast);
-        }
-        let armed = self.armed.take();
         let request = serde_json::from_str(text).map_err(|error| {
             self.meaningless += 1;
             RequestError::Meaningless(error.to_string())
         })?;
+        let last = self.last.replace(now);
+        let too_fast = last.is_some_and(|last| now.saturating_sub(last) < LEAST_APART);
+        // However fast orders come, a hold and a landing are among those that count.
+        if too_fast && !matches!(request, Request::Hold | Request::Land) {
+            self.meaningless += 1;
+            return Err(RequestError::TooFast);
+        }
+        let armed = self.armed.take();
         Ok(Some(match request {
             Request::Start => OperatorOrder::Start { when_ready: false },
             Request::Hold => OperatorOrder::Hold,
@@ -88,7 +90,7 @@ impl Requests {
         }))
     }
 
-    /// Whether this is no page of ours.
+    /// Whether so many requests were malformed that the client is not this page.
     pub(super) fn is_garbage(&self) -> bool {
         self.meaningless > FORGIVEN
     }
@@ -133,7 +135,7 @@ mod tests {
         assert_eq!(order(0, CUT), Err(RequestError::NotArmed));
         assert_eq!(order(10, ARM), Ok(None));
         assert_eq!(order(39, CUT), Ok(Some(OperatorOrder::Cut)));
-        // Once is once; too late; something else between.
+        // Confirmed twice; too late; another order in between.
         assert_eq!(order(40, CUT), Err(RequestError::NotArmed));
         assert_eq!(order(50, ARM), Ok(None));
         assert_eq!(order(81, CUT), Err(RequestError::NotArmed));
@@ -145,9 +147,11 @@ mod tests {
     #[test]
     fn floods_and_garbage_are_noticed() {
         let mut requests = Requests::default();
-        let land = r#"{"order":"land"}"#;
-        assert!(requests.order(SECOND, land).is_ok());
-        assert_eq!(requests.order(SECOND + SECOND / 100, land), Err(RequestError::TooFast));
+        let soon = SECOND + SECOND / 100;
+        assert!(requests.order(SECOND, r#"{"order":"resume"}"#).is_ok());
+        assert_eq!(requests.order(soon, r#"{"order":"resume"}"#), Err(RequestError::TooFast));
+        // However fast they come, a landing is taken.
+        assert_eq!(requests.order(soon, r#"{"order":"land"}"#), Ok(Some(OperatorOrder::Land)));
         assert!(!requests.is_garbage());
         for count in 0..FORGIVEN {
             assert!(requests.order(SECOND * (count + 2), "?").is_err());

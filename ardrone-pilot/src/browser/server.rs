@@ -1,4 +1,4 @@
-//! The thread that serves the page.
+//! HTTP and WebSocket server of the page.
 
 use std::io;
 use std::net::TcpListener;
@@ -31,36 +31,36 @@ use tokio::time::{Instant, timeout};
 
 use super::access::{Access, Claims, Refusal};
 use super::requests::Requests;
-use super::story::Story;
+use super::snapshot::Snapshot;
 use crate::flight::Controls;
 
-/// Connections at a time that want a page; others wait in the system's queue.
+/// Maximum number of simultaneous HTTP connections; further ones wait in the system's queue.
 const CONNECTIONS: usize = 64;
-/// Browsers that watch at a time.
+/// Maximum number of simultaneous viewers.
 const VIEWERS: u32 = 16;
-/// What a browser may be behind before it is told the whole story again.
+/// Messages that a browser may fall behind before it gets a new snapshot.
 const BEHIND: usize = 64;
-/// A connection that is no page's way to the flight is closed after this.
+/// Timeout of plain HTTP connections.
 const REQUEST_TIME: Duration = Duration::from_secs(5);
-/// A browser that takes nothing for so long is dropped.
+/// A browser that accepts no data for this time is disconnected.
 const WRITE_TIME: Duration = Duration::from_secs(2);
-/// When the flight is over, browsers get this time to be told.
+/// Time for delivering the last messages at the end of the flight.
 const PARTING_TIME: Duration = Duration::from_millis(500);
-/// What the system keeps for a slow browser: some seconds.
+/// Send buffer of a WebSocket: some seconds of messages.
 const SEND_BYTES: usize = 32 << 10;
-/// More than any request needs.
+/// Maximum size of a request, more than the page ever sends.
 const REQUEST_BYTES: usize = 1024;
-/// What a connection may have waiting to be written.
+/// Maximum data waiting to be written on a connection.
 const WRITE_BYTES: usize = 1 << 20;
 
 const PAGE: &str = include_str!("page/index.html");
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
-/// Nothing from elsewhere, and in nobody's frame: a button that cannot be seen must not be clicked.
+/// No content from elsewhere, and no framing: an invisible button must not be clicked (clickjacking).
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
     img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// The thread.
+/// The server's thread.
 #[derive(Debug)]
 pub(super) struct Server {
     shared: Arc<Shared>,
@@ -69,18 +69,18 @@ pub(super) struct Server {
 }
 
 impl Server {
-    /// Serves as long as it lives.
+    /// Starts serving until dropped.
     pub(super) fn start(
         listener: TcpListener,
         access: Access,
-        story: Story,
+        snapshot: Snapshot,
         controls: Controls,
     ) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let shared = Arc::new(Shared {
             access,
             controls,
-            stage: Mutex::new(Stage { story, told: Some(broadcast::Sender::new(BEHIND)) }),
+            stage: Mutex::new(Stage { snapshot, sender: Some(broadcast::Sender::new(BEHIND)) }),
             viewers: Arc::new(Semaphore::new(VIEWERS as usize)),
         });
         let (end, ended) = oneshot::channel();
@@ -90,33 +90,33 @@ impl Server {
                 let viewers = Arc::clone(&served.viewers);
                 tokio::select! {
                     () = serve(listener, served) => {}
-                    // The flight is over.
+                    // The flight has ended.
                     _ = ended => {}
                 }
-                // Whoever is not done by then is slow.
+                // Viewers that are slower than this miss the end.
                 _ = timeout(PARTING_TIME, viewers.acquire_many(VIEWERS)).await;
             });
         })?;
         Ok(Self { shared, end: Some(end), thread: Some(thread) })
     }
 
-    /// Adds to the story, and tells those who are here.
-    pub(super) fn tell(&self, happen: impl FnOnce(&mut Story) -> Value) {
+    /// Updates the snapshot and sends the change to all viewers.
+    pub(super) fn publish(&self, change: impl FnOnce(&mut Snapshot) -> Value) {
         let mut stage = self.shared.stage();
-        let object = happen(&mut stage.story);
-        if let Some(told) = &stage.told {
-            // Nobody may be here.
-            _ = told.send(ws::Utf8Bytes::from(object.to_string()));
+        let object = change(&mut stage.snapshot);
+        if let Some(sender) = &stage.sender {
+            // Without viewers there is no receiver.
+            _ = sender.send(ws::Utf8Bytes::from(object.to_string()));
         }
     }
 }
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // Those who have been told everything see the end of it.
-        self.shared.stage().told = None;
+        // Dropping the sender ends the viewers' streams after the last message.
+        self.shared.stage().sender = None;
         if let Some(end) = self.end.take() {
-            // The thread may have ended by itself.
+            // The thread may have ended already.
             _ = end.send(());
         }
         if let Some(thread) = self.thread.take()
@@ -127,7 +127,7 @@ impl Drop for Server {
     }
 }
 
-/// What all connections know.
+/// State shared by all connections.
 #[derive(Debug)]
 struct Shared {
     access: Access,
@@ -136,11 +136,12 @@ struct Shared {
     viewers: Arc<Semaphore>,
 }
 
-/// What was told and is being told: whoever comes misses nothing between the two.
+/// The snapshot and the stream of changes, under one lock so that a new viewer misses nothing between the
+/// two.
 #[derive(Debug)]
 struct Stage {
-    story: Story,
-    told: Option<broadcast::Sender<ws::Utf8Bytes>>,
+    snapshot: Snapshot,
+    sender: Option<broadcast::Sender<ws::Utf8Bytes>>,
 }
 
 impl Shared {
@@ -148,15 +149,15 @@ impl Shared {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The story so far, and what comes after; nothing comes after the end.
+    /// The current snapshot and a receiver of later changes; none after the end.
     fn join(&self) -> (ws::Utf8Bytes, Option<broadcast::Receiver<ws::Utf8Bytes>>) {
         let stage = self.stage();
-        let story = stage.story.so_far().to_string();
-        (story.into(), stage.told.as_ref().map(broadcast::Sender::subscribe))
+        let snapshot = stage.snapshot.so_far().to_string();
+        (snapshot.into(), stage.sender.as_ref().map(broadcast::Sender::subscribe))
     }
 }
 
-/// Takes in connections; never returns.
+/// Accepts connections; never returns.
 async fn serve(listener: TcpListener, shared: Arc<Shared>) {
     let listener = match tokio::net::TcpListener::from_std(listener) {
         Ok(listener) => listener,
@@ -178,7 +179,7 @@ async fn serve(listener: TcpListener, shared: Arc<Shared>) {
     let places = Arc::new(Semaphore::new(CONNECTIONS));
     let mut connections = 0_u16;
     loop {
-        // It is never closed.
+        // The semaphore is never closed.
         let Ok(place) = Arc::clone(&places).acquire_owned().await else { return };
         match listener.accept().await {
             Ok((stream, peer)) => {
@@ -188,16 +189,16 @@ async fn serve(listener: TcpListener, shared: Arc<Shared>) {
                 let app = app.clone().layer(Extension(by));
                 drop(tokio::spawn(connection(stream, app, place)));
             }
-            // Too many open files: some will be closed.
+            // Too many open files: waits until some are closed.
             Err(_) => tokio::time::sleep(Duration::from_millis(100)).await,
         }
     }
 }
 
-/// The few requests of a page.
+/// Serves one HTTP connection.
 async fn connection(stream: TcpStream, app: Router, place: OwnedSemaphorePermit) {
-    // What is told at once must not wait for more, nor lie about for long: it would show the past. Where
-    // the system refuses that, it is only slower.
+    // Small messages must not be delayed (Nagle), because they would show the past. If the system refuses
+    // this option the page is only slower.
     _ = stream.set_nodelay(true);
     _ = set_socket_send_buffer_size(&stream, SEND_BYTES);
     let served = http1::Builder::new()
@@ -205,12 +206,12 @@ async fn connection(stream: TcpStream, app: Router, place: OwnedSemaphorePermit)
         .header_read_timeout(REQUEST_TIME)
         .serve_connection(TokioIo::new(stream), TowerToHyperService::new(app))
         .with_upgrades();
-    // A client that breaks off or takes too long is none of our errors.
+    // A client that disconnects or is too slow is not an error here.
     _ = timeout(REQUEST_TIME, served).await;
     drop(place);
 }
 
-/// Who may, and what browsers are to be careful about.
+/// Checks access, and adds security headers to the response.
 async fn guard(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
     let response = match check(&shared.access, request.uri(), request.headers()) {
         Ok(()) => next.run(request).await,
@@ -229,16 +230,16 @@ fn check(access: &Access, uri: &Uri, headers: &HeaderMap) -> Result<(), Refusal>
     let mut parameters = uri.query().unwrap_or_default().split('&');
     let claims = Claims {
         host: headers.get(HOST).and_then(|host| host.to_str().ok()),
-        // An origin that is no text is a foreign one.
+        // An origin that is not valid text cannot be ours.
         origin: headers.get(ORIGIN).map(|origin| origin.to_str().unwrap_or_default()),
         token: parameters.find_map(|parameter| parameter.strip_prefix("token=")),
     };
-    // Style and script are the same for everybody.
+    // Style and script contain nothing secret.
     let orders = !matches!(uri.path(), "/page.css" | "/page.js");
     access.check(claims, orders)
 }
 
-/// The way over which a page is told of the flight and gives its orders.
+/// Opens the WebSocket that carries the flight's messages and the page's orders.
 async fn live(
     State(shared): State<Arc<Shared>>,
     Extension(by): Extension<Operator>,
@@ -255,48 +256,49 @@ async fn live(
         .on_upgrade(move |socket| async move {
             let (sink, stream) = socket.split();
             let (answers, answered) = mpsc::channel(BEHIND);
-            // An order is heard even while nothing can be written.
+            // Orders are received even while writing is blocked.
             tokio::select! {
                 () = write(sink, &shared, answered) => {}
                 () = read(stream, &shared, answers, by) => {}
             }
-            // A page that is gone controls nothing. Where too much waits, a local operator still can.
+            // A page that is gone must not keep the controls. If the queue is full, a local operator can
+            // still take them.
             _ = shared.controls.order(by, OperatorOrder::Release);
             drop(place);
         })
 }
 
-/// Tells a page the story, then what happens, until the flight is over or the page is gone.
+/// Sends the snapshot, then changes, until the flight has ended or the page is gone.
 async fn write(
     mut sink: SplitSink<WebSocket, ws::Message>,
     shared: &Shared,
     mut answers: mpsc::Receiver<ws::Utf8Bytes>,
 ) {
-    let (mut text, mut told) = shared.join();
+    let (mut text, mut receiver) = shared.join();
     loop {
         match timeout(WRITE_TIME, sink.send(ws::Message::Text(text))).await {
             Ok(Ok(())) => {}
             Ok(Err(_)) | Err(_) => return,
         }
-        let Some(receiver) = &mut told else { break };
+        let Some(changes) = &mut receiver else { break };
         text = tokio::select! {
-            next = receiver.recv() => match next {
+            next = changes.recv() => match next {
                 Ok(next) => next,
                 Err(broadcast::error::RecvError::Lagged(_)) => {
-                    let (story, again) = shared.join();
-                    told = again;
-                    story
+                    let (snapshot, again) = shared.join();
+                    receiver = again;
+                    snapshot
                 }
                 Err(broadcast::error::RecvError::Closed) => break,
             },
             Some(answer) = answers.recv() => answer,
         };
     }
-    // A page that is gone does not mind.
+    // The page may be gone already.
     _ = timeout(WRITE_TIME, sink.send(ws::Message::Close(None))).await;
 }
 
-fn told() -> Value {
+fn accepted() -> Value {
     json!({ "type": "told" })
 }
 
@@ -304,12 +306,12 @@ fn refused(reason: &str) -> Value {
     json!({ "type": "refused", "reason": reason })
 }
 
-/// A page that does not listen is not answered.
+/// Queues an answer; dropped if the page does not read.
 fn reply(answers: &mpsc::Sender<ws::Utf8Bytes>, answer: &Value) {
     _ = answers.try_send(answer.to_string().into());
 }
 
-/// Passes a page's orders on, until it is gone or makes no sense.
+/// Passes on a page's orders until it is gone or sends garbage.
 async fn read(
     mut stream: SplitStream<WebSocket>,
     shared: &Shared,
@@ -332,7 +334,7 @@ async fn read(
                 let ordered = shared.controls.order_answered(by, order, move |answer| {
                     reply(
                         &answers,
-                        &answer.map_or_else(|why| refused(&why.to_string()), |()| told()),
+                        &answer.map_or_else(|why| refused(&why.to_string()), |()| accepted()),
                     );
                 });
                 match ordered {

@@ -1,4 +1,4 @@
-//! What can be typed.
+//! Command-line arguments.
 
 use std::net::{Ipv4Addr, SocketAddr, ToSocketAddrs as _};
 use std::path::PathBuf;
@@ -9,6 +9,8 @@ use autopilot::vehicle::Law;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+
+use crate::settings::GivenTag;
 
 const EXIT_STATUS: &str = "\
 Exit status:
@@ -22,25 +24,27 @@ Exit status:
    50  emergency: the drone cut its motors
   130  the operator landed it (Ctrl-C)
 
-Without --plan it is 0 if an operator left it with the drone down, whatever became of its flights.
+Without --plan it is 0 if an operator quit with the drone down, whatever the outcomes of its flights.
 
-Ctrl-C lands the drone and waits for the ground; a second one leaves at once, with the
+Ctrl-C lands the drone and waits for the ground; a second one exits at once, with the
 landing ordered. SIGTERM and a closed terminal do the same.
 
 Keys, in a terminal:
-    space     hold the place; the mission waits
+    space     hold the position; the mission is paused
     r         resume the mission
     l         land
     q         land and quit, as Ctrl-C
-    w a s d   fly forward, left, back, right by hand, as long as pressed
+    w a s d   fly forward, left, back, right, as long as pressed
     arrows    climb, sink, turn
     e e       cut the motors: the drone falls
     :         type an order, with history and completion; :help lists them";
 
 /// Fly an AR.Drone 2.0: along a plan, or by orders.
 ///
-/// With --plan it flies that and leaves. Without, it connects, says whether it could take off, and takes orders:
-/// typed in a terminal behind `:`, as lines or (with --json) JSON objects on standard input, or from a browser.
+/// With --plan it flies that plan and exits. Without, it connects, reports whether the drone could take off,
+/// and takes orders:
+/// typed in a terminal behind `:`, as lines or (with --json) JSON objects on standard input, or from a
+/// browser.
 ///
 /// Without a drone, add --mock: a simulated one is started and flown over the same protocol.
 #[derive(Debug, Parser)]
@@ -57,7 +61,7 @@ pub(super) struct Arguments {
     pub(super) fly: Fly,
 }
 
-/// What else there is to do than to fly.
+/// Subcommands other than flying.
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Check a plan: each step with its target, time and charge, and everything that is wrong or unwise
@@ -85,7 +89,7 @@ pub(super) enum Command {
     },
     /// Print the manual page
     Man,
-    /// Print the settings that hold: the documented defaults, or those of a file
+    /// Print the settings in effect: the documented defaults, or those of a file
     Config {
         /// A `pilot.toml`
         #[arg(long, value_name = "FILE")]
@@ -93,7 +97,7 @@ pub(super) enum Command {
     },
 }
 
-/// A plan to be checked.
+/// Arguments of `check`.
 #[derive(Debug, Args)]
 pub(super) struct CheckPlan {
     /// The flight plan
@@ -113,11 +117,11 @@ pub(super) struct CheckPlan {
     pub(super) json: bool,
 }
 
-/// A flight.
+/// Arguments of a flight.
 #[derive(Debug, Args)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a flag that can be given")]
 pub(super) struct Fly {
-    /// Fly this plan and leave; without it the vehicle stays on the ground and takes orders
+    /// Fly this plan and exit; without it the vehicle stays on the ground and takes orders
     #[arg(long, value_name = "FILE")]
     pub(super) plan: Option<PathBuf>,
     /// Settings other than the defaults; `ardrone-pilot config` shows them
@@ -144,6 +148,13 @@ pub(super) struct Fly {
     /// How targets are approached and held; `cascade` unless the settings say otherwise
     #[arg(long, value_name = "LAW", value_parser = laws())]
     pub(super) law: Option<Law>,
+    /// Hold the place by black and white roundels on the floor: find them and map them
+    #[arg(long)]
+    pub(super) tags: bool,
+    /// A roundel whose place is known, right and forward of the start, and which way it points; it may be given
+    /// several times
+    #[arg(long, value_name = "X,Y[,HEADING]", allow_hyphen_values = true)]
+    pub(super) tag: Vec<GivenTag>,
     /// Record the flight to this file [default: flights/DATE.mcap]
     #[arg(long, value_name = "FILE")]
     pub(super) log: Option<PathBuf>,
@@ -163,19 +174,19 @@ pub(super) struct Fly {
     /// Print how regular the ticks were and what they cost
     #[arg(long)]
     pub(super) timing: bool,
-    /// Plain lines, no terminal tricks
+    /// Plain lines, without terminal control sequences
     #[arg(long)]
     pub(super) plain: bool,
-    /// Print one JSON object a line: status, events, targets reached, and the end
+    /// Print one JSON object per line: status, events, targets reached, and the end
     #[arg(long)]
     pub(super) json: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum ZOrigin {
-    /// Where the drone hovers after take-off
+    /// The hover height after take-off
     Hover,
-    /// On the floor
+    /// The floor
     Floor,
 }
 
@@ -194,7 +205,7 @@ impl From<ZOrigin> for plan::ZOrigin {
     }
 }
 
-/// Laws by their names.
+/// Parser for the name of a control law.
 fn laws() -> impl TypedValueParser<Value = Law> {
     let value = |law: Law| {
         PossibleValue::new(law.name()).help(match law {
@@ -203,12 +214,12 @@ fn laws() -> impl TypedValueParser<Value = Law> {
         })
     };
     PossibleValuesParser::new(Law::ALL.map(value)).map(|name| {
-        // The parser has let no other name pass.
+        // The value parser accepts only these names.
         Law::ALL.into_iter().find(|law| law.name() == name).unwrap_or_default()
     })
 }
 
-/// An address and a port, or a port of the loopback.
+/// Parses `ADDRESS:PORT`, or a port on the loopback interface.
 fn page_address(text: &str) -> Result<SocketAddr, String> {
     if let Ok(port) = text.parse() {
         return Ok((Ipv4Addr::LOCALHOST, port).into());

@@ -1,4 +1,4 @@
-//! `ardrone-pilot check`: what a plan will do, and what is wrong or unwise in it.
+//! `ardrone-pilot check`: expected course of a plan, its errors and warnings.
 
 use std::fmt;
 use std::time::Duration;
@@ -11,11 +11,11 @@ use serde_json::{Value, json};
 use super::arguments::CheckPlan;
 use super::{CommandError, terminal};
 use crate::json;
-use crate::picture;
+use crate::plan_drawing;
 use crate::recording::Place;
 
-/// Checks a plan, prints what was found, and draws it if asked to. The status is 20 for a plan that cannot be
-/// flown.
+/// Checks a plan, prints the findings, and draws it if asked to. The exit status is 20 for a plan that cannot
+/// be flown.
 pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     let settings = super::read_settings(arguments.config.as_deref())?;
     let limits = settings.pilot_config(arguments.z_origin.into()).limits;
@@ -49,9 +49,9 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     terminal::print(printed);
     let Some(plan) = plan else { return Ok(20) };
     if let Some(path) = &arguments.svg {
-        let drawing = picture::svg(&name, &plan, &limits)?;
+        let drawing = plan_drawing::svg(&name, &plan, &limits)?;
         std::fs::write(path, drawing).map_err(|source| CommandError::Write {
-            what: "the picture",
+            what: "the drawing",
             path: path.display().to_string(),
             source,
         })?;
@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     Ok(0)
 }
 
-/// An error or a warning for programs.
+/// An error or a warning as JSON.
 fn problem(diagnostic: &Diagnostic, text: &str) -> Value {
     let (line, column) = line_column(text, diagnostic.span.start);
     let severity = match diagnostic.severity {
@@ -75,7 +75,7 @@ fn problem(diagnostic: &Diagnostic, text: &str) -> Value {
     })
 }
 
-/// A plan with what is expected of it.
+/// A plan with its expected course.
 struct Checked<'a> {
     plan: &'a Plan,
     expectations: Vec<Expectation>,
@@ -104,7 +104,7 @@ impl<'a> Checked<'a> {
 }
 
 impl fmt::Display for Checked<'_> {
-    /// A table, the total below.
+    /// A table of steps, with the totals below.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let steps = || self.plan.steps().iter().zip(&self.expectations);
         let width = steps().map(|(step, _)| step.text.chars().count()).max().unwrap_or(0).max(7);

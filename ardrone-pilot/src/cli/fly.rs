@@ -1,4 +1,4 @@
-//! Flying: a plan and then away, or a vehicle that stays and takes orders.
+//! Flying: one plan and then exit, or a vehicle that stays and takes orders.
 
 use std::io::IsTerminal as _;
 use std::path::PathBuf;
@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{FlightLimits, Plan, Step};
-use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports};
+use mock_drone::{FloorTag, WorldConfig};
 use serde_json::Value;
 use time::UtcDateTime;
 
@@ -19,12 +19,25 @@ use super::prompt::PromptLine;
 use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, leave, read, read_settings, terminal};
-use crate::browser::{Browser, Door};
+use crate::browser::{Browser, Listener};
 use crate::flight::{Controls, Flight, Message};
 use crate::json;
 use crate::recording::{Header, Recorder, Recording};
-use crate::settings::Settings;
+use crate::settings::{GivenTag, Settings};
 use crate::timing::TimingReport;
+
+/// The simulated drone finds its tags where they are said to be, and one below its start if none is.
+fn mock_world(settings: &Settings) -> WorldConfig {
+    let mut world = WorldConfig::default();
+    let Some(surveyed) = settings.surveyed_tags() else { return world };
+    for GivenTag { place_m: [x, y], heading_deg } in &surveyed {
+        world.tags.push(FloorTag::new(*x, *y, heading_deg.unwrap_or(0.0)));
+    }
+    if surveyed.is_empty() {
+        world.tags.push(FloorTag::new(0.0, 0.0, 0.0));
+    }
+    world
+}
 
 /// Flies the plan, or stays and takes orders; returns the exit status.
 pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
@@ -32,9 +45,12 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     if let Some(law) = arguments.law {
         settings.set_law(law);
     }
+    if arguments.tags || !arguments.tag.is_empty() {
+        settings.use_tags(&arguments.tag)?;
+    }
     let config = settings.pilot_config(arguments.z_origin());
     let plan = arguments.plan.as_deref().map(|path| {
-        // What is recorded is what is flown.
+        // The same text is recorded and flown.
         let text = read("the plan", path)?;
         Ok::<_, CommandError>(Plan::parse_within(
             &path.display().to_string(),
@@ -47,18 +63,18 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let prompt = PromptLine::default();
     let mut progress = Progress::new(prompt.clone(), plain);
     for note in plan.iter().flat_map(Plan::notes) {
-        progress.say(&format!("note: {note}"));
+        progress.print_line(&format!("note: {note}"));
     }
     let mock = if arguments.mock {
-        Some(MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK)?)
+        Some(MockDrone::start(&mock_world(&settings), Ports::LOOPBACK)?)
     } else {
         None
     };
     let drone = drone_address(arguments, mock.as_ref());
-    progress.say(&beginning(plan.as_ref(), mock.is_some(), &drone));
-    let door = arguments.ui.map(Door::bind).transpose()?;
-    if let Some(door) = &door {
-        progress.say(&format!("watch it at {}", door.url()));
+    progress.print_line(&beginning(plan.as_ref(), mock.is_some(), &drone));
+    let listener = arguments.ui.map(Listener::bind).transpose()?;
+    if let Some(listener) = &listener {
+        progress.print_line(&format!("watch it at {}", listener.url()));
     }
     let (recorder, recording) = match record(arguments, &settings, plan.as_ref(), mock.is_some())? {
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
@@ -66,13 +82,15 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
     let controls = flight.controls();
-    // The drone may be flying already.
+    // Not fatal, because the drone may already be flying.
     if let Err(error) = leave::on_second_signal(controls.clone()) {
-        progress.warn(&format!("a second Ctrl-C waits for whoever reads: {error}"));
+        progress.warn(&format!(
+            "a second Ctrl-C cannot end the program while its output is blocked: {error}"
+        ));
     }
-    let open = |door: Door| door.open(plan.as_ref(), &config.limits, controls.clone());
-    let browser = door.map(open).transpose().unwrap_or_else(|error| {
-        // The drone may be flying already.
+    let open = |listener: Listener| listener.open(plan.as_ref(), &config.limits, controls.clone());
+    let browser = listener.map(open).transpose().unwrap_or_else(|error| {
+        // Not fatal, because the drone may already be flying.
         progress.warn(&terminal::Causes(&error).to_string());
         None
     });
@@ -84,14 +102,14 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     };
     let keys = Keys::start(controls.clone(), config.limits, prompt);
     if keys.is_some() {
-        watch.say(keys::HELP);
+        watch.print_line(keys::HELP);
     } else if let Err(error) = read_orders(arguments, config.limits, controls.clone()) {
         watch.warn(&format!("no orders can be read: {error}"));
     }
-    let mut teller =
-        Teller { arguments, steps: Vec::new(), mock, browser, recording, truths: Vec::new() };
+    let mut outputs =
+        Outputs { arguments, steps: Vec::new(), mock, browser, recording, truths: Vec::new() };
     for message in flight.messages() {
-        teller.tell(&message, &mut watch);
+        outputs.send(&message, &mut watch);
     }
     drop(keys);
     watch.end();
@@ -101,9 +119,9 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         _ if stays && controls.has_quit() && finished.is_down => 0,
         status => status,
     };
-    let recorded = teller.recording.and_then(Recording::finish);
+    let recorded = outputs.recording.and_then(Recording::finish);
     let end = json::end(&finished, recorded.as_ref(), status);
-    if let Some(browser) = teller.browser {
+    if let Some(browser) = outputs.browser {
         browser.end(&end);
     }
     if arguments.json {
@@ -112,7 +130,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     }
     terminal::print(Summary {
         finished: &finished,
-        truths: &teller.truths,
+        truths: &outputs.truths,
         recorded: recorded.as_ref(),
         flew_a_plan: !stays,
     });
@@ -131,12 +149,12 @@ fn beginning(plan: Option<&Plan>, mock: bool, drone: &DroneAddress) -> String {
     }
 }
 
-/// Orders come from standard input if no keys do.
+/// Reads orders from standard input if no keys are read from it.
 fn read_orders(arguments: &Fly, limits: FlightLimits, controls: Controls) -> std::io::Result<()> {
     let lines = match (arguments.json, arguments.plan.is_some()) {
         (true, _) => Lines::Json,
         (false, false) => Lines::Typed,
-        // A plan is flown whatever is on standard input.
+        // With a plan, standard input is ignored.
         (false, true) => return Ok(()),
     };
     let elsewhere = arguments.plan.is_some() || arguments.ui.is_some();
@@ -144,10 +162,10 @@ fn read_orders(arguments: &Fly, limits: FlightLimits, controls: Controls) -> std
     program::read_orders(lines, at_end, limits, controls)
 }
 
-/// Passes on what the flight says to everybody who wants to know.
-struct Teller<'a> {
+/// Distributes the flight's messages to all displays.
+struct Outputs<'a> {
     arguments: &'a Fly,
-    /// The mission's, for what is said of one of them.
+    /// The mission's steps, for messages that refer to one of them.
     steps: Vec<Step>,
     mock: Option<MockDrone>,
     browser: Option<Browser>,
@@ -155,8 +173,8 @@ struct Teller<'a> {
     truths: Vec<TrueWaypoint>,
 }
 
-impl Teller<'_> {
-    fn tell(&mut self, message: &Message, watch: &mut Watch) {
+impl Outputs<'_> {
+    fn send(&mut self, message: &Message, watch: &mut Watch) {
         if let Message::Mission(steps) = message {
             self.steps.clone_from(steps);
         }
@@ -176,22 +194,22 @@ impl Teller<'_> {
     }
 }
 
-/// One line for programs.
+/// Prints one JSON line.
 fn print_object(object: &Value) {
     terminal::print(format_args!("{}\n", json::text(object)));
 }
 
-/// Where people watch the flight.
+/// Display for people.
 enum Watch {
     Lines(Progress),
     Screen(Box<Screen>),
 }
 
 impl Watch {
-    fn say(&mut self, line: &str) {
+    fn print_line(&mut self, line: &str) {
         match self {
-            Self::Lines(progress) => progress.say(line),
-            Self::Screen(screen) => screen.say(line),
+            Self::Lines(progress) => progress.print_line(line),
+            Self::Screen(screen) => screen.print_line(line),
         }
     }
 
@@ -209,20 +227,20 @@ impl Watch {
         }
     }
 
-    /// The flight is over: the terminal is as it was.
+    /// Restores the terminal at the end of the flight.
     fn end(self) {
         match self {
             Self::Lines(mut progress) => progress.end(),
             Self::Screen(screen) => {
                 for warning in screen.end() {
-                    terminal::tell(warning);
+                    terminal::print_message(warning);
                 }
             }
         }
     }
 }
 
-/// Starts to record the flight, unless nobody wants that.
+/// Starts recording the flight unless it is switched off.
 fn record(
     arguments: &Fly,
     settings: &Settings,
@@ -253,7 +271,7 @@ fn record(
     Ok(Some((recorder, recording)))
 }
 
-/// `flights/2026-11-21T13-45-07Z.mcap`: names in the order of time, on any file system.
+/// `flights/2026-11-21T13-45-07Z.mcap`: names that sort by time and are valid on any file system.
 fn default_log(now: UtcDateTime) -> Result<PathBuf, CommandError> {
     let folder = PathBuf::from("flights");
     std::fs::create_dir_all(&folder).map_err(|source| CommandError::Write {

@@ -1,7 +1,7 @@
-//! Manual control at a terminal, and the line on which orders are typed.
+//! Manual control from a terminal, and the prompt for typed orders.
 //!
-//! Keys are read one by one and not shown. Ctrl-C stays with the system: it works even if nobody reads
-//! keys any more. Ctrl-Z does nothing: a suspended pilot flies nothing.
+//! Keys are read one by one without echo. Ctrl-C remains a signal, so it works even if no keys are read any
+//! more. Ctrl-Z is disabled, because a suspended process cannot control the drone.
 
 use std::io::{IsTerminal as _, stdin};
 use std::sync::Arc;
@@ -22,37 +22,37 @@ use super::prompt::{Edited, Prompt, PromptLine};
 use super::{terminal, typed};
 use crate::flight::Controls;
 
-/// What the keys do, for people.
+/// Summary of the keys.
 pub(super) const HELP: &str = "keys: space hold, r resume, l land, q land and quit, \
     wasd and arrows fly by hand, e twice cuts the motors, : types an order (`:help`)";
 
-/// How far a key moves a stick. Terminals repeat a key that is held; they never tell of its release.
+/// Stick fraction of one key. Terminals repeat a held key, but do not report its release.
 const STICK: f64 = 0.4;
 /// The second `e` must follow within this time.
 const CUT_AGAIN: Duration = Duration::from_secs(2);
-/// So often the reader looks whether it is to end.
+/// Interval at which the reader checks whether to end.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// What a key means.
+/// The meaning of a key.
 #[derive(Debug, Clone, PartialEq)]
 enum Action {
     Order(OperatorOrder),
-    /// As Ctrl-C.
+    /// Same as Ctrl-C.
     Stop,
-    /// The first `e`.
+    /// The first `e`: the operator must confirm.
     AskAgain,
-    /// Begin to type an order.
+    /// Opens the prompt.
     Type,
 }
 
-/// Makes actions of keys.
+/// Maps keys to actions.
 #[derive(Debug, Default)]
 struct Keymap {
     cut_asked: Option<Duration>,
 }
 
 impl Keymap {
-    /// What a key pressed at `now` means.
+    /// The action of a key pressed at `now`.
     fn action(&mut self, now: Duration, key: KeyCode) -> Option<Action> {
         let asked = self.cut_asked.take();
         let steer = |demand| Some(Action::Order(OperatorOrder::Steer(demand)));
@@ -83,7 +83,7 @@ impl Keymap {
     }
 }
 
-/// Reads keys as long as it lives; gives the terminal back as it was.
+/// Reads keys until it is dropped, and then restores the terminal.
 #[derive(Debug)]
 pub(super) struct Keys {
     ended: Arc<AtomicBool>,
@@ -92,7 +92,7 @@ pub(super) struct Keys {
 }
 
 impl Keys {
-    /// Reads keys for a flight, if there is a terminal to read them from.
+    /// Starts reading keys for a flight, if standard input is a terminal.
     pub(super) fn start(
         controls: Controls,
         limits: FlightLimits,
@@ -104,7 +104,7 @@ impl Keys {
         let before = tcgetattr(stdin()).ok()?;
         let mut one_by_one = before.clone();
         one_by_one.local_modes -= LocalModes::ICANON | LocalModes::ECHO;
-        // A drone whose pilot is suspended, or waits for its own output, falls out of control.
+        // A suspended process, or one blocked on its own output, would lose control of the drone.
         one_by_one.special_codes[SpecialCodeIndex::VSUSP] = 0;
         one_by_one.input_modes -= InputModes::IXON;
         tcsetattr(stdin(), OptionalActions::Now, &one_by_one).ok()?;
@@ -124,7 +124,7 @@ impl Drop for Keys {
     fn drop(&mut self) {
         self.ended.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {
-            // A thread that hangs in the terminal must not keep the process: it ends with it.
+            // A thread blocked in a terminal read must not delay the exit; it ends with the process.
             for _ in 0..10 {
                 if thread.is_finished() {
                     break;
@@ -135,7 +135,7 @@ impl Drop for Keys {
                 tracing::error!("the thread that reads keys panicked");
             }
         }
-        // A terminal that is gone needs nothing back.
+        // A terminal that is gone need not be restored.
         _ = tcsetattr(stdin(), OptionalActions::Now, &self.before);
     }
 }
@@ -148,10 +148,10 @@ fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended
         match waiting() {
             Waiting::Keys => {}
             Waiting::Nothing => continue,
-            // The flight is told by the system.
+            // The system signals the flight when the terminal is gone.
             Waiting::Gone => return,
         }
-        // One look at the terminal can bring several keys.
+        // One wake-up can bring several keys.
         while let Ok(true) = poll(Duration::ZERO) {
             let Ok(event) = read() else { return };
             let Some(key) = pressed(&event) else { continue };
@@ -174,7 +174,7 @@ fn read_keys(controls: &Controls, limits: &FlightLimits, line: PromptLine, ended
 
 fn act(controls: &Controls, action: Action) {
     let taken = match action {
-        // Keys that are held repeat: nobody waits for an answer to each.
+        // Held keys repeat, so their answers are not awaited.
         Action::Order(order @ OperatorOrder::Steer(_)) => controls.order(Operator::TERMINAL, order),
         Action::Order(order) => controls.ask(Operator::TERMINAL, order),
         Action::Stop if controls.quit() => Ok(()),
@@ -190,15 +190,15 @@ fn act(controls: &Controls, action: Action) {
     }
 }
 
-/// What the terminal has.
+/// Result of waiting for input.
 enum Waiting {
     Keys,
     Nothing,
-    /// It was closed.
+    /// The terminal was closed.
     Gone,
 }
 
-/// Looks for keys, for a moment. crossterm reads a closed terminal for ever, so it is not asked to.
+/// Waits for keys for a moment. crossterm would read a closed terminal for ever, so this is checked first.
 fn waiting() -> Waiting {
     let moment = Timespec { tv_sec: 0, tv_nsec: i64::from(LOOK.subsec_nanos()) };
     let stdin = stdin();
@@ -210,7 +210,7 @@ fn waiting() -> Waiting {
     }
 }
 
-/// The key that was pressed, without Ctrl or Alt.
+/// The pressed key, if Ctrl and Alt are not held.
 fn pressed(event: &Event) -> Option<KeyCode> {
     match event {
         Event::Key(KeyEvent {
@@ -223,7 +223,7 @@ fn pressed(event: &Event) -> Option<KeyCode> {
     }
 }
 
-/// Letters are keys in either case.
+/// Ignores the case of letters.
 fn unshifted(key: KeyCode) -> KeyCode {
     match key {
         KeyCode::Char(letter) => KeyCode::Char(letter.to_ascii_lowercase()),
@@ -261,7 +261,7 @@ mod tests {
         let mut keymap = Keymap::default();
         assert_eq!(keymap.action(Duration::ZERO, key('e')), Some(Action::AskAgain));
         assert_eq!(keymap.action(1900 * MS, key('e')), cut);
-        // Too late, or with another key between.
+        // Too late, or with another key in between.
         assert_eq!(keymap.action(2000 * MS, key('e')), Some(Action::AskAgain));
         assert_eq!(keymap.action(4100 * MS, key('e')), Some(Action::AskAgain));
         keymap.action(4200 * MS, key('w'));

@@ -1,5 +1,5 @@
-//! Whoever asked for the end twice does not wait for those who do not read what is said: a pipe that is
-//! full would keep the process for ever.
+//! Exit on a second signal, even if output is blocked: nobody may be reading a full pipe, and writing to it
+//! would keep the process alive for ever.
 
 use std::io;
 use std::time::Duration;
@@ -8,16 +8,16 @@ use autopilot::outcome::Outcome;
 
 use crate::flight::{Controls, EndSignals};
 
-/// What is left to be said and written may take so long.
+/// Time for pending output after the flight has ended.
 const GRACE: Duration = Duration::from_secs(1);
-/// How often is looked whether the flight, which orders its landing, is over.
+/// Interval at which the end of the flight is checked; the flight orders its landing first.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// From now on a second signal that asks for the end, and any one after the flight, ends the process, as
-/// soon as the flight is over and has had its grace.
+/// Makes a second end signal, and any end signal after the flight, exit the process once the flight has ended
+/// and pending output has had [`GRACE`].
 ///
 /// # Errors
-/// If no thread can be had.
+/// If the thread cannot be started.
 #[expect(clippy::exit, reason = "what is blocked cannot be asked to end")]
 pub(super) fn on_second_signal(controls: Controls) -> io::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;

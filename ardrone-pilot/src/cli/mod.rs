@@ -27,13 +27,13 @@ use self::arguments::{Arguments, Command};
 use self::screen::Warnings;
 use crate::browser::BrowserError;
 use crate::flight::FlightError;
-use crate::picture::PictureError;
+use crate::plan_drawing::PlanDrawingError;
 use crate::recording::{LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{self, ReportError};
 use crate::settings::{self, Settings, SettingsError};
 
-/// Why nothing was flown.
+/// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 enum CommandError {
     #[error("cannot read {what} {path}")]
@@ -53,7 +53,7 @@ enum CommandError {
     #[error(transparent)]
     Report(#[from] ReportError),
     #[error(transparent)]
-    Picture(#[from] PictureError),
+    Picture(#[from] PlanDrawingError),
     #[error(transparent)]
     Mock(#[from] ServerError),
     #[error("no flight log can be written; give another file as --log, or --no-log")]
@@ -108,7 +108,7 @@ pub fn main() -> ExitCode {
     };
     let status = done.unwrap_or_else(|error| {
         let prefix = if matches!(error, CommandError::Plan(_)) { "" } else { "error: " };
-        terminal::tell(format_args!("{prefix}{}", terminal::Causes(&error)));
+        terminal::print_message(format_args!("{prefix}{}", terminal::Causes(&error)));
         error.exit_status()
     });
     ExitCode::from(status)
@@ -138,7 +138,7 @@ fn print_manual() -> u8 {
     0
 }
 
-/// Writes the page about a log.
+/// Writes the report page of a log.
 fn make_report(path: &Path, output: Option<&Path>) -> Result<u8, CommandError> {
     let page = report::html(&read_log(path)?)?;
     let output = output.map_or_else(|| path.with_extension("html"), Path::to_owned);
@@ -151,7 +151,7 @@ fn make_report(path: &Path, output: Option<&Path>) -> Result<u8, CommandError> {
     Ok(0)
 }
 
-/// Flies a log again; 1 if today's code decides otherwise.
+/// Replays a log; returns 1 if today's code decides differently.
 fn replay(path: &Path) -> Result<u8, CommandError> {
     let replay = Replay::new(&read_log(path)?)?;
     terminal::print(&replay);
@@ -161,14 +161,17 @@ fn replay(path: &Path) -> Result<u8, CommandError> {
 fn read_log(path: &Path) -> Result<Log, CommandError> {
     let name = || path.display().to_string();
     let mut file = Vec::new();
-    // A byte more than is taken, which is then told.
+    // One byte more than allowed, so that a longer file is noticed.
     let most = LARGEST_FILE_BYTES as u64 + 1;
     File::open(path)
         .and_then(|opened| opened.take(most).read_to_end(&mut file))
         .map_err(|source| CommandError::Read { what: "the flight log", path: name(), source })?;
     let log = Log::read(&file).map_err(|source| CommandError::Log { path: name(), source })?;
     if !log.complete {
-        terminal::tell(format_args!("note: {} was cut off; what is there is read", name()));
+        terminal::print_message(format_args!(
+            "note: {} was cut off; what is there is read",
+            name()
+        ));
     }
     Ok(log)
 }
@@ -185,6 +188,6 @@ fn read(what: &'static str, path: &Path) -> Result<String, CommandError> {
         path: path.display().to_string(),
         source,
     })?;
-    // Bytes that are no UTF-8 become characters that nothing of ours contains.
+    // Invalid UTF-8 becomes replacement characters, which no valid input contains.
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }

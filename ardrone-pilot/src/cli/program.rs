@@ -1,35 +1,39 @@
-//! Orders of a program: one JSON object a line on standard input, or lines as people type them.
+//! Orders from standard input: one JSON object per line, or lines as typed at the prompt.
 
 use std::io::{BufRead, BufReader, Read as _};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use autopilot::Demand;
 use autopilot::plan::{Commands, FlightLimits, Plan};
-use autopilot::vehicle::{Operator, OperatorOrder};
+use autopilot::vehicle::{Operator, OperatorOrder, Refused};
+use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use super::{terminal, typed};
+use super::terminal;
+use super::typed::{self, Typed};
 use crate::flight::Controls;
 use crate::json;
 
-/// Longer than any plan that can be flown.
+/// Maximum length of a line, longer than any plan that can be flown.
 const LONGEST_LINE: u64 = 1 << 20;
 
-/// How lines are to be read.
+/// Format of the lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Lines {
     /// JSON objects; each is answered by one.
     Json,
-    /// As people type them; what is refused is said on standard error.
+    /// As typed at the prompt; refusals are printed on standard error.
     Typed,
 }
 
-/// What the end of the input means.
+/// Meaning of the end of input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum AtEnd {
-    /// Nothing: orders come from elsewhere too.
+    /// Nothing: orders may come from other stations.
     GoOn,
-    /// Nobody can give orders any more: land and leave.
+    /// No more orders can come: land and exit.
     Quit,
 }
 
@@ -68,38 +72,187 @@ enum Request {
     Quit {},
 }
 
-/// Reads orders on a thread of their own, which ends with the process.
+/// Orders that may wait to be passed on. A line beyond them is refused at once, so that reading never stops:
+/// a landing may stand behind them.
+const WAITING: usize = 1024;
+/// Interval at which an order is offered again to a tick loop that has no room for it, and the limit.
+const OFFER_AGAIN: Duration = Duration::from_millis(5);
+const OFFERED_FOR: Duration = Duration::from_secs(1);
+/// Limit for the vehicle's answer: many ticks.
+const ANSWER_TIME: Duration = Duration::from_secs(1);
+/// Reason for which an order in front of a landing is refused.
+const OVERTAKEN: &str = "a landing, a cut or the end was ordered behind it";
+
+/// Starts the threads that read, pass on and answer orders. They end with the process.
 ///
 /// # Errors
-/// If no thread can be had.
+/// If a thread cannot be started.
 pub(super) fn read_orders(
     lines: Lines,
     at_end: AtEnd,
     limits: FlightLimits,
     controls: Controls,
 ) -> std::io::Result<()> {
-    std::thread::Builder::new()
-        .name("orders".to_owned())
-        .spawn(move || {
-            let mut input = BufReader::new(std::io::stdin());
-            while let Some(line) = next_line(&mut input) {
-                match lines {
-                    Lines::Json => answer_json(line, &limits, &controls),
-                    Lines::Typed => answer_typed(line, &limits, &controls),
-                }
-            }
-            if at_end == AtEnd::Quit {
-                controls.quit();
-            }
-        })
-        .map(drop)
+    let desk = Desk { controls, landings: Arc::default() };
+    let (waiting, orders) = bounded(WAITING);
+    let (answering, answers) = unbounded::<(Caller, Receiver<Result<(), Refused>>)>();
+    let passing = desk.clone();
+    let start = |name: &str| std::thread::Builder::new().name(name.to_owned());
+    start("order answers").spawn(move || {
+        for (caller, answer) in answers {
+            let answer = answer.recv_timeout(ANSWER_TIME).unwrap_or(Err(Refused::Busy));
+            caller.answer(answer.map_err(|refused| refused.to_string()));
+        }
+    })?;
+    start("order passing").spawn(move || {
+        for order in orders {
+            passing.pass_on(order, &answering);
+        }
+    })?;
+    start("orders").spawn(move || {
+        let mut input = BufReader::new(std::io::stdin());
+        while let Some(line) = next_line(&mut input) {
+            let (caller, wanted) = match lines {
+                Lines::Json => parse_json(line, &limits),
+                Lines::Typed => parse_typed(line, &limits),
+            };
+            desk.take(caller, wanted, &waiting);
+        }
+        if at_end == AtEnd::Quit {
+            desk.stop(Controls::quit);
+        }
+    })?;
+    Ok(())
 }
 
-/// The next line that is not empty, or that it is too long; nothing at the end.
+/// What a line asks for.
+#[derive(Debug, Clone, PartialEq)]
+enum Wanted {
+    Order(OperatorOrder),
+    Quit,
+}
+
+/// Who gets the answer to a line.
+#[derive(Debug, Clone, PartialEq)]
+enum Caller {
+    /// A program, by the `id` that it gave.
+    Json(Value),
+    /// A person, who sees refusals behind the line.
+    Typed(String),
+}
+
+impl Caller {
+    fn answer(&self, answer: Result<(), String>) {
+        match (self, answer) {
+            (Self::Json(id), Ok(())) => {
+                print_answer(&json!({ "type": "answer", "id": id, "accepted": true }));
+            }
+            (Self::Json(id), Err(reason)) => print_answer(
+                &json!({ "type": "answer", "id": id, "accepted": false, "reason": reason }),
+            ),
+            (Self::Typed(_), Ok(())) => {}
+            (Self::Typed(line), Err(reason)) => {
+                terminal::print_message(format_args!("refused: {line}: {reason}"));
+            }
+        }
+    }
+}
+
+fn print_answer(answer: &Value) {
+    terminal::print(format_args!("{}\n", json::text(answer)));
+}
+
+/// An order on its way, and how many landings had been ordered when it was read.
+#[derive(Debug)]
+struct Waiting {
+    caller: Caller,
+    order: OperatorOrder,
+    landings: u64,
+}
+
+/// Passes orders on to the tick loop. A landing overtakes whatever waits in front of it, and what it has
+/// overtaken is not carried out any more: it could lift the drone again.
+#[derive(Debug, Clone)]
+struct Desk {
+    controls: Controls,
+    /// Landings, cuts and ends so far. Held while an order is passed on, so that none is passed on behind a
+    /// landing that was read behind it.
+    landings: Arc<Mutex<u64>>,
+}
+
+impl Desk {
+    fn landings(&self) -> MutexGuard<'_, u64> {
+        self.landings.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Carries out what comes first; everything else waits its turn.
+    fn take(&self, caller: Caller, wanted: Result<Wanted, String>, waiting: &Sender<Waiting>) {
+        match wanted {
+            Err(reason) => caller.answer(Err(reason)),
+            Ok(Wanted::Quit) => {
+                let heard = self.stop(Controls::quit);
+                caller.answer(if heard { Ok(()) } else { Err(Refused::Left.to_string()) });
+            }
+            Ok(Wanted::Order(order @ (OperatorOrder::Land | OperatorOrder::Cut))) => {
+                let taken = self.stop(|controls| controls.order(Operator::PROGRAM, order));
+                caller.answer(taken.map_err(|refused| refused.to_string()));
+            }
+            Ok(Wanted::Order(order)) => {
+                let landings = *self.landings();
+                if let Err(full) = waiting.try_send(Waiting { caller, order, landings }) {
+                    full.into_inner().caller.answer(Err(Refused::Busy.to_string()));
+                }
+            }
+        }
+    }
+
+    fn stop<T>(&self, order: impl FnOnce(&Controls) -> T) -> T {
+        let mut landings = self.landings();
+        *landings += 1;
+        order(&self.controls)
+    }
+
+    fn pass_on(
+        &self,
+        waiting: Waiting,
+        answering: &Sender<(Caller, Receiver<Result<(), Refused>>)>,
+    ) {
+        let Waiting { caller, order, landings } = waiting;
+        let attempts = OFFERED_FOR.as_millis() / OFFER_AGAIN.as_millis();
+        for _ in 0..attempts {
+            let (sender, answer) = bounded(1);
+            let now = self.landings();
+            if *now != landings {
+                caller.answer(Err(OVERTAKEN.to_owned()));
+                return;
+            }
+            // There is room for the answer, and the receiver may have given up.
+            let reply = move |answer| _ = sender.try_send(answer);
+            match self.controls.order_answered(Operator::PROGRAM, order.clone(), reply) {
+                Ok(()) => {
+                    // The thread that answers ends with the process.
+                    _ = answering.send((caller, answer));
+                    return;
+                }
+                Err(Refused::Busy) => {
+                    drop(now);
+                    std::thread::sleep(OFFER_AGAIN);
+                }
+                Err(refused) => {
+                    caller.answer(Err(refused.to_string()));
+                    return;
+                }
+            }
+        }
+        caller.answer(Err(Refused::Busy.to_string()));
+    }
+}
+
+/// The next non-empty line, or an error if it is too long; `None` at the end of input.
 fn next_line(input: &mut impl BufRead) -> Option<Result<String, TooLong>> {
     loop {
         let mut bytes = Vec::new();
-        // An input that fails has ended.
+        // A read error counts as the end of input.
         let length = input.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut bytes).ok()?;
         if length == 0 {
             return None;
@@ -137,56 +290,42 @@ fn skip_line(input: &mut impl BufRead) -> Option<()> {
     }
 }
 
-fn answer_typed(line: Result<String, TooLong>, limits: &FlightLimits, controls: &Controls) {
-    let done = match line {
-        Ok(line) => typed::obey(&line, limits, controls, Operator::PROGRAM)
-            .map_err(|error| format!("{line}: {}", terminal::Causes(&error))),
-        Err(error) => Err(error.to_string()),
-    };
-    if let Err(error) = done {
-        terminal::tell(format_args!("refused: {error}"));
-    }
-}
-
-fn answer_json(line: Result<String, TooLong>, limits: &FlightLimits, controls: &Controls) {
-    let (id, done) = match line {
-        Ok(line) => obey_json(&line, limits, controls),
-        Err(error) => (Value::Null, Err(error.to_string())),
-    };
-    let answer = match done {
-        Ok(()) => json!({ "type": "answer", "id": id, "accepted": true }),
-        Err(reason) => json!({ "type": "answer", "id": id, "accepted": false, "reason": reason }),
-    };
-    terminal::print(format_args!("{}\n", json::text(&answer)));
-}
-
-/// The request's `id`, and why it was not accepted.
-fn obey_json(
-    line: &str,
+fn parse_typed(
+    line: Result<String, TooLong>,
     limits: &FlightLimits,
-    controls: &Controls,
-) -> (Value, Result<(), String>) {
-    let mut object = match serde_json::from_str::<Value>(line) {
+) -> (Caller, Result<Wanted, String>) {
+    let line = match line {
+        Ok(line) => line,
+        Err(error) => return (Caller::Typed(String::new()), Err(error.to_string())),
+    };
+    let wanted = match typed::parse(&line, limits) {
+        Ok(Typed::Order(order)) => Ok(Wanted::Order(order)),
+        Ok(Typed::Quit) => Ok(Wanted::Quit),
+        Err(error) => Err(terminal::Causes(&error).to_string()),
+    };
+    (Caller::Typed(line), wanted)
+}
+
+fn parse_json(
+    line: Result<String, TooLong>,
+    limits: &FlightLimits,
+) -> (Caller, Result<Wanted, String>) {
+    let unnamed = |reason: String| (Caller::Json(Value::Null), Err(reason));
+    let line = match line {
+        Ok(line) => line,
+        Err(error) => return unnamed(error.to_string()),
+    };
+    let mut object = match serde_json::from_str::<Value>(&line) {
         Ok(object) => object,
-        Err(error) => return (Value::Null, Err(format!("not JSON: {error}"))),
+        Err(error) => return unnamed(format!("not JSON: {error}")),
     };
     let id = object.as_object_mut().and_then(|object| object.remove("id")).unwrap_or(Value::Null);
-    let request = match serde_json::from_value::<Request>(object) {
-        Ok(request) => request,
-        Err(error) => return (id, Err(error.to_string())),
-    };
-    let order = match order(request, limits) {
-        Ok(Some(order)) => order,
-        Ok(None) => {
-            let heard = controls.quit();
-            return (id, if heard { Ok(()) } else { Err("the vehicle has been left".to_owned()) });
-        }
-        Err(error) => return (id, Err(error)),
-    };
-    (id, controls.ask(Operator::PROGRAM, order).map_err(|refused| refused.to_string()))
+    let request = serde_json::from_value::<Request>(object).map_err(|error| error.to_string());
+    let wanted = request.and_then(|request| order(request, limits));
+    (Caller::Json(id), wanted.map(|order| order.map_or(Wanted::Quit, Wanted::Order)))
 }
 
-/// The order; nothing for the wish to leave.
+/// The order of a request; `None` for a request to quit.
 fn order(request: Request, limits: &FlightLimits) -> Result<Option<OperatorOrder>, String> {
     Ok(Some(match request {
         Request::Load { plan, name } => {

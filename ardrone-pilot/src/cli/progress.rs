@@ -1,4 +1,4 @@
-//! What a person sees while the drone flies.
+//! Progress display in lines.
 
 use std::io::stderr;
 use std::time::Duration;
@@ -11,11 +11,11 @@ use super::prompt::PromptLine;
 use super::terminal;
 use crate::flight::Message;
 
-/// In plain mode, a line of status this often.
+/// Interval of status lines in plain mode.
 const PLAIN_STATUS_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Prints events as lines, and the status on a line that is overwritten, or in plain mode as a
-/// line a second. All of it goes to standard error: people read it.
+/// Prints events as lines, and the status on a line that is overwritten, or in plain mode as one line per
+/// second. Everything goes to standard error, because it is meant for people.
 pub(super) struct Progress {
     steps: Vec<Step>,
     prompt: PromptLine,
@@ -39,37 +39,37 @@ impl Progress {
         match message {
             Message::Event(at, event) => {
                 let text = self.event_text(event);
-                self.say(&format!("{} {text}", time(*at)));
+                self.print_line(&format!("{} {text}", time(*at)));
             }
-            Message::Trouble(at, trouble) => self.say(&format!("{} {trouble}", time(*at))),
-            Message::Realtime(realtime) => self.say(&realtime.to_string()),
+            Message::Trouble(at, trouble) => self.print_line(&format!("{} {trouble}", time(*at))),
+            Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
             Message::Waypoint(_) => {}
             Message::Mission(steps) => self.steps.clone_from(steps),
             Message::Readiness(at, reasons) => {
                 if let Some(text) = readiness(reasons) {
-                    self.say(&format!("{} {text}", time(*at)));
+                    self.print_line(&format!("{} {text}", time(*at)));
                 }
             }
-            Message::Ended(at, outcome, _) => self.say(&format!("{} {outcome}", time(*at))),
+            Message::Ended(at, outcome, _) => self.print_line(&format!("{} {outcome}", time(*at))),
             Message::Status(at, status, _) => self.status(*at, status),
         }
     }
 
-    /// One line.
-    pub(super) fn say(&mut self, line: &str) {
+    /// Prints a line.
+    pub(super) fn print_line(&mut self, line: &str) {
         if std::mem::take(&mut self.status_shown) {
-            terminal::tell_over(line);
+            terminal::replace_line(line);
         } else {
-            terminal::tell(line);
+            terminal::print_message(line);
         }
     }
 
-    /// A warning.
+    /// Prints a warning.
     pub(super) fn warn(&mut self, line: &str) {
-        self.say(&format!("warning: {line}"));
+        self.print_line(&format!("warning: {line}"));
     }
 
-    /// The flight is over: the status line makes room.
+    /// Clears the status line at the end of the flight.
     pub(super) fn end(&mut self) {
         if std::mem::take(&mut self.status_shown) {
             terminal::clear();
@@ -94,15 +94,15 @@ impl Progress {
         if !self.plain {
             terminal::show(shortened(&line, terminal_columns()));
             self.status_shown = true;
-        // On the ground, waiting, a line a second would say nothing.
+        // In standby the status line would not change.
         } else if status.phase != Phase::Standby && at + TICK > self.next_plain_status {
             self.next_plain_status = at + PLAIN_STATUS_INTERVAL;
-            self.say(&line);
+            self.print_line(&line);
         }
     }
 }
 
-/// Whether the vehicle could take off, for people; in flight that is no news.
+/// The readiness as text; `None` in flight, where it is not of interest.
 pub(super) fn readiness(reasons: &[NotReady]) -> Option<String> {
     match reasons {
         [] => Some("ready to take off".to_owned()),
@@ -125,7 +125,7 @@ fn status_line(at: Duration, status: &Status) -> String {
         pose.x_m,
         pose.y_m,
         pose.z_m,
-        // Without the sign of a zero.
+        // Avoids printing "-0".
         pose.yaw_deg.round() + 0.0
     ));
     if let (Some(target), Some(distance_m)) = (status.target, status.distance_m) {
@@ -147,7 +147,7 @@ fn status_line(at: Duration, status: &Status) -> String {
     parts.join(" ")
 }
 
-/// A line that is overwritten must not wrap.
+/// Truncates a line that is overwritten, because it must not wrap.
 fn shortened(line: &str, columns: usize) -> &str {
     let end = line.char_indices().nth(columns.saturating_sub(1)).map(|(index, _)| index);
     &line[..end.unwrap_or(line.len())]
@@ -191,6 +191,7 @@ mod tests {
             battery_percent: Some(87),
             horizontal_deviation_m: 0.1,
             vertical_deviation_m: 0.02,
+            tags: None,
             trust: Trust::Sound,
             airframe: Airframe::default(),
             navdata_age: Some(Duration::from_millis(40)),

@@ -1,20 +1,20 @@
-//! The line on which orders are typed, with history and completion.
+//! The prompt for typed orders, with history and completion.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crossterm::event::KeyCode;
 
-/// Longer than any command.
+/// Maximum length of a line, longer than any command.
 const LONGEST: usize = 500;
-/// Lines that are remembered.
+/// Capacity of the history.
 const REMEMBERED: usize = 100;
 
-/// The line as it is being typed; whoever draws the terminal shows it.
+/// The line being edited, shared with the display that draws it.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PromptLine(Arc<Mutex<Option<String>>>);
 
 impl PromptLine {
-    /// What is to be shown, if something is being typed.
+    /// The text to display while the prompt is open.
     pub(super) fn shown(&self) -> Option<String> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
@@ -24,26 +24,26 @@ impl PromptLine {
     }
 }
 
-/// What a key has done to the line.
+/// Effect of a key on the line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Edited {
-    /// It goes on.
+    /// Editing continues.
     Typing,
-    /// It was given up.
+    /// Editing was cancelled.
     Cancelled,
-    /// It is complete.
+    /// The line was entered.
     Entered(String),
 }
 
-/// Edits one line after the other.
+/// Line editor.
 #[derive(Debug)]
 pub(super) struct Prompt {
     line: PromptLine,
-    /// What is typed, if anything is, and the cursor, in characters.
+    /// The text, if the prompt is open, and the cursor position in characters.
     text: Option<Vec<char>>,
     cursor: usize,
     history: Vec<String>,
-    /// The entry of the history that is shown.
+    /// Index of the history entry being displayed.
     recalled: usize,
 }
 
@@ -52,18 +52,18 @@ impl Prompt {
         Self { line, text: None, cursor: 0, history: Vec::new(), recalled: 0 }
     }
 
-    /// Whether keys belong to the line.
+    /// Whether keys go to the prompt.
     pub(super) fn is_open(&self) -> bool {
         self.text.is_some()
     }
 
-    /// Begins a line.
+    /// Opens the prompt.
     pub(super) fn open(&mut self) {
         self.set("");
         self.recalled = self.history.len();
     }
 
-    /// Takes in a key; `complete` knows how a line that ends at the cursor could go on.
+    /// Handles a key; `complete` returns completions of the text before the cursor.
     pub(super) fn key(&mut self, key: KeyCode, complete: impl Fn(&str) -> Vec<String>) -> Edited {
         let Some(text) = &mut self.text else { return Edited::Cancelled };
         match key {
@@ -116,7 +116,7 @@ impl Prompt {
         self.set(&line);
     }
 
-    /// Adds what all possible ends have in common.
+    /// Inserts the common prefix of all completions.
     fn complete(&mut self, complete: impl Fn(&str) -> Vec<String>) {
         let Some(text) = &mut self.text else { return };
         let typed: String = text.iter().take(self.cursor).collect();

@@ -1,9 +1,10 @@
-//! The flight on a whole terminal: where the drone is, what it does and why.
+//! Full-screen terminal display: position, activity and decisions.
 
 mod view;
 
 use std::collections::VecDeque;
 use std::io::{self, Stderr, stderr};
+use std::mem::ManuallyDrop;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use autopilot::plan::FlightLimits;
@@ -19,19 +20,20 @@ use super::prompt::PromptLine;
 use super::terminal;
 use crate::flight::Message;
 
-/// Smaller terminals get lines.
+/// Minimum size in columns and rows; smaller terminals get lines.
 const LEAST: (u16, u16) = (70, 20);
 
-/// Draws a flight; gives the terminal back as it was.
+/// Draws the flight, and restores the terminal at the end.
 pub(super) struct Screen {
-    terminal: Terminal<CrosstermBackend<Stderr>>,
+    /// Not dropped: it would panic if the terminal is gone, to say that the cursor could not be shown.
+    terminal: ManuallyDrop<Terminal<CrosstermBackend<Stderr>>>,
     view: View,
     warnings: Warnings,
     prompt: PromptLine,
 }
 
 impl Screen {
-    /// Takes the terminal; nothing if it is too small or refuses.
+    /// Takes over the terminal; `None` if it is too small or does not support it.
     pub(super) fn start(
         limits: &FlightLimits,
         warnings: &Warnings,
@@ -41,7 +43,7 @@ impl Screen {
         if columns < LEAST.0 || rows < LEAST.1 {
             return None;
         }
-        let terminal = Terminal::new(CrosstermBackend::new(stderr())).ok()?;
+        let terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(stderr())).ok()?);
         execute!(stderr(), EnterAlternateScreen).ok()?;
         warnings.keep(true);
         let before = std::panic::take_hook();
@@ -55,38 +57,38 @@ impl Screen {
         Some(screen)
     }
 
-    /// Something to be read by people.
-    pub(super) fn say(&mut self, line: &str) {
-        self.view.say(line);
+    /// Adds a line to the message list.
+    pub(super) fn print_line(&mut self, line: &str) {
+        self.view.print_line(line);
         self.draw();
     }
 
-    /// A warning.
+    /// Adds a warning.
     pub(super) fn warn(&mut self, line: &str) {
         self.view.warn(&format!("warning: {line}"));
         self.draw();
     }
 
-    /// Shows what the flight tells.
+    /// Displays a message of the flight.
     pub(super) fn show(&mut self, message: &Message) {
         for warning in self.warnings.take() {
             self.view.warn(&warning);
         }
         self.view.take_in(message);
-        // What did not happen between two looks needs no drawing of its own.
+        // Changes between two status messages need no redraw of their own.
         if matches!(message, Message::Status(..)) {
             self.draw();
         }
     }
 
-    /// Gives the terminal back, and returns what somebody should have read.
+    /// Restores the terminal; returns the warnings, so that they can be printed again.
     pub(super) fn end(self) -> Vec<String> {
         self.view.warnings()
     }
 
     fn draw(&mut self) {
         self.view.prompt = self.prompt.shown();
-        // A terminal that is gone is told to the flight by the system.
+        // The system signals the flight when the terminal is gone.
         _ = self.terminal.draw(|frame| view::draw(frame, &self.view));
     }
 }
@@ -99,11 +101,11 @@ impl Drop for Screen {
 }
 
 fn leave() {
-    // A terminal that is gone needs nothing back.
+    // A terminal that is gone need not be restored.
     _ = execute!(stderr(), LeaveAlternateScreen, Show);
 }
 
-/// Where warnings go: to standard error, or to the screen while there is one.
+/// Destination of warnings: standard error, or the screen while there is one.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Warnings {
     kept: Arc<Mutex<Option<VecDeque<String>>>>,
@@ -114,7 +116,7 @@ impl Warnings {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let left = std::mem::replace(&mut *kept, keep.then(VecDeque::new));
         for warning in left.into_iter().flatten() {
-            terminal::tell(warning);
+            terminal::print_message(warning);
         }
     }
 
@@ -141,7 +143,7 @@ impl io::Write for Warnings {
     }
 }
 
-/// A line without the sequences that colour it: the screen has colours of its own.
+/// Removes colour sequences: the screen uses its own colours.
 fn without_colours(line: &str) -> String {
     let mut parts = line.split('\x1b');
     let mut plain = parts.next().unwrap_or_default().to_owned();

@@ -1,4 +1,4 @@
-//! What a person sees when the flight is over.
+//! Summary printed at the end of a flight.
 
 use std::fmt;
 
@@ -9,11 +9,11 @@ use nalgebra::Vector2;
 use crate::flight::{FinishedFlight, LinkSummary};
 use crate::recording::Recorded;
 
-/// A waypoint as the simulation knows it.
+/// A waypoint compared with the simulation's truth.
 pub(super) struct TrueWaypoint {
-    /// How far the drone really was from its target, in the frame that navdata spans.
+    /// True distance from the target, in the frame that navdata span.
     error_m: f64,
-    /// How far that frame has drifted from the world.
+    /// Drift of that frame relative to the world.
     drift_m: f64,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Summary<'a> {
     pub(super) finished: &'a FinishedFlight,
     pub(super) truths: &'a [TrueWaypoint],
     pub(super) recorded: Option<&'a Recorded>,
-    /// Whether it was left when a plan had been flown, not when somebody wished to.
+    /// Whether the program exited at the end of a plan, rather than on request.
     pub(super) flew_a_plan: bool,
 }
 
@@ -78,7 +78,7 @@ impl fmt::Display for Summary<'_> {
 }
 
 impl Summary<'_> {
-    /// Ticks, flight log and network.
+    /// Statistics of ticks, flight log and network.
     fn machine(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "  ticks           {}", self.finished.ticks)?;
         if let Some(recorded) = self.recorded {

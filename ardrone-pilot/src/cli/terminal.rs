@@ -1,6 +1,5 @@
-//! The way to standard output and standard error. What was heard of a drone, or read in a file, is somewhere in
-//! much of what is said; here it is made [printable](printable_lines), so that no text can do anything to the
-//! terminal but be read.
+//! Output to standard output and standard error. Much of it contains text from a drone or a file. It is made
+//! [printable](printable_lines) here, so that such text cannot control the terminal.
 
 use std::error::Error;
 use std::fmt::{self, Display};
@@ -8,7 +7,7 @@ use std::io::{Write as _, stderr, stdout};
 
 use diagnostic::{printable, printable_lines};
 
-/// Clears the line that is overwritten.
+/// Returns to the start of the line and clears it.
 const CLEAR: &str = "\r\x1b[K";
 
 /// Prints a result.
@@ -16,40 +15,40 @@ pub(super) fn print(result: impl Display) {
     print_own(printable_lines(&result.to_string()).as_bytes());
 }
 
-/// Prints what has nothing in it from elsewhere, as it is.
+/// Prints the program's own text unchanged.
 pub(super) fn print_own(result: &[u8]) {
     let mut stdout = stdout().lock();
-    // Whoever closed the pipe does not want the rest: the flight goes on.
+    // If the pipe was closed nobody reads the rest; the flight goes on.
     _ = stdout.write_all(result).and_then(|()| stdout.flush());
 }
 
-/// Tells people something, in lines.
-pub(super) fn tell(said: impl Display) {
-    write(&format!("{}\n", printable_lines(&said.to_string())));
+/// Prints a message for people on standard error, line by line.
+pub(super) fn print_message(message: impl Display) {
+    write(&format!("{}\n", printable_lines(&message.to_string())));
 }
 
-/// Tells people one line, in the place of one that is to be overwritten.
-pub(super) fn tell_over(line: &str) {
+/// Prints one line in place of the overwritten status line.
+pub(super) fn replace_line(line: &str) {
     write(&format!("{CLEAR}{}\n", printable(line)));
 }
 
-/// Shows a line that is to be overwritten.
+/// Shows a status line that will be overwritten.
 pub(super) fn show(line: &str) {
     write(&format!("{CLEAR}{}", printable(line)));
 }
 
-/// Takes such a line away.
+/// Clears the status line.
 pub(super) fn clear() {
     write(CLEAR);
 }
 
 fn write(text: &str) {
     let mut stderr = stderr().lock();
-    // Nobody watches any more: the flight goes on.
+    // If standard error was closed nobody reads it; the flight goes on.
     _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
-/// An error with everything that led to it, on one line.
+/// An error with all its causes, on one line.
 pub(super) struct Causes<'a>(pub(super) &'a dyn Error);
 
 impl Display for Causes<'_> {

@@ -1,4 +1,4 @@
-//! Orders as people type them.
+//! Orders typed by an operator.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ const ORDERS: [&str; 12] = [
     "load", "append", "clear", "start", "hold", "resume", "land", "cut", "recover", "release",
     "quit", "help",
 ];
-/// Commands of the plan language, to be completed.
+/// Commands of the plan language, for completion.
 const COMMANDS: [&str; 13] = [
     "takeoff",
     "goto",
@@ -29,19 +29,19 @@ const COMMANDS: [&str; 13] = [
     "lockScaleFP",
 ];
 
-/// What can be typed, for people.
+/// Summary of the orders.
 pub(super) const HELP: &str = "load FILE, start, hold, resume, clear, land, cut, recover (after an \
     emergency), release (the controls), quit; anything else is appended to the mission: takeoff, \
     goto x y z yaw, moveBy, moveByRel, setReference, setStayTime, ...; `append land` appends a landing";
 
-/// Why what was typed was not done.
+/// Why a typed line was not carried out.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum TypedError {
     #[error("cannot read the plan {path}")]
     Read { path: String, source: std::io::Error },
     #[error(transparent)]
     Plan(#[from] PlanError),
-    #[error("`{0}` stands alone")]
+    #[error("`{0}` takes no argument")]
     Alone(String),
     #[error("write `load FILE`")]
     NoFile,
@@ -51,17 +51,17 @@ pub(super) enum TypedError {
     Refused(#[from] Refused),
 }
 
-/// What was typed.
+/// A parsed line.
 #[derive(Debug, Clone, PartialEq)]
-enum Typed {
+pub(super) enum Typed {
     Order(OperatorOrder),
     Quit,
 }
 
-/// Does what was typed, and waits for the vehicle's answer.
+/// Carries out a typed line and waits for the vehicle's answer.
 ///
 /// # Errors
-/// Why it was not done.
+/// [`TypedError`] if it was not carried out.
 pub(super) fn obey(
     line: &str,
     limits: &FlightLimits,
@@ -70,7 +70,7 @@ pub(super) fn obey(
 ) -> Result<(), TypedError> {
     match parse(line, limits)? {
         Typed::Quit => {
-            // Nothing is left to be done if nobody flies any more.
+            // If the tick loop has ended there is nothing left to do.
             controls.quit();
             Ok(())
         }
@@ -78,7 +78,11 @@ pub(super) fn obey(
     }
 }
 
-fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedError> {
+/// Parses a line.
+///
+/// # Errors
+/// [`TypedError`] if it is no order.
+pub(super) fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedError> {
     let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
     let rest = rest.trim();
     let order = match word {
@@ -109,7 +113,7 @@ fn read(path: &str, limits: &FlightLimits) -> Result<Plan, TypedError> {
     Ok(Plan::parse_within(path, &String::from_utf8_lossy(&bytes), limits)?)
 }
 
-/// How a line could go on: orders, commands, and files behind `load`.
+/// Completions of a line: orders, commands, and files after `load`.
 pub(super) fn completions(line: &str) -> Vec<String> {
     if let Some(path) = line.strip_prefix("load ") {
         return files(path).into_iter().map(|path| format!("load {path}")).collect();
@@ -125,7 +129,7 @@ fn files(start: &str) -> Vec<String> {
         "" => Path::new("."),
         folder => Path::new(folder),
     };
-    // A folder that cannot be read completes nothing.
+    // A folder that cannot be read has no completions.
     let Ok(entries) = std::fs::read_dir(searched) else { return Vec::new() };
     let named = entries.flatten().filter_map(|entry| {
         let name = entry.file_name().into_string().ok()?;
@@ -153,7 +157,7 @@ mod tests {
             assert!(matches!(typed(line), Ok(Typed::Order(OperatorOrder::Append(_)))), "{line}");
         }
         assert!(typed("gotoo 0 1 0 0").unwrap_err().contains("did you mean `goto`?"));
-        assert!(typed("land now").unwrap_err().contains("stands alone"));
+        assert!(typed("land now").unwrap_err().contains("takes no argument"));
         assert!(typed("load").unwrap_err().contains("load FILE"));
         assert!(typed("load no/such/file").unwrap_err().contains("no/such/file"));
     }

@@ -1,4 +1,4 @@
-//! The sockets of a flight. No error of theirs ends it.
+//! Sockets of a flight. A socket error never ends the flight.
 
 use std::fmt;
 use std::io;
@@ -10,13 +10,13 @@ use ardrone_link::{DroneAddress, WAKE_UP};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::net::sockopt::set_socket_recv_buffer_size;
 
-/// What the system keeps of navdata between two looks. A tick looks at more datagrams than fit, so none
-/// is ever older than a tick.
+/// Size of the navdata socket's receive buffer. It holds fewer datagrams than a tick reads, so no datagram is
+/// ever older than one tick.
 const KEPT_BYTES: usize = 128 << 10;
-/// Navdata that have not come for so long may have lost their socket.
+/// After this time without navdata the socket is suspected to be broken.
 const NAVDATA_PATIENCE: Duration = Duration::from_millis(200);
 
-/// One of the two ways to the drone.
+/// A UDP channel to the drone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Port {
     /// AT commands.
@@ -34,19 +34,19 @@ impl fmt::Display for Port {
     }
 }
 
-/// What is wrong on this side of the link. The flight goes on.
+/// A local network problem. The flight goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Trouble {
     /// The system refused a datagram.
     Refused {
-        /// On which way.
+        /// The channel.
         port: Port,
-        /// What kind of error that was.
+        /// Kind of the error.
         kind: io::ErrorKind,
-        /// Its number, if it has one.
+        /// The system's error number, if any.
         number: Option<i32>,
     },
-    /// More datagrams come from the drone's address than are looked at.
+    /// More datagrams arrive from the drone's address than a tick reads.
     Flood,
 }
 
@@ -55,9 +55,9 @@ impl fmt::Display for Trouble {
         match self {
             Self::Refused { port, kind, number } => {
                 let error = number.map_or(io::Error::from(*kind), io::Error::from_raw_os_error);
-                write!(f, "the system refuses {port}: {error}; trying on")
+                write!(f, "the system refuses {port}: {error}; retrying")
             }
-            Self::Flood => f.write_str("navdata come faster than they can be looked at"),
+            Self::Flood => f.write_str("navdata arrive faster than they can be processed"),
         }
     }
 }
@@ -67,9 +67,9 @@ impl fmt::Display for Trouble {
 pub(super) struct Link {
     at: Wire,
     navdata: Wire,
-    /// When a datagram last came.
+    /// Arrival of the newest datagram.
     heard_at: Option<Duration>,
-    /// Nothing can be received until the next tick.
+    /// Nothing more is received until the next tick.
     rests: bool,
     trouble: Option<Trouble>,
     bound_anew: u64,
@@ -77,7 +77,7 @@ pub(super) struct Link {
 
 impl Link {
     /// # Errors
-    /// What the system says if no socket can be had.
+    /// The system's error if no socket can be opened.
     pub(super) fn new(host: IpAddr, drone: &DroneAddress) -> io::Result<Self> {
         Ok(Self {
             at: Wire::new(Port::At, SocketAddr::new(host, drone.at_port))?,
@@ -89,7 +89,7 @@ impl Link {
         })
     }
 
-    /// Sends a datagram of AT commands; returns whether the system took it.
+    /// Sends a datagram of AT commands; returns whether the system accepted it.
     pub(super) fn send(&mut self, now: Duration, datagram: &[u8]) -> bool {
         let sent = self.at.send(datagram);
         let sent = self.judge(Port::At, now, sent).is_some();
@@ -99,7 +99,7 @@ impl Link {
         sent
     }
 
-    /// Asks for navdata.
+    /// Requests navdata.
     pub(super) fn wake_up(&mut self, now: Duration) {
         let sent = self.navdata.send(&WAKE_UP);
         self.judge(Port::Navdata, now, sent);
@@ -108,7 +108,7 @@ impl Link {
         }
     }
 
-    /// The next datagram of navdata; never waits.
+    /// The next navdata datagram; never blocks.
     pub(super) fn receive(&mut self, now: Duration, buffer: &mut [u8]) -> Option<usize> {
         if self.rests {
             return None;
@@ -121,7 +121,7 @@ impl Link {
         if length.is_some() {
             self.heard_at = Some(now);
         } else if failed {
-            // It is not asked for ever what it does not know.
+            // Stops until the next tick, because an unknown error could repeat without end.
             self.rests = true;
             if self.mend(Port::Navdata, now) {
                 self.ask_again();
@@ -130,7 +130,7 @@ impl Link {
         length
     }
 
-    /// Sleeps until navdata arrive or the time is over.
+    /// Sleeps until navdata arrive or `time` has passed.
     pub(super) fn wait(&mut self, time: Duration) {
         let timeout = Timespec {
             tv_sec: i64::try_from(time.as_secs()).unwrap_or(i64::MAX),
@@ -146,22 +146,22 @@ impl Link {
         sleep(time);
     }
 
-    /// Nothing more is received before [`Link::begin_tick`].
+    /// Stops receiving until [`Link::begin_tick`].
     pub(super) fn rest(&mut self) {
         self.rests = true;
     }
 
-    /// A tick begins.
+    /// Marks the begin of a tick.
     pub(super) fn begin_tick(&mut self) {
         self.rests = false;
     }
 
-    /// What somebody should be told of.
+    /// The next problem to report.
     pub(super) fn poll_trouble(&mut self) -> Option<Trouble> {
         self.trouble.take()
     }
 
-    /// Calls that failed on either socket, and how often one was bound anew.
+    /// Failed calls on both sockets, and how often one was reopened.
     pub(super) fn failures(&self) -> (u64, u64) {
         (self.at.health.errors() + self.navdata.health.errors(), self.bound_anew)
     }
@@ -173,7 +173,7 @@ impl Link {
         }
     }
 
-    /// What came of a call, if it succeeded.
+    /// Evaluates the result of a call; returns its value if it succeeded.
     fn judge(&mut self, port: Port, now: Duration, result: io::Result<usize>) -> Option<usize> {
         let health = &mut self.wire(port).health;
         match result {
@@ -191,7 +191,7 @@ impl Link {
         }
     }
 
-    /// Binds a socket anew if it needs that; returns whether it did.
+    /// Reopens a socket if necessary; returns whether it did.
     fn mend(&mut self, port: Port, now: Duration) -> bool {
         let wire = self.wire(port);
         let mended = wire.health.rebind_due(now) && wire.bind_anew();
@@ -210,14 +210,14 @@ impl Link {
         }
     }
 
-    /// The drone sends navdata to the socket that asked last.
+    /// Requests navdata again, because the drone sends them to the socket that asked last.
     fn ask_again(&mut self) {
-        // The session asks on while nothing comes.
+        // The session repeats the request while no navdata come.
         _ = self.navdata.send(&WAKE_UP);
     }
 }
 
-/// A socket that hears only the drone: the system drops datagrams from anybody else.
+/// A connected socket: the system drops datagrams from any other address.
 #[derive(Debug)]
 struct Wire {
     drone: SocketAddr,
@@ -236,7 +236,7 @@ impl Wire {
         self.socket.send(datagram)
     }
 
-    /// Takes a new socket in place of this one; returns whether one could be had.
+    /// Replaces this socket by a new one; returns whether that succeeded.
     fn bind_anew(&mut self) -> bool {
         let socket = connected(self.port, self.drone);
         socket.map(|socket| self.socket = socket).is_ok()
@@ -248,13 +248,13 @@ fn connected(port: Port, drone: SocketAddr) -> io::Result<UdpSocket> {
     socket.connect(drone)?;
     socket.set_nonblocking(true)?;
     if port == Port::Navdata {
-        // A larger one only keeps what is older.
+        // A larger buffer would only keep older datagrams.
         _ = set_socket_recv_buffer_size(&socket, KEPT_BYTES);
     }
     Ok(socket)
 }
 
-/// Sleeps for this time.
+/// Sleeps for `time`.
 pub(super) fn sleep(time: Duration) {
     std::thread::sleep(time);
 }
@@ -263,7 +263,7 @@ pub(super) fn sleep(time: Duration) {
 mod tests {
     use super::*;
 
-    /// A drone that only listens.
+    /// A drone that only receives.
     fn drone() -> (UdpSocket, UdpSocket, Link) {
         let bind = || UdpSocket::bind(("127.0.0.1", 0)).unwrap();
         let (at, navdata) = (bind(), bind());
@@ -285,9 +285,9 @@ mod tests {
         let lost = || Err(io::Error::from(io::ErrorKind::AddrNotAvailable));
         let now = Duration::from_secs(1);
         assert_eq!(link.judge(Port::At, now, lost()), None);
-        let told = link.poll_trouble().unwrap();
-        assert!(matches!(told, Trouble::Refused { port: Port::At, .. }), "{told}");
-        // Before anybody can send again.
+        let reported = link.poll_trouble().unwrap();
+        assert!(matches!(reported, Trouble::Refused { port: Port::At, .. }), "{reported}");
+        // Before another call can succeed.
         assert!(link.mend(Port::At, now) && link.is_silent(now));
         link.bind_navdata_anew();
         let after =
@@ -304,7 +304,7 @@ mod tests {
     #[test]
     fn a_socket_that_cannot_receive_is_not_asked_for_ever() {
         let (at, navdata, mut link) = drone();
-        // Nobody listens: the system tells it with the next call.
+        // Nobody listens any more: the system reports it with the next call.
         drop((at, navdata));
         link.wake_up(Duration::ZERO);
         let start = crate::flight::clock();

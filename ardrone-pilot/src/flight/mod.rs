@@ -1,14 +1,14 @@
 //! Flights in real time, over UDP.
 //!
-//! The tick has a thread of its own that sleeps in `ppoll` on the navdata socket until an absolute
-//! deadline, so navdata is taken in when it arrives and ticks don't drift. A missed deadline is
-//! counted and skipped, never caught up: the drone wants the newest command once. Everything slow
-//! (signals, the control port, whoever watches) is on other threads behind bounded channels that
-//! drop rather than block; landing, cutting and stopping are counters, which cannot be full. The work
-//! of a tick is bounded, whatever arrives.
+//! The tick has its own thread, which sleeps in `ppoll` on the navdata socket until an absolute deadline:
+//! navdata are handled when they arrive, and ticks do not drift. A missed deadline is counted and skipped,
+//! never caught up, because the drone needs only the newest command. Everything slow (signals, the control
+//! port, displays) runs on other threads behind bounded channels that drop rather than block. Landing,
+//! cutting the motors and stopping are counters, which cannot be full. The work of a tick is bounded,
+//! whatever arrives.
 //!
-//! Whatever ends a flight before the drone is down, an error, a panic or a second Ctrl-C, the last
-//! datagrams order the landing. No error of a socket ends it.
+//! Whatever ends a flight before the drone is down – an error, a panic or a second Ctrl-C – the last
+//! datagrams order the landing. A socket error never ends the flight.
 
 mod link;
 #[cfg(test)]
@@ -43,79 +43,79 @@ use autopilot::vehicle::{
     Status, TICK, Transmit, Vehicle, VehicleConfig, Waypoint,
 };
 
-/// What the flight tells while it lasts.
+/// Messages of a flight in progress.
 #[derive(Debug, Clone, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "a box would be asked for in flight")]
 pub enum Message {
-    /// What the system gives the flight's thread.
+    /// Real-time scheduling granted to the flight's thread.
     Realtime(Realtime),
     /// Something happened.
     Event(Duration, FlightEvent),
-    /// A target was reached and stayed at.
+    /// A target was reached and held for its stay time.
     Waypoint(Waypoint),
-    /// Something is wrong on this side of the link; the flight goes on.
+    /// A local network problem; the flight goes on.
     Trouble(Duration, Trouble),
-    /// Where things stand, some times a second.
+    /// Status, several times a second.
     Status(Duration, Status, TickHealth),
-    /// The mission is another: all its steps.
+    /// The mission has changed; all its steps.
     Mission(Vec<Step>),
-    /// Whether the vehicle could take off has changed: every reason why not.
+    /// The reasons not to take off have changed; all of them.
     Readiness(Duration, Vec<NotReady>),
-    /// A flight has ended, and the vehicle stays. A flight with whose end the program leaves is told of by
-    /// [`Flight::finish`].
+    /// A flight has ended and the vehicle stays. The end of a flight with which the program exits is returned
+    /// by [`Flight::finish`] instead.
     Ended(Duration, Outcome, Box<FlightReport>),
 }
 
-/// How the link was on this side.
+/// Statistics of the local end of the link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct LinkSummary {
     /// Datagrams that the system refused to send or to receive.
     pub errors: u64,
-    /// How often a socket was bound anew because of that.
+    /// How often a socket was reopened because of that.
     pub bound_anew: u64,
-    /// Ticks in which more datagrams came than are looked at.
+    /// Ticks in which more datagrams arrived than a tick reads.
     pub flooded_ticks: u64,
-    /// Datagrams that were looked at and are not in the flight log, because too many came.
+    /// Datagrams missing from the flight log because too many arrived.
     pub unrecorded: u64,
 }
 
-/// A flight that is over.
+/// Result of a flight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FinishedFlight {
-    /// How it ended; of a vehicle that stayed, that it was left.
+    /// Outcome; for a vehicle that stayed, the outcome of leaving it.
     pub outcome: Outcome,
-    /// Whether the drone was down for sure when it was left.
+    /// Whether the drone was confirmed to be down at the end.
     pub is_down: bool,
-    /// The last flight.
+    /// Report of the last flight.
     pub report: FlightReport,
-    /// How regular the ticks were.
+    /// Timing of the ticks.
     pub ticks: TickSummary,
-    /// Messages that were dropped because nobody took them in time.
+    /// Messages that were dropped because they were not received in time.
     pub dropped_messages: u64,
-    /// Entries of the flight log that the disk was too slow for.
+    /// Log entries that were dropped because the disk was too slow.
     pub lost_records: u64,
-    /// How the link was on this side.
+    /// Statistics of the local end of the link.
     pub link: LinkSummary,
 }
 
-/// Why a flight could not be started or went wrong in a way that is no flight's fault.
+/// Why a flight could not be started, or failed for a reason unrelated to flying.
 #[derive(Debug, thiserror::Error)]
 pub enum FlightError {
-    /// The drone's name has no address.
+    /// The drone's host name cannot be resolved.
     #[error("cannot find the drone `{host}`")]
     Address {
-        /// What was asked for.
+        /// The host name.
         host: String,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
-    /// No socket can be had.
+    /// A socket could not be opened.
     #[error("network")]
     Socket(#[source] io::Error),
     /// A thread could not be started.
     #[error("cannot start a thread")]
     Thread(#[source] io::Error),
-    /// The limits cannot be sent to a drone.
+    /// The limits cannot be encoded as drone settings.
     #[error(transparent)]
     Config(#[from] SettingError),
     /// See [`Vehicle::tick`].
@@ -126,7 +126,7 @@ pub enum FlightError {
     Panicked,
 }
 
-/// A flight that goes on. When it is dropped it lands, and the drop waits for the ground.
+/// A flight in progress. Dropping it lands the drone and waits for the ground.
 #[derive(Debug)]
 pub struct Flight {
     messages: Receiver<Message>,
@@ -134,38 +134,38 @@ pub struct Flight {
     thread: Option<JoinHandle<Result<FinishedFlight, FlightError>>>,
 }
 
-/// How often whoever watches is told where things stand.
+/// Ticks between status messages.
 const STATUS_TICKS: u32 = 3;
-/// Messages that may wait for whoever watches.
+/// Capacity of the message channel.
 const MESSAGES: usize = 256;
-/// Longer than any navdata packet.
+/// Receive buffer, larger than any navdata packet.
 const BUFFER_BYTES: usize = 8192;
-/// A flight that ends in the air orders the landing in so many ticks.
+/// Ticks in which a flight that ends in the air orders the landing.
 const PARTING_ORDERS: u32 = 10;
-/// If the system refuses them, it goes on for so many ticks.
+/// Limit on these ticks if the system refuses datagrams.
 const PARTING_TICKS: u32 = 3 * PARTING_ORDERS;
-/// Datagrams that a tick looks at: more than the system keeps.
+/// Maximum datagrams read in a tick; more than the socket's buffer holds.
 const DATAGRAMS_PER_TICK: u32 = 1000;
-/// So many of them it looks at even if it is late.
+/// Datagrams read even by a tick that is late.
 const DATAGRAMS_IF_LATE: u32 = 32;
-/// Datagrams that a tick records.
+/// Maximum datagrams recorded in a tick.
 const RECORDED_PER_TICK: u32 = 64;
-/// So many of them may be such as mean nothing.
+/// Maximum of these that may be invalid.
 const REFUSED_PER_TICK: u32 = 8;
-/// A flight that is dropped lands within this time, or is left with the landing ordered.
+/// Longest wait for the landing when a flight is dropped; after it the flight exits with the landing ordered.
 const LANDING_PATIENCE: Duration = Duration::from_secs(45);
-/// So long a flight that was left takes at most to end.
+/// Longest time for a flight to end after it was told to exit at once.
 const PARTING_PATIENCE: Duration = Duration::from_secs(3);
-/// How often whoever drops a flight looks whether it has ended.
+/// Interval at which a dropped flight checks whether it has ended.
 const LOOK: Duration = Duration::from_millis(20);
 
 impl Flight {
-    /// Drives a vehicle, and records it if there is a recorder. With a plan it flies that and leaves;
-    /// without, it stays until somebody leaves it. Ctrl-C, any other signal that asks for the end, and a closed
-    /// terminal land and leave; a second one leaves at once, with the landing ordered.
+    /// Starts a vehicle, and records it if there is a recorder. With a plan it flies the plan and ends;
+    /// without one, it stays until an operator quits. Ctrl-C, any other end signal, and a closed terminal
+    /// land and exit; a second one exits at once, with the landing ordered.
     ///
     /// # Errors
-    /// [`FlightError`] if the drone has no address or no socket or thread can be had.
+    /// [`FlightError`] if the drone's address cannot be resolved, or a socket or thread cannot be had.
     pub fn start(
         plan: Option<Plan>,
         config: &VehicleConfig,
@@ -191,12 +191,12 @@ impl Flight {
         Ok(Self { messages, controls, thread: Some(thread) })
     }
 
-    /// What the flight tells; ends when the flight does.
+    /// Messages of the flight; the iterator ends with the flight.
     pub fn messages(&self) -> impl Iterator<Item = Message> + '_ {
         self.messages.iter()
     }
 
-    /// What orders this flight, from any thread.
+    /// A handle for giving orders from any thread.
     pub fn controls(&self) -> Controls {
         self.controls.clone()
     }
@@ -210,7 +210,7 @@ impl Flight {
         thread.join().map_err(|_| FlightError::Panicked)?
     }
 
-    /// Waits for the end, but not for ever; returns whether it has come.
+    /// Waits for the end for at most `patience`; returns whether the flight has ended.
     fn ends_within(&self, patience: Duration) -> bool {
         let start = clock();
         let ended = || self.thread.as_ref().is_none_or(JoinHandle::is_finished);
@@ -222,16 +222,16 @@ impl Flight {
 }
 
 impl Drop for Flight {
-    /// Whoever flies has failed: the drone is not left in the air.
+    /// The owner has failed or does not care any more: the drone must not be left in the air.
     fn drop(&mut self) {
         if self.thread.is_none() {
             return;
         }
-        // A flight that is over needs no landing.
+        // A flight that has ended refuses this.
         _ = self.controls.order(Operator::TERMINAL, OperatorOrder::Land);
         self.controls.stop();
         if !self.ends_within(LANDING_PATIENCE) {
-            // The second time: at once.
+            // A second stop exits at once.
             self.controls.stop();
             self.ends_within(PARTING_PATIENCE);
         }
@@ -247,17 +247,17 @@ fn resolve(host: &str) -> Result<IpAddr, FlightError> {
         .ok_or_else(|| error(io::Error::new(io::ErrorKind::NotFound, "it has no IPv4 address")))
 }
 
-/// The flight's clock.
+/// Origin of the flight's time.
 fn clock() -> Instant {
     Instant::now()
 }
 
-/// When the tick loop ends by itself.
+/// When the tick loop ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Stay {
-    /// With the first flight.
+    /// After the first flight.
     UntilFlown,
-    /// When somebody wants to leave, and the drone is down.
+    /// After a request to exit, once the drone is down.
     UntilLeft,
 }
 
@@ -273,18 +273,18 @@ struct TickLoop {
     ticks: TickRecorder,
     realtime: Realtime,
     start: Instant,
-    /// Of the next tick.
+    /// Deadline of the next tick.
     deadline: Duration,
     buffer: Vec<u8>,
     intake: Intake,
     summary: LinkSummary,
-    /// A flood has been told of.
-    flood_told: bool,
-    /// A first request to end the flight was obeyed.
+    /// A flood was reported; once per flight is enough.
+    flood_reported: bool,
+    /// A first request to exit was handled.
     stopping: bool,
 }
 
-/// What a tick may still take in.
+/// Remaining number of datagrams that a tick may read and record.
 #[derive(Debug, Clone, Copy)]
 struct Intake {
     taken: u32,
@@ -295,7 +295,7 @@ struct Intake {
 impl Intake {
     const NOTHING: Self = Self { taken: 0, recorded: 0, refused: 0 };
 
-    /// Whether a datagram may be recorded, which was `good` or meant nothing.
+    /// Whether a datagram may be recorded; `good` if it was valid.
     fn records(&mut self, good: bool) -> bool {
         let room = self.recorded < RECORDED_PER_TICK && (good || self.refused < REFUSED_PER_TICK);
         self.recorded += u32::from(room);
@@ -330,19 +330,19 @@ impl TickLoop {
             buffer: vec![0_u8; BUFFER_BYTES],
             intake: Intake::NOTHING,
             summary: LinkSummary::default(),
-            flood_told: false,
+            flood_reported: false,
             stopping: false,
         }
     }
 
-    /// Flies to the end. Before each tick `before` is told its number.
+    /// Runs the loop to its end. `before` is called with the number of each tick.
     ///
-    /// However the flight ends, the landing is the last word, unless the drone is down for sure.
+    /// However the flight ends, its last datagrams order the landing, unless the drone is known to be down.
     fn run(mut self, before: impl FnMut(u32)) -> Result<FinishedFlight, FlightError> {
         self.realtime = Realtime::acquire();
-        self.say(Message::Realtime(self.realtime));
+        self.send(Message::Realtime(self.realtime));
         self.start = clock();
-        // Parting needs nothing that a panic could have left half done.
+        // After a panic only the session is used, which a panic elsewhere cannot leave inconsistent.
         let flown = catch_unwind(AssertUnwindSafe(|| self.fly(before)));
         let end = flown.unwrap_or(Err(FlightError::Panicked));
         let down = match &end {
@@ -382,32 +382,32 @@ impl TickLoop {
             self.tick()?;
             self.ticks.end();
             self.record_tick(late, self.start.elapsed().saturating_sub(now));
-            self.tell(now, count.is_multiple_of(STATUS_TICKS));
+            self.report(now, count.is_multiple_of(STATUS_TICKS));
             count = count.wrapping_add(1);
             if let Some(outcome) = self.end() {
                 return Ok(outcome);
             }
-            // The second time nobody waits for the ground.
+            // A second stop does not wait for the ground.
             if self.orders.stops() >= 2 {
                 return Ok(Outcome::LeftLanding);
             }
         }
     }
 
-    /// How it ended, if the first flight's end or somebody's wish to leave ends it.
+    /// The outcome, if the end of the first flight or a request to exit ends the loop.
     fn end(&self) -> Option<Outcome> {
         let outcome = self.vehicle.outcome();
         match self.stay {
             Stay::UntilFlown => outcome.cloned(),
             Stay::UntilLeft if self.orders.stops() == 0 => None,
-            // The landing of a drone that was lost is never confirmed.
+            // The landing of a lost drone is never confirmed.
             Stay::UntilLeft => {
                 (self.vehicle.is_at_rest() || outcome.is_some()).then_some(Outcome::Interrupted)
             }
         }
     }
 
-    /// Decides and sends, and takes the time of each stage.
+    /// Decides and sends, and measures each stage.
     fn tick(&mut self) -> Result<(), FlightError> {
         let start = self.start;
         let now = start.elapsed();
@@ -430,16 +430,16 @@ impl TickLoop {
         Ok(())
     }
 
-    /// Takes in what has come until the next tick is due.
+    /// Handles incoming navdata until the next tick is due.
     fn take_in_navdata(&mut self) {
         let begun = self.start.elapsed();
         let mut now = begun;
         while now < self.deadline {
             if self.intake.taken >= DATAGRAMS_PER_TICK {
-                // The rest of this tick belongs to others.
+                // Leaves the rest of the tick to other threads.
                 self.link.rest();
                 self.summary.flooded_ticks += 1;
-                if !std::mem::replace(&mut self.flood_told, true) {
+                if !std::mem::replace(&mut self.flood_reported, true) {
                     self.warn(now, Trouble::Flood);
                 }
                 break;
@@ -452,7 +452,7 @@ impl TickLoop {
         self.ticks.spend(Stage::Estimate, now.saturating_sub(begun));
     }
 
-    /// A tick that comes late finds navdata that came before it: it does not overlook them.
+    /// Handles navdata that arrived before a tick that is late, so that it does not decide without them.
     fn take_in_late_navdata(&mut self) {
         let now = self.start.elapsed();
         for _ in 0..DATAGRAMS_IF_LATE {
@@ -463,7 +463,7 @@ impl TickLoop {
         self.ticks.spend(Stage::Estimate, self.start.elapsed().saturating_sub(now));
     }
 
-    /// Returns whether there was one.
+    /// Returns whether there was a datagram.
     fn take_in_datagram(&mut self, now: Duration) -> bool {
         let Some(length) = self.link.receive(now, &mut self.buffer) else { return false };
         self.intake.taken += 1;
@@ -496,7 +496,7 @@ impl TickLoop {
         }
         if self.orders.stops() > 0 && !std::mem::replace(&mut self.stopping, true) {
             let (by, land) = (Operator::TERMINAL, OperatorOrder::Land);
-            // Never refused.
+            // Landing is never refused.
             _ = obey(&mut self.vehicle, self.recorder.as_mut(), now, by, land);
         }
     }
@@ -509,7 +509,7 @@ impl TickLoop {
         }
     }
 
-    fn tell(&mut self, now: Duration, with_status: bool) {
+    fn report(&mut self, now: Duration, with_status: bool) {
         while let Some(output) = self.vehicle.poll() {
             let message = match output {
                 Output::Event(event) => {
@@ -528,36 +528,36 @@ impl TickLoop {
                     }
                     Message::Ended(now, outcome, Box::new(self.vehicle.report().clone()))
                 }
-                // Sent already; and the end is told when everything has ended.
+                // Sent already; the end is reported by `finish`.
                 Output::Transmit(_) | Output::Ended(_) => continue,
             };
-            self.say(message);
+            self.send(message);
         }
         if let Some(trouble) = self.link.poll_trouble() {
             self.warn(now, trouble);
         }
         if with_status {
             let health = self.ticks.health();
-            self.say(Message::Status(now, self.vehicle.status(now), health));
+            self.send(Message::Status(now, self.vehicle.status(now), health));
         }
     }
 
-    fn say(&mut self, message: Message) {
+    fn send(&mut self, message: Message) {
         if self.messages.try_send(message).is_err() {
             self.dropped_messages += 1;
         }
     }
 
-    /// Something is wrong that does not end the flight.
+    /// Reports a problem that does not end the flight.
     fn warn(&mut self, now: Duration, trouble: Trouble) {
         if let Some(recorder) = &mut self.recorder {
             recorder.note(now, trouble.to_string());
         }
-        self.say(Message::Trouble(now, trouble));
+        self.send(Message::Trouble(now, trouble));
     }
 
-    /// Orders the landing in ticks of its own, and waits for nothing. Only the session is asked, which
-    /// needs neither the agent nor the estimate.
+    /// Orders the landing in ticks of its own, without waiting for anything else. It uses only the session,
+    /// so it works without the agent and the estimator.
     fn part(&mut self) {
         let mut parted = 0;
         for _ in 0..PARTING_TICKS {
@@ -570,7 +570,7 @@ impl TickLoop {
                 break;
             }
             let Some(Transmit::Command { datagram, .. }) = self.vehicle.poll_transmit() else {
-                // The drone was never spoken to.
+                // Nothing was ever sent to this drone.
                 break;
             };
             parted += u32::from(self.link.send(now, datagram));
@@ -603,7 +603,7 @@ impl TickLoop {
     }
 }
 
-/// Passes an order on, and records it whatever the answer: a replay gives the same one.
+/// Passes on an order and records it even if it is refused: a replay refuses it again.
 fn obey(
     vehicle: &mut Vehicle,
     recorder: Option<&mut Recorder>,
@@ -617,7 +617,7 @@ fn obey(
     vehicle.order(now, by, order)
 }
 
-/// Moves the deadline to the last one that has passed; returns how many were missed before it.
+/// Moves the deadline to the last one that has passed; returns the number missed before it.
 fn skip_missed(deadline: &mut Duration, now: Duration) -> u64 {
     let mut skipped = 0;
     while *deadline + TICK <= now {
@@ -651,7 +651,7 @@ mod tests {
         assert!(error.to_string().contains("no such host"));
     }
 
-    /// A tick loop that flies over a simulated drone.
+    /// A tick loop connected to a mock drone.
     fn over(mock: &MockDrone) -> (TickLoop, Controls, Receiver<Message>) {
         let ports = mock.ports();
         let address = DroneAddress {

@@ -1,5 +1,5 @@
-//! Several operators at once, with full queues and a disk that has stopped: what a landing and the controls may
-//! not depend on.
+//! Property test: several operators at once, with full queues and a stalled disk, can neither delay a landing
+//! nor override the controls.
 
 use ardrone_link::WAKE_UP;
 use ardrone_link::session::FlightOrder;
@@ -25,7 +25,7 @@ fn plan(text: &str) -> Plan {
     Plan::parse("plan", text).unwrap()
 }
 
-/// An order that anybody might give at any time.
+/// Any order.
 fn order() -> impl Strategy<Value = OperatorOrder> {
     let stick = -1.0..1.0_f64;
     prop_oneof![
@@ -47,7 +47,7 @@ fn order() -> impl Strategy<Value = OperatorOrder> {
     ]
 }
 
-/// When, by whom and what; and whether the queue is full of other orders at that time.
+/// Time, operator and order; and whether the queue is full of other orders then.
 fn orders() -> impl Strategy<Value = Vec<(u64, Operator, OperatorOrder, bool)>> {
     let operator = prop_oneof![Just(LOCAL), Just(PAGE), Just(STATION)];
     proptest::collection::vec((0..600_u64, operator, order(), any::<bool>()), 1..40).prop_map(
@@ -58,14 +58,14 @@ fn orders() -> impl Strategy<Value = Vec<(u64, Operator, OperatorOrder, bool)>> 
     )
 }
 
-/// What the rules say of who has the controls.
+/// Model of the rules for the controls.
 #[derive(Default)]
 struct Rules {
     holder: Option<Operator>,
 }
 
 impl Rules {
-    /// Whether the order must be refused because of who gave it.
+    /// The holder of the controls, if the order must be refused because of who gave it.
     fn refuses(&mut self, by: Operator, order: &OperatorOrder) -> Option<Operator> {
         match (self.holder, order) {
             (_, OperatorOrder::Release) => {
@@ -107,7 +107,7 @@ proptest! {
                 landed_by_order |= order == OperatorOrder::Land;
                 is_full |= full;
                 if full {
-                    // From a page that has gone wild.
+                    // A page that floods the queue.
                     while controls.order(PAGE, OperatorOrder::Hold).is_ok() {}
                 }
                 let sent = controls.order(by, order.clone());
@@ -137,8 +137,8 @@ proptest! {
                 match output {
                     Output::Transmit(Transmit::Command { datagram, decision }) => {
                         world.send_at(now, datagram);
-                        // In the tick in which it was taken, not in a later one: the drone's landing, or in
-                        // wind the agent's own descent.
+                        // The landing must be in effect in the tick that handled the order: the drone's own
+                        // landing, or in wind the agent's descent.
                         if let Some(decision) = decision.filter(|_| landed_by_order) {
                             let descends = decision.phase == Phase::Landing
                                 && matches!(decision.wanted, AgentCommand::GoTo(low) if low.z_m < 0.4);

@@ -1,4 +1,4 @@
-//! The way of orders to the tick.
+//! Delivery of orders to the tick loop.
 
 use std::fmt;
 use std::sync::Arc;
@@ -8,23 +8,23 @@ use std::time::Duration;
 use autopilot::vehicle::{Operator, OperatorOrder, Refused, Station};
 use crossbeam_channel::{Receiver, Sender, bounded};
 
-/// Orders that may wait for the tick; all of them are taken in one.
+/// Capacity of the order queue; one tick handles all of them.
 const WAITING: usize = 64;
-/// The longest wait for the tick's answer: many ticks.
+/// Longest wait for the tick's answer: many ticks.
 const ANSWER_TIME: Duration = Duration::from_secs(1);
 
-/// What gives orders to a vehicle, from any thread.
+/// Gives orders to a vehicle, from any thread.
 #[derive(Debug, Clone)]
 pub struct Controls {
     urgent: Arc<Urgent>,
     others: Sender<Request>,
 }
 
-/// An order and whom to answer.
+/// An order with its answer callback.
 pub(super) struct Request {
     pub(super) by: Operator,
     pub(super) order: OperatorOrder,
-    /// Called in the tick's thread: it must not wait.
+    /// Called in the tick's thread: it must not block.
     pub(super) answer: Option<Answer>,
 }
 
@@ -40,17 +40,17 @@ impl fmt::Debug for Request {
 }
 
 impl Controls {
-    /// Orders something without waiting for an answer. Landing and cutting the motors cannot be refused on
-    /// the way: they are counters, not entries of a queue.
+    /// Gives an order without waiting for an answer. Landing and cutting the motors cannot be lost on the
+    /// way: they are counters, not entries of a queue.
     ///
     /// # Errors
-    /// [`Refused::Busy`] or [`Refused::Left`] if the vehicle will not hear of it.
+    /// [`Refused::Busy`] or [`Refused::Left`] if the order cannot be delivered.
     pub fn order(&self, by: Operator, order: OperatorOrder) -> Result<(), Refused> {
         self.send(by, order, None)
     }
 
-    /// As [`Controls::order`]; `answer` is called with the vehicle's answer, in the tick's thread: it must not
-    /// wait for anything. It is not called if there is an error.
+    /// As [`Controls::order`]; `answer` is called with the vehicle's answer, in the tick's thread, where it
+    /// must not block. It is not called if an error is returned.
     ///
     /// # Errors
     /// As [`Controls::order`].
@@ -66,11 +66,11 @@ impl Controls {
     /// As [`Controls::order`], but waits for the vehicle's answer.
     ///
     /// # Errors
-    /// Why the vehicle refuses, or will not hear of it.
+    /// [`Refused`] if the vehicle refuses the order or it cannot be delivered.
     pub fn ask(&self, by: Operator, order: OperatorOrder) -> Result<(), Refused> {
         let (sender, answered) = bounded(1);
         self.order_answered(by, order, move |answer| {
-            // There is room for it; and nobody may wait any more.
+            // The channel has room for one answer; the receiver may have timed out.
             _ = sender.try_send(answer);
         })?;
         answered
@@ -110,32 +110,32 @@ impl Controls {
         Ok(())
     }
 
-    /// Whether nobody flies any more.
+    /// Whether the tick loop has ended.
     pub fn is_over(&self) -> bool {
         self.urgent.over.load(Ordering::Relaxed)
     }
 
-    /// Does what Ctrl-C does: lands and leaves, and the second time leaves at once with the landing ordered.
-    /// Returns whether the vehicle will hear of it.
+    /// Same as Ctrl-C: lands and exits; the second time exits at once with the landing ordered. Returns
+    /// whether the request was delivered.
     pub fn stop(&self) -> bool {
         self.urgent.stops.fetch_add(1, Ordering::Relaxed);
         !self.is_over()
     }
 
-    /// Does the same as an operator's wish, not as an interruption.
+    /// As [`Controls::stop`], but counted as an operator's request rather than an interruption.
     pub fn quit(&self) -> bool {
         self.urgent.quit.store(true, Ordering::Relaxed);
         self.stop()
     }
 
-    /// Whether an operator wished to leave.
+    /// Whether an operator has requested the exit.
     pub fn has_quit(&self) -> bool {
         self.urgent.quit.load(Ordering::Relaxed)
     }
 }
 
-/// What must be heard whatever else waits. What is urgent has no queue that could be full: who ordered it
-/// last is enough, a local operator before a remote one.
+/// Orders that must be delivered whatever else is queued. They need no queue, which could be full: only the
+/// last operator who ordered them matters, a local one before a remote one.
 #[derive(Debug, Default)]
 struct Urgent {
     stops: AtomicU32,
@@ -149,10 +149,10 @@ struct Urgent {
 const LOCAL: u32 = 1 << 31;
 const STATION_SHIFT: u32 = 16;
 
-/// An operator as a number that is not 0: local ones are greater than remote ones.
+/// Packs an operator into a number other than 0; local operators are greater than remote ones.
 fn packed(by: Operator) -> u32 {
     let station = Station::ALL.iter().position(|station| *station == by.station).unwrap_or(0);
-    // There are few stations.
+    // There are only a few stations.
     let station = u32::try_from(station + 1).unwrap_or(1);
     (u32::from(by.local) * LOCAL) | (station << STATION_SHIFT) | u32::from(by.number)
 }
@@ -160,12 +160,12 @@ fn packed(by: Operator) -> u32 {
 fn unpacked(number: u32) -> Option<Operator> {
     let station = ((number & !LOCAL) >> STATION_SHIFT).checked_sub(1)?;
     let station = *Station::ALL.get(usize::try_from(station).ok()?)?;
-    // The lower half is the number.
+    // The lower half is the operator's number.
     let number_of_station = u16::try_from(number & 0xffff).ok()?;
     Some(Operator { station, number: number_of_station, local: number & LOCAL != 0 })
 }
 
-/// The tick's end of it.
+/// The tick loop's end of the channel.
 #[derive(Debug)]
 pub(super) struct Orders {
     urgent: Arc<Urgent>,
@@ -173,15 +173,15 @@ pub(super) struct Orders {
 }
 
 impl Orders {
-    /// Both ends.
+    /// Creates both ends.
     pub(super) fn new() -> (Self, Controls) {
         let urgent = Arc::new(Urgent::default());
         let (sender, others) = bounded(WAITING);
         (Self { urgent: Arc::clone(&urgent), others }, Controls { urgent, others: sender })
     }
 
-    /// What was ordered since the last tick, never more than can wait. What is urgent comes last and has
-    /// the last word.
+    /// Orders since the last tick, at most as many as the queue holds. Urgent orders come last, so that they
+    /// take precedence.
     pub(super) fn poll(&self) -> impl Iterator<Item = Request> + '_ {
         let raised = |operator: &AtomicU32, order| {
             let by = unpacked(operator.swap(0, Ordering::Relaxed))?;
@@ -194,7 +194,7 @@ impl Orders {
         others.chain(landing.flatten()).chain(cut.flatten())
     }
 
-    /// How often the end was asked for.
+    /// How often the exit was requested.
     pub(super) fn stops(&self) -> u32 {
         self.urgent.stops.load(Ordering::Relaxed)
     }

@@ -1,4 +1,4 @@
-//! What is slow and goes on beside the flight: signals and the control port.
+//! Slow services beside the flight: signals and the control port.
 
 use std::net::SocketAddr;
 use std::task::{Context, Poll};
@@ -11,7 +11,7 @@ use tokio::sync::{mpsc, oneshot};
 
 use super::{Controls, FlightError};
 
-/// Signals and the control port, on a thread of their own; it ends with the flight.
+/// Signals and the control port, on a thread that ends with the flight.
 #[derive(Debug)]
 pub(super) struct Services {
     control: mpsc::Receiver<Vec<u8>>,
@@ -19,15 +19,15 @@ pub(super) struct Services {
     thread: Option<JoinHandle<()>>,
 }
 
-/// Blocks of the configuration dump that may wait for the tick. The drone waits while there is no room.
+/// Capacity of the channel for blocks of the configuration dump. The drone waits while it is full.
 const BLOCKS: usize = 4;
-/// What a tick takes of them.
+/// Maximum blocks handled in a tick.
 const BLOCKS_PER_TICK: usize = 2;
-/// The control port is tried again after this time.
+/// Interval between attempts to connect to the control port.
 const CONTROL_RETRY: Duration = Duration::from_millis(500);
 
 impl Services {
-    /// Starts them; signals go to `controls`.
+    /// Starts the services; signals are passed to `controls`.
     pub(super) fn start(address: SocketAddr, controls: Controls) -> Result<Self, FlightError> {
         let runtime = tokio::runtime::Builder::new_current_thread()
             .enable_all()
@@ -39,7 +39,7 @@ impl Services {
             .name("services".to_owned())
             .spawn(move || {
                 runtime.block_on(async {
-                    // A task of its own: whatever happens to it, signals are heard.
+                    // In a task of its own, so that it cannot delay signals.
                     tokio::spawn(read_control_port(address, sender));
                     tokio::select! {
                         () = forward_signals(&controls) => {}
@@ -52,7 +52,8 @@ impl Services {
         Ok(Self { control, end: Some(end), thread: Some(thread) })
     }
 
-    /// What came in on the control port, oldest first, as much as a tick has time for; never waits.
+    /// Bytes received on the control port, oldest first, at most as many as a tick has time for; never
+    /// blocks.
     pub(super) fn poll_control(&mut self) -> impl Iterator<Item = Vec<u8>> + '_ {
         std::iter::from_fn(|| self.control.try_recv().ok()).take(BLOCKS_PER_TICK)
     }
@@ -72,10 +73,10 @@ impl Drop for Services {
     }
 }
 
-/// Never returns: without signals the flight goes on.
+/// Never returns. Without signals the flight goes on.
 async fn forward_signals(controls: &Controls) {
     let mut signals = EndSignals::new();
-    // A flight log that may not grow any more ends the log, not the process.
+    // With SIGXFSZ caught, exceeding the file size limit ends the log, not the process.
     let _too_large = signal(SignalKind::from_raw(rustix::process::Signal::XFSZ.as_raw()));
     loop {
         signals.next().await;
@@ -83,12 +84,12 @@ async fn forward_signals(controls: &Controls) {
     }
 }
 
-/// All signals that ask for the end.
+/// All signals that request the exit.
 #[derive(Debug)]
 pub(crate) struct EndSignals(Vec<Signal>);
 
 impl EndSignals {
-    /// From now on. To be made where a runtime of tokio runs.
+    /// Starts listening. Must be called within a tokio runtime.
     pub(crate) fn new() -> Self {
         let ends = [
             SignalKind::interrupt(),
@@ -111,7 +112,7 @@ impl EndSignals {
         std::future::poll_fn(|context| self.poll(context)).await;
     }
 
-    /// Looks at all of them, so that each is waited for.
+    /// Polls all of them, so that each wakes the task.
     fn poll(&mut self, context: &mut Context<'_>) -> Poll<()> {
         let mut came = Poll::Pending;
         for signal in &mut self.0 {
@@ -123,7 +124,7 @@ impl EndSignals {
     }
 }
 
-/// Reads the control port for as long as somebody listens: a drone without one can be flown all the same.
+/// Reads the control port until the receiver is gone. A drone without one can be flown all the same.
 async fn read_control_port(address: SocketAddr, out: mpsc::Sender<Vec<u8>>) {
     let mut buffer = vec![0_u8; 4096];
     while !out.is_closed() {

@@ -1,4 +1,4 @@
-//! What stands in a flight log: one JSON object a message, with the same names in the file and here.
+//! Messages of the flight log: JSON objects whose fields have the same names in the file and here.
 
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::Navdata;
@@ -7,52 +7,52 @@ use autopilot::vehicle::Decision;
 use pid::Pose;
 use serde::{Deserialize, Serialize};
 
-/// A tick: what was known, decided and sent.
+/// A tick: state, decision and output.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Tick {
-    /// What the flight was doing, in one word.
+    /// Phase of the flight.
     pub phase: String,
-    /// The step of the plan, from 0.
+    /// Index of the plan step, from 0.
     pub step: Option<usize>,
-    /// Where the drone was; nothing while that was not known. Logs of format 1 have zeros then.
+    /// Estimated state; `None` while it was unknown. Logs of format 1 contain zeros instead.
     pub estimate: Option<Estimate>,
-    /// Where it was sent.
+    /// Target of the position controller.
     pub target: Option<Place>,
-    /// What it was told.
+    /// Command sent to the drone.
     pub command: Command,
-    /// What the agent decided, and why.
+    /// The agent's decision and its inputs.
     pub agent: Agent,
-    /// Why something else was done.
+    /// Why the safety monitor replaced the agent's command.
     pub veto: Option<String>,
-    /// How the tick went.
+    /// Timing of the tick.
     pub timing: Timing,
-    /// The datagram that was sent.
+    /// Text of the datagram.
     pub datagram: String,
 }
 
-/// A place and a heading.
+/// A position and a heading.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Place {
-    /// Right of the take-off.
+    /// Metres to the right of the take-off.
     pub x_m: f64,
-    /// Forward of it.
+    /// Metres forward of it.
     pub y_m: f64,
-    /// Above the floor.
+    /// Metres above the floor.
     pub z_m: f64,
-    /// Clockwise.
+    /// Degrees clockwise.
     pub yaw_deg: f64,
 }
 
-/// The state that was decided on.
+/// The estimated state that the decision was based on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// Right of the take-off.
+    /// Metres to the right of the take-off.
     pub x_m: f64,
-    /// Forward of it.
+    /// Metres forward of it.
     pub y_m: f64,
-    /// Above the floor.
+    /// Metres above the floor.
     pub z_m: f64,
-    /// Clockwise.
+    /// Degrees clockwise.
     pub yaw_deg: f64,
     /// To the right.
     pub vx_m_s: f64,
@@ -60,7 +60,7 @@ pub struct Estimate {
     pub vy_m_s: f64,
     /// Up.
     pub vz_m_s: f64,
-    /// Standard deviation of the place on each horizontal axis.
+    /// Standard deviation of the position on each horizontal axis.
     pub horizontal_deviation_m: f64,
     /// Standard deviation of the height.
     pub vertical_deviation_m: f64,
@@ -79,65 +79,65 @@ pub struct Command {
     pub gaz: f64,
     /// Positive turns clockwise.
     pub yaw: f64,
-    /// The drone is to hold still by itself.
+    /// The drone holds its position by itself; the sticks are ignored.
     pub hover: bool,
 }
 
-/// A step of the agent.
+/// One step of the agent.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Agent {
-    /// The plans that it chose, the event's first.
+    /// Plans chosen, the event's first.
     pub plans: Vec<ChosenPlan>,
-    /// What it wanted.
+    /// The agent's command.
     pub command: String,
-    /// What it said of its last order.
+    /// How its last order ended.
     pub report: Option<String>,
-    /// What it said of the flight.
+    /// Danger that it reported.
     pub danger: Option<String>,
-    /// Charge in percent.
+    /// Remaining charge in percent.
     pub battery_percent: Option<u32>,
-    /// Since the newest navdata that could be believed.
+    /// Time since the newest plausible navdata.
     pub blind_for_ms: i64,
-    /// What pushes the drone, as a share of what full tilt gives.
+    /// Wind disturbance as a fraction of the acceleration at full tilt.
     pub wind: f64,
-    /// The drone said that it has landed.
+    /// The drone reported that it has landed.
     pub on_ground: bool,
 }
 
 /// A plan of the agent.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ChosenPlan {
-    /// Its trigger.
+    /// Its triggering event.
     pub trigger: String,
     /// Its first line in the agent's source, which is attached to the log.
     pub line: u32,
 }
 
-/// How a tick went.
+/// Timing of a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Timing {
-    /// After its deadline.
+    /// Delay after its deadline.
     pub late_ms: f64,
-    /// From its begin until the datagram was sent.
+    /// Time from its begin until the datagram was sent.
     pub work_ms: f64,
 }
 
-/// What a navdata packet said.
+/// Decoded content of a navdata packet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DecodedNavdata {
-    /// Counts packets.
+    /// Sequence number.
     pub sequence: u32,
     /// State bits of the header.
     pub state: u32,
-    /// What the drone says it does.
+    /// The drone's control state.
     pub control_state: Option<String>,
-    /// Charge.
+    /// Remaining charge in percent.
     pub battery_percent: Option<u32>,
-    /// By the ultrasound.
+    /// Ultrasound altitude.
     pub altitude_m: Option<f64>,
     /// Forward, right, down.
     pub velocity_m_s: Option<[f64; 3]>,
-    /// Roll, pitch, yaw as the drone tells them.
+    /// Roll, pitch and yaw as reported by the drone.
     pub attitude_deg: Option<[f64; 3]>,
 }
 
@@ -149,9 +149,9 @@ pub struct Bytes {
 }
 
 impl Tick {
-    /// The tick as it stands in a log.
+    /// Converts the decision of a tick to its log message.
     pub fn new(decision: &Decision, timing: Timing, datagram: &[u8]) -> Self {
-        let Decision { state, senses, .. } = decision;
+        let Decision { state, percepts, .. } = decision;
         let estimate = |Pose { x_m, y_m, z_m, yaw_deg }| Estimate {
             x_m: short(x_m),
             y_m: short(y_m),
@@ -160,13 +160,13 @@ impl Tick {
             vx_m_s: short(state.velocity_m_s.x),
             vy_m_s: short(state.velocity_m_s.y),
             vz_m_s: short(state.velocity_m_s.z),
-            horizontal_deviation_m: short(senses.doubt_m),
+            horizontal_deviation_m: short(percepts.position_sd_m),
             vertical_deviation_m: short(decision.vertical_deviation_m),
         };
         Self {
             phase: decision.phase.name().to_owned(),
             step: decision.step,
-            estimate: senses.pose.map(estimate),
+            estimate: percepts.pose.map(estimate),
             target: decision.target.map(|pose| Place::from(&pose)),
             command: Command::new(decision),
             agent: Agent::new(decision),
@@ -211,17 +211,17 @@ impl Command {
 
 impl Agent {
     fn new(decision: &Decision) -> Self {
-        let Decision { senses, .. } = decision;
+        let Decision { percepts, .. } = decision;
         let plan = |(line, trigger): (u32, &str)| ChosenPlan { trigger: trigger.to_owned(), line };
         Self {
             plans: decision.plans.places().map(plan).collect(),
             command: decision.wanted.name().to_owned(),
             report: decision.report.map(|report| report.name().to_owned()),
             danger: decision.danger.map(|danger| danger.name().to_owned()),
-            battery_percent: senses.battery_percent,
-            blind_for_ms: senses.blind_for_ms,
-            wind: short(senses.wind),
-            on_ground: senses.on_ground,
+            battery_percent: percepts.battery_percent,
+            blind_for_ms: percepts.blind_for_ms,
+            wind: short(percepts.wind),
+            on_ground: percepts.on_ground,
         }
     }
 }
@@ -244,7 +244,7 @@ impl From<&Navdata> for DecodedNavdata {
     }
 }
 
-/// Four digits behind the point are more than anything here is worth, and keep the file small.
+/// Rounds to four decimals, more than any of these values needs, to keep the file small.
 fn short(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }

@@ -1,7 +1,8 @@
-//! The flight log: everything that was heard, decided and sent, as an MCAP file.
+//! The flight log: all inputs, decisions and outputs, as an MCAP file.
 //!
-//! The tick hands [`Record`]s over a bounded channel and never waits: what the disk is too slow for is
-//! counted, not kept. A thread writes; what it has flushed survives whatever happens to the process.
+//! The tick passes [`Record`]s through a bounded channel and never waits; if the disk is too slow, records
+//! are dropped and counted. A separate thread writes the file. Flushed records survive a crash of the
+//! process.
 
 mod messages;
 mod order;
@@ -28,29 +29,29 @@ use autopilot::vehicle::{Decision, FlightEvent, Operator, OperatorOrder};
 const AGENT_FILE: &str = "autopilot.asl";
 const PLAN_FILE: &str = "plan.txt";
 const SETTINGS_FILE: &str = "pilot.toml";
-/// What a log line is about: its `name`.
+/// The `name` of a log line: what it is about.
 const EVENT: &str = "event";
 const OUTCOME: &str = "outcome";
-/// The format that is written: what the messages are and mean. 1 had no number, and zeros for a place that is not
-/// known; 1 and 2 had one flight each, and orders without an operator.
+/// Version of the message format. Version 1 did not have this number, and had zeros for an unknown pose;
+/// versions 1 and 2 contain one flight each, and orders without an operator.
 const FORMAT: u32 = 3;
-/// The name of the metadata.
+/// Name of the metadata record.
 const FLIGHT: &str = "flight";
 
-/// What is flown, and how.
+/// Description of the recorded flight.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Header {
-    /// When the flight's clock was zero, since the Unix epoch.
+    /// Origin of the flight's time, since the Unix epoch.
     pub start: Duration,
     /// The plan's file name.
     pub plan_name: String,
     /// The plan.
     pub plan: String,
-    /// The settings that hold, as TOML.
+    /// The settings in effect, as TOML.
     pub settings: String,
-    /// Where z = 0 of the plan is.
+    /// Origin of the plan's heights.
     pub z_origin: ZOrigin,
-    /// What was flown: an address, or the mock drone.
+    /// The drone: an address, or the mock drone.
     pub drone: String,
 }
 
@@ -60,55 +61,55 @@ pub struct Header {
 pub enum Record {
     /// A datagram from the navdata port.
     Navdata {
-        /// When it was taken in.
+        /// Time of handling.
         at: Duration,
         /// The datagram.
         packet: Vec<u8>,
     },
     /// Bytes from the control port.
     Control {
-        /// When they were taken in.
+        /// Time of handling.
         at: Duration,
         /// The bytes.
         bytes: Vec<u8>,
     },
     /// An operator's order.
     Order {
-        /// When it was taken in.
+        /// Time of handling.
         at: Duration,
-        /// Who gave it.
+        /// The operator.
         by: Operator,
-        /// What was ordered.
+        /// The order.
         order: OperatorOrder,
     },
-    /// Something happened.
+    /// An event of the flight.
     Event {
-        /// When.
+        /// Its time.
         at: Duration,
-        /// What.
+        /// The event.
         event: FlightEvent,
     },
-    /// How the flight ended.
+    /// Outcome of the flight.
     Outcome {
-        /// When.
+        /// Its time.
         at: Duration,
-        /// How.
+        /// The outcome.
         outcome: Outcome,
     },
-    /// Something else to be read by people.
+    /// Another message for people.
     Note {
-        /// When it was said.
+        /// Its time.
         at: Duration,
-        /// What.
+        /// Its text.
         text: String,
     },
     /// A tick.
     Tick {
-        /// What was known and decided.
+        /// The decision.
         decision: Decision,
-        /// How the tick went.
+        /// Timing of the tick.
         timing: Timing,
-        /// What was sent.
+        /// The datagram that was sent.
         datagram: Vec<u8>,
     },
 }

@@ -1,14 +1,14 @@
-//! An operator's order as it stands in a flight log.
+//! Operator orders in the flight log.
 
 use autopilot::plan::{Commands, FlightLimits, Plan, PlanError};
 use autopilot::vehicle::{Operator, OperatorOrder, Station};
 use pid::Demand;
 use serde::{Deserialize, Serialize};
 
-/// An order and who gave it.
+/// An order and its operator.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Order {
-    /// Who gave it; logs of formats 1 and 2 do not say.
+    /// The operator; missing in formats 1 and 2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     by: Option<Giver>,
     #[serde(flatten)]
@@ -39,29 +39,29 @@ enum Ordered {
     Release,
 }
 
-/// Why an order of a log cannot be given again.
+/// Why a logged order cannot be replayed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum OrderError {
-    /// Its plan or its commands are refused today.
-    #[error("a plan that was loaded is refused today")]
+    /// Its plan or commands are invalid in this version.
+    #[error("a loaded plan is not valid in this version")]
     Plan(#[from] PlanError),
-    /// Nobody gives orders from there today.
+    /// The operator's station is unknown in this version.
     #[error("an order came from `{0}`, which is not known")]
     Station(String),
 }
 
 impl Order {
-    /// An order as it stands in a log.
+    /// Converts an order to its log message.
     pub fn new(by: Operator, order: &OperatorOrder) -> Self {
         let Operator { station, number, local } = by;
         let by = Some(Giver { station: station.name().to_owned(), number, local });
         Self { by, order: Ordered::from(order) }
     }
 
-    /// The order, to be given again.
+    /// Converts the message back to an order.
     ///
     /// # Errors
-    /// [`OrderError`] if today nobody could give it.
+    /// [`OrderError`] if this version does not accept it.
     pub fn given(&self, limits: &FlightLimits) -> Result<(Operator, OperatorOrder), OrderError> {
         let by = match &self.by {
             None => Operator::TERMINAL,

@@ -1,4 +1,4 @@
-//! Reads a flight log, also one that was cut off.
+//! Reads a flight log, complete or truncated.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -16,54 +16,54 @@ use super::messages::{Bytes, DecodedNavdata, Tick};
 use super::order::Order;
 use super::{AGENT_FILE, FLIGHT, FORMAT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
 
-/// A flight as it was recorded.
+/// A recorded flight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Log {
     /// The plan's file name.
     pub plan_name: String,
     /// The plan.
     pub plan: String,
-    /// The settings that held, as TOML.
+    /// The settings that were in effect, as TOML.
     pub settings: String,
-    /// The agent that flew.
+    /// Source of the agent that flew.
     pub agent: String,
-    /// Where z = 0 of the plan is.
+    /// Origin of the plan's heights.
     pub z_origin: ZOrigin,
-    /// What was flown.
+    /// The drone: an address, or the mock drone.
     pub drone: String,
-    /// The version that flew.
+    /// Version of the program that flew.
     pub version: String,
-    /// When the flight's clock was zero, since the Unix epoch.
+    /// Origin of the flight's time, since the Unix epoch.
     pub start: Duration,
-    /// What happened, in the order in which it was written, with the flight's clock.
+    /// Entries in the order in which they were written, with the flight's time.
     pub entries: Vec<(Duration, Entry)>,
-    /// Whether the log has its end; one of a process that was killed has not.
+    /// Whether the log was finished; false if the process was killed.
     pub complete: bool,
 }
 
-/// Something in a log.
+/// An entry of a log.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Entry {
     /// A datagram from the navdata port.
     Navdata(Vec<u8>),
-    /// What it said.
+    /// Decoded content of a navdata packet.
     Decoded(DecodedNavdata),
     /// Bytes from the control port.
     Control(Vec<u8>),
     /// An operator's order.
     Order(Box<Order>),
-    /// Something to be read by people, and whether it is a warning.
+    /// An event as text.
     Event {
         /// Whether it is a warning.
         warns: bool,
-        /// What happened.
+        /// Its text.
         text: String,
     },
-    /// How the flight ended, and whether that is a warning.
+    /// Outcome of the flight.
     Outcome {
         /// Whether it is a warning.
         warns: bool,
-        /// How it ended.
+        /// Its text.
         text: String,
     },
     /// A tick.
@@ -73,46 +73,46 @@ pub enum Entry {
 /// Why a log cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
-    /// It is no MCAP file, or a damaged one.
+    /// Not an MCAP file, or a damaged one.
     #[error("not a flight log: {}", printable(&.0.to_string()))]
     Mcap(#[from] McapError),
-    /// The file is longer than any flight's.
+    /// The file is larger than any flight's log.
     #[error("it is larger than {} MB: no flight is that long", LARGEST_FILE_BYTES / 1_000_000)]
     TooLarge,
-    /// What is packed in it is out of proportion: a file that is made to fill the memory.
+    /// Its compression ratio is implausible: probably a file made to exhaust memory.
     #[error(
         "not a flight log: its content is more than {LARGEST_RATIO} times as large as the file"
     )]
     Bomb,
-    /// Something that every flight log has is missing.
+    /// A part that every flight log has is missing.
     #[error("not a flight log of ardrone-pilot: it has no {missing}")]
     Foreign {
-        /// What is missing.
+        /// The missing part.
         missing: String,
     },
-    /// It was written by a newer version, whose messages may mean something else.
+    /// Written by a newer version with another message format.
     #[error("its format is {format}, and this version reads up to {FORMAT}: take the version that wrote it, {}", printable(.version))]
     Newer {
-        /// The format's number.
+        /// Its format version.
         format: String,
-        /// Which version wrote it.
+        /// The version of the program that wrote it.
         version: String,
     },
-    /// A message is not what it should be.
+    /// A message is invalid.
     #[error("damaged message in {topic}: {problem}")]
     Message {
         /// Its topic.
         topic: String,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
 }
 
 impl Log {
-    /// Reads the content of a file.
+    /// Reads the content of a file. A truncated log is read as far as it goes.
     ///
     /// # Errors
-    /// [`LogError`] if it is no flight log. One that was cut off is read as far as it goes.
+    /// [`LogError`] if it is not a flight log.
     pub fn read(file: &[u8]) -> Result<Self, LogError> {
         if file.len() > LARGEST_FILE_BYTES {
             return Err(LogError::TooLarge);
@@ -123,14 +123,17 @@ impl Log {
             let text = content.texts.remove(name);
             text.ok_or_else(|| LogError::Foreign { missing: name.to_owned() })
         };
-        let told = |key: &str| {
+        let metadata = |key: &str| {
             flight.get(key).cloned().ok_or_else(|| LogError::Foreign { missing: key.to_owned() })
         };
         let format = flight.get("format").map_or("1", String::as_str);
         if !format.parse().is_ok_and(|format: u32| (1..=FORMAT).contains(&format)) {
-            return Err(LogError::Newer { format: format.to_owned(), version: told("version")? });
+            return Err(LogError::Newer {
+                format: format.to_owned(),
+                version: metadata("version")?,
+            });
         }
-        let start = told("start_ns")?
+        let start = metadata("start_ns")?
             .parse()
             .map_err(|_| LogError::Foreign { missing: "start_ns that is a number".to_owned() })?;
         let start = Duration::from_nanos(start);
@@ -139,20 +142,20 @@ impl Log {
             *at = at.saturating_sub(start);
         }
         Ok(Self {
-            plan_name: told("plan")?,
+            plan_name: metadata("plan")?,
             plan: text(PLAN_FILE)?,
             settings: text(SETTINGS_FILE)?,
             agent: text(AGENT_FILE)?,
-            z_origin: ZOrigin::from_name(&told("z_origin")?).unwrap_or_default(),
-            drone: told("drone")?,
-            version: told("version")?,
+            z_origin: ZOrigin::from_name(&metadata("z_origin")?).unwrap_or_default(),
+            drone: metadata("drone")?,
+            version: metadata("version")?,
             start,
             entries,
             complete: content.complete,
         })
     }
 
-    /// The ticks.
+    /// All ticks.
     pub fn ticks(&self) -> impl Iterator<Item = (Duration, &Tick)> {
         self.entries.iter().filter_map(|(at, entry)| match entry {
             Entry::Tick(tick) => Some((*at, tick.as_ref())),
@@ -160,7 +163,7 @@ impl Log {
         })
     }
 
-    /// How the flight ended, and whether that is a warning; nothing if the log does not say.
+    /// Outcome of the flight, and whether it is a warning; `None` if the log does not contain it.
     pub fn outcome(&self) -> Option<(bool, &str)> {
         self.entries.iter().rev().find_map(|(_, entry)| match entry {
             Entry::Outcome { warns, text } => Some((*warns, text.as_str())),
@@ -168,7 +171,7 @@ impl Log {
         })
     }
 
-    /// What was told to people.
+    /// All messages for people: time, whether it is a warning, and text.
     pub fn events(&self) -> impl Iterator<Item = (Duration, bool, &str)> {
         self.entries.iter().filter_map(|(at, entry)| match entry {
             Entry::Event { warns, text } => Some((*at, *warns, text.as_str())),
@@ -179,34 +182,34 @@ impl Log {
 
 type Texts = BTreeMap<String, String>;
 
-/// No larger file is read: it would be three hours of all that a drone can send.
+/// Maximum size of a log file: three hours of everything that a drone can send.
 pub const LARGEST_FILE_BYTES: usize = 512 << 20;
-/// A length beyond this is a lie, before and after a chunk is unpacked: ours are less than 1 MiB.
+/// Maximum length of a record or chunk; ours are below 1 MiB.
 const LONGEST_RECORD_BYTES: usize = 16 << 20;
-/// Flight logs unpack to four times their size; LZ4 can do 255.
+/// Maximum compression ratio. Flight logs reach about 4; LZ4 can reach 255.
 const LARGEST_RATIO: usize = 32;
-/// So much may be unpacked of any file: what repeats itself in a short log packs well.
+/// Unpacked size that is always accepted, because repetitive short logs compress well.
 const ALWAYS_UNPACKED_BYTES: usize = 16 << 20;
 
-/// What stands in the file.
+/// Content of the file.
 #[derive(Default)]
 struct Content {
     /// Attached texts by name.
     texts: Texts,
-    /// What is said of the flight.
+    /// Metadata of the flight.
     flight: Texts,
-    /// Topics that mean something to us, by channel.
+    /// Known topics by channel.
     topics: BTreeMap<u16, &'static str>,
-    /// The messages, with their time since the Unix epoch.
+    /// Messages, with their time since the Unix epoch.
     entries: Vec<(Duration, Entry)>,
     complete: bool,
 }
 
 impl Content {
-    /// Each record is understood as soon as it is unpacked: nothing else is kept of it. So what is needed is
-    /// in proportion to what was unpacked, and that is bounded by the size of the file.
+    /// Each record is parsed as soon as it is unpacked and then dropped, so the memory in use is proportional
+    /// to the unpacked size, which is bounded by the size of the file.
     fn read(file: &[u8]) -> Result<Self, LogError> {
-        // The checksum of a chunk is checked before what is in it is looked at.
+        // The checksum of a chunk is verified before its content is parsed.
         let options = LinearReaderOptions::default()
             .with_prevalidate_chunk_crcs(true)
             .with_record_length_limit(LONGEST_RECORD_BYTES);
@@ -224,13 +227,13 @@ impl Content {
                     rest = behind;
                 }
                 Ok(LinearReadEvent::Record { data, opcode }) => {
-                    // An entry is larger than what can be said of the least of them.
+                    // An entry takes more memory than the shortest message that it is parsed from.
                     let needed = data.len().max(size_of::<(Duration, Entry)>());
                     room = room.checked_sub(needed).ok_or(LogError::Bomb)?;
                     content.record(parse_record(opcode, data)?)?;
                 }
                 Err(error @ McapError::BadMagic) => return Err(error.into()),
-                // It was cut off here, or it is damaged from here on.
+                // The file was truncated here, or is damaged from here on.
                 Err(_) => return Ok(content),
             }
         }
@@ -252,7 +255,7 @@ impl Content {
                 self.flight = metadata.metadata;
             }
             McapRecord::Channel(channel) => {
-                // The name is not kept: a file may have a long one for each of its channels.
+                // Only known names are kept: a file may have a long one for each of its channels.
                 let known = topic::ALL.iter().find(|topic| topic.name == channel.topic);
                 if let Some(topic) = known {
                     self.topics.insert(channel.id, topic.name);
@@ -272,7 +275,7 @@ impl Content {
     }
 }
 
-/// An entry; nothing for what is there for others to draw.
+/// Parses an entry; `None` for messages that exist only for other viewers.
 fn entry(topic: &str, data: &[u8]) -> Result<Option<Entry>, LogError> {
     let bytes = |data| -> Result<Vec<u8>, LogError> {
         let Bytes { data } = parse(topic, data)?;
@@ -308,7 +311,7 @@ fn parse<T: DeserializeOwned>(topic: &str, data: &[u8]) -> Result<T, LogError> {
 }
 
 fn damaged(topic: &str, problem: &impl ToString) -> LogError {
-    // It quotes what it does not like.
+    // The message quotes the file.
     let problem = printable(&problem.to_string()).into_owned();
     LogError::Message { topic: topic.to_owned(), problem }
 }

@@ -1,4 +1,4 @@
-//! Records a flight while it lasts.
+//! Records a flight in progress.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -14,31 +14,31 @@ use mcap::McapError;
 use super::messages::Timing;
 use super::{Header, LogWriter, Record};
 
-/// Entries that may wait for the disk: some seconds.
+/// Capacity of the queue to the writer: some seconds.
 const WAITING: usize = 1024;
-/// Buffers for packets and datagrams go round; each has room for any of them.
+/// Number of reusable buffers, each large enough for any packet or datagram.
 const BUFFERS: usize = 512;
 const BUFFER_BYTES: usize = 4096;
-/// After so long what was written is made safe.
+/// Interval of flushing to disk.
 const FLUSH: Duration = Duration::from_millis(500);
 
-/// Why nothing is recorded, or not any more.
+/// Why recording could not start, or has stopped.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
-    /// The file cannot be made.
+    /// The file cannot be created.
     #[error("cannot make the flight log {}", .path.display())]
     Create {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
-    /// It cannot be written.
+    /// Writing the file failed.
     #[error("cannot write the flight log {}: {}; the flight goes on without it", .path.display(), reason(.problem))]
     Write {
         /// The file.
         path: PathBuf,
-        /// What went wrong.
+        /// The error.
         problem: McapError,
     },
     /// The thread cannot be started.
@@ -46,7 +46,7 @@ pub enum RecordingError {
     Thread(std::io::Error),
 }
 
-/// What the system says, where it says something.
+/// The system's error, if there is one.
 fn reason(error: &McapError) -> String {
     match error {
         McapError::Io(error) => error.to_string(),
@@ -54,7 +54,7 @@ fn reason(error: &McapError) -> String {
     }
 }
 
-/// The end of the tick: takes entries and never waits, nor asks for memory in flight.
+/// Tick-side handle: takes records without ever waiting, and without allocating in flight.
 #[derive(Debug)]
 pub struct Recorder {
     records: Sender<Record>,
@@ -62,7 +62,7 @@ pub struct Recorder {
     lost: u64,
 }
 
-/// The end of whoever watches.
+/// UI-side handle: write errors and completion.
 #[derive(Debug)]
 pub struct Recording {
     path: PathBuf,
@@ -70,23 +70,23 @@ pub struct Recording {
     thread: JoinHandle<Option<u64>>,
 }
 
-/// A log that was finished.
+/// A finished log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recorded {
     /// Its file.
     pub path: PathBuf,
-    /// Its size.
+    /// Its size in bytes.
     pub bytes: u64,
 }
 
 impl Recorder {
-    /// Starts to record to a new file.
+    /// Starts recording to a new file.
     ///
     /// # Errors
-    /// [`RecordingError`] if the file cannot be made or written.
+    /// [`RecordingError`] if the file cannot be created or written.
     pub fn start(path: &Path, header: &Header) -> Result<(Self, Recording), RecordingError> {
         let create = |source| RecordingError::Create { path: path.to_owned(), source };
-        // A flight that is there already is not overwritten.
+        // An existing log is not overwritten.
         let file = File::create_new(path).map_err(create)?;
         let problem = |source| RecordingError::Write { path: path.to_owned(), problem: source };
         let mut writer = LogWriter::new(BufWriter::new(file), header).map_err(problem)?;
@@ -94,7 +94,7 @@ impl Recorder {
         let (records, received) = bounded(WAITING);
         let (give_back, buffers) = bounded(BUFFERS);
         for _ in 0..BUFFERS {
-            // There is room for all of them.
+            // The channel has room for all buffers.
             _ = give_back.try_send(Vec::with_capacity(BUFFER_BYTES));
         }
         let (report, problems) = bounded(1);
@@ -107,17 +107,17 @@ impl Recorder {
         Ok((Self { records, buffers, lost: 0 }, recording))
     }
 
-    /// A recorder whose disk has stopped: nothing is ever written.
+    /// A recorder with a stalled disk: nothing is ever written.
     #[cfg(test)]
     pub(crate) fn stalled() -> Self {
         let (records, waiting) = bounded(1);
         let (_, buffers) = bounded(0);
-        // The writer hangs: it neither takes anything nor goes away.
+        // Leaks the receiver, so that the writer neither takes records nor disconnects.
         std::mem::forget(waiting);
         Self { records, buffers, lost: 0 }
     }
 
-    /// Entries that the disk was too slow for.
+    /// Number of records dropped because the disk was too slow.
     pub fn lost(&self) -> u64 {
         self.lost
     }
@@ -139,17 +139,17 @@ impl Recorder {
         self.record(Record::Order { at, by, order });
     }
 
-    /// Something happened.
+    /// An event of the flight.
     pub fn event(&mut self, at: Duration, event: FlightEvent) {
         self.record(Record::Event { at, event });
     }
 
-    /// How the flight ended.
+    /// Outcome of the flight.
     pub fn outcome(&mut self, at: Duration, outcome: Outcome) {
         self.record(Record::Outcome { at, outcome });
     }
 
-    /// Something else to be read by people.
+    /// Another message for people.
     pub fn note(&mut self, at: Duration, text: String) {
         self.record(Record::Note { at, text });
     }
@@ -161,7 +161,7 @@ impl Recorder {
         }
     }
 
-    /// A buffer with this content, if one is free.
+    /// A free buffer filled with `content`, if there is one.
     fn filled(&mut self, content: &[u8]) -> Option<Vec<u8>> {
         let Ok(mut buffer) = self.buffers.try_recv() else {
             self.lost += 1;
@@ -180,19 +180,20 @@ impl Recorder {
 }
 
 impl Recording {
-    /// What went wrong, told once.
+    /// The error that stopped the recording; returned once.
     pub fn problem(&self) -> Option<RecordingError> {
         self.problems.try_recv().ok()
     }
 
-    /// Waits for the end of the file, once the [`Recorder`] is gone; nothing if it has none.
+    /// Waits until the file is complete, which requires that the [`Recorder`] was dropped; `None` if writing
+    /// failed.
     pub fn finish(self) -> Option<Recorded> {
         let bytes = self.thread.join().ok().flatten()?;
         Some(Recorded { path: self.path, bytes })
     }
 }
 
-/// Writes until there is nobody who records; returns the size of the file.
+/// Writes until the recorder is dropped; returns the size of the file.
 fn write(
     writer: LogWriter<BufWriter<File>>,
     path: &Path,
@@ -204,7 +205,7 @@ fn write(
         Ok(bytes) => Some(bytes),
         Err(source) => {
             _ = report.try_send(RecordingError::Write { path: path.to_owned(), problem: source });
-            // The flight goes on: its buffers must go round.
+            // After an error the records are still received, because their buffers must be returned.
             for record in records {
                 recycle(record, give_back);
             }
@@ -241,7 +242,7 @@ fn write_all(
 
 fn recycle(record: Record, give_back: &Sender<Vec<u8>>) {
     if let Record::Navdata { packet: buffer, .. } | Record::Tick { datagram: buffer, .. } = record {
-        // There is room for all buffers.
+        // The channel has room for all buffers.
         _ = give_back.try_send(buffer);
     }
 }

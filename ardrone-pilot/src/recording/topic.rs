@@ -1,4 +1,4 @@
-//! What a flight log has, and how it looks.
+//! Topics of a flight log and their schemas.
 
 /// A topic and its schema.
 #[derive(Debug, Clone, Copy)]
@@ -28,10 +28,10 @@ pub(super) const ORDERS: Topic = Topic {
     schema: "ardrone_pilot.Order",
     text: include_str!("schemas/order.json"),
 };
-/// Foxglove's own: it shows them as log lines.
+/// Foxglove's log schema, displayed as log lines.
 pub(super) const LOG: Topic =
     Topic { name: "/log", schema: "foxglove.Log", text: include_str!("schemas/log.json") };
-/// Foxglove's own: it draws them.
+/// Foxglove's pose schema, displayed in 3D.
 pub(super) const POSE: Topic = Topic {
     name: "/pose",
     schema: "foxglove.PoseInFrame",

@@ -1,7 +1,7 @@
-//! A flight log as MCAP: <https://mcap.dev>, with the schemas that Foxglove and Lichtblick know.
+//! Writes a flight log as MCAP (<https://mcap.dev>), with schemas that Foxglove and Lichtblick know.
 //!
-//! Messages are JSON with schemas. Chunks are not compressed, so that what was flushed before a crash can be
-//! read by anything, and no C library is needed.
+//! Messages are JSON with schemas. Chunks are not compressed, so that everything flushed before a crash can
+//! be read by any tool, and no C library is needed.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -23,13 +23,13 @@ use super::{
     AGENT_FILE, EVENT, FLIGHT, FORMAT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE, topic,
 };
 
-/// The place of drone and target is told so often for those who draw it: each third tick.
+/// Ticks between pose messages, which exist only for display.
 const POSE_TICKS: u64 = 3;
-/// Packets are written as they were understood no more often than this; as bytes, all are.
+/// Minimum interval of decoded navdata messages; the bytes of every packet are recorded.
 const DECODED_APART: Duration = Duration::from_millis(25);
-/// Packs an eighth better than the default.
+/// Compresses an eighth better than the default level.
 const COMPRESSION_LEVEL: u32 = 6;
-/// Where poses are told: right, forward, up from the take-off.
+/// Frame of the poses: right, forward and up from the take-off.
 const FRAME: &str = "take_off";
 
 /// Writes a log.
@@ -39,15 +39,15 @@ pub struct LogWriter<W: Write + Seek> {
     start_ns: u64,
     sequence: u32,
     ticks: u64,
-    /// When a packet was last written as it was understood.
+    /// Time of the last decoded navdata message.
     decoded: Option<Duration>,
 }
 
 impl<W: Write + Seek> LogWriter<W> {
-    /// A log that begins with what is flown, and how.
+    /// Creates a log and writes its header.
     ///
     /// # Errors
-    /// [`McapError`] if it cannot be written.
+    /// [`McapError`] if writing fails.
     pub fn new(writer: W, header: &Header) -> Result<Self, McapError> {
         let options = WriteOptions::new()
             .compression(Some(Compression::Lz4))
@@ -88,16 +88,16 @@ impl<W: Write + Seek> LogWriter<W> {
         Ok(Self { writer, channels, start_ns, sequence: 0, ticks: 0, decoded: None })
     }
 
-    /// Writes an entry.
+    /// Writes a record.
     ///
     /// # Errors
-    /// [`McapError`] if it cannot be written.
+    /// [`McapError`] if writing fails.
     pub fn write(&mut self, record: &Record) -> Result<(), McapError> {
         match record {
             Record::Navdata { at, packet } => {
                 self.message(topic::RAW_NAVDATA, *at, &bytes(packet))?;
                 let last = self.decoded.filter(|last| at.saturating_sub(*last) < DECODED_APART);
-                // What cannot be read is there as bytes.
+                // A packet that cannot be decoded is recorded as bytes only.
                 if last.is_none()
                     && let Ok(navdata) = Navdata::decode(packet)
                 {
@@ -106,7 +106,9 @@ impl<W: Write + Seek> LogWriter<W> {
                 }
                 Ok(())
             }
-            Record::Control { at, bytes: said } => self.message(topic::CONTROL, *at, &bytes(said)),
+            Record::Control { at, bytes: block } => {
+                self.message(topic::CONTROL, *at, &bytes(block))
+            }
             Record::Order { at, by, order } => {
                 self.message(topic::ORDERS, *at, &Order::new(*by, order))
             }
@@ -136,18 +138,18 @@ impl<W: Write + Seek> LogWriter<W> {
         }
     }
 
-    /// Makes sure that what was written can be read whatever happens next.
+    /// Ensures that everything written so far survives a crash.
     ///
     /// # Errors
-    /// [`McapError`] if it cannot be written.
+    /// [`McapError`] if writing fails.
     pub fn flush(&mut self) -> Result<(), McapError> {
         self.writer.flush()
     }
 
-    /// Ends the log with its index.
+    /// Finishes the log with its index.
     ///
     /// # Errors
-    /// [`McapError`] if it cannot be written.
+    /// [`McapError`] if writing fails.
     pub fn finish(mut self) -> Result<W, McapError> {
         self.writer.finish()?;
         Ok(self.writer.into_inner())
@@ -189,7 +191,7 @@ impl<W: Write + Seek> LogWriter<W> {
         json!({ "sec": time.as_secs(), "nsec": time.subsec_nanos() })
     }
 
-    /// Foxglove turns anticlockwise about the axis that points up.
+    /// Foxglove's rotation is anticlockwise about the upward axis.
     fn pose(&self, at: Duration, place: &Place) -> serde_json::Value {
         let half_rad = -place.yaw_deg.to_radians() / 2.0;
         json!({
@@ -203,7 +205,7 @@ impl<W: Write + Seek> LogWriter<W> {
     }
 }
 
-/// Of `foxglove.Log`.
+/// Severity levels of `foxglove.Log`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Level {
     Info = 2,

@@ -1,4 +1,4 @@
-//! What a report tells, gathered from a log.
+//! Data of a report, extracted from a log.
 
 use std::collections::BTreeMap;
 
@@ -8,65 +8,65 @@ use serde::Serialize;
 
 use crate::recording::{Log, Tick};
 
-/// No plan of an agent has more characters, and no agent more plans: a log that says so is not to make a page of
-/// any size.
+/// Maximum length of a plan's text and maximum number of plans. They bound the size of the page for a forged
+/// log; real agents have less.
 const LONGEST_PLAN: usize = 2000;
 const MOST_PLANS: usize = 500;
-/// Of what labels a moment.
+/// Maximum length of a label.
 const LONGEST_LABEL: usize = 100;
 
-/// A flight as the report needs it. All text in it is [printable], whatever the log holds.
+/// A flight as needed by the report. All text in it is [printable], whatever the log contains.
 #[derive(Debug)]
 pub(super) struct Flight<'a> {
     /// Seconds since the start, and the tick.
     pub(super) ticks: Vec<(f64, &'a Tick)>,
-    /// What was flown when.
+    /// Sections of the flight for the background of plots.
     pub(super) bands: Vec<Band>,
-    /// What the agent decided, as long as it decided the same.
+    /// Decisions of the agent; consecutive equal ones are merged.
     pub(super) decisions: Vec<Decision>,
-    /// The agent's plans that were chosen, by their line, as they stand in the agent.
+    /// Source text of the chosen plans, by line.
     pub(super) plans: BTreeMap<u32, String>,
-    /// Seconds, whether it is a warning, and what happened.
+    /// Seconds, whether it is a warning, and text.
     pub(super) events: Vec<(f64, bool, &'a str)>,
-    /// When the last tick was.
+    /// Time of the last tick.
     pub(super) end_s: f64,
 }
 
-/// A part of the flight, which plots have as background.
+/// A section of the flight, drawn as background of plots.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Band {
     pub(super) from_s: f64,
     pub(super) to_s: f64,
-    /// The step of the plan, or what the flight was doing.
+    /// The plan step, or the phase.
     pub(super) label: String,
     pub(super) kind: BandKind,
 }
 
-/// How a band is painted.
+/// Colour of a band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum BandKind {
-    /// On the ground, before or after.
+    /// On the ground, before or after the flight.
     Ground,
-    /// A step of the plan: even and odd ones differ.
+    /// A step of the plan; even and odd ones have different colours.
     Step(usize),
-    /// In the air without a step: held, flown by hand, landed early.
+    /// In the air without a step: paused, manual control, or landing early.
     Other,
 }
 
-/// The agent's answer to "why did it do that".
+/// A decision of the agent and what led to it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Decision {
     pub(super) from_s: f64,
     pub(super) to_s: f64,
-    /// The step of the plan as it was written.
+    /// The step as written in the plan.
     pub(super) step: String,
-    /// What the agent ordered.
+    /// The agent's command.
     pub(super) command: String,
-    /// Trigger and line of each plan that was chosen.
+    /// Trigger and line of each chosen plan.
     pub(super) plans: Vec<(String, u32)>,
-    /// What it said of its last order.
+    /// How its last order ended.
     pub(super) said: Option<String>,
-    /// Dangers that it told, and what the guard did instead.
+    /// Dangers that it reported, and vetoes of the safety monitor.
     pub(super) warnings: Vec<String>,
 }
 
@@ -111,7 +111,7 @@ impl<'a> Flight<'a> {
     fn extend_decision(&mut self, at_s: f64, until_s: f64, tick: &Tick, steps: &[String]) {
         let Tick { agent, veto, .. } = tick;
         let danger = agent.danger.iter().map(|danger| format!("danger: {}", label(danger)));
-        let veto = veto.iter().map(|veto| format!("the guard: {}", label(veto)));
+        let veto = veto.iter().map(|veto| format!("safety monitor: {}", label(veto)));
         let plans = agent.plans.iter().map(|plan| (label(&plan.trigger), plan.line));
         let step = tick.step.map_or_else(|| label(&tick.phase), |step| step_text(steps, step));
         let decision = Decision {
@@ -129,7 +129,7 @@ impl<'a> Flight<'a> {
         }
     }
 
-    /// Keeps the texts of the plans that a tick chose, each once.
+    /// Adds the source text of the plans chosen in a tick.
     fn extend_plans(&mut self, tick: &Tick, agent: &str) {
         for plan in &tick.agent.plans {
             if self.plans.len() < MOST_PLANS && !self.plans.contains_key(&plan.line) {
@@ -139,7 +139,7 @@ impl<'a> Flight<'a> {
         }
     }
 
-    /// When the drone was in the air.
+    /// Duration in the air, in seconds.
     pub(super) fn flown_s(&self) -> f64 {
         let airborne = |(_, tick): &&(f64, &Tick)| !tick.agent.on_ground;
         let first = self.ticks.iter().find(airborne).map(|(at_s, _)| *at_s);
@@ -147,13 +147,13 @@ impl<'a> Flight<'a> {
         first.zip(last).map_or(0.0, |(first, last)| last - first)
     }
 
-    /// The charge at the begin and the end.
+    /// Charge at the beginning and at the end, in percent.
     pub(super) fn battery_percent(&self) -> Option<(u32, u32)> {
         let charge = |(_, tick): &(f64, &Tick)| tick.agent.battery_percent;
         Some((self.ticks.iter().find_map(charge)?, self.ticks.iter().rev().find_map(charge)?))
     }
 
-    /// How late ticks were, sorted, in ms.
+    /// Lateness of all ticks, sorted, in ms.
     pub(super) fn lateness_ms(&self) -> Vec<f64> {
         let mut late: Vec<f64> = self.ticks.iter().map(|(_, tick)| tick.timing.late_ms).collect();
         late.sort_by(f64::total_cmp);
@@ -168,7 +168,7 @@ impl Decision {
     }
 }
 
-/// The commands of a plan, as the mission counts them.
+/// The commands of a plan, numbered like the mission's steps.
 fn steps(plan: &str) -> Vec<String> {
     let limits = autopilot::plan::FlightLimits {
         floor_m: f64::NEG_INFINITY,
@@ -180,7 +180,7 @@ fn steps(plan: &str) -> Vec<String> {
     plan.map_or_else(Vec::new, |plan| plan.steps().iter().map(|step| label(&step.text)).collect())
 }
 
-/// A short text in one line.
+/// Shortens a text to one line.
 fn label(text: &str) -> String {
     let short: String = text.chars().take(LONGEST_LABEL).collect();
     printable(&short).into_owned()

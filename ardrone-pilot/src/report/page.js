@@ -1,5 +1,5 @@
 "use strict";
-// Hover over a plot: the moment is marked in all of them, and what was decided then is told.
+// Hovering over a plot marks the time in all plots and shows the decision of that time.
 const { decisions, plans } = JSON.parse(document.getElementById("decided").textContent);
 const { end, width, left, right } = document.getElementById("plots").dataset;
 const plots = [...document.querySelectorAll(".plot")];

@@ -1,4 +1,4 @@
-//! The report as a page.
+//! HTML of the report.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ use crate::recording::Log;
 
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
-/// Decisions of the table: more are in the plots alone.
+/// Maximum rows of the decision table; the plots show all decisions.
 const MOST_ROWS: usize = 400;
 
 /// The whole page.
@@ -66,7 +66,7 @@ pub(super) fn html(log: &Log, flight: &Flight<'_>, plots: &[Plot]) -> String {
     page
 }
 
-/// What somebody wants to know first.
+/// Summary at the top.
 fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
     let date = i64::try_from(log.start.as_secs()).ok();
     let date = date.and_then(|seconds| UtcDateTime::from_unix_timestamp(seconds).ok());
@@ -94,8 +94,8 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
         None => (true, "the log was cut off: what is here is what was written before"),
     };
     let class = if ill || warning.is_some() { "outcome warn" } else { "outcome" };
-    let told = format!("{ended}{}", warning.unwrap_or_default());
-    _ = writeln!(page, "<p class=\"{class}\">{}</p>\n<div class=\"facts\">", escaped(&told));
+    let summary = format!("{ended}{}", warning.unwrap_or_default());
+    _ = writeln!(page, "<p class=\"{class}\">{}</p>\n<div class=\"facts\">", escaped(&summary));
     let mut fact = |name: &str, value: String| {
         _ = writeln!(page, "<div><b>{value}</b>{name}</div>");
     };
@@ -115,7 +115,7 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
     fact("highest", format!("{:.2} m", height.fold(0.0, f64::max)));
     let late = flight.lateness_ms();
     let at = |share: f64| {
-        // An index from a share of a length.
+        // Index of a quantile.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let index = (share * late.len() as f64) as usize;
         late.get(index.min(late.len().saturating_sub(1))).copied().unwrap_or_default()
@@ -125,7 +125,7 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
     *page += "</div>\n";
 }
 
-/// The agent's decisions, as long as each lasted.
+/// Table of the agent's decisions and how long each lasted.
 fn timeline(page: &mut String, flight: &Flight<'_>) {
     *page += "<h2>Decisions</h2>\n<table id=\"timeline\">\n<thead><tr><th>from</th><th>for</th><th>step</th>\
               <th>ordered</th><th>because of</th><th></th></tr></thead>\n<tbody>\n";
@@ -157,11 +157,11 @@ fn timeline(page: &mut String, flight: &Flight<'_>) {
     *page += "</tbody>\n</table>\n";
     let more = flight.decisions.len().saturating_sub(MOST_ROWS);
     if more > 0 {
-        _ = writeln!(page, "<p class=\"faint\">… and {more} more; the plots tell all of them.</p>");
+        _ = writeln!(page, "<p class=\"faint\">… and {more} more; the plots show all of them.</p>");
     }
 }
 
-/// What the pilot was told.
+/// Messages shown to the operator during the flight.
 fn events(page: &mut String, flight: &Flight<'_>) {
     *page += "<h2>Messages</h2>\n<table>\n<tbody>\n";
     for (at_s, warns, text) in &flight.events {
@@ -175,7 +175,7 @@ fn events(page: &mut String, flight: &Flight<'_>) {
     *page += "</tbody>\n</table>\n";
 }
 
-/// Text that stands for itself in HTML, between tags and in quoted attributes, in one line.
+/// Escapes text for HTML content and quoted attributes, in one line.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in printable(text).chars() {

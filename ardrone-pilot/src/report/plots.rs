@@ -1,4 +1,4 @@
-//! The plots of a report.
+//! Plots of the report.
 
 use std::error::Error;
 
@@ -9,11 +9,12 @@ use super::data::{Band, BandKind, Flight};
 use crate::drawing::{self, Drawing, Drawn, FONT};
 use crate::recording::Tick;
 
-/// All plots over time are so wide, and begin and end at the same place: the page puts a cursor on them.
+/// Width of all plots over time; their time axes are aligned, because the page draws one cursor over all of
+/// them.
 pub(super) const WIDTH: u32 = 960;
 pub(super) const LEFT: u32 = 56;
 pub(super) const RIGHT: u32 = 12;
-/// More points than this are not seen.
+/// Maximum points of a line; more are not visible.
 const POINTS: usize = 1500;
 
 const PLACE: &str = "Place (m), dashed: the target";
@@ -29,9 +30,9 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64
 /// A drawn plot.
 pub(super) struct Plot {
     pub(super) title: &'static str,
-    /// Whether its horizontal axis is the flight's time.
+    /// Whether its horizontal axis is the time of the flight.
     pub(super) over_time: bool,
-    /// Name and colour of each line; dashed ones are not named.
+    /// Name and colour of each line; dashed lines have no entry.
     pub(super) legend: Vec<(&'static str, String)>,
     pub(super) svg: String,
 }
@@ -52,7 +53,7 @@ const fn dashed(name: &'static str, colour: RGBColor, value: fn(&Tick) -> Option
     Line { name, colour, dashed: true, value }
 }
 
-/// All plots, in the order of the page.
+/// All plots in the order of the page.
 pub(super) fn all(flight: &Flight<'_>) -> Result<Vec<Plot>, Box<dyn Error>> {
     let place = [
         line("right", BLUE, |tick| Some(tick.estimate?.x_m)),
@@ -112,7 +113,7 @@ fn over_time(
     flight: &Flight<'_>,
     lines: &[Line],
 ) -> Result<Plot, Box<dyn Error>> {
-    // Steps are named once.
+    // Only one plot labels the steps.
     let labelled = title == PLACE;
     let svg = drawing::svg((WIDTH, height), |area| {
         let values = flight
@@ -155,7 +156,7 @@ fn over_time(
     Ok(Plot { title, over_time: true, legend: legend.collect(), svg })
 }
 
-/// The parts of the flight as background.
+/// Sections of the flight as background.
 fn bands(chart: &mut Chart<'_, '_>, bands: &[Band], low: f64, high: f64) -> Drawn {
     for band in bands {
         let colour = match band.kind {
@@ -170,7 +171,7 @@ fn bands(chart: &mut Chart<'_, '_>, bands: &[Band], low: f64, high: f64) -> Draw
     Ok(())
 }
 
-/// The steps' names, where there is room for them.
+/// Labels of the steps, where there is room for them.
 fn band_labels(chart: &mut Chart<'_, '_>, flight: &Flight<'_>, top: f64) -> Drawn {
     const CHARACTER_PX: f64 = 6.0;
     let px_per_s = f64::from(WIDTH - LEFT - RIGHT) / flight.end_s.max(0.1);
@@ -185,7 +186,7 @@ fn band_labels(chart: &mut Chart<'_, '_>, flight: &Flight<'_>, top: f64) -> Draw
     Ok(())
 }
 
-/// A line, interrupted where there is no value.
+/// Draws a line with gaps where there is no value.
 fn draw_line(chart: &mut Chart<'_, '_>, flight: &Flight<'_>, line: &Line) -> Drawn {
     let every = flight.ticks.len().div_ceil(POINTS).max(1);
     let mut parts: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
@@ -207,7 +208,7 @@ fn draw_line(chart: &mut Chart<'_, '_>, flight: &Flight<'_>, line: &Line) -> Dra
     Ok(())
 }
 
-/// From above, in one scale for both axes.
+/// Top view, with the same scale on both axes.
 fn ground_track(area: &Drawing<'_>, flight: &Flight<'_>) -> Drawn {
     let places =
         || flight.ticks.iter().filter_map(|(_, tick)| tick.estimate).map(|at| (at.x_m, at.y_m));
@@ -249,12 +250,12 @@ fn ground_track(area: &Drawing<'_>, flight: &Flight<'_>) -> Drawn {
 }
 
 fn histogram(area: &Drawing<'_>, late_ms: &[f64]) -> Drawn {
-    /// Later than this is one bar.
+    /// Lateness from which all ticks share the last bar.
     const MOST_MS: f64 = 5.0;
     const BARS: usize = 50;
     let mut counts = [0_usize; BARS];
     for late in late_ms {
-        // Lateness is not negative, and what is larger than the last bar is in it.
+        // Lateness is not negative; values beyond the last bar are counted in it.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let bar = (late / MOST_MS * BARS as f64) as usize;
         counts[bar.min(BARS - 1)] += 1;

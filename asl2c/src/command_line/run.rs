@@ -80,8 +80,11 @@ fn talk(session: &mut Session) -> Result<(), CommandError> {
 fn show(session: &mut Session, text: &str, start: usize) -> Result<bool, CommandError> {
     match session.execute(&text[start..]) {
         Ok(lines) => {
-            let end = if lines.is_empty() { "" } else { "\n" };
-            print("what was shown", &(lines.join("\n") + end))?;
+            let mut shown = lines.join("\n");
+            if !lines.is_empty() {
+                shown.push('\n');
+            }
+            print("what was shown", &shown)?;
             Ok(true)
         }
         Err(mut error) => {

@@ -42,7 +42,6 @@ pub(crate) enum Found {
 }
 
 /// Looks for a way to each failure of a proof that was made in `folder`.
-#[allow(clippy::disallowed_methods, reason = "a search that has no end is given up")]
 pub(crate) fn search(
     proof: &Proof,
     configuration: &ParsedConfiguration,

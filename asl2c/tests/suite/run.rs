@@ -219,7 +219,7 @@ fn no_line_ends_a_session() {
     let mut fine = 0;
     for _ in 0..5000 {
         let mut line = String::new();
-        for _ in 0..random % 7 + 1 {
+        for _ in 0..=random % 7 {
             random ^= random << 13;
             random ^= random >> 7;
             random ^= random << 17;
@@ -228,7 +228,7 @@ fn no_line_ends_a_session() {
         match session.execute(&line) {
             Ok(_) => fine += 1,
             Err(error) => {
-                assert!(error.span.end <= line.len() && !error.message.is_empty(), "{line:?}")
+                assert!(error.span.end <= line.len() && !error.message.is_empty(), "{line:?}");
             }
         }
     }

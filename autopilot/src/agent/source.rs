@@ -1,9 +1,9 @@
-//! The agent as its author wrote it.
+//! The agent's source text.
 
-/// The agent that flies.
+/// Source of the agent in use.
 pub const SOURCE: &str = include_str!("../../agent/autopilot.asl");
 
-/// A plan of the agent from its first line to its full stop.
+/// Text of the plan that begins at `line`, up to its full stop.
 pub fn plan_text(agent: &str, line: u32) -> &str {
     let first = usize::try_from(line).unwrap_or(1).saturating_sub(1);
     let start: usize = agent.split_inclusive('\n').take(first).map(str::len).sum();

@@ -1,37 +1,37 @@
-//! What the agent decides, step by step.
+//! The agent's decisions, step by step.
 
 use super::*;
 
-const GROUND: Senses = Senses {
+const GROUND: Percepts = Percepts {
     now_ms: 0,
     pose: Some(Pose { x_m: 0.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 }),
     on_ground: true,
     hovering: false,
     battery_percent: Some(80),
     blind_for_ms: 0,
-    doubt_m: 0.1,
+    position_sd_m: 0.1,
     saturated_for_ms: 0,
     wind: 0.0,
     steering: false,
     settings: ApproachSettings { reach_distance_m: 0.2, stay_distance_m: 0.5, stay_time_ms: 2000 },
 };
-const HOVERING: Senses = Senses { on_ground: false, hovering: true, ..GROUND };
+const HOVERING: Percepts = Percepts { on_ground: false, hovering: true, ..GROUND };
 const TARGET: Pose = Pose { x_m: 1.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 };
 
-/// The state is all the memory that the agent uses; it must not grow unseen.
-const _: () = assert!(STATE_BYTES <= 560);
+/// The state is all the memory that the agent uses; this limit makes its growth visible.
+const _: () = assert!(STATE_BYTES <= 552);
 
-/// An agent and what it senses.
+/// An agent and its percepts.
 struct Bench {
     agent: Agent,
     activity: Activity,
-    senses: Senses,
+    percepts: Percepts,
 }
 
 impl Bench {
-    /// An agent that already waits: its initial goal took the first step.
-    fn new(senses: Senses) -> Self {
-        let mut bench = Self { agent: Agent::new(), activity: Activity::default(), senses };
+    /// An agent that is already waiting: its initial goal took the first step.
+    fn new(percepts: Percepts) -> Self {
+        let mut bench = Self { agent: Agent::new(), activity: Activity::default(), percepts };
         bench.step();
         bench
     }
@@ -43,8 +43,8 @@ impl Bench {
     }
 
     fn run(&mut self) -> AgentStep {
-        let step = AgentStep::run(&mut self.agent, &mut self.activity, self.senses);
-        self.senses.now_ms += 30;
+        let step = AgentStep::run(&mut self.agent, &mut self.activity, self.percepts);
+        self.percepts.now_ms += 30;
         step
     }
 
@@ -57,19 +57,19 @@ impl Bench {
 fn it_waits_on_the_ground_and_in_the_air() {
     let mut bench = Bench::new(GROUND);
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), None));
-    bench.senses = HOVERING;
+    bench.percepts = HOVERING;
     assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
 }
 
 #[test]
-fn it_tells_which_plans_it_chose() {
+fn it_reports_which_plans_it_chose() {
     let mut bench = Bench::new(HOVERING);
     let chosen = |step: &AgentStep| {
         let name = |number: &u32| PLANS[*number as usize].1;
         step.plans.numbers().iter().map(name).collect::<Vec<_>>()
     };
     assert_eq!(chosen(&bench.run()), ["+!wait", "+!watch"]);
-    bench.senses.battery_percent = Some(5);
+    bench.percepts.battery_percent = Some(5);
     assert_eq!(chosen(&bench.run()), ["+!wait", "+!watch", "-!wait", "+!goDown"]);
 }
 
@@ -80,7 +80,7 @@ fn it_takes_off_until_the_drone_hovers_and_then_holds_the_place() {
     assert!(!bench.agent.can_add_event());
     assert_eq!(bench.step(), (Some(AgentCommand::TakeOff), None));
     assert_eq!(bench.step(), (Some(AgentCommand::TakeOff), None));
-    bench.senses = Senses { pose: Some(TARGET), now_ms: 3000, ..HOVERING };
+    bench.percepts = Percepts { pose: Some(TARGET), now_ms: 3000, ..HOVERING };
     let hold = Some(AgentCommand::GoTo(TARGET));
     assert_eq!(bench.step(), (hold, Some(Report::Done)));
     assert_eq!(bench.step(), (hold, None));
@@ -88,7 +88,7 @@ fn it_takes_off_until_the_drone_hovers_and_then_holds_the_place() {
 
 #[test]
 fn an_empty_battery_does_not_take_off() {
-    let mut bench = Bench::new(Senses { battery_percent: Some(12), ..GROUND });
+    let mut bench = Bench::new(Percepts { battery_percent: Some(12), ..GROUND });
     assert!(bench.agent.achieve_take_off());
     let step = bench.run();
     assert_eq!((step.command, step.report), (Some(AgentCommand::Standby), Some(Report::Refused)));
@@ -97,18 +97,18 @@ fn an_empty_battery_does_not_take_off() {
 }
 
 #[test]
-fn a_drone_that_cannot_be_believed_does_not_take_off() {
-    for senses in [
-        Senses { blind_for_ms: 301, ..GROUND },
-        Senses { blind_for_ms: i64::MAX, ..GROUND },
-        Senses { pose: None, ..GROUND },
-        Senses { doubt_m: 3.1, ..GROUND },
-        Senses { doubt_m: f64::NAN, ..GROUND },
+fn implausible_navdata_forbid_the_take_off() {
+    for percepts in [
+        Percepts { blind_for_ms: 301, ..GROUND },
+        Percepts { blind_for_ms: i64::MAX, ..GROUND },
+        Percepts { pose: None, ..GROUND },
+        Percepts { position_sd_m: 3.1, ..GROUND },
+        Percepts { position_sd_m: f64::NAN, ..GROUND },
     ] {
-        let mut bench = Bench::new(senses);
+        let mut bench = Bench::new(percepts);
         assert!(bench.agent.achieve_take_off());
         let refused = (Some(AgentCommand::Standby), Some(Report::Refused));
-        assert_eq!(bench.step(), refused, "{senses:?}");
+        assert_eq!(bench.step(), refused, "{percepts:?}");
         assert_eq!(bench.step(), (Some(AgentCommand::Standby), None));
     }
 }
@@ -119,30 +119,30 @@ fn a_take_off_that_becomes_blind_is_landed() {
     assert!(bench.agent.achieve_take_off());
     bench.step();
     for (blind_for_ms, command) in [(2000, AgentCommand::TakeOff), (2001, AgentCommand::Land)] {
-        bench.senses = Senses { on_ground: false, blind_for_ms, ..bench.senses };
+        bench.percepts = Percepts { on_ground: false, blind_for_ms, ..bench.percepts };
         assert_eq!(bench.step(), (Some(command), None));
     }
 }
 
-/// Without a place there is nothing to hold but still.
+/// Without a position the drone can only hover.
 #[test]
 fn holding_and_steering_work_without_a_place() {
-    let mut bench = Bench::new(Senses { pose: None, ..HOVERING });
+    let mut bench = Bench::new(Percepts { pose: None, ..HOVERING });
     assert!(bench.agent.achieve_hold());
     assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
     assert!(bench.agent.achieve_steer());
     assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
-    bench.senses.battery_percent = Some(5);
+    bench.percepts.battery_percent = Some(5);
     assert!(bench.agent.achieve_steer());
     let step = bench.run();
     assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::BatteryEmpty)));
 }
 
-/// A key that is held down says it again and again.
+/// A key that is held down repeats its order.
 #[test]
-fn the_pilots_hand_does_not_keep_a_drone_in_danger_in_the_air() {
+fn manual_control_does_not_keep_a_drone_in_danger_in_the_air() {
     for pose in [Some(TARGET), None] {
-        let mut bench = Bench::new(Senses { pose, blind_for_ms: 2001, ..HOVERING });
+        let mut bench = Bench::new(Percepts { pose, blind_for_ms: 2001, ..HOVERING });
         for _ in 0..3 {
             assert!(bench.agent.achieve_hold());
             assert_eq!(bench.step().0, Some(AgentCommand::Land));
@@ -152,13 +152,13 @@ fn the_pilots_hand_does_not_keep_a_drone_in_danger_in_the_air() {
     }
 }
 
-/// Orders to take off do not keep the agent from looking around.
+/// Repeated orders to take off do not keep the agent from checking for dangers.
 #[test]
 fn taking_over_in_the_air_looks_at_the_dangers() {
     for pose in [Some(TARGET), None] {
-        let mut bench = Bench::new(Senses { pose, ..HOVERING });
+        let mut bench = Bench::new(Percepts { pose, ..HOVERING });
         assert!(bench.agent.achieve_take_off());
-        bench.senses.battery_percent = Some(5);
+        bench.percepts.battery_percent = Some(5);
         let step = bench.run();
         assert_eq!((step.command, step.report), (Some(AgentCommand::Land), None));
         assert_eq!(step.danger, Some(Danger::BatteryEmpty));
@@ -171,7 +171,7 @@ fn taking_over_in_the_air_looks_at_the_dangers() {
 fn setting_out_looks_at_the_dangers() {
     let mut bench = Bench::new(HOVERING);
     bench.go_to(TARGET);
-    bench.senses.doubt_m = 3.1;
+    bench.percepts.position_sd_m = 3.1;
     let step = bench.run();
     assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::Lost)));
     assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
@@ -182,7 +182,7 @@ fn a_take_off_that_does_not_succeed_is_given_up() {
     let mut bench = Bench::new(GROUND);
     assert!(bench.agent.achieve_take_off());
     bench.step();
-    bench.senses.now_ms = 10_031;
+    bench.percepts.now_ms = 10_031;
     let step = bench.run();
     assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::NoProgress)));
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
@@ -195,51 +195,51 @@ fn it_reaches_stays_and_reports() {
     let approach = (Some(AgentCommand::GoTo(TARGET)), None);
     assert_eq!(bench.step(), approach);
     assert_eq!(bench.step(), approach);
-    bench.senses.pose = Some(TARGET);
+    bench.percepts.pose = Some(TARGET);
     assert_eq!(bench.step(), approach);
-    bench.senses.now_ms += 1900;
+    bench.percepts.now_ms += 1900;
     assert_eq!(bench.step(), approach);
-    // Drifting off starts the stay anew.
-    bench.senses.pose = Some(Pose { x_m: 0.4, ..TARGET });
+    // Drifting away restarts the stay time.
+    bench.percepts.pose = Some(Pose { x_m: 0.4, ..TARGET });
     assert_eq!(bench.step(), approach);
-    bench.senses.pose = Some(TARGET);
+    bench.percepts.pose = Some(TARGET);
     assert_eq!(bench.step(), approach);
-    bench.senses.now_ms += 1900;
+    bench.percepts.now_ms += 1900;
     assert_eq!(bench.step(), approach);
-    bench.senses.now_ms += 200;
+    bench.percepts.now_ms += 200;
     assert_eq!(bench.step(), (approach.0, Some(Report::Done)));
     assert_eq!(bench.step(), approach);
 }
 
-/// However long the stay was: the way back is a new one.
+/// The time limit of the way back is independent of how long the stay lasted.
 #[test]
 fn a_drone_that_drifts_off_late_has_its_time_to_come_back() {
     let mut bench = Bench::new(HOVERING);
-    bench.senses.settings.stay_time_ms = 90_000;
+    bench.percepts.settings.stay_time_ms = 90_000;
     bench.go_to(TARGET);
     bench.step();
-    bench.senses.pose = Some(TARGET);
+    bench.percepts.pose = Some(TARGET);
     bench.step();
-    bench.senses.now_ms += 70_000;
+    bench.percepts.now_ms += 70_000;
     let there = (Some(AgentCommand::GoTo(TARGET)), None);
     assert_eq!(bench.step(), there);
-    bench.senses.pose = Some(Pose { x_m: 0.2, ..TARGET });
+    bench.percepts.pose = Some(Pose { x_m: 0.2, ..TARGET });
     for _ in 0..100 {
         assert_eq!(bench.step(), there);
     }
-    bench.senses.pose = Some(TARGET);
+    bench.percepts.pose = Some(TARGET);
     assert_eq!(bench.step(), there);
-    bench.senses.now_ms += 90_001;
+    bench.percepts.now_ms += 90_001;
     assert_eq!(bench.step(), (there.0, Some(Report::Done)));
-    // And not more than that.
+    // And not longer than that.
     bench.go_to(TARGET);
-    bench.senses.pose = Some(Pose { x_m: 0.2, ..TARGET });
+    bench.percepts.pose = Some(Pose { x_m: 0.2, ..TARGET });
     bench.step();
-    bench.senses.now_ms += 60_001;
+    bench.percepts.now_ms += 60_001;
     assert_eq!(bench.run().danger, Some(Danger::NoProgress));
 }
 
-/// Who arrives and drifts off again and again is given up too.
+/// A drone that keeps reaching its target and drifting away is given up too.
 #[test]
 fn arrivals_do_not_prolong_an_approach() {
     let mut bench = Bench::new(HOVERING);
@@ -248,13 +248,13 @@ fn arrivals_do_not_prolong_an_approach() {
     while bench.run().danger.is_none() {
         steps += 1;
         let x_m = if steps % 4 == 0 { 0.0 } else { 1.0 };
-        bench.senses.pose = Some(Pose { x_m, ..TARGET });
+        bench.percepts.pose = Some(Pose { x_m, ..TARGET });
         assert!(steps < 8100, "a quarter of the steps");
     }
     assert!(steps > 2000);
 }
 
-/// An approach that is interrupted by blindness does not begin anew.
+/// An approach that is interrupted by missing navdata does not restart its time limit.
 #[test]
 fn a_flickering_view_does_not_prolong_an_approach() {
     let mut bench = Bench::new(HOVERING);
@@ -262,7 +262,7 @@ fn a_flickering_view_does_not_prolong_an_approach() {
     let mut steps = 0;
     while bench.run().danger.is_none() {
         steps += 1;
-        bench.senses.blind_for_ms = if steps % 2 == 0 { 0 } else { 400 };
+        bench.percepts.blind_for_ms = if steps % 2 == 0 { 0 } else { 400 };
         assert!(steps < 2100, "60 s are 2000 steps");
     }
 }
@@ -271,11 +271,11 @@ fn a_flickering_view_does_not_prolong_an_approach() {
 fn a_heading_across_the_jump_is_close() {
     let mut bench = Bench::new(HOVERING);
     let target = Pose { yaw_deg: 181.0, ..TARGET };
-    bench.senses.pose = Some(Pose { yaw_deg: -178.0, ..TARGET });
+    bench.percepts.pose = Some(Pose { yaw_deg: -178.0, ..TARGET });
     bench.go_to(target);
     bench.step();
     bench.step();
-    bench.senses.now_ms += 2100;
+    bench.percepts.now_ms += 2100;
     assert_eq!(bench.step().1, Some(Report::Done));
 }
 
@@ -288,10 +288,10 @@ fn landing_is_obeyed_in_the_next_step_whatever_runs() {
     assert!(bench.agent.achieve_land());
     assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
     assert_eq!(bench.step(), (Some(AgentCommand::Land), None));
-    bench.senses = GROUND;
+    bench.percepts = GROUND;
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
-    // The old target is forgotten: the next take-off holds the new place.
-    bench.senses = HOVERING;
+    // The old target is dropped: after the next take-off the new place is held.
+    bench.percepts = HOVERING;
     assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
 }
 
@@ -300,19 +300,19 @@ fn a_drone_that_lands_by_itself_is_not_lifted_again() {
     let mut bench = Bench::new(HOVERING);
     bench.go_to(TARGET);
     bench.step();
-    bench.senses = GROUND;
+    bench.percepts = GROUND;
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Failed)));
     bench.go_to(TARGET);
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Refused)));
-    let mut bench = Bench::new(Senses { pose: Some(TARGET), ..HOVERING });
+    let mut bench = Bench::new(Percepts { pose: Some(TARGET), ..HOVERING });
     bench.go_to(TARGET);
     bench.step();
     assert_eq!(bench.step(), (Some(AgentCommand::GoTo(TARGET)), None), "it has arrived");
-    bench.senses = Senses { now_ms: bench.senses.now_ms, ..GROUND };
+    bench.percepts = Percepts { now_ms: bench.percepts.now_ms, ..GROUND };
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Failed)));
 }
 
-/// Brings a drone into the air by each goal that can run there.
+/// Brings a drone into the air with each goal that can run there.
 fn in_the_air() -> Vec<(&'static str, Bench)> {
     let mut benches = Vec::new();
     for name in ["wait", "hold", "approach", "stay", "steer", "take-off"] {
@@ -324,29 +324,29 @@ fn in_the_air() -> Vec<(&'static str, Bench)> {
             "wait" => true,
             _ => bench.agent.achieve_go_to(1.0, 0.0, 0.0, 0.0),
         });
-        bench.senses.steering = name == "steer";
+        bench.percepts.steering = name == "steer";
         if name == "stay" {
-            bench.senses.pose = Some(TARGET);
+            bench.percepts.pose = Some(TARGET);
         }
         for _ in 0..5 {
             bench.step();
         }
-        bench.senses.on_ground = false;
+        bench.percepts.on_ground = false;
         benches.push((name, bench));
     }
     benches
 }
 
 #[test]
-fn each_danger_lands_whatever_runs_and_is_told() {
+fn each_danger_lands_whatever_runs_and_is_reported() {
     for danger in [Danger::BatteryEmpty, Danger::Blind, Danger::Lost, Danger::Wind] {
         for (name, mut bench) in in_the_air() {
-            let senses = bench.senses;
-            bench.senses = match danger {
-                Danger::BatteryEmpty => Senses { battery_percent: Some(12), ..senses },
-                Danger::Blind => Senses { blind_for_ms: 2001, ..senses },
-                Danger::Lost => Senses { doubt_m: 3.1, ..senses },
-                _ => Senses { saturated_for_ms: 2001, wind: 0.5, ..senses },
+            let percepts = bench.percepts;
+            bench.percepts = match danger {
+                Danger::BatteryEmpty => Percepts { battery_percent: Some(12), ..percepts },
+                Danger::Blind => Percepts { blind_for_ms: 2001, ..percepts },
+                Danger::Lost => Percepts { position_sd_m: 3.1, ..percepts },
+                _ => Percepts { saturated_for_ms: 2001, wind: 0.5, ..percepts },
             };
             let step = bench.run();
             let said = (step.command, step.danger, step.commands);
@@ -355,8 +355,8 @@ fn each_danger_lands_whatever_runs_and_is_told() {
         }
     }
     for (name, mut bench) in in_the_air() {
-        // Nor is a wind that it can hold against.
-        bench.senses = Senses { wind: 0.95, saturated_for_ms: 2000, ..bench.senses };
+        // A wind that the drone can hold against does not land it.
+        bench.percepts = Percepts { wind: 0.95, saturated_for_ms: 2000, ..bench.percepts };
         assert_ne!(bench.step().0, Some(AgentCommand::Land), "{name}: nothing is wrong");
     }
 }
@@ -367,30 +367,32 @@ fn in_the_wind_it_comes_down_where_it_is_before_it_lands() {
     bench.go_to(TARGET);
     bench.step();
     let here = Pose { x_m: 0.3, z_m: 2.0, ..TARGET };
-    let windy = Senses { wind: 0.7, battery_percent: Some(12), pose: Some(here), ..HOVERING };
-    bench.senses = windy;
+    let windy = Percepts { wind: 0.7, battery_percent: Some(12), pose: Some(here), ..HOVERING };
+    bench.percepts = windy;
     let down = Some(AgentCommand::GoTo(Pose { z_m: 0.35, ..here }));
     assert_eq!(bench.step().0, down);
     assert_eq!(bench.step().0, down);
-    bench.senses.pose = Some(Pose { z_m: 0.4, ..here });
+    bench.percepts.pose = Some(Pose { z_m: 0.4, ..here });
     assert_eq!(bench.step().0, Some(AgentCommand::Land));
-    // Not for ever, not blindly, and a moment's blindness is not waited for in danger.
+    // Only for a limited time and with usable navdata; in danger it does not wait for a short gap to end.
     let mut bench = Bench::new(windy);
     assert_eq!(bench.step().0, down);
-    bench.senses.blind_for_ms = 400;
+    bench.percepts.blind_for_ms = 400;
     assert_eq!(bench.step().0, Some(AgentCommand::Land));
-    // Nor where it could not hold against it.
-    for carried_off in [Senses { wind: 0.9, ..windy }, Senses { saturated_for_ms: 2001, ..windy }] {
+    // Nor where it cannot hold against the wind.
+    for carried_off in
+        [Percepts { wind: 0.9, ..windy }, Percepts { saturated_for_ms: 2001, ..windy }]
+    {
         assert_eq!(Bench::new(carried_off).step().0, Some(AgentCommand::Land));
     }
     for (later_ms, blind_for_ms) in [(9000, 0), (30, 2001)] {
-        let mut bench = Bench::new(Senses { battery_percent: Some(80), ..windy });
+        let mut bench = Bench::new(Percepts { battery_percent: Some(80), ..windy });
         assert!(bench.agent.achieve_land());
         assert_eq!(bench.step().0, down);
-        bench.senses.blind_for_ms = 400;
+        bench.percepts.blind_for_ms = 400;
         assert_eq!(bench.step().0, Some(AgentCommand::Hover));
-        bench.senses =
-            Senses { now_ms: bench.senses.now_ms + later_ms, blind_for_ms, ..bench.senses };
+        bench.percepts =
+            Percepts { now_ms: bench.percepts.now_ms + later_ms, blind_for_ms, ..bench.percepts };
         assert_eq!(bench.step().0, Some(AgentCommand::Land));
     }
 }
@@ -399,34 +401,35 @@ fn in_the_wind_it_comes_down_where_it_is_before_it_lands() {
 fn a_blind_descent_does_not_wait_with_an_empty_battery() {
     for (percent, command) in [(13, AgentCommand::Hover), (12, AgentCommand::Land)] {
         let here = Pose { z_m: 2.0, ..TARGET };
-        let mut bench = Bench::new(Senses { wind: 0.7, pose: Some(here), ..HOVERING });
+        let mut bench = Bench::new(Percepts { wind: 0.7, pose: Some(here), ..HOVERING });
         assert!(bench.agent.achieve_land());
         assert_ne!(bench.step().0, Some(AgentCommand::Land));
-        bench.senses = Senses { blind_for_ms: 400, battery_percent: Some(percent), ..bench.senses };
+        bench.percepts =
+            Percepts { blind_for_ms: 400, battery_percent: Some(percent), ..bench.percepts };
         assert_eq!(bench.step().0, Some(command), "{percent} %");
     }
 }
 
-/// Whoever says `land` again and again does not prolong it.
+/// Repeated `land` orders do not prolong the descent.
 #[test]
 fn a_descent_that_is_ordered_again_ends_in_its_time() {
     let here = Pose { z_m: 2.0, ..TARGET };
-    let mut bench = Bench::new(Senses { wind: 0.7, pose: Some(here), ..HOVERING });
+    let mut bench = Bench::new(Percepts { wind: 0.7, pose: Some(here), ..HOVERING });
     let lands_after = (0..300).position(|_| {
         assert!(bench.agent.achieve_land());
         bench.step().0 == Some(AgentCommand::Land)
     });
-    // 8 s of 30 ms each.
+    // 8 s in steps of 30 ms.
     assert_eq!(lands_after, Some(267));
 }
 
 #[test]
 fn a_descent_can_end_on_the_ground() {
     let mut bench =
-        Bench::new(Senses { wind: 0.3, pose: Some(Pose { z_m: 2.0, ..TARGET }), ..HOVERING });
+        Bench::new(Percepts { wind: 0.3, pose: Some(Pose { z_m: 2.0, ..TARGET }), ..HOVERING });
     assert!(bench.agent.achieve_land());
     bench.step();
-    bench.senses.on_ground = true;
+    bench.percepts.on_ground = true;
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
 }
 
@@ -438,19 +441,19 @@ fn an_ordered_landing_comes_down_by_itself_where_it_blows() {
         [(0.1, 0, AgentCommand::Land), (0.3, 0, down), (0.3, 400, AgentCommand::Land)]
     {
         let mut bench = Bench::new(HOVERING);
-        bench.senses = Senses { wind, blind_for_ms, pose: Some(here), ..bench.senses };
+        bench.percepts = Percepts { wind, blind_for_ms, pose: Some(here), ..bench.percepts };
         assert!(bench.agent.achieve_land());
         assert_eq!(bench.step().0, Some(command), "{wind} {blind_for_ms}");
     }
 }
 
-/// The pre-flight check reckons with it.
+/// The pre-flight check reserves this charge.
 #[test]
 fn the_charge_at_which_it_lands_is_the_one_that_is_kept_back() {
     let kept = LANDING_BATTERY_PERCENT;
     for (percent, lands) in [(kept, true), (kept + 1, false)] {
         let mut bench = Bench::new(HOVERING);
-        bench.senses.battery_percent = Some(percent);
+        bench.percepts.battery_percent = Some(percent);
         assert_eq!(bench.run().danger == Some(Danger::BatteryEmpty), lands, "{percent}");
     }
 }
@@ -460,16 +463,16 @@ fn a_blind_drone_holds_still_and_goes_on_when_it_sees() {
     let mut bench = Bench::new(HOVERING);
     bench.go_to(TARGET);
     bench.step();
-    bench.senses.blind_for_ms = 301;
+    bench.percepts.blind_for_ms = 301;
     assert_eq!(bench.step(), (Some(AgentCommand::Hover), None));
-    bench.senses.blind_for_ms = 30;
+    bench.percepts.blind_for_ms = 30;
     assert_eq!(bench.step(), (Some(AgentCommand::GoTo(TARGET)), None));
 }
 
 #[test]
-fn a_low_battery_is_told_once() {
+fn a_low_battery_is_reported_once() {
     let mut bench = Bench::new(HOVERING);
-    bench.senses.battery_percent = Some(20);
+    bench.percepts.battery_percent = Some(20);
     assert_eq!(bench.run().danger, Some(Danger::BatteryLow));
     assert_eq!(bench.run().danger, None);
 }
@@ -479,29 +482,29 @@ fn a_target_that_is_not_reached_in_its_time_is_given_up() {
     let mut bench = Bench::new(HOVERING);
     bench.go_to(TARGET);
     bench.step();
-    bench.senses.now_ms += 60_001;
+    bench.percepts.now_ms += 60_001;
     let step = bench.run();
     assert_eq!((step.command, step.danger), (Some(AgentCommand::Land), Some(Danger::NoProgress)));
 }
 
 #[test]
-fn the_pilots_hand_comes_first() {
+fn manual_control_comes_first() {
     let mut bench = Bench::new(HOVERING);
     bench.go_to(TARGET);
     bench.step();
     assert!(bench.agent.achieve_steer());
-    bench.senses.steering = true;
+    bench.percepts.steering = true;
     assert_eq!(bench.step().0, Some(AgentCommand::Sticks));
     assert_eq!(bench.step().0, Some(AgentCommand::Sticks));
     let here = Pose { x_m: 0.3, ..TARGET };
-    bench.senses = Senses { steering: false, pose: Some(here), ..bench.senses };
+    bench.percepts = Percepts { steering: false, pose: Some(here), ..bench.percepts };
     assert_eq!(bench.step().0, Some(AgentCommand::GoTo(here)), "it holds where it is");
     assert_eq!(bench.step().0, Some(AgentCommand::GoTo(here)));
     assert!(bench.agent.achieve_hold() && bench.agent.achieve_land());
     assert_eq!(bench.step().0, Some(AgentCommand::Land), "a landing comes before a hold");
 }
 
-/// Every order, given on the ground and in the air, while the drone then stays or changes over.
+/// Every order, given on the ground and in the air, while the drone then stays there or changes over.
 #[test]
 fn every_event_finds_a_plan() {
     for order in 0..5 {
@@ -517,8 +520,8 @@ fn every_event_finds_a_plan() {
                 _ => bench.agent.achieve_land(),
             });
             bench.step();
-            bench.senses = Senses { now_ms: bench.senses.now_ms, ..then };
-            // Long enough for a take-off to be given up.
+            bench.percepts = Percepts { now_ms: bench.percepts.now_ms, ..then };
+            // Long enough for the agent to give up a take-off.
             for _ in 0..400 {
                 bench.step();
             }
@@ -532,7 +535,7 @@ fn a_new_mission_ends_what_was_ordered_and_lifts_nothing() {
     let mut bench = Bench::new(GROUND);
     assert!(bench.agent.achieve_new_mission());
     assert_eq!(bench.step(), (Some(AgentCommand::Standby), None));
-    bench.senses = HOVERING;
+    bench.percepts = HOVERING;
     bench.go_to(TARGET);
     assert_eq!(bench.step().0, Some(AgentCommand::GoTo(TARGET)));
     assert!(bench.agent.achieve_new_mission());
@@ -552,20 +555,20 @@ fn a_new_mission_ends_what_was_ordered_and_lifts_nothing() {
 fn a_new_mission_takes_no_landing_back() {
     for wind in [0.0, 0.3] {
         let mut bench = Bench::new(HOVERING);
-        bench.senses.pose = Some(Pose { z_m: 1.0, ..TARGET });
-        bench.senses.wind = wind;
+        bench.percepts.pose = Some(Pose { z_m: 1.0, ..TARGET });
+        bench.percepts.wind = wind;
         assert!(bench.agent.achieve_land());
         bench.step();
         assert!(bench.agent.achieve_new_mission());
         for _ in 0..3 {
             assert_eq!(bench.step().0, Some(AgentCommand::Land), "in a wind of {wind}");
         }
-        bench.senses = GROUND;
+        bench.percepts = GROUND;
         assert_eq!(bench.step(), (Some(AgentCommand::Standby), Some(Report::Done)));
-        // The next flight is not that landing.
+        // The next flight does not continue that landing.
         assert!(bench.agent.achieve_take_off());
         assert_eq!(bench.step().0, Some(AgentCommand::TakeOff));
-        bench.senses = HOVERING;
+        bench.percepts = HOVERING;
         bench.step();
         assert!(bench.agent.achieve_new_mission());
         assert!(matches!(bench.step().0, Some(AgentCommand::GoTo(_))));

@@ -1,4 +1,4 @@
-//! What a plan that reads well must fulfil to be flown.
+//! Checks of a plan that was parsed: the order of its commands, and targets inside the fence.
 
 use diagnostic::{Diagnostic, Span};
 use pid::Pose;
@@ -8,13 +8,13 @@ use super::dry_run::DryRun;
 use super::interpreter::AgentOrder;
 use super::parser::Line;
 
-/// Where z = 0 is.
+/// Origin of a plan's heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ZOrigin {
-    /// At the height of the hover after take-off, as in `tum_ardrone`'s plans.
+    /// Height of the hover after take-off, as in `tum_ardrone`'s plans.
     #[default]
     Hover,
-    /// At the floor.
+    /// The floor.
     Floor,
 }
 
@@ -27,22 +27,22 @@ impl ZOrigin {
         }
     }
 
-    /// What has this name.
+    /// The origin with this name.
     pub fn from_name(name: &str) -> Option<Self> {
         [Self::Hover, Self::Floor].into_iter().find(|origin| origin.name() == name)
     }
 }
 
-/// The fence: heights between which, and a radius within which the drone may fly.
+/// The fence: lowest and highest height and the radius within which the drone may fly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightLimits {
-    /// Targets below this are refused. Above the floor.
+    /// Lowest target height above the floor, in metres.
     pub floor_m: f64,
-    /// Targets above this are refused. Above the floor.
+    /// Highest target height above the floor, in metres.
     pub ceiling_m: f64,
-    /// Targets further from the start across the ground are refused.
+    /// Largest horizontal distance of a target from the start, in metres.
     pub radius_m: f64,
-    /// What z means in the plan.
+    /// Origin of the plan's heights.
     pub z_origin: ZOrigin,
 }
 
@@ -53,14 +53,15 @@ impl Default for FlightLimits {
 }
 
 impl FlightLimits {
-    /// Where the drone hovers after take-off, as far as it is known before the flight. The true
-    /// height is known only then, and targets are checked against it once more.
+    /// Expected hover height after take-off, in metres. The true height is known only after take-off, and
+    /// targets are checked against the fence again then.
     pub(super) const EXPECTED_HOVER_M: f64 = 0.85;
 
-    /// Heights are typed with a few digits; a target on the limit is inside.
+    /// Tolerance of the fence check: heights are typed with a few digits, and a target on the limit is
+    /// inside.
     pub(super) const TOLERANCE_M: f64 = 1e-9;
 
-    /// The height above the floor of z = 0 of the take-off reference.
+    /// Height above the floor of z = 0 in the take-off reference, in metres.
     pub fn origin_height_m(&self, hover_m: f64) -> f64 {
         match self.z_origin {
             ZOrigin::Hover => hover_m,
@@ -68,7 +69,7 @@ impl FlightLimits {
         }
     }
 
-    /// The nearest place inside, and so far inside across the ground.
+    /// Clamps a place to the fence, shrunk horizontally by `by_m`.
     pub fn nearest_inside(&self, place: &Pose, by_m: f64) -> Pose {
         let away_m = place.x_m.hypot(place.y_m);
         let allowed_m = (self.radius_m - by_m).max(0.0);
@@ -82,7 +83,7 @@ impl FlightLimits {
     }
 }
 
-/// Does a dry run of the plan: order of commands, places of targets.
+/// Checks the whole plan in a dry run: order of commands and places of targets.
 pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Diagnostic> {
     let end = text.trim_end().len();
     let mut diagnostics = check_places(lines, limits);
@@ -96,12 +97,12 @@ pub(super) fn check(lines: &[Line], text: &str, limits: &FlightLimits) -> Vec<Di
     diagnostics
 }
 
-/// What is wrong with the places that commands lead to.
+/// Checks the places that the commands lead to.
 pub(super) fn check_places(lines: &[Line], limits: &FlightLimits) -> Vec<Diagnostic> {
     check_places_behind(DryRun::new(limits), lines, limits)
 }
 
-/// The same of commands behind others.
+/// Checks the places of commands that follow others; `run` is the dry run of those.
 pub(super) fn check_places_behind(
     run: DryRun,
     lines: &[Line],

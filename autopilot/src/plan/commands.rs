@@ -1,4 +1,4 @@
-//! Commands that are ordered one by one, as they are typed.
+//! Commands that are ordered one by one.
 
 use diagnostic::Diagnostic;
 
@@ -6,8 +6,8 @@ use super::dry_run::DryRun;
 use super::parser::{self, Line};
 use super::{FlightLimits, PlanError, Step, check};
 
-/// Commands of the plan language, to be appended to a mission. They are read by themselves; whether they fit
-/// behind a mission is known only there.
+/// Commands of the plan language, to be appended to a mission. Only their syntax is checked here; whether
+/// they lead outside the fence depends on the mission before them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Commands {
     text: String,
@@ -16,10 +16,10 @@ pub struct Commands {
 }
 
 impl Commands {
-    /// Reads commands, one a line; `name` is what they are called in messages.
+    /// Parses commands, one per line; `name` stands for the source in messages.
     ///
     /// # Errors
-    /// [`PlanError`] with everything that is wrong, also if there is none.
+    /// [`PlanError`] with all problems; a text without commands is one.
     pub fn parse(name: &str, text: &str) -> Result<Self, PlanError> {
         let (lines, mut diagnostics) = parser::parse(text);
         if lines.is_empty() && diagnostics.is_empty() {
@@ -34,17 +34,17 @@ impl Commands {
         Ok(Self { text: text.to_owned(), lines, clears })
     }
 
-    /// The text that was read.
+    /// The parsed text.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Whether `clearCommands` is among them: what waited before them is dropped.
+    /// Whether they contain `clearCommands`, which drops the commands before it.
     pub fn clears(&self) -> bool {
         self.clears
     }
 
-    /// Why they cannot stand behind `run`, in one sentence each.
+    /// Reasons why they cannot follow `run`, one sentence each.
     pub(crate) fn problems_behind(&self, run: DryRun, limits: &FlightLimits) -> Vec<String> {
         let diagnostics = check::check_places_behind(run, &self.lines, limits);
         let sentence = |diagnostic: Diagnostic| match diagnostic.help {

@@ -1,12 +1,12 @@
-//! A plan without a drone: where it leads, as far as that is known before the flight.
+//! Execution of a plan without a drone.
 
 use pid::Pose;
 
 use super::interpreter::{AgentOrder, Interpreter};
 use super::{Command, FlightLimits};
 
-/// A plan, and a drone that hovers at the expected height over its place of take-off, reaches each target
-/// exactly, and lands where it is.
+/// Executes a plan with an ideal drone, which hovers at the expected height above its take-off place, reaches
+/// each target exactly, and lands where it is.
 #[derive(Debug, Clone)]
 pub(crate) struct DryRun {
     interpreter: Interpreter,
@@ -20,19 +20,19 @@ impl DryRun {
         Self { interpreter, place: Pose::default(), airborne: false }
     }
 
-    /// A flight that goes on from `place`.
+    /// A run that continues from `place`.
     pub(crate) fn from_here(interpreter: Interpreter, place: Pose, airborne: bool) -> Self {
         Self { interpreter, place, airborne }
     }
 
-    /// The drone is at the end of what it is doing.
+    /// Moves the drone to the end of what it is doing.
     pub(crate) fn finish(&mut self, order: Option<AgentOrder>) {
         if let Some(order) = order {
             self.carry_out(order);
         }
     }
 
-    /// Carries out a command, and what the agent has to do for it.
+    /// Executes a command, together with what the agent has to do for it.
     pub(crate) fn step(&mut self, command: Command) -> Option<AgentOrder> {
         let order = self.interpreter.carry_out(command, &self.place)?;
         self.carry_out(order);
@@ -42,7 +42,7 @@ impl DryRun {
     fn carry_out(&mut self, order: AgentOrder) {
         match order {
             AgentOrder::TakeOff => {
-                // In the air it stays where it is.
+                // A take-off in the air leaves the drone where it is.
                 if !self.airborne {
                     self.place.z_m = FlightLimits::EXPECTED_HOVER_M;
                 }
@@ -57,17 +57,17 @@ impl DryRun {
         }
     }
 
-    /// Where the drone is.
+    /// Pose of the drone.
     pub(super) fn place(&self) -> Pose {
         self.place
     }
 
-    /// Whether it flies.
+    /// Whether the drone is in the air.
     pub(super) fn is_airborne(&self) -> bool {
         self.airborne
     }
 
-    /// The plan's settings.
+    /// The interpreter with the plan's settings.
     pub(super) fn interpreter(&self) -> &Interpreter {
         &self.interpreter
     }
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use crate::plan::Plan;
 
-    /// The place after each step, as forward and up.
+    /// Place after each step, as (forward, up).
     fn places(text: &str) -> Vec<(f64, f64)> {
         let plan = Plan::parse("plan", text).unwrap();
         let mut run = DryRun::new(&FlightLimits::default());

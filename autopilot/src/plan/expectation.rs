@@ -1,4 +1,4 @@
-//! How long a plan takes, and what it takes of the battery, as far as that can be told before.
+//! Expected duration and battery use of a plan, estimated before the flight.
 
 use std::time::Duration;
 
@@ -10,40 +10,41 @@ use super::interpreter::AgentOrder;
 use super::{Command, FlightLimits, Plan, Step};
 use crate::agent::ApproachSettings;
 
-/// What is expected of a step.
+/// Expected course of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expectation {
-    /// Where it ends, if it moves the drone.
+    /// Target pose, if the step moves the drone.
     pub target: Option<Pose>,
-    /// Where the drone is when it has ended, above the place of take-off and the floor.
+    /// Pose at the end of the step, relative to the place of take-off and the floor.
     pub place: Pose,
-    /// The way to there.
+    /// Length of the way, in metres.
     pub leg_m: f64,
-    /// How long the drone stays there.
+    /// Stay time at the end.
     pub stay: Duration,
-    /// How long it takes, with the stay at its end.
+    /// Duration of the step, including the stay.
     pub time: Duration,
-    /// Whether the plan wants the target outside the fence, which is an error.
+    /// Whether the target as written lies outside the fence, which is an error.
     pub(super) outside: bool,
 }
 
-/// From the order until the drone hovers.
+/// Time from the take-off order until the drone hovers, in seconds.
 const TAKE_OFF_S: f64 = 3.2;
-/// The drone's own landing: before it sinks, and how fast it does.
+/// The drone's own landing: seconds before it sinks, and its rate of descent.
 const LANDING_S: f64 = 1.2;
 const LANDING_M_S: f64 = 0.45;
-/// What a leg takes: to set out and arrive, and on the way. Fitted to flights of the `rec` airframe
-/// over 1 to 8 m, 1 to 1.4 m upwards and down, 90 and 180 degrees.
+/// Duration of a leg: a constant part for acceleration and braking, and a speed. Fitted to flights of the
+/// `rec` airframe over 1 to 8 m, 1 to 1.4 m up and down, 90° and 180°.
 const ACROSS_S: f64 = 0.8;
 const ACROSS_M_S: f64 = 2.0;
 const UPWARDS_S: f64 = 0.3;
 const UPWARDS_M_S: f64 = 0.65;
 const TURN_S: f64 = 0.2;
 const TURN_DEG_S: f64 = 90.0;
-/// A new battery of 1000 mAh carries the drone for about 12 minutes of hovering; moving takes more.
+/// Battery use in percent per second. A new battery of 1000 mAh lasts about 12 minutes of hovering; moving
+/// takes 20 % more.
 const PERCENT_PER_S: f64 = 1.2 * 100.0 / 720.0;
 
-/// Follows the commands of a plan and says what each will take.
+/// Executes a plan's commands and estimates each.
 #[derive(Debug, Clone)]
 pub(super) struct Expectations {
     run: DryRun,
@@ -54,17 +55,17 @@ impl Expectations {
         Self { run: DryRun::new(limits) }
     }
 
-    /// Where the last command has led.
+    /// Pose after the last command.
     pub(super) fn place(&self) -> Pose {
         self.run.place()
     }
 
-    /// How targets are approached after the last command.
+    /// Approach parameters after the last command.
     pub(super) fn settings(&self) -> ApproachSettings {
         self.run.interpreter().settings()
     }
 
-    /// What is expected of the next command.
+    /// Estimates the next command.
     pub(super) fn step(&mut self, command: Command) -> Expectation {
         let (before, was_airborne) = (self.run.place(), self.run.is_airborne());
         let order = self.run.step(command);
@@ -93,29 +94,29 @@ impl Expectations {
 }
 
 impl Plan {
-    /// What is expected of each step, in the order of [`Plan::steps`].
+    /// Expected course of each step, in the order of [`Plan::steps`].
     pub fn expectations(&self, limits: &FlightLimits) -> Vec<Expectation> {
         expectations(self.steps(), limits)
     }
 
-    /// How long the flight takes.
+    /// Expected duration of the flight.
     pub fn expected_time(&self, limits: &FlightLimits) -> Duration {
         expected_time(self.steps(), limits)
     }
 }
 
-/// What is expected of each of these steps.
+/// Expected course of each of these steps.
 pub fn expectations(steps: &[Step], limits: &FlightLimits) -> Vec<Expectation> {
     let mut expectations = Expectations::new(limits);
     steps.iter().map(|step| expectations.step(step.command)).collect()
 }
 
-/// How long it takes to fly them.
+/// Expected duration of these steps.
 pub(crate) fn expected_time(steps: &[Step], limits: &FlightLimits) -> Duration {
     expectations(steps, limits).iter().map(|step| step.time).sum()
 }
 
-/// What flying so long takes of a new battery.
+/// Battery use of a flight of this duration, in percent of a new battery.
 pub fn battery_percent(time: Duration) -> f64 {
     time.as_secs_f64() * PERCENT_PER_S
 }

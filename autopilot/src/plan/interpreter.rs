@@ -1,12 +1,11 @@
-//! What the commands of a plan mean.
+//! Semantics of plan commands.
 //!
-//! The only place that knows. A plan speaks relative to a reference, to the last target or to the
-//! drone; what comes out are poses in the world. Where the drone is comes in from outside: in flight
-//! from the estimator, in a [dry run](super::dry_run) from a drone that does exactly what it is sent to do.
+//! All users of plans share this interpreter. Coordinates in a plan are relative to a reference, to the last
+//! target or to the drone; the results are poses in the estimator's frame. The drone's pose is an input: in
+//! flight it comes from the estimator, in a [dry run](super::dry_run) from an ideal drone.
 //!
-//! As in `tum_ardrone` the reference is the plan's alone: only `setReference` moves it, however often
-//! the drone lands and takes off. The coordinates begin where the first take-off ends, because that is the
-//! first pose that is known in flight.
+//! As in `tum_ardrone`, only `setReference` moves the reference; landing and taking off again do not. The
+//! origin is the pose at the end of the first take-off, because that is the first pose known in flight.
 
 use estimator::wrap_deg;
 use pid::Pose;
@@ -14,12 +13,12 @@ use pid::Pose;
 use super::{Command, FlightLimits};
 use crate::agent::{ApproachSettings, distance};
 
-/// What the agent is to do for a command.
+/// An order to the agent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AgentOrder {
-    /// Be in the air.
+    /// Take off.
     TakeOff,
-    /// Go to a target and stay there a while.
+    /// Fly to a target and stay there for the stay time.
     GoTo(Target),
     /// Land.
     Land,
@@ -28,44 +27,44 @@ pub enum AgentOrder {
 /// A target of a plan, in the estimator's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
-    /// Where the drone is sent: inside the fence.
+    /// Where the drone is sent: the target moved inside the fence.
     pub pose: Pose,
-    /// Where the plan wants it.
+    /// The target as written in the plan.
     pub wanted: Pose,
 }
 
 impl Target {
-    /// Whether it was moved into the fence.
+    /// Whether the target was moved inside the fence.
     pub fn is_corrected(&self) -> bool {
         distance(&self.pose, &self.wanted) > FlightLimits::TOLERANCE_M
     }
 }
 
-/// Carries out the commands of a plan, one after the other.
+/// Executes the commands of a plan one after the other.
 #[derive(Debug, Clone)]
 pub(crate) struct Interpreter {
     limits: FlightLimits,
-    /// Where the plan's coordinates begin; nothing before the end of the first take-off.
+    /// Origin of the plan's coordinates; `None` before the end of the first take-off.
     origin: Option<Pose>,
     reference: Reference,
-    /// Where the drone was sent last.
+    /// The last target.
     target: Pose,
     settings: ApproachSettings,
     max_control: f64,
 }
 
-/// What `goto` counts from.
+/// Reference of `goto`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Reference {
-    /// This far from where the coordinates begin. That may be known later only: the plan may set the
-    /// reference before it takes off.
+    /// Relative to the origin, which may become known later: a plan may set the reference before it takes
+    /// off.
     FromOrigin(Pose),
-    /// Where the drone was.
+    /// A pose where the drone was.
     Fixed(Pose),
 }
 
 impl Interpreter {
-    /// At the beginning of a plan, on the ground.
+    /// State at the beginning of a plan, on the ground.
     pub(crate) fn new(limits: FlightLimits) -> Self {
         Self {
             limits,
@@ -77,10 +76,10 @@ impl Interpreter {
         }
     }
 
-    /// Carries out a command while the drone is at `pose`. Returns what the agent has to do for it;
-    /// nothing for a setting, which holds for all that comes after.
+    /// Executes a command while the drone is at `pose`. Returns the order to the agent; `None` for a setting,
+    /// which applies to all later commands.
     ///
-    /// When the agent has taken off, [`Interpreter::take_off_ended`] must be called before the next command.
+    /// After a take-off, call [`Interpreter::take_off_ended`] before the next command.
     pub(crate) fn carry_out(&mut self, command: Command, pose: &Pose) -> Option<AgentOrder> {
         match command {
             Command::TakeOff { .. } => return Some(AgentOrder::TakeOff),
@@ -93,7 +92,7 @@ impl Interpreter {
             Command::SetReachDistance { distance_m } => self.settings.reach_distance_m = distance_m,
             Command::SetStayDistance { distance_m } => self.settings.stay_distance_m = distance_m,
             Command::SetStayTime { time_s } => {
-                // At most 600 s, as the parser has checked.
+                // The parser limits it to 600 s.
                 #[allow(clippy::cast_possible_truncation)]
                 let stay_time_ms = (time_s * 1000.0).round() as i64;
                 self.settings.stay_time_ms = stay_time_ms;
@@ -103,24 +102,24 @@ impl Interpreter {
         None
     }
 
-    /// The same flight with a new plan: its reference and settings are those of a plan's beginning.
+    /// State for a new plan in the same flight: the origin stays, reference and settings are reset.
     pub(crate) fn of_new_plan(&self) -> Self {
         Self { origin: self.origin, target: self.target, ..Self::new(self.limits) }
     }
 
-    /// A take-off has ended at `pose`, which is held. The first one is where coordinates begin.
+    /// A take-off has ended at `pose`, which is held. The first one sets the origin.
     pub(crate) fn take_off_ended(&mut self, pose: &Pose) {
         let origin = Pose { z_m: self.limits.origin_height_m(pose.z_m), ..*pose };
         self.origin.get_or_insert(origin);
         self.target = *pose;
     }
 
-    /// How targets are approached now.
+    /// Current approach parameters.
     pub(crate) fn settings(&self) -> ApproachSettings {
         self.settings
     }
 
-    /// No stick is to be moved further than this fraction now.
+    /// Current limit of the sticks, as a fraction.
     pub(crate) fn max_control(&self) -> f64 {
         self.max_control
     }
@@ -128,7 +127,7 @@ impl Interpreter {
     fn reference(&self) -> Pose {
         match self.reference {
             Reference::FromOrigin(by) => {
-                // Only a plan that is refused asks before the drone has taken off.
+                // Without a take-off before it this is a plan that will be refused.
                 let expected = || Pose {
                     z_m: self.limits.origin_height_m(FlightLimits::EXPECTED_HOVER_M),
                     ..Pose::default()
@@ -146,7 +145,7 @@ impl Interpreter {
     }
 }
 
-/// The pose `by` away from `from`: displacements are along the world's axes, headings add up.
+/// The pose `by` away from `from`. Displacements are along the world's axes; headings add up.
 fn offset(from: &Pose, by: &Pose) -> Pose {
     Pose {
         x_m: from.x_m + by.x_m,
@@ -164,7 +163,7 @@ mod tests {
     const FIRST_HOVER: Pose = Pose { x_m: 0.1, y_m: -0.1, z_m: 0.8, yaw_deg: 2.0 };
     const SECOND_HOVER: Pose = Pose { x_m: 0.4, y_m: 1.2, z_m: 0.9, yaw_deg: -3.0 };
 
-    /// The last target of a plan that is flown by a drone that is always exactly where it was sent.
+    /// The last target of a plan, flown by an ideal drone.
     fn last_target(text: &str, limits: FlightLimits) -> Target {
         let plan = Plan::parse_within("plan", text, &limits).unwrap();
         let mut interpreter = Interpreter::new(limits);
@@ -211,7 +210,7 @@ mod tests {
         let here = "takeoff\ngoto 1 0 0 0\nsetReference $POSE$\ngoto 1 0 0 0";
         assert_target(here, [2.1, -0.1, 0.8, 2.0]);
         assert_target("takeoff\nsetReference 5 0 0 0\ngoto 1 0 0 0", [6.1, -0.1, 0.8, 2.0]);
-        // It counts from the take-off, not from the reference before it.
+        // It is relative to the take-off, not to the reference set before.
         let twice = "takeoff\nsetReference $POSE$\nsetReference 5 0 0 0\nsetReference 1 0 0 9\n";
         assert_target(&format!("{twice}goto 0 0 0 0"), [1.1, -0.1, 0.8, 11.0]);
     }
@@ -219,7 +218,7 @@ mod tests {
     #[test]
     fn a_reference_that_is_set_on_the_ground_counts_in_the_air() {
         assert_target("setReference 1 2 0.1 30\ntakeoff\ngoto 0 0 0 0", [1.1, 1.9, 0.9, 32.0]);
-        // The drone stands on the floor, at the beginning of the estimator's frame.
+        // The drone stands on the floor, at the origin of the estimator's frame.
         assert_target("setReference $POSE$\ntakeoff\ngoto 0 1 1.5 0", [0.0, 1.0, 1.5, 0.0]);
     }
 
@@ -228,7 +227,7 @@ mod tests {
         let again = "takeoff\ngoto 0 6 0 0\nland\ntakeoff\n";
         assert_target(&format!("{again}goto 0 6 0 0"), [0.1, 5.9, 0.8, 2.0]);
         assert_target(&format!("{again}setReference 1 0 0 0\ngoto 0 0 0 0"), [1.1, -0.1, 0.8, 2.0]);
-        // What it holds is where it then is.
+        // The drone holds the place where it then is.
         assert_target(&format!("{again}moveBy 0 1 0 0"), [0.4, 2.2, 0.9, -3.0]);
         let moved = "takeoff\nsetReference 1 0 0 0\nland\ntakeoff\ngoto 0 0 0 0";
         assert_target(moved, [1.1, -0.1, 0.8, 2.0]);
@@ -243,12 +242,12 @@ mod tests {
 
     #[test]
     fn a_target_outside_is_moved_into_the_fence_and_the_next_counts_from_there() {
-        // Inside for the expected hover of 0.85 m; this drone hovers 5 cm lower.
+        // Inside at the expected hover height of 0.85 m; this drone hovers 5 cm lower.
         let low = last_target("takeoff\ngoto 0 0 -0.54 0\nland", FlightLimits::default());
         assert!(low.is_corrected());
         assert!((low.wanted.z_m - 0.26).abs() < 1e-9 && (low.pose.z_m - 0.3).abs() < 1e-9);
         assert_target("takeoff\ngoto 0 0 -0.54 0\nmoveBy 0 0 0.1 0", [0.1, -0.1, 0.4, 2.0]);
-        // One that is on the fence already is not moved again, whatever the last bit of a sum.
+        // A target on the fence is not moved again because of rounding.
         let on_it =
             last_target("takeoff\ngoto 7 7.08 0 0\nmoveBy 0 0 0 0", FlightLimits::default());
         assert!(!on_it.is_corrected(), "{on_it:?}");

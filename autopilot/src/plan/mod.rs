@@ -1,8 +1,8 @@
-//! Flight plans: `tum_ardrone`'s script language.
+//! Flight plans in `tum_ardrone`'s script language.
 //!
-//! One command a line; `#` and `//` start comments. Lengths in metres, angles in degrees, times in
-//! seconds. x is right, y forward, z up, yaw clockwise; coordinates are relative to the reference,
-//! which is the pose at the end of the first take-off until `setReference` moves it.
+//! One command per line; `#` and `//` start comments. Lengths are in metres, angles in degrees, times in
+//! seconds. x is right, y forward, z up, yaw clockwise. Coordinates are relative to the reference, which is
+//! the pose at the end of the first take-off until `setReference` moves it.
 //!
 //! ```
 //! let plan = autopilot::Plan::parse("square.txt", "takeoff\ngoto 0 1 0 0\nland\n")?;
@@ -29,7 +29,7 @@ pub use expectation::{Expectation, battery_percent, expectations};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::{AgentOrder, Target};
 
-/// A flight plan that was read without errors.
+/// A flight plan without errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     name: String,
@@ -43,18 +43,18 @@ pub struct Plan {
 pub struct Step {
     /// What to do.
     pub command: Command,
-    /// Its line in the plan, from 1; 0 for a step that the plan does not have.
+    /// Line in the plan, from 1; 0 for an implied step.
     pub line: usize,
-    /// The command as it was written.
+    /// The command as written.
     pub text: String,
 }
 
-/// What a step orders.
+/// A command with its arguments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Command {
-    /// `takeoff`, `autoInit`, `autoTakeover`: be in the air.
+    /// `takeoff`, `autoInit`, `autoTakeover`: take off.
     TakeOff {
-        /// Whether the drone may be in the air already.
+        /// Whether the drone may already be in the air.
         take_over: bool,
     },
     /// `land`
@@ -63,35 +63,35 @@ pub enum Command {
     GoTo(Pose),
     /// `moveBy x y z yaw`: from the current target.
     MoveBy(Pose),
-    /// `moveByRel x y z yaw`: from where the drone is.
+    /// `moveByRel x y z yaw`: from the drone's pose.
     MoveByRelative(Pose),
-    /// `setReference x y z yaw`: in the coordinates of the first take-off.
+    /// `setReference x y z yaw`: relative to the end of the first take-off.
     SetReference(Pose),
-    /// `setReference $POSE$`: where the drone is.
+    /// `setReference $POSE$`: at the drone's pose.
     SetReferenceHere,
     /// `setInitialReachDist`: a target is reached within this distance.
     SetReachDistance {
         /// Metres.
         distance_m: f64,
     },
-    /// `setStayWithinDist`: how far the drone may stray while it stays.
+    /// `setStayWithinDist`: largest distance from the target during the stay.
     SetStayDistance {
         /// Metres.
         distance_m: f64,
     },
-    /// `setStayTime`: how long it stays.
+    /// `setStayTime`: stay time at a target.
     SetStayTime {
         /// Seconds.
         time_s: f64,
     },
-    /// `setMaxControl`: no stick is moved further than this.
+    /// `setMaxControl`: limit of the sticks.
     SetMaxControl {
         /// Fraction in (0, 1].
         fraction: f64,
     },
 }
 
-/// Why a plan cannot be flown: every problem with file, line, column and advice.
+/// Why a plan cannot be flown: all problems with file, line, column and advice.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{rendered}")]
 pub struct PlanError {
@@ -105,18 +105,18 @@ impl PlanError {
 }
 
 impl Plan {
-    /// Reads a plan with the default limits; `name` is its file's name for messages.
+    /// Parses a plan and checks it against the default fence; `name` is the file name for messages.
     ///
     /// # Errors
-    /// [`PlanError`] with everything that is wrong.
+    /// [`PlanError`] with all problems.
     pub fn parse(name: &str, text: &str) -> Result<Self, PlanError> {
         Self::parse_within(name, text, &FlightLimits::default())
     }
 
-    /// Reads a plan and refuses targets outside `limits`.
+    /// Parses a plan and refuses targets outside `limits`.
     ///
     /// # Errors
-    /// [`PlanError`] with everything that is wrong.
+    /// [`PlanError`] with all problems.
     pub fn parse_within(name: &str, text: &str, limits: &FlightLimits) -> Result<Self, PlanError> {
         let (plan, mut diagnostics) = Self::review(text, limits);
         let Some(mut plan) = plan.map(|plan| Self { name: name.to_owned(), ..plan }) else {
@@ -128,18 +128,18 @@ impl Plan {
             1 => "is a warning".to_owned(),
             several => format!("are {several} warnings"),
         };
-        plan.notes.push(format!("there {warnings}: `ardrone-pilot check {name}` tells"));
+        plan.notes.push(format!("there {warnings}: run `ardrone-pilot check {name}`"));
         Ok(plan)
     }
 
-    /// Reads a plan, refuses targets outside `limits`, and warns of what is legal and yet unwise. There is a
-    /// plan unless one of the findings is an error.
+    /// Parses a plan, refuses targets outside `limits`, and warns of what is legal but unwise. The plan is
+    /// `Some` iff no finding is an error.
     pub fn review(text: &str, limits: &FlightLimits) -> (Option<Self>, Vec<Diagnostic>) {
         let (lines, mut diagnostics) = parser::parse(text);
         let mut notes: Vec<String> = lines.iter().filter_map(parser::note).collect();
         let mut lines = parser::clear_commands(lines);
         if let Some(first) = diagnostics.first() {
-            // Where a line cannot be read, nobody knows where those behind it lead.
+            // Behind a line that cannot be parsed, the places of the others are unknown.
             lines.retain(|line| line.span.start < first.span.start);
             diagnostics.extend(check::check_places(&lines, limits));
         } else {
@@ -158,12 +158,12 @@ impl Plan {
         (Some(Self { name, text, steps, notes }), diagnostics)
     }
 
-    /// The name under which it was read.
+    /// The name given to [`Plan::parse`].
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The text that was read.
+    /// The parsed text.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -173,12 +173,12 @@ impl Plan {
         &self.steps
     }
 
-    /// What the operator should know of the plan before it is flown.
+    /// Notes for the operator before the flight.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Whether the plan may start with a drone that is in the air.
+    /// Whether the plan may start with a drone that is already in the air.
     pub fn takes_over(&self) -> bool {
         takes_over(&self.steps)
     }
@@ -189,13 +189,13 @@ impl Plan {
 }
 
 impl Step {
-    /// Whether it is a landing that the plan does not spell out.
+    /// Whether it is a landing that the plan implies but does not contain.
     pub(crate) fn is_implied(&self) -> bool {
         self.line == 0 && self.command == Command::Land
     }
 }
 
-/// Whether the first take-off may find the drone in the air.
+/// Whether the first take-off may take over a drone in the air.
 pub(crate) fn takes_over(steps: &[Step]) -> bool {
     let first = steps.iter().find_map(|step| {
         let Command::TakeOff { take_over } = step.command else { return None };

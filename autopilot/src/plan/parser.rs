@@ -1,34 +1,34 @@
-//! Lines to commands.
+//! Parses the lines of a plan.
 
 use diagnostic::{Diagnostic, Span, closest};
 use pid::Pose;
 
 use super::{Command, Step};
 
-/// A plan is read by people and flown on one battery.
+/// Largest plan. A plan is read by people and flown on one battery.
 const MAX_LINES: usize = 10_000;
-/// Further than the drone's network reaches.
+/// Largest coordinate, beyond the range of the drone's Wi-Fi.
 const MAX_DISTANCE_M: f64 = 100.0;
 const MAX_ANGLE_DEG: f64 = 3600.0;
 
-/// A command and where it stands.
+/// A command and its place in the text.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Line {
     pub(super) number: usize,
     pub(super) span: Span,
     pub(super) text: String,
-    /// Nothing for what orders nothing in flight.
+    /// `None` for a keyword without effect in flight.
     pub(super) command: Option<Command>,
     keyword: Keyword,
 }
 
 impl Line {
-    /// Whether it empties the queue before it.
+    /// Whether it drops the commands before it.
     pub(super) fn clears(&self) -> bool {
         matches!(self.keyword, Keyword::ClearCommands)
     }
 
-    /// The step that it is; nothing for what orders nothing in flight.
+    /// Converts it to a step; `None` for a keyword without effect in flight.
     pub(super) fn into_step(self) -> Option<Step> {
         Some(Step { command: self.command?, line: self.number, text: self.text })
     }
@@ -54,7 +54,7 @@ enum Keyword {
 }
 
 impl Keyword {
-    /// A keyword that is missing here is never read, which the compiler reports as dead code.
+    /// All keywords. One that is missing here is never constructed, which the compiler reports as dead code.
     const ALL: [Self; 14] = [
         Self::TakeOff,
         Self::Land,
@@ -72,7 +72,7 @@ impl Keyword {
         Self::LockScaleFp,
     ];
 
-    /// As it is written in plans.
+    /// Spelling in plans.
     fn name(self) -> &'static str {
         match self {
             Self::TakeOff => "takeoff",
@@ -106,7 +106,7 @@ impl Keyword {
     }
 }
 
-/// The commands of `text` and what is wrong with it.
+/// Parses `text` into commands and problems.
 pub(super) fn parse(text: &str) -> (Vec<Line>, Vec<Diagnostic>) {
     let mut lines = Vec::new();
     let mut diagnostics = Vec::new();
@@ -128,7 +128,7 @@ pub(super) fn parse(text: &str) -> (Vec<Line>, Vec<Diagnostic>) {
     (lines, diagnostics)
 }
 
-/// What to tell about a command that means something else in `tum_ardrone`.
+/// Note about a command that has another meaning in `tum_ardrone`.
 pub(super) fn note(line: &Line) -> Option<String> {
     let meaning = match line.keyword {
         Keyword::AutoInit => "takes off; there is no visual map to initialise",
@@ -149,7 +149,7 @@ pub(super) fn note(line: &Line) -> Option<String> {
     Some(format!("line {}: `{}` {meaning}", line.number, line.keyword.name()))
 }
 
-/// `clearCommands` empties the queue: only what stands behind the last one is flown.
+/// Applies `clearCommands`: only the commands behind the last one remain.
 pub(super) fn clear_commands(mut lines: Vec<Line>) -> Vec<Line> {
     if let Some(last) = lines.iter().rposition(Line::clears) {
         lines.drain(..=last);
@@ -157,7 +157,7 @@ pub(super) fn clear_commands(mut lines: Vec<Line>) -> Vec<Line> {
     lines
 }
 
-/// A word of a line and where it stands in the text.
+/// A word of a line and its place in the text.
 #[derive(Debug, Clone)]
 struct Word<'a> {
     text: &'a str,
@@ -185,7 +185,7 @@ fn parse_line(raw: &str, start: usize, number: usize) -> Result<Option<Line>, Di
 
 fn words(code: &str, start: usize) -> impl Iterator<Item = Word<'_>> {
     code.split_whitespace().map(move |text| {
-        // The word is a slice of the line.
+        // The word is a slice of the line, so the difference of their addresses is its offset.
         let offset = start + (text.as_ptr().addr() - code.as_ptr().addr());
         Word { text, span: offset..offset + text.len() }
     })
@@ -229,7 +229,8 @@ impl Arguments<'_> {
             Keyword::SetMaxControl => Command::SetMaxControl { fraction: self.one(0.05, 1.0)? },
             Keyword::AutoInit => self.numbers(Command::TakeOff { take_over: false })?,
             Keyword::AutoTakeover => self.numbers(Command::TakeOff { take_over: true })?,
-            // The first is carried out by `clear_commands`; the second is about visual mapping.
+            // The first is handled by `clear_commands`; the second belongs to visual mapping, which is not
+            // supported.
             Keyword::ClearCommands | Keyword::LockScaleFp => {
                 self.count(0)?;
                 return Ok(None);
@@ -238,7 +239,7 @@ impl Arguments<'_> {
         Ok(Some(command))
     }
 
-    /// Any amount of numbers, which mean nothing here.
+    /// Accepts any number of numeric arguments, which have no meaning here.
     fn numbers(&self, command: Command) -> Result<Command, Diagnostic> {
         for word in self.words {
             self.number(word)?;

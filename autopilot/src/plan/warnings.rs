@@ -1,4 +1,4 @@
-//! What is legal in a plan, and yet unwise.
+//! Warnings about commands that are legal but unwise.
 
 use std::time::Duration;
 
@@ -11,16 +11,16 @@ use super::parser::Line;
 use super::{Command, FlightLimits, battery_percent};
 use crate::agent::LANDING_BATTERY_PERCENT;
 
-/// Nearer than this to the fence a drone that overshoots in the wind is turned back.
+/// Distance from the fence, in metres, below which overshoot in wind would trigger the safety monitor.
 const NEAR_FENCE_M: f64 = 0.5;
-/// Lower than this the air that the propellers push down shakes the drone.
+/// Height, in metres, below which the propellers' downwash disturbs the drone.
 const LOW_M: f64 = 0.4;
-/// Longer than this an estimate from navdata alone drifts far.
+/// Stay time, in seconds, beyond which an estimate from navdata alone drifts far.
 const LONG_STAY_S: f64 = 60.0;
-/// A battery of which so much is planned is old or cold some day.
+/// Largest advisable use of a new battery, in percent; an old or cold one holds less.
 const CAREFUL_PERCENT: f64 = 70.0;
 
-/// Everything that somebody who flies often would mention.
+/// All warnings about these lines.
 pub(super) fn warnings(lines: &[Line], limits: &FlightLimits) -> Vec<Diagnostic> {
     let mut review =
         Review { limits, expectations: Expectations::new(limits), diagnostics: Vec::new() };
@@ -50,7 +50,7 @@ impl Review<'_> {
         self.diagnostics.push(Diagnostic::warning(message, span.clone()).help(help));
     }
 
-    /// Looks at a step and says how long it takes.
+    /// Checks a step and returns its expected duration.
     fn step(&mut self, command: Command, span: &Span) -> Duration {
         let before = self.expectations.place();
         let expected = self.expectations.step(command);
@@ -62,7 +62,7 @@ impl Review<'_> {
                 self.warn(
                     "the drone may stray less while it stays than when it arrives",
                     span,
-                    "each stay would begin anew until it is so near: make `setStayWithinDist` larger than \
+                    "each stay would restart until the drone is that near: make `setStayWithinDist` larger than \
                      `setInitialReachDist`",
                 );
             }
@@ -83,7 +83,7 @@ impl Review<'_> {
             | Command::MoveBy(_)
             | Command::MoveByRelative(_) => {}
         }
-        // One outside the fence is an error.
+        // A target outside the fence is an error already.
         if let Some(target) = expected.target.filter(|_| !expected.outside) {
             self.target(&before, &target, expected.leg_m, span);
         }
@@ -136,7 +136,7 @@ impl Review<'_> {
         }
     }
 
-    /// Settings behind the last target change nothing.
+    /// Warns of settings behind the last target, which have no effect.
     fn unused_settings(&mut self, lines: &[Line]) {
         let before = self.diagnostics.len();
         for line in lines.iter().rev() {
@@ -155,7 +155,7 @@ impl Review<'_> {
                         "put it before the targets",
                     );
                 }
-                // How far sticks may be moved also limits how the place is held.
+                // The stick limit also applies to holding the position.
                 Some(Command::SetMaxControl { .. } | Command::TakeOff { .. } | Command::Land)
                 | None => {}
             }
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_legal_and_unwise_is_told() {
+    fn legal_but_unwise_commands_are_reported() {
         for (lines, message) in [
             ("goto 9.7 0 0 0", "the target is 0.30 m from the fence"),
             ("goto 0 0 -0.5 0", "the target is 0.35 m above the floor"),
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_that_takes_most_of_a_battery_is_told_at_its_end() {
+    fn a_plan_that_takes_most_of_a_battery_is_reported_at_its_end() {
         let hover = "goto 0 1 0 0\ngoto 0 0 0 0\n".repeat(65);
         let warned = warned(&format!("takeoff\n{hover}land\n"));
         assert_eq!(warned, [(132, "the plan takes about 73 % of a new battery".to_owned())]);
@@ -220,16 +220,16 @@ mod tests {
     }
 
     #[test]
-    fn whoever_flies_is_told_that_there_are_warnings() {
+    fn the_operator_sees_that_there_are_warnings() {
         let notes = |text| Plan::parse("p.txt", text).unwrap().notes().to_vec();
         assert!(notes("takeoff\ngoto 0 1 0 0\nland\n").is_empty());
         let low = notes("takeoff\ngoto 0 0 -0.5 0\nland\n");
-        assert_eq!(low, ["there is a warning: `ardrone-pilot check p.txt` tells"]);
+        assert_eq!(low, ["there is a warning: run `ardrone-pilot check p.txt`"]);
     }
 
-    /// What stands before a line that cannot be read is looked at all the same.
+    /// Lines before one that cannot be parsed are checked too.
     #[test]
-    fn every_problem_is_told_at_once() {
+    fn all_problems_are_reported_at_once() {
         let text = "takeoff\ngoto 50 0 0 0\nfly\ngoto 60 0 0 0\ngoto 1\n";
         let (plan, diagnostics) = Plan::review(text, &FlightLimits::default());
         assert!(plan.is_none());

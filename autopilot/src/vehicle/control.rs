@@ -1,4 +1,4 @@
-//! The agent's command, carried out: levels and sticks.
+//! Turns the agent's command into a flight order and stick positions.
 
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use super::{Vehicle, pose};
 use crate::agent::AgentCommand;
 
 impl Vehicle {
-    /// The agent's command as levels and sticks, where `state` is how the drone moves now.
+    /// Converts the agent's command to the session's order. `state` is the predicted motion at `now`.
     pub(super) fn carry_out(
         &mut self,
         now: Duration,
@@ -20,10 +20,11 @@ impl Vehicle {
         step_s: f64,
     ) -> Order {
         self.flight.target = None;
+        self.flight.estimator.advance_smooth(step_s);
         if !matches!(command, AgentCommand::GoTo(_)) {
             self.flight.saturation.rest(state, step_s);
         }
-        let mut told: Option<Demand> = None;
+        let mut sent: Option<Demand> = None;
         let order = match command {
             AgentCommand::Standby | AgentCommand::Land => {
                 self.flight.controller.reset();
@@ -37,8 +38,9 @@ impl Vehicle {
             AgentCommand::GoTo(target) => {
                 self.flight.target = Some(target);
                 let limit = self.mission.max_control();
-                let demand = self.demand(now, &target, step_s);
-                let demand = self.flight.guard.limit(
+                let turned = self.turned_to_learn(now, &target, step_s);
+                let demand = self.demand(now, &turned, step_s);
+                let demand = self.flight.safety.limit(
                     &demand,
                     limit,
                     state.position_m.z,
@@ -46,26 +48,26 @@ impl Vehicle {
                 );
                 let full_m_s2 = self.full_tilt_m_s2();
                 self.flight.saturation.watch(&demand, limit, state, &target, full_m_s2, step_s);
-                told = Some(demand);
+                sent = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
             AgentCommand::Sticks => {
                 self.flight.controller.rest();
                 let demand = self.flight.manual.sticks(now).unwrap_or_default();
-                let demand = self.flight.guard.limit(
+                let demand = self.flight.safety.limit(
                     &demand,
                     self.mission.max_control(),
                     state.position_m.z,
                     self.config.estimator.limits.climb_m_s,
                 );
-                told = Some(demand);
+                sent = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
         };
-        if told.is_none() {
-            self.flight.guard.let_go();
+        if sent.is_none() {
+            self.flight.safety.let_go();
         }
-        let told = told.map_or(estimator::Order::ByItself, |demand| {
+        let sent = sent.map_or(estimator::Order::ByItself, |demand| {
             estimator::Order::Sticks(Sticks {
                 right: demand.roll,
                 forward: -demand.pitch,
@@ -73,14 +75,17 @@ impl Vehicle {
                 clockwise: demand.yaw,
             })
         });
-        self.flight.estimator.told(now, told);
+        self.flight.estimator.told(now, sent);
         order
     }
 
-    /// The sticks for the way to a target.
+    /// Stick demand that steers towards `target`.
     fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Demand {
-        // A command acts when the dead time is over: it must suit the drone of that moment.
+        // A command takes effect after the dead time, so it is computed for the state predicted at that
+        // moment.
         let state = self.state(now + self.config.estimator.dead_time);
+        // A tag that is seen again moves the estimate by a step, which comes as a motion.
+        let state = self.flight.estimator.smooth(&state);
         let Airframe {
             tilt_gain,
             tilt_lag_s,

@@ -1,4 +1,4 @@
-//! What was decided in a tick, and why.
+//! The decision of one tick, with its inputs and its reasons.
 
 use std::time::Duration;
 
@@ -7,36 +7,36 @@ use estimator::Prediction;
 use pid::Pose;
 
 use super::Phase;
-use crate::agent::{AgentCommand, ChosenPlans, Danger, Report, Senses};
+use crate::agent::{AgentCommand, ChosenPlans, Danger, Percepts, Report};
 use crate::safety::Veto;
 
-/// One tick, from what was known to what was ordered.
+/// One tick, from percepts to the order sent to the drone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decision {
-    /// Since the start.
+    /// Time since the program started.
     pub at: Duration,
-    /// What the flight was doing, in one word.
+    /// Phase of the flight.
     pub phase: Phase,
-    /// The step of the plan that was flown.
+    /// Index of the plan step being flown.
     pub step: Option<usize>,
-    /// Where the drone was, and how it moved.
+    /// Predicted position and motion of the drone.
     pub state: Prediction,
-    /// Standard deviation of the height.
+    /// Standard deviation of the height, in metres.
     pub vertical_deviation_m: f64,
-    /// What the agent knew.
-    pub senses: Senses,
-    /// The plans that it chose.
+    /// Percepts given to the agent.
+    pub percepts: Percepts,
+    /// Agent plans chosen in this step.
     pub plans: ChosenPlans,
-    /// What it wanted.
+    /// Command chosen by the agent.
     pub wanted: AgentCommand,
-    /// What it said of its last order.
+    /// How the agent's last order ended, if it ended in this tick.
     pub report: Option<Report>,
-    /// What it said of the flight.
+    /// Danger reported by the agent.
     pub danger: Option<Danger>,
-    /// Why something else was done.
+    /// Why the safety layer replaced the agent's command.
     pub veto: Option<Veto>,
-    /// Where the drone was sent.
+    /// Target pose of the position controller, if it was active.
     pub target: Option<Pose>,
-    /// What the drone was told.
+    /// Order given to the session.
     pub order: Order,
 }

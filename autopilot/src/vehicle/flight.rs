@@ -1,4 +1,4 @@
-//! What belongs to one flight.
+//! State that lives for one flight.
 
 use std::time::Duration;
 
@@ -9,14 +9,14 @@ use pid::{Pose, PositionController};
 
 use super::manual::Manual;
 use super::saturation::Saturation;
-use super::{FlightReport, LandingReason, VehicleConfig};
+use super::{FlightReport, LandingReason, SignSearch, VehicleConfig};
 use crate::agent::{Activity, Agent};
 use crate::mission::Due;
 use crate::outcome::Outcome;
-use crate::safety::{Guard, Veto};
+use crate::safety::{SafetyMonitor, Veto};
 
-/// The state of one flight. A flight from rest begins with a new one, so the tenth flight of a vehicle begins
-/// exactly as its first: the world's origin, the fence around it and the uncertainty of the place start where
+/// State of one flight. It is created anew for each flight from rest, so that a vehicle's tenth flight starts
+/// exactly like its first: the world frame, the fence and the position uncertainty start at the place where
 /// the drone stands.
 #[derive(Debug)]
 pub(super) struct Flight {
@@ -24,23 +24,24 @@ pub(super) struct Flight {
     pub(super) controller: PositionController,
     pub(super) agent: Agent,
     pub(super) activity: Activity,
-    pub(super) guard: Guard,
+    pub(super) safety: SafetyMonitor,
     pub(super) veto: Option<Veto>,
     pub(super) manual: Manual,
-    /// The step that is being flown.
+    /// The step being flown.
     pub(super) due: Option<Active>,
-    /// The mission was replaced while its landing was being flown: the flight ends on the ground.
+    /// The mission was replaced during its landing step: the flight ends on the ground.
     pub(super) ends_on_ground: bool,
     pub(super) landing: Option<LandingReason>,
-    /// Why a drone that was taken over is not flown on.
+    /// Why a drone that was taken over in the air must not be flown on.
     pub(super) refusals: Vec<String>,
-    /// Since when the drone reports a fault of its own.
+    /// Start of the fault that the drone currently reports.
     pub(super) fault_since: Option<Duration>,
-    /// The disturbance without gusts: right, forward.
+    /// Disturbance acceleration averaged over gusts: right, forward.
     pub(super) wind_m_s2: Vector2<f64>,
     pub(super) saturation: Saturation,
+    pub(super) sign_search: SignSearch,
     pub(super) target: Option<Pose>,
-    /// When the drone was first asked for all navdata, or the flight began.
+    /// When the drone was first asked for full navdata, or else when the flight began.
     pub(super) asked_at: Duration,
     pub(super) report: FlightReport,
     pub(super) outcome: Option<Outcome>,
@@ -51,7 +52,7 @@ pub(super) struct Flight {
 pub(super) struct Active {
     pub(super) due: Due,
     pub(super) since: Duration,
-    /// The agent has been given it.
+    /// The order has been handed to the agent.
     pub(super) offered: bool,
 }
 
@@ -62,7 +63,7 @@ impl Flight {
             controller: PositionController::new(config.law, config.cascade),
             agent: Agent::new(),
             activity: Activity::default(),
-            guard: Guard::new(config.limits),
+            safety: SafetyMonitor::new(config.limits),
             veto: None,
             manual: Manual::default(),
             due: None,
@@ -72,6 +73,7 @@ impl Flight {
             fault_since: None,
             wind_m_s2: Vector2::zeros(),
             saturation: Saturation::default(),
+            sign_search: SignSearch::default(),
             target: None,
             asked_at: begins,
             report: FlightReport::default(),
@@ -80,7 +82,7 @@ impl Flight {
     }
 }
 
-/// What a navdata packet says of the drone's motion.
+/// The estimator's measurement from one navdata packet.
 pub(super) fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
     Sample {
         arrival: now,
@@ -96,7 +98,7 @@ pub(super) fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
     }
 }
 
-/// The quantity that the drone reports as lost.
+/// The quantity that the drone itself reports as unavailable.
 fn reported_lost(state: DroneState, demo: &Demo) -> Option<Quantity> {
     if demo.has_lost_vision() {
         Some(Quantity::Velocity)

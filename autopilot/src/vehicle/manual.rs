@@ -8,23 +8,23 @@ use super::{FlightEvent, Refused, Vehicle};
 use crate::agent::Report;
 use crate::safety::INSIDE_M;
 
-/// Sticks expire after this time: a key that is held repeats faster.
+/// Stick input expires after this time. Key repeat is faster, so a held key keeps flying.
 const STICK_TIME: Duration = Duration::from_millis(600);
 
-/// What the operator makes the drone do besides its mission.
+/// Manual control of the current flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Manual {
-    /// The mission waits.
+    /// The mission is paused.
     pub(super) holds_mission: bool,
-    /// The agent's next step serves a pre-empting order. Anything else that it were given in the same tick
-    /// would outlast that order.
+    /// The agent's next step serves a pre-empting order. An order offered in the same tick would replace the
+    /// pre-empting one.
     pub(super) pre_empts: bool,
     mode: Mode,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 enum Mode {
-    /// The drone holds, or flies its mission.
+    /// No manual control: the drone holds, or flies its mission.
     #[default]
     None,
     Steered {
@@ -33,13 +33,13 @@ enum Mode {
     },
     SentTo {
         place: Pose,
-        /// The agent has been given it.
+        /// The target has been handed to the agent.
         offered: bool,
     },
 }
 
 impl Manual {
-    /// The sticks, until they expire.
+    /// The current stick input; `None` once it has expired.
     pub(super) fn sticks(&self, now: Duration) -> Option<Demand> {
         match self.mode {
             Mode::Steered { sticks, since } if now.saturating_sub(since) < STICK_TIME => {
@@ -49,7 +49,7 @@ impl Manual {
         }
     }
 
-    /// Whether the drone is sent somewhere.
+    /// Whether a manual target is being flown to.
     pub(super) fn sends(&self) -> bool {
         matches!(self.mode, Mode::SentTo { .. })
     }
@@ -65,7 +65,7 @@ impl Vehicle {
         if self.flight.manual.sticks(now).is_none() {
             self.begin_manual(FlightEvent::Steered);
             self.flight.manual.pre_empts = true;
-            // Pre-empting: always accepted.
+            // Pre-empting goals are always accepted.
             let accepted = self.flight.agent.achieve_steer();
             debug_assert!(accepted);
         }
@@ -74,7 +74,7 @@ impl Vehicle {
 
     pub(super) fn send_to(&mut self, now: Duration, x_m: f64, y_m: f64) {
         let wanted = Pose { x_m, y_m, ..self.flight.target.unwrap_or_else(|| self.pose(now)) };
-        self.begin_manual(FlightEvent::SentByHand);
+        self.begin_manual(FlightEvent::ManualTargetSet);
         self.agent_holds();
         let place = self.mission.inside(&wanted, INSIDE_M);
         self.flight.manual.mode = Mode::SentTo { place, offered: false };
@@ -84,15 +84,15 @@ impl Vehicle {
         if !self.flight.manual.holds_mission {
             return Err(Refused::NothingHeld);
         }
-        // Landing for good: the mission does not go on.
+        // This landing is final: the mission does not resume.
         if self.flight.landing.is_some() {
             return Err(Refused::Landing);
         }
-        // The agent's order for manual control ends unreported: its end is not the step's.
+        // The manual order is ended without a report, which would be taken for the report of the step.
         self.agent_holds();
         self.flight.manual.holds_mission = false;
         self.events.push_back(FlightEvent::Resumed);
-        // The order for the step was pre-empted.
+        // The order of the step was pre-empted and must be offered again.
         if let Some(active) = &mut self.flight.due {
             active.offered = false;
             active.since = now;
@@ -100,13 +100,13 @@ impl Vehicle {
         Ok(())
     }
 
-    /// Ends manual control because the mission was replaced. A mission that waits goes on waiting.
+    /// Ends manual control because the mission was replaced. A paused mission stays paused.
     pub(super) fn manual_ends(&mut self) {
         self.flight.manual.mode = Mode::None;
         self.flight.manual.pre_empts = true;
     }
 
-    /// Gives the agent the place to which the drone is sent, once it holds.
+    /// Hands the manual target to the agent once the agent holds.
     pub(super) fn offer_manual_target(&mut self) {
         let flight = &mut self.flight;
         if let Mode::SentTo { place, offered: offered @ false } = &mut flight.manual.mode {
@@ -114,11 +114,11 @@ impl Vehicle {
         }
     }
 
-    /// The agent has reported how its order for manual control ended.
+    /// The agent has reported how its order for the manual target ended.
     pub(super) fn manual_target_ended(&mut self, report: Report) {
         if let Mode::SentTo { offered: true, .. } = self.flight.manual.mode {
             self.flight.manual.mode = Mode::None;
-            // It only fails on the ground, which ends the flight for that reason.
+            // It fails only on the ground, which ends the flight with that reason.
             if report == Report::Done {
                 self.events.push_back(FlightEvent::ManualTargetReached);
             }
@@ -128,7 +128,7 @@ impl Vehicle {
     fn agent_holds(&mut self) {
         self.flight.manual.mode = Mode::None;
         self.flight.manual.pre_empts = true;
-        // Pre-empting: always accepted.
+        // Pre-empting goals are always accepted.
         let accepted = self.flight.agent.achieve_hold();
         debug_assert!(accepted);
     }

@@ -1,9 +1,9 @@
-//! The vehicle: navdata and orders in, one datagram every 30 ms out, the agent between them.
+//! The vehicle: navdata and operator orders in, one AT datagram every 30 ms out, the agent in between.
 //!
-//! A [`Vehicle`] is pure. The shell hands it what arrives ([`Vehicle::handle`], [`Vehicle::order`]): navdata,
-//! what it reads on the control port, operators' orders. Every 30 ms it calls [`Vehicle::tick`], and then sends
-//! and shows what there is ([`Vehicle::poll`]). The vehicle rests on the ground, flies the mission that it is
-//! given when it is ordered to, and rests again.
+//! A [`Vehicle`] is a pure state machine. The shell passes in what arrives ([`Vehicle::handle`],
+//! [`Vehicle::order`]): navdata, bytes from the control port, and operator orders. Every 30 ms it calls
+//! [`Vehicle::tick`] and then sends and displays the outputs ([`Vehicle::poll`]). The vehicle rests on the
+//! ground until an operator starts a mission, flies it, and rests again.
 
 mod control;
 mod decision;
@@ -17,6 +17,7 @@ mod readiness;
 mod report;
 mod saturation;
 mod stage;
+mod tags;
 mod tick;
 
 use std::collections::VecDeque;
@@ -26,8 +27,8 @@ use ardrone_link::at::{Config, Datagram, EncodeError};
 use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use ardrone_link::session::{self, Received, Session, SessionConfig};
-use ardrone_link::settings::{Setting, SettingError};
-pub use estimator::{Airframe, Quantity, Trust};
+use ardrone_link::settings::{Detection, Setting, SettingError};
+pub use estimator::{Airframe, KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use estimator::{EstimatorConfig, Prediction};
 pub use pid::Law;
 use pid::{CascadeConfig, Pose};
@@ -44,37 +45,38 @@ pub use self::protocol::{Input, Output, Transmit};
 pub use self::readiness::NotReady;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
 pub use self::stage::Stage;
+use self::tags::{SignSearch, sights};
 use crate::agent::{Danger, Report, distance};
 use crate::mission::Mission;
 use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, FlightLimits, Plan, Step, Target};
 use crate::safety::Veto;
 
-/// The time between two ticks.
+/// Control period.
 pub const TICK: Duration = Duration::from_millis(30);
 
-/// How often and how much the drone tells.
+/// Rate and content of the navdata.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum NavdataRate {
-    /// 15 packets a second with what a flight needs.
+    /// 15 packets a second with the data needed for flying.
     #[default]
     Demo,
-    /// 200 packets a second with everything.
+    /// 200 packets a second with all options.
     Full,
 }
 
-/// How to fly.
+/// Configuration of a [`Vehicle`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct VehicleConfig {
-    /// Heights between which the drone may fly.
+    /// The fence: lowest and highest flight height, and radius.
     pub limits: FlightLimits,
-    /// Whether the configuration is read back over the control port before take-off.
+    /// Whether the drone's configuration is read back over the control port before take-off.
     pub read_back: bool,
-    /// What the drone is asked to tell.
+    /// Navdata rate requested from the drone.
     pub navdata: NavdataRate,
-    /// How poses are approached and held.
+    /// Control law for approaching and holding poses.
     pub law: Law,
-    /// How late the drone tells and obeys, and what is assumed of the airframe.
+    /// Delays and airframe parameters assumed by the estimator.
     pub estimator: EstimatorConfig,
     /// Gains and limits of [`Law::Cascade`].
     pub cascade: CascadeConfig,
@@ -93,34 +95,39 @@ impl Default for VehicleConfig {
     }
 }
 
-/// The drone must answer within this time.
+/// Longest wait for the first navdata.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
-/// The drone must be configured within this time.
+/// Longest wait for the drone to acknowledge its configuration.
 const CONFIGURE_TIMEOUT: Duration = Duration::from_secs(25);
-/// After the level reference the drone gets this time to apply it, and is watched.
+/// Wait after flat trim, for the drone to apply it; navdata are monitored meanwhile.
 const SETTLE_TIME: Duration = Duration::from_millis(500);
-/// A landing that takes longer than this is not reported as one.
+/// After this time a landing is no longer awaited, and the flight ends without one.
 const LANDING_TIMEOUT: Duration = Duration::from_secs(30);
-/// After a loss of the link, landing is ordered blindly for this time.
+/// After a link loss, landing is ordered without navdata for this time.
 const BLIND_LANDING_TIME: Duration = Duration::from_secs(4);
-/// Nothing is allocated in flight: so many events may wait to be told.
+/// Event queue capacity; preallocated, because a tick must not allocate.
 const EVENTS: usize = 64;
-/// A fault that the drone reports for this long ends the flight.
+/// A fault bit that stays set for this long ends the flight.
 const FAULT_TIME: Duration = Duration::from_millis(300);
-/// What pushes the drone for less than this is a gust.
+/// Time constant of the average that removes gusts from the disturbance, in seconds.
 const WIND_TIME_S: f64 = 2.0;
-/// The rate of navdata is told over so long.
+/// Time constant of the navdata rate's average, in seconds.
 const RATE_TIME_S: f64 = 1.0;
 const GRAVITY_M_S2: f64 = 9.81;
 
-/// Ticks between two looks at whether the vehicle could take off.
+/// Ticks between two readiness checks.
 const READINESS_TICKS: u32 = 10;
 
-/// Asks for the drone's clock in demo mode. The key belongs to a category that firmware may only
-/// let a custom configuration change, so the flight does not depend on it.
+/// Requests the drone's clock in demo mode. Some firmware lets only a custom configuration change this key,
+/// so flying does not depend on it.
 const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
+/// What makes the drone look for roundels. A firmware may not know it, or not let the default configuration
+/// change it: the flight does not depend on it.
+const DETECTION_SECTION: &str = "detect:";
+/// The black and white oriented roundel in the selection of the bottom camera.
+const ROUNDEL_BIT: u32 = 1 << 7;
 
-/// A drone and what makes it fly.
+/// State machine that flies one drone.
 #[derive(Debug)]
 pub struct Vehicle {
     config: VehicleConfig,
@@ -136,52 +143,54 @@ pub struct Vehicle {
     flight: Flight,
     navdata: Option<Navdata>,
     last_tick: Option<Duration>,
-    /// Packets a second, smoothed.
+    /// Navdata packets per second, low-pass filtered.
     navdata_hz: f64,
-    /// When the last packet came.
+    /// Arrival of the newest packet.
     packet_at: Option<Duration>,
-    /// Why it could not take off, and the ticks until that is looked at again.
+    /// Reasons not to take off, and the ticks until they are checked again.
     readiness: Vec<NotReady>,
     readiness_in: u32,
     events: VecDeque<FlightEvent>,
-    /// What the last tick decided; nothing before the first navdata.
+    /// Decision of the last tick; `None` before the first navdata.
     decision: Option<Decision>,
-    /// Of the last tick; its buffer is allocated once.
+    /// Datagram of the last tick; its buffer is allocated once.
     datagram: Datagram,
     pending: Pending,
 }
 
-/// What the drone has not taken of its settings.
+/// Settings that the drone has not applied.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 struct Configured {
-    /// Keys that it did not acknowledge, or reported otherwise.
+    /// Keys that were not acknowledged, or read back with another value.
     unconfirmed: Vec<String>,
-    /// They could not be read back.
+    /// The configuration could not be read back.
     not_read: bool,
+    /// It does not look for roundels.
+    no_detection: bool,
 }
 
-/// By what right the drone is spoken to.
+/// Whether and why this program may send commands to the drone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Authority {
-    /// By none: it was not heard yet, or somebody else flies it. Nothing is sent.
+    /// The drone has not been heard yet, or another pilot flies it. Nothing is sent.
     None,
-    /// It was found on the ground.
+    /// The drone was found on the ground.
     OnGround,
-    /// It was found in the air, and the mission takes it over.
+    /// The drone was found in the air, and the mission takes it over.
     TakenOver,
 }
 
 impl Vehicle {
-    /// A vehicle without a mission that has not heard its drone yet.
+    /// A vehicle without a mission that has not received navdata yet.
     ///
     /// # Errors
-    /// [`SettingError`] if the limits cannot be sent to a drone.
+    /// [`SettingError`] if the limits cannot be encoded as drone settings.
     pub fn new(config: &VehicleConfig) -> Result<Self, SettingError> {
         let settings = drone_settings(config)?;
         let session_config = SessionConfig {
             settings: settings.clone(),
             read_back: config.read_back,
-            // The agent gives a take-off up, by its own time.
+            // The agent gives up a take-off after its own time limit.
             take_off_timeout: Duration::MAX,
             ..SessionConfig::default()
         };
@@ -209,7 +218,7 @@ impl Vehicle {
         })
     }
 
-    /// A vehicle that flies `plan` as soon as it can, on the order of whoever started the program.
+    /// A vehicle that flies `plan` as soon as the drone is ready, ordered by the terminal's operator.
     ///
     /// # Errors
     /// See [`Vehicle::new`].
@@ -226,7 +235,7 @@ impl Vehicle {
         Ok(vehicle)
     }
 
-    /// Forgets the last flight.
+    /// Resets the state of the last flight.
     fn begin_flight(&mut self, now: Duration) {
         self.flight = Flight::new(&self.config, now);
         self.pending.waypoints = 0;
@@ -235,7 +244,7 @@ impl Vehicle {
         self.mission_changed();
     }
 
-    /// A tick must not allocate: the report has room for all steps.
+    /// Reserves room for all steps in the report, because a tick must not allocate.
     fn mission_changed(&mut self) {
         self.pending.mission = true;
         let steps = self.mission.steps().len();
@@ -244,7 +253,7 @@ impl Vehicle {
         report.waypoints.reserve(steps.saturating_sub(report.waypoints.len()));
     }
 
-    /// On the ground the drone is watched for a moment before it takes off.
+    /// Monitors the drone on the ground for a moment before take-off.
     fn watch_before_take_off(&mut self, now: Duration) {
         let received = self.session.statistics().received;
         self.phase = FlightPhase::Settling { since: now, received };
@@ -257,10 +266,13 @@ impl Vehicle {
                 self.session_events(now);
                 if let Some(demo) = &navdata.demo {
                     self.flight.estimator.update(&sample(now, &navdata, demo));
+                    if self.config.estimator.tags.is_some() {
+                        self.flight.estimator.see(&sights(datagram));
+                    }
                 }
                 self.navdata = Some(navdata);
             }
-            // Counted by the session.
+            // The session counts these.
             Received::Stale | Received::Damaged(_) => {}
         }
     }
@@ -278,8 +290,8 @@ impl Vehicle {
         self.session_events(now);
     }
 
-    /// A tick of a pilot that leaves: the order to land, by the session alone, whatever has happened to the rest.
-    /// See [`Session::part`].
+    /// A tick of a program that is about to exit: orders the landing through the session alone, so that it
+    /// works whatever state the agent and the estimator are in. See [`Session::part`].
     ///
     /// # Errors
     /// See [`Session::part`].
@@ -289,7 +301,7 @@ impl Vehicle {
         Ok(())
     }
 
-    /// How many datagrams told something, and how many meant nothing.
+    /// Counts of valid, stale and damaged datagrams.
     pub fn link_statistics(&self) -> session::Statistics {
         self.session.statistics()
     }
@@ -299,23 +311,23 @@ impl Vehicle {
         self.datagram.as_bytes()
     }
 
-    /// What the last tick decided and why; nothing before the first navdata.
+    /// Decision of the last tick; `None` before the first navdata.
     pub fn decision(&self) -> Option<&Decision> {
         self.decision.as_ref()
     }
 
-    /// How the last flight ended, once it has; nothing from when the next one is ordered.
+    /// How the last flight ended; `None` until then, and again once the next flight is ordered.
     pub fn outcome(&self) -> Option<&Outcome> {
         self.flight.outcome.as_ref()
     }
 
-    /// Whether the vehicle can be left: it neither flies nor is about to, nor comes down.
+    /// Whether the program may exit: the vehicle neither flies nor lands, and no flight is about to begin.
     pub fn is_at_rest(&self) -> bool {
         let flies = matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. });
         !flies && self.departure.is_none()
     }
 
-    /// Why the vehicle could not take off now; empty if it could.
+    /// Reasons why the vehicle cannot take off now; empty if it can.
     pub fn readiness(&self) -> &[NotReady] {
         &self.readiness
     }
@@ -325,14 +337,19 @@ impl Vehicle {
         self.mission.steps()
     }
 
-    /// The last flight so far.
+    /// Report of the current or last flight.
     pub fn report(&self) -> &FlightReport {
         &self.flight.report
     }
 
-    /// A snapshot for whoever watches.
+    /// The tags that are known, if they are used.
+    pub fn known_tags(&self) -> impl Iterator<Item = KnownTag> + '_ {
+        self.flight.estimator.known_tags()
+    }
+
+    /// A snapshot for displays.
     pub fn status(&self, now: Duration) -> Status {
-        // The last tick has flown the estimate on already.
+        // The last tick has already predicted the state for this moment.
         let pose = match &self.decision {
             Some(decision) => pose(&decision.state),
             None => self.pose(now),
@@ -349,6 +366,7 @@ impl Vehicle {
             battery_percent: self.demo().map(|demo| demo.battery_percent),
             horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
+            tags: self.flight.estimator.tag_status(now),
             trust: self.flight.estimator.trust(),
             airframe: *self.flight.estimator.airframe(),
             navdata_age: self.session.silence(now),
@@ -383,22 +401,25 @@ fn pose(state: &Prediction) -> Pose {
     }
 }
 
-/// What is set on the drone before each flight: other clients may have left anything there.
+/// Settings made before each flight, because other clients may have left different values.
 fn drone_settings(config: &VehicleConfig) -> Result<Vec<Config>, SettingError> {
     let limits = &config.estimator.limits;
-    [
+    let mut settings = vec![
         Setting::NavdataDemo(config.navdata == NavdataRate::Demo),
-        // Demo, time and vision_detect.
+        // Options demo, time and vision_detect.
         Setting::NavdataOptions(vec![0, 1, 16]),
         Setting::Outdoor(false),
         Setting::AltitudeMaxM(config.limits.ceiling_m),
         Setting::EulerAngleMaxDeg(limits.tilt_rad.to_degrees()),
         Setting::ClimbMaxMS(limits.climb_m_s),
         Setting::YawRateMaxDegS(limits.turn_deg_s),
-    ]
-    .iter()
-    .map(Setting::config)
-    .collect()
+    ];
+    if config.estimator.tags.is_some() {
+        // The selection counts for other values of the type; some clients of real drones set it too.
+        settings.push(Setting::DetectionsBottom(ROUNDEL_BIT));
+        settings.push(Setting::DetectType(Detection::OrientedRoundel));
+    }
+    settings.iter().map(Setting::config).collect()
 }
 
 #[cfg(test)]

@@ -1,16 +1,16 @@
-//! Who may say what: several operators, one of whom has the controls.
+//! Authority of operators: several may give orders, one of them has the controls.
 
 use std::fmt;
 
-/// Somebody who gives orders.
+/// Someone who gives orders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Operator {
     /// Where the orders come from.
     pub station: Station,
-    /// Tells operators at stations of the same kind apart.
+    /// Distinguishes operators at stations of the same kind.
     pub number: u16,
-    /// Whether the operator is where the program runs. A local operator takes the controls from a remote one;
-    /// the reverse never happens.
+    /// Whether the operator is at the machine that runs the program. A local operator takes the controls from
+    /// a remote one, never the reverse.
     pub local: bool,
 }
 
@@ -19,7 +19,7 @@ pub struct Operator {
 pub enum Station {
     /// The terminal in which the program was started, and its command line.
     Terminal,
-    /// A program that writes orders to standard input.
+    /// A program that writes orders to this program's standard input.
     Program,
     /// A page in a browser.
     Browser,
@@ -28,7 +28,7 @@ pub enum Station {
 }
 
 impl Station {
-    /// All of them.
+    /// All stations.
     pub const ALL: [Self; 4] = [Self::Terminal, Self::Program, Self::Browser, Self::Mavlink];
 
     /// Its name in logs and messages.
@@ -43,9 +43,9 @@ impl Station {
 }
 
 impl Operator {
-    /// Whoever started the program.
+    /// The operator who started the program.
     pub const TERMINAL: Self = Self { station: Station::Terminal, number: 0, local: true };
-    /// The program behind standard input.
+    /// The program connected to standard input.
     pub const PROGRAM: Self = Self { station: Station::Program, number: 0, local: true };
 }
 
@@ -60,7 +60,7 @@ impl fmt::Display for Operator {
     }
 }
 
-/// Who has the controls.
+/// Which operator has the controls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Controls {
     holder: Option<Operator>,
@@ -71,19 +71,20 @@ impl Controls {
         self.holder
     }
 
-    /// An order that anyone may give. It moves the controls only from a remote operator to a local one, who
-    /// must not be overruled afterwards, or to the first who gives any.
+    /// Admits an order that anyone may give. It gives the controls to the first operator who orders anything,
+    /// and moves them from a remote operator to a local one, whom the remote one must not overrule
+    /// afterwards.
     pub(super) fn admit_any(&mut self, by: Operator) {
         if self.holder.is_none_or(|holder| by.local && !holder.local) {
             self.holder = Some(by);
         }
     }
 
-    /// An order that needs the controls. A local operator takes them; a remote one gets them only if nobody
-    /// else has them.
+    /// Admits an order that needs the controls. A local operator takes them from a remote one; a remote
+    /// operator gets them only if they are free.
     ///
     /// # Errors
-    /// Whoever has the controls.
+    /// The operator who has the controls.
     pub(super) fn admit(&mut self, by: Operator) -> Result<(), Operator> {
         match self.holder {
             Some(holder) if holder != by && !by.local => Err(holder),
@@ -94,7 +95,7 @@ impl Controls {
         }
     }
 
-    /// Gives the controls up, if this operator has them.
+    /// Releases the controls if this operator has them.
     pub(super) fn release(&mut self, by: Operator) {
         self.holder.take_if(|holder| *holder == by);
     }

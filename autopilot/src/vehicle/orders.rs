@@ -1,4 +1,4 @@
-//! What an operator orders, and whether the vehicle accepts it.
+//! Operator orders, and whether the vehicle accepts them.
 
 use std::time::Duration;
 
@@ -10,97 +10,101 @@ use crate::plan::{AgentOrder, Commands, Plan};
 use ardrone_link::navdata::DroneState;
 use pid::Demand;
 
-/// What an operator wants.
+/// An order from an operator.
 ///
-/// Anyone may give [`Hold`](Self::Hold), [`Land`](Self::Land) and [`Cut`](Self::Cut); everything else needs
+/// Anyone may give [`Hold`](Self::Hold), [`Land`](Self::Land) and [`Cut`](Self::Cut); every other order needs
 /// the controls, see [`Operator`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum OperatorOrder {
-    /// Take this mission in place of the one before. On the ground it waits for [`Start`](Self::Start); in
-    /// the air the drone holds, and goes on with the new one at once unless it was held. Coordinates begin
-    /// where the flight took off.
+    /// Replace the mission. On the ground the new mission waits for [`Start`](Self::Start). In the air the
+    /// drone holds and flies the new mission at once, unless the mission was paused. Coordinates are still
+    /// relative to the take-off of the current flight.
     Load(Plan),
-    /// Add commands at the end of the mission, before a landing that its plan does not spell out. Behind a
-    /// mission that has ended they begin a new one.
+    /// Append commands to the mission, before a landing that its plan does not contain but implies. After the
+    /// end of a mission they begin a new one.
     Append(Commands),
-    /// Drop the mission. In the air the drone holds.
+    /// Clear the mission. In the air the drone holds.
     Clear,
-    /// Fly the mission: go on where it waits, or from its beginning.
+    /// Start the mission, or resume it where it was paused.
     Start {
-        /// Wait for a drone that is not ready yet, for a limited time.
+        /// Wait, for a limited time, for a drone that is not ready yet.
         when_ready: bool,
     },
-    /// Stay where the drone is; the mission waits.
+    /// Hold position; the mission is paused.
     Hold,
-    /// Go on with the mission.
+    /// Resume the mission.
     Resume,
     /// Manual control: stick fractions with the drone's signs. They expire after 600 ms unless repeated.
     Steer(Demand),
-    /// Fly to this place and stay there, at the same height and heading; the mission waits. A place at or
-    /// outside the fence becomes the nearest one inside. In the estimator's frame.
+    /// Fly to this place at the present height and heading and stay there; the mission is paused. A place
+    /// near or outside the fence is moved inside. Coordinates are in the estimator's frame.
     GoTo {
-        /// To the right of the start.
+        /// Metres to the right of the start.
         x_m: f64,
-        /// Before the start.
+        /// Metres forward of the start.
         y_m: f64,
     },
-    /// Land. The mission is given up.
+    /// Land and give up the mission.
     Land,
     /// Cut the motors now. **The drone falls.**
     Cut,
-    /// Clear the drone's emergency state, so that it can fly again. A person must have looked at it.
+    /// Clear the drone's emergency state so that it can fly again. The operator must have inspected the
+    /// drone.
     Recover,
-    /// Give up the controls.
+    /// Release the controls.
     Release,
 }
 
-/// Why an order was not accepted. Nothing has changed then.
+/// Why an order was refused. A refused order changes nothing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refused {
     /// Another operator has the controls.
     #[error("{0} has the controls")]
     ControlsHeld(Operator),
-    /// The vehicle cannot take off now, for each of these reasons.
+    /// The vehicle cannot take off now; all reasons.
     #[error("not ready: {}", .0.join("; "))]
     NotReady(Vec<String>),
-    /// There is nothing to fly.
+    /// No mission is loaded.
     #[error("no mission is loaded")]
     NoMission,
     /// The mission has no take-off.
     #[error("the mission never takes off: begin it with `takeoff`")]
     NeverTakesOff,
-    /// The drone is coming down.
+    /// The drone is landing.
     #[error("the drone is landing")]
     Landing,
-    /// The drone must fly for this.
+    /// Another client flies the drone.
+    #[error("another client flies the drone")]
+    FlownByAnother,
+    /// The order needs a drone in the air.
     #[error("the drone is on the ground")]
     OnGround,
-    /// The mission is being flown already.
+    /// The mission is already being flown.
     #[error("the mission is being flown already")]
     Flying,
-    /// Nothing waits to be resumed.
+    /// Nothing is paused.
     #[error("nothing is held: there is nothing to resume")]
     NothingHeld,
-    /// A command leads outside the fence, or does not fit where it stands.
+    /// A command leads outside the fence, or does not fit at its position in the mission.
     #[error("{0}")]
     Command(#[from] AppendError),
-    /// A coordinate is not a number.
-    #[error("this is no place: its coordinates must be numbers")]
+    /// A coordinate is not a finite number.
+    #[error("this is not a place: its coordinates must be numbers")]
     NoPlace,
     /// The drone is not in its emergency state, or not on the ground.
     #[error("there is no emergency to recover from on the ground")]
     NoEmergency,
-    /// Sent from outside the tick loop, which had no room for it.
+    /// The tick loop's queue was full.
     #[error("too many orders are waiting: try again")]
     Busy,
-    /// Nobody flies any more.
+    /// The tick loop has ended.
     #[error("the vehicle has been left")]
     Left,
 }
 
 impl OperatorOrder {
-    /// Whether every operator may give it at any time.
+    /// Whether every operator may give this order at any time.
     pub fn is_for_anyone(&self) -> bool {
         matches!(self, Self::Hold | Self::Land | Self::Cut)
     }
@@ -125,10 +129,10 @@ impl OperatorOrder {
 }
 
 impl Vehicle {
-    /// An operator orders something. What is accepted is acted on in the next tick.
+    /// Handles an order from an operator. An accepted order takes effect in the next tick.
     ///
     /// # Errors
-    /// [`Refused`], and why; nothing has changed then.
+    /// [`Refused`] with the reason; nothing has changed then.
     pub fn order(
         &mut self,
         now: Duration,
@@ -142,15 +146,23 @@ impl Vehicle {
             OperatorOrder::Clear => self.clear(now),
             OperatorOrder::Start { when_ready } => return self.start(now, when_ready),
             OperatorOrder::Land => {
-                self.flight.guard.land_here();
+                self.flight.safety.land_here();
                 self.land(now, LandingReason::Operator);
             }
             OperatorOrder::Cut => {
+                // A start that waits is no reason to fly once the motors have been cut.
+                if self.departure.is_some() {
+                    self.end(now, Outcome::Interrupted);
+                }
                 self.events.push_back(FlightEvent::CutOrdered);
                 self.session.request_emergency_stop();
             }
-            OperatorOrder::Recover => return self.recover(),
+            OperatorOrder::Recover => return self.recover(now),
             OperatorOrder::Release => self.controls.release(by),
+            // Before the drone has left the ground a hold keeps it there.
+            OperatorOrder::Hold if self.is_about_to_fly() => {
+                self.land(now, LandingReason::Operator);
+            }
             OperatorOrder::Hold => {
                 self.can_be_held()?;
                 self.hold_here();
@@ -182,10 +194,18 @@ impl Vehicle {
         Ok(())
     }
 
-    /// Whether the drone flies and may be made to do something else.
+    /// Whether a flight has been started that has not lifted the drone yet.
+    fn is_about_to_fly(&self) -> bool {
+        let takes_off = self.phase == FlightPhase::Flying && self.on_ground() && !self.lands();
+        self.departure.is_some() || takes_off
+    }
+
+    /// Whether the drone flies and is not landing, so that an operator may change what it does.
     fn can_be_held(&self) -> Result<(), Refused> {
         if self.lands() {
             Err(Refused::Landing)
+        } else if self.authority == Authority::None && !self.on_ground() {
+            Err(Refused::FlownByAnother)
         } else if self.phase != FlightPhase::Flying || self.on_ground() {
             Err(Refused::OnGround)
         } else {
@@ -193,7 +213,7 @@ impl Vehicle {
         }
     }
 
-    /// Whether a landing goes on: for a reason, or because the mission is at that step.
+    /// Whether the drone is landing, either by order or because the mission has reached its landing step.
     fn lands(&self) -> bool {
         let step = self.flight.due.is_some_and(|active| active.due.order == AgentOrder::Land);
         step || matches!(self.phase, FlightPhase::Landing { .. })
@@ -215,7 +235,7 @@ impl Vehicle {
         self.mission_replaced();
     }
 
-    /// What was ordered for the mission before is given up, but for its landing, with which the flight ends.
+    /// Drops the current step because the mission was replaced. A landing goes on and ends the flight.
     fn mission_replaced(&mut self) {
         self.mission_changed();
         if self.phase != FlightPhase::Flying {
@@ -227,7 +247,7 @@ impl Vehicle {
         }
         self.flight.due = None;
         self.manual_ends();
-        // Pre-empting: always accepted.
+        // Pre-empting goals are always accepted.
         let accepted = self.flight.agent.achieve_new_mission();
         debug_assert!(accepted);
     }
@@ -282,16 +302,20 @@ impl Vehicle {
         Ok(())
     }
 
-    fn recover(&mut self) -> Result<(), Refused> {
+    fn recover(&mut self, now: Duration) -> Result<(), Refused> {
         let emergency = self.drone_state().contains(DroneState::EMERGENCY);
         if !emergency || !self.on_ground() || self.authority == Authority::None {
             return Err(Refused::NoEmergency);
+        }
+        // A start that waits must not outlive the emergency.
+        if self.departure.is_some() {
+            self.end(now, Outcome::Interrupted);
         }
         self.session.request_emergency_reset();
         Ok(())
     }
 
-    /// Why the vehicle cannot take off now, on the ground or before it was found there.
+    /// Reasons why the vehicle cannot take off now. Also valid before the drone was found on the ground.
     fn reasons_not_to_fly(&self, now: Duration) -> Vec<NotReady> {
         let mut reasons = self.not_ready(now);
         if !reasons.iter().any(|reason| matches!(reason, NotReady::EmptyBattery { .. })) {

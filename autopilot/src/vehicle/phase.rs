@@ -1,4 +1,4 @@
-//! From the first packet to the ground: what the whole flight is doing, and when it ends.
+//! Flight phases, from the first packet to the ground, and the conditions that end a flight.
 
 use std::fmt;
 use std::time::Duration;
@@ -6,22 +6,22 @@ use std::time::Duration;
 use super::readiness::NotReady;
 use super::{
     AgentOrder, Authority, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration,
-    Configured, Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT, NAVDATA_OPTIONS_KEY, SETTLE_TIME,
-    Trust, Vehicle, Veto, session,
+    Configured, DETECTION_SECTION, Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT,
+    NAVDATA_OPTIONS_KEY, SETTLE_TIME, Trust, Vehicle, Veto, session,
 };
 use crate::outcome::Outcome;
 
-/// What the whole flight is doing.
+/// Phase of the flight, with the data that belongs to it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum FlightPhase {
-    /// Waiting for the first packet.
+    /// Waiting for the first navdata.
     Connecting,
-    /// The drone was found in the air: it is watched, and nothing is sent, until it is decided whether it
-    /// is taken over.
+    /// The drone was found in the air: it is monitored without sending anything until it is decided whether
+    /// to take it over.
     Observing {
-        /// When it was first heard.
+        /// When the drone was first heard.
         since: Duration,
-        /// How many packets of navdata had come before.
+        /// Navdata packets received before that.
         received: u64,
     },
     /// Setting the drone's configuration.
@@ -29,30 +29,30 @@ pub(super) enum FlightPhase {
         /// When the drone was first heard.
         since: Duration,
     },
-    /// The level reference is being set.
+    /// Setting the level reference (flat trim).
     Settling {
-        /// When it was sent.
+        /// When flat trim was sent.
         since: Duration,
-        /// How many packets of navdata had come before.
+        /// Navdata packets received before that.
         received: u64,
     },
     /// On the ground, configured: waiting for an order to fly.
     Standby {
-        /// Since when.
+        /// Start of this phase.
         since: Duration,
     },
     /// Flying the mission, or waiting in the air for more of it.
     Flying,
-    /// Landing for a reason other than the mission. It goes on until the drone is down for sure, also after
-    /// the flight's outcome is known.
+    /// Landing for a reason outside the mission. The phase lasts until the drone is certainly down, even if
+    /// the flight's outcome is known earlier.
     Landing {
-        /// When it was ordered.
+        /// When the landing was ordered.
         since: Duration,
     },
 }
 
 impl FlightPhase {
-    /// One word for people.
+    /// The phase without its data.
     pub(super) fn phase(&self) -> Phase {
         match self {
             Self::Connecting => Phase::Connecting,
@@ -66,22 +66,22 @@ impl FlightPhase {
     }
 }
 
-/// What the vehicle is doing.
+/// Phase of the flight, for displays and logs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Phase {
     /// No navdata yet.
     Connecting,
-    /// A drone that was found in the air is watched, and nothing is sent to it.
+    /// The drone was found in the air. It is monitored, and nothing is sent to it.
     Observing,
-    /// The drone's settings are set and read back.
+    /// The drone's settings are being set and read back.
     Configuring,
-    /// The level reference is set, and the last checks are made.
+    /// The level reference is being set, and the last pre-flight checks are made.
     Trimming,
     /// On the ground, configured: waiting for an order to fly.
     Standby,
-    /// The agent flies the mission, or what the operator orders.
+    /// The agent flies the mission or an operator's orders.
     Flying,
-    /// The drone is coming down for good.
+    /// The drone is landing for good.
     Landing,
 }
 
@@ -106,41 +106,41 @@ impl fmt::Display for Phase {
     }
 }
 
-/// An order takes at most so long to arrive, and its effect to be told.
+/// Longest time for an order to reach the drone and for its effect to show in navdata.
 const ON_ITS_WAY: Duration = Duration::from_millis(600);
-/// A drone that rises within this time after its landing does so on an old order of ours. Later, somebody
-/// else flies it.
+/// A drone that rises within this time after landing follows an old order of ours. Later than that, another
+/// pilot flies it.
 const OURS: Duration = Duration::from_secs(2);
 
-/// Why the drone is landed before the plan's end.
+/// Why the drone is landed before the end of the plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LandingReason {
-    /// An operator wants it.
+    /// An operator ordered it.
     Operator,
     /// The battery is nearly empty.
     Battery {
-        /// What is left.
+        /// Remaining charge.
         percent: u32,
     },
     /// The drone stopped answering.
     LinkLost,
-    /// The drone has started again.
+    /// The drone has restarted.
     DroneRestarted,
     /// The agent could not carry out a step.
     StepFailed {
-        /// Its index.
+        /// Index of the step.
         step: usize,
     },
     /// A step took too long.
     StepTimedOut {
-        /// Its index.
+        /// Index of the step.
         step: usize,
     },
-    /// Where the operator has sent the drone was not reached in time.
-    HandTargetTimedOut,
-    /// What the drone says of itself cannot be believed.
+    /// The operator's manual target was not reached in time.
+    ManualTargetTimedOut,
+    /// The navdata are not plausible.
     Distrust(Trust),
-    /// The place is not known well enough any more.
+    /// The position uncertainty is too large.
     PlaceUncertain,
     /// The wind is stronger than the drone.
     Wind,
@@ -148,8 +148,8 @@ pub enum LandingReason {
     DroneFault(&'static str),
     /// A drone that was taken over in the air must not be flown on.
     TakeOverRefused,
-    /// The safety layer took the drone down.
-    Guard(Veto),
+    /// The safety layer lands the drone.
+    Safety(Veto),
 }
 
 impl fmt::Display for LandingReason {
@@ -160,27 +160,25 @@ impl fmt::Display for LandingReason {
             Self::LinkLost => f.write_str("link lost"),
             Self::DroneRestarted => f.write_str("the drone has restarted"),
             Self::StepFailed { step } => write!(f, "step {} failed", step + 1),
-            Self::StepTimedOut { step } => write!(f, "step {} was not done in its time", step + 1),
-            Self::HandTargetTimedOut => {
-                f.write_str("the place it was sent to by hand was not reached in time")
-            }
+            Self::StepTimedOut { step } => write!(f, "step {} exceeded its time limit", step + 1),
+            Self::ManualTargetTimedOut => f.write_str("the manual target was not reached in time"),
             Self::Distrust(trust) => trust.fmt(f),
-            Self::PlaceUncertain => f.write_str("the place is too uncertain"),
-            Self::Wind => f.write_str("the wind is too strong to hold the place"),
+            Self::PlaceUncertain => f.write_str("the position uncertainty is too large"),
+            Self::Wind => f.write_str("the wind is too strong to hold the position"),
             Self::DroneFault(fault) => f.write_str(fault),
-            Self::TakeOverRefused => f.write_str("the drone must not be flown on"),
-            Self::Guard(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
-            Self::Guard(Veto::CarriedOff) => {
+            Self::TakeOverRefused => f.write_str("the drone must not continue to fly"),
+            Self::Safety(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
+            Self::Safety(Veto::CarriedOff) => {
                 f.write_str("the wind carries the drone over the fence")
             }
-            Self::Guard(Veto::Landing) => f.write_str("the drone lands by itself"),
-            Self::Guard(_) => f.write_str("no navdata for too long"),
+            Self::Safety(Veto::Landing) => f.write_str("the drone lands by itself"),
+            Self::Safety(_) => f.write_str("no navdata for too long"),
         }
     }
 }
 
 impl Vehicle {
-    /// Moves from phase to phase, and notices what ends a flight.
+    /// Advances the phase and detects the conditions that end a flight.
     pub(super) fn watch(&mut self, now: Duration) {
         let departs = self.departure.is_some();
         match self.phase {
@@ -203,8 +201,9 @@ impl Vehicle {
                     self.take_over_or_refuse(now, watched, packets);
                 }
             }
-            // Whoever flew it has landed it.
+            // Another client has landed the drone, and may have changed its settings.
             FlightPhase::Observing { .. } if self.on_ground() && self.navdata.is_some() => {
+                self.session.configure_again();
                 self.begin_to_configure(now, Authority::OnGround);
             }
             FlightPhase::Configuring { since }
@@ -233,11 +232,11 @@ impl Vehicle {
         }
     }
 
-    /// A drone that stood by is in the air.
+    /// Handles a drone that took off while standing by.
     fn has_risen(&mut self, now: Duration, since: Duration) {
         if self.flight.report.took_off_at.is_some() && now.saturating_sub(since) < OURS {
             self.phase = FlightPhase::Landing { since: now };
-            // Pre-empting: always accepted.
+            // Pre-empting goals are always accepted.
             let accepted = self.flight.agent.achieve_land();
             debug_assert!(accepted);
         } else {
@@ -245,7 +244,7 @@ impl Vehicle {
         }
     }
 
-    /// Somebody else flies the drone: nothing more is sent to it until it stands.
+    /// Another pilot flies the drone: stop sending until it stands on the ground.
     fn observe_again(&mut self, now: Duration) {
         self.events.push_back(FlightEvent::FlownByAnother);
         self.authority = Authority::None;
@@ -253,12 +252,12 @@ impl Vehicle {
         self.phase = FlightPhase::Observing { since: now, received };
     }
 
-    /// The agent watches over the flight; it repeats a landing for ever.
+    /// Checks the conditions that end a flight. The agent repeats a landing until the drone is down.
     fn watch_flight(&mut self, now: Duration) {
         if let Some(fault) = self.lasting_fault(now) {
             self.land(now, LandingReason::DroneFault(fault));
         }
-        // A hover would not show that it has come back.
+        // Lands at once: a hovering drone could not show that its measurement responds again.
         let trust = self.flight.estimator.trust();
         if matches!(trust, Trust::Unresponsive(_)) {
             self.land(now, LandingReason::Distrust(trust));
@@ -271,8 +270,8 @@ impl Vehicle {
         }
     }
 
-    /// The fault that the drone reports of itself, once it has done so for a while: one packet may be
-    /// spoiled.
+    /// The fault that the drone reports, once it has lasted for [`FAULT_TIME`], because a single packet may
+    /// be damaged.
     fn lasting_fault(&mut self, now: Duration) -> Option<&'static str> {
         let fault = if self.on_ground() { None } else { self.reported_fault() };
         self.flight.fault_since = fault.map(|_| self.flight.fault_since.unwrap_or(now));
@@ -281,15 +280,15 @@ impl Vehicle {
         })
     }
 
-    /// Somebody else has taken off with the drone that was found on the ground, while it was prepared.
+    /// Whether another pilot has taken off with the drone while it was being prepared.
     fn is_flown_by_another(&self) -> bool {
         let prepares =
             matches!(self.phase, FlightPhase::Configuring { .. } | FlightPhase::Settling { .. });
         prepares && self.authority == Authority::OnGround && !self.on_ground()
     }
 
-    /// Does not fly. A drone in the air that was taken over is landed; to one that was not nothing is
-    /// said.
+    /// Refuses the flight. A drone that was taken over in the air is landed; otherwise nothing is sent to a
+    /// drone in the air.
     pub(super) fn refuse(&mut self, now: Duration, reasons: Vec<String>) {
         if self.authority == Authority::TakenOver && !self.on_ground() {
             self.flight.refusals = reasons;
@@ -304,7 +303,7 @@ impl Vehicle {
         self.end(now, Outcome::PreflightRefused { reasons });
     }
 
-    /// The agent says that flying on is not safe; but for a warning it already lands.
+    /// Handles a danger reported by the agent. Except for a warning, the agent is already landing.
     pub(super) fn endangered(&mut self, now: Duration, danger: Danger) {
         let percent = self.demo().map_or(0, |demo| demo.battery_percent);
         let reason = match danger {
@@ -319,7 +318,7 @@ impl Vehicle {
             },
             Danger::Lost => LandingReason::PlaceUncertain,
             Danger::Wind => LandingReason::Wind,
-            Danger::NoProgress if self.flight.manual.sends() => LandingReason::HandTargetTimedOut,
+            Danger::NoProgress if self.flight.manual.sends() => LandingReason::ManualTargetTimedOut,
             Danger::NoProgress => LandingReason::StepTimedOut {
                 step: self.flight.due.map_or(0, |active| active.due.step),
             },
@@ -330,9 +329,9 @@ impl Vehicle {
     fn watch_landing(&mut self, now: Duration, since: Duration) {
         let elapsed = now.saturating_sub(since);
         let blind = !self.session.is_alive();
-        // A take-off that was ordered just before may be on its way.
+        // A take-off ordered just before the landing may not have taken effect yet.
         let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;
-        // A drone that has restarted is heard before it says where it is.
+        // A restarted drone sends its state before it sends flight data.
         let known = self.demo().is_some();
         if landed && known {
             self.flight.report.landed_at = Some(now);
@@ -358,7 +357,7 @@ impl Vehicle {
         self.end(now, if blind { Outcome::LinkLost } else { outcome });
     }
 
-    /// Gives up the plan and lands. The first reason counts; on the ground the flight just ends.
+    /// Gives up the mission and lands. The first reason is kept. On the ground the flight ends at once.
     pub(super) fn land(&mut self, now: Duration, reason: LandingReason) {
         let flies = matches!(self.phase, FlightPhase::Flying);
         if self.flight.landing.is_some()
@@ -380,7 +379,7 @@ impl Vehicle {
         self.give_up(now, reason);
     }
 
-    /// The plan is given up, and the agent lands. The first reason counts.
+    /// Marks the mission as given up; the agent lands. The first reason is kept.
     fn give_up(&mut self, now: Duration, reason: LandingReason) {
         if self.flight.landing.is_some() {
             return;
@@ -391,13 +390,13 @@ impl Vehicle {
         self.phase = FlightPhase::Landing { since: now };
     }
 
-    /// A drone in the air that was taken over, before it is flown.
+    /// Whether a drone in the air was taken over but is not being flown yet.
     fn is_ours_in_the_air(&self) -> bool {
         self.authority == Authority::TakenOver && !self.on_ground()
     }
 
-    /// The flight's outcome is known: the first one counts. A drone that is down stands by again; one that
-    /// is not, or was lost, goes on being landed.
+    /// Sets the flight's outcome; the first one is kept. A drone on the ground returns to standby; one in the
+    /// air, or lost, continues to be landed.
     pub(super) fn end(&mut self, now: Duration, outcome: Outcome) {
         if self.flight.outcome.is_none() {
             self.flight.outcome = Some(outcome);
@@ -415,7 +414,7 @@ impl Vehicle {
                 FlightPhase::Configuring { since: now }
             }
             FlightPhase::Flying => {
-                // Pre-empting: always accepted.
+                // Pre-empting goals are always accepted.
                 let accepted = self.flight.agent.achieve_land();
                 debug_assert!(accepted);
                 FlightPhase::Landing { since: now }
@@ -449,7 +448,7 @@ impl Vehicle {
                 }
                 session::Event::Ready => {
                     if matches!(self.phase, FlightPhase::Configuring { .. }) {
-                        // A drone in the air does not stand level.
+                        // In the air the drone is not level, so flat trim would set a wrong reference.
                         if self.on_ground() {
                             self.session.request_flat_trim();
                         }
@@ -480,7 +479,7 @@ impl Vehicle {
                     self.events.push_back(FlightEvent::EmergencyCleared);
                 }
                 session::Event::Landed => self.events.push_back(FlightEvent::Landed),
-                // The agent watches take-offs itself.
+                // The agent has its own take-off timeout.
                 session::Event::Configured { .. }
                 | session::Event::Airborne
                 | session::Event::TakeOffTimedOut => {}
@@ -488,7 +487,7 @@ impl Vehicle {
         }
     }
 
-    /// The drone answers for the first time.
+    /// Handles the first answer of the drone.
     fn found(&mut self, now: Duration) {
         if self.on_ground() {
             self.begin_to_configure(now, Authority::OnGround);
@@ -498,7 +497,7 @@ impl Vehicle {
         }
     }
 
-    /// From here on the drone is spoken to.
+    /// Starts sending to the drone.
     pub(super) fn begin_to_configure(&mut self, now: Duration, authority: Authority) {
         self.authority = authority;
         self.flight.asked_at = now;
@@ -508,7 +507,7 @@ impl Vehicle {
 
     fn link_lost(&mut self, now: Duration) {
         self.events.push_back(FlightEvent::LinkLost);
-        // In flight the agent lands when it has been blind for long.
+        // In flight the agent lands once navdata have been missing for too long.
         if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
             return;
         }
@@ -534,11 +533,15 @@ impl Vehicle {
         }
     }
 
-    /// Limits that the drone has not taken forbid the flight; without the further navdata options
-    /// it only flies by arrival times.
-    fn setting_unconfirmed(&mut self, key: &str) {
+    /// A limit that the drone has not applied forbids the flight. Without the additional navdata options the
+    /// estimator falls back to arrival times.
+    pub(super) fn setting_unconfirmed(&mut self, key: &str) {
         if key == NAVDATA_OPTIONS_KEY {
             self.events.push_back(FlightEvent::NoDroneClock);
+        } else if key.starts_with(DETECTION_SECTION) {
+            if !std::mem::replace(&mut self.configured.no_detection, true) {
+                self.events.push_back(FlightEvent::NoTagDetection);
+            }
         } else if !self.configured.unconfirmed.iter().any(|other| other == key) {
             self.configured.unconfirmed.push(key.to_owned());
         }

@@ -1,5 +1,5 @@
-//! What goes into the vehicle and what comes out of it: the same for a flight over UDP, a simulated one and a
-//! replay. Recording is a tee on both.
+//! Inputs and outputs of the vehicle. They are the same for a flight over UDP, a simulated flight and a
+//! replay; recording is a tee on both.
 
 use std::time::Duration;
 
@@ -9,50 +9,51 @@ use super::{Decision, FlightEvent, NotReady, Operator, OperatorOrder, Vehicle, W
 use crate::outcome::Outcome;
 use crate::plan::Step;
 
-/// Something that reaches the vehicle.
+/// An input of the vehicle.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Input<'a> {
     /// A datagram from the drone's navdata port.
     Navdata(&'a [u8]),
     /// Bytes from the drone's control port.
     Control(&'a [u8]),
-    /// An operator's order. [`Vehicle::order`] says besides whether it was accepted.
+    /// An operator's order. Use [`Vehicle::order`] instead to learn whether it was accepted.
     Order(Operator, OperatorOrder),
 }
 
 /// Something to send to the drone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Transmit<'a> {
-    /// This tick's datagram, to the AT port, and the decision behind it. There is none until the drone is heard,
-    /// nor while another pilot flies it: any REF of ours would land it, or fight for it.
+    /// Datagram of this tick for the AT port, with the decision behind it. There is none before the drone is
+    /// heard, nor while another pilot flies it: a REF command would land the drone or compete with that
+    /// pilot.
     Command {
-        /// AT commands, as they go on the wire.
+        /// Encoded AT commands.
         datagram: &'a [u8],
-        /// Why.
+        /// The decision that led to it.
         decision: Option<&'a Decision>,
     },
     /// [`ardrone_link::WAKE_UP`], to the navdata port.
     WakeUp,
 }
 
-/// Something that the vehicle says.
+/// An output of the vehicle.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Output<'a> {
-    /// To the drone.
+    /// A datagram for the drone.
     Transmit(Transmit<'a>),
-    /// Something has happened.
+    /// An event of the flight.
     Event(FlightEvent),
-    /// The mission is another: all its steps.
+    /// The mission has changed; all its steps.
     Mission(&'a [Step]),
-    /// A target of the mission has been reached.
+    /// A target of the mission was reached.
     Waypoint(Waypoint),
-    /// Whether the vehicle could take off has changed: every reason why not.
+    /// The reasons not to take off have changed; all of them.
     Readiness(&'a [NotReady]),
-    /// The flight's outcome. Said once a flight; the last output of a tick.
+    /// The flight's outcome. Returned once per flight, as the last output of a tick.
     Ended(&'a Outcome),
 }
 
-/// What has not been polled yet.
+/// Outputs that have not been polled yet.
 #[allow(clippy::struct_excessive_bools, reason = "each is an output of its own")]
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pending {
@@ -61,22 +62,22 @@ pub(super) struct Pending {
     pub(super) mission: bool,
     pub(super) readiness: bool,
     pub(super) outcome: bool,
-    /// Waypoints of this flight that have been said.
+    /// Number of this flight's waypoints that have been polled.
     pub(super) waypoints: usize,
 }
 
 impl Vehicle {
-    /// Takes in one input. It is acted on in the next tick. `now` must not run backwards.
+    /// Handles one input, which takes effect in the next tick. `now` must not run backwards.
     pub fn handle(&mut self, now: Duration, input: Input<'_>) {
         match input {
             Input::Navdata(datagram) => self.handle_navdata(now, datagram),
             Input::Control(bytes) => self.handle_control(now, bytes),
-            // What is refused changes nothing; whoever wants the reason calls `order`.
+            // A refused order changes nothing; callers who need the reason call `order`.
             Input::Order(by, order) => _ = self.order(now, by, order),
         }
     }
 
-    /// The next tick is due, every [`TICK`](super::TICK): decides what the drone is to do. Then poll.
+    /// Decides what the drone shall do. Call it every [`TICK`](super::TICK), then poll the outputs.
     ///
     /// # Errors
     /// See [`Session::tick`](ardrone_link::session::Session::tick).
@@ -84,7 +85,7 @@ impl Vehicle {
         self.tick_timed(now, |_| {})
     }
 
-    /// What is to be sent to the drone, first the command: it is not to wait for the rest.
+    /// The next datagram to send. The command comes first, because it must not wait for the rest.
     pub fn poll_transmit(&mut self) -> Option<Transmit<'_>> {
         if std::mem::take(&mut self.pending.command) {
             let datagram = self.datagram.as_bytes();
@@ -93,8 +94,7 @@ impl Vehicle {
         std::mem::take(&mut self.pending.wake_up).then_some(Transmit::WakeUp)
     }
 
-    /// Everything that the vehicle says, what is to be sent first. To be called after each tick until there is
-    /// nothing more.
+    /// The next output, datagrams first. Call it after each tick until it returns `None`.
     pub fn poll(&mut self) -> Option<Output<'_>> {
         if self.pending.command || self.pending.wake_up {
             return self.poll_transmit().map(Output::Transmit);

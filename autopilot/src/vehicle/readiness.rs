@@ -1,4 +1,4 @@
-//! Whether the vehicle could take off: every reason why it could not, at once.
+//! Pre-flight checks: all reasons why the vehicle cannot take off.
 
 use std::fmt;
 use std::time::Duration;
@@ -7,22 +7,22 @@ use super::{Authority, ControlState, DroneState, FlightEvent, FlightPhase, Trust
 use crate::agent::LANDING_BATTERY_PERCENT;
 use crate::plan;
 
-/// Below this the drone may refuse to take off.
+/// Minimum charge for take-off; below it the drone may refuse to take off.
 const LEAST_BATTERY_PERCENT: u32 = 20;
-/// Navdata older than this are no basis for taking off.
+/// Oldest navdata accepted for take-off.
 const OLDEST_NAVDATA: Duration = Duration::from_millis(500);
-/// The drone sends 15 packets a second, or 200. A third of them may be lost.
+/// Minimum navdata rate in packets per second: a third of the slower of the drone's two rates (15 and 200).
 const LEAST_NAVDATA_HZ: f64 = 5.0;
-/// A drone that leans more than this does not stand on level ground, or its sensors are wrong.
-const LARGEST_LEAN_DEG: f64 = 8.0;
+/// Maximum roll or pitch on the ground. Beyond it the ground is not level, or the sensors are wrong.
+const LARGEST_TILT_DEG: f64 = 8.0;
 
-/// A drone that stands on the floor reads about zero.
+/// Highest altitude accepted on the ground. A drone on the floor reads about zero.
 const HIGHEST_ON_GROUND_M: f64 = 0.6;
-/// What the drone says of itself that forbids to fly it.
+/// State bits that forbid flying, with their messages.
 const FAULTS: [(DroneState, &str); 6] = [
     (DroneState::MOTORS_PROBLEM, "a motor is blocked or broken"),
     (DroneState::SOFTWARE_FAULT, "the drone reports a software fault"),
-    (DroneState::ANGLES_OUT_OF_RANGE, "the drone reports that it leans too far"),
+    (DroneState::ANGLES_OUT_OF_RANGE, "the drone reports that it is tilted too far"),
     (DroneState::CUTOUT_DETECTED, "the drone reports a motor cut-out"),
     (DroneState::ULTRASOUND_DEAF, "the drone reports that its ultrasound hears nothing"),
     (DroneState::TOO_MUCH_WIND, "the drone reports too much wind"),
@@ -34,57 +34,57 @@ const FAULTS: [(DroneState, &str); 6] = [
 pub enum NotReady {
     /// No drone answers.
     NoDrone,
-    /// Its settings are being made, or its level reference.
+    /// The settings or the level reference are being set.
     Configuring,
-    /// It flies already, or is about to.
+    /// A flight is in progress or about to begin.
     InFlight,
     /// The drone has cut its motors.
     Emergency,
-    /// The drone reports a fault of its own.
+    /// The drone reports a fault.
     Drone(&'static str),
-    /// The drone answers without flight data.
+    /// The drone sends its state, but no flight data.
     Silent,
     /// The newest navdata are too old.
     OldNavdata {
-        /// How old.
+        /// Age of the newest navdata.
         age: Duration,
     },
-    /// Too few navdata arrive.
+    /// The navdata rate is too low.
     FewNavdata {
         /// Packets a second.
         hz: f64,
     },
-    /// The navdata contradict themselves or the commands.
+    /// The navdata are not plausible.
     Distrust(Trust),
-    /// It reads a height although it has landed.
+    /// The altitude is not zero although the drone has landed.
     NotOnFloor {
-        /// Above the floor.
+        /// Metres above the floor.
         altitude_m: f64,
     },
-    /// It does not stand level.
-    Leaning {
-        /// By this angle.
+    /// The drone does not stand level.
+    Tilted {
+        /// The larger of roll and pitch.
         deg: f64,
     },
     /// The battery is too low for any flight.
     EmptyBattery {
-        /// What is left.
+        /// Remaining charge.
         percent: u32,
     },
     /// The battery is too low for this mission.
     ShortBattery {
-        /// What is left.
+        /// Remaining charge.
         percent: u32,
-        /// How long the mission takes.
+        /// Expected duration of the mission.
         flight: Duration,
-        /// What must be left at the take-off.
+        /// Charge required at take-off.
         needed: f64,
     },
-    /// Somebody else flies the drone.
+    /// The drone is in the air: another pilot flies it.
     NotLanded,
-    /// The drone has not taken these settings.
+    /// The drone has not applied these settings.
     Settings(String),
-    /// The drone's settings could not be read back.
+    /// The drone's configuration could not be read back.
     SettingsNotRead,
 }
 
@@ -102,21 +102,21 @@ impl fmt::Display for NotReady {
             Self::Silent => f.write_str("the drone sends no flight data"),
             Self::OldNavdata { age } => write!(
                 f,
-                "the newest flight data are {} ms old: go nearer, or to another channel",
+                "the newest flight data are {} ms old: move closer, or use another Wi-Fi channel",
                 age.as_millis()
             ),
             Self::FewNavdata { hz } => write!(
                 f,
                 "only {hz:.0} packets of flight data a second: at least {LEAST_NAVDATA_HZ:.0} are \
-                 needed; go nearer, or to another channel"
+                 needed; move closer, or use another Wi-Fi channel"
             ),
             Self::Distrust(trust) => write!(f, "{trust}: restart the drone"),
             Self::NotOnFloor { altitude_m } => write!(
                 f,
                 "the drone reads an altitude of {altitude_m:.1} m although it has landed: restart it"
             ),
-            Self::Leaning { deg } => {
-                write!(f, "the drone leans by {deg:.0}°: put it on level ground")
+            Self::Tilted { deg } => {
+                write!(f, "the drone is tilted by {deg:.0}°: put it on level ground")
             }
             Self::EmptyBattery { percent } => {
                 write!(f, "battery at {percent} %: more than {LEAST_BATTERY_PERCENT} % are needed")
@@ -128,9 +128,9 @@ impl fmt::Display for NotReady {
                 flight.as_secs()
             ),
             Self::NotLanded => f.write_str(
-                "the drone is not landed: land it first, or begin the plan with `autoTakeover`",
+                "the drone is in the air: land it first, or begin the plan with `autoTakeover`",
             ),
-            Self::Settings(keys) => write!(f, "the drone has not taken its settings: {keys}"),
+            Self::Settings(keys) => write!(f, "the drone has not applied its settings: {keys}"),
             Self::SettingsNotRead => f.write_str(
                 "the drone's settings could not be read back over its control port: restart the \
                  drone, or set `read_back = false` to fly on its acknowledgements alone",
@@ -140,8 +140,8 @@ impl fmt::Display for NotReady {
 }
 
 impl Vehicle {
-    /// Begins the flight, or says why not. The drone has been watched for `watched`, in which so many
-    /// packets came.
+    /// Begins the flight, or refuses it with all reasons. The drone was monitored for `watched`, in which
+    /// `packets` arrived.
     pub(super) fn take_off_or_refuse(&mut self, now: Duration, watched: Duration, packets: u64) {
         let mut reasons = self.problems_of_the_drone();
         reasons.extend(self.problems_of_the_link(now, rate_hz(watched, packets)));
@@ -159,8 +159,8 @@ impl Vehicle {
         }
     }
 
-    /// Why the vehicle could not take off now with a short mission; looked at while it does not fly. The order
-    /// is that in which a person would mend them.
+    /// Reasons why the vehicle cannot take off now with a short mission, evaluated while it does not fly.
+    /// They are in the order in which an operator would resolve them.
     pub(super) fn not_ready(&self, now: Duration) -> Vec<NotReady> {
         match self.phase {
             FlightPhase::Observing { .. } if self.navdata.is_some() => vec![NotReady::NotLanded],
@@ -192,8 +192,8 @@ impl Vehicle {
         reasons
     }
 
-    /// Decides about a drone that was found in the air, by what it says unasked: one that has lost its
-    /// operator says nothing but its state until it is configured.
+    /// Decides whether to take over a drone found in the air, from what it sends before it is configured: a
+    /// drone that has lost its pilot sends nothing but its state until then.
     pub(super) fn take_over_or_refuse(&mut self, now: Duration, watched: Duration, packets: u64) {
         let mut reasons = self.problems_of_the_drone();
         if self.demo().is_some() {
@@ -213,13 +213,13 @@ impl Vehicle {
         }
     }
 
-    /// The fault that the drone reports of itself, if there is one.
+    /// The fault that the drone reports, if any.
     pub(super) fn reported_fault(&self) -> Option<&'static str> {
         let state = self.drone_state();
         FAULTS.iter().find(|(bit, _)| state.contains(*bit)).map(|(_, fault)| *fault)
     }
 
-    /// Navdata that cannot be believed lift no drone.
+    /// A drone with implausible navdata must not take off.
     fn problems_of_the_sensors(&self, now: Duration) -> Option<NotReady> {
         let demo = self.demo()?;
         let trust = self.flight.estimator.trust();
@@ -247,8 +247,8 @@ impl Vehicle {
         let landed = |control_state| control_state == ControlState::Landed;
         if let Some(demo) = self.demo().filter(|demo| landed(demo.control_state)) {
             let deg = demo.roll_deg.abs().max(demo.pitch_deg.abs());
-            if deg > LARGEST_LEAN_DEG {
-                reasons.push(NotReady::Leaning { deg });
+            if deg > LARGEST_TILT_DEG {
+                reasons.push(NotReady::Tilted { deg });
             }
         }
         reasons

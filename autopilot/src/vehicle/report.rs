@@ -1,10 +1,10 @@
-//! What a flight tells while it lasts and when it is over.
+//! Events, status and report of a flight.
 
 use std::fmt;
 use std::time::Duration;
 
 use diagnostic::printable;
-use estimator::{Airframe, Trust};
+use estimator::{Airframe, TagStatus, Trust};
 use pid::Pose;
 
 use super::{LandingReason, Operator, Phase};
@@ -18,84 +18,86 @@ pub enum FlightEvent {
     Connected,
     /// The drone's configuration was read back.
     ConfigurationRead {
-        /// The firmware's version, if it said so.
+        /// Firmware version, if the drone sent it.
         version: Option<String>,
     },
     /// The drone's configuration could not be read back.
     ConfigurationNotRead,
     /// The drone does not send its clock: time is taken from the arrival of packets.
     NoDroneClock,
-    /// All settings are made.
+    /// The drone does not confirm that it looks for roundels: the place may drift.
+    NoTagDetection,
+    /// All settings are applied.
     Configured,
-    /// The drone flies already, and the plan takes it over.
+    /// The drone is already in the air, and the plan takes it over.
     TakingOver,
-    /// A step of the plan began.
+    /// A step of the plan has begun.
     StepStarted {
-        /// Its index.
+        /// Index of the step.
         step: usize,
     },
     /// A step of the plan was carried out.
     StepDone {
-        /// Its index.
+        /// Index of the step.
         step: usize,
     },
     /// A target was moved into the fence.
     TargetCorrected {
-        /// Its step.
+        /// Index of the step.
         step: usize,
     },
-    /// The plan is given up and the drone is landed.
+    /// The plan was given up and the drone is being landed.
     LandingOrdered(LandingReason),
     /// The drone stopped answering.
     LinkLost,
     /// The drone cut its motors.
     Emergency,
-    /// The battery will soon be empty.
+    /// The battery is nearly empty: a warning.
     BatteryLow {
-        /// What is left.
+        /// Remaining charge.
         percent: u32,
     },
-    /// The emergency was cleared: the drone could fly again.
+    /// The drone's emergency state was cleared.
     EmergencyCleared,
-    /// The drone stands on the ground again.
+    /// The drone is on the ground again.
     Landed,
-    /// Somebody else flies the drone: nothing is sent to it until it stands.
+    /// Another pilot flies the drone: nothing is sent to it until it is on the ground.
     FlownByAnother,
     /// A mission was loaded.
     MissionLoaded {
-        /// How many steps it has.
+        /// Number of its steps.
         steps: usize,
     },
-    /// Commands were added to the mission.
+    /// Commands were appended to the mission.
     MissionExtended {
-        /// How many steps it has now.
+        /// Number of its steps now.
         steps: usize,
     },
-    /// The mission was dropped.
+    /// The mission was cleared.
     MissionCleared,
     /// Another operator has the controls now.
     ControlsTaken {
-        /// Who.
+        /// The new holder.
         by: Operator,
     },
-    /// An operator holds the drone where it is.
+    /// An operator has paused the mission; the drone holds.
     Held,
     /// An operator flies by stick.
     Steered,
-    /// An operator sends the drone somewhere.
-    SentByHand,
-    /// The drone is where an operator has sent it.
+    /// An operator has sent the drone to a manual target.
+    ManualTargetSet,
+    /// The manual target was reached.
     ManualTargetReached,
-    /// The mission goes on.
+    /// The mission was resumed.
     Resumed,
-    /// An operator has the motors cut.
+    /// An operator has ordered the motors to be cut.
     CutOrdered,
-    /// The safety layer replaced a command.
+    /// The safety layer has replaced a command.
     Veto(Veto),
 }
 
 impl FlightEvent {
-    /// Whether somebody should worry.
+    /// Whether the event deserves the operator's attention.
     pub fn warns(&self) -> bool {
         match self {
             Self::Connected
@@ -112,10 +114,11 @@ impl FlightEvent {
             | Self::MissionCleared
             | Self::Held
             | Self::Steered
-            | Self::SentByHand
+            | Self::ManualTargetSet
             | Self::ManualTargetReached
             | Self::Resumed => false,
             Self::ConfigurationNotRead
+            | Self::NoTagDetection
             | Self::TargetCorrected { .. }
             | Self::LandingOrdered(_)
             | Self::LinkLost
@@ -134,7 +137,7 @@ impl fmt::Display for FlightEvent {
         match self {
             Self::Connected => f.write_str("drone found"),
             Self::ConfigurationRead { version: Some(version) } => {
-                // The drone's own words, or those of whoever answers in its place.
+                // The version string comes over the network, so it may contain anything.
                 write!(f, "configuration read back, firmware {}", printable(version))
             }
             Self::ConfigurationRead { version: None } => f.write_str("configuration read back"),
@@ -144,6 +147,9 @@ impl fmt::Display for FlightEvent {
             Self::NoDroneClock => {
                 f.write_str("the drone does not send its clock: taking the arrival of packets")
             }
+            Self::NoTagDetection => f.write_str(
+                "the drone does not confirm that it looks for tags: the place may drift as without them",
+            ),
             Self::Configured => f.write_str("drone configured, level reference set"),
             Self::TakingOver => f.write_str("the drone flies: taking it over"),
             Self::StepStarted { step } => write!(f, "step {}", step + 1),
@@ -157,18 +163,18 @@ impl fmt::Display for FlightEvent {
             Self::BatteryLow { percent } => write!(f, "battery at {percent} %: land soon"),
             Self::EmergencyCleared => f.write_str("emergency cleared"),
             Self::Landed => f.write_str("landed"),
-            Self::FlownByAnother => {
-                f.write_str("somebody else flies the drone: nothing is sent to it until it stands")
-            }
+            Self::FlownByAnother => f.write_str(
+                "another pilot flies the drone: nothing is sent to it until it has landed",
+            ),
             Self::MissionLoaded { steps } => write!(f, "mission loaded: {}", counted(*steps)),
             Self::MissionExtended { steps } => write!(f, "mission extended: {}", counted(*steps)),
             Self::MissionCleared => f.write_str("mission cleared"),
             Self::ControlsTaken { by } => write!(f, "{by} has taken the controls"),
             Self::Held => f.write_str("holding"),
-            Self::Steered => f.write_str("flown by hand"),
-            Self::SentByHand => f.write_str("sent by hand"),
-            Self::ManualTargetReached => f.write_str("it is where it was sent by hand"),
-            Self::Resumed => f.write_str("going on with the plan"),
+            Self::Steered => f.write_str("manual control"),
+            Self::ManualTargetSet => f.write_str("flying to a manual target"),
+            Self::ManualTargetReached => f.write_str("manual target reached"),
+            Self::Resumed => f.write_str("mission resumed"),
             Self::CutOrdered => f.write_str("EMERGENCY CUT ordered"),
             Self::Veto(veto) => f.write_str(match veto {
                 Veto::StaleNavdata => "no fresh navdata: hovering",
@@ -191,40 +197,40 @@ fn counted(steps: usize) -> String {
     }
 }
 
-/// A target that was reached and stayed at.
+/// A target that was reached and held for its stay time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Waypoint {
-    /// Its step in the plan.
+    /// Index of its step in the plan.
     pub step: usize,
-    /// Where the drone was to be.
+    /// Target pose.
     pub target: Pose,
-    /// Where the estimator saw it at the end of the stay.
+    /// Estimated pose at the end of the stay.
     pub pose: Pose,
-    /// Standard deviation of that on each horizontal axis.
+    /// Standard deviation of that estimate on each horizontal axis.
     pub horizontal_deviation_m: f64,
-    /// When that was.
+    /// Time of the end of the stay.
     pub at: Duration,
 }
 
 impl Waypoint {
-    /// How far the estimate was from the target.
+    /// Distance between estimate and target.
     pub fn error_m(&self) -> f64 {
         distance(&self.pose, &self.target)
     }
 }
 
-/// What remains of a flight.
+/// Summary of a flight.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FlightReport {
-    /// Steps of the mission when the flight ended.
+    /// Number of mission steps when the flight ended.
     pub steps: usize,
-    /// Steps up to the last one that was carried out.
+    /// Number of steps up to the last one that was carried out.
     pub steps_done: usize,
     /// Targets reached, in order.
     pub waypoints: Vec<Waypoint>,
     /// When the take-off was ordered.
     pub took_off_at: Option<Duration>,
-    /// When the drone said that it has landed.
+    /// When the drone reported that it has landed.
     pub landed_at: Option<Duration>,
 }
 
@@ -234,49 +240,52 @@ impl FlightReport {
         self.landed_at?.checked_sub(self.took_off_at?)
     }
 
-    /// How far the drone was from its last target at the end of its stay.
+    /// Distance from the last target at the end of its stay.
     pub fn final_error_m(&self) -> Option<f64> {
         self.waypoints.last().map(Waypoint::error_m)
     }
 }
 
-/// A snapshot for whoever watches.
+/// A snapshot for displays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Status {
-    /// What the flight is doing, in one word.
+    /// Phase of the flight.
     pub phase: Phase,
-    /// The step that is being flown.
+    /// Index of the step being flown.
     pub step: Option<usize>,
-    /// Steps of the plan.
+    /// Number of plan steps.
     pub steps: usize,
-    /// The mission waits: an operator holds or flies the drone.
+    /// The mission is paused: an operator holds or flies the drone.
     pub mission_waits: bool,
-    /// Who has the controls.
+    /// The operator who has the controls.
     pub controls: Option<Operator>,
-    /// Where the drone is.
+    /// Estimated pose.
     pub pose: Pose,
-    /// Where it is going.
+    /// Current target pose.
     pub target: Option<Pose>,
-    /// How far that is.
+    /// Distance to the target.
     pub distance_m: Option<f64>,
     /// Remaining charge.
     pub battery_percent: Option<u32>,
-    /// Standard deviation of the place on each horizontal axis: what is integrated drifts.
+    /// Standard deviation of the position on each horizontal axis. It grows with time, because velocity is
+    /// integrated.
     pub horizontal_deviation_m: f64,
     /// Standard deviation of the height.
     pub vertical_deviation_m: f64,
-    /// Whether navdata can be believed.
+    /// What is known by tags, if they are used.
+    pub tags: Option<TagStatus>,
+    /// Whether navdata are plausible.
     pub trust: Trust,
-    /// How this airframe answers its sticks, as far as that is known.
+    /// Identified response of this airframe to its sticks.
     pub airframe: Airframe,
     /// Age of the newest navdata.
     pub navdata_age: Option<Duration>,
-    /// How many packets came in the last second, smoothed.
+    /// Navdata packets per second, low-pass filtered.
     pub navdata_hz: f64,
-    /// Roll and pitch as the drone tells them: right side down, nose up.
+    /// Roll and pitch reported by the drone: right side down, nose up.
     pub attitude_deg: Option<[f64; 2]>,
-    /// The plans that the agent chose in the last tick.
+    /// Agent plans chosen in the last tick.
     pub plans: ChosenPlans,
-    /// What it ordered; nothing before the first navdata.
+    /// The agent's command; `None` before the first navdata.
     pub command: Option<&'static str>,
 }

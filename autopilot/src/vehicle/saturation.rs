@@ -1,49 +1,50 @@
-//! Whether the drone is too weak for the wind: its sticks are at their limit and it drifts off all the
-//! same, or comes no nearer.
+//! Detects a drone that is too weak for the wind: its sticks are at their limit and it still drifts away from
+//! its target, or makes no progress towards it.
 //!
-//! A flow that is dead looks the same: full tilt, and no motion to be seen.
+//! A frozen optical-flow velocity looks the same: full tilt without visible motion.
 //!
-//! How strong the wind is cannot be told well enough to decide by: an estimate of it also holds what
-//! is not known of the airframe. What matters is whether the place is held. Only a push that was not
-//! there after the take-off and takes half of full tilt is a reason of its own: it is a storm,
-//! or a velocity that drifts, and of the second nothing else tells.
+//! The estimated wind alone is not accurate enough to decide by, because the estimate also contains the
+//! modelling error of the airframe. What matters is whether the drone holds its position. A disturbance
+//! counts by itself only if it was absent after take-off and takes half of full tilt: that is a storm, or a
+//! velocity measurement that drifts, which nothing else detects.
 
 use estimator::Prediction;
 use nalgebra::{Vector2, Vector3};
 use pid::{Demand, Pose};
 
-/// Sticks beyond this share of their limit ask for all that there is: the law keeps a little back.
+/// Sticks beyond this fraction of their limit count as saturated; the control law keeps a small reserve.
 const FULL: f64 = 0.95;
-/// Slower than this a drone does not drift off, in m/s.
+/// Speed above which a drone drifts away, in m/s.
 const DRIFT_M_S: f64 = 0.1;
-/// Slower than this, in m/s, it comes no nearer.
+/// Speed below which a drone makes no progress, in m/s.
 const STILL_M_S: f64 = 0.02;
-/// Further away than this, in metres, a drone at its limit must come nearer.
+/// Distance beyond which a saturated drone must make progress, in metres.
 const FAR_M: f64 = 0.5;
-/// Nearer than this no direction leads away, in metres.
+/// Distance below which the direction to the target is not defined, in metres.
 const HERE_M: f64 = 0.2;
 
-/// A push that changes by this share of full tilt is no breeze.
+/// Change of the disturbance that counts as a storm, as a fraction of full tilt.
 const STORM_SHARE: f64 = 0.5;
-/// It is averaged over this time.
+/// Averaging time of the disturbance, in seconds.
 const GUST_TIME_S: f64 = 1.5;
 
-/// A drone that is far from its target and comes no nearer by this much, in metres, in so many seconds makes
-/// no way, whatever its sticks: it is held by the wind, or its velocity is dead and it is flying away.
+/// A drone that is far from its target and gets less than this nearer, in metres, within this time, in
+/// seconds, makes no progress whatever its sticks do: either the wind holds it, or its velocity measurement
+/// is frozen and it is flying away.
 const WAY_M: f64 = 0.05;
 const NO_WAY_S: f64 = 6.0;
 
-/// How long the drone has been drifting off at the limit of its sticks.
+/// How long the drone has been drifting away with saturated sticks.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Saturation {
     for_s: f64,
-    /// What pushes the drone, gusts apart, and what pushed it when it last held its place by itself.
-    push_m_s2: Vector2<f64>,
+    /// Disturbance averaged over gusts, and its value when the drone last held its position by itself.
+    disturbance_m_s2: Vector2<f64>,
     usual_m_s2: Vector2<f64>,
     way: Way,
 }
 
-/// How near the drone has come to its target, and how long ago.
+/// Smallest distance to the target so far, and how long ago it was reached.
 #[derive(Debug, Clone, Copy, Default)]
 struct Way {
     target: Pose,
@@ -52,7 +53,7 @@ struct Way {
 }
 
 impl Way {
-    /// Whether none is made.
+    /// Whether the drone makes no progress.
     fn is_blocked(&mut self, target: &Pose, distance_m: f64, step_s: f64) -> bool {
         if *target != self.target || distance_m < self.nearest_m - WAY_M {
             *self = Self { target: *target, nearest_m: distance_m, for_s: 0.0 };
@@ -63,8 +64,8 @@ impl Way {
 }
 
 impl Saturation {
-    /// Takes in one tick of flying to a target. What was drifted is made good as slowly as it came: a
-    /// drone that wins now and then holds no place.
+    /// Handles one tick of flying to a target. The counter runs down as slowly as it ran up: progress now and
+    /// then is not enough to hold a position.
     pub(super) fn watch(
         &mut self,
         demand: &Demand,
@@ -74,9 +75,10 @@ impl Saturation {
         full_tilt_m_s2: f64,
         step_s: f64,
     ) {
-        let push_m_s2 = state.disturbance_m_s2;
-        self.push_m_s2 += (push_m_s2 - self.push_m_s2) * (step_s / GUST_TIME_S).min(1.0);
-        let storm = (self.push_m_s2 - self.usual_m_s2).norm() > STORM_SHARE * full_tilt_m_s2;
+        let disturbance_m_s2 = state.disturbance_m_s2;
+        self.disturbance_m_s2 +=
+            (disturbance_m_s2 - self.disturbance_m_s2) * (step_s / GUST_TIME_S).min(1.0);
+        let storm = (self.disturbance_m_s2 - self.usual_m_s2).norm() > STORM_SHARE * full_tilt_m_s2;
         let away = state.position_m - Vector3::new(target.x_m, target.y_m, target.z_m);
         let across_m = away.xy().norm();
         let drift_m_s = state.velocity_m_s.xy().dot(&away.xy()) / across_m.max(f64::EPSILON);
@@ -93,17 +95,18 @@ impl Saturation {
         self.for_s = (self.for_s + change_s).max(0.0);
     }
 
-    /// The drone holds its place by itself: as it leans then, it is pushed.
+    /// Handles one tick in which the drone holds its position by itself: its tilt then balances the
+    /// disturbance.
     pub(super) fn rest(&mut self, state: &Prediction, step_s: f64) {
-        self.push_m_s2 = state.disturbance_m_s2;
+        self.disturbance_m_s2 = state.disturbance_m_s2;
         self.usual_m_s2 = state.disturbance_m_s2;
         self.way = Way::default();
         self.for_s = (self.for_s - step_s).max(0.0);
     }
 
-    /// In milliseconds.
+    /// The duration in milliseconds.
     pub(super) fn for_ms(self) -> i64 {
-        // At most the length of a flight.
+        // Bounded by the length of a flight.
         #[allow(clippy::cast_possible_truncation)]
         let for_ms = (self.for_s * 1e3).round() as i64;
         for_ms
@@ -145,17 +148,17 @@ mod tests {
     }
 
     #[test]
-    fn a_push_that_was_not_there_before_is_a_storm_or_a_drift() {
-        let pushed = |m_s2| Prediction {
+    fn a_disturbance_that_was_not_there_before_is_a_storm_or_a_drift() {
+        let disturbed = |m_s2| Prediction {
             disturbance_m_s2: Vector2::new(m_s2, 0.0),
             ..Prediction::default()
         };
         let lasts_ms = |before_m_s2, then_m_s2| {
             let mut saturation = Saturation::default();
-            saturation.rest(&pushed(before_m_s2), 0.01);
+            saturation.rest(&disturbed(before_m_s2), 0.01);
             let here = Pose { z_m: 0.0, ..TARGET };
             for _ in 0..500 {
-                let state = pushed(then_m_s2);
+                let state = disturbed(then_m_s2);
                 saturation.watch(&Demand::default(), 1.0, &state, &here, 2.0, 0.01);
             }
             saturation.for_ms()

@@ -1,17 +1,17 @@
-//! The stages of a tick, for those who measure what each costs.
+//! Stages of a tick, for measuring the cost of each.
 
 /// Stages of a tick, in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// Navdata since the last tick: decoded, and taken into the estimate.
+    /// Navdata since the last tick: decoding and estimation.
     Estimate,
-    /// The agent's step, and what it looks at.
+    /// Percepts and the agent's step.
     Agent,
     /// The safety layer and the control law.
     Control,
-    /// The datagram.
+    /// Encoding the datagram.
     Encode,
-    /// The system's call.
+    /// The system call.
     Send,
 }
 

@@ -8,7 +8,7 @@ fn vehicle(plan: &str) -> Vehicle {
 }
 
 #[test]
-fn nothing_is_said_to_a_drone_that_was_not_heard() {
+fn nothing_is_sent_to_a_drone_that_was_not_heard() {
     let mut vehicle = vehicle("takeoff\nland");
     vehicle.tick(Duration::ZERO).unwrap();
     assert_eq!(vehicle.poll_transmit(), Some(Transmit::WakeUp));
@@ -23,11 +23,11 @@ fn a_drone_that_never_answers_ends_the_flight() {
     while vehicle.poll().is_some() {}
     vehicle.tick(CONNECT_TIMEOUT).unwrap();
     assert_eq!(vehicle.outcome(), Some(&Outcome::NoDrone));
-    let said: Vec<_> =
+    let outputs: Vec<_> =
         std::iter::from_fn(|| vehicle.poll().map(|output| matches!(output, Output::Ended(_))))
             .collect();
-    assert_eq!(said.iter().filter(|ended| **ended).count(), 1, "the end is said once");
-    assert_eq!(said.last(), Some(&true), "and last");
+    assert_eq!(outputs.iter().filter(|ended| **ended).count(), 1, "the end is said once");
+    assert_eq!(outputs.last(), Some(&true), "and last");
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn limits_that_the_drone_has_not_taken_forbid_the_flight_and_a_missing_clock_doe
     assert_eq!(vehicle.configured.unconfirmed, ["control:altitude_max"]);
 }
 
-/// Why a vehicle that has just heard a drone on the ground does not take off.
+/// Reasons why a vehicle that has just heard a drone on the ground does not take off.
 fn refusals(plan: &str, demo: Demo, packets: u64, later: Duration) -> Vec<String> {
     let mut vehicle = vehicle(plan);
     let mut bytes = BytesMut::new();
@@ -81,24 +81,24 @@ fn refusals(plan: &str, demo: Demo, packets: u64, later: Duration) -> Vec<String
 }
 
 #[test]
-fn the_pre_flight_check_tells_every_reason() {
+fn the_pre_flight_check_reports_every_reason() {
     let control_state = ControlState::Landed;
     let fine = Demo { battery_percent: 60, control_state, ..Demo::default() };
     let short = "takeoff\nland";
     let now = Duration::from_millis(60);
     assert_eq!(refusals(short, fine, 15, now), [""; 0]);
-    let leaning = Demo { pitch_deg: -9.0, ..fine };
+    let tilted = Demo { pitch_deg: -9.0, ..fine };
     assert_eq!(
-        refusals(short, leaning, 3, now),
+        refusals(short, tilted, 3, now),
         [
-            "the drone leans by 9°: put it on level ground",
-            "only 3 packets of flight data a second: at least 5 are needed; go nearer, or to \
-             another channel",
+            "the drone is tilted by 9°: put it on level ground",
+            "only 3 packets of flight data a second: at least 5 are needed; move closer, or use \
+             another Wi-Fi channel",
         ]
     );
     assert_eq!(
         refusals(short, fine, 15, Duration::from_millis(501)),
-        ["the newest flight data are 501 ms old: go nearer, or to another channel"]
+        ["the newest flight data are 501 ms old: move closer, or use another Wi-Fi channel"]
     );
     assert_eq!(
         refusals(short, Demo { battery_percent: 20, ..fine }, 15, now),
@@ -108,4 +108,29 @@ fn the_pre_flight_check_tells_every_reason() {
         refusals("takeoff\nsetStayTime 300\ngoto 0 0 1 0\nland", fine, 15, now),
         ["battery at 60 %: the plan takes about 310 s, for which 64 % are needed"]
     );
+}
+
+#[test]
+fn a_firmware_that_does_not_look_for_tags_is_reported_and_flown() {
+    let mut config = VehicleConfig::default();
+    let keys = |config: &VehicleConfig| {
+        let vehicle = Vehicle::new(config).unwrap();
+        let keys = vehicle
+            .settings
+            .iter()
+            .map(|setting| (setting.key().to_owned(), setting.value().to_owned()));
+        keys.filter(|(key, _)| key.starts_with(DETECTION_SECTION)).collect::<Vec<_>>()
+    };
+    assert_eq!(keys(&config), [], "off unless asked for");
+    config.estimator.tags = Some(TagConfig::default());
+    let detection = [("detect:detections_select_v", "128"), ("detect:detect_type", "12")]
+        .map(|(key, value)| (key.to_owned(), value.to_owned()));
+    assert_eq!(keys(&config), detection);
+    let mut vehicle = Vehicle::new(&config).unwrap();
+    for (key, _) in &detection {
+        vehicle.setting_unconfirmed(key);
+    }
+    let told = vehicle.events.iter().filter(|event| **event == FlightEvent::NoTagDetection);
+    assert_eq!(told.count(), 1);
+    assert_eq!(vehicle.configured.unconfirmed, Vec::<String>::new());
 }

@@ -1,4 +1,4 @@
-//! One tick: what is known, what the agent decides, what safety leaves of it, and what is sent.
+//! One tick: percepts, the agent's decision, the safety layer, and the datagram.
 
 use std::time::Duration;
 
@@ -13,8 +13,8 @@ use super::{
     NotReady, Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S,
     Waypoint, pose,
 };
-use crate::agent::{AgentCommand, AgentStep, Senses};
-use crate::safety::Circumstances;
+use crate::agent::{AgentCommand, AgentStep, Percepts};
+use crate::safety::Situation;
 
 impl Vehicle {
     /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
@@ -33,7 +33,7 @@ impl Vehicle {
         Ok(())
     }
 
-    /// Decides what the drone is to do, and encodes it.
+    /// Decides what the drone shall do, and encodes it.
     fn decide(&mut self, now: Duration, done: &mut impl FnMut(Stage)) -> Result<(), EncodeError> {
         let step_s = self
             .last_tick
@@ -49,14 +49,14 @@ impl Vehicle {
             return Ok(());
         }
         self.offer_order(now);
-        // The estimate is flown on to this moment once: everything below looks at the same.
+        // The state is predicted once, so that everything below uses the same one.
         let prediction = self.flight.estimator.predicted(now);
         let state = if self.config.law.predicts() { prediction } else { self.measured_state() };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
-        let senses = self.senses(now, &state);
-        let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, senses);
+        let percepts = self.percepts(now, &state);
+        let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, percepts);
         self.flight.manual.pre_empts = false;
-        // What is refused for a danger ends for that reason.
+        // An order that is refused because of a danger ends with that danger as its reason.
         if let Some(danger) = step.danger {
             self.endangered(now, danger);
         }
@@ -64,14 +64,14 @@ impl Vehicle {
             self.order_ended(now, report);
         }
         done(Stage::Agent);
-        // An agent that asks for nothing gets a hover.
+        // An agent without a command hovers.
         let wanted = step.command.unwrap_or(AgentCommand::Hover);
-        let circumstances = self.circumstances(now, &state);
-        let (command, veto) = self.flight.guard.check(wanted, &circumstances);
+        let situation = self.situation(now, &state);
+        let (command, veto) = self.flight.safety.check(wanted, &situation);
         if let Some(veto) = veto.filter(|_| veto != self.flight.veto) {
             self.events.push_back(FlightEvent::Veto(veto));
             if veto.lands() {
-                self.land(now, LandingReason::Guard(veto));
+                self.land(now, LandingReason::Safety(veto));
             }
         }
         self.flight.veto = veto;
@@ -82,7 +82,7 @@ impl Vehicle {
             step: self.flight.due.as_ref().map(|active| active.due.step),
             state,
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
-            senses,
+            percepts,
             plans: step.plans,
             wanted,
             report: step.report,
@@ -98,15 +98,15 @@ impl Vehicle {
         Ok(())
     }
 
-    /// Looks from time to time whether it could take off. What is said is which reasons there are; that a
-    /// number in one of them changes is no news.
+    /// Checks the readiness every [`READINESS_TICKS`]. Only a change in the kinds of reasons is reported, not
+    /// a change of a number in one of them.
     fn watch_readiness(&mut self, now: Duration) {
         self.readiness_in = self.readiness_in.saturating_sub(1);
         if self.readiness_in > 0 {
             return;
         }
         self.readiness_in = READINESS_TICKS;
-        // In flight nothing is allocated: there is room for one reason.
+        // A tick in flight must not allocate: there is room for one reason.
         if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
             if self.readiness != [NotReady::InFlight] {
                 self.readiness.clear();
@@ -124,7 +124,7 @@ impl Vehicle {
         self.readiness.append(&mut reasons);
     }
 
-    /// Where the drone is, and how it moves.
+    /// Predicted position and motion at `at`.
     pub(super) fn state(&self, at: Duration) -> Prediction {
         if self.config.law.predicts() {
             self.flight.estimator.predicted(at)
@@ -133,7 +133,7 @@ impl Vehicle {
         }
     }
 
-    /// Where the drone was when it was last measured.
+    /// Position and motion at the last measurement.
     fn measured_state(&self) -> Prediction {
         let estimate = self.flight.estimator.estimate();
         Prediction {
@@ -148,18 +148,18 @@ impl Vehicle {
         pose(&self.state(now))
     }
 
-    fn senses(&self, now: Duration, state: &Prediction) -> Senses {
+    fn percepts(&self, now: Duration, state: &Prediction) -> Percepts {
         let hovering = self.demo().is_some_and(|demo| {
             matches!(demo.control_state, ControlState::Hovering | ControlState::Flying)
         });
-        Senses {
+        Percepts {
             now_ms: i64::try_from(now.as_millis()).unwrap_or(i64::MAX),
             pose: self.demo().map(|_| pose(state)),
             on_ground: self.on_ground(),
             hovering: hovering && self.drone_state().contains(DroneState::FLYING),
             battery_percent: self.battery_percent(),
             blind_for_ms: i64::try_from(self.blind_for(now).as_millis()).unwrap_or(i64::MAX),
-            doubt_m: self.flight.estimator.horizontal_deviation_m(now),
+            position_sd_m: self.flight.estimator.horizontal_deviation_m(now),
             saturated_for_ms: self.flight.saturation.for_ms(),
             wind: self.wind().norm(),
             steering: self.flight.manual.sticks(now).is_some(),
@@ -167,20 +167,19 @@ impl Vehicle {
         }
     }
 
-    /// What is left; nothing, if the drone itself says that it is too little.
+    /// Remaining charge; zero if the drone itself reports that it is too low.
     fn battery_percent(&self) -> Option<u32> {
         let empty = self.drone_state().contains(DroneState::BATTERY_LOW);
         self.demo().map(|demo| if empty { 0 } else { demo.battery_percent })
     }
 
-    /// Time since the newest navdata that could be believed. Until there are any the time counts from
-    /// when the drone was asked for them.
+    /// Time since the newest plausible navdata. Before the first ones, the time since they were requested.
     pub(super) fn blind_for(&self, now: Duration) -> Duration {
         let since = self.flight.estimator.sound_at().unwrap_or(self.flight.asked_at);
         now.saturating_sub(since)
     }
 
-    /// What full tilt gives, if gravity alone made it.
+    /// Horizontal acceleration at full tilt with thrust that balances gravity, in m/s².
     pub(super) fn full_tilt_m_s2(&self) -> f64 {
         GRAVITY_M_S2 * self.config.estimator.limits.tilt_rad.tan()
     }
@@ -189,19 +188,20 @@ impl Vehicle {
         self.flight.estimator.airframe().thrust_gain.amin()
     }
 
-    /// The wind's push as a share of what the drone can lean against.
+    /// Wind disturbance as a fraction of the acceleration at full tilt.
     fn wind(&self) -> Vector2<f64> {
         self.flight.wind_m_s2 / (self.full_tilt_m_s2() * self.least_thrust())
     }
 
-    fn feel_wind(&mut self, push_m_s2: Vector2<f64>, step_s: f64) {
-        let push_m_s2 = if self.on_ground() { Vector2::zeros() } else { push_m_s2 };
-        self.flight.wind_m_s2 += (push_m_s2 - self.flight.wind_m_s2) * (step_s / WIND_TIME_S);
+    fn feel_wind(&mut self, disturbance_m_s2: Vector2<f64>, step_s: f64) {
+        let disturbance_m_s2 = if self.on_ground() { Vector2::zeros() } else { disturbance_m_s2 };
+        self.flight.wind_m_s2 +=
+            (disturbance_m_s2 - self.flight.wind_m_s2) * (step_s / WIND_TIME_S);
     }
 
-    fn circumstances(&self, now: Duration, state: &Prediction) -> Circumstances {
+    fn situation(&self, now: Duration, state: &Prediction) -> Situation {
         let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
-        Circumstances {
+        Situation {
             now,
             blind_for: self.blind_for(now),
             emergency: self.drone_state().contains(DroneState::EMERGENCY),
@@ -215,7 +215,7 @@ impl Vehicle {
         }
     }
 
-    /// Gives the agent the next order when the last one has ended.
+    /// Hands the next order to the agent when the last one has ended.
     fn offer_order(&mut self, now: Duration) {
         let waits = self.flight.landing.is_some() || self.flight.manual.pre_empts;
         if self.phase != FlightPhase::Flying || waits {
@@ -241,8 +241,8 @@ impl Vehicle {
         };
     }
 
-    /// Begins the next step. Behind the last one a drone on the ground has ended its flight; one in the air
-    /// holds its place until it is ordered more.
+    /// Begins the next step. After the last one, the flight ends if the drone is on the ground; in the air it
+    /// holds until it gets another order.
     fn next_step(&mut self, now: Duration) {
         let due = if self.flight.ends_on_ground && self.on_ground() {
             None
@@ -265,7 +265,7 @@ impl Vehicle {
     /// The agent has reported how its last order ended.
     fn order_ended(&mut self, now: Duration, report: Report) {
         if self.flight.landing.is_some() {
-            // The end of a landing is judged by the drone's state.
+            // The end of a landing is detected from the drone's state.
             return;
         }
         if self.flight.manual.holds_mission {
@@ -281,7 +281,7 @@ impl Vehicle {
         self.flight.report.steps_done = active.due.step + 1;
         match active.due.order {
             AgentOrder::TakeOff => {
-                self.mission.take_off_ended(&pose);
+                self.mission.take_off_ended(&self.plan_origin(pose));
                 self.flight.report.took_off_at.get_or_insert(active.since);
             }
             AgentOrder::GoTo(target) => {

@@ -1,5 +1,6 @@
 //! Command-line arguments.
 
+use crate::FloorTag;
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
 
@@ -40,6 +41,8 @@ start, or with a plus since the first take-off; # starts a comment.
   +22   motor 70 over 2          percent of its thrust that are left, after so many seconds
   +23   second-pilot 5           seconds of another client's orders to hover; its commands count
                                  from 1, or with `from 5000` at the end from there
+  +24   tag 1.5 -0.5 90          a roundel is laid: metres right and forward, degrees; likewise
+                                 tag-moved 1 0 0 90 (its number, and where to) and tag-gone 1
   +25   restart                  or propeller, which cuts the motors
 
 loss, outage and hold concern both directions, or with up or down behind the word only what goes to
@@ -115,6 +118,10 @@ pub(super) struct DroneArguments {
     /// Standard deviation of the gusts, in metres a second
     #[arg(long, value_name = "M/S", default_value_t = 0.0, value_parser = not_negative)]
     pub(super) gusts: f64,
+    /// A roundel on the floor, so far to the right and forward of the start, pointing so many degrees
+    /// clockwise; it may be given several times
+    #[arg(long, value_name = "X,Y[,HEADING]", value_parser = floor_tag, allow_hyphen_values = true)]
+    pub(super) tag: Vec<FloorTag>,
 }
 
 #[derive(Debug, Args)]
@@ -173,6 +180,20 @@ pub(super) enum Option27 {
     Zimmu,
     /// 216 bytes of GPS, as firmware 2.4; pyardrone loses every full packet then
     Gps,
+}
+
+/// `RIGHT,FORWARD` or `RIGHT,FORWARD,HEADING`
+fn floor_tag(text: &str) -> Result<FloorTag, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
+    let (x, y, heading) = match numbers.as_deref() {
+        Some([x, y]) => (*x, *y, 0.0),
+        Some([x, y, heading]) => (*x, *y, *heading),
+        _ => (f64::NAN, f64::NAN, f64::NAN),
+    };
+    if x.abs() <= 100.0 && y.abs() <= 100.0 && heading.abs() <= 360.0 {
+        return Ok(FloorTag::new(x, y, heading));
+    }
+    Err("expected metres right and forward, and degrees: 1.5,-0.5 or 1.5,-0.5,90".to_owned())
 }
 
 fn percentage(text: &str) -> Result<f64, String> {

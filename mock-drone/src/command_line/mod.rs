@@ -17,7 +17,7 @@ use crate::airframe::Profile;
 use crate::scenario::{Scenario, ScenarioError};
 use crate::sensors::SensorModel;
 use crate::server::{Ports, Server, ServerError};
-use crate::{DroneConfig, LinkFaults, Tag27, TruthLog, WorldConfig};
+use crate::{CameraModel, DroneConfig, LinkFaults, Tag27, TruthLog, WorldConfig};
 
 /// Why the mock drone could not be started or has ended.
 #[derive(Debug, thiserror::Error)]
@@ -125,6 +125,11 @@ fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
             Sensors::Nominal => SensorModel::nominal(),
             Sensors::Hard => SensorModel::hard(),
         },
+        camera: match sensors {
+            Sensors::Perfect => CameraModel::perfect(),
+            Sensors::Nominal => CameraModel::nominal(),
+            Sensors::Hard => CameraModel::hard(),
+        },
         tag_27: match option_27 {
             Option27::Absent => Tag27::Absent,
             Option27::Zimmu => Tag27::Zimmu,
@@ -157,7 +162,7 @@ fn world(arguments: &Arguments) -> Result<WorldConfig, CommandError> {
         }
         None => Scenario::default(),
     };
-    Ok(WorldConfig { drone, link, scenario })
+    Ok(WorldConfig { drone, link, scenario, tags: arguments.drone.tag.clone() })
 }
 
 fn truth_log(path: &Path) -> Result<TruthLog<File>, CommandError> {

@@ -322,3 +322,35 @@ fn the_same_seed_flies_the_same_flight() {
     };
     assert_eq!(fly(), fly());
 }
+
+/// How many roundels the newest packet tells of.
+fn tags_told(bench: &mut Bench) -> u32 {
+    bench.now += DEMO_PERIOD;
+    bench.drone.advance(bench.now);
+    let packet = std::iter::from_fn(|| bench.drone.poll_navdata()).last().unwrap();
+    ardrone_link::navdata::Packet::decode(&packet).unwrap().vision_detect().unwrap().count
+}
+
+#[test]
+fn roundels_are_told_only_of_a_drone_that_was_asked_to_look_for_them() {
+    let camera = CameraModel::perfect();
+    let config = DroneConfig { flies_at_m: Some(1.5), camera, ..DroneConfig::default() };
+    for (settings, seen) in [
+        (&[][..], 0),
+        (&[("detect:detect_type", "12")], 1),
+        (&[("detect:detect_type", "10")], 0),
+        (&[("detect:detect_type", "10"), ("detect:detections_select_v_hsync", "128")], 1),
+        (&[("detect:detect_type", "10"), ("detect:detections_select_v", "4")], 0),
+    ] {
+        let mut bench = Bench::ready(&config);
+        bench.drone.lay_tag(FloorTag::new(0.0, 0.0, 0.0));
+        for (key, value) in settings {
+            bench.send(&[Command::Config(Config::new(*key, *value).unwrap())]);
+        }
+        bench.wait(Duration::from_millis(200));
+        assert_eq!(tags_told(&mut bench), seen, "{settings:?}");
+        bench.drone.move_tag(0, None);
+        bench.wait(Duration::from_millis(200));
+        assert_eq!(tags_told(&mut bench), 0, "it was taken away");
+    }
+}

@@ -19,6 +19,7 @@ use ardrone_link::navdata::DroneState;
 use diagnostic::{Source, render_all};
 use nalgebra::Vector2;
 
+use crate::camera::FloorTag;
 use crate::faults::{Quantity, SensorFault};
 
 /// What happens, and when.
@@ -98,6 +99,10 @@ pub enum Action {
     Motor(f64, Duration),
     /// The wind towards (right, forward), and the deviation of its gusts.
     Wind(Vector2<f64>, f64),
+    /// A roundel is laid on the floor.
+    LayTag(FloorTag),
+    /// A roundel is moved, the first laid being 0, or taken away.
+    MoveTag(usize, Option<FloorTag>),
     /// The charge in percent.
     Battery(f64),
     /// So many percent less charge seem to be left at full load.
@@ -230,6 +235,10 @@ mod tests {
             ("motor 70 over 1", Action::Motor(0.7, second)),
             ("motor 70", Action::Motor(0.7, Duration::ZERO)),
             ("sag 15", Action::BatterySag(15.0)),
+            ("tag 1 -0.5", Action::LayTag(FloorTag::new(1.0, -0.5, 0.0))),
+            ("tag 1 -0.5 90", Action::LayTag(FloorTag::new(1.0, -0.5, 90.0))),
+            ("tag-gone 2", Action::MoveTag(1, None)),
+            ("tag-moved 1 0 2 -90", Action::MoveTag(0, Some(FloorTag::new(0.0, 2.0, -90.0)))),
             ("second-pilot 1", Action::SecondPilot(second, 1)),
             ("second-pilot 1 from 5000", Action::SecondPilot(second, 5000)),
         ] {

@@ -9,12 +9,13 @@ use diagnostic::{Diagnostic, Span};
 use nalgebra::Vector2;
 
 use super::{Action, Direction, Entry, When};
+use crate::camera::FloorTag;
 use crate::faults::{Quantity, SensorFault};
 use crate::link::PAST;
 
 const ACTIONS: &str = "loss, delay, duplicate, reorder, corrupt, outage, hold, burst, restart, \
                        propeller, freeze, stuck, dead, lie, ramp, nan, late, state, minor, motor, \
-                       wind, battery, sag, second-pilot";
+                       wind, battery, sag, second-pilot, tag, tag-moved, tag-gone";
 
 /// Names of what navdata tell.
 const QUANTITIES: [(&str, Quantity); 8] = [
@@ -89,6 +90,12 @@ fn actions(words: &mut Words<'_>) -> Result<Vec<Action>, Diagnostic> {
         }
         "battery" => Action::Battery(words.number("a percentage", 0.0, 100.0)?),
         "sag" => Action::BatterySag(words.number("a percentage", 0.0, 100.0)?),
+        "tag" => Action::LayTag(words.tag()?),
+        "tag-moved" => {
+            let number = words.whole("a tag's number", &(1..=99_usize))?;
+            Action::MoveTag(number - 1, Some(words.tag()?))
+        }
+        "tag-gone" => Action::MoveTag(words.whole("a tag's number", &(1..=99_usize))? - 1, None),
         "second-pilot" => {
             let time = words.seconds()?;
             let first =
@@ -260,6 +267,15 @@ impl<'a> Words<'a> {
         let right = self.number("metres a second", -30.0, 30.0)?;
         let forward = self.number("metres a second", -30.0, 30.0)?;
         Ok(Vector2::new(right, forward))
+    }
+
+    /// `1 -0.5 90`: right, forward, and which way it points.
+    fn tag(&mut self) -> Result<FloorTag, Diagnostic> {
+        let right_m = self.number("metres", -100.0, 100.0)?;
+        let forward_m = self.number("metres", -100.0, 100.0)?;
+        let heading_deg =
+            if self.peek().is_some() { self.number("degrees", -360.0, 360.0)? } else { 0.0 };
+        Ok(FloorTag::new(right_m, forward_m, heading_deg))
     }
 
     fn direction(&mut self) -> Direction {

@@ -1,26 +1,26 @@
-//! What must never happen.
+//! Faults: what must never happen.
 
 use std::fmt;
 use std::time::Duration;
 
 use mock_drone::firmware::Phase;
 
-/// Something that brings a flight down.
+/// A danger for which the drone must be landed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Danger {
     /// The battery is nearly empty.
     Battery,
-    /// Navdata do not arrive.
+    /// No navdata arrive.
     Blind,
-    /// Navdata say nothing that could be so.
+    /// Navdata are not plausible.
     Worthless,
-    /// The drone reports a fault of its own.
+    /// The drone reports a fault.
     Broken,
-    /// The drone sees or hears no floor.
+    /// The drone measures neither velocity nor altitude.
     NoFloor,
-    /// The wind is stronger than the airframe.
+    /// The wind is too strong for the airframe.
     Wind,
-    /// The estimate itself says that the place is lost.
+    /// The estimate's own position uncertainty is too large.
     Lost,
 }
 
@@ -38,95 +38,95 @@ impl fmt::Display for Danger {
     }
 }
 
-/// What must never happen.
+/// A fault of a flight.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
-    /// The drone was neither on the ground nor in its emergency at the end.
+    /// At the end the drone is neither on the ground nor in its emergency state.
     StillFlying {
-        /// What it was doing.
+        /// Its phase.
         phase: Phase,
     },
-    /// It was too far outside the fence.
+    /// The drone was too far outside the fence.
     OutsideFence {
-        /// How far, less what healthy sensors were wrong by.
+        /// Distance, corrected by the error of healthy sensors.
         outside_m: f64,
-        /// How far it could get by itself where it did not hear us, or we did not hear it.
+        /// Distance that it could cover by itself while it did not receive us, or we did not receive it.
         allowed_m: f64,
     },
-    /// It met the floor while it was to fly.
+    /// The drone hit the floor while it was to fly.
     FloorContact {
-        /// How fast it sank.
+        /// Vertical speed.
         speed_m_s: f64,
     },
-    /// It stood or slid on the floor while it was to fly.
+    /// The drone stood or slid on the floor while it was to fly.
     Scraping,
-    /// It was so high that it would have met a ceiling.
+    /// The drone was high enough to hit a ceiling.
     CeilingContact {
-        /// How high.
+        /// Its height.
         height_m: f64,
     },
-    /// It came down too fast.
+    /// The drone touched down too fast.
     HardTouchDown {
-        /// How fast.
+        /// Its vertical speed.
         speed_m_s: f64,
     },
-    /// It was not brought down for a danger.
+    /// The drone was not landed for a danger.
     DangerIgnored {
-        /// Which.
+        /// The danger.
         danger: Danger,
-        /// For how long it could have been.
+        /// Time for which it could have been.
         after: Duration,
     },
-    /// It was to land and did not.
+    /// A landing was ordered but did not end.
     EndlessLanding {
-        /// For how long.
+        /// Time since the order.
         after: Duration,
     },
-    /// It was moved while nothing could be known of its place.
+    /// The drone was moved by sticks without usable navdata.
     BlindSticks {
-        /// For how long nothing had been.
+        /// Time without usable navdata.
         blind_for: Duration,
     },
-    /// What the operator ordered had no effect.
+    /// An operator's order had no effect.
     OrderIgnored {
-        /// What it was.
+        /// The order.
         order: &'static str,
     },
-    /// The estimate was further off than it said that it could be.
+    /// The estimate's error exceeded its claimed uncertainty.
     Overconfident {
-        /// Whether it is about the height, else about the place.
+        /// Whether in height, or else in position.
         vertical: bool,
-        /// How far off it was.
+        /// Its error.
         error_m: f64,
-        /// The standard deviation that it claimed.
+        /// Its claimed standard deviation.
         claimed_m: f64,
     },
-    /// A flight was called a success although a target was not reached.
+    /// A flight counted as completed although a target was not reached.
     TargetMissed {
-        /// The step of the plan.
+        /// Index of the step.
         step: usize,
-        /// How far off the drone really was.
+        /// True distance from the target.
         error_m: f64,
     },
-    /// A flight was called a success although the drone had not flown its plan.
+    /// A flight counted as completed although its plan was not flown.
     NotFlown,
-    /// On a fair day the plan was not flown to its end.
+    /// The plan was not completed although nothing prevented it.
     GivenUpForNothing,
-    /// The pilot called the flight over and the drone down while it flew.
+    /// The flight ended, and the drone was reported as down, while it was in the air.
     EndedInTheAir {
-        /// What it was doing.
+        /// Its phase.
         phase: Phase,
     },
-    /// It took off without being told to by the plan.
+    /// The drone took off without an order of the plan.
     UncommandedTakeOff,
-    /// Its level reference was set in the air.
+    /// The level reference was set in the air.
     TrimmedInFlight,
-    /// The flight took longer than any flight does.
+    /// The flight took longer than any plan.
     Hanging,
 }
 
 impl Fault {
-    /// What it is, without its numbers.
+    /// The kind of fault, without its numbers.
     pub fn kind(&self) -> String {
         match self {
             Self::StillFlying { .. } => "still flying at the end".to_owned(),

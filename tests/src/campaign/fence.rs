@@ -11,33 +11,33 @@ use super::injected::{Injected, is_airborne};
 use crate::alone;
 use crate::sim::Moment;
 
-/// So far outside a drone may be that is heard, hears, and tells the truth.
+/// Distance allowed with a working link and correct sensors.
 const MARGIN_M: f64 = 0.5;
-/// So far one whose sensors lie or lied.
+/// Distance allowed with sensors that are or were wrong.
 const LYING_MARGIN_M: f64 = 3.0;
-/// Our last sticks are carried out for so long after navdata stop: that they are old has to be noticed,
-/// and the order to hover has to arrive.
+/// Time for which the last sticks still act after navdata stop: the age of navdata must be noticed, and the
+/// order to hover must arrive.
 const REACTION: Duration = Duration::from_millis(500);
-/// What is beyond our control is looked at anew in this interval: the wind may have changed.
+/// Interval at which the prediction of an uncontrolled drone is repeated: the wind may have changed.
 const AGAIN: Duration = Duration::from_secs(1);
-/// A wind that is too strong is to be noticed within this time, and the order to land to arrive.
+/// Time within which too strong a wind must be noticed and the landing order must arrive.
 const RESISTS_FOR: Duration = Duration::from_secs(5);
-/// Where a drone is left to itself it may meet the floor if it comes this near: what was said to it last may
-/// arrive a little later than is reckoned with here.
+/// Predicted height below which an uncontrolled drone may hit the floor. The last order may arrive a little
+/// later than the prediction assumes.
 const NEAR_FLOOR_M: f64 = 0.1;
-/// A drone that is in hand again gets so long to come to rest.
+/// Time for a drone to come to rest after it is under control again.
 const IN_HAND: Duration = Duration::from_secs(2);
 
-/// Why the drone is not in our hands.
+/// Why the drone is not under control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct OutOfHand {
-    /// It does not hear us, does what it does by itself, or obeys somebody else.
+    /// The drone does not receive us, acts by itself, or obeys another pilot.
     unheard: bool,
-    /// We do not hear it.
+    /// We do not receive the drone.
     unseen: bool,
 }
 
-/// The fence, as the judge sees it.
+/// The fence as judged.
 #[derive(Debug)]
 pub(super) struct Fence {
     limits: FlightLimits,
@@ -45,15 +45,15 @@ pub(super) struct Fence {
     looked_at: Option<Duration>,
     out_of_hand_at: Option<Duration>,
     allowed_m: f64,
-    /// It was inside, as far as can be asked, when it began to land by itself.
+    /// Whether the drone was inside, as far as can be expected, when its own landing began.
     within: bool,
     /// It may come down on the floor by itself.
     pub(super) may_meet_floor: bool,
-    /// In a wind that its airframe does not resist, or still outside because of one.
+    /// The wind is too strong for the airframe, or the drone is still outside because of it.
     blown: bool,
-    /// Furthest outside, less what healthy sensors were wrong by.
+    /// Largest distance outside, corrected by the error of healthy sensors.
     pub(super) outside_m: f64,
-    /// When it was first outside by more than is allowed; by how much at most, and what was allowed.
+    /// First time outside by more than allowed; the largest distance, and the distance allowed then.
     pub(super) worst: Option<(Duration, f64, f64)>,
 }
 
@@ -77,19 +77,19 @@ impl Fence {
         self.limits.ceiling_m
     }
 
-    /// How far outside it is, less what healthy sensors were wrong by: what nobody can know.
+    /// Distance outside, corrected by the error of healthy sensors, which cannot be known in flight.
     fn outside_m(&self, truth: &Truth) -> f64 {
         let across_m = truth.position_m.xy().norm() - self.limits.radius_m;
         let above_m = truth.position_m.z - self.limits.ceiling_m;
         across_m.max(above_m) - truth.drift_m().norm()
     }
 
-    /// Whether it is outside in truth.
+    /// Whether it is truly outside.
     pub(super) fn is_outside(&self, truth: &Truth) -> bool {
         self.outside_m(truth) > 0.0
     }
 
-    /// `overpowered`: the wind is stronger than the airframe.
+    /// `overpowered`: the wind is too strong for the airframe.
     pub(super) fn watch(
         &mut self,
         moment: &Moment,
@@ -103,7 +103,7 @@ impl Fence {
         let blown = matches!(truth.phase, Phase::Flying | Phase::Landing)
             && (overpowered || self.blown && outside_m > 0.0);
         if blown && !self.blown {
-            // It is carried off: but no further than one that lands in time.
+            // It is carried off, but must not go further than a drone that is landed in time.
             let alone = self.left_alone(drone, |see| {
                 alone::flies_on_and_lands(drone, RESISTS_FOR, see);
             });
@@ -119,7 +119,7 @@ impl Fence {
         }
         self.outside_m = self.outside_m.max(outside_m);
         let margin_m = if injected.has_lied(*now) {
-            // A velocity that drifts cannot be told from a wind that rises.
+            // A drifting velocity cannot be distinguished from rising wind.
             LYING_MARGIN_M + injected.velocity_drift_m(*now)
         } else {
             MARGIN_M
@@ -134,7 +134,7 @@ impl Fence {
         }
     }
 
-    /// Where the drone goes out of our hands, looks how far it goes then.
+    /// When control is lost, predicts how far the drone goes.
     fn look(&mut self, now: Duration, truth: &Truth, drone: &Drone, injected: &Injected) {
         let silence = truth.heard_at.map(|at| now.saturating_sub(at));
         let lands_by_itself = truth.phase == Phase::Landing
@@ -144,11 +144,11 @@ impl Fence {
             || truth.phase == Phase::Emergency
             || truth.phase == Phase::Landed && truth.position_m.z > 0.0
             || injected.second_pilot(now, Duration::ZERO)
-            // Where nothing can be believed the drone's own hover and landing are the right answer.
+            // Without plausible navdata the drone's own hover and landing are the right response.
             || injected.claims_no_floor(now)
             || injected.claims(now, DroneState::ULTRASOUND_DEAF)
             || injected.worthless_for(now) > Duration::ZERO;
-        // Its own landing drifts with the wind.
+        // The drone's own landing drifts with the wind.
         let unheard = unheard || truth.phase == Phase::Landing && self.within;
         self.within = self.outside_m(truth) <= MARGIN_M && truth.phase != Phase::Landing
             || self.within && truth.phase == Phase::Landing;
@@ -160,7 +160,7 @@ impl Fence {
         self.out_of_hand_at = Some(now);
         let begins = self.out_of_hand != before;
         let again = self.looked_at.is_none_or(|at| now.saturating_sub(at) >= AGAIN);
-        // What we do not hear we still command: later excursions are our own.
+        // A drone that we do not receive is still commanded, so later excursions are the pilot's own.
         if begins || unheard && again {
             self.looked_at = Some(now);
             let alone = self.left_alone(drone, |see| {
@@ -174,7 +174,7 @@ impl Fence {
         }
     }
 
-    /// How far a drone goes that is left to itself, in one way or several.
+    /// How far an uncontrolled drone goes, considering several courses.
     fn left_alone(&self, drone: &Drone, leave: impl FnOnce(&mut dyn FnMut(&Truth))) -> Alone {
         let contacts = drone.truth().floor_contacts;
         let mut alone = Alone::default();
@@ -187,7 +187,7 @@ impl Fence {
     }
 }
 
-/// What becomes of a drone that is left to itself.
+/// Predicted course of an uncontrolled drone.
 #[derive(Debug, Clone, Copy, Default)]
 struct Alone {
     outside_m: f64,

@@ -1,4 +1,4 @@
-//! What is flown: everything follows from a seed.
+//! Generates a flight from a seed.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -19,9 +19,9 @@ use super::injected::Injected;
 use crate::sensors::{AIRFRAMES, Model};
 use crate::sim::Simulation;
 
-/// The fence of the campaign.
+/// Radius of the campaign's fence.
 const RADIUS_M: f64 = 4.0;
-/// So long is watched whether a drone that hears nothing lands by itself.
+/// Time after the flight in which an uncontrolled drone must land by itself.
 const AFTERMATH: Duration = Duration::from_secs(45);
 
 /// A flight of the campaign.
@@ -30,7 +30,7 @@ pub(super) struct Flight {
     pub(super) simulation: Simulation,
     pub(super) plan: Plan,
     pub(super) injected: Injected,
-    /// The wind that the airframe just resists.
+    /// The strongest wind that the airframe can resist.
     pub(super) strongest_m_s: f64,
     airframe: &'static str,
     plan_text: String,
@@ -57,7 +57,12 @@ impl Flight {
         let plan = Plan::parse_within("campaign", &plan_text, &limits)
             .unwrap_or_else(|error| panic!("{error}"));
         let simulation = Simulation {
-            world: WorldConfig { drone, link, scenario: injected.scenario() },
+            world: WorldConfig {
+                drone,
+                link,
+                scenario: injected.scenario(),
+                ..WorldConfig::default()
+            },
             pilot: VehicleConfig { limits, ..VehicleConfig::default() },
             orders,
             stalls: injected.stalls.clone(),
@@ -66,7 +71,7 @@ impl Flight {
         Self { simulation, plan, injected, strongest_m_s, airframe, plan_text }
     }
 
-    /// Whether there is no reason not to fly the plan to its end.
+    /// Whether nothing prevents the plan from being completed.
     pub(super) fn is_fair(&self) -> bool {
         let WorldConfig { drone, link, .. } = &self.simulation.world;
         let wind_m_s = drone.wind_m_s.norm() + 3.0 * drone.gusts_m_s;
@@ -78,7 +83,7 @@ impl Flight {
             && wind_m_s < 0.5 * self.strongest_m_s
     }
 
-    /// What is flown with what, and what goes wrong: one line each.
+    /// Description of the flight and its faults, one line each.
     pub(super) fn circumstances(&self) -> Vec<String> {
         let WorldConfig { drone, link, .. } = &self.simulation.world;
         let mut lines = vec![
@@ -119,7 +124,7 @@ impl Flight {
         }
         let mut last = None;
         for (at, order) in &self.simulation.orders {
-            // A key that is held down is told once.
+            // A held key is recorded once.
             if last.replace(order) == Some(order) {
                 continue;
             }
@@ -180,7 +185,7 @@ fn orders(random: &mut impl Rng) -> Vec<(Duration, OperatorOrder)> {
         for _ in 0..random.random_range(1..6) {
             at += seconds(random, 0.5, 15.0);
             let order = pilot_order(random);
-            // A key that is held down repeats.
+            // A held key repeats.
             let repeats = if matches!(order, OperatorOrder::Steer(_)) { 10 } else { 1 };
             for _ in 0..repeats {
                 orders.push((at, order.clone()));
@@ -191,8 +196,7 @@ fn orders(random: &mut impl Rng) -> Vec<(Duration, OperatorOrder)> {
     orders
 }
 
-/// The wind that the airframe just resists at 12 degrees of tilt: what is blown away by more is lost to
-/// any pilot.
+/// The strongest wind that the airframe resists at 12° of tilt. No pilot could hold it against more.
 fn strongest_wind_m_s(profile: &Profile) -> f64 {
     let tilt_rad = 12_f64.to_radians();
     let acceleration = match profile.thrust {
@@ -202,7 +206,7 @@ fn strongest_wind_m_s(profile: &Profile) -> f64 {
         }
         ThrustLaw::Linear { acceleration_m_s2 } => acceleration_m_s2 * tilt_rad,
     };
-    // Quadratic drag makes it a little less.
+    // Quadratic drag reduces it slightly.
     0.8 * acceleration.component_div(&profile.linear_drag_1_s).min()
 }
 
@@ -259,7 +263,7 @@ fn accident(random: &mut impl Rng, strongest_m_s: f64) -> Action {
         19 => Action::Burst(random.random_range(1..100)),
         20 => Action::State(claim(random), seconds(random, 0.2, 10.0)),
         21 => {
-            // No floor seen, and no altitude, whatever the drone is doing.
+            // Neither velocity nor altitude is measured, whatever the drone does.
             let minor = if random.random_bool(0.5) { 2 } else { 6 };
             Action::Minor(minor, seconds(random, 0.2, 10.0))
         }
@@ -270,10 +274,10 @@ fn accident(random: &mut impl Rng, strongest_m_s: f64) -> Action {
     }
 }
 
-/// One quantity, wrong in one way. What cannot be told from the truth for long does not last long.
+/// One quantity with one fault. Faults that cannot be detected for long do not last long.
 fn sensor(random: &mut impl Rng) -> Action {
     let quantity = Quantity::ALL[random.random_range(0..Quantity::ALL.len())];
-    // As wrong as it is in a bad case: in the quantity's own unit.
+    // Magnitude of a bad case, in the unit of the quantity.
     let most = match quantity {
         Quantity::VelocityRight | Quantity::VelocityForward => 3.0,
         Quantity::Altitude => 1.0,
@@ -304,7 +308,7 @@ fn direction(random: &mut impl Rng) -> Direction {
     }
 }
 
-/// Something that a drone says of itself.
+/// A state bit reported by the drone.
 fn claim(random: &mut impl Rng) -> DroneState {
     const CLAIMS: [DroneState; 10] = [
         DroneState::ULTRASOUND_DEAF,
@@ -321,7 +325,7 @@ fn claim(random: &mut impl Rng) -> DroneState {
     CLAIMS[random.random_range(0..CLAIMS.len())]
 }
 
-/// Of a client that has just begun, or of one that has flown for minutes.
+/// First sequence number of a client that has just started, or has flown for minutes.
 fn first_number(random: &mut impl Rng) -> u32 {
     if random.random_bool(0.5) { 1 } else { 5000 }
 }
@@ -349,7 +353,7 @@ fn pilot_order(random: &mut impl Rng) -> OperatorOrder {
     }
 }
 
-/// Any direction, up to a speed.
+/// A random direction with a limited speed.
 fn wind(random: &mut impl Rng, most_m_s: f64) -> Vector2<f64> {
     let speed_m_s = random.random_range(0.0..most_m_s);
     let (sin, cos) = random.random_range(0.0..std::f64::consts::TAU).sin_cos();

@@ -1,32 +1,31 @@
-//! What goes wrong on a flight, and when: the judge knows it, the pilot does not.
+//! Injected faults and their times: known to the judge, not to the pilot.
 
 use std::time::Duration;
 
 use ardrone_link::navdata::DroneState;
+use autopilot::vehicle::TICK;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{Quantity, SensorFault, Truth};
 
-use super::judge::TICK;
-
-/// What goes wrong on a flight.
+/// The faults of a flight.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Injected {
     pub(super) accidents: Vec<(When, Action)>,
-    /// When the pilot's program does not run, and for how long.
+    /// Times and durations in which the pilot's program does not run.
     pub(super) stalls: Vec<(Duration, Duration)>,
-    /// When the drone first took off.
+    /// Time of the first take-off.
     take_off: Option<Duration>,
 }
 
 impl Injected {
-    /// The accidents as a scenario.
+    /// The faults as a scenario.
     pub(super) fn scenario(&self) -> Scenario {
         self.accidents
             .iter()
             .fold(Scenario::default(), |scenario, (when, action)| scenario.and(*when, *action))
     }
 
-    /// Learns when the drone takes off.
+    /// Detects the take-off.
     pub(super) fn see(&mut self, truth: &Truth) {
         if is_airborne(truth) {
             // It is seen at the end of the tick in which it happens.
@@ -34,18 +33,18 @@ impl Injected {
         }
     }
 
-    /// What has begun by now, and when.
+    /// Faults that have begun, with their times.
     fn begun(&self, now: Duration) -> impl Iterator<Item = (Duration, &Action)> {
         self.times().filter(move |(at, _)| *at <= now)
     }
 
-    /// What lasts now, and since when.
+    /// Faults that last now, with their start.
     fn lasting(&self, now: Duration) -> impl Iterator<Item = (Duration, &Action)> {
         self.begun(now)
             .filter(move |(at, action)| time_of(action).is_none_or(|time| now < *at + time + TICK))
     }
 
-    /// As far as the take-off is known.
+    /// All faults whose times are known; some depend on the take-off.
     fn times(&self) -> impl Iterator<Item = (Duration, &Action)> {
         self.accidents.iter().filter_map(|(when, action)| {
             let at = match when {
@@ -56,25 +55,25 @@ impl Injected {
         })
     }
 
-    /// Whether nothing goes wrong from a moment to another.
+    /// Whether no fault begins or ends in this interval.
     pub(super) fn is_quiet(&self, from: Duration, to: Duration) -> bool {
         let passes = |at: Duration, time: Duration| at + time < from || at > to;
-        // What has no end stays as it is: it is what happens that disturbs.
+        // Faults without an end are steady; only changes disturb.
         self.times().all(|(at, action)| passes(at, time_of(action).unwrap_or(Duration::ZERO)))
             && self.stalls.iter().all(|(at, time)| passes(*at, *time))
     }
 
-    /// Whether the program stands still.
+    /// Whether the program is stopped.
     pub(super) fn is_stalled(&self, now: Duration) -> bool {
         self.stalls.iter().any(|(at, time)| (*at..*at + *time).contains(&now))
     }
 
-    /// Whether nothing passes on the way to the drone, or only late.
+    /// Whether datagrams to the drone are lost or delayed.
     pub(super) fn is_cut_up(&self, now: Duration) -> bool {
         self.is_cut(now, Direction::Up)
     }
 
-    /// Whether nothing passes on the way from the drone, or only late.
+    /// Whether datagrams from the drone are lost or delayed.
     pub(super) fn is_cut_down(&self, now: Duration) -> bool {
         self.is_cut(now, Direction::Down)
     }
@@ -89,7 +88,7 @@ impl Injected {
             })
     }
 
-    /// Whether another pilot speaks, or has within so long.
+    /// Whether another pilot sends commands, or has within `since`.
     pub(super) fn second_pilot(&self, now: Duration, since: Duration) -> bool {
         self.begun(now).any(|(at, action)| match action {
             Action::SecondPilot(time, _) => now < at + *time + since,
@@ -97,7 +96,7 @@ impl Injected {
         })
     }
 
-    /// For how long the longest order can have been on its way.
+    /// Longest time for which an order may have been delayed.
     pub(super) fn longest_hold(&self, now: Duration) -> Duration {
         let holds = self.begun(now).filter_map(|(_, action)| match action {
             Action::Hold(_, time) => Some(*time),
@@ -106,13 +105,13 @@ impl Injected {
         holds.max().unwrap_or_default()
     }
 
-    /// Whether navdata have said something wrong by now.
+    /// Whether navdata have been wrong so far.
     pub(super) fn has_lied(&self, now: Duration) -> bool {
         self.begun(now).any(|(_, action)| matches!(action, Action::Sensor(..) | Action::Freeze(_)))
     }
 
-    /// How far a velocity that drifts by so much a second has led whoever believes it, and how far it goes
-    /// on until that speed is lost again.
+    /// How far a drifting velocity has led a pilot that trusts it, including the distance until that speed is
+    /// lost again.
     pub(super) fn velocity_drift_m(&self, now: Duration) -> f64 {
         const SLOWING_DOWN_S: f64 = 2.0;
         const BLOWN_M_S: f64 = 1.5;
@@ -126,7 +125,8 @@ impl Injected {
                 let drifts_s = now.saturating_sub(at).min(*time).as_secs_f64();
                 a_second.abs() * drifts_s * (drifts_s / 2.0 + SLOWING_DOWN_S)
             }
-            // One that is dead but rattles shows when the drone tilts; till then it is blown along.
+            // A velocity that is frozen but noisy can be detected only when the drone tilts; until then the
+            // drone is blown along.
             Action::Sensor(
                 Quantity::VelocityRight | Quantity::VelocityForward,
                 SensorFault::DeadAt(_),
@@ -137,14 +137,14 @@ impl Injected {
         self.begun(now).map(|(at, action)| drift(at, action)).sum()
     }
 
-    /// Whether the altitude is wrong, or was.
+    /// Whether the altitude is or was wrong.
     pub(super) fn has_lied_of_height(&self, now: Duration) -> bool {
         self.begun(now).any(|(_, action)| {
             matches!(action, Action::Sensor(Quantity::Altitude, ..) | Action::Freeze(_))
         })
     }
 
-    /// For how long nothing of what navdata say of the place has been worth anything.
+    /// Time for which no measurement of the position has been usable.
     pub(super) fn worthless_for(&self, now: Duration) -> Duration {
         let worthless = self.lasting(now).filter(|(_, action)| match action {
             Action::Freeze(_) => true,
@@ -157,7 +157,7 @@ impl Injected {
         worthless.map(|(at, _)| now.saturating_sub(at)).max().unwrap_or_default()
     }
 
-    /// What the drone says of itself.
+    /// Whether the drone reports these state bits.
     pub(super) fn claims(&self, now: Duration, bits: DroneState) -> bool {
         self.lasting(now).any(|(_, action)| match action {
             Action::State(claimed, _) => claimed.intersects(bits),
@@ -165,7 +165,7 @@ impl Injected {
         })
     }
 
-    /// Whether the drone says in its detail of the control state that it has no floor below.
+    /// Whether the drone reports by its minor control state that it does not measure velocity or altitude.
     pub(super) fn claims_no_floor(&self, now: Duration) -> bool {
         self.lasting(now).any(|(_, action)| matches!(action, Action::Minor(..)))
     }
@@ -175,12 +175,12 @@ impl Injected {
         self.begun(now).any(|(_, action)| matches!(action, Action::Motor(..)))
     }
 
-    /// Whether it was switched off and on by now.
+    /// Whether it has been restarted.
     pub(super) fn has_restarted(&self, now: Duration) -> bool {
         self.begun(now).any(|(_, action)| matches!(action, Action::Restart))
     }
 
-    /// The wind that was last set, and the deviation of its gusts.
+    /// The current wind, and the deviation of its gusts.
     pub(super) fn wind_m_s(&self, now: Duration) -> Option<f64> {
         let winds = self.begun(now).filter_map(|(at, action)| match action {
             Action::Wind(steady_m_s, _) => Some((at, steady_m_s.norm())),
@@ -196,7 +196,7 @@ pub(super) fn is_airborne(truth: &Truth) -> bool {
     matches!(truth.phase, Phase::TakingOff { .. } | Phase::Flying | Phase::Landing)
 }
 
-/// How long it lasts, if it ends.
+/// Its duration, if it ends.
 fn time_of(action: &Action) -> Option<Duration> {
     match action {
         Action::Outage(_, time)
@@ -206,7 +206,7 @@ fn time_of(action: &Action) -> Option<Duration> {
         | Action::State(_, time)
         | Action::Minor(_, time)
         | Action::SecondPilot(time, _) => Some(*time),
-        // Over as soon as they have happened.
+        // These have no duration.
         Action::Burst(_) | Action::Restart | Action::Propeller => Some(Duration::ZERO),
         _ => None,
     }

@@ -1,12 +1,12 @@
-//! Judges a flight by the truth: what the drone did, what it was told, and what was wrong with it. What
-//! the pilot makes of it excuses nothing.
+//! Judges a flight by the true state, the orders and the injected faults. The pilot's own view excuses
+//! nothing.
 
 use std::time::Duration;
 
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::DroneState;
 use autopilot::outcome::Outcome;
-use autopilot::vehicle::{Phase as PilotPhase, TICK as PILOT_TICK};
+use autopilot::vehicle::{Phase as PilotPhase, TICK};
 use mock_drone::firmware::Phase;
 use mock_drone::{Drone, Truth};
 
@@ -15,58 +15,56 @@ use super::fence::Fence;
 use super::flight::Flight;
 use super::injected::{Injected, is_airborne};
 use super::orders::Orders;
-use super::targets::Targets;
+use super::targets::{TAKE_OFF_STEP, Targets};
 use crate::sim::{Moment, SimulatedFlight};
 
-/// Time between two moments.
-pub(super) const TICK: Duration = PILOT_TICK;
-/// An order may take so long to arrive.
+/// Longest time for an order to arrive.
 const ON_ITS_WAY: Duration = Duration::from_millis(500);
-/// Each plan begins with it.
-pub(super) const TAKE_OFF_STEP: usize = 0;
-/// No flight takes longer: its plan has at most seven targets.
+/// Longest flight: plans have at most seven targets.
 const LONGEST: Duration = Duration::from_mins(10);
-/// A drone that has taken a command within this time hears us.
+/// A drone that has accepted a command within this time receives us.
 const HEARS: Duration = Duration::from_millis(300);
-/// Navdata that are no older are fresh.
+/// Navdata up to this age are fresh.
 const FRESH: Duration = Duration::from_millis(300);
-/// A room may be so much higher than its fence.
+/// Height of a room's ceiling above the fence's.
 const CEILING_ABOVE_FENCE_M: f64 = 1.0;
-/// Nothing breaks at this.
+/// Touch-down speed that damages nothing.
 const SOFT_M_S: f64 = 0.9;
-/// A drone whose altitude is wrong may meet the floor, but is to notice that it does not sink further.
+/// A drone with a wrong altitude may hit the floor, but must notice within this time that it sinks no
+/// further.
 const SCRAPES_FOR: Duration = Duration::from_secs(3);
-/// Sticks that move the drone at all.
+/// Smallest stick that moves the drone.
 const MOVING: f32 = 0.02;
-/// Blindness that is to be noticed, and the time in which an order arrives.
+/// Time in which missing navdata must be noticed and an order must arrive.
 const BLIND: Duration = Duration::from_millis(1500);
-/// What is only seen for a moment was on its way.
+/// A condition that is true for a shorter time may be due to delays.
 const MOMENT: Duration = Duration::from_millis(200);
-/// It may come down by itself first.
+/// Time in which a drone must be down, including a descent of its own.
 const LANDS_WITHIN: Duration = Duration::from_secs(40);
-/// Deviations by which an honest estimate is hardly ever off; and what is too little to matter.
+/// Number of standard deviations that an honest estimate hardly ever exceeds; and an error too small to
+/// matter.
 const DEVIATIONS: f64 = 4.0;
 const TRIFLE_M: f64 = 0.1;
 const WRONG_FOR: Duration = Duration::from_secs(1);
-/// A target that is called reached is so near, as plans ask for, and so near if sensors lied; besides
-/// what the estimate claims to be off.
+/// Largest true error at a target that counts as reached: as requested by plans, and with wrong sensors; plus
+/// the estimate's claimed error.
 const REACHED_M: f64 = 0.5;
 const REACHED_LYING_M: f64 = 1.5;
-/// The agent's own limit of doubt is 3 m; where it is exceeded by far, nobody flies on.
+/// The agent's own limit of position uncertainty is 3 m; far beyond it nobody may fly on.
 const LOST_M: f64 = 3.6;
-/// Another pilot's drone has landed by itself this long after its last word.
+/// Time for another pilot's drone to land by itself after that pilot's last command.
 const STRANGER_LANDS: Duration = Duration::from_secs(15);
 
-/// A danger, and for how long it lasts.
+/// A danger and how long it lasts.
 #[derive(Debug)]
 struct DangerWatch {
     danger: Danger,
-    /// It counts when it lasts so long.
+    /// It counts after this time.
     counts_after: Duration,
-    /// From then on the drone may be in the air for so long.
+    /// Longest time in the air from then on.
     patience: Duration,
     lasted: Duration,
-    /// How long it has been in the air since, and heard us.
+    /// Time in the air since then, while the drone receives us.
     open: Option<Duration>,
 }
 
@@ -107,19 +105,19 @@ impl DangerWatch {
     }
 }
 
-/// Something that is wrong for a while.
+/// Duration of a condition.
 #[derive(Debug, Default)]
 struct Lasting(Duration);
 
 impl Lasting {
-    /// For how long it has been so.
+    /// Updates it; returns how long the condition has been true.
     fn watch(&mut self, so: bool) -> Duration {
         self.0 = if so { self.0 + TICK } else { Duration::ZERO };
         self.0
     }
 }
 
-/// Watches a flight.
+/// Judge of one flight.
 #[derive(Debug)]
 pub(super) struct Judge {
     injected: Injected,
@@ -130,7 +128,7 @@ pub(super) struct Judge {
     orders: Orders,
     targets: Targets,
     dangers: [DangerWatch; 7],
-    /// What was found, and when.
+    /// Faults found, with their times.
     found: Vec<(Duration, Fault)>,
     last: Option<Truth>,
     /// When the plan's take-off was last ordered.
@@ -139,11 +137,11 @@ pub(super) struct Judge {
     moves_blindly: Lasting,
     place_wrong: Lasting,
     height_wrong: Lasting,
-    /// How long it has been landing.
+    /// Duration of the landing.
     lands_for: Duration,
     flew: bool,
     phase_at_end: Option<Phase>,
-    /// How wrong healthy sensors were at most.
+    /// Largest error of healthy sensors.
     pub(super) wrong_m: f64,
 }
 
@@ -186,14 +184,14 @@ impl Judge {
         }
     }
 
-    /// The first of each kind counts.
+    /// Records a fault; only the first of each kind.
     fn find(&mut self, now: Duration, fault: Fault) {
         if !self.found.iter().any(|(_, known)| known.kind() == fault.kind()) {
             self.found.push((now, fault));
         }
     }
 
-    /// Sees a moment of the flight.
+    /// Judges a tick.
     pub(super) fn watch(&mut self, moment: &Moment, drone: &Drone) {
         let Moment { now, truth, .. } = moment;
         self.injected.see(truth);
@@ -224,7 +222,7 @@ impl Judge {
     }
 
     fn is_overpowered(&self, now: Duration) -> bool {
-        // The drone feels it a tick later.
+        // The wind acts on the drone one tick later.
         let wind_m_s =
             self.injected.wind_m_s(now.saturating_sub(2 * TICK)).unwrap_or(self.wind_m_s);
         wind_m_s > 0.9 * self.strongest_m_s
@@ -249,7 +247,7 @@ impl Judge {
                     self.injected.claims(now, DroneState::ULTRASOUND_DEAF)
                         || self.injected.claims_no_floor(now)
                 }
-                // One that stays inside is stronger than it was reckoned to be.
+                // A drone that stays inside resists more wind than calculated.
                 Danger::Wind => overpowered && self.fence.is_outside(truth),
                 Danger::Lost => status.horizontal_deviation_m > LOST_M,
             };
@@ -278,7 +276,7 @@ impl Judge {
             self.find(*now, Fault::CeilingContact { height_m: truth.position_m.z });
         }
         let met_floor = last.position_m.z > 0.0 && truth.position_m.z <= 0.0;
-        // Motors that were cut let it fall.
+        // With cut motors the drone falls.
         let falls = !is_airborne(&last)
             || truth.phase == Phase::Emergency
             || truth.switched_on != last.switched_on;
@@ -317,13 +315,13 @@ impl Judge {
 
     fn watch_honesty(&mut self, moment: &Moment) {
         let Moment { now, truth, status, .. } = moment;
-        // Before the first navdata there is nothing to be confident of.
+        // Before the first navdata there is no estimate.
         if status.battery_percent.is_none() {
             return;
         }
         let fresh = status.navdata_age.is_some_and(|age| age < FRESH);
         let to_be_judged = fresh
-            // Something has been told of the drone at all.
+            // Some flight data have arrived.
             && status.attitude_deg.is_some()
             && is_airborne(truth)
             && !moment.is_over
@@ -361,7 +359,7 @@ impl Judge {
         }
     }
 
-    /// What was found in all, when, in the order of time.
+    /// All faults found, in the order of time.
     pub(super) fn end(mut self, flight: &Flight, flown: &SimulatedFlight) -> Judged {
         let end = flown.final_truth.time;
         if let Some((at, outside_m, allowed_m)) = self.fence.worst {
@@ -383,7 +381,7 @@ impl Judge {
     fn judge_outcome(&mut self, flight: &Flight, flown: &SimulatedFlight) {
         let end = flown.duration;
         let says_down = match &flown.outcome {
-            // Nobody leaves early here: a landing that is not confirmed was ordered in vain.
+            // Nobody exits early here, so an unconfirmed landing did not work.
             Outcome::Completed
             | Outcome::Interrupted
             | Outcome::LeftLanding
@@ -421,13 +419,13 @@ impl Judge {
     }
 }
 
-/// What the judge found.
+/// Result of the judge.
 pub(super) struct Judged {
-    /// What must never happen and did, and when.
+    /// Faults found, with their times.
     pub(super) found: Vec<(Duration, Fault)>,
-    /// Furthest outside the fence.
+    /// Largest distance outside the fence.
     pub(super) outside_m: f64,
-    /// How wrong healthy sensors were at most.
+    /// Largest error of healthy sensors.
     pub(super) wrong_m: f64,
 }
 
@@ -435,8 +433,7 @@ pub(super) struct Judged {
 mod tests {
     use super::*;
 
-    /// After how many seconds the judge loses its patience with a danger that lasts so long, in a flight
-    /// that goes on.
+    /// Seconds after which the judge reports a danger of this duration, in a flight that goes on.
     fn patience_s(danger: Danger, lasts_s: u32, reached: bool) -> Option<f64> {
         let mut watch = DangerWatch::new(danger);
         (0_u32..4000).find_map(|tick| {
@@ -457,13 +454,13 @@ mod tests {
     }
 
     #[test]
-    fn what_lasts_is_told_from_what_comes_and_goes() {
+    fn lasting_conditions_are_distinguished_from_passing_ones() {
         let mut lasting = Lasting::default();
         let longest = (0..100).map(|tick| lasting.watch(tick % 10 != 0)).max();
         assert_eq!(longest, Some(TICK * 9));
     }
 
-    /// What the judge knows of the wind, of lies and of a cut link is what the world does.
+    /// The judge's model of wind, wrong sensors and lost links agrees with the simulated world.
     #[test]
     fn each_flight_is_the_same_for_judge_and_pilot() {
         for seed in 0..50 {

@@ -1,8 +1,7 @@
-//! The fault campaign: flights on which anything may go wrong, and what must hold all the same.
+//! The fault campaign: flights with random faults, and rules that must hold in all of them.
 //!
-//! Everything about a flight follows from its seed: the airframe, its sensors, the air, the link, what
-//! breaks and when, and what the pilot orders meanwhile. [`fly`] flies it and [judges](Verdict) it
-//! against the truth.
+//! Everything about a flight follows from its seed: airframe, sensors, air, link, faults and operator orders.
+//! [`fly`] flies it and [judges](Verdict) it against the truth.
 
 mod fault;
 mod fence;
@@ -23,32 +22,32 @@ pub use self::fault::{Danger, Fault};
 use self::flight::Flight;
 use self::judge::Judge;
 
-/// How a flight was, seen from outside.
+/// Result of a flight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict {
-    /// Everything follows from it.
+    /// Seed, which determines everything.
     pub seed: u64,
-    /// How the pilot says that it ended.
+    /// Outcome as reported by the vehicle.
     pub outcome: Outcome,
-    /// Why the plan was given up, if it was.
+    /// Reason of an early landing.
     pub landing: Option<LandingReason>,
-    /// The safety layer had its say.
+    /// Whether the safety monitor replaced a command.
     pub vetoed: bool,
-    /// How far the drone was outside the fence, less what healthy sensors were wrong by, in a wind that
-    /// its airframe resists.
+    /// Largest distance outside the fence, corrected by the error of healthy sensors, in a wind that the
+    /// airframe resists.
     pub outside_m: f64,
-    /// How wrong the place was at most that healthy sensors gave.
+    /// Largest position error of healthy sensors.
     pub wrong_m: f64,
-    /// What must never happen and did, and when. One of a kind.
+    /// Faults found, with their times; one of each kind.
     pub faults: Vec<(Duration, Fault)>,
-    /// What happened, and when.
+    /// Events with their times.
     pub events: Vec<(Duration, FlightEvent)>,
-    /// What was flown with what, and what went wrong: one line each.
+    /// Description of the flight and its faults, one line each.
     pub circumstances: Vec<String>,
 }
 
 impl Verdict {
-    /// Whether the plan was flown to its end, in truth.
+    /// Whether the plan was truly completed.
     pub fn is_success(&self) -> bool {
         self.outcome == Outcome::Completed && self.faults.is_empty()
     }
@@ -57,7 +56,7 @@ impl Verdict {
 /// Flies the flight of a seed.
 ///
 /// # Errors
-/// [`SimulationError`] if the flight never ends: that is the campaign's own failure.
+/// [`SimulationError`] if the flight never ends, which is a failure of the campaign itself.
 pub fn fly(seed: u64) -> Result<Verdict, SimulationError> {
     let flight = Flight::of(seed);
     let mut judge = Judge::new(&flight);

@@ -1,36 +1,35 @@
-//! Whether what the operator orders has an effect.
+//! Checks that operator orders have an effect.
 
 use std::time::Duration;
 
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{OperatorOrder, Phase as PilotPhase};
+use autopilot::vehicle::{OperatorOrder, Phase as PilotPhase, TICK};
 use mock_drone::firmware::Phase;
 use nalgebra::Vector2;
 
 use super::fault::Fault;
 use super::injected::{Injected, is_airborne};
-use super::judge::TICK;
 use crate::sim::Moment;
 
-/// A drone that is told to land may come down by itself first.
+/// Time for a drone to land after the order, including its own descent.
 const LANDS_WITHIN: Duration = Duration::from_secs(30);
-/// That the motors are to be cut is said until it is seen.
+/// Time for a cut order to take effect; it is repeated until it is confirmed.
 const CUTS_WITHIN: Duration = Duration::from_millis(1500);
-/// A drone that is told to hold has braked and come back after so long, and is then watched.
+/// Time for a drone to brake and return after a hold order; from then on it is monitored.
 const BRAKES_WITHIN: Duration = Duration::from_secs(8);
 const HOLDS_FOR: Duration = Duration::from_secs(3);
-/// What happened so long before an order may still disturb it.
+/// Events within this time before an order may still disturb it.
 const BEFORE: Duration = Duration::from_secs(3);
-/// It may move by so much then.
+/// Largest motion allowed after that.
 const HELD_M: f64 = 1.0;
-/// A drone that is sent somewhere is there after so long, or nearly.
+/// Time for a drone to be close to a manual target.
 const GOES_WITHIN: Duration = Duration::from_secs(20);
 const NEARLY: f64 = 0.3;
 const NEAR_M: f64 = 0.6;
-/// Whoever flies by hand is kept so far inside the fence.
+/// Distance from the fence kept under manual control.
 const INSIDE_M: f64 = 0.5;
 
-/// The operator's orders, and what became of them.
+/// The operator's orders and their effects.
 #[derive(Debug)]
 pub(super) struct Orders {
     all: Vec<(Duration, OperatorOrder)>,
@@ -42,7 +41,7 @@ pub(super) struct Orders {
     watched: Option<Watched>,
 }
 
-/// An order whose effect shows in where the drone is.
+/// An order whose effect shows in the drone's position.
 #[derive(Debug, Clone, Copy)]
 enum Watched {
     Hold { at: Duration, place_m: Option<Vector2<f64>> },
@@ -75,7 +74,7 @@ impl Orders {
     ) -> Vec<Fault> {
         let mut faults = Vec::new();
         if injected.is_stalled(moment.now) {
-            // Nobody takes orders; they are taken when it goes on.
+            // Orders are queued while the program is stopped.
             self.watched = None;
             return faults;
         }
@@ -89,7 +88,7 @@ impl Orders {
         for (open, most, order) in
             [(&mut self.lands_for, LANDS_WITHIN, "land"), (&mut self.cuts_for, CUTS_WITHIN, "cut")]
         {
-            // On the ground a landing is done; an order to take off after it is not.
+            // A landing is complete on the ground; a take-off ordered later is not part of it.
             *open = open.map(|open| if airborne && reached { open + TICK } else { open });
             if open.is_some_and(|open| open > most) {
                 faults.push(Fault::OrderIgnored { order });

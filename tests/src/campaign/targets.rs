@@ -1,21 +1,23 @@
-//! Where the plan says that the drone is to be, whatever the pilot makes of it.
+//! The plan's targets, independent of the pilot's view.
 
 use autopilot::plan::{Command, FlightLimits, Plan};
 use autopilot::vehicle::Phase;
 use mock_drone::Truth;
 use nalgebra::{Vector2, Vector3};
 
-use super::judge::TAKE_OFF_STEP;
 use crate::place_in_navdata_frame;
 use crate::sim::Moment;
 
-/// The targets of a plan of nothing but `goto`.
+/// Each plan begins with it.
+pub(super) const TAKE_OFF_STEP: usize = 0;
+
+/// The targets of a plan that contains only `goto`.
 #[derive(Debug)]
 pub(super) struct Targets {
-    /// Each with its step, from where the take-off ended.
+    /// Each with its step, relative to the end of the take-off.
     wanted_m: Vec<(usize, Vector3<f64>)>,
     limits: FlightLimits,
-    /// Where the take-off ended, in the frame that healthy sensors span.
+    /// End of the take-off, in the frame that healthy sensors span.
     origin_m: Vector3<f64>,
     took_off: bool,
 }
@@ -29,10 +31,10 @@ impl Targets {
         Self { wanted_m: wanted_m.collect(), limits, origin_m: Vector3::zeros(), took_off: false }
     }
 
-    /// The last moment of the take-off is where its targets count from.
+    /// The last tick of the take-off defines the origin of the targets.
     pub(super) fn watch(&mut self, moment: &Moment) {
         self.took_off |= moment.status.step.is_some_and(|step| step > TAKE_OFF_STEP);
-        // A drone that is taken over in the air has taken off within the tick.
+        // A take-over in the air completes its take-off within the tick.
         if moment.status.phase == Phase::Flying && !self.took_off {
             self.origin_m = place_in_navdata_frame(&moment.truth);
         }
@@ -42,11 +44,11 @@ impl Targets {
         self.wanted_m.len()
     }
 
-    /// How far the drone was from the target of a step.
+    /// Distance of the drone from the target of a step.
     pub(super) fn error_m(&self, step: usize, truth: &Truth) -> Option<f64> {
         let (_, wanted_m) = self.wanted_m.iter().find(|(index, _)| *index == step)?;
         let to_m = self.origin_m + wanted_m;
-        // The drone hovers elsewhere than the plan was checked for: what lies outside is moved inside.
+        // The drone hovers elsewhere than assumed by the check: targets outside the fence are moved inside.
         let across_m: Vector2<f64> = to_m.xy().cap_magnitude(self.limits.radius_m);
         let height_m = to_m.z.clamp(self.limits.floor_m, self.limits.ceiling_m);
         Some((place_in_navdata_frame(truth) - across_m.push(height_m)).norm())

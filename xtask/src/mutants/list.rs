@@ -1,26 +1,26 @@
-//! Mistakes that the fault campaign must find. A text that is replaced stands exactly once in its file: where the code
-//! has changed, the mutant must be mended, not dropped.
+//! Mutants that the fault campaign must detect. Each replaced text must occur exactly once in its file. When
+//! the code has changed, adapt the mutant rather than drop it.
 
-/// A text and what stands in its place in the mutant.
+/// A text and its replacement.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Edit {
-    /// From the root of the workspace.
+    /// Path relative to the workspace.
     pub(super) file: &'static str,
     pub(super) from: &'static str,
     pub(super) to: &'static str,
 }
 
-/// The workspace with one mistake in it. What two layers take care of is taken away in both.
+/// The workspace with one mistake. Where two layers protect against a danger, both are disabled.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mutant {
-    /// What is wrong with it.
+    /// Description of the mistake.
     pub(super) name: &'static str,
     pub(super) edits: &'static [Edit],
 }
 
 const AGENT: &str = "autopilot/agent/autopilot.asl";
 const BINDING: &str = "autopilot/src/agent.rs";
-const GUARD: &str = "autopilot/src/safety.rs";
+const SAFETY: &str = "autopilot/src/safety.rs";
 const FLIGHT: &str = "autopilot/src/vehicle/flight.rs";
 const TICK: &str = "autopilot/src/vehicle/tick.rs";
 const CONTROL: &str = "autopilot/src/vehicle/control.rs";
@@ -38,9 +38,9 @@ const fn edit(file: &'static str, from: &'static str, to: &'static str) -> Edit 
     Edit { file, from, to }
 }
 
-/// All of them.
+/// All mutants.
 pub(super) const MUTANTS: &[Mutant] = &[
-    // What is known of the place.
+    // Estimation.
     mutant(
         "no integration: the place never moves",
         &[edit(HORIZONTAL, "self.position_m = position_m;", "self.position_m = position_m * 0.0;")],
@@ -100,11 +100,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "navdata are always believed",
         &[edit(ESTIMATOR, "self.plausibility.trust()", "Trust::Sound")],
     ),
-    // The guard.
+    // Safety monitor.
     mutant(
         "no fence",
         &[edit(
-            GUARD,
+            SAFETY,
             "Self {\n            fence,",
             "let fence = FlightLimits { radius_m: 1e9, ceiling_m: 1e9, floor_m: -1e9, ..fence };\n        Self {\n            fence,",
         )],
@@ -112,16 +112,16 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "no vetoes at all",
         &[edit(
-            GUARD,
+            SAFETY,
             "if now.emergency && flies {",
             "if flies == flies {\n            return (command, None);\n        }\n        if now.emergency && flies {",
         )],
     ),
-    mutant("guard off in the air", &[edit(GUARD, "if !now.airborne {", "if now.airborne {")]),
+    mutant("guard off in the air", &[edit(SAFETY, "if !now.airborne {", "if now.airborne {")]),
     mutant(
         "the fence holds the drone outside",
         &[edit(
-            GUARD,
+            SAFETY,
             "pose.x_m.hypot(pose.y_m) <= self.fence.radius_m + margin_m",
             "pose.x_m.hypot(pose.y_m) >= self.fence.radius_m + margin_m",
         )],
@@ -129,7 +129,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "the ceiling holds the drone above",
         &[edit(
-            GUARD,
+            SAFETY,
             "&& pose.z_m <= self.fence.ceiling_m + margin_m",
             "&& pose.z_m >= self.fence.ceiling_m + margin_m",
         )],
@@ -137,7 +137,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "floor and ceiling changed places",
         &[edit(
-            GUARD,
+            SAFETY,
             "Self {\n            fence,",
             "let fence = FlightLimits { ceiling_m: fence.floor_m, floor_m: fence.ceiling_m, ..fence };\n        Self {\n            fence,",
         )],
@@ -145,7 +145,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "stale navdata are flown by",
         &[
-            edit(GUARD, "moves && now.blind_for > STALE", "moves && now.blind_for > Duration::MAX"),
+            edit(
+                SAFETY,
+                "moves && now.blind_for > STALE",
+                "moves && now.blind_for > Duration::MAX",
+            ),
             edit(AGENT, "holdWhenBlind(300).", "holdWhenBlind(2000000000)."),
         ],
     ),
@@ -167,12 +171,24 @@ pub(super) const MUTANTS: &[Mutant] = &[
         )],
     ),
     mutant(
-        "agent without @too_weak",
-        &[edit(
-            AGENT,
-            "@too_weak[req(\"SAF-5\")]\n+!watch : ",
-            "@too_weak[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
-        )],
+        "agent without @too_weak, guard without storms",
+        &[
+            edit(
+                AGENT,
+                "@too_weak[req(\"SAF-5\")]\n+!watch : ",
+                "@too_weak[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
+            ),
+            edit(
+                SAFETY,
+                "self.carried_off.lasts(now.now)",
+                "self.carried_off.lasts(Duration::ZERO)",
+            ),
+            edit(
+                SAFETY,
+                "let is_hopeless = is_across && self.way_back.is_none(now);",
+                "let is_hopeless = false;",
+            ),
+        ],
     ),
     mutant(
         "landWhenBlind(2000000000)",
@@ -186,7 +202,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "@landed[req(\"SAF-2\")]\n",
                 "+!comeDown : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit\n  <- sendHover;\n     !!wait.\n\n@landed[req(\"SAF-2\")]\n",
             ),
-            edit(GUARD, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
+            edit(SAFETY, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
         ],
     ),
     mutant(
@@ -235,13 +251,13 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "landWhenSaturated(Most) & Weak >= 0 & Most >= 0",
             ),
             edit(
-                GUARD,
+                SAFETY,
                 "sinks || !is_hopeless),\n            Veto::CarriedOff => (Some(self.upwind), sinks),",
                 "sinks || is_hopeless || !is_hopeless),\n            Veto::CarriedOff => (Some(self.upwind), true),",
             ),
         ],
     ),
-    // What is sent.
+    // Commands sent.
     mutant(
         "the roll stick is the wrong way round",
         &[edit(
@@ -276,7 +292,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "if self.on_ground()",
             ),
             edit(AGENT, "+!hold : comingDown\n", "+!hold : comingDown & onGround\n"),
-            edit(GUARD, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
+            edit(SAFETY, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
         ],
     ),
     mutant(

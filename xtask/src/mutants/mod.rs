@@ -1,8 +1,8 @@
-//! Mutants of the pilot: a judge that finds nothing wrong with them finds nothing.
+//! Mutants: a judge that detects none of them is worthless.
 //!
-//! By hand: mistakes that a safety engineer would think of, each built and flown through the fault campaign until
-//! something is found. All: what `cargo mutants` makes of the code on which safety rests, against the tests in
-//! simulated time (`.cargo/mutants.toml`).
+//! By hand: mistakes that a safety engineer would think of, each built and flown through the fault campaign
+//! until a fault is found. All: the mutants that `cargo mutants` generates from the safety-critical code,
+//! against the tests in simulated time (`.cargo/mutants.toml`).
 
 mod list;
 mod workspace;
@@ -15,58 +15,58 @@ use std::process::{Command, Output};
 use self::list::{MUTANTS, Mutant};
 use self::workspace::Workspace;
 
-/// Why nothing was found out about the mutants.
+/// Why the mutants could not be judged.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum MutantsError {
     /// A file or a program.
     #[error("{what}: {source}")]
     Io {
-        /// What was tried.
+        /// The operation.
         what: String,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
-    /// The code is not what the mutant was made of.
+    /// The source has changed since the mutant was written.
     #[error(
         "{name}: the text to be replaced stands {times} times in {file}: the code has changed, mend the mutant"
     )]
     Changed {
         /// The mutant.
         name: &'static str,
-        /// Where.
+        /// The file.
         file: &'static str,
-        /// How often.
+        /// Number of occurrences.
         times: usize,
     },
-    /// A mutant that does not build says nothing of the judge.
-    #[error("{name} does not build:\n{said}")]
+    /// A mutant that does not build cannot be judged.
+    #[error("{name} does not build:\n{text}")]
     Build {
         /// The mutant.
         name: String,
-        /// What the compiler says.
-        said: String,
+        /// The compiler's output.
+        text: String,
     },
-    /// If the code as it is fails, then mutants fail for nothing.
+    /// The unmodified code must pass, or else a failing mutant proves nothing.
     #[error("the code as it is does not pass: {0}")]
     Healthy(String),
-    /// There is no mutant of that name.
+    /// No mutant has that name.
     #[error("no mutant has `{0}` in its name")]
     Unknown(String),
-    /// The tool is not here.
+    /// `cargo mutants` is not installed.
     #[error("there is no cargo-mutants here: `cargo install cargo-mutants --locked`")]
     NoCargoMutants,
 }
 
-/// What became of a mutant.
+/// Result of a mutant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum End {
-    /// What was found.
+    /// A fault was found.
     Caught(String),
-    /// Nothing was found.
+    /// No fault was found.
     Survived,
 }
 
-/// Flies each mutant, or those with `only` in their name, until something is found or so many flights were flown. The
+/// Flies each mutant, or those with `only` in their name, until a fault is found or `flights` were flown. The
 /// second value is whether all were caught.
 pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool), MutantsError> {
     let wanted = |mutant: &&Mutant| only.is_none_or(|only| mutant.name.contains(only));
@@ -89,21 +89,21 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
         workspace.put(&changed)?;
         let end = judged(&workspace, mutant.name, flights);
         workspace.restore(&changed)?;
-        let told = match end {
+        let outcome = match end {
             Ok(End::Caught(what)) => what,
             Ok(End::Survived) => {
                 survivors += 1;
                 format!("SURVIVED {flights} flights")
             }
-            // The others may have something to say all the same.
+            // The other mutants are still worth judging.
             Err(error @ MutantsError::Build { .. }) => {
                 broken = Some(error);
                 "DOES NOT BUILD".to_owned()
             }
             Err(error) => return Err(error),
         };
-        // One line as soon as it is known: all of them take a while.
-        let line = format!("{:<46}{told}", mutant.name);
+        // Printed at once, because the whole run takes a while.
+        let line = format!("{:<46}{outcome}", mutant.name);
         _ = io::Write::write_all(&mut io::stderr(), format!("{line}\n").as_bytes());
         _ = writeln!(text, "{line}");
     }
@@ -114,33 +114,33 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
     Ok((text, survivors == 0))
 }
 
-/// Builds the workspace as it is and has it judged.
+/// Builds the workspace and runs the judge on it.
 fn judged(workspace: &Workspace, name: &str, flights: u64) -> Result<End, MutantsError> {
     let built = cargo(workspace.root())
         .args(["build", "--locked", "--quiet", "-p", "system-tests", "--example", "judge"])
         .env("CARGO_TARGET_DIR", workspace.target())
-        // Nobody looks into a mutant with a debugger.
+        // Debug information would only slow the build.
         .env("CARGO_PROFILE_DEV_DEBUG", "false")
         .output()
         .map_err(in_file("cannot run", Path::new("cargo")))?;
     if !built.status.success() {
-        let said = String::from_utf8_lossy(&built.stderr).into_owned();
-        return Err(MutantsError::Build { name: name.to_owned(), said });
+        let text = String::from_utf8_lossy(&built.stderr).into_owned();
+        return Err(MutantsError::Build { name: name.to_owned(), text });
     }
     let judge = workspace.target().join("debug/examples/judge");
     let judged = Command::new(&judge).arg(flights.to_string()).output();
     Ok(end(&judged.map_err(in_file("cannot run", &judge))?))
 }
 
-/// What the judge found; one that breaks off has found something too.
+/// Evaluates the judge's output; an aborted run has found a fault too.
 fn end(output: &Output) -> End {
-    let said = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    let text = String::from_utf8_lossy(&output.stdout).trim().to_owned();
     match output.status.code() {
         Some(0) => End::Survived,
-        Some(1) if !said.is_empty() => End::Caught(said),
+        Some(1) if !text.is_empty() => End::Caught(text),
         _ => {
             let panic = String::from_utf8_lossy(&output.stderr);
-            // The message stands below the thread and the place.
+            // The panic message is in the line below the thread and the place.
             let what = panic.lines().skip_while(|line| !line.contains("panicked at")).nth(1);
             let what = what.unwrap_or("the judge breaks off");
             End::Caught(format!("{what} ({})", output.status))
@@ -148,8 +148,8 @@ fn end(output: &Output) -> End {
     }
 }
 
-/// Runs `cargo mutants` as `.cargo/mutants.toml` says, on all mutants or on one shard of them, such as `2/20`. The
-/// second value is whether all were caught.
+/// Runs `cargo mutants` as configured in `.cargo/mutants.toml`, on all mutants or on one shard, such as
+/// `2/20`. The second value is whether all were caught.
 pub(crate) fn all(shard: Option<&str>) -> Result<(String, bool), MutantsError> {
     let there = cargo(Path::new(".")).args(["mutants", "--version"]).output();
     if !there.is_ok_and(|output| output.status.success()) {
@@ -160,7 +160,7 @@ pub(crate) fn all(shard: Option<&str>) -> Result<(String, bool), MutantsError> {
     let status = cargo(Path::new("."))
         .args(["mutants", "--no-times", "--colors", "never", "--output"])
         .arg(&output)
-        // Each shard is a sample of all.
+        // Round-robin, so that each shard is a sample of all mutants.
         .args(shard.iter().flat_map(|shard| ["--sharding", "round-robin", "--shard", shard]))
         .status()
         .map_err(in_file("cannot run", Path::new("cargo")))?;
@@ -174,7 +174,7 @@ fn cargo(folder: &Path) -> Command {
     cargo
 }
 
-/// Where mutants are made and built.
+/// Folder in which mutants are built.
 fn folder() -> PathBuf {
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
@@ -190,19 +190,19 @@ fn in_file(what: &str, path: &Path) -> impl FnOnce(io::Error) -> MutantsError {
 mod tests {
     use super::*;
 
-    /// What a shell makes of being told so.
-    fn told(script: &str) -> End {
+    /// Result of a shell script in place of the judge.
+    fn outcome(script: &str) -> End {
         end(&Command::new("sh").args(["-c", script]).output().unwrap())
     }
 
     #[test]
     fn only_a_judge_that_ends_and_finds_nothing_lets_a_mutant_live() {
-        assert_eq!(told("echo nothing"), End::Survived);
+        assert_eq!(outcome("echo nothing"), End::Survived);
         let caught = |what: &str| End::Caught(what.to_owned());
-        assert_eq!(told("echo seed 3: too far; exit 1"), caught("seed 3: too far"));
+        assert_eq!(outcome("echo seed 3: too far; exit 1"), caught("seed 3: too far"));
         let panic = "echo \"thread 'main' panicked at x.rs:1:\nmin > max\" >&2; exit 101";
-        assert_eq!(told(panic), caught("min > max (exit status: 101)"));
-        let killed = told("kill -ABRT $$");
+        assert_eq!(outcome(panic), caught("min > max (exit status: 101)"));
+        let killed = outcome("kill -ABRT $$");
         assert!(matches!(&killed, End::Caught(what) if what.contains("breaks off")), "{killed:?}");
     }
 

@@ -1,5 +1,5 @@
-//! A copy of the workspace in which mistakes are made. It stays where it is, with its target folder, so that only
-//! what a mistake touches is built again.
+//! A copy of the workspace for building mutants. It is kept together with its target folder, so that only the
+//! crates affected by a mutant are built again.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::process::Command;
 use super::list::Mutant;
 use super::{MutantsError, in_file};
 
-/// The folder in which a copy is built.
+/// Target folder of the copy.
 const TARGET: &str = "target";
 
 /// The workspace and its copy.
@@ -18,12 +18,12 @@ pub(super) struct Workspace {
     copy: PathBuf,
 }
 
-/// Files with what stands in them in a mutant.
+/// New contents of files, by path.
 pub(super) type Changed = BTreeMap<&'static str, String>;
 
 impl Workspace {
-    /// Copies the files of the workspace that git knows or would take. What is the same is not touched, since cargo
-    /// goes by the time of a file.
+    /// Copies the workspace's files that git tracks or would track. Unchanged files are not touched, because
+    /// cargo goes by modification times.
     pub(super) fn copy(original: &Path, folder: &Path) -> Result<Self, MutantsError> {
         let workspace = Self { original: original.to_owned(), copy: folder.join("workspace") };
         let files = workspace.files()?;
@@ -36,26 +36,26 @@ impl Workspace {
         Ok(Self { copy, ..workspace })
     }
 
-    /// The workspace without a copy.
+    /// The workspace itself, without a copy.
     #[cfg(test)]
     pub(super) fn here(original: &Path) -> Self {
         Self { original: original.to_owned(), copy: original.to_owned() }
     }
 
-    /// Where it is built.
+    /// Folder of the copy.
     pub(super) fn root(&self) -> &Path {
         &self.copy
     }
 
-    /// Where to.
+    /// Target folder of the copy.
     pub(super) fn target(&self) -> PathBuf {
         self.copy.join(TARGET)
     }
 
-    /// What stands in a mutant's files.
+    /// Contents of the files of a mutant.
     ///
     /// # Errors
-    /// [`MutantsError::Changed`] if the code is not what the mutant was made of.
+    /// [`MutantsError::Changed`] if a text to be replaced does not occur exactly once.
     pub(super) fn changed(&self, mutant: &Mutant) -> Result<Changed, MutantsError> {
         let mut changed = Changed::new();
         for edit in mutant.edits {
@@ -74,7 +74,7 @@ impl Workspace {
         Ok(changed)
     }
 
-    /// Makes the copy the mutant.
+    /// Applies a mutant to the copy.
     pub(super) fn put(&self, changed: &Changed) -> Result<(), MutantsError> {
         for (file, text) in changed {
             let path = self.copy.join(file);
@@ -83,7 +83,7 @@ impl Workspace {
         Ok(())
     }
 
-    /// Makes the copy what the original is.
+    /// Restores the copy to the original.
     pub(super) fn restore(&self, changed: &Changed) -> Result<(), MutantsError> {
         changed.keys().try_for_each(|file| self.update(Path::new(file)))
     }
@@ -96,7 +96,7 @@ impl Workspace {
             .map_err(in_file("cannot run", Path::new("git")))?;
         let names = String::from_utf8_lossy(&git.stdout).into_owned();
         let files = names.split('\0').filter(|name| !name.is_empty()).map(PathBuf::from);
-        // One that was removed and not yet committed is none.
+        // A file that was deleted but not yet committed must not be copied.
         Ok(files.filter(|file| self.original.join(file).is_file()).collect())
     }
 
@@ -112,7 +112,7 @@ impl Workspace {
         std::fs::write(&to, content).map_err(in_file("cannot write", &to))
     }
 
-    /// Removes what the original has no more.
+    /// Removes files that the original does not have.
     fn remove_others(&self, folder: &Path, files: &BTreeSet<PathBuf>) -> Result<(), MutantsError> {
         let entries = std::fs::read_dir(folder).map_err(in_file("cannot read", folder))?;
         for entry in entries {

@@ -1,4 +1,4 @@
-//! One flight of the soak: a mock drone and a pilot as processes, and what is done to them.
+//! One flight of the soak test: a mock drone and a pilot as processes, with everything done to them.
 
 use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Write as _};
@@ -13,12 +13,12 @@ use super::judge::{self, Times, Verdict};
 use super::now;
 use super::script::{End, Output, Script, Sign};
 
-/// Why no flight could be made.
+/// Why a flight could not be run.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum BenchError {
     #[error("the programs cannot be built")]
     Build,
-    #[error("the mock drone does not say its ports: {0}")]
+    #[error("the mock drone does not print its ports: {0}")]
     Ports(String),
     #[error(transparent)]
     Io(#[from] io::Error),
@@ -26,27 +26,27 @@ pub(crate) enum BenchError {
     Truth(#[from] csv::Error),
 }
 
-/// What is run.
+/// Paths of the programs.
 #[derive(Debug)]
 pub(crate) struct Programs {
     pilot: PathBuf,
     mock: PathBuf,
 }
 
-/// Longer than any plan with everything that can delay it.
+/// Timeout of a flight, longer than any plan with everything that can delay it.
 const LONGEST_FLIGHT: Duration = Duration::from_secs(400);
-/// After the last thing that was done to it the pilot ends within this time, or is told so.
+/// Time for the pilot to end after the last interference.
 const LONGEST_END: Duration = Duration::from_mins(1);
-/// The drone is watched for so long after the pilot's end.
+/// Time for which the drone is watched after the pilot's end.
 const WATCHED: Duration = Duration::from_secs(22);
 const LOOK: Duration = Duration::from_millis(10);
-/// Between two looks at the log of the truth.
+/// Interval of reading the drone's log.
 const LOOK_AT_TRUTH: Duration = Duration::from_millis(500);
-/// Datagrams of a flood that are sent between two looks at the rest.
+/// Datagrams of a flood sent in one go.
 const BURST: u32 = 500;
 
 impl Programs {
-    /// Builds both programs like this one.
+    /// Builds both programs in the same profile as this one.
     pub(crate) fn build(pilot: Option<PathBuf>) -> Result<Self, BenchError> {
         let mut build = Command::new(env!("CARGO"));
         build.args(["build", "--quiet", "-p", "ardrone-pilot", "-p", "mock-drone", "--bins"]);
@@ -63,13 +63,13 @@ impl Programs {
     }
 }
 
-/// A process that is killed when nobody watches it any more.
+/// A process that is killed when dropped.
 struct Process(Child);
 
 impl Process {
     fn signal(&self, signal: Signal) {
         let id = i32::try_from(self.0.id()).ok().and_then(Pid::from_raw);
-        // One that has ended hears nothing.
+        // A process that has ended cannot be signalled.
         _ = id.map(|id| kill_process(id, signal));
     }
 }
@@ -81,7 +81,7 @@ impl Drop for Process {
     }
 }
 
-/// Flies it, and judges what came of it.
+/// Runs a flight and judges it.
 pub(crate) fn fly(programs: &Programs, script: &Script) -> Result<Verdict, BenchError> {
     let folder = tempfile::tempdir()?;
     let truth = folder.path().join("truth.csv");
@@ -102,19 +102,19 @@ pub(crate) fn fly(programs: &Programs, script: &Script) -> Result<Verdict, Bench
     while ended.elapsed() < WATCHED && !(judge::is_down(&truth) && stays_down(ended)) {
         sleep(LOOK_AT_TRUTH);
     }
-    // The log is written out when the mock drone ends.
+    // The mock drone flushes its log when it ends.
     mock.signal(Signal::TERM);
     sleep(LOOK_AT_TRUTH);
     drop(mock);
     Ok(judge::judge(script, &flight.times, &truth)?)
 }
 
-/// The log may be half a second old, and what is judged last is 1.5 s after the pilot's end.
+/// Whether the log, which may lag by half a second, covers the last judgement, 1.5 s after the pilot's end.
 fn stays_down(ended: Instant) -> bool {
     ended.elapsed() > Duration::from_secs(3)
 }
 
-/// The drone's AT, navdata and control port.
+/// AT, navdata and control port of the drone.
 type Ports = [u16; 3];
 
 fn start_mock(
@@ -136,7 +136,7 @@ fn start_mock(
     if let Some(stderr) = mock.0.stderr.take() {
         let mut stderr = BufReader::new(stderr);
         stderr.read_line(&mut line)?;
-        // Nobody reads what else it says, and it does not mind.
+        // Its further output is not read, which it tolerates.
     }
     // "... AT 1234/udp, navdata 1235/udp, configuration 1236/tcp"
     let ports: Vec<u16> =
@@ -181,7 +181,7 @@ fn close_output(pilot: &mut Process) {
     drop((pilot.0.stdout.take(), pilot.0.stderr.take()));
 }
 
-/// A flight that goes on, and what was done to it.
+/// A running flight and what was done to it.
 struct Flight<'a> {
     script: &'a Script,
     pilot: Process,
@@ -194,7 +194,7 @@ struct Flight<'a> {
 }
 
 impl Flight<'_> {
-    /// Does to the pilot what the script says, until it has ended.
+    /// Carries out the script on the pilot until it has ended.
     fn watch(&mut self) -> Result<(), BenchError> {
         let garbage = loopback_socket()?;
         loop {
@@ -223,7 +223,7 @@ impl Flight<'_> {
         }
     }
 
-    /// Nothing keeps it any more, and it has not ended.
+    /// Whether the pilot has not ended in time although nothing keeps it.
     fn overdue(&self) -> bool {
         let Some(signal) = self.times.signal else { return false };
         let resumed = self.times.resumed.unwrap_or_default();
@@ -269,20 +269,20 @@ impl Flight<'_> {
         }
     }
 
-    /// Garbage to the drone's AT port, and to where the pilot listens.
+    /// Sends garbage to the drone's AT port and to the pilot's ports.
     fn flood(&mut self, garbage: &UdpSocket) {
         let mut to: Vec<u16> = self.pilot_ports();
         to.push(self.ports[0]);
         for _ in 0..BURST {
             for port in &to {
-                // A full queue loses it.
+                // If the queue is full the datagram is lost.
                 _ = garbage.send_to(&[0x55; 300], (Ipv4Addr::LOCALHOST, *port));
             }
         }
         self.flooded += BURST;
     }
 
-    /// The local ports of sockets that are connected to the drone.
+    /// Local ports of the pilot's sockets connected to the drone.
     fn pilot_ports(&self) -> Vec<u16> {
         let table = std::fs::read_to_string("/proc/net/udp").unwrap_or_default();
         let port = |address: &str| u16::from_str_radix(address.rsplit(':').next()?, 16).ok();

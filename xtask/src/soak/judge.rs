@@ -1,44 +1,44 @@
-//! How a flight of the soak is judged: by the mock drone's log of the truth.
+//! Judge of the soak test, using the mock drone's log.
 
 use std::path::Path;
 use std::time::Duration;
 
 use super::script::{End, Script};
 
-/// A landing that is ordered begins within this time: by then some of ten datagrams have arrived.
+/// Time within which an ordered landing begins: by then some of ten datagrams have arrived.
 const HEEDED: Duration = Duration::from_millis(1500);
-/// A pilot that ends leaves the drone down within this time. Killed, it is the drone's own landing,
-/// which begins after 4 s.
+/// Time within which the drone must be down after the pilot's end. If it was killed, the drone lands by
+/// itself after 4 s.
 const DOWN: Duration = Duration::from_secs(20);
-/// A first signal is answered with a flight down to the ground and a landing.
+/// Time within which the drone must be down after a first signal, which causes a descent and a landing.
 const DOWN_AFTER_SIGNAL: Duration = Duration::from_secs(35);
-/// A take-off that was under way when the signal came.
+/// Time for which a take-off may still be in progress when the signal comes.
 const UNDER_WAY: Duration = Duration::from_millis(600);
 
-/// When what was done was done, since the drone's start.
+/// Times of what was done, since the drone's start.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Times {
-    /// The first signal that asks for the end, or the kill.
+    /// The first end signal, or the kill.
     pub(crate) signal: Option<Duration>,
-    /// The second.
+    /// The second end signal.
     pub(crate) second: Option<Duration>,
-    /// The pilot was let go on.
+    /// SIGCONT.
     pub(crate) resumed: Option<Duration>,
-    /// The pilot had ended.
+    /// End of the pilot.
     pub(crate) ended: Option<Duration>,
 }
 
-/// What came of a flight.
+/// Result of a flight.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Verdict {
     pub(crate) faults: Vec<String>,
-    /// It was in the air at some time.
+    /// The drone was in the air at some time.
     pub(crate) flew: bool,
-    /// How long it was in the air after the pilot was told to end, or ended.
+    /// Time in the air after the pilot was told to end, or ended.
     pub(crate) until_down: Option<Duration>,
 }
 
-/// A moment of the truth.
+/// A line of the drone's log.
 #[derive(Debug, Clone, PartialEq)]
 struct Moment {
     at: Duration,
@@ -55,24 +55,24 @@ impl Moment {
     }
 }
 
-/// What the drone is doing by its log so far; nothing while the log is empty.
+/// Whether the drone is down according to its log so far; false while the log is empty.
 pub(crate) fn is_down(log: &Path) -> bool {
     read(log).is_ok_and(|moments| moments.last().is_some_and(Moment::is_down))
 }
 
-/// Reads the truth; a line that is half written is left out.
+/// Reads the log without an incomplete last line.
 fn read(log: &Path) -> Result<Vec<Moment>, csv::Error> {
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_path(log)?;
     let moments = reader.records().map_while(Result::ok).filter_map(|record| {
         let at = record.get(0)?.parse().ok().map(Duration::from_secs_f64)?;
         let phase = record.get(1)?.to_owned();
-        // The phase is whole if something stands behind it.
+        // The phase is complete if another field follows it.
         record.get(2).map(|_| Moment { at, phase })
     });
     Ok(moments.collect())
 }
 
-/// Judges a flight whose truth is in `log`.
+/// Judges a flight by the drone's `log`.
 ///
 /// # Errors
 /// If there is no log.
@@ -87,7 +87,7 @@ fn verdict(script: &Script, times: &Times, truth: &[Moment]) -> Verdict {
             faults.push(text.to_owned());
         }
     };
-    // Neither a pilot that is stopped nor one that nobody hears can order anything.
+    // A pilot that is stopped, or whose datagrams are lost, cannot order anything.
     let heard = |at: Duration| {
         let at = times.resumed.map_or(at, |resumed| at.max(resumed));
         (!script.is_out(at, at + HEEDED)).then_some(at)
@@ -118,10 +118,10 @@ fn verdict(script: &Script, times: &Times, truth: &[Moment]) -> Verdict {
             fault(in_the_air(ended + DOWN), "in the air 20 s after the pilot had ended");
         }
     }
-    let told = [times.signal, times.ended].into_iter().flatten().min();
-    let until_down = told.filter(|told| in_the_air(*told)).map(|told| {
-        let down = after(told).find(|moment| moment.is_down()).or(truth.last());
-        down.map_or(Duration::ZERO, |moment| moment.at.saturating_sub(told))
+    let ordered = [times.signal, times.ended].into_iter().flatten().min();
+    let until_down = ordered.filter(|ordered| in_the_air(*ordered)).map(|ordered| {
+        let down = after(ordered).find(|moment| moment.is_down()).or(truth.last());
+        down.map_or(Duration::ZERO, |moment| moment.at.saturating_sub(ordered))
     });
     let flew = truth.iter().any(|moment| moment.phase == "flying");
     Verdict { faults, flew, until_down }
@@ -132,7 +132,7 @@ mod tests {
     use super::*;
     use crate::soak::script::Sign;
 
-    /// A truth in which the phases last so long.
+    /// A log with these phases and durations.
     fn truth(phases: &[(&str, f64)]) -> Vec<Moment> {
         let mut at = 0.0;
         let mut moments = Vec::new();
@@ -172,7 +172,7 @@ mod tests {
         let end = End::Twice(Sign::Interrupt, Duration::ZERO);
         let times = times(9, Some(10), 11);
         assert_eq!(judged(end, &times, &[("landing", 4.0), ("landed", 40.0)]), [""; 0]);
-        // The parting said nothing that lands: the drone waits for 4 s, then lands.
+        // Without effective landing orders the drone waits for 4 s, then lands by itself.
         let faults = judged(end, &times, &[("flying", 5.0), ("landing", 4.0), ("landed", 40.0)]);
         assert_eq!(faults.len(), 2, "{faults:?}");
     }

@@ -1,4 +1,4 @@
-//! What happens on a flight of the soak; everything follows from the seed.
+//! Script of a flight of the soak test; everything follows from the seed.
 
 use std::fmt;
 use std::fmt::Write as _;
@@ -7,20 +7,20 @@ use std::time::Duration;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-/// What is done to the pilot so that its flight ends.
+/// How the pilot is made to end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum End {
-    /// Nothing.
+    /// By its plan.
     Plan,
-    /// One signal.
+    /// By one signal.
     Once(Sign),
-    /// Two signals, so far apart.
+    /// By two signals with this time between them.
     Twice(Sign, Duration),
     /// SIGKILL.
     Kill,
 }
 
-/// A signal that asks for the end.
+/// A signal that requests the end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sign {
     Interrupt,
@@ -46,18 +46,18 @@ impl fmt::Display for End {
     }
 }
 
-/// Who is at the other end of the pilot's output.
+/// What happens to the pilot's output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Output {
-    /// Nobody minds.
+    /// It is discarded.
     Ignored,
     /// It is closed from the start.
     Closed,
-    /// Nobody reads it, and it is closed after so long.
+    /// It is not read, and closed after this time.
     StuckUntil(Duration),
 }
 
-/// A flight of the soak.
+/// Script of a flight.
 #[derive(Debug, Clone)]
 pub(crate) struct Script {
     pub(crate) seed: u64,
@@ -68,11 +68,11 @@ pub(crate) struct Script {
     /// Times without any datagram: begin and end since the drone's start.
     pub(crate) outages: Vec<(Duration, Duration)>,
     pub(crate) end: End,
-    /// When that is done, since the pilot's start.
+    /// Time of the end, since the pilot's start.
     pub(crate) end_at: Duration,
-    /// SIGSTOP, and SIGCONT after so long.
+    /// Time of SIGSTOP, and duration until SIGCONT.
     pub(crate) stop: Option<(Duration, Duration)>,
-    /// Garbage to both ends from then on, so many datagrams.
+    /// Start of the garbage to both ends, and number of datagrams.
     pub(crate) flood: Option<(Duration, u32)>,
     pub(crate) output: Output,
     pub(crate) records: bool,
@@ -83,7 +83,7 @@ fn seconds(random: &mut ChaCha8Rng, from: f64, to: f64) -> Duration {
 }
 
 impl Script {
-    /// The flight with this seed.
+    /// The script of this seed.
     pub(crate) fn new(seed: u64) -> Self {
         let random = &mut ChaCha8Rng::seed_from_u64(seed);
         let mut outages = Vec::new();
@@ -113,7 +113,7 @@ impl Script {
             scenario,
             outages,
             end,
-            // Most of it in the air, which is reached after some 5 s.
+            // Mostly in the air, which is reached after about 5 s.
             end_at: seconds(random, 0.2, 25.0),
             stop,
             flood,
@@ -122,7 +122,7 @@ impl Script {
         }
     }
 
-    /// What happens besides.
+    /// Names of the other interferences.
     pub(crate) fn extras(&self) -> impl Iterator<Item = &'static str> {
         let output = match self.output {
             Output::Ignored => None,
@@ -135,7 +135,7 @@ impl Script {
         [output, stopped, flooded, outage].into_iter().flatten()
     }
 
-    /// Whether nothing passes between pilot and drone at some time between these.
+    /// Whether all datagrams are lost at some time in this interval.
     pub(crate) fn is_out(&self, from: Duration, to: Duration) -> bool {
         self.outages.iter().any(|(begin, end)| *begin < to && from < *end)
     }
@@ -185,7 +185,7 @@ fn drone(random: &mut ChaCha8Rng, seed: u64) -> Vec<String> {
     words.split(' ').map(str::to_owned).collect()
 }
 
-/// Some faults of the air, and outages, whose times are remembered.
+/// Random faults of the air, and outages, whose times are stored.
 fn scenario(random: &mut ChaCha8Rng, outages: &mut Vec<(Duration, Duration)>) -> String {
     let mut text = String::new();
     for _ in 0..random.random_range(0..5) {

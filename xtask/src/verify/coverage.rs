@@ -1,5 +1,5 @@
-//! What the simulated test flights exercise of the agent: gcov counts what runs of its C, the trace matrix leads
-//! back to plans and requirements.
+//! Coverage of the agent by the simulated test flights: gcov measures the C, and the trace matrix leads back
+//! to plans and requirements.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,15 +9,15 @@ use serde::Deserialize;
 
 use super::{VerifyError, folder, in_file};
 
-/// Tests that fly in simulated time, and the agent's own.
+/// Test filters: flights in simulated time, and the agent's own tests.
 const TESTS: [&str; 5] = ["agent::", "simulated::", "safety::", "faults::", "estimate::"];
 
-/// What ran, of how much.
+/// A covered fraction.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Share {
-    /// So many ran.
+    /// Number covered.
     pub(super) ran: usize,
-    /// Of so many.
+    /// Number in total.
     pub(super) all: usize,
 }
 
@@ -39,43 +39,43 @@ impl std::fmt::Display for Share {
     }
 }
 
-/// One plan.
+/// Coverage of one plan.
 #[derive(Debug, Clone)]
 pub(super) struct PlanCoverage {
     /// Its first line in the agent.
     pub(super) line: usize,
-    /// Its trigger.
+    /// Its triggering event.
     pub(super) trigger: String,
-    /// Its own name, if it has one.
+    /// Its label, if it has one.
     pub(super) label: String,
-    /// What it is for.
+    /// Requirements that it implements.
     pub(super) requirements: Vec<String>,
     /// How often it was chosen.
     pub(super) chosen: u64,
-    /// Outcomes of its conditions: each can be true and false.
+    /// Covered outcomes of its conditions: each can be true and false.
     pub(super) outcomes: Share,
 }
 
-/// The whole agent.
+/// Coverage of the agent.
 #[derive(Debug, Clone)]
 pub(super) struct Coverage {
     /// Each plan, in the order of the source.
     pub(super) plans: Vec<PlanCoverage>,
-    /// Outcomes of all conditions of the C, those of the cycle among them.
+    /// Covered outcomes of all conditions of the C, including those of the deliberation cycle.
     pub(super) outcomes: Share,
-    /// Lines of the C.
+    /// Covered lines of the C.
     pub(super) lines: Share,
 }
 
 impl Coverage {
-    /// How many plans were chosen.
+    /// Share of plans that were chosen.
     pub(super) fn chosen(&self) -> Share {
         let mut share = Share::default();
         self.plans.iter().for_each(|plan| share.count(plan.chosen > 0));
         share
     }
 
-    /// By requirement: how many of its plans were chosen, and the outcomes of their conditions.
+    /// By requirement: share of its plans that were chosen, and of the outcomes of their conditions.
     pub(super) fn by_requirement(&self) -> BTreeMap<&str, (Share, Share)> {
         let mut shares: BTreeMap<&str, (Share, Share)> = BTreeMap::new();
         for plan in &self.plans {
@@ -89,7 +89,7 @@ impl Coverage {
     }
 }
 
-/// Runs the tests with counting C.
+/// Runs the tests with instrumented C.
 pub(super) fn measure() -> Result<Coverage, VerifyError> {
     let counted = folder("coverage");
     std::fs::create_dir_all(&counted).map_err(in_file("cannot make", &counted))?;
@@ -104,8 +104,8 @@ pub(super) fn measure() -> Result<Coverage, VerifyError> {
     let output = tests.env("AGENT_COVERAGE", &counted).output();
     let output = output.map_err(in_file("cannot run", Path::new(&cargo)))?;
     if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stdout).into_owned();
-        return Err(VerifyError::Tool { tool: "cargo test", output: said });
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        return Err(VerifyError::Tool { tool: "cargo test", output: text });
     }
     let mut gcov = Command::new("gcov");
     gcov.args(["--json-format", "--stdout", "--branch-probabilities", "--branch-counts"]);
@@ -129,7 +129,7 @@ fn files(folder: &Path, extension: &str) -> Result<Vec<std::path::PathBuf>, Veri
     Ok(paths.filter(|path| path.extension().is_some_and(|own| own == extension)).collect())
 }
 
-/// What gcov says.
+/// Output of gcov.
 #[derive(Debug, Deserialize)]
 struct Counts {
     files: Vec<FileCounts>,
@@ -169,7 +169,7 @@ struct Place {
     lines: [usize; 2],
 }
 
-/// Assigns counts to plans. A plan is chosen where its function tells the trace function so.
+/// Assigns counts to plans. A plan is chosen where its function calls the trace function.
 fn assign(counts: &Counts, rows: &[Row], source: &str) -> Coverage {
     let of_agent = counts.files.iter().filter(|file| file.file.ends_with("autopilot.c"));
     let counted: Vec<&LineCounts> = of_agent.flat_map(|file| &file.lines).collect();

@@ -1,5 +1,5 @@
-//! Verifies the shipped agent: its properties on a model and on the C, errors at run time, its cost, and what
-//! the tests exercise of it. Mutants show that the proofs can fail.
+//! Verifies the shipped agent: its properties on a model and on the C, run-time errors, cost, and test
+//! coverage. Mutants show that the proofs can fail.
 
 mod coverage;
 mod model;
@@ -22,49 +22,49 @@ use self::run_time::alarms;
 use self::tools::{Missing, Tools};
 use crate::parallel;
 
-/// Why nothing could be said.
+/// Why the verification failed.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum VerifyError {
     /// A file or a program.
     #[error("{what}: {source}")]
     Io {
-        /// What was tried.
+        /// The operation.
         what: String,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
-    /// What can't be proved without them is not proved.
+    /// Required tools are missing.
     #[error("{0}")]
     Missing(Missing),
-    /// The same, and it is no package.
+    /// CBMC is missing, which is not available as a package everywhere.
     #[error("nothing is proved: there is no CBMC here")]
     NoCbmc,
-    /// The agent is refused.
+    /// The agent was rejected by the translator.
     #[error("{0}")]
     Translate(#[from] TranslateError),
     /// The C was not proved.
     #[error(transparent)]
     Proof(#[from] asl2c::ProveError),
-    /// The model was not checked.
+    /// Checking the model failed.
     #[error(transparent)]
     Model(#[from] asl2c::VerifyError),
-    /// Figures that are missing: why, a line for each.
+    /// Some figures could not be measured: one reason per line.
     #[error("not everything is measured:\n{0}")]
     Unmeasured(String),
-    /// A tool said something else than a result.
+    /// Unexpected output of a tool.
     #[error("{tool} did not come to a result:\n{output}")]
     Tool {
-        /// Which.
+        /// The tool.
         tool: &'static str,
-        /// The end of what it said.
+        /// End of its output.
         output: String,
     },
 }
 
-/// An agent to be verified: its configuration and its text.
+/// An agent to be verified.
 #[derive(Debug, Clone, Copy)]
 struct Agent<'a> {
-    /// The name of the configuration's file.
+    /// File name of the configuration.
     name: &'a str,
     /// The configuration.
     configuration: &'a str,
@@ -84,7 +84,7 @@ const PAPER: Agent<'_> = Agent {
 };
 const REPORT: &str = "docs/verification.md";
 
-/// What was found of an agent on its model and on its C.
+/// Results of an agent on its model and on its C.
 #[derive(Debug)]
 struct Findings {
     model: Vec<Checked>,
@@ -92,7 +92,7 @@ struct Findings {
 }
 
 impl Findings {
-    /// What was found of a property on the model.
+    /// Result of a property on the model.
     fn on_model(&self, name: &str) -> Option<&Checked> {
         self.model.iter().find(|checked| checked.property.name == name)
     }
@@ -106,25 +106,25 @@ impl Findings {
     }
 }
 
-/// What became of a mutant.
+/// Result of a mutant.
 #[derive(Debug)]
 struct Caught {
     mutant: &'static Mutant,
-    /// What the proof on the C says is broken.
+    /// Properties that the proof on the C reports as broken.
     broken: Vec<String>,
-    /// On the model, whether what it is made to break fails; nothing if the mistake is in the C.
+    /// On the model, whether the property broken by the mutant fails; `None` if the mistake is in the C.
     on_model: Option<bool>,
 }
 
 impl Caught {
-    /// Whether everything that looked at it found what it is made to break.
+    /// Whether every method found the property broken.
     fn is_caught(&self) -> bool {
         self.broken.iter().any(|name| name == self.mutant.breaks) && self.on_model != Some(false)
     }
 }
 
-/// Verifies the shipped agent and, unless only proofs are wanted, its mutants and the paper's agent; tells, and writes
-/// it down if all was proved.
+/// Verifies the shipped agent and, unless `only_proofs`, its mutants and the paper's agent. Returns the
+/// report, and writes it to a file if everything was proved.
 pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
     let Tools { cbmc, versions } = Tools::find(only_proofs)?;
     let verifier = Verifier { cbmc };
@@ -153,13 +153,13 @@ pub(crate) fn run(only_proofs: bool) -> Result<(String, bool), VerifyError> {
     Ok((lines, good))
 }
 
-/// Agents are verified with these.
+/// Runs the verification with the tools found.
 struct Verifier {
     cbmc: Cbmc,
 }
 
 impl Verifier {
-    /// All that can be said of an agent.
+    /// All results of an agent.
     fn verify(&self, agent: &Agent<'_>, folder: &Path) -> Result<Findings, VerifyError> {
         let model = model::check(agent, None)?;
         let mut c = prove(agent, &self.cbmc, folder, &Plan::ALL, |_| None)?;
@@ -167,7 +167,7 @@ impl Verifier {
         Ok(Findings { model, c })
     }
 
-    /// What becomes of the mutants of an agent with this invariant.
+    /// Results of the mutants, given the invariant of the agent.
     fn mutants(&self, invariant: &[String]) -> Result<Vec<Caught>, VerifyError> {
         let numbers: Vec<usize> = (0..MUTANTS.len()).collect();
         parallel::map(&numbers, |number| {
@@ -190,8 +190,9 @@ impl Verifier {
         let runs_wrong = mutant.breaks == RUN_TIME;
         let checks = if runs_wrong { Checks::All } else { Checks::Properties };
         let spoil = |file: &str| mutant.apply(Place::C, file);
-        // What the model shows to fail does fail: to find it on the C, the invariant of the agent will do. Else
-        // nothing may be left out, for a proof that lacks a condition says nothing against the mutant.
+        // If the property also fails on the model, the agent's invariant suffices to find it on the C.
+        // Otherwise all candidates are needed, because a failed proof with fewer conditions says nothing
+        // about the mutant.
         let on_model = mutant.place != Place::C;
         let known = if on_model { invariant } else { &[] };
         let plan = Plan { checks, known, enough: Some(mutant.breaks) };
@@ -213,7 +214,7 @@ impl Verifier {
     }
 }
 
-/// Where the tools and generated files are.
+/// Folder of the tools and generated files.
 fn folder(name: &str) -> PathBuf {
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);

@@ -1,4 +1,4 @@
-//! Checks the properties on a model of the agent, and measures its C, with the compiler's library.
+//! Checks properties on a model of the agent and measures its C, using the compiler's library.
 
 use asl2c::Checked;
 use translator::{model, parse_configuration, translate};
@@ -13,7 +13,7 @@ pub(super) fn check(agent: &Agent<'_>, only: Option<&str>) -> Result<Vec<Checked
     Ok(asl2c::verify(&model, &only)?)
 }
 
-/// What the agent costs, with all that a compiler and valgrind can say of it.
+/// Cost of the agent, measured with a compiler and valgrind.
 pub(super) fn cost(agent: &Agent<'_>) -> Result<String, VerifyError> {
     let configuration = parse_configuration(agent.name, agent.configuration)?;
     let mut translation = translate(&configuration, agent.text)?;

@@ -1,34 +1,34 @@
-//! Agents and C that break a promise: a proof that accepts one of them proves nothing.
+//! Mutants of agent and C, each of which breaks a property: a proof that accepts one of them is worthless.
 
-/// Where something is changed.
+/// Source that is changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
-    /// In the AgentSpeak.
+    /// The AgentSpeak source.
     Agent,
-    /// In its configuration.
+    /// The configuration.
     Configuration,
-    /// In the generated C.
+    /// The generated C.
     C,
 }
 
-/// A change, and the property that it breaks; `run time` stands for an error at run time.
+/// A change and the property that it breaks; `run time` stands for a run-time error.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Mutant {
-    /// What is wrong with it.
+    /// Description of the mistake.
     pub(super) name: &'static str,
-    /// Where it is changed.
+    /// Source that is changed.
     pub(super) place: Place,
     from: &'static str,
     to: &'static str,
-    /// What must be found.
+    /// Property that must be found broken.
     pub(super) breaks: &'static str,
 }
 
-/// What a mutant breaks that has an error at run time.
+/// Value of [`Mutant::breaks`] for a run-time error.
 pub(super) const RUN_TIME: &str = "run time";
 
 impl Mutant {
-    /// Changes the first such text; nothing if there is none, or the mutant is about another place.
+    /// Changes the first occurrence; `None` if there is none, or the mutant changes another source.
     pub(super) fn apply(&self, place: Place, text: &str) -> Option<String> {
         (place == self.place && text.contains(self.from))
             .then(|| text.replacen(self.from, self.to, 1))
@@ -53,7 +53,7 @@ const fn c(
     Mutant { name, place: Place::C, from, to, breaks }
 }
 
-/// All of them.
+/// All mutants.
 pub(super) const MUTANTS: [Mutant; 52] = [
     agent(
         "a failure plan says nothing",

@@ -1,4 +1,4 @@
-//! What was found, for the terminal and for `docs/verification.md`.
+//! Reports the results on the terminal and in `docs/verification.md`.
 
 use std::fmt::Write as _;
 
@@ -8,13 +8,13 @@ use super::coverage::Coverage;
 use super::tools::Versions;
 use super::{Caught, Findings};
 
-/// All that was found.
+/// All results.
 pub(super) struct Report {
     pub(super) versions: Versions,
     pub(super) autopilot: Findings,
     pub(super) paper: Findings,
     pub(super) mutants: Vec<Caught>,
-    /// What `asl2c --report` says.
+    /// Output of `asl2c --report`.
     pub(super) cost: String,
     pub(super) coverage: Coverage,
 }
@@ -44,7 +44,7 @@ impl Findings {
     }
 }
 
-/// What was proved of the shipped agent, for people.
+/// Summary of the proofs of the shipped agent.
 pub(super) fn proved(autopilot: &Findings) -> String {
     let mut text =
         String::from("The shipped agent, in every environment, for any number of steps\n");
@@ -71,7 +71,7 @@ pub(super) fn proved(autopilot: &Findings) -> String {
 }
 
 impl Report {
-    /// For the terminal.
+    /// Report for the terminal.
     pub(super) fn lines(&self) -> String {
         let mut text = proved(&self.autopilot);
         text += "Mutants, each of which must break what it is made for\n";
@@ -89,7 +89,7 @@ impl Report {
         text
     }
 
-    /// For `docs/verification.md`.
+    /// Report for `docs/verification.md`.
     pub(super) fn markdown(&self) -> String {
         let mut text = String::from(INTRODUCTION);
         text += "| property | requirement | must hold | model | C |\n|---|---|---|---|---|\n";
@@ -135,7 +135,7 @@ impl Report {
         text
     }
 
-    /// The paper's agent.
+    /// Section on the paper's agent.
     fn compare(&self, text: &mut String) {
         *text += PAPER_INTRODUCTION;
         *text += "| property | must hold | model | C |\n|---|---|---|---|\n";
@@ -157,7 +157,7 @@ impl Report {
         }
     }
 
-    /// What the tests exercise.
+    /// Section on test coverage.
     fn exercise(&self, text: &mut String) {
         let coverage = &self.coverage;
         let Coverage { outcomes, lines, plans } = coverage;
@@ -175,7 +175,7 @@ impl Report {
         for plan in plans {
             let label = if plan.label.is_empty() { "" } else { " @" };
             let requirements = plan.requirements.join(", ");
-            // Counts depend on how threads of tests interleave; what matters is whether.
+            // Counts depend on the interleaving of test threads; only whether a plan was chosen is stable.
             let chosen = if plan.chosen > 0 { "yes" } else { "**never**" };
             _ = writeln!(
                 text,

@@ -1,4 +1,4 @@
-//! Frama-C's EVA follows the agent's whole life and reports what could be an error at run time.
+//! Analyses the agent for run-time errors with Frama-C's EVA.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,19 +7,19 @@ use translator::HARNESS;
 
 use super::{VerifyError, in_file};
 
-/// The program.
+/// Name of the program.
 pub(super) const FRAMA_C: &str = "frama-c";
 
-/// What Frama-C's EVA cannot exclude in the agent's whole life, from `init()` on.
+/// Alarms that EVA cannot exclude during the agent's whole life, from `init()` on.
 pub(super) fn alarms(folder: &Path) -> Result<Vec<String>, VerifyError> {
     let folder = folder.canonicalize().map_err(in_file("cannot find", folder))?;
     let output = Command::new(FRAMA_C)
         .args(["-eva", "-eva-precision", "1", "-machdep", "gcc_x86_64"])
-        // Numbers that are none may come from outside; literals need not be exact.
+        // NaN may come from outside; literals need not be exact.
         .args(["-warn-special-float", "none", "-kernel-warn-key", "parser:decimal-float=inactive"])
         .arg(HARNESS)
         .current_dir(&folder)
-        // It asks the environment where it is.
+        // Frama-C reads its working directory from the environment.
         .env("PWD", &folder)
         .output()
         .map_err(in_file("cannot run", Path::new(FRAMA_C)))?;

@@ -1,5 +1,5 @@
-//! The programs that verification needs. One that is missing is an error: what was not proved must not look as if
-//! it was.
+//! External tools of the verification. A missing one is an error, because what was not proved must not look
+//! proved.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -11,16 +11,16 @@ use asl2c::{Cbmc, SPIN};
 use super::run_time::FRAMA_C;
 use super::{VerifyError, folder, in_file};
 
-/// The tools with which something is proved.
+/// The tools found.
 #[derive(Debug)]
 pub(super) struct Tools {
-    /// The CBMC.
+    /// CBMC.
     pub(super) cbmc: Cbmc,
-    /// What they call themselves.
+    /// Versions of the tools.
     pub(super) versions: Versions,
 }
 
-/// What the tools call themselves.
+/// Version strings of the tools.
 #[derive(Debug)]
 pub(super) struct Versions {
     pub(super) cbmc: String,
@@ -28,7 +28,7 @@ pub(super) struct Versions {
     pub(super) spin: String,
 }
 
-/// A program, how it tells its version, and its package.
+/// A program, its version option, and its package.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Needed {
     program: &'static str,
@@ -36,20 +36,20 @@ struct Needed {
     package: &'static str,
 }
 
-/// SPIN's searches are compiled.
+/// SPIN's searches are compiled, hence gcc.
 const FOR_PROOFS: [Needed; 3] = [
     Needed { program: SPIN, version: "-V", package: "spin" },
     Needed { program: "cc", version: "--version", package: "gcc" },
     Needed { program: FRAMA_C, version: "-version", package: "frama-c-base" },
 ];
-/// Coverage is counted by gcov, what a step costs by gcc and valgrind.
+/// Coverage needs gcov, measuring the cost of a step needs gcc and valgrind.
 const BESIDES: [Needed; 3] = [
     Needed { program: "gcc", version: "--version", package: "gcc" },
     Needed { program: "gcov", version: "--version", package: "gcc" },
     Needed { program: "valgrind", version: "--version", package: "valgrind" },
 ];
 
-/// Programs that are not there.
+/// Missing programs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Missing(Vec<Needed>);
 
@@ -68,11 +68,11 @@ impl fmt::Display for Missing {
 }
 
 impl Tools {
-    /// Finds the tools, those for the rest too unless only proofs are wanted; CBMC, which is no package everywhere,
-    /// is fetched.
+    /// Finds the tools, only those for proofs if `only_proofs`. CBMC is downloaded if necessary, because it
+    /// is not available as a package everywhere.
     ///
     /// # Errors
-    /// [`VerifyError::Missing`] or [`VerifyError::NoCbmc`] if one of them is not there.
+    /// [`VerifyError::Missing`] or [`VerifyError::NoCbmc`] if one of them is missing.
     pub(super) fn find(only_proofs: bool) -> Result<Self, VerifyError> {
         let besides: &[Needed] = if only_proofs { &[] } else { &BESIDES };
         let needed: Vec<Needed> = FOR_PROOFS.iter().chain(besides).copied().collect();
@@ -80,7 +80,7 @@ impl Tools {
         check(&needed, is_there).map_err(VerifyError::Missing)?;
         let script = Path::new("xtask/tools/cbmc.sh");
         let fetched = Command::new(script).arg(folder("tools")).status();
-        // The script has said why.
+        // The script has printed the reason.
         if !fetched.map_err(in_file("cannot run", script))?.success() {
             return Err(VerifyError::NoCbmc);
         }
@@ -100,11 +100,11 @@ fn check(needed: &[Needed], is_there: impl Fn(&Needed) -> bool) -> Result<(), Mi
     if missing.is_empty() { Ok(()) } else { Err(Missing(missing)) }
 }
 
-/// What a tool calls itself; nothing if it does not run here.
+/// Version string of a tool; `None` if it cannot be run here.
 fn version(tool: impl AsRef<OsStr>, option: &str) -> Option<String> {
     let output = Command::new(tool).arg(option).output().ok()?;
-    let said = String::from_utf8_lossy(&output.stdout).trim().to_owned();
-    output.status.success().then_some(said)
+    let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    output.status.success().then_some(version)
 }
 
 #[cfg(test)]

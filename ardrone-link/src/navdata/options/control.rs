@@ -1,9 +1,9 @@
-//! What the controller aims at, and what it does.
+//! Setpoints and outputs of the drone's controller.
 
 use crate::navdata::wire::{Milli, option};
 
 option! {
-    /// What the controller aims at.
+    /// Setpoints of the controller.
     References, 88 {
         /// Nose up positive.
         pitch_deg: f64 as Milli<i32>,
@@ -35,13 +35,13 @@ option! {
         gain_right: f32 as f32,
         /// Mode of the velocity gain.
         gain_mode: u32 as u32,
-        /// Time of the pilot's last input.
+        /// Time of the client's last input.
         input_time: f32 as f32,
         /// PCMD pitch as received.
         input_pitch: f32 as f32,
         /// PCMD roll as received.
         input_roll: f32 as f32,
-        /// Heading of the pilot's own compass as received.
+        /// Heading of the operator's compass as received.
         input_psi: f32 as f32,
         /// Its accuracy as received.
         input_psi_accuracy: f32 as f32,
@@ -51,13 +51,13 @@ option! {
 }
 
 option! {
-    /// Corrections of the level.
+    /// Level corrections.
     Trims, 16 {
         /// Raw.
         yaw_rate: f32 as f32,
-        /// By the flat trim.
+        /// From flat trim.
         pitch_deg: f64 as Milli<f32>,
-        /// By the flat trim.
+        /// From flat trim.
         roll_deg: f64 as Milli<f32>,
     }
 }
@@ -79,7 +79,7 @@ option! {
 }
 
 option! {
-    /// The motors, and what drives them. Front left, front right, rear right, rear left.
+    /// Motors and their control inputs. Front left, front right, rear right, rear left.
     Pwm, 76 {
         /// 0 to 255.
         motors: [u8; 4] as [u8; 4],
@@ -123,15 +123,15 @@ option! {
 }
 
 option! {
-    /// The altitude's estimator.
+    /// Altitude estimator.
     Altitude, 56 {
-        /// By vision.
+        /// Measured by vision.
         vision_m: f64 as Milli<i32>,
         /// Climb.
         climb_m_s: f64 as Milli<f32>,
-        /// What is aimed at.
+        /// Setpoint.
         reference_m: f64 as Milli<i32>,
-        /// By ultrasound, before any filter; about 0.24 on the ground.
+        /// Ultrasound without filtering; about 0.24 on the ground.
         raw_m: f64 as Milli<i32>,
         /// Observed vertical acceleration.
         observed_acceleration: f32 as f32,

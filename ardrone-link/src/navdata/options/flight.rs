@@ -1,4 +1,4 @@
-//! What a pilot looks at: attitude, altitude, velocity, battery, time.
+//! Basic flight data: attitude, altitude, velocity, battery, time.
 
 use std::time::Duration;
 
@@ -8,9 +8,9 @@ use crate::navdata::wire::{ClockWord, ControlMajor, Milli, option};
 option! {
     /// Attitude, altitude, velocity, battery. Body frame: forward, right, down.
     Demo, 148 {
-        /// A detail of what the controller is doing.
+        /// Minor control state, a detail of `control_state`.
         control_state_minor: u16 as u16,
-        /// What the drone's controller is doing.
+        /// Major control state.
         control_state: ControlState as ControlMajor,
         /// Remaining charge.
         battery_percent: u32 as u32,
@@ -18,9 +18,9 @@ option! {
         pitch_deg: f64 as Milli<f32>,
         /// Right side down positive.
         roll_deg: f64 as Milli<f32>,
-        /// Clockwise from above positive, in [-180, 180]; zero is where the drone chose it to be.
+        /// Clockwise from above positive, in [-180, 180]; the zero direction is chosen by the drone.
         yaw_deg: f64 as Milli<f32>,
-        /// Above the ground below.
+        /// Height above the ground below.
         altitude_m: f64 as Milli<i32>,
         /// Forward, levelled body frame.
         velocity_forward_m_s: f64 as Milli<f32>,
@@ -28,7 +28,7 @@ option! {
         velocity_right_m_s: f64 as Milli<f32>,
         /// Down; zero in every known capture.
         velocity_down_m_s: f64 as Milli<f32>,
-        /// Number of the picture that was streamed last.
+        /// Number of the last streamed video frame.
         frame_number: u32 as u32,
         /// Deprecated by Parrot.
         detection_camera_rotation: [f32; 9] as [f32; 9],
@@ -46,14 +46,14 @@ option! {
 }
 
 impl Demo {
-    /// Whether the drone says that its camera sees nothing to measure its velocity by: minor state
-    /// `no_vision` of flying (SDK 2, `control_states.h`).
+    /// Whether the drone reports that its camera cannot measure velocity: minor state `no_vision` of flying
+    /// (SDK 2, `control_states.h`).
     pub fn has_lost_vision(&self) -> bool {
         self.control_state == ControlState::Flying && self.control_state_minor == 6
     }
 
-    /// Whether the drone says that it does not know its altitude: minor states `lost_alt` of flying
-    /// and hovering, in all their kinds (SDK 2, `control_states.h`).
+    /// Whether the drone reports that its altitude is unknown: the `lost_alt` minor states of flying and
+    /// hovering (SDK 2, `control_states.h`).
     pub fn has_lost_altitude(&self) -> bool {
         match self.control_state {
             ControlState::Flying => matches!(self.control_state_minor, 1 | 2),

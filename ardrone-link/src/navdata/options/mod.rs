@@ -1,8 +1,8 @@
 //! The options of a packet, one struct for each tag.
 //!
-//! Layouts, units and signs: Parrot's `navdata_common.h`, checked against captures of real drones.
-//! Quantities are in SI units and degrees, with the unit in the name; what carries no unit is the
-//! firmware's own raw number.
+//! Layouts, units and signs follow Parrot's `navdata_common.h` and were checked against captures of real
+//! drones. Quantities are in SI units and degrees, with the unit in the name; fields without a unit are raw
+//! numbers of the firmware.
 
 mod control;
 mod flight;
@@ -29,7 +29,7 @@ pub enum NavdataOption<'a> {
     Demo(Demo),
     /// Tag 1: the drone's clock.
     Time(Time),
-    /// Tag 2: the sensors as they are read.
+    /// Tag 2: raw sensor readings.
     RawMeasures(RawMeasures),
     /// Tag 3: accelerometers and gyroscopes, calibrated.
     PhysicalMeasures(PhysicalMeasures),
@@ -37,7 +37,7 @@ pub enum NavdataOption<'a> {
     GyroOffsets(GyroOffsets),
     /// Tag 5: attitude by the accelerometers alone.
     EulerAngles(EulerAngles),
-    /// Tag 6: what the controller aims at.
+    /// Tag 6: setpoints of the controller.
     References(References),
     /// Tag 7
     Trims(Trims),
@@ -45,7 +45,7 @@ pub enum NavdataOption<'a> {
     RcReferences(RcReferences),
     /// Tag 9: the motors.
     Pwm(Pwm),
-    /// Tag 10: the altitude's estimator.
+    /// Tag 10: the altitude estimator.
     Altitude(Altitude),
     /// Tag 11
     VisionRaw(VisionRaw),
@@ -53,11 +53,11 @@ pub enum NavdataOption<'a> {
     VisionFlow(VisionFlow),
     /// Tag 13: velocity by vision.
     Vision(Vision),
-    /// Tag 14: how long vision takes.
+    /// Tag 14: duration of the vision algorithms.
     VisionPerformance(VisionPerformance),
     /// Tag 15
     TrackersSend(TrackersSend),
-    /// Tag 16: roundels and tags in the picture.
+    /// Tag 16: detected roundels and tags.
     VisionDetect(VisionDetect),
     /// Tag 17
     Watchdog(Watchdog),
@@ -71,7 +71,7 @@ pub enum NavdataOption<'a> {
     PressureRaw(PressureRaw),
     /// Tag 22: the compass.
     Magneto(Magneto),
-    /// Tag 23: the wind as the drone estimates it.
+    /// Tag 23: the drone's estimate of the wind.
     WindSpeed(WindSpeed),
     /// Tag 24: altitude by pressure.
     KalmanPressure(KalmanPressure),
@@ -79,15 +79,15 @@ pub enum NavdataOption<'a> {
     HdVideoStream(HdVideoStream),
     /// Tag 26
     Wifi(Wifi),
-    /// Tag 27 in its form of 12 bytes.
+    /// Tag 27 in its 12-byte form.
     Zimmu3000(Zimmu3000),
-    /// Tag 27 in its form of 216 bytes: the flight recorder's GPS.
+    /// Tag 27 in its 216-byte form: the flight recorder's GPS.
     Gps(Gps),
-    /// Any other tag, or a known one whose size is none that is known.
+    /// Any other tag, or a known one with an unknown size.
     Unknown {
         /// The option's tag.
         tag: u16,
-        /// Its bytes without tag and size.
+        /// Its payload, without tag and size.
         payload: &'a [u8],
     },
 }
@@ -95,13 +95,13 @@ pub enum NavdataOption<'a> {
 macro_rules! table {
     ($($variant:ident = $tag:literal,)*) => {
         impl<'a> NavdataOption<'a> {
-            /// Reads an option that is not the checksum. A size that is not known is never an
-            /// error: the bytes are kept.
+            /// Decodes an option other than the checksum. An unknown size is not an error: the bytes are
+            /// kept.
             pub fn decode(tag: u16, payload: &'a [u8]) -> Self {
                 let unknown = Self::Unknown { tag, payload };
                 match tag {
                     $($tag => $variant::read(payload).map_or(unknown, Self::$variant),)*
-                    // Two things share this tag; only their sizes tell them apart.
+                    // Two options share this tag and differ only in size.
                     TAG_GPS if payload.len() == Gps::EXACT_BYTES => {
                         Gps::read(payload).map_or(unknown, Self::Gps)
                     }
@@ -121,7 +121,7 @@ macro_rules! table {
                 }
             }
 
-            /// Writes the option without tag and size.
+            /// Encodes the option without tag and size.
             pub(super) fn write(&self, out: &mut impl BufMut) {
                 match self {
                     $(Self::$variant(option) => option.write(out),)*

@@ -1,9 +1,9 @@
-//! The sensors, raw and calibrated, and what is estimated from them.
+//! Sensors, raw and calibrated, and estimates based on them.
 
 use crate::navdata::wire::{Milli, MilliGravity, Tenth, option};
 
 option! {
-    /// The sensors as they are read.
+    /// Raw sensor readings.
     RawMeasures, 52 {
         /// Accelerometer counts, forward, right, down.
         accelerometers: [u16; 3] as [u16; 3],
@@ -61,7 +61,7 @@ option! {
 }
 
 option! {
-    /// What the gyroscopes read at rest.
+    /// Gyroscope readings at rest.
     GyroOffsets, 16 {
         /// Raw, roll, pitch, yaw.
         offsets: [f32; 3] as [f32; 3],
@@ -117,11 +117,11 @@ option! {
 }
 
 option! {
-    /// The wind as the drone estimates it, outdoors.
+    /// The drone's estimate of the wind, outdoors only.
     WindSpeed, 56 {
         /// Of the wind.
         speed_m_s: f32 as f32,
-        /// Where it comes from; degrees in records, though Parrot's comment says radians.
+        /// Direction it comes from; degrees in recordings, although Parrot's comment says radians.
         direction_deg: f32 as f32,
         /// Tilt against the wind, pitch.
         compensation_pitch: f32 as f32,

@@ -1,4 +1,4 @@
-//! Video, radio, and what is left of games and debugging.
+//! Video, radio, and remains of games and debugging.
 
 use crate::navdata::wire::option;
 
@@ -37,9 +37,9 @@ option! {
         at_gap_variation: f32 as f32,
         /// Quality of the AT link.
         at_quality: u32 as u32,
-        /// Bits a second that leave.
+        /// Current bit rate in bits per second.
         bit_rate: u32 as u32,
-        /// Bits a second that are wanted.
+        /// Requested bit rate in bits per second.
         desired_bit_rate: u32 as u32,
         /// For debugging.
         data: [i32; 5] as [i32; 5],
@@ -83,14 +83,14 @@ option! {
 option! {
     /// The radio link.
     Wifi, 8 {
-        /// As sent. Zero in every known capture, so its format is undecided.
+        /// As sent. Zero in every known capture, so its format is unknown.
         link_quality_bits: u32 as u32,
     }
 }
 
 impl Wifi {
-    /// The link's quality if the bits are a float that is 0 at best, as Parrot's phone application
-    /// reads them: 1 at best.
+    /// Link quality under the assumption of Parrot's phone application that the bits are a float that is 0 at
+    /// best; returns 1 at best.
     pub fn quality_as_float(&self) -> f32 {
         1.0 - f32::from_bits(self.link_quality_bits)
     }

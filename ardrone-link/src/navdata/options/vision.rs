@@ -1,4 +1,4 @@
-//! What the cameras see.
+//! Vision: velocity measurement and tag detection.
 
 use crate::navdata::wire::{Centi, Milli, option};
 
@@ -71,7 +71,7 @@ option! {
 }
 
 option! {
-    /// How long vision takes.
+    /// Duration of the vision algorithms.
     VisionPerformance, 108 {
         /// Size of the zone.
         zone: f32 as f32,
@@ -91,19 +91,19 @@ option! {
 }
 
 option! {
-    /// Points that vision follows.
+    /// Points tracked by vision.
     TrackersSend, 364 {
         /// Not zero if the point is held.
         locked: [i32; 30] as [i32; 30],
-        /// Where it is in the picture, x and y.
+        /// Position in the image, x and y.
         points: [[i32; 2]; 30] as [[i32; 2]; 30],
     }
 }
 
 option! {
-    /// Roundels and tags in the picture, at most four.
+    /// Detected roundels and tags, at most four.
     VisionDetect, 328 {
-        /// How many were found.
+        /// Number of detections.
         count: u32 as u32,
         /// Camera in the high half, kind of tag in the low half.
         kinds: [u32; 4] as [u32; 4],
@@ -123,7 +123,7 @@ option! {
         rotations: [[f32; 9]; 4] as [[f32; 9]; 4],
         /// From the camera.
         translations: [[f32; 3]; 4] as [[f32; 3]; 4],
-        /// 0 front, 1 bottom, 2 bottom in step with the hover.
+        /// 0 front, 1 bottom, 2 bottom in sync with the hover control.
         cameras: [u32; 4] as [u32; 4],
     }
 }

@@ -187,7 +187,7 @@ proptest! {
         fitting in any::<bool>(),
     ) {
         if fitting && bytes.len() >= 20 {
-            // Without these hardly any bytes are a packet.
+            // Random bytes would hardly ever form a packet.
             bytes[..4].copy_from_slice(&MAGIC.to_le_bytes());
             bytes[16..18].copy_from_slice(&tag.to_le_bytes());
             bytes[18..20].copy_from_slice(&size.to_le_bytes());

@@ -11,7 +11,7 @@ const LIMITS: Limits = Limits {
 
 type Answer = oneshot::Receiver<Result<(), FlightError>>;
 
-/// The orders, and a drone that says what it is made to say.
+/// The orders, and a drone whose state is set by the test.
 struct Bench {
     orders: Orders,
     seen: Seen,
@@ -19,7 +19,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// A drone that stands, ready.
+    /// A drone on the ground, ready.
     fn new() -> Self {
         let mut bench =
             Self { orders: Orders::new(LIMITS), seen: Seen::default(), now: Duration::ZERO };
@@ -48,14 +48,14 @@ impl Bench {
         self.seen.control_state = Some(control_state);
     }
 
-    /// The order of one tick, a packet before it.
+    /// Order of one tick after a packet.
     fn tick(&mut self) -> Order {
         self.now += MS(30);
         self.seen.heard_at = Some(self.now);
         self.silent_tick()
     }
 
-    /// The order of one tick without a packet.
+    /// Order of one tick without a packet.
     fn silent_tick(&mut self) -> Order {
         self.now += MS(30);
         let order = self.orders.order(self.now, &self.seen);
@@ -89,7 +89,7 @@ fn a_take_off_is_ordered_behind_a_landing_and_only_until_the_drone_flies() {
     let mut bench = Bench::new();
     assert_eq!(bench.tick(), Order::LAND);
     let mut answer = bench.take_off();
-    // The session takes a take-off for new only behind a landing.
+    // The session accepts a take-off as new only after a landing order.
     assert_eq!(bench.tick(), Order::LAND);
     assert_eq!(bench.tick(), order(FlightOrder::TakeOff));
     bench.says(DroneState::FLYING, ControlState::TakingOff);
@@ -121,7 +121,7 @@ fn a_drone_that_must_not_take_off_is_not_ordered_to() {
 }
 
 #[test]
-fn whatever_ends_a_take_off_orders_the_landing_and_is_told() {
+fn whatever_ends_a_take_off_orders_the_landing_and_is_reported() {
     let timed_out =
         FlightError::TakeOffTimedOut { limit: LIMITS.take_off, battery_percent: Some(15) };
     for (event, error) in [
@@ -142,7 +142,7 @@ fn whatever_ends_a_take_off_orders_the_landing_and_is_told() {
         }
         assert_eq!(bench.tick(), Order::LAND, "{event:?}");
     }
-    // The client's own limit holds without a word of the session.
+    // The client's own limit applies even without an event of the session.
     let mut bench = Bench::new();
     bench.seen.battery_percent = Some(15);
     let mut answer = bench.take_off();
@@ -152,7 +152,7 @@ fn whatever_ends_a_take_off_orders_the_landing_and_is_told() {
     }
     assert_eq!(answer.try_recv(), Ok(Err(timed_out)));
     assert_eq!(bench.tick(), Order::LAND);
-    // A drone that waits to be configured again has lost us.
+    // A drone that waits to be configured again has lost the connection.
     let mut bench = Bench::new();
     let mut answer = bench.take_off();
     bench.seen.ready = false;
@@ -170,7 +170,7 @@ fn a_take_off_for_which_nobody_waits_any_more_is_given_up() {
     second.close();
     bench.tick();
     assert_eq!(bench.tick(), Order::LAND);
-    // One who has left before the task saw the order wants none.
+    // A caller that stops waiting before the task has seen the order does not want it.
     let (reply, answer) = oneshot::channel();
     drop(answer);
     bench.orders.take_off(bench.now, &bench.seen, reply);
@@ -185,7 +185,7 @@ fn a_landing_overrules_a_take_off_and_ends_when_the_drone_is_down_for_sure() {
     bench.tick();
     let mut landing = bench.land();
     assert_eq!(taking_off.try_recv(), Ok(Err(FlightError::Landing)));
-    // It stands, but may be about to obey the take-off.
+    // It is on the ground, but may be about to take off.
     for _ in 0..10 {
         assert_eq!(bench.tick(), Order::LAND);
     }
@@ -234,7 +234,7 @@ fn a_landing_that_fails_stays_ordered() {
         assert_eq!(landing.try_recv(), Ok(Err(error.clone())));
         assert_eq!(bench.tick(), Order::LAND, "{error}");
     }
-    // A drone that has cut its motors, or is not heard, does not land.
+    // A drone that has cut its motors, or is silent, does not land.
     let mut bench = Bench::new();
     bench.says(DroneState::EMERGENCY, ControlState::Default);
     let mut landing = bench.land();
@@ -342,7 +342,7 @@ fn step() -> impl Strategy<Value = Step> {
 }
 
 proptest! {
-    /// Whatever happens, in whatever order.
+    /// Random orders and events.
     #[test]
     fn everybody_is_answered_in_time_and_nothing_flies_unasked(
         steps in proptest::collection::vec(step(), 1..60)

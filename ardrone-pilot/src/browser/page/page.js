@@ -1,5 +1,5 @@
 "use strict";
-// The flight as ardrone-pilot tells it over /live, and the operator's orders back.
+// Shows the flight from ardrone-pilot's messages on /live, and sends the operator's orders.
 
 const $ = (id) => document.getElementById(id);
 const svg = (name, attributes = {}) => {
@@ -13,9 +13,9 @@ const signed = (value, digits = 2) => {
 };
 const at = (seconds) => `${seconds.toFixed(1)} s`;
 
-// Without a word for this long the page is not to be believed, in milliseconds.
+// Without a message for this long the page shows an alarm, in milliseconds.
 const SILENCE = 1000;
-// So long a question stands, in milliseconds: the second click of a cut, and a click on the map.
+// Time to confirm a cut or a click on the map, in milliseconds.
 const CUT_AGAIN = 2500;
 const GO_AGAIN = 8000;
 
@@ -37,13 +37,13 @@ let wanted = null; // where was clicked
 let wantedUntil = 0;
 let armedUntil = 0;
 
-// ---- The way to the pilot.
+// ---- Connection.
 
 function connect() {
   const address = new URL("live" + location.search, location.href);
   address.protocol = "ws:";
   socket = new WebSocket(address);
-  // Whoever answers now may have another clock.
+  // After reconnecting, the server may have another time base.
   socket.onopen = () => (clock = -Infinity);
   socket.onmessage = (event) => {
     heard = performance.now();
@@ -187,7 +187,7 @@ function extendTrail(pose) {
   if (trail.length > 2000) trail.shift();
 }
 
-// ---- What is seen. Drawn when the browser draws, so that a page in the background costs nothing.
+// ---- Display. Drawn in animation frames, so that a page in the background costs nothing.
 
 const points = (places) => places.map(([x, y]) => `${x.toFixed(3)},${(-y).toFixed(3)}`).join(" ");
 
@@ -209,9 +209,9 @@ function drawAlarm() {
   let alarm = "";
   if (silence > SILENCE) {
     const since = heard ? ` for ${seconds(silence)}` : "";
-    alarm = `No word from ardrone-pilot${since}. The flight goes on without this page; the terminal has it.`;
+    alarm = `No data from ardrone-pilot${since}. The flight goes on without this page; see the terminal.`;
   } else if (behind > SILENCE) {
-    alarm = `This page shows what was ${seconds(behind)} ago: the way to it is slow.`;
+    alarm = `This page is ${seconds(behind)} behind: the connection is slow.`;
   }
   $("alarm").hidden = !alarm;
   $("alarm").textContent = alarm;
@@ -221,7 +221,7 @@ function drawButtons() {
   const live = !over && socket && socket.readyState === WebSocket.OPEN;
   const flying = live && status && status.phase === "flying";
   $("hold").disabled = !flying;
-  // An order to fly somewhere must not come late.
+  // A delayed order to fly to a place must not be sent.
   $("fly").disabled = !flying || !$("alarm").hidden;
   $("resume").disabled = !flying || !status.mission_waits;
   const standby = live && status && status.phase === "standby";
@@ -238,10 +238,10 @@ function drawButtons() {
 }
 
 function drawFacts() {
-  $("phase").textContent = over ? "over" : status.mission_waits ? "by hand, mission waits" : status.phase;
-  const reasons = !over && readiness && status.phase !== "flying" && status.phase !== "landing" ? readiness.reasons : [];
-  $("ready").textContent = reasons.join("; ") || "–";
-  $("ready").classList.toggle("ill", reasons.length > 0);
+  $("phase").textContent = over ? "over" : status.mission_waits ? "manual, mission paused" : status.phase;
+  const grounded = !over && readiness && status.phase !== "flying" && status.phase !== "landing";
+  $("ready").textContent = !grounded ? "–" : readiness.ready ? "yes" : `no: ${readiness.reasons.join("; ")}`;
+  $("ready").classList.toggle("ill", grounded && !readiness.ready);
   $("time").textContent = at(status.t_s);
   $("step").textContent = status.step === null ? "–" : `${status.step + 1} of ${status.steps}`;
   const charge = status.battery_percent;
@@ -268,7 +268,7 @@ function drawMap() {
   const reach = (values) => (Math.max(...values) - Math.min(...values)) / 2;
   const least = Math.min(width, height);
   const half = Math.max((reach(xs) * least) / width, (reach(ys) * least) / height, 0.8) * 1.25 + 0.3;
-  // It follows, but does not jump; it does not shrink by itself either.
+  // The view follows smoothly and does not zoom in by itself.
   view ??= { x: middle(xs), y: middle(ys), half };
   view.half = Math.max(view.half, half);
   view.x += (middle(xs) - view.x) * 0.1;
@@ -304,7 +304,7 @@ function drawGrid(wide, high, shown) {
   if (!$("grid").firstChild) $("grid").append(svg("path"), svg("path", { class: "axis" }));
   $("grid").firstChild.setAttribute("d", lines);
   $("grid").lastChild.setAttribute("d", `M0 ${low}V${top}M${left} 0H${right}`);
-  $("scale").textContent = `squares of ${step} m; disc: where the drone may be; dashed: the fence, ${flight.radius_m} m from the start`;
+  $("scale").textContent = `squares of ${step} m; disc: position uncertainty; dashed: the fence, ${flight.radius_m} m from the start`;
 }
 
 function drawGauges() {

@@ -1,4 +1,4 @@
-//! What the screen shows, and how.
+//! Contents and layout of the screen.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -16,32 +16,32 @@ use ratatui::widgets::canvas::{Canvas, Circle, Line as Segment, Points};
 use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
 
 use crate::flight::Message;
+use crate::flown_path::FlownPath;
 use crate::timing::TickHealth;
-use crate::trail::Trail;
 
-/// Lines that are remembered.
+/// Capacity of the lists of messages and decisions.
 const REMEMBERED: usize = 50;
 
 const HERE: Color = Color::Cyan;
 const TARGET: Color = Color::Yellow;
 const WARNING: Color = Color::LightRed;
 
-/// All that is shown.
+/// State of the display.
 #[derive(Debug)]
 pub(super) struct View {
     steps: Vec<String>,
-    /// Why the vehicle could not take off.
+    /// Reasons not to take off.
     not_ready: Vec<String>,
-    /// What is being typed.
+    /// Text of the open prompt.
     pub(super) prompt: Option<String>,
     limits: FlightLimits,
     at: Duration,
     status: Option<Status>,
     ticks: TickHealth,
-    trail: Trail,
-    /// When, and what the agent then decided otherwise.
+    flown_path: FlownPath,
+    /// Time and text of each change in the agent's decisions.
     decisions: VecDeque<(Duration, String)>,
-    /// What was told, and whether it is a warning.
+    /// Messages, and whether each is a warning.
     messages: VecDeque<(String, bool)>,
 }
 
@@ -55,22 +55,22 @@ impl View {
             at: Duration::ZERO,
             status: None,
             ticks: TickHealth::default(),
-            trail: Trail::default(),
+            flown_path: FlownPath::default(),
             decisions: VecDeque::new(),
             messages: VecDeque::new(),
         }
     }
 
-    pub(super) fn say(&mut self, line: &str) {
+    pub(super) fn print_line(&mut self, line: &str) {
         remember(&mut self.messages, (printable(line).into_owned(), false));
     }
 
-    /// As [`View::say`]; it is said once more when the screen is gone.
+    /// As [`View::print_line`], but marked as a warning, and printed again when the screen closes.
     pub(super) fn warn(&mut self, line: &str) {
         remember(&mut self.messages, (printable(line).into_owned(), true));
     }
 
-    /// Everything that was a warning.
+    /// All warnings.
     pub(super) fn warnings(&self) -> Vec<String> {
         let warnings = self.messages.iter().filter(|(_, warns)| *warns);
         warnings.map(|(text, _)| text.clone()).collect()
@@ -78,7 +78,7 @@ impl View {
 
     pub(super) fn take_in(&mut self, message: &Message) {
         match message {
-            Message::Realtime(realtime) => self.say(&realtime.to_string()),
+            Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
             Message::Waypoint(_) => {}
             Message::Mission(steps) => {
                 self.steps = steps.iter().map(|step| step.text.clone()).collect();
@@ -119,7 +119,7 @@ impl View {
     }
 
     fn look(&mut self, at: Duration, status: &Status) {
-        self.trail.add(status.pose.x_m, status.pose.y_m);
+        self.flown_path.add(status.pose.x_m, status.pose.y_m);
         let decision = decision(status);
         if !decision.is_empty() && self.decisions.back().is_none_or(|(_, last)| *last != decision) {
             remember(&mut self.decisions, (at, decision));
@@ -136,7 +136,7 @@ fn remember<T>(lines: &mut VecDeque<T>, line: T) {
     }
 }
 
-/// What the agent ordered, and by which of its plans.
+/// The agent's command, and the plans that led to it.
 fn decision(status: &Status) -> String {
     let plans = status.plans.places().map(|(line, trigger)| format!("{trigger} {line}"));
     let plans: Vec<String> = plans.collect();
@@ -146,7 +146,7 @@ fn decision(status: &Status) -> String {
     }
 }
 
-/// Draws everything.
+/// Draws the whole screen.
 pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
     let [head, body, foot, keys] = Layout::vertical([
         Constraint::Length(1),
@@ -187,7 +187,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
     frame.render_widget(foot_line(view), keys);
 }
 
-/// What is being typed, or what the keys do.
+/// The prompt, or the summary of keys.
 fn foot_line(view: &View) -> Paragraph<'_> {
     match &view.prompt {
         Some(prompt) => Paragraph::new(prompt.as_str()),
@@ -198,7 +198,7 @@ fn foot_line(view: &View) -> Paragraph<'_> {
     }
 }
 
-/// Phase, step, charge and link on one line.
+/// Phase, step, battery and link on one line.
 fn headline(view: &View) -> Paragraph<'_> {
     let Some(status) = &view.status else { return Paragraph::new("looking for the drone") };
     let mut parts = vec![Span::styled(
@@ -229,22 +229,22 @@ fn headline(view: &View) -> Paragraph<'_> {
     Paragraph::new(Line::from(parts))
 }
 
-/// From above: the fence, the way so far, the drone with its nose, the target.
+/// Map from above: fence, flown path, drone with its heading, target.
 fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let pose = view.status.map(|status| status.pose).unwrap_or_default();
     let target = view.status.and_then(|status| status.target);
-    let places = view.trail.places_m().chain(target.map(|target| (target.x_m, target.y_m)));
+    let places = view.flown_path.places_m().chain(target.map(|target| (target.x_m, target.y_m)));
     let (mut x, mut y) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
     for place in places {
         x = (x.0.min(place.0), x.1.max(place.0));
         y = (y.0.min(place.1), y.1.max(place.1));
     }
     let (columns, rows) = (f64::from(area.width.max(3)), f64::from(area.height.max(3)));
-    // A character is about twice as high as it is wide.
+    // A character cell is about twice as high as it is wide.
     let wide = columns / (2.0 * rows);
     let half_m = ((y.1 - y.0) / 2.0).max((x.1 - x.0) / 2.0 / wide).max(0.7) * 1.2;
     let middle = (f64::midpoint(x.0, x.1), f64::midpoint(y.0, y.1));
-    let trail: Vec<(f64, f64)> = view.trail.places_m().collect();
+    let trail: Vec<(f64, f64)> = view.flown_path.places_m().collect();
     let title = format!("from above, {:.1} m high", 2.0 * half_m);
     let canvas = Canvas::default()
         .block(Block::bordered().title(title))
@@ -272,7 +272,7 @@ fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     frame.render_widget(canvas, area);
 }
 
-/// Height, attitude, place and target.
+/// Height, attitude, position and target.
 fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let block = Block::bordered().title("drone");
     let inside = block.inner(area);
@@ -305,7 +305,7 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
             ),
             _ => "target  -".to_owned(),
         },
-        format!("known   to {:.2} m", status.horizontal_deviation_m),
+        format!("known   to {:.2} m{}", status.horizontal_deviation_m, tags(status)),
         ticks(&view.ticks),
     ];
     if !view.not_ready.is_empty() {
@@ -314,9 +314,18 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
         lines.insert(0, "ready to take off".to_owned());
     }
     if let Some([roll_deg, pitch_deg]) = status.attitude_deg {
-        lines.push(format!("leans   {roll_deg:+.1}° right, {:+.1}° forward", -pitch_deg));
+        lines.push(format!("tilt    {roll_deg:+.1}° right, {:+.1}° forward", -pitch_deg));
     }
     frame.render_widget(Paragraph::new(lines.join("\n")), text);
+}
+
+/// What the place is known by besides the flow.
+fn tags(status: &Status) -> String {
+    let Some(tags) = &status.tags else { return String::new() };
+    match tags.seen_ago {
+        Some(ago) => format!(", {} tags, seen {:.1} s ago", tags.known, ago.as_secs_f64()),
+        None => ", no tag seen yet".to_owned(),
+    }
 }
 
 fn ticks(health: &TickHealth) -> String {
@@ -324,7 +333,7 @@ fn ticks(health: &TickHealth) -> String {
     format!("ticks   {late_ms:.1} ms late, {} skipped", health.skipped)
 }
 
-/// The plan, with the step that is flown.
+/// The plan with its current step.
 fn draw_steps(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let current = view.status.and_then(|status| status.step);
     let rows = usize::from(area.height.saturating_sub(2));
@@ -376,6 +385,7 @@ mod tests {
                 battery_percent: Some(87),
                 horizontal_deviation_m: 0.12,
                 vertical_deviation_m: 0.02,
+                tags: None,
                 trust: Trust::Sound,
                 airframe: Airframe::default(),
                 navdata_age: Some(Duration::from_millis(40)),
@@ -394,7 +404,7 @@ mod tests {
         let mut terminal = Terminal::new(TestBackend::new(90, 26)).unwrap();
         terminal.draw(|frame| draw(frame, &view)).unwrap();
         insta::assert_snapshot!(terminal.backend());
-        // Any size is drawn, whatever fits.
+        // Any size must be drawn without a panic.
         for (columns, rows) in [(1, 1), (20, 5), (300, 80)] {
             let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
             terminal.draw(|frame| draw(frame, &view)).unwrap();

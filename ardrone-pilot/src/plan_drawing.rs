@@ -1,4 +1,4 @@
-//! A plan as a picture: the way from above, and its height over time.
+//! Drawing of a plan: top view and height over time.
 
 use std::f64::consts::TAU;
 
@@ -14,34 +14,34 @@ const WAY: RGBColor = RGBColor(25, 95, 170);
 const FENCE: RGBColor = RGBColor(190, 60, 40);
 const GROUND: RGBColor = RGBColor(110, 110, 110);
 
-/// Why there is no picture.
+/// Why a plan could not be drawn.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot draw the plan: {0}")]
-pub struct PictureError(String);
+pub struct PlanDrawingError(String);
 
-/// A place on the way, and when the drone is expected there.
+/// A place on the way, with its expected times.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     pose: Pose,
     arrival_s: f64,
-    /// It stays there until then.
+    /// End of the stay.
     departure_s: f64,
-    /// Its number among the targets; nothing for take-offs and landings.
+    /// Number among the targets; `None` for take-offs and landings.
     target: Option<usize>,
 }
 
-/// The plan as SVG.
+/// Draws a plan as SVG.
 ///
 /// # Errors
-/// [`PictureError`] if the drawing library gives up.
-pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, PictureError> {
+/// [`PlanDrawingError`] if the drawing library fails.
+pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, PlanDrawingError> {
     let places = places(plan, limits);
     drawing::svg(SIZE, |area| {
         let (left, right) = area.split_horizontally(SIZE.1);
         from_above(&left, name, &places, limits)?;
         over_time(&right, &places, limits)
     })
-    .map_err(|error| PictureError(error.to_string()))
+    .map_err(|error| PlanDrawingError(error.to_string()))
 }
 
 fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
@@ -65,7 +65,7 @@ fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
     places
 }
 
-/// The way from above, in one scale for both axes.
+/// Top view, with the same scale on both axes.
 fn from_above(area: &Drawing<'_>, name: &str, places: &[Place], limits: &FlightLimits) -> Drawn {
     let extent = |value: fn(&Pose) -> f64| {
         let values = places.iter().map(|place| value(&place.pose));
@@ -92,7 +92,7 @@ fn from_above(area: &Drawing<'_>, name: &str, places: &[Place], limits: &FlightL
         let angle = TAU * f64::from(part) / 360.0;
         (limits.radius_m * angle.sin(), limits.radius_m * angle.cos())
     };
-    // What is outside the picture would be drawn along its edge.
+    // The library would draw points outside along the edge.
     let inside = |(at_x, at_y): (f64, f64)| (at_x - x).abs() < half_m && (at_y - y).abs() < half_m;
     let fence = (0..360).map(|part| [corner(part), corner(part + 1)]);
     let fence = fence.filter(|[from, to]| inside(*from) && inside(*to));
@@ -123,7 +123,7 @@ fn from_above(area: &Drawing<'_>, name: &str, places: &[Place], limits: &FlightL
     Ok(())
 }
 
-/// The height over time, between floor and ceiling.
+/// Height over time, between floor and ceiling.
 fn over_time(area: &Drawing<'_>, places: &[Place], limits: &FlightLimits) -> Drawn {
     let end_s = places.last().map_or(1.0, |place| place.departure_s).max(1.0);
     let top_m = limits.ceiling_m + 0.3;

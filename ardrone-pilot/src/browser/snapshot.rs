@@ -1,4 +1,4 @@
-//! What a browser that has just come must know, so that a reload loses nothing.
+//! Snapshot for a browser that connects, so that reloading the page loses nothing.
 
 use std::collections::VecDeque;
 
@@ -9,29 +9,29 @@ use diagnostic::printable;
 use serde_json::{Value, json};
 
 use crate::flight::Message;
+use crate::flown_path::FlownPath;
 use crate::json;
 use crate::recording::Place;
-use crate::trail::Trail;
 
-/// Events that are remembered; older ones go.
+/// Capacity of the event list; the oldest events are dropped.
 const EVENTS: usize = 100;
 
-/// The vehicle so far.
+/// State of the vehicle and its recent history.
 #[derive(Debug)]
-pub(super) struct Story {
+pub(super) struct Snapshot {
     steps: Vec<Step>,
     limits: FlightLimits,
     name: String,
     notes: Vec<String>,
-    trail: Trail,
+    flown_path: FlownPath,
     events: VecDeque<Value>,
     status: Value,
     ready: Value,
     end: Value,
 }
 
-impl Story {
-    /// It begins with a plan, or without a mission.
+impl Snapshot {
+    /// Initial state, with a plan or without a mission.
     pub(super) fn new(plan: Option<&Plan>, limits: &FlightLimits) -> Self {
         let name = plan.map_or("ardrone-pilot", Plan::name);
         Self {
@@ -39,7 +39,7 @@ impl Story {
             limits: *limits,
             name: printable(name).into_owned(),
             notes: plan.map_or(Vec::new(), |plan| plan.notes().to_vec()),
-            trail: Trail::default(),
+            flown_path: FlownPath::default(),
             events: VecDeque::new(),
             status: Value::Null,
             ready: Value::Null,
@@ -47,18 +47,18 @@ impl Story {
         }
     }
 
-    /// Something happened; returns what browsers are told.
+    /// Applies a message; returns the JSON object to send to browsers.
     pub(super) fn take_in(&mut self, message: &Message) -> Value {
         let object = json::message(message, &self.steps);
         match message {
             Message::Status(_, status, _) => {
-                self.trail.add(status.pose.x_m, status.pose.y_m);
+                self.flown_path.add(status.pose.x_m, status.pose.y_m);
                 self.status = object.clone();
             }
             Message::Event(..) | Message::Trouble(..) => {
                 self.remember(&object);
             }
-            // Everything is drawn anew.
+            // The page redraws everything.
             Message::Mission(steps) if *steps != self.steps => {
                 self.steps.clone_from(steps);
                 return self.so_far();
@@ -88,12 +88,12 @@ impl Story {
         }
     }
 
-    /// It is over.
+    /// Stores the end of the flight.
     pub(super) fn end(&mut self, end: Value) {
         self.end = end;
     }
 
-    /// Everything that is needed to go on from here.
+    /// The snapshot as JSON.
     pub(super) fn so_far(&self) -> Value {
         let expected = expectations(&self.steps, &self.limits);
         let steps: Vec<Value> = (self.steps.iter().zip(&expected))
@@ -119,7 +119,7 @@ impl Story {
             "floor_m": self.limits.floor_m,
             "ceiling_m": self.limits.ceiling_m,
             "plans": plans,
-            "trail": self.trail.places_m().collect::<Vec<_>>(),
+            "trail": self.flown_path.places_m().collect::<Vec<_>>(),
             "events": self.events,
             "status": self.status,
             "ready": self.ready,
@@ -136,21 +136,21 @@ mod tests {
     use autopilot::vehicle::FlightEvent;
 
     #[test]
-    fn whoever_comes_later_knows_what_happened() {
+    fn a_late_viewer_knows_what_happened() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\nland\n").unwrap();
-        let mut story = Story::new(Some(&plan), &FlightLimits::default());
+        let mut snapshot = Snapshot::new(Some(&plan), &FlightLimits::default());
         for step in 0..EVENTS + 5 {
             let at = Duration::from_secs(step as u64);
-            story.take_in(&Message::Event(at, FlightEvent::StepStarted { step }));
+            snapshot.take_in(&Message::Event(at, FlightEvent::StepStarted { step }));
         }
-        let told = story.so_far();
-        assert_eq!(told["steps"][1]["text"], "goto 0 1 0 0");
-        assert_eq!(told["steps"][1]["target"]["y_m"], 1.0);
-        let events = told["events"].as_array().unwrap();
+        let snapshot_json = snapshot.so_far();
+        assert_eq!(snapshot_json["steps"][1]["text"], "goto 0 1 0 0");
+        assert_eq!(snapshot_json["steps"][1]["target"]["y_m"], 1.0);
+        let events = snapshot_json["events"].as_array().unwrap();
         assert_eq!((events.len(), &events[0]["step"]), (EVENTS, &json!(5)));
         let (line, _) = PLANS[0];
-        let first = told["plans"][line.to_string()].as_str().unwrap();
+        let first = snapshot_json["plans"][line.to_string()].as_str().unwrap();
         assert!(first.contains("+!watch") && first.ends_with('.'), "{first}");
-        assert_eq!((&told["status"], &told["end"]), (&Value::Null, &Value::Null));
+        assert_eq!((&snapshot_json["status"], &snapshot_json["end"]), (&Value::Null, &Value::Null));
     }
 }

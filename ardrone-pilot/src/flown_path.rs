@@ -1,20 +1,20 @@
-//! The way that the drone has come, as far as it is shown.
+//! The flown path as shown on maps.
 
 use std::collections::VecDeque;
 
-/// Places of the trail; older ones go.
+/// Maximum number of points; the oldest are dropped.
 const PLACES: usize = 2000;
-/// A place that is nearer than this to the last is no new one.
+/// Minimum distance of a new point from the last one.
 const STEP_M: f64 = 0.02;
 
-/// Places that the drone was at, right of the start and forward of it, oldest first.
+/// Points (right, forward) in metres relative to the start, oldest first.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Trail {
+pub(crate) struct FlownPath {
     places_m: VecDeque<(f64, f64)>,
 }
 
-impl Trail {
-    /// The drone is at a place.
+impl FlownPath {
+    /// Adds the drone's position.
     pub(crate) fn add(&mut self, x_m: f64, y_m: f64) {
         let far = |last: &(f64, f64)| (last.0 - x_m).hypot(last.1 - y_m) > STEP_M;
         if self.places_m.back().is_none_or(far) {
@@ -25,7 +25,7 @@ impl Trail {
         }
     }
 
-    /// All places.
+    /// All points.
     pub(crate) fn places_m(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.places_m.iter().copied()
     }
@@ -37,15 +37,15 @@ mod tests {
 
     #[test]
     fn standing_still_adds_nothing_and_old_places_go() {
-        let mut trail = Trail::default();
+        let mut path = FlownPath::default();
         for _ in 0..10 {
-            trail.add(1.0, 2.0);
+            path.add(1.0, 2.0);
         }
-        assert_eq!(trail.places_m().collect::<Vec<_>>(), [(1.0, 2.0)]);
+        assert_eq!(path.places_m().collect::<Vec<_>>(), [(1.0, 2.0)]);
         for step in 0..3000 {
-            trail.add(f64::from(step), 0.0);
+            path.add(f64::from(step), 0.0);
         }
-        assert_eq!(trail.places_m().count(), PLACES);
-        assert_eq!(trail.places_m().last(), Some((2999.0, 0.0)));
+        assert_eq!(path.places_m().count(), PLACES);
+        assert_eq!(path.places_m().last(), Some((2999.0, 0.0)));
     }
 }

@@ -1,0 +1,108 @@
+//! Roundels on the floor: what navdata tell of them, and the small turn by which it is learnt how to read them.
+
+use std::time::Duration;
+
+use ardrone_link::navdata::{Packet, VisionDetect};
+use estimator::{MAX_SIGHTS, Sight};
+use pid::Pose;
+
+use super::Vehicle;
+
+/// The black and white roundel, with or without its direction: `ardrone_api.h`.
+const ROUNDELS: [u32; 2] = [3, 8];
+/// The bottom camera, at full speed and in step with the hover.
+const BOTTOM: [u32; 2] = [1, 2];
+
+/// The roundels below the drone that a packet tells of.
+pub(super) fn sights(datagram: &[u8]) -> Sights {
+    let detected = Packet::decode(datagram).ok().and_then(|packet| packet.vision_detect());
+    detected.map_or(Sights::default(), |detected| Sights::new(&detected))
+}
+
+/// At most as many as a packet has room for.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sights {
+    all: [Sight; MAX_SIGHTS],
+    count: usize,
+}
+
+impl Sights {
+    fn new(detected: &VisionDetect) -> Self {
+        let mut sights = Self::default();
+        let count = usize::try_from(detected.count).unwrap_or(MAX_SIGHTS).min(MAX_SIGHTS);
+        for slot in 0..count {
+            let (source, kind) = (detected.kinds[slot] >> 16, detected.kinds[slot] & 0xFFFF);
+            if !ROUNDELS.contains(&kind) || !BOTTOM.contains(&source) {
+                continue;
+            }
+            sights.all[sights.count] = Sight {
+                x: f64::from(detected.x[slot]),
+                y: f64::from(detected.y[slot]),
+                width: f64::from(detected.widths[slot]),
+                height: f64::from(detected.heights[slot]),
+                distance_m: detected.distances_m[slot],
+                orientation_deg: f64::from(detected.orientations_deg[slot]),
+            };
+            sights.count += 1;
+        }
+        sights
+    }
+}
+
+impl std::ops::Deref for Sights {
+    type Target = [Sight];
+
+    fn deref(&self) -> &[Sight] {
+        &self.all[..self.count]
+    }
+}
+
+/// How far the drone turns to and fro to learn which way orientations count, and how long once takes.
+const SWING_DEG: f64 = 8.0;
+const SWING_S: f64 = 6.0;
+
+/// The turn to and fro above the first tag.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct SignSearch {
+    /// So much of it is over.
+    time_s: f64,
+}
+
+impl Vehicle {
+    /// Where the plan's coordinates begin when a take-off has ended at `pose`: there, but with tags above the
+    /// start, which is where their coordinates begin.
+    pub(super) fn plan_origin(&self, pose: Pose) -> Pose {
+        match self.config.estimator.tags {
+            Some(_) => Pose { z_m: pose.z_m, ..Pose::default() },
+            None => pose,
+        }
+    }
+
+    /// The target, turned a little to and fro while that teaches how to read the tag below.
+    pub(super) fn turned_to_learn(&mut self, now: Duration, target: &Pose, step_s: f64) -> Pose {
+        let search = &mut self.flight.sign_search;
+        if !self.flight.estimator.would_learn_from_a_turn(now) {
+            search.time_s = 0.0;
+            return *target;
+        }
+        search.time_s += step_s;
+        let swing_deg = SWING_DEG * (std::f64::consts::TAU * search.time_s / SWING_S).sin();
+        Pose { yaw_deg: target.yaw_deg + swing_deg, ..*target }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_roundels_below_the_drone_count_and_never_more_than_fit() {
+        let mut detected = VisionDetect { count: 4_000_000, ..VisionDetect::default() };
+        detected.kinds = [1 << 16 | 8, 8, 2 << 16 | 3, 1 << 16 | 6];
+        detected.x = [1, 2, 3, 4];
+        let sights = Sights::new(&detected);
+        let x: Vec<f64> = sights.iter().map(|sight| sight.x).collect();
+        assert_eq!(x, [1.0, 3.0]);
+        assert!(super::sights(b"nonsense").is_empty());
+    }
+}

@@ -1,0 +1,296 @@
+//! Which tags are known, and which of them a sight is of.
+//!
+//! What is seen where no tag is known becomes a tag on trial at once, so that little of the drift before its
+//! first sight is lost; it is known when it was seen again and again, and forgotten if it was not.
+
+use nalgebra::Vector2;
+
+use super::filter::{Filter, Sighted};
+use super::{MAX_TAGS, SLOTS};
+
+/// A tag whose place was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurveyedTag {
+    /// Right and forward of where the drone starts.
+    pub place_m: Vector2<f64>,
+    /// Which way its pattern points, clockwise from the drone's heading at the start, if that was measured.
+    pub heading_deg: Option<f64>,
+}
+
+/// A tag that is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownTag {
+    /// Right and forward of the start.
+    pub place_m: Vector2<f64>,
+    /// Which way it points, once that is known.
+    pub heading_deg: Option<f64>,
+    /// Standard deviation of the place on the worse axis.
+    pub deviation_m: f64,
+    /// Whether its place was given.
+    pub surveyed: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Standing {
+    #[default]
+    Free,
+    /// Seen so often.
+    OnTrial(u32),
+    Known,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Slot {
+    standing: Standing,
+    surveyed: bool,
+    has_heading: bool,
+    seen_s: f64,
+    /// What its sights were off by in the mean, and whether that is too much.
+    off_m: Vector2<f64>,
+    moves: bool,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Map {
+    slots: [Slot; SLOTS],
+}
+
+/// Another tag must be this many times as far as the one that is meant.
+const RUNNER_UP: f64 = 2.0;
+/// So many sights make a tag on trial a known one, and so many make it one that was known before.
+const ENOUGH: u32 = 10;
+const AGAIN: u32 = 5;
+/// After so many one on trial corrects the place.
+const LIKELY: u32 = 3;
+/// Likewise after another tag has moved, of sights that all agree.
+const STILL: u32 = 60;
+/// Over so many sights the mean of what a tag is off by is taken.
+const MEAN_SIGHTS: f64 = 8.0;
+/// It is no more than this, and these shares of the height and of the way aside, for tags that lie still.
+const OFF_M: f64 = 0.03;
+const OFF_HEIGHT: f64 = 0.025;
+const OFF_ASIDE: f64 = 0.15;
+/// A faster drone is off by its delays.
+const SLOW_M_S: f64 = 0.4;
+/// One that is not seen again within this time is forgotten.
+const TRIAL_S: f64 = 2.0;
+/// A tag that was not seen for this time is recognised by several sights only: while the place is uncertain, one
+/// sight of something else must not decide where the drone is.
+const IN_VIEW_S: f64 = 1.0;
+/// One sight moves the estimate by no more than this.
+const NEAR_M: f64 = 0.3;
+/// What is found this near to a known tag that is not seen any more is that tag: it was moved.
+const MOVED_M: f64 = 1.0;
+
+impl Map {
+    pub(super) fn new(surveyed: &[Option<SurveyedTag>; MAX_TAGS], filter: &mut Filter) -> Self {
+        let mut slots = [Slot::default(); SLOTS];
+        for (tag, surveyed) in surveyed.iter().enumerate() {
+            if let Some(SurveyedTag { place_m, heading_deg }) = surveyed {
+                filter.survey_tag(tag, *place_m, heading_deg.map(f64::to_radians));
+                slots[tag] = Slot {
+                    standing: Standing::Known,
+                    surveyed: true,
+                    has_heading: heading_deg.is_some(),
+                    seen_s: f64::NEG_INFINITY,
+                    ..Slot::default()
+                };
+            }
+        }
+        Self { slots }
+    }
+
+    fn those(&self, wanted: fn(Standing) -> bool) -> impl Iterator<Item = usize> + '_ {
+        (0..SLOTS).filter(move |tag| wanted(self.slots[*tag].standing))
+    }
+
+    pub(super) fn known(&self) -> usize {
+        self.those(is_known).count()
+    }
+
+    pub(super) fn iter<'a>(&'a self, filter: &'a Filter) -> impl Iterator<Item = KnownTag> + 'a {
+        self.those(is_known).map(|tag| KnownTag {
+            place_m: filter.tag_place_m(tag),
+            heading_deg: self.slots[tag].has_heading.then(|| filter.tag_heading_deg(tag)),
+            deviation_m: filter.tag_deviation_m(tag),
+            surveyed: self.slots[tag].surveyed,
+        })
+    }
+
+    /// Forgets tags on trial that were not seen again.
+    pub(super) fn forget_old(&mut self, filter: &mut Filter, now_s: f64) {
+        for tag in 0..SLOTS {
+            let slot = self.slots[tag];
+            if is_on_trial(slot.standing) && now_s - slot.seen_s > TRIAL_S {
+                self.forget(filter, tag);
+            }
+        }
+    }
+
+    /// The tag that a sight is of; a new one if it is of none. Nothing if two could be meant, one that was seen
+    /// already, or there is no room.
+    pub(super) fn associate(
+        &mut self,
+        filter: &mut Filter,
+        sighted: &Sighted,
+        seen: &[bool; SLOTS],
+        now_s: f64,
+    ) -> Option<usize> {
+        let far = |tag: usize| (filter.tag_place_m(tag) - sighted.place_m).norm();
+        for wanted in [is_known, is_on_trial] {
+            let in_view = |tag: &usize| now_s - self.slots[*tag].seen_s <= IN_VIEW_S;
+            let nearest =
+                self.those(wanted).filter(in_view).min_by(|a, b| far(*a).total_cmp(&far(*b)));
+            let admitted = |tag: &usize| far(*tag) < NEAR_M && filter.admits(sighted, *tag);
+            if let Some(nearest) = nearest.filter(admitted) {
+                let alone = self
+                    .those(wanted)
+                    .filter(|tag| *tag != nearest)
+                    .all(|tag| far(tag) >= RUNNER_UP * far(nearest));
+                return (alone && !seen[nearest]).then_some(nearest);
+            }
+        }
+        let free = self.those(|standing| standing == Standing::Free).next()?;
+        filter.begin_tag(free, sighted);
+        let standing = Standing::OnTrial(0);
+        self.slots[free] = Slot { standing, seen_s: now_s, ..Slot::default() };
+        None
+    }
+
+    /// A tag was seen again, `way_m` from where the last known one was; returns the known tag that it is, if it
+    /// is one.
+    pub(super) fn saw(
+        &mut self,
+        filter: &mut Filter,
+        tag: usize,
+        now_s: f64,
+        way_m: f64,
+        is_cautious: bool,
+    ) -> Option<usize> {
+        self.slots[tag].seen_s = now_s;
+        let Standing::OnTrial(sights) = self.slots[tag].standing else { return Some(tag) };
+        self.slots[tag].standing = Standing::OnTrial(sights + 1);
+        let (again, enough) = if is_cautious { (STILL, STILL) } else { (AGAIN, ENOUGH) };
+        if sights < again {
+            return None;
+        }
+        if let Some(known) = self.recognised(filter, tag, now_s, way_m) {
+            filter.make_one(tag, known, way_m);
+            self.forget(filter, tag);
+            self.slots[known].seen_s = now_s;
+            return Some(known);
+        }
+        if sights < enough {
+            return None;
+        }
+        let place_m = filter.tag_place_m(tag);
+        for other in 0..SLOTS {
+            let near = (filter.tag_place_m(other) - place_m).norm() < MOVED_M;
+            if other != tag && near && self.is_out_of_view(other, now_s) {
+                self.forget(filter, other);
+            }
+        }
+        if self.known() >= MAX_TAGS {
+            return None;
+        }
+        self.slots[tag].standing = Standing::Known;
+        Some(tag)
+    }
+
+    /// The known tag that comes into view again as one on trial.
+    fn recognised(&self, filter: &Filter, trial: usize, now_s: f64, way_m: f64) -> Option<usize> {
+        let place_m = filter.tag_place_m(trial);
+        let far = |tag: usize| (filter.tag_place_m(tag) - place_m).norm();
+        let nearest = self.those(is_known).min_by(|a, b| far(*a).total_cmp(&far(*b)))?;
+        let alone = self
+            .those(is_known)
+            .filter(|tag| *tag != nearest)
+            .all(|tag| far(tag) >= RUNNER_UP * far(nearest));
+        let is_it = alone
+            && self.is_out_of_view(nearest, now_s)
+            && filter.may_be_one(trial, nearest, way_m);
+        is_it.then_some(nearest)
+    }
+
+    fn is_out_of_view(&self, tag: usize, now_s: f64) -> bool {
+        let Slot { standing, seen_s, .. } = self.slots[tag];
+        is_known(standing) && now_s - seen_s > IN_VIEW_S
+    }
+
+    pub(super) fn has_heading(&self, tag: usize) -> bool {
+        self.slots[tag].has_heading
+    }
+
+    pub(super) fn learnt_heading(&mut self, tag: usize) {
+        self.slots[tag].has_heading = true;
+    }
+
+    /// Orientations count the other way: the directions that were taken from them are wrong.
+    pub(super) fn forget_found_headings(&mut self) {
+        for slot in self.slots.iter_mut().filter(|slot| !slot.surveyed) {
+            slot.has_heading = false;
+        }
+    }
+
+    pub(super) fn is_known(&self, tag: usize) -> bool {
+        is_known(self.slots[tag].standing)
+    }
+
+    /// Whether one on trial was seen so often that it is hardly something else.
+    pub(super) fn is_likely(&self, tag: usize) -> bool {
+        matches!(self.slots[tag].standing, Standing::OnTrial(sights) if sights >= LIKELY)
+    }
+
+    /// Whether a tag has been seen once so far.
+    pub(super) fn is_new(&self, tag: usize) -> bool {
+        self.slots[tag].standing == Standing::OnTrial(0)
+    }
+
+    /// A sight of a tag was off by this, of a drone so high and fast; the tag so far aside.
+    pub(super) fn watch(
+        &mut self,
+        tag: usize,
+        off_m: Vector2<f64>,
+        height_m: f64,
+        aside_m: f64,
+        speed_m_s: f64,
+    ) {
+        if speed_m_s > SLOW_M_S {
+            return;
+        }
+        let slot = &mut self.slots[tag];
+        slot.off_m += (off_m - slot.off_m) / MEAN_SIGHTS;
+        let most_m = OFF_M + OFF_HEIGHT * height_m + OFF_ASIDE * aside_m;
+        slot.moves = slot.off_m.norm() > most_m;
+    }
+
+    /// Whether a tag is off again and again.
+    pub(super) fn moves(&self, tag: usize) -> bool {
+        self.slots[tag].moves
+    }
+
+    /// Forgets a tag that moves, and what is on trial.
+    pub(super) fn forget_moving(&mut self, filter: &mut Filter, tag: usize) {
+        self.forget(filter, tag);
+        for trial in 0..SLOTS {
+            if is_on_trial(self.slots[trial].standing) {
+                self.forget(filter, trial);
+            }
+        }
+    }
+
+    fn forget(&mut self, filter: &mut Filter, tag: usize) {
+        self.slots[tag] = Slot::default();
+        filter.forget_tag(tag);
+        let used = self.those(|standing| standing != Standing::Free).last();
+        filter.use_tags(used.map_or(0, |tag| tag + 1));
+    }
+}
+
+fn is_known(standing: Standing) -> bool {
+    standing == Standing::Known
+}
+
+fn is_on_trial(standing: Standing) -> bool {
+    matches!(standing, Standing::OnTrial(_))
+}

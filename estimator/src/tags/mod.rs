@@ -1,0 +1,367 @@
+//! Where the odometry lies in the world, from roundels on the floor.
+//!
+//! The odometry stays what it is: the integral of the velocity, smooth, in a frame that drifts. Here the frame's
+//! place and direction in the world are estimated: `world = odometry + correction`, turned by a heading
+//! correction. Each sight of a roundel is compared with the odometry of the moment at which its picture was
+//! taken, so that nothing is rolled back. The world is the start's: right and forward of where the drone stood.
+//!
+//! What jumps by a correction is not handed to the controller at once: see [`Tags::smooth`].
+
+mod camera;
+mod filter;
+mod history;
+mod map;
+mod orientation;
+mod take_back;
+#[cfg(test)]
+mod tests;
+
+use std::time::Duration;
+
+use nalgebra::Vector2;
+
+use self::camera::Look;
+use self::filter::Filter;
+use self::history::{History, Moment};
+use self::map::Map;
+pub use self::map::{KnownTag, SurveyedTag};
+use self::orientation::Orientation;
+pub use self::orientation::OrientationSign;
+use self::take_back::TakeBack;
+use crate::horizontal::world_from_body;
+
+/// Tags that can be known at a time.
+pub const MAX_TAGS: usize = 8;
+/// Besides those that are known some may be on trial.
+const SLOTS: usize = MAX_TAGS + 3;
+/// Sights in one packet.
+pub const MAX_SIGHTS: usize = 4;
+
+/// How roundels are seen, and which are where.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TagConfig {
+    /// Tags whose place is known beforehand. Others are found and mapped.
+    pub surveyed: [Option<SurveyedTag>; MAX_TAGS],
+    /// Age of a sight when its packet is sent: exposure, processing, and half a packet's interval.
+    pub delay: Duration,
+    /// Focal length of the bottom camera, across and along, in thousandths of its picture.
+    pub focal_units: [f64; 2],
+    /// Centre of its picture, likewise.
+    pub centre_units: [f64; 2],
+    /// Diameter of the printed pattern.
+    pub size_m: f64,
+    /// Which way reported orientations grow, if that is known of this drone; else it is found in flight.
+    pub orientation: Option<OrientationSign>,
+}
+
+impl Default for TagConfig {
+    fn default() -> Self {
+        Self {
+            surveyed: [None; MAX_TAGS],
+            delay: Duration::from_millis(60),
+            focal_units: [1072.0, 1452.0],
+            centre_units: [500.0, 450.0],
+            size_m: 0.19,
+            orientation: None,
+        }
+    }
+}
+
+/// A roundel in the bottom camera's picture, as navdata tell of it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sight {
+    /// Centre, 0 to 1000 from left to right.
+    pub x: f64,
+    /// Centre, 0 to 1000 from top to bottom.
+    pub y: f64,
+    /// Of the box, in thousandths of the picture's width.
+    pub width: f64,
+    /// Of the box, in thousandths of the picture's height.
+    pub height: f64,
+    /// By the roundel's apparent size.
+    pub distance_m: f64,
+    /// Of the pattern in the picture; 270 when the drone points as the pattern does.
+    pub orientation_deg: f64,
+}
+
+/// What is known by tags.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TagStatus {
+    /// Tags whose place is known.
+    pub known: usize,
+    /// How long ago one of them was seen.
+    pub seen_ago: Option<Duration>,
+    /// Whether it is known which way orientations count, so that tags hold the heading too.
+    pub heading_held: bool,
+    /// How far the odometry has drifted: right and forward.
+    pub drift_m: Vector2<f64>,
+}
+
+/// The drone turns too fast for a sharp and timely picture.
+const FASTEST_TURN_DEG_S: f64 = 60.0;
+/// Lower than this a tag is hardly whole in the picture.
+const LOWEST_M: f64 = 0.45;
+/// A drone this low stands, whatever its motors do.
+const STANDS_M: f64 = 0.1;
+/// Four deviations of the flow's bias on a hard day.
+const MOST_BIAS_M_S: f64 = 0.09;
+/// For how long after a tag was seen to move nothing new is believed soon.
+const CAUTIOUS_S: f64 = 30.0;
+/// A tag that was seen this recently is in view.
+const IN_VIEW_S: f64 = 0.5;
+
+/// The correction of the odometry.
+#[derive(Debug, Clone)]
+pub(crate) struct Tags {
+    config: TagConfig,
+    filter: Filter,
+    map: Map,
+    orientation: Orientation,
+    history: History,
+    take_back: TakeBack,
+    last_sights: [Option<Sight>; MAX_SIGHTS],
+    /// When a known tag was seen last, when its packet arrived, and where the odometry was.
+    fix: Option<Fix>,
+    /// A tag has moved: until then others must prove that they lie still.
+    cautious_until_s: f64,
+    /// What was counted as flown unseen or disputed so far.
+    unseen_m2: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Fix {
+    at_s: f64,
+    odometry_m: Vector2<f64>,
+}
+
+/// The odometry's newest step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OdometryStep {
+    /// When the newest sample was made.
+    pub(crate) made_s: f64,
+    /// The moment of the odometry.
+    pub(crate) at_s: f64,
+    pub(crate) place_m: Vector2<f64>,
+    pub(crate) velocity_m_s: Vector2<f64>,
+    pub(crate) yaw_deg: f64,
+    /// Moment and value of the tilt: right side down, nose up.
+    pub(crate) tilt: (f64, Vector2<f64>),
+    /// Moment and value of the height above the floor.
+    pub(crate) height: (f64, f64),
+    pub(crate) airborne: bool,
+    /// Variance that came from what was not measured, in all.
+    pub(crate) unseen_m2: f64,
+}
+
+impl Tags {
+    pub(crate) fn new(config: &TagConfig) -> Self {
+        let surveyed = config.surveyed.iter().any(Option::is_some);
+        let mut filter = Filter::new(surveyed);
+        let map = Map::new(&config.surveyed, &mut filter);
+        Self {
+            filter,
+            map,
+            orientation: Orientation::new(config.orientation),
+            history: History::new(),
+            take_back: TakeBack::default(),
+            last_sights: [None; MAX_SIGHTS],
+            fix: None,
+            cautious_until_s: f64::NEG_INFINITY,
+            unseen_m2: 0.0,
+            config: *config,
+        }
+    }
+
+    /// The odometry has gone on.
+    pub(crate) fn fly(&mut self, step: &OdometryStep) {
+        if let Some((way_m, step_s)) = self.history.push(step) {
+            let flown_s = if step.airborne { step_s } else { 0.0 };
+            self.filter.fly(way_m, step.yaw_deg, flown_s);
+        }
+        let unseen_m2 = (step.unseen_m2 - self.unseen_m2).max(0.0);
+        self.unseen_m2 = step.unseen_m2;
+        // A drone that spins its motors up measures nothing, and stands.
+        if step.height.1 > STANDS_M {
+            self.filter.doubt_place(unseen_m2);
+        }
+    }
+
+    /// The compass has made a step, which was compensated with some error.
+    pub(crate) fn step_of_the_heading(&mut self, deviation_deg: f64) {
+        self.filter.doubt_heading(deviation_deg.to_radians());
+    }
+
+    /// The drone has started again: what it said before is of another time.
+    pub(crate) fn handle_restart(&mut self) {
+        self.history = History::new();
+        self.last_sights = [None; MAX_SIGHTS];
+    }
+
+    /// Takes in the sights of the newest packet. `yaw_deg` is the odometry's heading at a time, `turn_deg_s` how
+    /// fast the drone turns.
+    pub(crate) fn see(
+        &mut self,
+        sights: &[Sight],
+        yaw_deg: impl Fn(f64) -> f64,
+        turn_deg_s: f64,
+        airborne: bool,
+    ) {
+        let mut newest = [None; MAX_SIGHTS];
+        for (slot, sight) in newest.iter_mut().zip(sights) {
+            *slot = Some(*sight);
+        }
+        // Packets come more often than pictures: the very same numbers are the same picture.
+        if std::mem::replace(&mut self.last_sights, newest) == newest || !airborne {
+            return;
+        }
+        let Some(made_s) = self.history.newest_s() else { return };
+        let at_s = made_s - self.config.delay.as_secs_f64();
+        let Some(moment) = self.history.at(at_s, yaw_deg(at_s)) else { return };
+        if moment.height_m < LOWEST_M || turn_deg_s.abs() > FASTEST_TURN_DEG_S {
+            return;
+        }
+        self.map.forget_old(&mut self.filter, made_s);
+        let before = self.filter.correction();
+        let mut seen = [false; SLOTS];
+        for sight in newest.iter().flatten() {
+            if let Some(look) = Look::new(sight, &moment, &self.config) {
+                self.take_in(&look, &moment, made_s, &mut seen);
+            }
+        }
+        let after = self.filter.correction();
+        self.take_back
+            .jumped(after.place_m - before.place_m, after.heading_rad - before.heading_rad);
+    }
+
+    fn take_in(&mut self, look: &Look, moment: &Moment, made_s: f64, seen: &mut [bool; SLOTS]) {
+        let way_m = self.way_since_fix_m(moment);
+        let sighted = self.filter.sighted(look, moment, way_m);
+        let tag = self.map.associate(&mut self.filter, &sighted, seen, made_s);
+        let Some(tag) = tag else { return };
+        seen[tag] = true;
+        if self.map.is_new(tag) {
+            self.orientation.forget(tag);
+        }
+        let is_cautious = made_s < self.cautious_until_s;
+        if self.map.is_known(tag) || self.map.is_likely(tag) && !is_cautious {
+            let off_m = sighted.place_m - self.filter.tag_place_m(tag);
+            self.map.watch(tag, off_m, look.height_m, look.offset_m.norm(), moment.speed_m_s);
+            self.filter.correct(&sighted, tag);
+            if !self.map.is_known(tag) && self.filter.bias_m_s().norm() > MOST_BIAS_M_S {
+                self.filter.forget_bias();
+            }
+        }
+        let known = self.map.saw(&mut self.filter, tag, made_s, way_m, is_cautious);
+        if let Some(tag) = known {
+            seen[tag] = true;
+            self.fix = Some(Fix { at_s: made_s, odometry_m: moment.place_m });
+            self.orient(tag, look, moment);
+            self.distrust_what_moves(tag, made_s);
+        }
+    }
+
+    /// Holds the heading by a tag's orientation, once it is known which way that counts.
+    fn orient(&mut self, tag: usize, look: &Look, moment: &Moment) {
+        let heading_deg = moment.yaw_deg + self.filter.correction().heading_rad.to_degrees();
+        let turned = self.orientation.saw(tag, heading_deg, look.orientation_deg);
+        if turned.sign_changed {
+            self.map.forget_found_headings();
+        }
+        let Some(direction_deg) = turned.direction_deg else { return };
+        if self.map.has_heading(tag) {
+            let measured_deg = turned.newest_deg.unwrap_or(direction_deg);
+            self.filter.correct_heading(tag, measured_deg.to_radians());
+        } else {
+            self.filter.begin_heading(tag, direction_deg.to_radians());
+            self.map.learnt_heading(tag);
+        }
+    }
+
+    /// A tag that moves would take the drone with it: what it is off by does not average out, or makes a bias of
+    /// the flow that no flow has.
+    fn distrust_what_moves(&mut self, tag: usize, made_s: f64) {
+        /// How far it may have led us before it was noticed.
+        const LED_ASTRAY_M: f64 = 0.2;
+        if self.map.moves(tag) || self.filter.bias_m_s().norm() > MOST_BIAS_M_S {
+            self.map.forget_moving(&mut self.filter, tag);
+            self.orientation.forget(tag);
+            self.filter.forget_bias();
+            self.filter.doubt_place(LED_ASTRAY_M * LED_ASTRAY_M);
+            self.cautious_until_s = made_s + CAUTIOUS_S;
+        }
+    }
+
+    fn way_since_fix_m(&self, moment: &Moment) -> f64 {
+        self.fix.map_or(moment.place_m.norm(), |fix| (moment.place_m - fix.odometry_m).norm())
+    }
+
+    /// The place in the world of one in the odometry's frame.
+    pub(crate) fn place_m(&self, odometry_m: Vector2<f64>) -> Vector2<f64> {
+        odometry_m + self.filter.correction().place_m
+    }
+
+    /// The velocity in the world of one in the odometry's frame, at its heading.
+    pub(crate) fn velocity_m_s(&self, odometry_m_s: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
+        let heading_deg = self.heading_deg(yaw_deg);
+        self.turned(odometry_m_s) - world_from_body(self.filter.bias_m_s(), heading_deg)
+    }
+
+    /// A direction of the odometry's frame in the world.
+    pub(crate) fn turned(&self, odometry: Vector2<f64>) -> Vector2<f64> {
+        world_from_body(odometry, self.filter.correction().heading_rad.to_degrees())
+    }
+
+    pub(crate) fn heading_deg(&self, yaw_deg: f64) -> f64 {
+        yaw_deg + self.filter.correction().heading_rad.to_degrees()
+    }
+
+    /// Standard deviation of the place on the worse axis, where the odometry is `odometry_m` and the drone so
+    /// high, without what silence adds.
+    pub(crate) fn deviation_m(&self, odometry_m: Vector2<f64>, height_m: f64) -> f64 {
+        /// Of the flow's scale, as a share of the way since a tag was seen.
+        const SCALE: f64 = 0.06;
+        /// Tilt, delay and the picture's centre do not average out: a share of the height.
+        const SYSTEMATIC: f64 = 0.012;
+        const FLOOR_M: f64 = 0.015;
+        let way_m = self.fix.map_or(odometry_m.norm(), |fix| (odometry_m - fix.odometry_m).norm());
+        let parts = [FLOOR_M, SCALE * way_m, SYSTEMATIC * height_m];
+        let squares: f64 = parts.iter().map(|part| part * part).sum();
+        (self.filter.place_variance_m2() + squares).sqrt()
+    }
+
+    /// The reference goes on its way back to where it belongs.
+    pub(crate) fn advance(&mut self, step_s: f64) {
+        self.take_back.advance(step_s);
+    }
+
+    /// What the controller is to be told of a place, a velocity and a heading in the world: without the jumps of
+    /// the corrections, which come over time as a motion.
+    pub(crate) fn smooth(
+        &self,
+        place_m: Vector2<f64>,
+        velocity_m_s: Vector2<f64>,
+        yaw_deg: f64,
+    ) -> (Vector2<f64>, Vector2<f64>, f64) {
+        let left = &self.take_back;
+        (place_m - left.place_m(), velocity_m_s - left.rate_m_s(), yaw_deg - left.heading_deg())
+    }
+
+    pub(crate) fn status(&self, now_s: f64) -> TagStatus {
+        TagStatus {
+            known: self.map.known(),
+            seen_ago: self.fix.map(|fix| Duration::from_secs_f64((now_s - fix.at_s).max(0.0))),
+            heading_held: self.orientation.sign().is_some(),
+            drift_m: -self.filter.correction().place_m,
+        }
+    }
+
+    /// Whether a turn would tell which way orientations count.
+    pub(crate) fn would_learn_from_a_turn(&self, now_s: f64) -> bool {
+        let in_view = self.fix.is_some_and(|fix| now_s - fix.at_s < IN_VIEW_S);
+        in_view && self.orientation.sign().is_none()
+    }
+
+    pub(crate) fn known(&self) -> impl Iterator<Item = KnownTag> + '_ {
+        self.map.iter(&self.filter)
+    }
+}

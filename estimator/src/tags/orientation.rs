@@ -1,0 +1,170 @@
+//! Which way the orientation of a roundel counts, and which way roundels point.
+//!
+//! Clients of the real drone contradict each other. Of the two readings the right one makes a tag point the same
+//! way however the drone turns; the wrong one makes it turn twice as far. Any turn tells them apart.
+
+use super::SLOTS;
+use crate::angle::wrap_deg;
+
+/// Which way the reported orientation grows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OrientationSign {
+    /// When the drone turns clockwise.
+    Clockwise,
+    /// When the drone turns counter-clockwise.
+    CounterClockwise,
+}
+
+impl OrientationSign {
+    const BOTH: [Self; 2] = [Self::Clockwise, Self::CounterClockwise];
+
+    /// The direction of a tag by this reading.
+    fn direction_deg(self, heading_deg: f64, orientation_deg: f64) -> f64 {
+        let turned_deg = orientation_deg - ALONG_DEG;
+        match self {
+            Self::Clockwise => heading_deg - turned_deg,
+            Self::CounterClockwise => heading_deg + turned_deg,
+        }
+    }
+}
+
+/// What is told when the drone points as the tag does.
+const ALONG_DEG: f64 = 270.0;
+/// Deviation of one orientation, taken large: neighbours err alike.
+const NOISE_DEG: f64 = 8.0;
+/// One sight counts for no more than this: it may be of something else.
+const MOST_EVIDENCE: f64 = 1.0;
+/// Logarithm of the odds at which it is decided, and beyond which they are not counted.
+const DECIDED: f64 = 8.0;
+const CERTAIN: f64 = 24.0;
+/// A smaller turn may be noise alone.
+const LEAST_TURN_DEG: f64 = 1.5;
+/// Sights over which the mean direction of a tag is taken.
+const MEMORY: f64 = 40.0;
+/// Sights before a mean means something.
+const LEAST: u32 = 8;
+
+/// What a sight says of directions.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Turned {
+    /// The tag's mean direction, if it is known which way to read it.
+    pub(super) direction_deg: Option<f64>,
+    /// The tag's direction by this sight alone.
+    pub(super) newest_deg: Option<f64>,
+    /// It was read the wrong way until now.
+    pub(super) sign_changed: bool,
+}
+
+/// Mean direction of one tag by one reading.
+#[derive(Debug, Clone, Copy, Default)]
+struct Mean {
+    deg: f64,
+    sights: u32,
+}
+
+impl Mean {
+    /// How far a direction is from the mean of those before it, which it then joins.
+    fn join(&mut self, deg: f64) -> f64 {
+        let off_deg = if self.sights == 0 { 0.0 } else { wrap_deg(deg - self.deg) };
+        self.sights = self.sights.saturating_add(1);
+        let base_deg = if self.sights == 1 { deg } else { self.deg };
+        self.deg = wrap_deg(base_deg + off_deg / f64::from(self.sights).min(MEMORY));
+        off_deg
+    }
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Orientation {
+    /// Logarithm of the odds that orientations grow clockwise.
+    odds: f64,
+    sign: Option<OrientationSign>,
+    given: bool,
+    /// By the readings, in the order of [`OrientationSign::BOTH`].
+    means: [[Mean; 2]; SLOTS],
+}
+
+impl Orientation {
+    pub(super) fn new(given: Option<OrientationSign>) -> Self {
+        let means = [[Mean::default(); 2]; SLOTS];
+        Self { odds: 0.0, sign: given, given: given.is_some(), means }
+    }
+
+    pub(super) fn sign(&self) -> Option<OrientationSign> {
+        self.sign
+    }
+
+    /// Another tag has this number now.
+    pub(super) fn forget(&mut self, tag: usize) {
+        self.means[tag] = [Mean::default(); 2];
+    }
+
+    /// A known tag was seen from a heading.
+    pub(super) fn saw(&mut self, tag: usize, heading_deg: f64, orientation_deg: f64) -> Turned {
+        let means = &mut self.means[tag];
+        let mut off = [0.0; 2];
+        let mut directions = [0.0; 2];
+        for (reading, sign) in OrientationSign::BOTH.into_iter().enumerate() {
+            directions[reading] = sign.direction_deg(heading_deg, orientation_deg);
+            off[reading] = means[reading].join(directions[reading]);
+        }
+        // The mean of both is how far the drone has turned.
+        let turned_deg = f64::midpoint(off[0], off[1]).abs();
+        if means[0].sights > LEAST && turned_deg > LEAST_TURN_DEG {
+            let evidence = (off[1].powi(2) - off[0].powi(2)) / (2.0 * NOISE_DEG * NOISE_DEG);
+            let evidence = evidence.clamp(-MOST_EVIDENCE, MOST_EVIDENCE);
+            self.odds = (self.odds + evidence).clamp(-CERTAIN, CERTAIN);
+        }
+        let before = self.sign;
+        if !self.given && self.odds.abs() >= DECIDED {
+            let clockwise = self.odds > 0.0;
+            self.sign = Some(OrientationSign::BOTH[usize::from(!clockwise)]);
+        }
+        let sign_changed = before.is_some() && before != self.sign;
+        let reading = OrientationSign::BOTH.iter().position(|sign| Some(*sign) == self.sign);
+        let Some(reading) = reading.filter(|_| self.means[tag][0].sights > LEAST) else {
+            return Turned { sign_changed, ..Turned::default() };
+        };
+        Turned {
+            direction_deg: Some(self.means[tag][reading].deg),
+            newest_deg: Some(directions[reading]),
+            sign_changed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Noise of a few degrees that repeats itself late.
+    fn noise(i: u32) -> f64 {
+        (f64::from(i) * 12.9898).sin() * 5.0
+    }
+
+    #[test]
+    fn a_small_turn_tells_which_way_orientations_count() {
+        for (sign, expected) in
+            [(1.0, OrientationSign::Clockwise), (-1.0, OrientationSign::CounterClockwise)]
+        {
+            let mut orientation = Orientation::new(None);
+            let mut turned = Turned::default();
+            for i in 0..100_u32 {
+                let heading_deg = 8.0 * (f64::from(i) * 0.07).sin();
+                let told_deg = 270.0 + sign * (heading_deg - 60.0) + noise(i);
+                turned = orientation.saw(0, heading_deg, told_deg);
+            }
+            assert_eq!(orientation.sign(), Some(expected));
+            let direction_deg = turned.direction_deg.unwrap();
+            assert!(wrap_deg(direction_deg - 60.0).abs() < 3.0, "{direction_deg}");
+        }
+    }
+
+    #[test]
+    fn a_drone_that_does_not_turn_learns_nothing() {
+        let mut orientation = Orientation::new(None);
+        for i in 0..2000 {
+            orientation.saw(0, 0.05 * noise(i + 7), 100.0 + noise(i));
+        }
+        assert_eq!(orientation.sign(), None, "{orientation:?}");
+    }
+}

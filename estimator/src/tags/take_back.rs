@@ -1,0 +1,73 @@
+//! Jumps of the estimate, handed to the controller as a motion.
+//!
+//! When a tag is seen again the estimate jumps to where the drone is. The reference jumps with it, so that the
+//! controller sees no step, and then moves back to where it belongs.
+
+use nalgebra::Vector2;
+
+/// How fast what is left goes back.
+const FREQUENCY_1_S: f64 = 1.2;
+const FASTEST_M_S: f64 = 0.25;
+const MOST_M_S2: f64 = 0.4;
+const FASTEST_DEG_S: f64 = 8.0;
+/// A step of time longer than this is a pause.
+const LONGEST_STEP_S: f64 = 0.1;
+
+/// What is left to be taken back.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct TakeBack {
+    place_m: Vector2<f64>,
+    rate_m_s: Vector2<f64>,
+    heading_deg: f64,
+}
+
+impl TakeBack {
+    /// The estimate has jumped.
+    pub(super) fn jumped(&mut self, place_m: Vector2<f64>, heading_rad: f64) {
+        self.place_m += place_m;
+        self.heading_deg += heading_rad.to_degrees();
+    }
+
+    pub(super) fn advance(&mut self, step_s: f64) {
+        let step_s = step_s.clamp(0.0, LONGEST_STEP_S);
+        let wanted_m_s = (-self.place_m * (FREQUENCY_1_S / 2.0)).cap_magnitude(FASTEST_M_S);
+        let change = (wanted_m_s - self.rate_m_s) * (2.0 * FREQUENCY_1_S);
+        self.rate_m_s += change.cap_magnitude(MOST_M_S2) * step_s;
+        self.place_m += self.rate_m_s * step_s;
+        let turn_deg_s = (self.heading_deg * FREQUENCY_1_S).clamp(-FASTEST_DEG_S, FASTEST_DEG_S);
+        self.heading_deg -= turn_deg_s * step_s;
+    }
+
+    pub(super) fn place_m(&self) -> Vector2<f64> {
+        self.place_m
+    }
+
+    pub(super) fn rate_m_s(&self) -> Vector2<f64> {
+        self.rate_m_s
+    }
+
+    pub(super) fn heading_deg(&self) -> f64 {
+        self.heading_deg
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jump_becomes_a_motion_that_ends() {
+        let mut take_back = TakeBack::default();
+        take_back.jumped(Vector2::new(0.5, -0.3), 10_f64.to_radians());
+        let mut last = take_back;
+        for step in 0..500 {
+            take_back.advance(0.03);
+            let moved = take_back.place_m() - last.place_m();
+            assert!(moved.norm() <= FASTEST_M_S * 0.03 + 1e-9, "{step}");
+            let faster = take_back.rate_m_s() - last.rate_m_s();
+            assert!(faster.norm() <= MOST_M_S2 * 0.03 + 1e-9, "{step}");
+            last = take_back;
+        }
+        assert!(take_back.place_m().norm() < 1e-3 && take_back.heading_deg().abs() < 1e-2);
+    }
+}

@@ -1,0 +1,124 @@
+//! Landings with a gap in the link or another order around the landing order, which must not be lost. A gap
+//! that begins just before the order swallows it, one that begins just after it swallows the drone's answer;
+//! an order in the same tick could replace it. Random flights hardly ever hit these tenths of a second.
+
+use std::time::Duration;
+
+use autopilot::Demand;
+use autopilot::vehicle::{OperatorOrder, TICK};
+use mock_drone::WorldConfig;
+use mock_drone::firmware::Phase;
+use mock_drone::scenario::{Action, Direction, Scenario, When};
+use nalgebra::Vector2;
+
+use crate::plan;
+use crate::sim::{Simulation, SimulationError};
+
+/// By then the drone holds its position, 1.3 m high.
+const ORDERED_AT: Duration = Duration::from_secs(12);
+/// Time from the begin of the first gap to the order, and step of the other gaps' begins.
+const BEFORE: Duration = Duration::from_millis(500);
+const LATER: Duration = Duration::from_millis(100);
+const BEGINNINGS: u32 = 12;
+/// Too short for the drone to land by itself.
+const LENGTHS: [Duration; 3] =
+    [Duration::from_millis(500), Duration::from_secs(1), Duration::from_millis(1700)];
+/// Other orders come up to this many ticks before and after the landing.
+const TICKS_AROUND: u32 = 4;
+/// The drone sinks by at least a third of a metre per second.
+const LANDS_WITHIN: Duration = Duration::from_secs(8);
+
+/// Descriptions of all landings that were not completed.
+///
+/// # Errors
+/// [`SimulationError`] if a flight never ends.
+pub fn forgotten() -> Result<Vec<String>, SimulationError> {
+    let mut found = Vec::new();
+    for landing in gaps().into_iter().chain(orders()) {
+        found.extend(landing.forgotten()?);
+    }
+    Ok(found)
+}
+
+/// A landing with a disturbance around the order.
+struct Landing {
+    what: String,
+    scenario: Scenario,
+    orders: Vec<(Duration, OperatorOrder)>,
+    /// Deadline for being down.
+    due: Duration,
+}
+
+/// Datagrams are lost in one direction, or in both, for a while.
+fn gaps() -> Vec<Landing> {
+    let mut landings = Vec::new();
+    for direction in [Direction::Both, Direction::Up, Direction::Down] {
+        for length in LENGTHS {
+            for index in 0..BEGINNINGS {
+                let begins = ORDERED_AT.saturating_sub(BEFORE) + LATER * index;
+                let outage = Action::Outage(direction, length);
+                landings.push(Landing {
+                    what: format!("a gap {direction:?} from {begins:?} for {length:?}"),
+                    scenario: Scenario::default().and(When::SinceStart(begins), outage),
+                    orders: vec![(ORDERED_AT, OperatorOrder::Land)],
+                    due: ORDERED_AT.max(begins + length) + LANDS_WITHIN,
+                });
+            }
+        }
+    }
+    landings
+}
+
+/// Another order comes in nearly the same tick. In a breeze the agent flies the first part of the descent.
+fn orders() -> Vec<Landing> {
+    let mut landings = Vec::new();
+    let others = [
+        OperatorOrder::Hold,
+        OperatorOrder::Steer(Demand { roll: 0.5, ..Demand::default() }),
+        OperatorOrder::GoTo { x_m: 0.0, y_m: 1.0 },
+        OperatorOrder::Load(plan("takeoff\ngoto 0 1 0 0\nland\n")),
+        OperatorOrder::Clear,
+    ];
+    for wind_m_s in [0.0, 1.0] {
+        let wind = Action::Wind(Vector2::new(wind_m_s, 0.0), 0.0);
+        for other in &others {
+            for tick in 0..=2 * TICKS_AROUND {
+                let at = (ORDERED_AT + TICK * tick).saturating_sub(TICK * TICKS_AROUND);
+                let mut orders = vec![(ORDERED_AT, OperatorOrder::Land), (at, other.clone())];
+                orders.sort_by_key(|(at, _)| *at);
+                landings.push(Landing {
+                    what: format!("{} at {at:?}, {wind_m_s} m/s of wind", other.name()),
+                    scenario: Scenario::default().and(When::SinceStart(Duration::ZERO), wind),
+                    orders,
+                    due: ORDERED_AT + LANDS_WITHIN,
+                });
+            }
+        }
+    }
+    landings
+}
+
+impl Landing {
+    /// Description of the failure, if the drone was not down in time for good.
+    fn forgotten(self) -> Result<Option<String>, SimulationError> {
+        let Self { what, scenario, orders, due } = self;
+        let simulation = Simulation {
+            world: WorldConfig { scenario, ..WorldConfig::default() },
+            orders,
+            aftermath: Duration::from_secs(3),
+            ..Simulation::default()
+        };
+        let mut flew = false;
+        let mut late = None;
+        let text = "takeoff\ngoto 0 0 0.5 0\nsetStayTime 60\ngoto 0 0 0.5 0\nland\n";
+        let flown = simulation.fly_watched(plan(text), |moment| {
+            let lands = moment.truth.phase == Phase::Landed;
+            flew |= moment.now < ORDERED_AT && moment.truth.phase == Phase::Flying;
+            if moment.now >= due && !lands {
+                late.get_or_insert(moment.truth.phase);
+            }
+        })?;
+        let phase = late.or((!flew).then_some(flown.final_truth.phase));
+        Ok(phase.map(|phase| format!("a landing was forgotten after {what}: {phase:?}")))
+    }
+}

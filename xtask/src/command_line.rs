@@ -1,0 +1,126 @@
+//! The command line of `cargo xtask`.
+
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::{campaign, fly, mutants, sensors, soak, tags, verify};
+
+/// Measurements of the whole system, in simulated time.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Fly plans on every airframe, by both laws, with many seeds, and report how well it went
+    Fly {
+        /// Seeds of each plan on each airframe, from 1
+        #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+        seeds: u64,
+        /// Write one line per flight to this file
+        #[arg(long, value_name = "FILE")]
+        csv: Option<PathBuf>,
+        /// Write plots (SVG) to this folder
+        #[arg(long, value_name = "FOLDER")]
+        plots: Option<PathBuf>,
+    },
+    /// Fly with random faults, and report how each flight ended; fails if anything happened that must not
+    Campaign {
+        /// How many flights
+        #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u64).range(1..))]
+        flights: u64,
+        /// The first seed; each further flight takes the next one
+        #[arg(long, value_name = "SEED", default_value_t = 1)]
+        first: u64,
+    },
+    /// Fly with one wrong sensor at a time, and report how far that led the drone astray; fails if it was too
+    /// far
+    Sensors {
+        /// Seeds of each failure in each situation on each airframe, from 1
+        #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1_000))]
+        seeds: u64,
+    },
+    /// Hover and fly over roundels on the floor, and tell how well the pilot knows where it is; fails if that is not
+    /// as good as it must be
+    Tags {
+        /// Seeds of each case, nominal and hard, from 1
+        #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=1_000))]
+        seeds: u64,
+        /// Only cases with this in their name
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+        /// One line for each flight too
+        #[arg(long)]
+        each: bool,
+    },
+    /// Fly code with mistakes in it through the campaign; fails if it finds nothing wrong with one of them
+    Mutants {
+        /// At most this many flights with each
+        #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
+        flights: u64,
+        /// Only mutants with this in their name
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+        /// Instead, all mutants that cargo-mutants generates, against the tests in simulated time: takes
+        /// hours
+        #[arg(long, conflicts_with_all = ["flights", "only"])]
+        all: bool,
+        /// A part of those, such as 0/20
+        #[arg(long, value_name = "K/N", requires = "all")]
+        shard: Option<String>,
+    },
+    /// Fly over UDP, as processes, with random faults, signals, floods and closed output; fails if a
+    /// drone was left in the air
+    Soak(soak::Arguments),
+    /// Prove the properties of the shipped agent on a model and on its C, and measure what tests exercise
+    Verify {
+        /// Only the proofs, which is all that the shipped agent needs: no mutants, no coverage, no other
+        /// agent, no report
+        #[arg(long)]
+        only_proofs: bool,
+    },
+}
+
+/// Runs the command and returns the exit status.
+pub(crate) fn main() -> ExitCode {
+    #[allow(clippy::disallowed_methods, reason = "how long it takes is what a person sees")]
+    let start = std::time::Instant::now();
+    let done = match Arguments::parse().command {
+        Command::Fly { seeds, csv, plots } => fly::run(seeds, csv.as_deref(), plots.as_deref())
+            .map(|table| (table, true))
+            .map_err(|error| error.to_string()),
+        Command::Campaign { flights, first } => {
+            campaign::run(flights, first).map_err(|error| error.to_string())
+        }
+        Command::Sensors { seeds } => sensors::run(seeds).map_err(|error| error.to_string()),
+        Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each),
+        Command::Mutants { all: true, shard, .. } => {
+            mutants::all(shard.as_deref()).map_err(|error| error.to_string())
+        }
+        Command::Mutants { flights, only, .. } => {
+            mutants::by_hand(flights, only.as_deref()).map_err(|error| error.to_string())
+        }
+        Command::Soak(arguments) => soak::run(&arguments).map_err(|error| error.to_string()),
+        Command::Verify { only_proofs } => {
+            verify::run(only_proofs).map_err(|error| error.to_string())
+        }
+    };
+    // If printing fails there is nowhere else to report it.
+    match done {
+        Ok((table, good)) => {
+            let seconds = start.elapsed().as_secs_f64();
+            _ = writeln!(std::io::stdout(), "{table}done in {seconds:.1} s");
+            if good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+        }
+        Err(error) => {
+            _ = writeln!(std::io::stderr(), "error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

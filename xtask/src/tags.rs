@@ -1,0 +1,366 @@
+//! Flies over roundels on the floor, and tells how well the pilot then knows where it is.
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use autopilot::Plan;
+use autopilot::plan::Commands;
+use autopilot::vehicle::{OperatorOrder, TagConfig, VehicleConfig};
+use mock_drone::scenario::Scenario;
+use mock_drone::sensors::SensorModel;
+use mock_drone::{CameraModel, DroneConfig, FloorTag, LinkFaults, OrientationSign, WorldConfig};
+use nalgebra::Vector2;
+use system_tests::sim::{Moment, Simulation, SimulationError};
+
+use crate::parallel;
+
+/// A flight over tags.
+#[derive(Clone, Copy)]
+struct Case {
+    name: &'static str,
+    /// What is flown again and again until the battery is empty.
+    lap: fn() -> String,
+    /// Right, forward, and which way they point.
+    tags: &'static [(f64, f64, f64)],
+    scenario: fn() -> String,
+    camera: fn(CameraModel) -> CameraModel,
+    /// What must hold: nominal, hard.
+    limits: Option<[Limits; 2]>,
+}
+
+#[derive(Clone, Copy)]
+struct Limits {
+    truth_rms_m: f64,
+    truth_worst_m: f64,
+    estimate_rms_m: f64,
+    heading_deg: f64,
+    landing_m: f64,
+}
+
+const NEVER: f64 = f64::INFINITY;
+
+fn hover() -> String {
+    "setStayTime 60\ngoto 0 0 0.65 0\n".to_owned()
+}
+
+/// A square of 1 m at a height of 2 m, again and again.
+fn square() -> String {
+    "setStayTime 1\ngoto 1 0 1.15 0\ngoto 1 1 1.15 0\ngoto 0 1 1.15 0\ngoto 0 0 1.15 0\n".to_owned()
+}
+
+/// The drone starts above it, as near as one puts it by eye.
+const ONE: &[(f64, f64, f64)] = &[(0.04, -0.06, 40.0)];
+
+const PLAIN: Case = Case {
+    name: "hover 1.5 m",
+    lap: hover,
+    tags: ONE,
+    scenario: String::new,
+    camera: |camera| camera,
+    limits: Some([
+        Limits {
+            truth_rms_m: 0.04,
+            truth_worst_m: 0.15,
+            estimate_rms_m: 0.02,
+            heading_deg: 1.5,
+            landing_m: NEVER,
+        },
+        Limits {
+            truth_rms_m: 0.12,
+            truth_worst_m: 0.40,
+            estimate_rms_m: 0.07,
+            heading_deg: 2.5,
+            landing_m: NEVER,
+        },
+    ]),
+};
+
+const fn robust(name: &'static str, camera: fn(CameraModel) -> CameraModel) -> Case {
+    Case { name, camera, limits: None, ..PLAIN }
+}
+
+/// Somebody drags the tag away to the right, this fast, for so many metres.
+fn dragged(speed_m_s: f64, metres: u32) -> String {
+    let steps = (0..=metres * 50).map(|step| {
+        let way_m = 0.02 * f64::from(step);
+        format!("+{:.3} tag-moved 1 {:.3} -0.06 40\n", 60.0 + way_m / speed_m_s, 0.04 + way_m)
+    });
+    steps.collect()
+}
+
+const CASES: [Case; 17] = [
+    PLAIN,
+    Case {
+        name: "square 2 m",
+        lap: square,
+        limits: Some([
+            Limits {
+                truth_rms_m: NEVER,
+                truth_worst_m: NEVER,
+                estimate_rms_m: 0.20,
+                heading_deg: NEVER,
+                landing_m: NEVER,
+            },
+            Limits {
+                truth_rms_m: NEVER,
+                truth_worst_m: NEVER,
+                estimate_rms_m: 0.50,
+                heading_deg: NEVER,
+                landing_m: NEVER,
+            },
+        ]),
+        ..PLAIN
+    },
+    Case { name: "no tag", tags: &[], limits: None, ..PLAIN },
+    robust("focal ±15 %", |camera| CameraModel { focal_error: 0.15, at_extremes: true, ..camera }),
+    robust("centre ±50, mount ±1°", |camera| CameraModel {
+        centre_error_units: 50.0,
+        mount_error_deg: 1.0,
+        at_extremes: true,
+        ..camera
+    }),
+    robust("delay 30 ms", |camera| CameraModel { delay: [Duration::from_millis(14); 2], ..camera }),
+    robust("delay 150 ms", |camera| CameraModel {
+        delay: [Duration::from_millis(134); 2],
+        ..camera
+    }),
+    robust("1 % false", |camera| CameraModel { false_sights: 0.01, ..camera }),
+    robust("clockwise", |camera| CameraModel { orientation: OrientationSign::Clockwise, ..camera }),
+    robust("counter-clockwise", |camera| CameraModel {
+        orientation: OrientationSign::CounterClockwise,
+        ..camera
+    }),
+    Case {
+        name: "4 tags, square",
+        lap: square,
+        tags: &[(0.1, 0.1, 40.0), (1.6, 0.2, 0.0), (-0.2, 1.7, 170.0), (1.5, 1.6, -90.0)],
+        limits: None,
+        ..PLAIN
+    },
+    Case { name: "carried away", scenario: || "+120 tag-gone 1".to_owned(), limits: None, ..PLAIN },
+    Case {
+        name: "moved 0.5 m",
+        scenario: || "+120 tag-moved 1 0.5 0 10".to_owned(),
+        limits: None,
+        ..PLAIN
+    },
+    Case { name: "dragged 0.04 m/s, 2 m", scenario: || dragged(0.04, 2), limits: None, ..PLAIN },
+    Case { name: "dragged 0.1 m/s, 8 m", scenario: || dragged(0.1, 8), limits: None, ..PLAIN },
+    Case { name: "dragged 0.5 m/s, 8 m", scenario: || dragged(0.5, 8), limits: None, ..PLAIN },
+    Case {
+        name: "heading jumps",
+        scenario: || "+60 lie heading 160 for 3600".to_owned(),
+        limits: None,
+        ..PLAIN
+    },
+];
+
+#[derive(Clone, Copy)]
+struct Job {
+    case: usize,
+    hard: bool,
+    seed: u64,
+}
+
+/// What one flight was like, from half a minute after its take-off.
+#[derive(Clone, Default)]
+struct Flown {
+    case: usize,
+    hard: bool,
+    seed: u64,
+    time_s: f64,
+    by_battery: bool,
+    outcome: String,
+    truth_squares: f64,
+    truth_worst_m: f64,
+    estimate_squares: f64,
+    estimate_worst_m: f64,
+    inside: f64,
+    moments: f64,
+    heading_deg: f64,
+    landing_m: f64,
+    seen: f64,
+}
+
+/// Flies all cases whose name contains `only` with seeds from 1.
+///
+/// # Errors
+/// What went wrong with the measurement.
+pub(crate) fn run(seeds: u64, only: Option<&str>, each: bool) -> Result<(String, bool), String> {
+    let mut jobs = Vec::new();
+    for (case, what) in CASES.iter().enumerate() {
+        if only.is_some_and(|only| !what.name.contains(only)) {
+            continue;
+        }
+        for hard in [false, true] {
+            jobs.extend((1..=seeds).map(|seed| Job { case, hard, seed }));
+        }
+    }
+    let flown = parallel::map(&jobs, fly).map_err(|error| error.to_string())?;
+    let mut text = format!(
+        "{:<22}{:<8}{:>8}{:>20}{:>20}{:>9}{:>9}{:>9}{:>8}{:>7}\n",
+        "what",
+        "day",
+        "time s",
+        "truth rms/worst m",
+        "estimate rms/worst",
+        "in 2 σ",
+        "heading°",
+        "landing",
+        "seen",
+        "lost"
+    );
+    let mut good = true;
+    for (case, what) in CASES.iter().enumerate() {
+        for hard in [false, true] {
+            let flights: Vec<&Flown> =
+                flown.iter().filter(|f| f.case == case && f.hard == hard).collect();
+            if flights.is_empty() {
+                continue;
+            }
+            let limits = what.limits.map(|limits| limits[usize::from(hard)]);
+            good &= row(&mut text, what.name, hard, &flights, limits.as_ref());
+            if each {
+                for flight in &flights {
+                    row(
+                        &mut text,
+                        &format!("  seed {} {}", flight.seed, flight.outcome),
+                        hard,
+                        &[flight],
+                        None,
+                    );
+                }
+            }
+        }
+    }
+    Ok((text, good))
+}
+
+fn row(
+    text: &mut String,
+    name: &str,
+    hard: bool,
+    flights: &[&Flown],
+    limits: Option<&Limits>,
+) -> bool {
+    let sum = |of: fn(&Flown) -> f64| flights.iter().map(|flight| of(flight)).sum::<f64>();
+    let worst = |of: fn(&Flown) -> f64| flights.iter().map(|flight| of(flight)).fold(0.0, f64::max);
+    let moments = sum(|f| f.moments).max(1.0);
+    let truth_rms_m = (sum(|f| f.truth_squares) / moments).sqrt();
+    let estimate_rms_m = (sum(|f| f.estimate_squares) / moments).sqrt();
+    let mut headings: Vec<f64> = flights.iter().map(|flight| flight.heading_deg).collect();
+    headings.sort_by(f64::total_cmp);
+    let heading_deg = headings[(headings.len() * 95).div_ceil(100).saturating_sub(1)];
+    let inside = sum(|f| f.inside) / moments;
+    let lost = flights.iter().filter(|flight| !flight.by_battery).count();
+    let bad = limits.is_some_and(|limits| {
+        truth_rms_m > limits.truth_rms_m
+            || worst(|f| f.truth_worst_m) > limits.truth_worst_m
+            || estimate_rms_m > limits.estimate_rms_m
+            || heading_deg > limits.heading_deg
+            || worst(|f| f.landing_m) > limits.landing_m
+            || inside < 0.9
+            || lost > 0
+    });
+    _ = writeln!(
+        text,
+        "{:<22}{:<8}{:>8.0}{:>20}{:>20}{:>9.3}{:>9.2}{:>9.3}{:>8.2}{:>7}{}",
+        name,
+        if hard { "hard" } else { "nominal" },
+        sum(|f| f.time_s) / flights.len() as f64,
+        format!("{truth_rms_m:.3} / {:.2}", worst(|f| f.truth_worst_m)),
+        format!("{estimate_rms_m:.3} / {:.2}", worst(|f| f.estimate_worst_m)),
+        inside,
+        heading_deg,
+        worst(|f| f.landing_m),
+        sum(|f| f.seen) / moments,
+        lost,
+        if bad { "  BAD" } else { "" },
+    );
+    !bad
+}
+
+fn simulation(job: Job) -> Result<Simulation, String> {
+    let case = &CASES[job.case];
+    let (sensors, camera) = if job.hard {
+        (SensorModel::hard(), CameraModel::hard())
+    } else {
+        (SensorModel::nominal(), CameraModel::nominal())
+    };
+    let mut drone = DroneConfig {
+        seed: job.seed,
+        sensors,
+        camera: (case.camera)(camera),
+        battery_percent: 100.0,
+        ..DroneConfig::default()
+    };
+    let mut link = LinkFaults::default();
+    if job.hard {
+        drone.wind_m_s = Vector2::new(0.5, -0.4);
+        drone.gusts_m_s = 0.2;
+        drone.trim_error_deg = 0.6;
+        link.loss = 0.03;
+    }
+    let scenario =
+        Scenario::parse("scenario", &(case.scenario)()).map_err(|error| error.to_string())?;
+    let tags = case.tags.iter().map(|(x, y, heading)| FloorTag::new(*x, *y, *heading)).collect();
+    let mut pilot = VehicleConfig::default();
+    pilot.estimator.tags = Some(TagConfig::default());
+    Ok(Simulation {
+        world: WorldConfig { drone, link, scenario, tags },
+        pilot,
+        ..Simulation::default()
+    })
+}
+
+fn fly(job: Job) -> Result<Flown, TagError> {
+    const SETTLED: Duration = Duration::from_secs(30);
+    const LAPS: usize = 50;
+    // No plan may outlast the battery. So the laps are appended in flight.
+    let lap = (CASES[job.case].lap)();
+    let plan = Plan::parse("plan", &format!("takeoff\n{}", lap.repeat(5)))
+        .map_err(|error| TagError::Text(error.to_string()))?;
+    let laps = Commands::parse("laps", &lap.repeat(LAPS))
+        .map_err(|error| TagError::Text(error.to_string()))?;
+    let mut simulation = simulation(job).map_err(TagError::Text)?;
+    simulation.orders = vec![(Duration::from_secs(20), OperatorOrder::Append(laps))];
+    let mut flown = Flown { case: job.case, hard: job.hard, seed: job.seed, ..Flown::default() };
+    let mut took_off = None;
+    let flight = simulation.fly_watched(plan, |moment: &Moment| {
+        let Some(target) = moment.status.target else { return };
+        let since = moment.now.saturating_sub(*took_off.get_or_insert(moment.now));
+        if since < SETTLED {
+            return;
+        }
+        let truth = moment.truth.position_m.xy();
+        let pose = &moment.status.pose;
+        let off = truth - Vector2::new(pose.x_m, pose.y_m);
+        let astray_m = (truth - Vector2::new(target.x_m, target.y_m)).norm();
+        flown.time_s = since.as_secs_f64();
+        flown.moments += 1.0;
+        flown.truth_squares += astray_m * astray_m;
+        flown.truth_worst_m = flown.truth_worst_m.max(astray_m);
+        flown.estimate_squares += off.norm_squared();
+        flown.estimate_worst_m = flown.estimate_worst_m.max(off.norm());
+        let most_m = 2.0 * moment.status.horizontal_deviation_m;
+        flown.inside +=
+            off.iter().map(|off| f64::from(u8::from(off.abs() <= most_m)) / 2.0).sum::<f64>();
+        let turned = moment.truth.yaw_deg - pose.yaw_deg;
+        flown.heading_deg = ((turned + 180.0).rem_euclid(360.0) - 180.0).abs();
+        let seen = moment.status.tags.and_then(|tags| tags.seen_ago);
+        flown.seen += f64::from(u8::from(seen.is_some_and(|ago| ago < Duration::from_millis(500))));
+    })?;
+    flown.landing_m = flight.final_truth.position_m.xy().norm();
+    flown.outcome = flight.outcome.to_string();
+    flown.by_battery = flown.outcome.contains("battery");
+    Ok(flown)
+}
+
+/// What went wrong with the measurement, not with a flight.
+#[derive(Debug, thiserror::Error)]
+enum TagError {
+    #[error("{0}")]
+    Text(String),
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+}
