@@ -253,8 +253,9 @@ fn orders_are_read_as_people_type_them() {
     let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
     let mut until = |text: &str| lines.find(|line| line.contains(text)).expect(text);
     until("ready to take off");
-    orders.write_all(b"goto 0 1 0 0\nhelp\n").unwrap();
+    orders.write_all(b"goto 0 1 0 0\n").unwrap();
     until("refused: goto 0 1 0 0: the drone is on the ground");
+    orders.write_all(b"help\n").unwrap();
     until("load FILE");
     orders.write_all(b"takeoff\nsetStayTime 0.5\ngoto 0 1 0 0\nstart\n").unwrap();
     until("step 3 done");
