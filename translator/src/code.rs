@@ -93,7 +93,23 @@ codes! {
     Warning UnusedDeclaration "unused-declaration" "declarations that nobody uses; actions of a library, if more than three, in one line";
 }
 
+/// A section for each kind, in their order.
+const EXPLANATIONS: &str = include_str!("explanations.md");
+
 impl Code {
+    /// The kind of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|code| code.name() == name)
+    }
+
+    /// What is wrong, why that matters and what to do, mostly with an example, as Markdown. Blocks called `wrong` and
+    /// `right` hold agents.
+    pub fn explanation(self) -> &'static str {
+        let sections = EXPLANATIONS.split("## ").filter_map(|section| section.split_once('\n'));
+        let mut own = sections.filter(|(name, _)| *name == self.name());
+        own.next().map_or("", |(_, text)| text.trim())
+    }
+
     /// The kinds of warnings, the most important first: people may allow, ask for or deny each.
     pub fn warnings() -> impl Iterator<Item = Self> {
         Self::ALL.iter().copied().filter(|code| code.severity() == Severity::Warning)
@@ -134,6 +150,57 @@ mod tests {
         let row = |code: &Code| format!("| `{}` | {} |", code.name(), code.meaning());
         let expected: Vec<String> = Code::ALL.iter().map(row).collect();
         assert_eq!(rows, expected);
+    }
+
+    /// What the examples of explanations are translated with.
+    const EXAMPLE: &str =
+        "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; clock = now; };
+        basics { void on(void); void show(int32_t); int32_t read(void); bool dark(void); int64_t now(void); };
+        types { light(void); dim(int32_t); level(int32_t); asked(int32_t); pair(int32_t, int32_t); idle(void); }; settables { level; };
+        triggerables { +!light; +!dim; };";
+
+    /// The codes of all that is found in an agent.
+    fn found(agent: &str) -> Vec<&'static str> {
+        // Events without a plan are none of the example.
+        let mut text = EXAMPLE.to_owned();
+        for event in ["+!light", "+!dim"] {
+            if !agent.contains(event) {
+                text = text.replace(&format!("{event};"), "");
+            }
+        }
+        let configuration = crate::parse_configuration("a.conf", &text).unwrap();
+        match crate::translate(&configuration, agent) {
+            Ok(translation) => translation.warnings.iter().map(|found| found.code).collect(),
+            Err(error) => error.diagnostics().iter().map(|found| found.code).collect(),
+        }
+    }
+
+    #[test]
+    fn every_kind_is_explained_and_its_examples_are_of_it() {
+        let titles = EXPLANATIONS.lines().filter_map(|line| line.strip_prefix("## "));
+        assert!(titles.eq(Code::ALL.iter().map(|code| code.name())));
+        let mut examples = 0;
+        for code in Code::ALL {
+            let text = code.explanation();
+            assert!(text.len() > 60, "{}: {text}", code.name());
+            assert_eq!(text.matches("```wrong\n").count(), text.matches("```right\n").count());
+            for (block, is_right) in [("```wrong\n", false), ("```right\n", true)] {
+                for example in text.split(block).skip(1) {
+                    let agent = example.split("```").next().unwrap();
+                    let found = found(agent);
+                    assert_eq!(
+                        found.contains(&code.name()),
+                        !is_right,
+                        "{code:?}: {agent}{found:?}"
+                    );
+                    let errors = found.iter().filter_map(|name| Code::named(name));
+                    let errors = errors.filter(|code| code.severity() == Severity::Error);
+                    assert!(!is_right || errors.count() == 0, "{agent}{found:?}");
+                    examples += 1;
+                }
+            }
+        }
+        assert!(examples > 50, "{examples}");
     }
 
     /// There is no message without a kind.

@@ -74,6 +74,11 @@ fn code(all: &'static str) -> clap::builder::PossibleValuesParser {
     clap::builder::PossibleValuesParser::new(Code::warnings().map(Code::name).chain([all]))
 }
 
+/// Codes of errors and warnings.
+fn any_code() -> clap::builder::PossibleValuesParser {
+    clap::builder::PossibleValuesParser::new(Code::ALL.iter().map(|code| code.name()))
+}
+
 #[derive(Debug, Subcommand)]
 pub(super) enum Task {
     /// Make a folder with an agent, its configuration, a main program, and a Makefile that builds and runs all
@@ -81,6 +86,12 @@ pub(super) enum Task {
         /// The agent's name, and the folder's: a word of lower-case letters, digits and `_`
         #[arg(value_name = "NAME")]
         name: String,
+    },
+    /// Explain a kind of error or warning by its code, or list all codes
+    Explain {
+        /// The code, as in `warning[CODE]` and in lines of JSON
+        #[arg(value_name = "CODE", value_parser = any_code())]
+        code: Option<String>,
     },
     /// Run the agent by the reference interpreter, without any C: a prompt for calls of its interface, results of
     /// its functions, steps, and a look into its mind

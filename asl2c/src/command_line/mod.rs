@@ -12,7 +12,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser as _;
-use translator::{Diagnostic, Diagnostics, Severity, TranslateError, translate};
+use translator::{Code, Diagnostic, Diagnostics, Severity, TranslateError, translate};
 
 use self::arguments::{Arguments, Task, Verify, is_json};
 use self::messages::{denied, error_lines, line, lines};
@@ -62,6 +62,10 @@ pub fn run() -> ExitCode {
         (Some(Task::New { name }), _) => {
             (make(name, printed).map(|()| ExitCode::SUCCESS).map_err(CommandError::from), false)
         }
+        (Some(Task::Explain { code }), _) => {
+            let text = explained(code.as_deref());
+            (print("the explanation", &text).map(|()| ExitCode::SUCCESS), false)
+        }
         (Some(Task::Run(asked)), _) => (run::run(asked), false),
         (Some(Task::Prove(asked)), _) => (prove::run(asked), is_json(&asked.message_format)),
         (Some(Task::Verify(asked)), _) => (check(asked), is_json(&asked.message_format)),
@@ -71,6 +75,16 @@ pub fn run() -> ExitCode {
         (None, None) => unreachable!("clap asks for the configuration"),
     };
     done.unwrap_or_else(|error| complain(&error, json))
+}
+
+/// The explanation of a kind of error or warning, or all codes.
+fn explained(code: Option<&str>) -> String {
+    let Some(code) = code.and_then(Code::named) else {
+        let line = |code: &Code| format!("{:<20} {}", code.name(), code.meaning());
+        return Code::ALL.iter().map(line).collect::<Vec<_>>().join("\n") + "\n";
+    };
+    let severity = if code.severity() == Severity::Error { "error" } else { "warning" };
+    format!("{severity} `{}`: {}\n\n{}\n", code.name(), code.meaning(), code.explanation())
 }
 
 fn check(asked: &Verify) -> Result<ExitCode, CommandError> {

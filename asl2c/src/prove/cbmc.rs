@@ -129,13 +129,10 @@ impl Cbmc {
         let output = said.try_clone().map_err(in_file("cannot make", folder))?;
         let mut child = Command::new(&self.path)
             .args([HARNESS, "--function", "main", "--trace", "--json-ui"])
+            // Each transition has objects of its own.
+            .args(["--object-bits", "20"])
             .args(options(checks))
-            // One more than transitions, for the end of the loop.
-            .args([
-                "--unwindset",
-                &format!("main.0:{}", transitions + 1),
-                "--no-unwinding-assertions",
-            ])
+            .args(["--unwindset", &format!("main.0:{transitions}"), "--no-unwinding-assertions"])
             .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]))
             .current_dir(folder)
             .stdout(output)

@@ -28,7 +28,6 @@ struct Checked {
 
 /// A step of a trace; only outputs matter.
 #[derive(Debug, Clone, Deserialize)]
-#[serde(rename_all = "camelCase")]
 struct Step {
     #[serde(rename = "stepType")]
     kind: String,

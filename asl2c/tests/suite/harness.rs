@@ -15,3 +15,10 @@ pub(crate) fn skip(tool: &str) {
     assert!(std::env::var_os("CI").is_none(), "there is no {tool} here");
     println!("skipped: there is no {tool} here");
 }
+
+/// A CBMC: the one that `ASL2C_CBMC` names, or that on the path.
+pub(crate) fn cbmc() -> Option<std::path::PathBuf> {
+    let named =
+        std::env::var_os("ASL2C_CBMC").map_or_else(|| "cbmc".into(), std::path::PathBuf::from);
+    asl2c::Cbmc::find(Some(&named)).ok().map(|_| named)
+}

@@ -4,8 +4,10 @@
 #![allow(clippy::format_collect, reason = "tests build texts, and read better so")]
 
 mod files;
+mod gallery;
 mod guide;
 mod harness;
+mod prove;
 mod proved;
 mod run;
 mod tool;

@@ -121,6 +121,15 @@ fn the_guides_transcripts_need_no_c() {
                 assert_eq!(replayed.errors, 0, "{}", replayed.shown);
                 checked += 1;
             }
+            // What is said, errors too, is what stands there.
+            "session" => {
+                let parsed = parse_configuration("a.conf", configuration).unwrap();
+                let mut session = Session::new(&parsed, agent).unwrap();
+                let said = content.lines().filter_map(|line| line.strip_prefix("> "));
+                let said: String = said.map(|line| format!("{line}\n")).collect();
+                assert_eq!(replay(&mut session, "pilot.script", &said).shown.trim_end(), content);
+                checked += 1;
+            }
             _ => {}
         }
     }

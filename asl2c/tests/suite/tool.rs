@@ -201,3 +201,20 @@ fn a_new_agent_builds_and_runs_at_once() {
         assert!(text.contains(reason), "{text}");
     }
 }
+
+#[test]
+fn every_code_is_explained() {
+    let folder = folder();
+    let shown = |arguments: &[&str]| {
+        let output = asl2c(folder.path(), arguments);
+        (String::from_utf8(output.stdout).unwrap(), output.status.code())
+    };
+    let (text, status) = shown(&["explain", "no-plan"]);
+    assert!(
+        text.starts_with("warning `no-plan`: goals that may find no plan") && status == Some(0)
+    );
+    assert!(text.contains("```right\n+!light : dark <- on.\n+!light.\n"), "{text}");
+    let (list, _) = shown(&["explain"]);
+    assert_eq!(list.lines().count(), translator::Code::ALL.len());
+    assert_eq!(shown(&["explain", "no-such-code"]).1, Some(2));
+}

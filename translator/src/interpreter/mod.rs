@@ -7,6 +7,7 @@
 mod evaluate;
 mod mind;
 mod plans;
+mod recursion;
 mod telling;
 mod value;
 
@@ -14,6 +15,7 @@ use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 use std::sync::Arc;
 
 use self::evaluate::Substitution;
+use self::recursion::recursive_triggers;
 use self::telling::{Limit, Source};
 pub use self::telling::{trigger, with_values};
 pub use self::value::Value;
@@ -398,56 +400,4 @@ impl Event {
 
 fn key_of(trigger: &Trigger) -> Key {
     (trigger.operator, trigger.kind, trigger.atom.name.text.clone())
-}
-
-/// Triggers from which a call can come back to itself, found by following every call.
-fn recursive_triggers(agent: &Agent) -> HashSet<Key> {
-    let plans: BTreeSet<Key> = agent.plans.iter().map(|plan| key_of(&plan.trigger)).collect();
-    let mut calls: BTreeMap<&Key, BTreeSet<Key>> = BTreeMap::new();
-    for plan in &agent.plans {
-        let key = key_of(&plan.trigger);
-        let Some(key) = plans.get(&key) else { continue };
-        let targets = calls.entry(key).or_default();
-        let (operator, kind, name) = key;
-        if *operator == Operator::Add && *kind != TriggerKind::Belief {
-            targets.insert((Operator::Delete, *kind, name.clone()));
-        }
-        for formula in &plan.body {
-            let target = match formula {
-                // What is left of a plan that waits is the event of a later step.
-                Formula::Wait { .. } => {
-                    targets.insert(key.clone());
-                    continue;
-                }
-                Formula::Achieve { goal: atom, .. } => (Operator::Add, TriggerKind::Achieve, atom),
-                Formula::Add(atom) => (Operator::Add, TriggerKind::Belief, atom),
-                Formula::Delete(atom) => (Operator::Delete, TriggerKind::Belief, atom),
-                Formula::Test(atom) => (Operator::Add, TriggerKind::Test, atom),
-                Formula::Action(_) | Formula::Assign { .. } | Formula::Defer(_) => continue,
-            };
-            targets.insert((target.0, target.1, target.2.name.text.clone()));
-        }
-        targets.retain(|target| plans.contains(target));
-    }
-    let reaches = |start: &Key, goal: Option<&Key>| {
-        let mut seen: BTreeSet<&Key> = BTreeSet::new();
-        let mut open: Vec<&Key> = calls.get(start).into_iter().flatten().collect();
-        while let Some(key) = open.pop() {
-            if Some(key) == goal {
-                return (true, seen);
-            }
-            if seen.insert(key) {
-                open.extend(calls.get(key).into_iter().flatten());
-            }
-        }
-        (false, seen)
-    };
-    let on_cycle: BTreeSet<&Key> = plans.iter().filter(|key| reaches(key, Some(key)).0).collect();
-    plans
-        .iter()
-        .filter(|key| {
-            on_cycle.contains(key) || reaches(key, None).1.iter().any(|k| on_cycle.contains(k))
-        })
-        .cloned()
-        .collect()
 }

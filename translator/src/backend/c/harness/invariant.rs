@@ -25,7 +25,7 @@ impl Builder<'_> {
         posted_or_none.push(none.clone());
         candidates.push(any_of("self->posted", &posted_or_none));
         self.rings_are_sound(&mut candidates);
-        self.something_waits(&mut candidates, &none);
+        self.something_waits(&mut candidates, &none, &posted);
         for belief in &self.program.beliefs {
             let held = format!("self->{}", held(&belief.name));
             for event in &posted {
@@ -88,7 +88,7 @@ impl Builder<'_> {
         }
     }
 
-    fn something_waits(&self, candidates: &mut Vec<String>, none: &str) {
+    fn something_waits(&self, candidates: &mut Vec<String>, none: &str, posted: &[String]) {
         let mut waiting = vec![format!("(self->posted != {none})")];
         waiting.extend(
             rings(self.program).map(|ring| format!("(self->{} > 0U)", ring.field("count"))),
@@ -106,6 +106,10 @@ impl Builder<'_> {
         if let Some(ring) = deferred_ring(self.program) {
             let count = ring.field("count");
             candidates.push(format!("((self->posted != {none}) || (self->{count} > 0U))"));
+            // What is done when nothing else is wanted waits from its first step on.
+            for event in posted {
+                candidates.push(format!("((self->posted == {event}) || (self->{count} > 0U))"));
+            }
         }
     }
 
@@ -142,6 +146,11 @@ impl Builder<'_> {
                     out.push(format!("(allowed_{name} || (self->posted != {event}))"));
                 }
                 out.push(format!("(allowed_{name} || !{})", self.waits(event)));
+                // What is remembered of the event.
+                let deleted = |belief: &&Belief| self.program.is_deleted(belief);
+                for belief in self.program.beliefs.iter().filter(deleted) {
+                    out.push(format!("(allowed_{name} || !self->{})", held(&belief.name)));
+                }
             }
             Formula::Count { .. } | Formula::AllHandled => {}
         }

@@ -1,0 +1,112 @@
+//! `asl2c prove`: tools that are missing, and what cannot be decided. Proofs themselves are the gallery's.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::harness::{cbmc, skip};
+
+const CONFIGURATION: &str = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+    basics { void on(void); int32_t read(void); };\ntypes { light(void); level(int32_t); };\n\
+    settables { level; };\ntriggerables { +!light; };\n";
+const AGENT: &str = "+!light : level(X) & X + read > 3 <- on.\n+!light <- on.\n";
+
+fn folder(sections: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.conf"), format!("{CONFIGURATION}{sections}")).unwrap();
+    std::fs::write(folder.path().join("a.asl"), AGENT).unwrap();
+    folder
+}
+
+fn asl2c(folder: &Path, cbmc: &Path, options: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    command.args(["prove", "a.conf"]).args(options).arg("--cbmc").arg(cbmc);
+    command.current_dir(folder).output().unwrap()
+}
+
+fn complaint(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(3), "{}", String::from_utf8_lossy(&output.stdout));
+    assert!(output.stdout.is_empty());
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// What was not proved must not look as if it was.
+#[test]
+fn a_missing_tool_is_no_pass() {
+    let folder = folder("");
+    let text = complaint(&asl2c(folder.path(), Path::new("./no-cbmc"), &[]));
+    assert!(
+        text.starts_with("error: nothing is proved") && text.contains("apt install cbmc"),
+        "{text}"
+    );
+    let text = complaint(&asl2c(folder.path(), Path::new("no-such-cbmc"), &[]));
+    assert!(text.contains("there is no CBMC here"), "{text}");
+    let json = ["--message-format", "json"];
+    let text = complaint(&asl2c(folder.path(), Path::new("no-such-cbmc"), &json));
+    assert!(text.contains("\"not-checked\""), "{text}");
+}
+
+#[cfg(unix)]
+#[test]
+fn another_tool_is_none() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = folder("");
+    for (version, said, expected) in [
+        ("5.12 (cbmc-5.12)", "VERIFICATION SUCCESSFUL", "is `5.12"),
+        ("something", "VERIFICATION SUCCESSFUL", "is `something"),
+        ("6.6.0", "Out of memory", "did not come to a result"),
+    ] {
+        let script = folder.path().join("cbmc");
+        let text = format!(
+            "#!/bin/sh\nif [ \"$1\" = --version ]; then echo '{version}'; else echo '{said}'; fi\n"
+        );
+        std::fs::write(&script, text).unwrap();
+        std::fs::set_permissions(&script, std::fs::Permissions::from_mode(0o755)).unwrap();
+        let text = complaint(&asl2c(folder.path(), Path::new("./cbmc"), &[]));
+        assert!(text.contains(expected), "{text}");
+    }
+}
+
+#[test]
+fn what_only_the_environment_knows_is_undecided() {
+    let folder = folder("");
+    let text = CONFIGURATION.replace("level(int32_t)", "level(handle_t)").replace("read", "rest");
+    std::fs::write(folder.path().join("a.conf"), text).unwrap();
+    std::fs::write(folder.path().join("a.asl"), "+!light : level(_) <- on.\n+!light.\n").unwrap();
+    let text = complaint(&asl2c(folder.path(), Path::new("no-such-cbmc"), &[]));
+    assert!(text.contains("cannot be made up"), "{text}");
+}
+
+#[test]
+fn each_end_has_its_status() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    let one = "properties { p [R-1]: at_most_one(on); };";
+    let none = "properties { p: never(on); };";
+    for (sections, options, status, expected) in [
+        ("", &[][..], 0, "no error at run time: holds"),
+        (one, &[], 0, "p [R-1]: holds in every environment"),
+        (one, &["--quiet"], 0, ""),
+        (
+            none,
+            &[],
+            1,
+            "p: DOES NOT HOLD\n  never(on)\n  for this can happen (a.asl):\n    the environment raises +!light\n",
+        ),
+        (none, &["--length", "1"], 3, "p: NOT DECIDED"),
+        (none, &["--time", "0"], 3, "p: NOT DECIDED"),
+    ] {
+        let folder = folder(sections);
+        let output = asl2c(folder.path(), &cbmc, options);
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(
+            output.status.code(),
+            Some(status),
+            "{text}{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        assert!(text.contains(expected), "{text}");
+        assert_eq!(folder.path().join("a.p.script").exists(), status == 1);
+    }
+}
