@@ -204,7 +204,7 @@ impl Firmware {
         self.last_command = Some(now);
         match command {
             Command::Ref(reference) => self.reference(now, reference),
-            // The operator's compass is not modelled.
+            // The client's compass is not modelled.
             Command::Pcmd(motion) | Command::PcmdMagneto { motion, .. } => {
                 self.motion.waiting.push_back((now + self.profile.dead_time, motion));
             }

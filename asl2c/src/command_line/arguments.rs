@@ -16,8 +16,8 @@ use translator::Code;
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, not printed, or a \
-                  property that does not hold; 2 usage; 3 nothing is known of some property, for want of a tool, \
-                  of memory, or of properties."
+                  property that does not hold; 2 usage; 3 a property could not be checked because a tool, memory \
+                  or the properties are missing."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]

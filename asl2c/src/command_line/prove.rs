@@ -155,13 +155,13 @@ fn tell(
             _ = writeln!(
                 text,
                 "{head}: NOT DECIDED\n{formula}  CBMC found a counterexample in the C, {path}, that the reference \
-                 interpreter does not take: C and interpreter differ"
+                 interpreter does not confirm: C and interpreter differ"
             );
         }
         Found::None(length) => {
             _ = writeln!(
                 text,
-                "{head}: NOT DECIDED\n{formula}  neither proved, nor is there a failure within {length} events, beliefs \
+                "{head}: NOT DECIDED\n{formula}  not proved, and no counterexample found within {length} events, beliefs \
                  and steps (--length, --time)"
             );
         }

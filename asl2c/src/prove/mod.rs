@@ -28,7 +28,7 @@ pub enum ProveError {
     /// There is no usable CBMC.
     #[error(
         "nothing is proved: {reason}; CBMC 6 or later is needed: `apt install cbmc` where that is new enough, or \
-         https://github.com/diffblue/cbmc/releases; one that is elsewhere is named by `--cbmc PATH`"
+         https://github.com/diffblue/cbmc/releases; `--cbmc PATH` selects an installation"
     )]
     Missing {
         /// The reason.
