@@ -259,9 +259,8 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("/// One deliberation cycle: updates the beliefs, then runs at most one event.");
     writer.line("///");
     writer.line("/// # Panics");
-    writer.line(
-        "/// If the environment panics: C completes its step, then the panic continues. An",
-    );
+    writer
+        .line("/// If the environment panics: C completes its step, then the panic continues. An");
     writer.line("/// agent must not be run again after that; it panics.");
     writer.open_here("pub fn next_step(&mut self, environment: &mut dyn Environment)");
     writer.line("assert!(!self.broken, \"the agent's environment has panicked before\");");

@@ -108,9 +108,7 @@ fn queueing(
     let (first, count) = (field("first"), field("count"));
     let external = names.field(external_count(program));
     let unhandled = names.field("unhandled");
-    writer.line(
-        "/* Appends the goal. One that does not fit is dropped and counted. */",
-    );
+    writer.line("/* Appends the goal. One that does not fit is dropped and counted. */");
     writer.open(format!("static void defer_{trigger}({})", names.parameters(types)));
     writer.open(format!("if (({count} - {external}) < {}U)", program.deferred_room));
     let slot = wrapped(&format!("{first} + {count}"), ring.length);

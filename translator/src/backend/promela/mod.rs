@@ -150,8 +150,9 @@ impl Emission<'_> {
         for (id, _) in program.handlers() {
             writer.line(format!("{number} return_{};", id.0));
         }
-        writer
-            .line("byte main_calls, cause_calls, until_calls; /* for the property, in this step */");
+        writer.line(
+            "byte main_calls, cause_calls, until_calls; /* for the property, in this step */",
+        );
         writer.line("short due; bool allowed; bool lost;");
         writer.line("");
     }
