@@ -1,6 +1,6 @@
 //! Angles in degrees.
 
-/// The same direction in [-180, 180).
+/// Wraps an angle to [-180, 180).
 pub fn wrap_deg(angle_deg: f64) -> f64 {
     (angle_deg + 180.0).rem_euclid(360.0) - 180.0
 }
