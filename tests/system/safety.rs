@@ -40,6 +40,19 @@ fn five_hundred_flights_with_random_faults_end_well() {
     assert!(flown > 100, "only {flown} plans were flown to their end");
 }
 
+/// Seeds beyond those five hundred that showed a fault which was then mended.
+#[test]
+fn flights_that_once_went_wrong_end_well() {
+    const LANDING_RIGHT_AFTER_TAKE_OFF: u64 = 2_004_116;
+    const RESTARTED_DRONES: [u64; 2] = [6426, 8461];
+    const CUT_DURING_A_TAKE_OVER: u64 = 900_820;
+    const STORMS: [u64; 4] = [2359, 8173, 8688, 2_002_821];
+    let single = [LANDING_RIGHT_AFTER_TAKE_OFF, CUT_DURING_A_TAKE_OVER];
+    for seed in RESTARTED_DRONES.into_iter().chain(STORMS).chain(single) {
+        assert_eq!(campaign::fly(seed).unwrap().faults, [], "seed {seed}");
+    }
+}
+
 #[test]
 fn the_same_seed_is_the_same_flight() {
     assert_eq!(campaign::fly(5).unwrap(), campaign::fly(5).unwrap());

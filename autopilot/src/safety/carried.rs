@@ -15,13 +15,18 @@ const SLOW_M_S: f64 = 0.3;
 /// Wind in the direction of motion that counts as a storm, as a fraction of the acceleration at full tilt.
 const STORM: f64 = 0.7;
 
+/// Time after which a drone that could brake again is no longer carried off: leaning against a storm stops it
+/// for a moment.
+const LULL: Duration = Duration::from_millis(500);
 /// A storm is leant against once it would carry the drone over the fence within this time at its speed.
-const SOON_S: f64 = 3.0;
+const SOON_S: f64 = 6.0;
 
 /// How long the drone has been carried outward faster than it can brake.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct CarriedOff {
     since: Option<Duration>,
+    /// Since when the drone could brake again.
+    stops_since: Option<Duration>,
     /// Largest speed since it last fell, and until when a braking drone is given time.
     away_m_s: f64,
     brakes_until: Duration,
@@ -34,10 +39,18 @@ impl CarriedOff {
     pub(super) fn see(&mut self, now: &Situation, radius_m: f64) {
         let motion = Motion::of(now);
         let away_m_s = motion.speed_m_s;
-        if now.blind_for > super::STALE || motion.stops(now, radius_m) {
+        if now.blind_for > super::STALE {
             *self = Self::default();
             return;
         }
+        if motion.stops(now, radius_m) {
+            let stops_since = *self.stops_since.get_or_insert(now.now);
+            if now.now.saturating_sub(stops_since) >= LULL {
+                *self = Self::default();
+            }
+            return;
+        }
+        self.stops_since = None;
         if self.since.is_none() {
             *self = Self { since: Some(now.now), away_m_s, ..Self::default() };
         }
@@ -64,6 +77,7 @@ impl CarriedOff {
     pub(super) fn lasts(&self, now: Duration) -> bool {
         self.since.is_some_and(|since| now.saturating_sub(since) >= GUST)
             && now >= self.brakes_until
+            && self.stops_since.is_none()
     }
 }
 
