@@ -54,7 +54,7 @@ fn allocations(
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
                 count(&mut || pilot.handle(now, Input::Order(Operator::TERMINAL, order.clone())));
             }
-            count(&mut || pilot.tick(now).unwrap());
+            count(&mut || pilot.tick(now));
             count(&mut || {
                 while let Some(output) = pilot.poll() {
                     match output {

@@ -132,7 +132,7 @@ proptest! {
                     Message::Control(dump) => vehicle.handle(now, Input::Control(dump.as_bytes())),
                 }
             }
-            vehicle.tick(now).unwrap();
+            vehicle.tick(now);
             while let Some(output) = vehicle.poll() {
                 match output {
                     Output::Transmit(Transmit::Command { datagram, decision }) => {

@@ -23,10 +23,10 @@ mod tick;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use ardrone_link::at::{Config, Datagram, EncodeError};
+use ardrone_link::at::Config;
 use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
-use ardrone_link::session::{self, Received, Session, SessionConfig};
+use ardrone_link::session::{self, Session, SessionConfig, Transmit as SessionTransmit};
 use ardrone_link::settings::{Detection, Setting, SettingError};
 pub use estimator::{Airframe, KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use estimator::{EstimatorConfig, Prediction};
@@ -153,8 +153,6 @@ pub struct Vehicle {
     events: VecDeque<FlightEvent>,
     /// Decision of the last tick; `None` before the first navdata.
     decision: Option<Decision>,
-    /// Datagram of the last tick; its buffer is allocated once.
-    datagram: Datagram,
     pending: Pending,
 }
 
@@ -213,7 +211,6 @@ impl Vehicle {
             readiness_in: 0,
             events: VecDeque::with_capacity(EVENTS),
             decision: None,
-            datagram: Datagram::new(),
             pending: Pending::default(),
         })
     }
@@ -260,21 +257,47 @@ impl Vehicle {
     }
 
     fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
-        match self.session.handle_navdata(now, datagram) {
-            Received::Navdata(navdata) => {
-                self.count_packet(now);
-                self.session_events(now);
-                if let Some(demo) = &navdata.demo {
-                    self.flight.estimator.update(&sample(now, &navdata, demo));
-                    if self.config.estimator.tags.is_some() {
-                        self.flight.estimator.see(&sights(datagram));
-                    }
-                }
-                self.navdata = Some(navdata);
+        let Some(navdata) = self.pass_on(now, session::Input::Navdata(datagram)) else { return };
+        if let Some(demo) = &navdata.demo {
+            self.flight.estimator.update(&sample(now, &navdata, demo));
+            if self.config.estimator.tags.is_some() {
+                self.flight.estimator.see(&sights(datagram));
             }
-            // The session counts these.
-            Received::Stale | Received::Damaged(_) => {}
         }
+        self.navdata = Some(navdata);
+    }
+
+    /// Passes an input to the session and handles its outputs; returns new navdata. A datagram for the drone
+    /// waits until it is polled.
+    fn pass_on(&mut self, now: Duration, input: session::Input<'_>) -> Option<Navdata> {
+        self.session.handle(now, input);
+        self.take_in(now)
+    }
+
+    /// Handles the session's outputs.
+    fn take_in(&mut self, now: Duration) -> Option<Navdata> {
+        let mut received = None;
+        while let Some(output) = self.session.poll() {
+            match output {
+                session::Output::Transmit(SessionTransmit::Command(_)) => {
+                    self.pending.command = true;
+                }
+                session::Output::Transmit(SessionTransmit::WakeUp) => self.pending.wake_up = true,
+                session::Output::Navdata(navdata) => {
+                    self.count_packet(now);
+                    received = Some(navdata);
+                }
+                session::Output::Event(event) => self.session_event(now, event),
+                // The session counts damaged packets.
+                _ => {}
+            }
+        }
+        received
+    }
+
+    /// A request to the session. It has no outputs before the next tick.
+    fn request(&mut self, now: Duration, request: session::Request) {
+        self.session.handle(now, session::Input::Request(request));
     }
 
     fn count_packet(&mut self, now: Duration) {
@@ -286,19 +309,15 @@ impl Vehicle {
     }
 
     fn handle_control(&mut self, now: Duration, bytes: &[u8]) {
-        self.session.handle_control(bytes);
-        self.session_events(now);
+        self.pass_on(now, session::Input::Control(bytes));
     }
 
     /// A tick of a program that is about to exit: orders the landing through the session alone, so that it
-    /// works whatever state the agent and the estimator are in. See [`Session::part`].
-    ///
-    /// # Errors
-    /// See [`Session::part`].
-    pub fn part(&mut self, now: Duration) -> Result<(), EncodeError> {
-        self.session.part(now, &mut self.datagram)?;
-        self.pending.command = !self.datagram.as_bytes().is_empty();
-        Ok(())
+    /// works whatever state the agent and the estimator are in. See [`session::Input::Part`].
+    pub fn part(&mut self, now: Duration) {
+        self.session.handle(now, session::Input::Part);
+        let transmit = self.session.poll_transmit();
+        self.pending.command = matches!(transmit, Some(SessionTransmit::Command(_)));
     }
 
     /// Counts of valid, stale and damaged datagrams.
@@ -308,7 +327,7 @@ impl Vehicle {
 
     /// The datagram of the last tick, empty if there was none.
     pub fn datagram(&self) -> &[u8] {
-        self.datagram.as_bytes()
+        self.session.datagram()
     }
 
     /// Decision of the last tick; `None` before the first navdata.

@@ -8,6 +8,7 @@ use crate::mission::{AppendError, Underway};
 use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, Commands, Plan};
 use ardrone_link::navdata::DroneState;
+use ardrone_link::session::Request;
 use pid::Demand;
 
 /// An order from an operator.
@@ -156,7 +157,7 @@ impl Vehicle {
                     self.end(now, Outcome::Interrupted);
                 }
                 self.events.push_back(FlightEvent::CutOrdered);
-                self.session.request_emergency_stop();
+                self.request(now, Request::EmergencyStop);
             }
             OperatorOrder::Recover => return self.recover(now),
             OperatorOrder::Release => self.controls.release(by),
@@ -311,7 +312,7 @@ impl Vehicle {
         if self.departure.is_some() {
             self.end(now, Outcome::Interrupted);
         }
-        self.session.request_emergency_reset();
+        self.request(now, Request::EmergencyReset);
         Ok(())
     }
 

@@ -203,7 +203,7 @@ impl Vehicle {
             }
             // Another client has landed the drone, and may have changed its settings.
             FlightPhase::Observing { .. } if self.on_ground() && self.navdata.is_some() => {
-                self.session.configure_again();
+                self.request(now, session::Request::AllSettings);
                 self.begin_to_configure(now, Authority::OnGround);
             }
             FlightPhase::Configuring { since }
@@ -429,61 +429,59 @@ impl Vehicle {
         }
     }
 
-    pub(super) fn session_events(&mut self, now: Duration) {
-        while let Some(event) = self.session.poll_event() {
-            match event {
-                session::Event::Connected => {
-                    if self.phase == FlightPhase::Connecting {
-                        self.found(now);
-                        self.events.push_back(FlightEvent::Connected);
-                    }
+    pub(super) fn session_event(&mut self, now: Duration, event: session::Event) {
+        match event {
+            session::Event::Connected => {
+                if self.phase == FlightPhase::Connecting {
+                    self.found(now);
+                    self.events.push_back(FlightEvent::Connected);
                 }
-                session::Event::ConfigurationTimedOut { key } => self.setting_unconfirmed(&key),
-                session::Event::ConfigurationRead(configuration) => {
-                    self.compare_configuration(&configuration);
-                }
-                session::Event::ConfigurationNotRead => {
-                    self.configured.not_read = true;
-                    self.events.push_back(FlightEvent::ConfigurationNotRead);
-                }
-                session::Event::Ready => {
-                    if matches!(self.phase, FlightPhase::Configuring { .. }) {
-                        // In the air the drone is not level, so flat trim would set a wrong reference.
-                        if self.on_ground() {
-                            self.session.request_flat_trim();
-                        }
-                        let received = self.session.statistics().received;
-                        self.phase = FlightPhase::Settling { since: now, received };
-                        self.events.push_back(FlightEvent::Configured);
-                    }
-                }
-                session::Event::LinkLost => self.link_lost(now),
-                session::Event::DroneRestarted => {
-                    self.flight.estimator.handle_restart();
-                    self.navdata = None;
-                    match self.phase {
-                        FlightPhase::Flying => self.land(now, LandingReason::DroneRestarted),
-                        FlightPhase::Settling { .. } | FlightPhase::Standby { .. } => {
-                            self.begin_to_configure(now, self.authority);
-                        }
-                        _ => {}
-                    }
-                }
-                session::Event::Emergency => {
-                    self.events.push_back(FlightEvent::Emergency);
-                    if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
-                        self.end(now, Outcome::Emergency);
-                    }
-                }
-                session::Event::EmergencyCleared => {
-                    self.events.push_back(FlightEvent::EmergencyCleared);
-                }
-                session::Event::Landed => self.events.push_back(FlightEvent::Landed),
-                // The agent has its own take-off timeout.
-                session::Event::Configured { .. }
-                | session::Event::Airborne
-                | session::Event::TakeOffTimedOut => {}
             }
+            session::Event::ConfigurationTimedOut { key } => self.setting_unconfirmed(&key),
+            session::Event::ConfigurationRead(configuration) => {
+                self.compare_configuration(&configuration);
+            }
+            session::Event::ConfigurationNotRead => {
+                self.configured.not_read = true;
+                self.events.push_back(FlightEvent::ConfigurationNotRead);
+            }
+            session::Event::Ready => {
+                if matches!(self.phase, FlightPhase::Configuring { .. }) {
+                    // In the air the drone is not level, so flat trim would set a wrong reference.
+                    if self.on_ground() {
+                        self.request(now, session::Request::FlatTrim);
+                    }
+                    let received = self.session.statistics().received;
+                    self.phase = FlightPhase::Settling { since: now, received };
+                    self.events.push_back(FlightEvent::Configured);
+                }
+            }
+            session::Event::LinkLost => self.link_lost(now),
+            session::Event::DroneRestarted => {
+                self.flight.estimator.handle_restart();
+                self.navdata = None;
+                match self.phase {
+                    FlightPhase::Flying => self.land(now, LandingReason::DroneRestarted),
+                    FlightPhase::Settling { .. } | FlightPhase::Standby { .. } => {
+                        self.begin_to_configure(now, self.authority);
+                    }
+                    _ => {}
+                }
+            }
+            session::Event::Emergency => {
+                self.events.push_back(FlightEvent::Emergency);
+                if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
+                    self.end(now, Outcome::Emergency);
+                }
+            }
+            session::Event::EmergencyCleared => {
+                self.events.push_back(FlightEvent::EmergencyCleared);
+            }
+            session::Event::Landed => self.events.push_back(FlightEvent::Landed),
+            // The agent has its own take-off timeout.
+            session::Event::Configured { .. }
+            | session::Event::Airborne
+            | session::Event::TakeOffTimedOut => {}
         }
     }
 

@@ -28,7 +28,8 @@ const PHASE: &str = "autopilot/src/vehicle/phase.rs";
 const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
 const ESTIMATOR: &str = "estimator/src/lib.rs";
 const HORIZONTAL: &str = "estimator/src/horizontal.rs";
-const SESSION: &str = "ardrone-link/src/session/mod.rs";
+const TAKE_OFF: &str = "ardrone-link/src/session/take_off.rs";
+const SILENCE: &str = "ardrone-link/src/session/silence.rs";
 
 const fn mutant(name: &'static str, edits: &'static [Edit]) -> Mutant {
     Mutant { name, edits }
@@ -318,23 +319,23 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "the take-off latch is ignored",
         &[edit(
-            SESSION,
-            "self.take_off = TakeOffLatch::Withheld { landing_ordered: false };",
-            "self.take_off = TakeOffLatch::Follow { airborne: true };",
+            TAKE_OFF,
+            "*self = Self::Withheld { landing_ordered: false };",
+            "*self = Self::Follow { airborne: true };",
         )],
     ),
     mutant(
         "a drone that is not heard is told to fly",
         &[
             edit(
-                SESSION,
-                "heard.returned_at.is_none() && now.saturating_sub(heard.at) < UNHEARD",
-                "now.saturating_sub(heard.at) < Duration::MAX",
+                SILENCE,
+                "self.returned_at.is_none() && now.saturating_sub(self.at) < UNHEARD",
+                "now.saturating_sub(self.at) < Duration::MAX",
             ),
             edit(
-                SESSION,
-                "self.take_off = TakeOffLatch::Withheld { landing_ordered: false };",
-                "self.take_off = TakeOffLatch::Follow { airborne: true };",
+                TAKE_OFF,
+                "*self = Self::Withheld { landing_ordered: false };",
+                "*self = Self::Follow { airborne: true };",
             ),
         ],
     ),
