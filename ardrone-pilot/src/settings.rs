@@ -10,7 +10,8 @@ use std::time::Duration;
 
 use autopilot::plan::{FlightLimits, ZOrigin};
 use autopilot::vehicle::{NavdataRate, VehicleConfig};
-use estimator::{DroneLimits, EstimatorConfig};
+use estimator::EstimatorConfig;
+use kinematics::DroneLimits;
 use nalgebra::Vector2;
 use pid::{CascadeConfig, Law, PidGains};
 use serde::{Deserialize, Serialize};
@@ -313,7 +314,7 @@ impl Settings {
             law: controller.law,
             estimator: EstimatorConfig {
                 limits,
-                airframe: estimator::Airframe {
+                airframe: kinematics::Airframe {
                     tilt_gain: airframe.tilt_gain,
                     tilt_lag_s: airframe.tilt_lag_s,
                     climb_gain: airframe.climb_gain,
@@ -334,7 +335,7 @@ impl Settings {
                 identify: airframe.identify,
                 tags: tags.config(),
             },
-            cascade: controller.cascade(&limits),
+            cascade: controller.cascade(),
         }
     }
 
@@ -400,10 +401,8 @@ fn outside(name: &str, value: f64, range: &RangeInclusive<f64>) -> Option<String
 }
 
 impl Controller {
-    fn cascade(&self, limits: &DroneLimits) -> CascadeConfig {
+    fn cascade(&self) -> CascadeConfig {
         CascadeConfig {
-            tilt_max_rad: limits.tilt_rad,
-            climb_max_m_s: limits.climb_m_s,
             speed_max_m_s: self.speed_max_m_s,
             acceleration_share: self.acceleration_share,
             jerk_max_m_s3: self.jerk_max_m_s3,
@@ -447,7 +446,6 @@ mod tests {
         assert_eq!(Settings::parse("p", &settings.to_toml().unwrap()).unwrap(), settings);
         let config = settings.pilot_config(ZOrigin::Floor);
         assert_eq!(config.law, Law::Tum);
-        assert!((config.cascade.climb_max_m_s - 1.0).abs() < 1e-12);
         assert!((config.estimator.limits.climb_m_s - 1.0).abs() < 1e-12);
     }
 

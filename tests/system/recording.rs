@@ -45,7 +45,7 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
     let second = Duration::from_secs(1);
     let orders = vec![
         (7 * second, OperatorOrder::Hold),
-        (8 * second, OperatorOrder::Steer(autopilot::Demand { roll: 0.3, ..Default::default() })),
+        (8 * second, OperatorOrder::Steer(kinematics::Sticks { roll: 0.3, ..Default::default() })),
         (9 * second, OperatorOrder::GoTo { x_m: 0.5, y_m: 0.25 }),
         (12 * second, OperatorOrder::Resume),
     ];

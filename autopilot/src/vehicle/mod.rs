@@ -28,10 +28,11 @@ use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use ardrone_link::session::{self, Session, SessionConfig, Transmit as SessionTransmit};
 use ardrone_link::settings::{Detection, Setting, SettingError};
-pub use estimator::{Airframe, KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use estimator::{EstimatorConfig, Prediction};
+pub use estimator::{KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
+use kinematics::Pose;
+use pid::CascadeConfig;
 pub use pid::Law;
-use pid::{CascadeConfig, Pose};
 
 pub use self::decision::Decision;
 use self::flight::{Active, Flight, sample};
@@ -113,7 +114,6 @@ const FAULT_TIME: Duration = Duration::from_millis(300);
 const WIND_TIME_S: f64 = 2.0;
 /// Time constant of the navdata rate's average, in seconds.
 const RATE_TIME_S: f64 = 1.0;
-const GRAVITY_M_S2: f64 = 9.81;
 
 /// Ticks between two readiness checks.
 const READINESS_TICKS: u32 = 10;

@@ -9,7 +9,7 @@ use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, Commands, Plan};
 use ardrone_link::navdata::DroneState;
 use ardrone_link::session::Request;
-use pid::Demand;
+use kinematics::Sticks;
 
 /// An order from an operator.
 ///
@@ -36,7 +36,7 @@ pub enum OperatorOrder {
     /// Resume the mission.
     Resume,
     /// Manual control: stick fractions with the drone's signs. They expire after 600 ms unless repeated.
-    Steer(Demand),
+    Steer(Sticks),
     /// Fly to this place at the present height and heading and stay there; the mission is paused. A place
     /// near or outside the fence is moved inside. Coordinates are in the estimator's frame.
     GoTo {

@@ -5,13 +5,12 @@ use std::time::Duration;
 use ardrone_link::navdata::{ControlState, DroneState};
 use ardrone_link::session::Input;
 use estimator::Prediction;
+use kinematics::{GRAVITY_M_S2, Pose};
 use nalgebra::Vector2;
-use pid::Pose;
 
 use super::{
-    Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, GRAVITY_M_S2, LandingReason,
-    NotReady, Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S,
-    Waypoint, pose,
+    Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, LandingReason, NotReady,
+    Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S, Waypoint, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Percepts};
 use crate::safety::Situation;

@@ -4,7 +4,7 @@
 //! way however the drone turns; the wrong one makes it turn twice as far. Any turn tells them apart.
 
 use super::SLOTS;
-use crate::angle::wrap_deg;
+use kinematics::wrap_deg;
 
 /// Which way the reported orientation grows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -27,6 +27,7 @@ const CONTROL: &str = "autopilot/src/vehicle/control.rs";
 const PHASE: &str = "autopilot/src/vehicle/phase.rs";
 const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
 const ESTIMATOR: &str = "estimator/src/lib.rs";
+const FRAME: &str = "kinematics/src/frame.rs";
 const HORIZONTAL: &str = "estimator/src/horizontal.rs";
 const TAKE_OFF: &str = "ardrone-link/src/session/take_off.rs";
 const SILENCE: &str = "ardrone-link/src/session/silence.rs";
@@ -64,22 +65,18 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "the heading turns no velocity",
-        &[edit(
-            HORIZONTAL,
-            "Rotation2::new(-yaw_deg.to_radians())",
-            "Rotation2::new(0.0 * yaw_deg)",
-        )],
+        &[edit(FRAME, "Rotation2::new(-yaw_deg.to_radians())", "Rotation2::new(0.0 * yaw_deg)")],
     ),
     mutant(
         "the heading turns velocities the wrong way",
         &[
             edit(
-                HORIZONTAL,
+                FRAME,
                 "Rotation2::new(-yaw_deg.to_radians())",
                 "Rotation2::new(1.0 * yaw_deg.to_radians())",
             ),
             edit(
-                HORIZONTAL,
+                FRAME,
                 "Rotation2::new(yaw_deg.to_radians())",
                 "Rotation2::new(-1.0 * yaw_deg.to_radians())",
             ),
