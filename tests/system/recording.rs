@@ -6,7 +6,7 @@ use std::time::Duration;
 use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter};
 use ardrone_pilot::replay::Replay;
 use ardrone_pilot::report;
-use ardrone_pilot::settings;
+use ardrone_pilot::settings::Settings;
 use autopilot::plan::ZOrigin;
 use autopilot::vehicle::{FlightEvent, NavdataRate, OperatorOrder, VehicleConfig};
 use serde_json::{Value, json};
@@ -18,7 +18,7 @@ fn header(text: &str) -> Header {
         start: Duration::from_secs(1_700_000_000),
         plan_name: "plan.txt".to_owned(),
         plan: text.to_owned(),
-        settings: settings::DEFAULTS.to_owned(),
+        settings: Settings::sample().unwrap(),
         z_origin: ZOrigin::Hover,
         drone: "simulated".to_owned(),
     }
@@ -138,8 +138,9 @@ fn foreign_log(
     metadata.insert("z_origin".to_owned(), ZOrigin::Hover.name().to_owned());
     let metadata = mcap::records::Metadata { name: "flight".to_owned(), metadata };
     writer.write_metadata(&metadata).unwrap();
+    let settings = Settings::sample().unwrap();
     for (name, text) in
-        [("plan.txt", plan), ("pilot.toml", settings::DEFAULTS), ("autopilot.asl", agent)]
+        [("plan.txt", plan), ("pilot.toml", settings.as_str()), ("autopilot.asl", agent)]
     {
         let attachment = mcap::Attachment {
             log_time: 0,
