@@ -283,6 +283,18 @@ fn standard_streams_are_written_to_in_one_file() {
     assert_eq!(writers, [Path::new("../ardrone-pilot/src/cli/terminal.rs")]);
 }
 
+/// What a program does belongs into its library, where tests reach it.
+#[test]
+fn programs_only_start_their_library() {
+    let mut programs = 0;
+    for (package, _) in MAY_USE {
+        let Ok(text) = std::fs::read_to_string(format!("../{package}/src/main.rs")) else { continue };
+        assert!(text.lines().count() <= 40, "{package}");
+        programs += 1;
+    }
+    assert_eq!(programs, 4);
+}
+
 /// `unsafe` is used in one file only, the boundary to C.
 #[test]
 fn unsafe_code_is_in_one_file() {
