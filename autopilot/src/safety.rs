@@ -82,6 +82,9 @@ pub enum Veto {
     NearFence,
     /// The drone has left the fence: fly it back and down, and land.
     OutsideFence,
+    /// The drone cannot brake before the fence against this wind: lean against it and sink, until the wind
+    /// weakens or proves to be more than a gust.
+    AgainstWind,
     /// The wind carries the drone over the fence faster than it can brake: fly it down against the wind, and
     /// land.
     CarriedOff,
@@ -98,6 +101,7 @@ impl Veto {
             Self::TargetOutside => "TargetOutside",
             Self::NearFence => "NearFence",
             Self::OutsideFence => "OutsideFence",
+            Self::AgainstWind => "AgainstWind",
             Self::CarriedOff => "CarriedOff",
         }
     }
@@ -223,6 +227,9 @@ impl SafetyMonitor {
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
         match command {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
+            _ if moves && self.carried_off.in_storm() => {
+                (AgentCommand::GoTo(self.place_upwind(&now.pose)), Some(Veto::AgainstWind))
+            }
             AgentCommand::GoTo(target) if !self.is_inside(&target, 1e-6) => (
                 AgentCommand::GoTo(self.fence.nearest_inside(&target, 0.0)),
                 Some(Veto::TargetOutside),
@@ -600,6 +607,28 @@ mod tests {
         );
         assert_eq!(time_to_sink(f64::NAN), Duration::ZERO);
         assert_eq!(time_to_sink(f64::INFINITY), Duration::ZERO);
+    }
+
+    #[test]
+    fn a_storm_is_met_low_and_leaning_before_it_is_known_to_last() {
+        let now = Situation {
+            pose: Pose { y_m: -7.0, z_m: 1.8, ..FINE.pose },
+            velocity_m_s: [0.0, -1.0, 0.0],
+            wind: [0.0, -1.1],
+            ..FINE
+        };
+        for command in [GO_TO, AgentCommand::Sticks] {
+            let mut monitor = monitor();
+            let (leaning, veto) = monitor.check(command, &now);
+            assert_eq!(veto, Some(Veto::AgainstWind));
+            let AgentCommand::GoTo(target) = leaning else { panic!("{leaning:?}") };
+            assert!(target.y_m >= -5.0 && target.z_m < 0.5, "{target:?}");
+            let gust_ends = Situation { wind: [0.0; 2], now: FINE.now + GUST / 2, ..now };
+            assert_eq!(monitor.check(command, &gust_ends), (command, None));
+        }
+        for command in [AgentCommand::Hover, AgentCommand::Land] {
+            assert_eq!(monitor().check(command, &now), (command, None));
+        }
     }
 
     #[test]

@@ -288,7 +288,9 @@ fn standard_streams_are_written_to_in_one_file() {
 fn programs_only_start_their_library() {
     let mut programs = 0;
     for (package, _) in MAY_USE {
-        let Ok(text) = std::fs::read_to_string(format!("../{package}/src/main.rs")) else { continue };
+        let Ok(text) = std::fs::read_to_string(format!("../{package}/src/main.rs")) else {
+            continue;
+        };
         assert!(text.lines().count() <= 40, "{package}");
         programs += 1;
     }

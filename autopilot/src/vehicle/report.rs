@@ -184,6 +184,7 @@ impl fmt::Display for FlightEvent {
                 Veto::TargetOutside => "target outside the fence: flying to its edge",
                 Veto::NearFence => "at the fence: stopping",
                 Veto::OutsideFence => "outside the fence: flying back and landing",
+                Veto::AgainstWind => "the wind is stronger than the drone can brake: leaning against it",
                 Veto::CarriedOff => "the wind is stronger than the drone can brake: landing",
             }),
         }
