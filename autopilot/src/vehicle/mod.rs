@@ -8,6 +8,7 @@
 mod control;
 mod decision;
 mod flight;
+mod link;
 mod manual;
 mod operators;
 mod orders;
@@ -24,9 +25,8 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use ardrone_link::at::Config;
-use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
-use ardrone_link::session::{self, Session, SessionConfig, Transmit as SessionTransmit};
+use ardrone_link::session::{self, Session, SessionConfig};
 use ardrone_link::settings::{Detection, Setting, SettingError};
 use estimator::{EstimatorConfig, Prediction};
 pub use estimator::{KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
@@ -112,18 +112,10 @@ const EVENTS: usize = 64;
 const FAULT_TIME: Duration = Duration::from_millis(300);
 /// Time constant of the average that removes gusts from the disturbance, in seconds.
 const WIND_TIME_S: f64 = 2.0;
-/// Time constant of the navdata rate's average, in seconds.
-const RATE_TIME_S: f64 = 1.0;
 
 /// Ticks between two readiness checks.
 const READINESS_TICKS: u32 = 10;
 
-/// Requests the drone's clock in demo mode. Some firmware lets only a custom configuration change this key,
-/// so flying does not depend on it.
-const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
-/// What makes the drone look for roundels. A firmware may not know it, or not let the default configuration
-/// change it: the flight does not depend on it.
-const DETECTION_SECTION: &str = "detect:";
 /// The black and white oriented roundel in the selection of the bottom camera.
 const ROUNDEL_BIT: u32 = 1 << 7;
 
@@ -256,68 +248,12 @@ impl Vehicle {
         self.phase = FlightPhase::Settling { since: now, received };
     }
 
-    fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
-        let Some(navdata) = self.pass_on(now, session::Input::Navdata(datagram)) else { return };
-        if let Some(demo) = &navdata.demo {
-            self.flight.estimator.update(&sample(now, &navdata, demo));
-            if self.config.estimator.tags.is_some() {
-                self.flight.estimator.see(&sights(datagram));
-            }
-        }
-        self.navdata = Some(navdata);
-    }
-
-    /// Passes an input to the session and handles its outputs; returns new navdata. A datagram for the drone
-    /// waits until it is polled.
-    fn pass_on(&mut self, now: Duration, input: session::Input<'_>) -> Option<Navdata> {
-        self.session.handle(now, input);
-        self.take_in(now)
-    }
-
-    /// Handles the session's outputs.
-    fn take_in(&mut self, now: Duration) -> Option<Navdata> {
-        let mut received = None;
-        while let Some(output) = self.session.poll() {
-            match output {
-                session::Output::Transmit(SessionTransmit::Command(_)) => {
-                    self.pending.command = true;
-                }
-                session::Output::Transmit(SessionTransmit::WakeUp) => self.pending.wake_up = true,
-                session::Output::Navdata(navdata) => {
-                    self.count_packet(now);
-                    received = Some(navdata);
-                }
-                session::Output::Event(event) => self.session_event(now, event),
-                // The session counts damaged packets.
-                _ => {}
-            }
-        }
-        received
-    }
-
-    /// A request to the session. It has no outputs before the next tick.
-    fn request(&mut self, now: Duration, request: session::Request) {
-        self.session.handle(now, session::Input::Request(request));
-    }
-
-    fn count_packet(&mut self, now: Duration) {
-        if let Some(last) = self.packet_at.replace(now) {
-            let period_s = now.saturating_sub(last).as_secs_f64().max(1e-3);
-            let share = (period_s / RATE_TIME_S).min(1.0);
-            self.navdata_hz += (1.0 / period_s - self.navdata_hz) * share;
-        }
-    }
-
-    fn handle_control(&mut self, now: Duration, bytes: &[u8]) {
-        self.pass_on(now, session::Input::Control(bytes));
-    }
-
     /// A tick of a program that is about to exit: orders the landing through the session alone, so that it
     /// works whatever state the agent and the estimator are in. See [`session::Input::Part`].
     pub fn part(&mut self, now: Duration) {
         self.session.handle(now, session::Input::Part);
         let transmit = self.session.poll_transmit();
-        self.pending.command = matches!(transmit, Some(SessionTransmit::Command(_)));
+        self.pending.command = matches!(transmit, Some(session::Transmit::Command(_)));
     }
 
     /// Counts of valid, stale and damaged datagrams.

@@ -1,6 +1,8 @@
+use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{NavdataOption, PacketWriter};
 use bytes::BytesMut;
 
+use super::link::{DETECTION_SECTION, NAVDATA_OPTIONS_KEY};
 use super::*;
 
 fn vehicle(plan: &str) -> Vehicle {
