@@ -15,6 +15,9 @@ const SLOW_M_S: f64 = 0.3;
 /// Wind in the direction of motion that counts as a storm, as a fraction of the acceleration at full tilt.
 const STORM: f64 = 0.7;
 
+/// A storm is leant against once it would carry the drone over the fence within this time at its speed.
+const SOON_S: f64 = 3.0;
+
 /// How long the drone has been carried outward faster than it can brake.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct CarriedOff {
@@ -38,7 +41,8 @@ impl CarriedOff {
         if self.since.is_none() {
             *self = Self { since: Some(now.now), away_m_s, ..Self::default() };
         }
-        self.in_storm = motion.along(now.wind) >= STORM;
+        self.in_storm = motion.along(now.wind) >= STORM
+            && motion.room_m(now, radius_m) <= motion.speed_m_s * SOON_S;
         if away_m_s < self.away_m_s - BRAKES_M_S {
             self.away_m_s = away_m_s;
             self.brakes_until = now.now + BRAKES;
@@ -181,5 +185,7 @@ mod tests {
         assert_eq!(see(TO_THE_REAR, backward), (true, true));
         assert_eq!(see([0.0, -0.5], backward), (true, false), "it flies too fast itself");
         assert_eq!(see(TO_THE_REAR, [0.0; 3]), (false, false));
+        let toward_the_far_side = [0.0, 2.0, 0.0];
+        assert_eq!(see([0.0, 1.1], toward_the_far_side), (true, false), "there is time");
     }
 }

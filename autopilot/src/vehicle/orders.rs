@@ -151,10 +151,15 @@ impl Vehicle {
                 self.flight.safety.land_here();
                 self.land(now, LandingReason::Operator);
             }
+            // Nothing is sent to such a drone, so a cut would have no effect.
+            OperatorOrder::Cut if self.departure.is_none() && self.is_foreign() => {
+                return Err(Refused::FlownByAnother);
+            }
             OperatorOrder::Cut => {
-                // A start that waits is no reason to fly once the motors have been cut.
+                // A start that waits is no reason to fly once the motors have been cut. A drone that is
+                // being taken over in the air is landed, in case the cut does not reach it.
                 if self.departure.is_some() {
-                    self.end(now, Outcome::Interrupted);
+                    self.land(now, LandingReason::Operator);
                 }
                 self.events.push_back(FlightEvent::CutOrdered);
                 self.request(now, Request::EmergencyStop);
@@ -206,13 +211,18 @@ impl Vehicle {
     fn can_be_held(&self) -> Result<(), Refused> {
         if self.lands() {
             Err(Refused::Landing)
-        } else if self.authority == Authority::None && !self.on_ground() {
+        } else if self.is_foreign() {
             Err(Refused::FlownByAnother)
         } else if self.phase != FlightPhase::Flying || self.on_ground() {
             Err(Refused::OnGround)
         } else {
             Ok(())
         }
+    }
+
+    /// Whether another client flies the drone.
+    fn is_foreign(&self) -> bool {
+        self.authority == Authority::None && self.navdata.is_some() && !self.on_ground()
     }
 
     /// Whether the drone is landing, either by order or because the mission has reached its landing step.
