@@ -1,24 +1,24 @@
-//! What the drone was told, and when it acts on it.
+//! Orders sent to the drone, and when they take effect.
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
 use kinematics::Sticks;
 
-/// What the drone is told to do.
+/// An order to the drone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Order {
-    /// It stands, takes off, lands or holds its place by itself.
+    /// The drone stands, takes off, lands or holds its position by itself.
     #[default]
     ByItself,
-    /// It follows the sticks.
+    /// The drone follows the sticks.
     Sticks(Sticks),
 }
 
-/// More than two seconds of ticks: nothing older is asked for.
+/// More than two seconds of ticks; nothing older is used.
 const MEMORY: usize = 80;
 
-/// The newest orders, with the time from which each acts, in seconds on the pilot's clock.
+/// The newest orders, each with the time from which it takes effect, in seconds on the pilot's clock.
 #[derive(Debug, Clone)]
 pub(crate) struct Orders {
     dead_time_s: f64,
@@ -37,13 +37,13 @@ impl Orders {
         self.recent.push_back((sent_at.as_secs_f64() + self.dead_time_s, order));
     }
 
-    /// The order that acts at a time.
+    /// The order in effect at a time.
     pub(crate) fn at(&self, time_s: f64) -> Order {
         let newer = self.recent.partition_point(|(from_s, _)| *from_s <= time_s + 1e-9);
         newer.checked_sub(1).and_then(|i| self.recent.get(i)).map_or(Order::ByItself, |o| o.1)
     }
 
-    /// Cuts the time from one moment to another into steps that no order divides.
+    /// Splits an interval into steps with one order each.
     pub(crate) fn steps(&self, from_s: f64, to_s: f64, mut step: impl FnMut(f64, f64, Order)) {
         let mut now_s = from_s;
         while now_s < to_s - 1e-9 {
@@ -56,7 +56,7 @@ impl Orders {
     }
 }
 
-/// Fine enough for the shortest time constants.
+/// Fine enough for the shortest time constant.
 const MAX_STEP_S: f64 = 0.01;
 
 #[cfg(test)]

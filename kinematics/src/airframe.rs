@@ -14,7 +14,7 @@ pub struct DroneLimits {
 }
 
 impl Default for DroneLimits {
-    /// The drone's defaults for indoors.
+    /// The drone's indoor defaults.
     fn default() -> Self {
         Self { tilt_rad: 12_f64.to_radians(), climb_m_s: 0.7, turn_deg_s: 100.0 }
     }
@@ -45,7 +45,7 @@ pub struct Airframe {
 }
 
 impl Default for Airframe {
-    /// In the middle of the published models.
+    /// The middle of the published models.
     fn default() -> Self {
         Self {
             tilt_gain: 1.0,
