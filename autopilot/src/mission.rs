@@ -3,7 +3,7 @@
 //! A mission consists of a loaded plan, of appended commands, or of both. The meaning of commands is defined
 //! in [`crate::plan`]; this module keeps track of the next one.
 
-use pid::Pose;
+use kinematics::Pose;
 
 use crate::agent::ApproachSettings;
 use crate::plan::{AgentOrder, Command, Commands, DryRun, FlightLimits, Interpreter, Plan, Step};

@@ -8,7 +8,7 @@ mod carried;
 
 use std::time::Duration;
 
-use pid::{Demand, Pose};
+use kinematics::{Pose, Sticks};
 
 use self::carried::CarriedOff;
 use crate::agent::AgentCommand;
@@ -156,7 +156,7 @@ pub struct SafetyMonitor {
     /// The last order was to stay on the ground. If the drone is in the air all the same, it has followed an
     /// older take-off order, and any order to fly would keep it there.
     stays_down: bool,
-    sticks: Demand,
+    sticks: Sticks,
 }
 
 impl SafetyMonitor {
@@ -172,7 +172,7 @@ impl SafetyMonitor {
             upwind: Pose::default(),
             lands: false,
             stays_down: false,
-            sticks: Demand::default(),
+            sticks: Sticks::default(),
         }
     }
 
@@ -249,7 +249,7 @@ impl SafetyMonitor {
 
     /// Limits the sticks to `most`, and their change since the last tick. The descent is limited further so
     /// that the drone can stop above the fence's floor; full gaz descends at `climb_m_s`.
-    pub fn limit(&mut self, demand: &Demand, most: f64, height_m: f64, climb_m_s: f64) -> Demand {
+    pub fn limit(&mut self, demand: &Sticks, most: f64, height_m: f64, climb_m_s: f64) -> Sticks {
         let most = most.clamp(0.0, 1.0);
         let room_m = (height_m - self.fence.floor_m).max(0.0);
         let sink = (SINK_AT_FLOOR_M_S + SINK_1_S * room_m) / climb_m_s.max(f64::EPSILON);
@@ -258,7 +258,7 @@ impl SafetyMonitor {
             wanted.clamp(last - LARGEST_JUMP, last + LARGEST_JUMP)
         };
         let last = self.sticks;
-        self.sticks = Demand {
+        self.sticks = Sticks {
             roll: within(demand.roll, last.roll),
             pitch: within(demand.pitch, last.pitch),
             gaz: within(demand.gaz, last.gaz).max(-sink),
@@ -269,7 +269,7 @@ impl SafetyMonitor {
 
     /// The sticks are released: the drone holds or lands by itself.
     pub fn let_go(&mut self) {
-        self.sticks = Demand::default();
+        self.sticks = Sticks::default();
     }
 
     /// The next command of a landing for `danger`. The drone's own landing drifts, the more the higher it
@@ -517,12 +517,12 @@ mod tests {
 
     #[test]
     fn near_the_floor_the_drone_sinks_slowly() {
-        let down = Demand { gaz: -1.0, ..Demand::default() };
+        let down = Sticks { gaz: -1.0, ..Sticks::default() };
         let gaz = |height_m| monitor().limit(&down, 1.0, height_m, 0.7).gaz;
         assert!((gaz(2.0) + 1.0).abs() < 1e-9);
         assert!((-0.4..-0.3).contains(&gaz(0.5)), "{}", gaz(0.5));
         assert!((-0.25..-0.2).contains(&gaz(0.1)), "{}", gaz(0.1));
-        let up = Demand { gaz: 1.0, ..Demand::default() };
+        let up = Sticks { gaz: 1.0, ..Sticks::default() };
         assert!((monitor().limit(&up, 1.0, 0.1, 0.7).gaz - 1.0).abs() < 1e-9);
     }
 
@@ -678,10 +678,10 @@ mod tests {
     #[test]
     fn sticks_are_limited_and_do_not_jump() {
         let mut monitor = monitor();
-        let full = Demand { roll: 1.0, pitch: -3.0, gaz: f64::NAN, yaw: 0.2 };
+        let full = Sticks { roll: 1.0, pitch: -3.0, gaz: f64::NAN, yaw: 0.2 };
         let limited = monitor.limit(&full, 0.6, 2.0, 0.7);
-        assert_eq!(limited, Demand { roll: 0.6, pitch: -0.6, gaz: 0.0, yaw: 0.2 });
-        let limited = monitor.limit(&Demand { roll: -1.0, ..full }, 1.0, 2.0, 0.7);
+        assert_eq!(limited, Sticks { roll: 0.6, pitch: -0.6, gaz: 0.0, yaw: 0.2 });
+        let limited = monitor.limit(&Sticks { roll: -1.0, ..full }, 1.0, 2.0, 0.7);
         assert!((limited.roll + 0.4).abs() < 1e-12, "{limited:?}");
         monitor.let_go();
         assert!((monitor.limit(&full, 1.0, 2.0, 0.7).roll - 1.0).abs() < 1e-12);

@@ -2,9 +2,9 @@
 
 use std::collections::VecDeque;
 
-use crate::airframe::{Airframe, DroneLimits};
-use crate::angle::wrap_deg;
 use crate::orders::{Order, Orders};
+use kinematics::wrap_deg;
+use kinematics::{Airframe, DroneLimits};
 
 /// A heading that differs from the prediction by more than this, plus this much per second since the last
 /// one, is a step of the compass and not a turn. The firmware has been seen to step by 160°.
@@ -131,7 +131,7 @@ fn turned(
     let (mut rate_deg_s, mut angle_deg) = (rate_deg_s, 0.0);
     orders.steps(from_s, to_s, |_, step_s, order| {
         let wanted_deg_s = match order {
-            Order::Sticks(sticks) => sticks.clockwise * limits.turn_deg_s * airframe.turn_gain,
+            Order::Sticks(sticks) => sticks.yaw * limits.turn_deg_s * airframe.turn_gain,
             Order::ByItself => 0.0,
         };
         rate_deg_s += (wanted_deg_s - rate_deg_s) * (1.0 - (-step_s / airframe.turn_lag_s).exp());
@@ -145,11 +145,11 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::orders::Sticks;
+    use kinematics::Sticks;
 
     fn turning() -> (Heading, Orders) {
         let mut orders = Orders::new(Duration::ZERO);
-        orders.push(Duration::ZERO, Order::Sticks(Sticks { clockwise: 0.5, ..Sticks::default() }));
+        orders.push(Duration::ZERO, Order::Sticks(Sticks { yaw: 0.5, ..Sticks::default() }));
         let mut heading = Heading::new();
         let (airframe, limits) = (Airframe::default(), DroneLimits::default());
         // 50 degrees per second from 171 degrees, across the wrap.

@@ -5,12 +5,11 @@
 //! drone. The difference between measurement and model corrects the velocity and the estimated disturbance,
 //! an acceleration by wind or a wrong level reference (a Luenberger observer with a disturbance state).
 
-use nalgebra::{Rotation2, Vector2};
+use nalgebra::Vector2;
 
-use crate::airframe::{Airframe, DroneLimits};
 use crate::orders::Order;
+use kinematics::{Airframe, DroneLimits, GRAVITY_M_S2, body_from_world, world_from_body};
 
-pub(crate) const GRAVITY_M_S2: f64 = 9.81;
 /// Time constant with which a drone brakes that holds its position by itself.
 const BRAKING_TIME_S: f64 = 0.5;
 
@@ -54,7 +53,8 @@ impl Horizontal {
         let acceleration = match order {
             Order::Sticks(sticks) => {
                 let most = limits.tilt_rad;
-                let wanted = Vector2::new(sticks.right, sticks.forward)
+                let wanted = sticks
+                    .tilt()
                     .map(|stick| (stick * most * airframe.tilt_gain).clamp(-most, most));
                 let followed = 1.0 - (-step_s / airframe.tilt_lag_s).exp();
                 self.tilt_rad += (wanted - self.tilt_rad) * followed;
@@ -123,27 +123,16 @@ impl Horizontal {
     }
 }
 
-/// Rotates (right, forward) from the body to the world frame: a clockwise heading turns forward towards the
-/// right.
-pub(crate) fn world_from_body(body: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
-    Rotation2::new(-yaw_deg.to_radians()) * body
-}
-
-/// The inverse of [`world_from_body`].
-pub(crate) fn body_from_world(world: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
-    Rotation2::new(yaw_deg.to_radians()) * world
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orders::Sticks;
+    use kinematics::Sticks;
 
     const GAINS: ObserverGains =
         ObserverGains { velocity_1_s: 4.0, disturbance_1_s2: 4.0, disturbance_max_m_s2: 1.0 };
 
     fn forward(forward: f64) -> Order {
-        Order::Sticks(Sticks { forward, ..Sticks::default() })
+        Order::Sticks(Sticks { pitch: -forward, ..Sticks::default() })
     }
 
     #[test]

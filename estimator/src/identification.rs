@@ -9,10 +9,11 @@ use std::collections::VecDeque;
 
 use nalgebra::{SVector, Vector2};
 
-use crate::airframe::{Airframe, DroneLimits};
 use crate::bank::{Assumption, Bank};
-use crate::horizontal::GRAVITY_M_S2;
-use crate::orders::{Order, Orders, Sticks};
+use crate::orders::{Order, Orders};
+use kinematics::GRAVITY_M_S2;
+use kinematics::Sticks;
+use kinematics::{Airframe, DroneLimits};
 
 /// Hypotheses of the climb's time constant.
 const CLIMB_LAGS_S: [f64; 7] = [0.15, 0.25, 0.38, 0.52, 0.72, 0.98, 1.3];
@@ -238,7 +239,7 @@ impl Identification {
         let most = self.limits.climb_m_s;
         let ClimbLearner { bank, followers, window } = &mut self.climb;
         followers.advance(at_s, orders, |sticks| {
-            SVector::<f64, 2>::new(sticks.up.max(0.0), sticks.up.min(0.0)) * most
+            SVector::<f64, 2>::new(sticks.gaz.max(0.0), sticks.gaz.min(0.0)) * most
         });
         let answer = Answer { at_s, value: height_m, causes: followers.way };
         let change = window.change(answer).filter(|change| change.is_caused(LEAST_CLIMB_M));
@@ -268,13 +269,12 @@ impl Identification {
             return;
         };
         // Tilt saturates whatever its gain: responses at the limit are not used.
-        let largest = sticks.right.abs().max(sticks.forward.abs());
+        let largest = sticks.roll.abs().max(sticks.pitch.abs());
         let saturated = largest * self.airframe.tilt_gain > 1.02;
         let most = self.limits.tilt_rad;
         for (axis, (followers, window)) in axes.iter_mut().enumerate() {
-            followers.advance(at_s, orders, |sticks| {
-                SVector::<f64, 1>::new([sticks.right, sticks.forward][axis] * most)
-            });
+            followers
+                .advance(at_s, orders, |sticks| SVector::<f64, 1>::new(sticks.tilt()[axis] * most));
             let answer = Answer { at_s, value: tilt_rad[axis], causes: followers.value };
             let change = window.change(answer).filter(|change| change.is_caused(LEAST_TILT_RAD));
             if let Some(change) = change.filter(|_| !saturated) {
@@ -295,7 +295,7 @@ impl Identification {
             return;
         }
         let most = self.limits.turn_deg_s;
-        followers.advance(at_s, orders, |sticks| SVector::<f64, 1>::new(sticks.clockwise * most));
+        followers.advance(at_s, orders, |sticks| SVector::<f64, 1>::new(sticks.yaw * most));
         let answer = Answer { at_s, value: yaw_deg, causes: followers.way };
         let change = window.change(answer).filter(|change| change.is_caused(LEAST_TURN_DEG));
         if let Some(change) = change {
@@ -325,7 +325,8 @@ impl Identification {
         let (airframe, most) = (self.airframe, self.limits.tilt_rad);
         orders.steps(from_s, at_s, |_, step_s, order| {
             let wanted = match order {
-                Order::Sticks(sticks) => Vector2::new(sticks.right, sticks.forward)
+                Order::Sticks(sticks) => sticks
+                    .tilt()
                     .map(|stick| (stick * most * airframe.tilt_gain).clamp(-most, most)),
                 Order::ByItself => Vector2::zeros(),
             };

@@ -36,8 +36,6 @@
 //! ```
 #![forbid(unsafe_code)]
 
-mod airframe;
-mod angle;
 mod bank;
 mod clock;
 mod heading;
@@ -53,11 +51,10 @@ mod vertical;
 
 use std::time::Duration;
 
+use kinematics::{Airframe, DroneLimits, world_from_body, wrap_deg};
 use nalgebra::{Vector2, Vector3};
 
-pub use airframe::{Airframe, DroneLimits};
-pub use angle::wrap_deg;
-pub use orders::{Order, Sticks};
+pub use orders::Order;
 pub use tags::{
     KnownTag, MAX_SIGHTS, MAX_TAGS, OrientationSign, Sight, SurveyedTag, TagConfig, TagStatus,
 };
@@ -65,7 +62,7 @@ pub use trust::{Quantity, Trust};
 
 use crate::clock::SampleClock;
 use crate::heading::Heading;
-use crate::horizontal::{Horizontal, ObserverGains, world_from_body};
+use crate::horizontal::{Horizontal, ObserverGains};
 use crate::identification::Identification;
 use crate::orders::Orders;
 use crate::plausibility::{Plausibility, VelocityGate, Verdict};

@@ -3,6 +3,8 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
+use kinematics::Sticks;
+
 /// An order to the drone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Order {
@@ -11,19 +13,6 @@ pub enum Order {
     ByItself,
     /// The drone follows the sticks.
     Sticks(Sticks),
-}
-
-/// Stick fractions in [-1, 1].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Sticks {
-    /// Tilt to the right.
-    pub right: f64,
-    /// Tilt forward.
-    pub forward: f64,
-    /// Climb.
-    pub up: f64,
-    /// Turn clockwise.
-    pub clockwise: f64,
 }
 
 /// More than two seconds of ticks; nothing older is used.
@@ -75,7 +64,7 @@ mod tests {
     use super::*;
 
     fn forward(forward: f64) -> Order {
-        Order::Sticks(Sticks { forward, ..Sticks::default() })
+        Order::Sticks(Sticks { pitch: -forward, ..Sticks::default() })
     }
 
     #[test]
@@ -91,7 +80,7 @@ mod tests {
         orders.steps(0.075, 0.15, |_, step_s, order| {
             whole_s += step_s;
             if let Order::Sticks(sticks) = order {
-                sum += sticks.forward * step_s;
+                sum += sticks.tilt().y * step_s;
             }
         });
         assert!((whole_s - 0.075).abs() < 1e-9);

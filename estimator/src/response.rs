@@ -9,11 +9,12 @@ use std::collections::VecDeque;
 
 use nalgebra::Vector2;
 
-use crate::airframe::{Airframe, DroneLimits};
-use crate::angle::wrap_deg;
-use crate::horizontal::GRAVITY_M_S2;
-use crate::orders::{Order, Orders, Sticks};
+use crate::orders::{Order, Orders};
 use crate::trust::Quantity;
+use kinematics::GRAVITY_M_S2;
+use kinematics::Sticks;
+use kinematics::wrap_deg;
+use kinematics::{Airframe, DroneLimits};
 
 /// Gaps longer than this are not judged, because it is unknown whether the drone received its commands.
 const MAX_GAP_S: f64 = 0.3;
@@ -188,9 +189,8 @@ impl Response {
                 Order::Sticks(sticks) => sticks,
                 Order::ByItself => Sticks::default(),
             };
-            rise_m += climb.follow(sticks.up * limits.climb_m_s, airframe.climb_lag_s, step_s);
-            turn_deg +=
-                turn.follow(sticks.clockwise * limits.turn_deg_s, airframe.turn_lag_s, step_s);
+            rise_m += climb.follow(sticks.gaz * limits.climb_m_s, airframe.climb_lag_s, step_s);
+            turn_deg += turn.follow(sticks.yaw * limits.turn_deg_s, airframe.turn_lag_s, step_s);
         });
         let DroneLimits { climb_m_s, turn_deg_s, .. } = *limits;
         self.climb.compare(measured.altitude_m, rise_m, step_s, climb_m_s, |metres| metres);
@@ -426,9 +426,9 @@ mod tests {
     fn a_drone_that_is_told_to_move_and_shows_no_motion_is_noticed_within_two_seconds() {
         let none = Sticks::default();
         let cases = [
-            (Sticks { up: 1.0, ..none }, Quantity::Altitude),
-            (Sticks { up: -1.0, ..none }, Quantity::Altitude),
-            (Sticks { clockwise: -0.6, ..none }, Quantity::Heading),
+            (Sticks { gaz: 1.0, ..none }, Quantity::Altitude),
+            (Sticks { gaz: -1.0, ..none }, Quantity::Altitude),
+            (Sticks { yaw: -0.6, ..none }, Quantity::Heading),
         ];
         for (sticks, quantity) in cases {
             let (at_s, which) = found(sticks, 5, still).unwrap();
@@ -441,14 +441,14 @@ mod tests {
     #[test]
     fn a_drift_that_the_sticks_hide_is_noticed() {
         // The controller holds the measured height: the drone sinks as fast as the sensor climbs.
-        let sinking = Sticks { up: -0.3, ..Sticks::default() };
+        let sinking = Sticks { gaz: -0.3, ..Sticks::default() };
         let (at_s, which) = found(sinking, 10, still).unwrap();
         assert!(which == Quantity::Altitude && at_s < 6.0, "{at_s}");
     }
 
     #[test]
     fn the_most_sluggish_airframes_are_not_accused() {
-        let up = Sticks { up: 1.0, right: 1.0, clockwise: 0.6, ..Sticks::default() };
+        let up = Sticks { gaz: 1.0, roll: 1.0, yaw: 0.6, ..Sticks::default() };
         let lag = |at_s: f64, lag_s: f64| at_s - lag_s * (1.0 - (-at_s / lag_s).exp());
         let sluggish = |at_s: f64| Measured {
             altitude_m: 1.0 + 0.7 * lag(at_s, 1.25),
@@ -462,7 +462,7 @@ mod tests {
 
     #[test]
     fn a_drone_that_leans_against_a_rising_wind_is_not_accused() {
-        let leaning = Sticks { right: 0.85, ..Sticks::default() };
+        let leaning = Sticks { roll: 0.85, ..Sticks::default() };
         let gently = |at_s: f64| Measured {
             tilt_rad: Vector2::new(0.18 * (at_s / 20.0).min(1.0), 0.0),
             ..still(at_s)
@@ -510,7 +510,7 @@ mod tests {
 
     #[test]
     fn a_dead_flow_that_rattles_is_noticed_when_the_drone_tilts() {
-        let gently = Sticks { right: 0.5, ..Sticks::default() };
+        let gently = Sticks { roll: 0.5, ..Sticks::default() };
         let (at_s, which) = found(gently, 10, swinging(0.0)).unwrap();
         assert!(which == Quantity::Velocity && at_s < 3.0, "{at_s}");
         for thrust in [0.5, 0.75, 1.03] {
@@ -520,7 +520,7 @@ mod tests {
 
     #[test]
     fn a_slow_drift_of_the_altitude_is_noticed() {
-        let sinking = Sticks { up: -0.15, ..Sticks::default() };
+        let sinking = Sticks { gaz: -0.15, ..Sticks::default() };
         let (at_s, which) = found(sinking, 20, still).unwrap();
         assert!(which == Quantity::Altitude && at_s < 9.0, "{at_s}");
     }
@@ -528,7 +528,7 @@ mod tests {
     /// The reaction is a climb too fast to be judged as a slow one.
     #[test]
     fn an_altitude_that_drifts_down_is_noticed_before_the_drone_has_climbed_a_metre() {
-        let climbing = Sticks { up: 0.37, ..Sticks::default() };
+        let climbing = Sticks { gaz: 0.37, ..Sticks::default() };
         let (at_s, which) = found(climbing, 10, still).unwrap();
         let climbed_m = 0.37 * DroneLimits::default().climb_m_s * at_s;
         assert!(which == Quantity::Altitude && climbed_m < 1.0, "{at_s} s, {climbed_m} m");
@@ -540,7 +540,7 @@ mod tests {
             altitude_m: 1.0 + 0.7 * at_s - if at_s > 1.0 { 0.8 } else { 0.0 },
             ..still(at_s)
         };
-        let up = Sticks { up: 1.0, ..Sticks::default() };
+        let up = Sticks { gaz: 1.0, ..Sticks::default() };
         assert_eq!(found(up, 5, stepping), None);
     }
 }

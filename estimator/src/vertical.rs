@@ -3,8 +3,8 @@
 //! Between the measurements the climb is a model's: it follows the sticks with a lag. The measurements
 //! correct it as in an alpha-beta filter, so the estimate does not lag behind the commands.
 
-use crate::airframe::{Airframe, DroneLimits};
 use crate::orders::Order;
+use kinematics::{Airframe, DroneLimits};
 
 /// Height above the floor at the start, and climb.
 #[derive(Debug, Clone, Copy, Default)]
@@ -24,8 +24,8 @@ impl Vertical {
     ) {
         let before_m_s = self.climb_m_s;
         if let Order::Sticks(sticks) = order {
-            let gain = if sticks.up > 0.0 { airframe.climb_gain } else { airframe.drop_gain };
-            let wanted_m_s = sticks.up * limits.climb_m_s * gain;
+            let gain = if sticks.gaz > 0.0 { airframe.climb_gain } else { airframe.drop_gain };
+            let wanted_m_s = sticks.gaz * limits.climb_m_s * gain;
             let followed = 1.0 - (-step_s / airframe.climb_lag_s).exp();
             self.climb_m_s += (wanted_m_s - self.climb_m_s) * followed;
         }
@@ -188,7 +188,7 @@ impl AltitudeFilter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orders::Sticks;
+    use kinematics::Sticks;
 
     fn run(filter: &mut AltitudeFilter, altitudes_m: impl IntoIterator<Item = f64>) -> Vec<Echo> {
         let (airframe, limits) = (Airframe::default(), DroneLimits::default());
@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn what_the_sticks_do_is_known_at_once() {
         let (airframe, limits) = (Airframe::default(), DroneLimits::default());
-        let order = Order::Sticks(Sticks { up: 1.0, ..Sticks::default() });
+        let order = Order::Sticks(Sticks { gaz: 1.0, ..Sticks::default() });
         let (mut truth, mut filter) = (Vertical::default(), AltitudeFilter::default());
         filter.correct(0.0, truth, 0.0, order);
         for _ in 0..60 {

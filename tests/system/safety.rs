@@ -3,13 +3,14 @@
 use std::thread;
 use std::time::Duration;
 
+use autopilot::Plan;
 use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
 use autopilot::safety::Veto;
 use autopilot::vehicle::{
     FlightEvent, LandingReason, OperatorOrder, Quantity, Trust, VehicleConfig,
 };
-use autopilot::{Demand, Plan};
+use kinematics::Sticks;
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
@@ -138,7 +139,7 @@ fn furthest_m(moment: &Moment, furthest_m: &mut f64) {
 
 #[test]
 fn manual_control_does_not_leave_the_fence() {
-    let full = Demand { roll: 1.0, ..Demand::default() };
+    let full = Sticks { roll: 1.0, ..Sticks::default() };
     let sticks = (0..200_u32)
         .map(|tenth| (8 * SECOND + SECOND / 10 * tenth, OperatorOrder::Steer(full)))
         .chain([(30 * SECOND, OperatorOrder::Land)]);

@@ -1,6 +1,6 @@
 //! Execution of a plan without a drone.
 
-use pid::Pose;
+use kinematics::Pose;
 
 use super::interpreter::{AgentOrder, Interpreter};
 use super::{Command, FlightLimits};

@@ -2,8 +2,7 @@
 
 use std::time::Duration;
 
-use estimator::wrap_deg;
-use pid::Pose;
+use kinematics::{Pose, wrap_deg};
 
 use super::dry_run::DryRun;
 use super::interpreter::AgentOrder;

@@ -19,7 +19,7 @@ mod parser;
 mod warnings;
 
 use diagnostic::{Diagnostic, Severity};
-use pid::Pose;
+use kinematics::Pose;
 
 pub use check::{FlightLimits, ZOrigin};
 pub use commands::Commands;

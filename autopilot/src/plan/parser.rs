@@ -1,7 +1,7 @@
 //! Parses the lines of a plan.
 
 use diagnostic::{Diagnostic, Span, closest};
-use pid::Pose;
+use kinematics::Pose;
 
 use super::{Command, Step};
 

@@ -5,7 +5,7 @@
 
 use std::time::Duration;
 
-use pid::Pose;
+use kinematics::Pose;
 
 use super::{BRAKES, BRAKES_M_S, GUST, MARGIN_M, REACTION_S, Situation};
 

@@ -8,7 +8,8 @@ use crate::mission::{AppendError, Underway};
 use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, Commands, Plan};
 use ardrone_link::navdata::DroneState;
-use pid::Demand;
+use ardrone_link::session::Request;
+use kinematics::Sticks;
 
 /// An order from an operator.
 ///
@@ -35,7 +36,7 @@ pub enum OperatorOrder {
     /// Resume the mission.
     Resume,
     /// Manual control: stick fractions with the drone's signs. They expire after 600 ms unless repeated.
-    Steer(Demand),
+    Steer(Sticks),
     /// Fly to this place at the present height and heading and stay there; the mission is paused. A place
     /// near or outside the fence is moved inside. Coordinates are in the estimator's frame.
     GoTo {
@@ -161,7 +162,7 @@ impl Vehicle {
                     self.land(now, LandingReason::Operator);
                 }
                 self.events.push_back(FlightEvent::CutOrdered);
-                self.session.request_emergency_stop();
+                self.request(now, Request::EmergencyStop);
             }
             OperatorOrder::Recover => return self.recover(now),
             OperatorOrder::Release => self.controls.release(by),
@@ -321,7 +322,7 @@ impl Vehicle {
         if self.departure.is_some() {
             self.end(now, Outcome::Interrupted);
         }
-        self.session.request_emergency_reset();
+        self.request(now, Request::EmergencyReset);
         Ok(())
     }
 

@@ -4,8 +4,8 @@ use std::fmt;
 use std::time::Duration;
 
 use diagnostic::printable;
-use estimator::{Airframe, TagStatus, Trust};
-use pid::Pose;
+use estimator::{TagStatus, Trust};
+use kinematics::{Airframe, Pose};
 
 use super::{LandingReason, Operator, Phase};
 use crate::agent::{ChosenPlans, distance};

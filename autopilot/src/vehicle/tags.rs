@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use ardrone_link::navdata::{Packet, VisionDetect};
 use estimator::{MAX_SIGHTS, Sight};
-use pid::Pose;
+use kinematics::Pose;
 
 use super::Vehicle;
 

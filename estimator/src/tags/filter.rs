@@ -11,7 +11,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::SLOTS;
 use super::camera::Look;
 use super::history::Moment;
-use crate::horizontal::world_from_body;
+use kinematics::{world_from_body, wrap_deg, wrap_rad};
 
 const PLACE: usize = 0;
 const BIAS: usize = 2;
@@ -244,7 +244,7 @@ impl Filter {
     }
 
     pub(super) fn tag_heading_deg(&self, tag: usize) -> f64 {
-        crate::angle::wrap_deg(self.x[TAGS + 3 * tag + 2].to_degrees())
+        wrap_deg(self.x[TAGS + 3 * tag + 2].to_degrees())
     }
 
     pub(super) fn tag_deviation_m(&self, tag: usize) -> f64 {
@@ -366,8 +366,4 @@ fn is_within(deviations: f64, off: Vector2<f64>, spread: Matrix2<f64>) -> bool {
 
 fn dot(left: &Row, right: &Row, used: usize) -> f64 {
     left.iter().zip(right).take(used).map(|(left, right)| left * right).sum()
-}
-
-fn wrap_rad(angle_rad: f64) -> f64 {
-    crate::angle::wrap_deg(angle_rad.to_degrees()).to_radians()
 }

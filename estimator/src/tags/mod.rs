@@ -29,7 +29,7 @@ pub use self::map::{KnownTag, SurveyedTag};
 use self::orientation::Orientation;
 pub use self::orientation::OrientationSign;
 use self::take_back::TakeBack;
-use crate::horizontal::world_from_body;
+use kinematics::world_from_body;
 
 /// Maximum number of known tags.
 pub const MAX_TAGS: usize = 8;

@@ -5,7 +5,7 @@
 //! decides.
 
 use super::SLOTS;
-use crate::angle::wrap_deg;
+use kinematics::wrap_deg;
 
 /// Direction in which the reported orientation grows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -60,7 +60,7 @@ impl Bench {
     }
 
     fn sight(&self) -> Sight {
-        let body = crate::horizontal::body_from_world(self.tag_m, self.yaw_deg);
+        let body = kinematics::body_from_world(self.tag_m, self.yaw_deg);
         let noise = f64::from(self.packet * 7 % 5) - 2.0;
         sight_at(body, 270.0 + self.yaw_deg - self.direction_deg + noise, noise)
     }
