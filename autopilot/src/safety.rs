@@ -227,7 +227,7 @@ impl SafetyMonitor {
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
         match command {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
-            _ if moves && self.carried_off.in_storm() => {
+            _ if moves && self.carried_off.leans() => {
                 (AgentCommand::GoTo(self.place_upwind(&now.pose)), Some(Veto::AgainstWind))
             }
             AgentCommand::GoTo(target) if !self.is_inside(&target, 1e-6) => (
@@ -623,8 +623,9 @@ mod tests {
             assert_eq!(veto, Some(Veto::AgainstWind));
             let AgentCommand::GoTo(target) = leaning else { panic!("{leaning:?}") };
             assert!(target.y_m >= -5.0 && target.z_m < 0.5, "{target:?}");
-            let gust_ends = Situation { wind: [0.0; 2], now: FINE.now + GUST / 2, ..now };
-            assert_eq!(monitor.check(command, &gust_ends), (command, None));
+            let calm = |now_at| Situation { wind: [0.0; 2], now: FINE.now + now_at, ..now };
+            monitor.check(command, &calm(GUST / 2));
+            assert_eq!(monitor.check(command, &calm(GUST)), (command, None));
         }
         for command in [AgentCommand::Hover, AgentCommand::Land] {
             assert_eq!(monitor().check(command, &now), (command, None));

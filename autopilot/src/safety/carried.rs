@@ -12,9 +12,10 @@ use super::{BRAKES, BRAKES_M_S, GUST, MARGIN_M, REACTION_S, Situation};
 /// Speed up to which a drone counts as holding its position, in m/s.
 const SLOW_M_S: f64 = 0.3;
 
-/// Wind in the direction of motion that counts as a storm, as a fraction of the acceleration at full tilt.
+/// Smallest wind in the direction of motion that carries a drone off, as a fraction of the acceleration at full
+/// tilt. In less wind a drone that cannot brake before the fence is too fast by its own sticks, and turns or
+/// brakes by them.
 const STORM: f64 = 0.7;
-
 /// Time after which a drone that could brake again is no longer carried off: leaning against a storm stops it
 /// for a moment.
 const LULL: Duration = Duration::from_millis(500);
@@ -30,8 +31,8 @@ pub(super) struct CarriedOff {
     /// Largest speed since it last fell, and until when a braking drone is given time.
     away_m_s: f64,
     brakes_until: Duration,
-    /// Whether the wind pushes too hard to leave the braking to the controller.
-    in_storm: bool,
+    /// Whether the fence is so near that the drone must lean against the wind at once.
+    near_fence: bool,
 }
 
 impl CarriedOff {
@@ -54,8 +55,7 @@ impl CarriedOff {
         if self.since.is_none() {
             *self = Self { since: Some(now.now), away_m_s, ..Self::default() };
         }
-        self.in_storm = motion.along(now.wind) >= STORM
-            && motion.room_m(now, radius_m) <= motion.speed_m_s * SOON_S;
+        self.near_fence = motion.room_m(now, radius_m) <= motion.speed_m_s * SOON_S;
         if away_m_s < self.away_m_s - BRAKES_M_S {
             self.away_m_s = away_m_s;
             self.brakes_until = now.now + BRAKES;
@@ -68,9 +68,9 @@ impl CarriedOff {
         self.since
     }
 
-    /// Whether the drone is being carried off by a wind of about its own strength.
-    pub(super) fn in_storm(&self) -> bool {
-        self.since.is_some() && self.in_storm
+    /// Whether the drone must lean against the wind before it is known to last.
+    pub(super) fn leans(&self) -> bool {
+        self.since.is_some() && self.near_fence
     }
 
     /// Whether it has lasted longer than a gust.
@@ -97,7 +97,7 @@ impl Motion {
         Self { speed_m_s, heading: [right_m_s * share, forward_m_s * share] }
     }
 
-    /// Whether the drone comes to rest inside the fence at full tilt against its motion.
+    /// Whether no storm keeps the drone from coming to rest inside the fence at full tilt against its motion.
     fn stops(&self, now: &Situation, radius_m: f64) -> bool {
         // The disturbance refers to a drone at rest; one that moves with the wind experiences less of it.
         let dragged_m_s2 = now.drag_1_s * self.speed_m_s / 2.0;
@@ -105,6 +105,7 @@ impl Motion {
         let way_m =
             self.speed_m_s * REACTION_S + self.speed_m_s * self.speed_m_s / (2.0 * braking_m_s2);
         self.speed_m_s <= SLOW_M_S
+            || self.along(now.wind) < STORM
             || braking_m_s2 > 0.0 && way_m <= self.room_m(now, radius_m + MARGIN_M)
     }
 
@@ -193,11 +194,11 @@ mod tests {
             let mut carried = CarriedOff::default();
             let pose = Pose { y_m: 1.0 - RADIUS_M, ..FINE.pose };
             carried.see(&Situation { pose, velocity_m_s, wind, ..FINE }, RADIUS_M);
-            (carried.since().is_some(), carried.in_storm())
+            (carried.since().is_some(), carried.leans())
         };
         let backward = [0.0, -2.0, 0.0];
         assert_eq!(see(TO_THE_REAR, backward), (true, true));
-        assert_eq!(see([0.0, -0.5], backward), (true, false), "it flies too fast itself");
+        assert_eq!(see([0.0, -0.5], backward), (false, false), "it flies too fast by its sticks");
         assert_eq!(see(TO_THE_REAR, [0.0; 3]), (false, false));
         let toward_the_far_side = [0.0, 2.0, 0.0];
         assert_eq!(see([0.0, 1.1], toward_the_far_side), (true, false), "there is time");
