@@ -286,7 +286,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         &[
             edit(
                 ORDERS,
-                "if self.lands() {\n            Err(Refused::Landing)\n        } else if self.authority == Authority::None && !self.on_ground() {\n            Err(Refused::FlownByAnother)\n        } else if self.phase != FlightPhase::Flying || self.on_ground()",
+                "if self.lands() {\n            Err(Refused::Landing)\n        } else if self.is_foreign() {\n            Err(Refused::FlownByAnother)\n        } else if self.phase != FlightPhase::Flying || self.on_ground()",
                 "if self.on_ground()",
             ),
             edit(AGENT, "+!hold : comingDown\n", "+!hold : comingDown & onGround\n"),
