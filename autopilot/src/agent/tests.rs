@@ -1,5 +1,7 @@
 //! The agent's decisions, step by step.
 
+mod tags;
+
 use super::*;
 use crate::plan::ZOrigin;
 

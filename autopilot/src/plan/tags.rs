@@ -203,8 +203,8 @@ mod tests {
             let expected = (line, column, message.to_owned());
             assert!(found(text, TagUse::Unknown).contains(&expected), "{text}");
         }
-        let nine: String = (0..9).map(|tag| format!("tag {} 0\n", 2 * tag - 8)).collect();
-        let findings = found(&format!("{nine}takeoff\nland"), TagUse::Unknown);
+        let nine = (0..9).map(|tag| format!("tag {} 0", 2 * tag - 8)).collect::<Vec<_>>();
+        let findings = found(&format!("{}\ntakeoff\nland", nine.join("\n")), TagUse::Unknown);
         assert_eq!(findings[0], (9, 1, "more tags than can be known".to_owned()));
     }
 
