@@ -512,9 +512,17 @@ descendingFor(0).
      sendLand;
      !comeDown.
 
-@tag_lost_descending[req("SAF-2")]
+@tag_gone_descending[req("SAF-2")]
 +!ontoTag : not tagKnown
-    | tagAge(Time) & tagPatience(Limit) & Time > Limit & position(_, _, Height, _) & tagLowest(Low) & Height > Low
+  <- -target(_, _, _, _);
+     tellTagLost;
+     reportFailed;
+     sendLand;
+     !comeDown.
+
+@tag_lost_descending[req("SAF-2")]
++!ontoTag : tagAge(Time) & tagPatience(Limit) & Time > Limit & position(_, _, Height, _) & tagLowest(Low)
+    & Height > Low
   <- -target(_, _, _, _);
      tellTagLost;
      reportFailed;
