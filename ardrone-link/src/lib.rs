@@ -47,7 +47,7 @@ pub use net::{
     Client, ClientBuilder, ClientError, ConfigureError, Events, FlightError, Packets, ReadyError,
     Refusal, StartError, Steering, WaitError,
 };
-pub use session::{Event, FlightOrder, Order, Session, SessionConfig};
+pub use session::{Event, FlightOrder, Input, Order, Output, Session, SessionConfig};
 pub use settings::{NavdataMode, Setting, SettingError};
 
 /// The drone's address on its own network.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use autopilot::plan::{FlightLimits, Plan};
 use autopilot::vehicle::SurveyedTag;
 use diagnostic::printable;
-use pid::Pose;
+use kinematics::Pose;
 use plotters::prelude::*;
 
 use crate::drawing::{self, Drawing, Drawn, FONT};

@@ -6,7 +6,6 @@
 use std::fmt;
 use std::time::Duration;
 
-use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
 use autopilot::outcome::Outcome;
 use autopilot::plan::{Plan, PlanError};
@@ -31,9 +30,6 @@ pub enum ReplayError {
     /// Its limits cannot be encoded as drone settings.
     #[error(transparent)]
     Config(#[from] SettingError),
-    /// See [`Vehicle::tick`].
-    #[error(transparent)]
-    Encode(#[from] EncodeError),
     /// The log contains no ticks.
     #[error("the log contains no ticks: no drone answered")]
     Empty,
@@ -111,7 +107,7 @@ impl Replay {
                 }
                 Entry::Decoded(_) | Entry::Event { .. } | Entry::Outcome { .. } => {}
                 Entry::Tick(recorded) => {
-                    vehicle.tick(*at)?;
+                    vehicle.tick(*at);
                     while let Some(output) = vehicle.poll() {
                         if let Output::Transmit(Transmit::Command {
                             datagram,

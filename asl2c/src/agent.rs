@@ -1,17 +1,17 @@
-//! An agent as it lies on the disk: a configuration, and the file that it names.
+//! An agent on disk: a configuration, and the file that it names.
 
 use std::path::{Path, PathBuf};
 
 use translator::{ParsedConfiguration, TranslateError, parse_configuration};
 
-/// Why an agent cannot be had.
+/// Errors on reading an agent.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
     /// A file cannot be read.
     #[error("cannot read {path}: {source}")]
     File {
-        /// Which.
+        /// Its path.
         path: PathBuf,
         /// The system's error.
         source: std::io::Error,
@@ -21,7 +21,7 @@ pub enum ReadError {
     Configuration(#[from] TranslateError),
 }
 
-/// A configuration and the text of its agent, as they were read.
+/// A configuration and the text of its agent.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Agent {
@@ -29,12 +29,12 @@ pub struct Agent {
     pub configuration: ParsedConfiguration,
     /// The AgentSpeak text.
     pub text: String,
-    /// The file of the configuration, as it was named.
+    /// Path of the configuration, as given.
     pub path: PathBuf,
 }
 
 impl Agent {
-    /// Reads a configuration and the agent that it names, which lies in the same folder or below.
+    /// Reads a configuration and the agent that it names, which is in the same folder or below.
     ///
     /// # Errors
     /// If a file cannot be read, or the configuration has errors.
@@ -63,6 +63,6 @@ fn folder(path: &Path) -> &Path {
 pub(crate) fn read(path: &Path) -> Result<String, ReadError> {
     let bytes =
         std::fs::read(path).map_err(|source| ReadError::File { path: path.to_owned(), source })?;
-    // Bytes that are no UTF-8 become characters that the lexer refuses, with line and column.
+    // Invalid UTF-8 becomes a character that the lexer refuses, with line and column.
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }

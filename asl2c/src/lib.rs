@@ -1,8 +1,8 @@
 //! The AgentSpeak compiler's command line, and every analysis that runs external programs.
 //!
-//! The [`translator`] turns texts into texts. This crate reads and writes the files, and runs compilers, SPIN and
-//! valgrind: [`verify()`] decides properties on a model, [`measure()`] asks what the compiled C costs, and
-//! [`command_line`] offers both to people, with translation itself.
+//! The [`translator`] turns texts into texts. This crate reads and writes the files, and runs compilers, SPIN
+//! and valgrind: [`verify()`] checks properties on a model, [`measure()`] measures the cost of the compiled
+//! C, and [`command_line`] is the program, with translation itself.
 //!
 //! ```no_run
 //! let agent = asl2c::Agent::read("pilot.conf".as_ref())?;

@@ -1,26 +1,26 @@
-//! `asl2c new`: an agent to begin with, which builds and runs at once.
+//! `asl2c new`: a small agent as a starting point, which builds and runs at once.
 
 use std::path::{Path, PathBuf};
 
-/// Why nothing was made.
+/// Errors on creating an agent.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NewError {
     #[error(
-        "`{name}` is no name for an agent: write a lower-case letter, then lower-case letters, digits and `_`"
+        "`{name}` is not a valid agent name: use a lower-case letter, then lower-case letters, digits and `_`"
     )]
     Name { name: String },
     #[error("`{name}` is taken: {owner}; choose another name")]
     Taken { name: String, owner: &'static str },
-    #[error("cannot make {path}: {source}; nothing is made")]
+    #[error("cannot create {path}: {source}; nothing was created")]
     File { path: String, source: std::io::Error },
-    #[error("cannot print what was made: {0}; nothing is made")]
+    #[error("cannot print the result: {0}; nothing was created")]
     Print(#[source] std::io::Error),
 }
 
 const CONFIGURATION: &str = "\
 settings { input = NAME.asl; output = NAME.c; header = NAME.h; basics = actions.h; };
 
-// Your C functions: what the agent can do, and ask.
+// Your C functions: actions of the agent, and queries.
 basics {
   void sendHover(void);
   void sendLand(void);
@@ -39,7 +39,7 @@ properties { landing_is_honoured: within(1, +!land, sendLand); };
 ";
 
 const AGENT: &str = "\
-// What the agent does first: it hovers until something is wanted of it.
+// The initial goal: hover until there is an order.
 !wait.
 
 +!wait : battery(B) & B < 20 <- sendLand; !completeLand.
@@ -47,7 +47,7 @@ const AGENT: &str = "\
 
 +!land <- sendLand; !completeLand.
 
-// A goal that leads back to itself is the event of the next step.
+// A recursive goal is the event of the next step.
 +!completeLand : onGround <- !!wait.
 +!completeLand <- sendLand; !completeLand.
 ";
@@ -68,7 +68,7 @@ void sendLand(void)
 }
 bool onGround(void) { return height == 0; }
 
-/* Called at the start of each step: tell the agent what is known. */
+/* Called at the start of each step: sets the beliefs. */
 void updateBeliefs(void) { set_battery(80); }
 
 int main(void)
@@ -111,17 +111,17 @@ clean:
 .PHONY: run verify clean
 ";
 
-/// Names of files and of goals of the Makefile that the agent's files would take the place of.
+/// File names, and target names of the Makefile, that the agent's files would collide with.
 const TAKEN: [(&str, &str); 5] = [
-    ("actions", "the header of the basic actions is called so"),
-    ("main", "the C file with the environment is called so"),
-    ("run", "the Makefile calls so what runs the agent"),
-    ("verify", "the Makefile calls so what checks the properties"),
-    ("clean", "the Makefile calls so what deletes the generated files"),
+    ("actions", "the header of the basic actions has this name"),
+    ("main", "the C file with the environment has this name"),
+    ("run", "a target of the Makefile has this name"),
+    ("verify", "a target of the Makefile has this name"),
+    ("clean", "a target of the Makefile has this name"),
 ];
 
-/// Makes the folder `name`, and says what to do next. If that cannot be said, or something cannot be made, nothing is
-/// left of it.
+/// Creates the folder `name` and prints the next steps. If printing or any file fails, nothing is left
+/// behind.
 pub(crate) fn make(
     name: &str,
     say: impl FnOnce(&str) -> std::io::Result<()>,
@@ -134,16 +134,16 @@ pub(crate) fn make(
         return Err(NewError::Taken { name: name.to_owned(), owner });
     }
     let folder = Path::new(name);
-    // A folder that is there already is not touched.
+    // An existing folder is not touched.
     std::fs::create_dir(folder).map_err(failed(folder))?;
     let mut made: Vec<PathBuf> = Vec::new();
     let done = fill(folder, name, &mut made).and_then(|()| {
         let text =
-            format!("{name}/ holds an agent; `make -C {name}` translates, builds and runs it\n");
+            format!("created {name}/; `make -C {name}` translates, builds and runs the agent\n");
         say(&text).map_err(NewError::Print)
     });
     if done.is_err() {
-        // What cannot be taken back either is no other error: the one that is told comes first.
+        // A failing removal is not reported, because the original error matters more.
         for path in made {
             _ = std::fs::remove_file(path);
         }
@@ -152,7 +152,7 @@ pub(crate) fn make(
     done
 }
 
-/// Writes the files; what is begun is in `made`.
+/// Writes the files; `made` lists those that were created.
 fn fill(folder: &Path, name: &str, made: &mut Vec<PathBuf>) -> Result<(), NewError> {
     for (file, text) in [
         (format!("{name}.conf"), CONFIGURATION),

@@ -8,26 +8,26 @@ use translator::{GeneratedFile, TranslateError};
 
 use crate::agent::Agent;
 
-/// Why nothing was written.
+/// Errors on writing the outputs.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum OutputError {
-    /// Something that is read, or another output, has this name too.
+    /// An input or another output has the same path.
     #[error(transparent)]
     Refused(#[from] TranslateError),
     #[error("cannot write {path}: {source}; nothing is changed")]
     Write { path: PathBuf, source: std::io::Error },
 }
 
-/// A file that is written beside the one it will replace.
+/// A file that was written beside the one it will replace.
 struct Prepared {
     target: PathBuf,
     new: NamedTempFile,
-    /// The old file by another name, if there is one.
+    /// The old file under another name, if there is one.
     old: Option<TempPath>,
 }
 
-/// Writes `files` to `folder`. Until all are written whole none is in its place, and if one cannot take its place
-/// the others give theirs back. What the translation was made from is never overwritten.
+/// Writes `files` to `folder`, all or none: each is first written completely under another name, and if one
+/// cannot be moved to its place the others are restored. Inputs of the translation are never overwritten.
 pub(crate) fn write(
     agent: &Agent,
     files: &[GeneratedFile],
@@ -42,7 +42,7 @@ pub(crate) fn write(
     let inside = or_here(folder).canonicalize().ok();
     for file in files {
         let path = folder.join(&file.name);
-        // A file without a folder cannot be written, which is said then.
+        // A path without a file name cannot be written; writing reports that.
         let target = resolved(&path);
         let both = inside.as_ref().zip(target.as_ref());
         let leads_out = both.is_some_and(|(inside, target)| !target.starts_with(inside));
@@ -50,7 +50,7 @@ pub(crate) fn write(
         if leads_out {
             let message =
                 format!("a link leads to {}, out of the output's folder", target.display());
-            let help = "name a file in that folder or below; `-o DIR` puts all elsewhere";
+            let help = "name a file in that folder or below; `-o DIR` selects another folder";
             return Err(configuration.overwrites(file.setting, &message, help).into());
         }
         if let Some((source, used)) = read.iter().find(|(source, _)| is_same(&target, source)) {
@@ -69,18 +69,18 @@ pub(crate) fn write(
     replace(prepared)
 }
 
-/// Where a file is, or would be, without links: one that is not there yet may be in a folder that is a link.
+/// The path without links, existing or not: a missing file may be in a folder that is a link.
 fn resolved(path: &Path) -> Option<PathBuf> {
     let in_folder = || Some(or_here(path.parent()?).canonicalize().ok()?.join(path.file_name()?));
     path.canonicalize().ok().or_else(in_folder)
 }
 
-/// A folder; a path without one leads to a file here.
+/// The folder; the current one for a path without a folder.
 fn or_here(folder: &Path) -> &Path {
     if folder == Path::new("") { Path::new(".") } else { folder }
 }
 
-/// Whether two names lead to one file, be it there or not.
+/// Whether two paths are the same file, existing or not.
 fn is_same(one: &Path, other: &Path) -> bool {
     if resolved(one).is_some_and(|one| Some(one) == resolved(other)) {
         return true;
@@ -100,7 +100,7 @@ fn prepare(target: &Path, text: &str) -> std::io::Result<Prepared> {
     let existing = std::fs::metadata(target).ok();
     if let Some(existing) = &existing {
         if !existing.is_file() {
-            return Err(std::io::Error::other("this is no file"));
+            return Err(std::io::Error::other("not a regular file"));
         }
         if existing.permissions().readonly() {
             return Err(std::io::ErrorKind::PermissionDenied.into());
@@ -110,7 +110,7 @@ fn prepare(target: &Path, text: &str) -> std::io::Result<Prepared> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
-        // As for any new file: the user's mask has its say.
+        // As for any new file, so that the user's umask applies.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     let mut new = builder.tempfile_in(parent)?;
@@ -132,7 +132,7 @@ fn replace(prepared: Vec<Prepared>) -> Result<(), OutputError> {
     for Prepared { target, new, old } in prepared {
         if let Err(error) = new.persist(&target) {
             for (path, old) in replaced.into_iter().rev() {
-                // What cannot be undone cannot be done otherwise either: the error that is told comes first.
+                // If restoring fails nothing more can be done; the original error is reported.
                 _ = match old {
                     Some(old) => old.persist(&path).map_err(|error| error.error),
                     None => std::fs::remove_file(&path),

@@ -8,14 +8,14 @@ use translator::{Happening, Model, Promise};
 /// The model checker.
 pub const SPIN: &str = "spin";
 
-/// What an exhaustive search found.
+/// Result of an exhaustive search.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
-    /// Whatever the environment does, the property holds.
+    /// The property holds in every environment.
     Holds,
-    /// The shortest way to a step that breaks it.
+    /// The property fails: the shortest counterexample.
     Fails(Vec<Happening>),
-    /// The search did not come to an end.
+    /// The search did not finish, with the reason.
     Undecided(String),
 }
 
@@ -30,7 +30,7 @@ impl Verdict {
         matches!(self, Self::Fails(_))
     }
 
-    /// The shortest way to a step that breaks the property; empty unless there is one.
+    /// The shortest counterexample; empty unless the property fails.
     pub fn counterexample(&self) -> &[Happening] {
         match self {
             Self::Fails(way) => way,
@@ -39,14 +39,14 @@ impl Verdict {
     }
 }
 
-/// Why nothing was checked.
+/// Errors that prevent a check.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SpinError {
     /// A program cannot be run.
     #[error("cannot run `{program}`: {source}; `apt install spin gcc` may help")]
     Missing {
-        /// Which.
+        /// Its name.
         program: &'static str,
         /// The system's error.
         source: std::io::Error,
@@ -54,20 +54,20 @@ pub enum SpinError {
     /// The model cannot be written.
     #[error("cannot write the model: {0}")]
     Write(#[source] std::io::Error),
-    /// A program refuses what it is given.
-    #[error("`{program}` refuses the model, which should not be:\n{output}")]
+    /// A program rejects its input.
+    #[error("`{program}` rejects the generated model:\n{output}")]
     Refused {
-        /// Which.
+        /// Its name.
         program: &'static str,
-        /// What it says.
+        /// Its output.
         output: String,
     },
 }
 
-/// Memory that a search may take.
+/// Memory limit of a search.
 const MEGABYTES: u32 = 2048;
 
-/// Checks properties in every environment: all, or those whose numbers, from 1, are given.
+/// Checks properties in every environment: all, or those with these numbers, from 1.
 pub(crate) fn check(
     model: &Model,
     numbers: &[usize],
@@ -80,7 +80,7 @@ pub(crate) fn check(
     let memory = format!("-DMEMLIM={MEGABYTES}");
     let compile = |search: &Search| {
         let mut compiler = Command::new("cc");
-        // To optimize takes longer than most searches.
+        // Optimizing takes longer than most searches.
         compiler.args(["-O0", "-w", "-DSAFETY", &memory]).args(search.options);
         succeed("cc", compiler.args(["-o", search.program, "pan.c"]).current_dir(folder))
     };
@@ -108,7 +108,7 @@ pub(crate) fn check(
         .collect()
 }
 
-/// What the checker says of a property. Each has a folder of its own, where the way to a failure is kept.
+/// Checks one property. Each has its own folder, in which the counterexample is stored.
 fn run(
     model: &Model,
     folder: &Path,
@@ -124,7 +124,7 @@ fn run(
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// The results in the order of the inputs, on all cores.
+/// Maps the inputs on all cores; the results are in the order of the inputs.
 fn in_parallel<T: Copy + Sync, R: Send>(inputs: &[T], work: impl Fn(T) -> R + Sync) -> Vec<R> {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
     let share = inputs.len().div_ceil(cores).max(1);
@@ -145,17 +145,17 @@ fn in_parallel<T: Copy + Sync, R: Send>(inputs: &[T], work: impl Fn(T) -> R + Sy
     })
 }
 
-/// A way to search.
+/// A search strategy.
 struct Search {
     program: &'static str,
     options: &'static [&'static str],
 }
 
-/// The fast way.
+/// Fast.
 const IN_DEPTH: Search = Search { program: "pan", options: &[] };
-/// The way that finds the shortest failure.
+/// Finds the shortest counterexample.
 const IN_BREADTH: Search = Search { program: "pan_breadth", options: &["-DBFS"] };
-/// No search is deeper than this, or it has no end.
+/// Depth limit; a search that exceeds it is undecided.
 const DEPTH: &str = "-m2000000";
 
 enum Found {
@@ -164,7 +164,7 @@ enum Found {
     NoEnd(String),
 }
 
-/// What a search says. Everything else than a finished search without errors proves nothing.
+/// Parses the output of a search. Only a finished search without errors is a proof.
 fn result(text: &str) -> Found {
     if text.contains("assertion violated") {
         return Found::Failure;

@@ -1,20 +1,20 @@
-//! Which properties of an agent hold in every environment.
+//! Checks which properties of an agent hold in every environment.
 
 use translator::{Model, Promise};
 
 use crate::spin::{self, SpinError, Verdict};
 
-/// Why nothing was checked.
+/// Errors that prevent a check.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VerifyError {
-    /// SPIN or the C compiler.
+    /// Error of SPIN or the C compiler.
     #[error(transparent)]
     Spin(#[from] SpinError),
     /// The configuration states no properties.
     #[error("the configuration has no properties: there is nothing to check")]
     Nothing,
-    /// One was asked for that the configuration does not state.
+    /// The configuration does not state this property.
     #[error("the configuration has no property `{name}`")]
     Unknown {
         /// Its name.
@@ -28,17 +28,17 @@ pub enum VerifyError {
 pub struct Checked {
     /// The property.
     pub property: Promise,
-    /// Whether it holds.
+    /// Result of the check.
     pub verdict: Verdict,
 }
 
-/// Checks properties in every environment: those that are named, or all if `only` is empty.
+/// Checks properties in every environment: those named in `only`, or all if it is empty.
 ///
-/// Starts `spin` and `cc`, one search on each core, with files in a folder for temporary ones.
+/// Runs `spin` and `cc`, one search per core, in a temporary folder.
 ///
 /// # Errors
-/// If there is no such property, or a program does not do what is asked of it. That a search has no end is no error
-/// but a [`Verdict`].
+/// If there is no such property, or a program fails. A search that does not finish is not an error but a
+/// [`Verdict`].
 pub fn verify(model: &Model, only: &[&str]) -> Result<Vec<Checked>, VerifyError> {
     if model.properties.is_empty() {
         return Err(VerifyError::Nothing);
@@ -47,7 +47,7 @@ pub fn verify(model: &Model, only: &[&str]) -> Result<Vec<Checked>, VerifyError>
     Ok(checked.into_iter().map(|(property, verdict)| Checked { property, verdict }).collect())
 }
 
-/// The numbers of the properties to check: of all, unless some are named.
+/// Numbers of the properties to check: all, unless some are named.
 fn numbers(model: &Model, only: &[&str]) -> Result<Vec<usize>, VerifyError> {
     if only.is_empty() {
         return Ok((1..=model.properties.len()).collect());

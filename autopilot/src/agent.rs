@@ -3,7 +3,7 @@
 //! [`AgentStep`] runs one deliberation cycle. This is the only file with `unsafe` code: the bindings that the
 //! translator generates, each block with a comment on its soundness.
 
-use pid::Pose;
+use kinematics::Pose;
 
 use crate::agent::bindings::{Beliefs, Environment};
 use crate::plan::FlightLimits;
@@ -395,7 +395,7 @@ impl Environment for AgentStep {
         let target = Pose { x_m, y_m, z_m, yaw_deg };
         self.percepts.pose.is_some_and(|pose| {
             distance(&pose, &target) <= distance_m
-                && estimator::wrap_deg(yaw_deg - pose.yaw_deg).abs() <= REACH_ANGLE_DEG
+                && kinematics::wrap_deg(yaw_deg - pose.yaw_deg).abs() <= REACH_ANGLE_DEG
         })
     }
 

@@ -21,6 +21,5 @@ pub mod plan;
 pub mod safety;
 pub mod vehicle;
 
-pub use pid::{Demand, Pose};
 pub use plan::Plan;
 pub use vehicle::{Vehicle, VehicleConfig};

@@ -4,7 +4,7 @@
 //! in [`crate::plan`]; this module keeps track of the next one.
 
 use estimator::SurveyedTag;
-use pid::Pose;
+use kinematics::Pose;
 
 use crate::agent::ApproachSettings;
 use crate::plan::{AgentOrder, Command, Commands, DryRun, FlightLimits, Interpreter, Plan, Step};

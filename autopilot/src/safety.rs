@@ -8,7 +8,7 @@ mod carried;
 
 use std::time::Duration;
 
-use pid::{Demand, Pose};
+use kinematics::{Pose, Sticks};
 
 use self::carried::CarriedOff;
 use crate::agent::AgentCommand;
@@ -82,6 +82,9 @@ pub enum Veto {
     NearFence,
     /// The drone has left the fence: fly it back and down, and land.
     OutsideFence,
+    /// The drone cannot brake before the fence against this wind: lean against it and sink, until the wind
+    /// weakens or proves to be more than a gust.
+    AgainstWind,
     /// The wind carries the drone over the fence faster than it can brake: fly it down against the wind, and
     /// land.
     CarriedOff,
@@ -98,6 +101,7 @@ impl Veto {
             Self::TargetOutside => "TargetOutside",
             Self::NearFence => "NearFence",
             Self::OutsideFence => "OutsideFence",
+            Self::AgainstWind => "AgainstWind",
             Self::CarriedOff => "CarriedOff",
         }
     }
@@ -152,7 +156,7 @@ pub struct SafetyMonitor {
     /// The last order was to stay on the ground. If the drone is in the air all the same, it has followed an
     /// older take-off order, and any order to fly would keep it there.
     stays_down: bool,
-    sticks: Demand,
+    sticks: Sticks,
 }
 
 impl SafetyMonitor {
@@ -168,7 +172,7 @@ impl SafetyMonitor {
             upwind: Pose::default(),
             lands: false,
             stays_down: false,
-            sticks: Demand::default(),
+            sticks: Sticks::default(),
         }
     }
 
@@ -223,6 +227,9 @@ impl SafetyMonitor {
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
         match command {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
+            _ if moves && self.carried_off.leans() => {
+                (AgentCommand::GoTo(self.place_upwind(&now.pose)), Some(Veto::AgainstWind))
+            }
             AgentCommand::GoTo(target) if !self.is_inside(&target, 1e-6) => (
                 AgentCommand::GoTo(self.fence.nearest_inside(&target, 0.0)),
                 Some(Veto::TargetOutside),
@@ -242,7 +249,7 @@ impl SafetyMonitor {
 
     /// Limits the sticks to `most`, and their change since the last tick. The descent is limited further so
     /// that the drone can stop above the fence's floor; full gaz descends at `climb_m_s`.
-    pub fn limit(&mut self, demand: &Demand, most: f64, height_m: f64, climb_m_s: f64) -> Demand {
+    pub fn limit(&mut self, demand: &Sticks, most: f64, height_m: f64, climb_m_s: f64) -> Sticks {
         let most = most.clamp(0.0, 1.0);
         let room_m = (height_m - self.fence.floor_m).max(0.0);
         let sink = (SINK_AT_FLOOR_M_S + SINK_1_S * room_m) / climb_m_s.max(f64::EPSILON);
@@ -251,7 +258,7 @@ impl SafetyMonitor {
             wanted.clamp(last - LARGEST_JUMP, last + LARGEST_JUMP)
         };
         let last = self.sticks;
-        self.sticks = Demand {
+        self.sticks = Sticks {
             roll: within(demand.roll, last.roll),
             pitch: within(demand.pitch, last.pitch),
             gaz: within(demand.gaz, last.gaz).max(-sink),
@@ -262,7 +269,7 @@ impl SafetyMonitor {
 
     /// The sticks are released: the drone holds or lands by itself.
     pub fn let_go(&mut self) {
-        self.sticks = Demand::default();
+        self.sticks = Sticks::default();
     }
 
     /// The next command of a landing for `danger`. The drone's own landing drifts, the more the higher it
@@ -510,12 +517,12 @@ mod tests {
 
     #[test]
     fn near_the_floor_the_drone_sinks_slowly() {
-        let down = Demand { gaz: -1.0, ..Demand::default() };
+        let down = Sticks { gaz: -1.0, ..Sticks::default() };
         let gaz = |height_m| monitor().limit(&down, 1.0, height_m, 0.7).gaz;
         assert!((gaz(2.0) + 1.0).abs() < 1e-9);
         assert!((-0.4..-0.3).contains(&gaz(0.5)), "{}", gaz(0.5));
         assert!((-0.25..-0.2).contains(&gaz(0.1)), "{}", gaz(0.1));
-        let up = Demand { gaz: 1.0, ..Demand::default() };
+        let up = Sticks { gaz: 1.0, ..Sticks::default() };
         assert!((monitor().limit(&up, 1.0, 0.1, 0.7).gaz - 1.0).abs() < 1e-9);
     }
 
@@ -603,6 +610,29 @@ mod tests {
     }
 
     #[test]
+    fn a_storm_is_met_low_and_leaning_before_it_is_known_to_last() {
+        let now = Situation {
+            pose: Pose { y_m: -7.0, z_m: 1.8, ..FINE.pose },
+            velocity_m_s: [0.0, -1.0, 0.0],
+            wind: [0.0, -1.1],
+            ..FINE
+        };
+        for command in [GO_TO, AgentCommand::Sticks] {
+            let mut monitor = monitor();
+            let (leaning, veto) = monitor.check(command, &now);
+            assert_eq!(veto, Some(Veto::AgainstWind));
+            let AgentCommand::GoTo(target) = leaning else { panic!("{leaning:?}") };
+            assert!(target.y_m >= -5.0 && target.z_m < 0.5, "{target:?}");
+            let calm = |now_at| Situation { wind: [0.0; 2], now: FINE.now + now_at, ..now };
+            monitor.check(command, &calm(GUST / 2));
+            assert_eq!(monitor.check(command, &calm(GUST)), (command, None));
+        }
+        for command in [AgentCommand::Hover, AgentCommand::Land] {
+            assert_eq!(monitor().check(command, &now), (command, None));
+        }
+    }
+
+    #[test]
     fn targets_outside_the_fence_are_not_flown_to() {
         let here = FINE.pose;
         for target in [
@@ -649,10 +679,10 @@ mod tests {
     #[test]
     fn sticks_are_limited_and_do_not_jump() {
         let mut monitor = monitor();
-        let full = Demand { roll: 1.0, pitch: -3.0, gaz: f64::NAN, yaw: 0.2 };
+        let full = Sticks { roll: 1.0, pitch: -3.0, gaz: f64::NAN, yaw: 0.2 };
         let limited = monitor.limit(&full, 0.6, 2.0, 0.7);
-        assert_eq!(limited, Demand { roll: 0.6, pitch: -0.6, gaz: 0.0, yaw: 0.2 });
-        let limited = monitor.limit(&Demand { roll: -1.0, ..full }, 1.0, 2.0, 0.7);
+        assert_eq!(limited, Sticks { roll: 0.6, pitch: -0.6, gaz: 0.0, yaw: 0.2 });
+        let limited = monitor.limit(&Sticks { roll: -1.0, ..full }, 1.0, 2.0, 0.7);
         assert!((limited.roll + 0.4).abs() < 1e-12, "{limited:?}");
         monitor.let_go();
         assert!((monitor.limit(&full, 1.0, 2.0, 0.7).roll - 1.0).abs() < 1e-12);

@@ -1,17 +1,17 @@
-//! Learns gains and a lag from what was told and what came of it.
+//! Identifies gains and a lag from commands and responses.
 //!
-//! Given the lag, the answer is linear in the gains. So there is one hypothesis for each of several
-//! lags; each fits its gains by recursive least squares, and what they leave unexplained tells how
-//! probable each lag is (Bayesian model averaging). The estimate is the mean over the hypotheses: it
-//! moves smoothly from what was assumed to what is seen, and no wrong lag is ever believed for long.
+//! For a given lag the response is linear in the gains. There is one hypothesis for each of several lags;
+//! each fits its gains by recursive least squares, and its residuals give the probability of its lag
+//! (Bayesian model averaging). The estimate is the mean over the hypotheses: it moves smoothly from the prior
+//! to the data, and a wrong lag loses its weight quickly.
 
 use nalgebra::{SMatrix, SVector};
 
-/// A lag, and how well each set of gains explains the answers with it.
+/// A lag, and how well each set of gains explains the responses with it.
 #[derive(Debug, Clone, Copy)]
 struct Hypothesis<const GAINS: usize> {
     lag_s: f64,
-    /// Logarithm of how probable it is before anything was seen.
+    /// Logarithm of the prior probability.
     prior: f64,
     information: SMatrix<f64, GAINS, GAINS>,
     moment: SVector<f64, GAINS>,
@@ -24,22 +24,22 @@ impl<const GAINS: usize> Hypothesis<GAINS> {
         self.information.cholesky().map_or_else(SVector::zeros, |matrix| matrix.solve(&self.moment))
     }
 
-    /// Sum of the squared errors that are left, in units of the noise.
+    /// Sum of the squared residuals, in units of the noise.
     fn unexplained(&self, gains: &SVector<f64, GAINS>) -> f64 {
         (self.square - self.moment.dot(gains)).max(0.0)
     }
 }
 
-/// What is assumed before anything was seen.
+/// The prior.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Assumption<const GAINS: usize> {
     pub(crate) gains: [f64; GAINS],
-    /// Standard deviations.
+    /// Standard deviations of the gains.
     pub(crate) spreads: [f64; GAINS],
     pub(crate) lag_s: f64,
-    /// Standard deviation of the lag's logarithm.
+    /// Standard deviation of the logarithm of the lag.
     pub(crate) lag_spread: f64,
-    /// Standard deviation of one answer, as if all answers were independent.
+    /// Standard deviation of one response, as if all responses were independent.
     pub(crate) noise: f64,
 }
 
@@ -50,8 +50,8 @@ pub(crate) struct Bank<const LAGS: usize, const GAINS: usize> {
     noise: f64,
 }
 
-/// Share of what is known that is forgotten with an answer as large as the noise allows to be seen:
-/// gains change as the battery empties.
+/// Fraction of the information that is forgotten with each response of full excitation, because gains change
+/// as the battery empties.
 const FORGETTING: f64 = 0.002;
 
 impl<const LAGS: usize, const GAINS: usize> Bank<LAGS, GAINS> {
@@ -74,8 +74,8 @@ impl<const LAGS: usize, const GAINS: usize> Bank<LAGS, GAINS> {
         Self { hypotheses, noise }
     }
 
-    /// Learns from an answer, and from what each lag makes of the sticks: the answer should be the
-    /// gains times that.
+    /// Learns from a response, and from the excitation that each lag's model derives from the sticks: the
+    /// response should be the gains times the excitation.
     pub(crate) fn learn(&mut self, answer: f64, causes: &[SVector<f64, GAINS>; LAGS]) {
         let answer = answer / self.noise;
         let seen = causes.iter().map(SVector::norm_squared).sum::<f64>()
@@ -115,7 +115,7 @@ mod tests {
     const ASSUMPTION: Assumption<2> =
         Assumption { gains: [1.0; 2], spreads: [0.5; 2], lag_s: 0.5, lag_spread: 0.5, noise: 0.02 };
 
-    /// The causes of a lag that is `true_lag` are `shape` times what the others make of it.
+    /// Excitations for which the lag `true_lag` is right: its model gives `shape` times the others.
     fn causes(step: u32, true_lag: usize) -> [SVector<f64, 2>; 4] {
         std::array::from_fn(|i| {
             let phase = f64::from(step) * 0.1 - (i as f64 - true_lag as f64) * 0.4;
@@ -129,7 +129,7 @@ mod tests {
         let (lag_s, gains) = bank.estimate();
         assert!((0.4..0.7).contains(&lag_s), "{lag_s}");
         assert!((gains.x - 1.0).abs() < 1e-9);
-        // Noise without a cause teaches nothing.
+        // Noise without excitation teaches nothing.
         for i in 0..10_000 {
             bank.learn(if i % 2 == 0 { 0.03 } else { -0.03 }, &[SVector::zeros(); 4]);
         }
@@ -153,7 +153,7 @@ mod tests {
             let (lag_s, gains) = fly(0..200, 0.8, 1.7);
             assert!((lag_s / LAGS_S[true_lag] - 1.0).abs() < 0.1, "{true_lag}: {lag_s}");
             assert!((gains.x - 0.8).abs() < 0.06 && (gains.y - 1.7).abs() < 0.1, "{gains}");
-            // A gain that sinks is followed.
+            // A falling gain is followed.
             let (_, gains) = fly(200..6000, 0.6, 1.7);
             assert!((gains.x - 0.6).abs() < 0.03, "{gains}");
         }

@@ -1,25 +1,23 @@
-//! When a sample was made, on the pilot's clock.
+//! Time at which a sample was measured, on the pilot's clock.
 
 use std::time::Duration;
 
 /// The drone's clock starts again from zero after this time.
 const DRONE_CLOCK_WRAP_S: f64 = 2048.0;
-/// A step longer than this on the drone's clock alone is a clock that was set, not time that
-/// passed.
+/// A longer step of the drone's clock alone means that the clock was set, not that time has passed.
 const MAX_PLAUSIBLE_STEP_S: f64 = 10.0;
-/// How much faster than ours the drone's clock may run: a quartz is a hundred times better.
+/// Upper limit of the rate error of the drone's clock; a quartz is a hundred times better.
 const CLOCK_DRIFT: f64 = 1e-3;
-/// Share of an arrival's surprise that moves the smoothed time.
+/// Gain by which an arrival corrects the smoothed time.
 const SMOOTHING: f64 = 0.15;
-/// Share of an interval that moves the smoothed interval.
+/// Gain by which an interval corrects the smoothed interval.
 const INTERVAL_SMOOTHING: f64 = 0.1;
 
-/// Tells when samples were made.
+/// Determines when samples were measured.
 ///
-/// With the drone's clock: the smallest difference between arrival and the drone's time is that of
-/// a packet that was not held up; all later ones are measured by it, so that the jitter of the
-/// network does not count. Without it arrivals are smoothed; packets are never counted, so that a
-/// lost one is not lost time.
+/// With the drone's clock, the smallest difference between arrival and drone time belongs to a packet that
+/// was not delayed. All later packets are dated by it, so that network jitter has no effect. Without the
+/// drone's clock arrivals are smoothed; packets are never counted, so a lost packet does not shift the time.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct SampleClock {
     drone: Option<DroneClock>,
@@ -31,7 +29,7 @@ pub(crate) struct SampleClock {
 struct DroneClock {
     /// The drone's time of the last sample, unwrapped.
     time_s: f64,
-    /// What to add to have ours.
+    /// Offset from the drone's time to the pilot's.
     offset_s: f64,
 }
 
@@ -42,8 +40,8 @@ struct Arrivals {
 }
 
 impl SampleClock {
-    /// When the sample was made, in seconds on the pilot's clock, but for the constant part of its
-    /// way here. Never earlier than the sample before.
+    /// When the sample was measured, in seconds on the pilot's clock, except for the constant part of its
+    /// latency. Never earlier than the previous sample.
     pub(crate) fn made_s(&mut self, drone_time: Option<Duration>, arrival: Duration) -> f64 {
         let arrival_s = arrival.as_secs_f64();
         let by_arrival_s = self.smooth(arrival_s);
@@ -55,7 +53,7 @@ impl SampleClock {
         made_s
     }
 
-    /// Nothing if the drone's clock stands still: a new packet with an old time.
+    /// `None` if the drone's clock stands still: a new packet with an old time.
     fn by_drone_clock(&mut self, time_s: f64, arrival_s: f64) -> Option<f64> {
         let fresh = DroneClock { time_s, offset_s: arrival_s - time_s };
         let Some(last) = self.drone else {
@@ -72,7 +70,7 @@ impl SampleClock {
         }
         let time_s = last.time_s + step_s;
         let offset_s = (last.offset_s + CLOCK_DRIFT * step_s).min(arrival_s - time_s);
-        // The sample of a drone that was restarted cannot have been under way for so long.
+        // No packet is under way for this long: the drone was restarted.
         if arrival_s - time_s - offset_s > MAX_PLAUSIBLE_STEP_S {
             self.drone = Some(fresh);
             return Some(arrival_s);
@@ -87,7 +85,7 @@ impl SampleClock {
             return arrival_s;
         };
         let gap_s = arrival_s - *smoothed_s;
-        // The first interval, and a gap: there is nothing to smooth over.
+        // First interval, or a gap: there is nothing to smooth.
         if *interval_s <= 0.0 || gap_s > 1.5 * *interval_s {
             if *interval_s <= 0.0 {
                 *interval_s = gap_s;
@@ -118,7 +116,7 @@ mod tests {
         let mut clock = SampleClock::default();
         assert_near(clock.made_s(Some(MS(500_000)), MS(0)), 0.0, 1e-9);
         assert_near(clock.made_s(Some(MS(500_066)), MS(70)), 0.066, 1e-3);
-        // The drone restarted: its clock is near zero again.
+        // The drone has restarted: its clock is near zero again.
         assert_near(clock.made_s(Some(MS(100)), MS(140)), 0.14, 1e-9);
         assert_near(clock.made_s(Some(MS(166)), MS(240)), 0.206, 1e-3);
     }
@@ -126,7 +124,7 @@ mod tests {
     #[test]
     fn packets_that_were_held_up_were_made_in_time() {
         let mut clock = SampleClock::default();
-        // The clock wraps on the way, and every third packet comes 50 ms late.
+        // The clock wraps on the way, and every third packet arrives 50 ms late.
         for i in 0..100_u64 {
             let late = if i % 3 == 1 { 50 } else { 0 };
             let made_s =

@@ -1,24 +1,24 @@
-//! Which way the drone points: now, a little ago, and soon.
+//! Heading of the drone: in the past, now, and predicted.
 
 use std::collections::VecDeque;
 
-use crate::airframe::{Airframe, DroneLimits};
-use crate::angle::wrap_deg;
 use crate::orders::{Order, Orders};
+use kinematics::wrap_deg;
+use kinematics::{Airframe, DroneLimits};
 
-/// A heading further than this from the one that the sticks explain, and this much more a second since
-/// the last one, is a step of the compass and no turn: the firmware has been seen to step by 160°.
+/// A heading that differs from the prediction by more than this, plus this much per second since the last
+/// one, is a step of the compass and not a turn. The firmware has been seen to step by 160°.
 const MAX_SURPRISE_DEG: f64 = 6.0;
 const MAX_SURPRISE_DEG_S: f64 = 60.0;
-/// Enough for the delay of the velocity at 200 packets a second.
+/// Covers the delay of the velocity at 200 packets per second.
 const MEMORY: usize = 64;
 
-/// Headings from the first one, not wrapped, by the time they were measured at.
+/// Unwrapped headings, relative to the first, with their times of measurement.
 #[derive(Debug, Clone)]
 pub(crate) struct Heading {
     baseline_deg: Option<f64>,
     measured: VecDeque<(f64, f64)>,
-    /// How fast it turns as far as the sticks tell, at the newest measurement.
+    /// Turn rate predicted from the sticks, at the newest measurement.
     turn_deg_s: f64,
 }
 
@@ -27,8 +27,8 @@ impl Heading {
         Self { baseline_deg: None, measured: VecDeque::with_capacity(MEMORY), turn_deg_s: 0.0 }
     }
 
-    /// Takes in a compass heading that was measured at a time; returns whether the compass has made a
-    /// step. The heading goes on as if there had been none.
+    /// Adds a compass heading with its time of measurement. Returns whether the compass made a step; a step
+    /// does not change the heading.
     pub(crate) fn update(
         &mut self,
         at_s: f64,
@@ -55,7 +55,7 @@ impl Heading {
                 self.baseline_deg = Some(baseline_deg + surprise_deg);
                 deg = expected_deg;
             } else {
-                // Nearest to the last one, so that it does not jump at half a turn.
+                // Unwrapped, so that it does not jump at half a turn.
                 deg = last_deg + wrap_deg(turned_deg - last_deg);
             }
         }
@@ -66,7 +66,7 @@ impl Heading {
         stepped
     }
 
-    /// Between two measurements the line between them; after the last one what the sticks tell.
+    /// Interpolates between measurements; predicts from the sticks after the last one.
     pub(crate) fn at(
         &self,
         time_s: f64,
@@ -88,7 +88,7 @@ impl Heading {
         }
     }
 
-    /// How fast it turns at a time after the newest measurement, as far as the sticks tell.
+    /// Turn rate at a time after the newest measurement, predicted from the sticks.
     pub(crate) fn turn_deg_s(
         &self,
         time_s: f64,
@@ -101,17 +101,17 @@ impl Heading {
         })
     }
 
-    /// The newest heading that was measured.
+    /// The newest measured heading.
     pub(crate) fn newest_deg(&self) -> f64 {
         self.measured.back().map_or(0.0, |(_, deg)| *deg)
     }
 
-    /// How fast it turned then, as far as the sticks tell.
+    /// The turn rate at the newest measurement, predicted from the sticks.
     pub(crate) fn newest_turn_deg_s(&self) -> f64 {
         self.turn_deg_s
     }
 
-    /// The heading when the drone's compass starts anew: the next one continues the last.
+    /// The drone's compass has restarted: its next heading continues the last one.
     pub(crate) fn handle_restart(&mut self) {
         self.baseline_deg = None;
         self.measured.clear();
@@ -119,7 +119,7 @@ impl Heading {
     }
 }
 
-/// The rate at the end and the angle of a turn.
+/// Final rate and angle of a turn.
 fn turned(
     rate_deg_s: f64,
     from_s: f64,
@@ -131,7 +131,7 @@ fn turned(
     let (mut rate_deg_s, mut angle_deg) = (rate_deg_s, 0.0);
     orders.steps(from_s, to_s, |_, step_s, order| {
         let wanted_deg_s = match order {
-            Order::Sticks(sticks) => sticks.clockwise * limits.turn_deg_s * airframe.turn_gain,
+            Order::Sticks(sticks) => sticks.yaw * limits.turn_deg_s * airframe.turn_gain,
             Order::ByItself => 0.0,
         };
         rate_deg_s += (wanted_deg_s - rate_deg_s) * (1.0 - (-step_s / airframe.turn_lag_s).exp());
@@ -145,14 +145,14 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::orders::Sticks;
+    use kinematics::Sticks;
 
     fn turning() -> (Heading, Orders) {
         let mut orders = Orders::new(Duration::ZERO);
-        orders.push(Duration::ZERO, Order::Sticks(Sticks { clockwise: 0.5, ..Sticks::default() }));
+        orders.push(Duration::ZERO, Order::Sticks(Sticks { yaw: 0.5, ..Sticks::default() }));
         let mut heading = Heading::new();
         let (airframe, limits) = (Airframe::default(), DroneLimits::default());
-        // 50 degrees a second from 171 degrees, across the jump.
+        // 50 degrees per second from 171 degrees, across the wrap.
         for i in 0..=30 {
             let at_s = f64::from(i) * 0.1;
             heading.update(at_s, wrap_deg(171.0 + 50.0 * at_s), &orders, &airframe, &limits);

@@ -1,48 +1,47 @@
-//! Velocity and place across the ground, and what pushes the drone.
+//! Horizontal velocity and position, and the disturbance that acts on the drone.
 //!
-//! The place is the integral of the measured velocity and nothing else. The velocity between and
-//! after the measurements is a model's: tilt follows the sticks, gravity makes it acceleration, drag
-//! slows. What the model does not foresee corrects its velocity, and is learnt as a disturbance: an
-//! acceleration by wind or a wrong level reference (a Luenberger observer with a disturbance state).
+//! The position is the integral of the measured velocity and nothing else. Between and after measurements the
+//! velocity is a model's: tilt follows the sticks, gravity turns tilt into acceleration, drag slows the
+//! drone. The difference between measurement and model corrects the velocity and the estimated disturbance,
+//! an acceleration by wind or a wrong level reference (a Luenberger observer with a disturbance state).
 
-use nalgebra::{Rotation2, Vector2};
+use nalgebra::Vector2;
 
-use crate::airframe::{Airframe, DroneLimits};
 use crate::orders::Order;
+use kinematics::{Airframe, DroneLimits, GRAVITY_M_S2, body_from_world, world_from_body};
 
-pub(crate) const GRAVITY_M_S2: f64 = 9.81;
-/// A drone that holds its place by itself brakes about so fast.
+/// Time constant with which a drone brakes that holds its position by itself.
 const BRAKING_TIME_S: f64 = 0.5;
 
-/// What pushes a drone that holds its place is averaged over so long: it also leans to come to rest.
+/// Averaging time of the disturbance while the drone holds its position: it also tilts in order to brake.
 const HOLD_TIME_S: f64 = 1.0;
 
-/// How the drone moves across the ground at one moment.
+/// Horizontal state at one time.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Horizontal {
     /// (right, forward) in the world.
     pub(crate) position_m: Vector2<f64>,
     pub(crate) velocity_m_s: Vector2<f64>,
-    /// What pushes the drone besides its sticks.
+    /// Acceleration that does not come from the sticks.
     pub(crate) disturbance_m_s2: Vector2<f64>,
-    /// (right, forward) of the body.
+    /// (right, forward) in the body frame.
     tilt_rad: Vector2<f64>,
     measured_m_s: Vector2<f64>,
 }
 
-/// How fast the observer follows what it did not foresee.
+/// Gains of the observer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ObserverGains {
-    /// Of the velocity.
+    /// Gain of the velocity.
     pub(crate) velocity_1_s: f64,
-    /// Of the disturbance.
+    /// Gain of the disturbance.
     pub(crate) disturbance_1_s2: f64,
-    /// No disturbance is taken as larger.
+    /// Limit of the disturbance.
     pub(crate) disturbance_max_m_s2: f64,
 }
 
 impl Horizontal {
-    /// Flies on under an order at a heading.
+    /// Propagates the state under an order at a heading.
     pub(crate) fn advance(
         &mut self,
         step_s: f64,
@@ -54,7 +53,8 @@ impl Horizontal {
         let acceleration = match order {
             Order::Sticks(sticks) => {
                 let most = limits.tilt_rad;
-                let wanted = Vector2::new(sticks.right, sticks.forward)
+                let wanted = sticks
+                    .tilt()
                     .map(|stick| (stick * most * airframe.tilt_gain).clamp(-most, most));
                 let followed = 1.0 - (-step_s / airframe.tilt_lag_s).exp();
                 self.tilt_rad += (wanted - self.tilt_rad) * followed;
@@ -73,8 +73,8 @@ impl Horizontal {
         self.velocity_m_s += acceleration * step_s;
     }
 
-    /// Takes in the velocity that was measured at this moment, `step_s` after the one before, and the
-    /// place that it leads to.
+    /// Corrects the state by a measured velocity, `step_s` after the previous one, and integrates the
+    /// position.
     pub(crate) fn correct(
         &mut self,
         measured_m_s: Vector2<f64>,
@@ -92,15 +92,15 @@ impl Horizontal {
                 self.disturbance_m_s2 =
                     (self.disturbance_m_s2 + learnt).map(|value| value.clamp(-most, most));
             }
-            // The model knows nothing of what the drone does by itself.
+            // The model cannot predict what the drone does autonomously.
             Order::ByItself => self.velocity_m_s = measured_m_s,
         }
         self.measured_m_s = measured_m_s;
         self.position_m = position_m;
     }
 
-    /// The drone holds its place by itself, tilted so (right, forward) at a heading: it leans against
-    /// what pushes it.
+    /// The drone holds its position by itself with this tilt (right, forward) at a heading: the tilt
+    /// compensates the disturbance.
     pub(crate) fn learn_from_hold(
         &mut self,
         tilt_rad: Vector2<f64>,
@@ -123,27 +123,16 @@ impl Horizontal {
     }
 }
 
-/// (right, forward) of the body to (right, forward) of the world: a clockwise heading turns forward
-/// towards the right.
-pub(crate) fn world_from_body(body: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
-    Rotation2::new(-yaw_deg.to_radians()) * body
-}
-
-/// The inverse of [`world_from_body`].
-pub(crate) fn body_from_world(world: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
-    Rotation2::new(yaw_deg.to_radians()) * world
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orders::Sticks;
+    use kinematics::Sticks;
 
     const GAINS: ObserverGains =
         ObserverGains { velocity_1_s: 4.0, disturbance_1_s2: 4.0, disturbance_max_m_s2: 1.0 };
 
     fn forward(forward: f64) -> Order {
-        Order::Sticks(Sticks { forward, ..Sticks::default() })
+        Order::Sticks(Sticks { pitch: -forward, ..Sticks::default() })
     }
 
     #[test]

@@ -1,18 +1,19 @@
-//! Learns in flight how this airframe answers its sticks.
+//! Identifies in flight how this airframe responds to its sticks.
 //!
-//! The published models of the AR.Drone disagree by factors of two, so none is taken for true. What
-//! is measured is compared with what the sticks asked for, as changes over a short window, so that
-//! trim, floor and starting height don't count: tilt and turn by the measured attitude, climb by the
-//! measured height, thrust and drag by the measured velocity.
+//! The published models of the AR.Drone disagree by factors of two, so none is assumed to be right.
+//! Measurements are compared with the sticks as changes over a short window, so that trim, floor and initial
+//! height cancel: tilt and turn by the measured attitude, climb by the measured height, thrust and drag by
+//! the measured velocity.
 
 use std::collections::VecDeque;
 
 use nalgebra::{SVector, Vector2};
 
-use crate::airframe::{Airframe, DroneLimits};
 use crate::bank::{Assumption, Bank};
-use crate::horizontal::GRAVITY_M_S2;
-use crate::orders::{Order, Orders, Sticks};
+use crate::orders::{Order, Orders};
+use kinematics::GRAVITY_M_S2;
+use kinematics::Sticks;
+use kinematics::{Airframe, DroneLimits};
 
 /// Hypotheses of the climb's time constant.
 const CLIMB_LAGS_S: [f64; 7] = [0.15, 0.25, 0.38, 0.52, 0.72, 0.98, 1.3];
@@ -20,14 +21,14 @@ const CLIMB_LAGS_S: [f64; 7] = [0.15, 0.25, 0.38, 0.52, 0.72, 0.98, 1.3];
 const TILT_LAGS_S: [f64; 4] = [0.04, 0.09, 0.13, 0.19];
 /// Hypotheses of the turn's time constant.
 const TURN_LAGS_S: [f64; 5] = [0.03, 0.1, 0.2, 0.35, 0.55];
-/// Changes over so long are compared.
+/// Length of the window whose changes are compared.
 const WINDOW_S: f64 = 0.5;
-/// Enough of them at 200 packets a second.
+/// Covers the window at 200 packets per second.
 const MEMORY: usize = 128;
-/// Nothing is learnt from a window in which the drone has turned further: its axes are mixed.
+/// A window in which the drone turns further is discarded, because it mixes the axes.
 const MAX_TURN_DEG: f64 = 10.0;
 
-/// A measured value, and what each hypothesis makes of the sticks up to the same time.
+/// A measured value, and the excitation of each hypothesis at the same time.
 #[derive(Debug, Clone, Copy)]
 struct Answer<const LAGS: usize, const GAINS: usize> {
     at_s: f64,
@@ -36,14 +37,14 @@ struct Answer<const LAGS: usize, const GAINS: usize> {
 }
 
 impl<const LAGS: usize, const GAINS: usize> Answer<LAGS, GAINS> {
-    /// Whether the sticks asked for so much: what stirs a drone that holds still is noise, and
-    /// noise that goes round the loop teaches nonsense.
+    /// Whether the sticks asked for at least this much. Without excitation a response is noise, and noise
+    /// that goes round the control loop is correlated with the sticks.
     fn is_caused(&self, least: f64) -> bool {
         self.causes.iter().any(|cause| cause.amax() >= least)
     }
 }
 
-/// The answers of the last window.
+/// The responses of the last window.
 #[derive(Debug, Clone)]
 struct Window<const LAGS: usize, const GAINS: usize> {
     answers: VecDeque<Answer<LAGS, GAINS>>,
@@ -54,7 +55,7 @@ impl<const LAGS: usize, const GAINS: usize> Window<LAGS, GAINS> {
         Self { answers: VecDeque::with_capacity(MEMORY) }
     }
 
-    /// What has changed since the window's begin, once it is full.
+    /// The change over the window, once it is full.
     fn change(&mut self, answer: Answer<LAGS, GAINS>) -> Option<Answer<LAGS, GAINS>> {
         if self.answers.len() == MEMORY {
             self.answers.pop_front();
@@ -70,7 +71,7 @@ impl<const LAGS: usize, const GAINS: usize> Window<LAGS, GAINS> {
     }
 }
 
-/// What the sticks asked for, followed with each lag of a bank, and the integral of that.
+/// The stick commands filtered by each lag of a bank, and the integral of that.
 #[derive(Debug, Clone)]
 struct Followers<const LAGS: usize, const GAINS: usize> {
     lags_s: [f64; LAGS],
@@ -85,7 +86,7 @@ impl<const LAGS: usize, const GAINS: usize> Followers<LAGS, GAINS> {
         Self { lags_s, value: zeros, way: zeros, at_s: None }
     }
 
-    /// Goes on to a time.
+    /// Advances to a time.
     fn advance(
         &mut self,
         to_s: f64,
@@ -107,14 +108,14 @@ impl<const LAGS: usize, const GAINS: usize> Followers<LAGS, GAINS> {
         });
     }
 
-    /// The drone moves by itself, up to a time.
+    /// The drone moves autonomously, up to a time.
     fn rest(&mut self, at_s: f64) {
         self.at_s = Some(at_s);
         self.value = [SVector::zeros(); LAGS];
     }
 }
 
-/// How climb follows gaz: a gain up and a gain down.
+/// Response of climb to gaz: one gain upwards and one downwards.
 #[derive(Debug, Clone)]
 struct ClimbLearner {
     bank: Bank<7, 2>,
@@ -122,14 +123,14 @@ struct ClimbLearner {
     window: Window<7, 2>,
 }
 
-/// How tilt follows its stick; both axes alike.
+/// Response of tilt to its stick; the same for both axes.
 #[derive(Debug, Clone)]
 struct TiltLearner {
     bank: Bank<4, 1>,
     axes: [(Followers<4, 1>, Window<4, 1>); 2],
 }
 
-/// How the heading follows its stick.
+/// Response of the heading to its stick.
 #[derive(Debug, Clone)]
 struct TurnLearner {
     bank: Bank<5, 1>,
@@ -137,17 +138,17 @@ struct TurnLearner {
     window: Window<5, 1>,
 }
 
-/// How velocity follows tilt: thrust, drag, and something that pushes, on one axis of the body.
+/// Response of velocity to tilt on one body axis: thrust, drag and disturbance.
 #[derive(Debug, Clone)]
 struct ThrustLearner {
     bank: Bank<1, 3>,
     window: Window<1, 3>,
-    /// The tilt's acceleration if gravity alone made it, integrated.
+    /// Integral of the acceleration that gravity alone gives at the tilt.
     pull_m_s: f64,
     way_m: f64,
 }
 
-/// What is known of the airframe so far.
+/// Identified parameters of the airframe.
 #[derive(Debug, Clone)]
 pub(crate) struct Identification {
     airframe: Airframe,
@@ -156,10 +157,10 @@ pub(crate) struct Identification {
     tilt: TiltLearner,
     turn: TurnLearner,
     thrust: [ThrustLearner; 2],
-    /// The tilt that velocity follows (right, forward), and the moment it is of.
+    /// The tilt that velocity follows (right, forward), and its time.
     tilt_rad: Vector2<f64>,
     velocity_at_s: Option<f64>,
-    /// Heading at the begin of the window of the velocity.
+    /// Heading at the start of the velocity window.
     window_yaw_deg: f64,
 }
 
@@ -229,7 +230,7 @@ impl Identification {
         &self.airframe
     }
 
-    /// A height was measured at a time; a floor step and a wrong echo are not handed in.
+    /// Adds a measured height. The caller leaves out floor steps and wrong echoes.
     pub(crate) fn height(&mut self, at_s: f64, height_m: f64, orders: &Orders) {
         if orders.at(at_s) == Order::ByItself {
             self.forget_heights(at_s);
@@ -238,7 +239,7 @@ impl Identification {
         let most = self.limits.climb_m_s;
         let ClimbLearner { bank, followers, window } = &mut self.climb;
         followers.advance(at_s, orders, |sticks| {
-            SVector::<f64, 2>::new(sticks.up.max(0.0), sticks.up.min(0.0)) * most
+            SVector::<f64, 2>::new(sticks.gaz.max(0.0), sticks.gaz.min(0.0)) * most
         });
         let answer = Answer { at_s, value: height_m, causes: followers.way };
         let change = window.change(answer).filter(|change| change.is_caused(LEAST_CLIMB_M));
@@ -251,13 +252,13 @@ impl Identification {
         }
     }
 
-    /// The height jumped, or the drone moves by itself: nothing can be learnt across that.
+    /// The height has jumped, or the drone moves autonomously: discards the window.
     pub(crate) fn forget_heights(&mut self, at_s: f64) {
         self.climb.window.answers.clear();
         self.climb.followers.rest(at_s);
     }
 
-    /// A tilt (right, forward) was measured at a time.
+    /// Adds a measured tilt (right, forward).
     pub(crate) fn tilt(&mut self, at_s: f64, tilt_rad: Vector2<f64>, orders: &Orders) {
         let TiltLearner { bank, axes } = &mut self.tilt;
         let Order::Sticks(sticks) = orders.at(at_s) else {
@@ -267,14 +268,13 @@ impl Identification {
             }
             return;
         };
-        // Tilt is limited whatever the gain: nothing is learnt at the limit.
-        let largest = sticks.right.abs().max(sticks.forward.abs());
+        // Tilt saturates whatever its gain: responses at the limit are not used.
+        let largest = sticks.roll.abs().max(sticks.pitch.abs());
         let saturated = largest * self.airframe.tilt_gain > 1.02;
         let most = self.limits.tilt_rad;
         for (axis, (followers, window)) in axes.iter_mut().enumerate() {
-            followers.advance(at_s, orders, |sticks| {
-                SVector::<f64, 1>::new([sticks.right, sticks.forward][axis] * most)
-            });
+            followers
+                .advance(at_s, orders, |sticks| SVector::<f64, 1>::new(sticks.tilt()[axis] * most));
             let answer = Answer { at_s, value: tilt_rad[axis], causes: followers.value };
             let change = window.change(answer).filter(|change| change.is_caused(LEAST_TILT_RAD));
             if let Some(change) = change.filter(|_| !saturated) {
@@ -286,7 +286,7 @@ impl Identification {
         self.airframe.tilt_gain = gains.x.clamp(MIN_GAIN, MAX_GAIN);
     }
 
-    /// A heading, counted on over whole turns, was measured at a time.
+    /// Adds a measured heading, unwrapped.
     pub(crate) fn heading(&mut self, at_s: f64, yaw_deg: f64, orders: &Orders) {
         let TurnLearner { bank, followers, window } = &mut self.turn;
         if orders.at(at_s) == Order::ByItself {
@@ -295,7 +295,7 @@ impl Identification {
             return;
         }
         let most = self.limits.turn_deg_s;
-        followers.advance(at_s, orders, |sticks| SVector::<f64, 1>::new(sticks.clockwise * most));
+        followers.advance(at_s, orders, |sticks| SVector::<f64, 1>::new(sticks.yaw * most));
         let answer = Answer { at_s, value: yaw_deg, causes: followers.way };
         let change = window.change(answer).filter(|change| change.is_caused(LEAST_TURN_DEG));
         if let Some(change) = change {
@@ -306,7 +306,7 @@ impl Identification {
         }
     }
 
-    /// A velocity (right, forward) of the body was measured at a time, at a heading.
+    /// Adds a measured velocity (right, forward) of the body at a heading.
     pub(crate) fn velocity(
         &mut self,
         at_s: f64,
@@ -325,7 +325,8 @@ impl Identification {
         let (airframe, most) = (self.airframe, self.limits.tilt_rad);
         orders.steps(from_s, at_s, |_, step_s, order| {
             let wanted = match order {
-                Order::Sticks(sticks) => Vector2::new(sticks.right, sticks.forward)
+                Order::Sticks(sticks) => sticks
+                    .tilt()
                     .map(|stick| (stick * most * airframe.tilt_gain).clamp(-most, most)),
                 Order::ByItself => Vector2::zeros(),
             };
@@ -357,13 +358,13 @@ impl Identification {
     }
 }
 
-/// Less asked for within a window teaches nothing.
+/// Smallest excitation within a window that is used.
 const LEAST_CLIMB_M: f64 = 0.04;
 const LEAST_TILT_RAD: f64 = 0.035;
 const LEAST_TURN_DEG: f64 = 4.0;
 const LEAST_SPEED_CHANGE_M_S: f64 = 0.25;
 
-/// No airframe is known outside these.
+/// Range of the gains, wider than those of all known airframes.
 const MIN_GAIN: f64 = 0.4;
 const MAX_GAIN: f64 = 2.5;
 const MAX_DRAG_1_S: f64 = 3.0;

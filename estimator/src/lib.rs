@@ -1,22 +1,21 @@
-//! Where the drone is, from what it says of its own motion and what it was told.
+//! Estimates the drone's position from its navdata and from the orders sent to it.
 //!
-//! The AR.Drone reports velocity in its own frame, attitude, heading, and height above the ground,
-//! each late by a known time. The [`Estimator`] takes in these [`Sample`]s and every [`Order`] that
-//! was sent. It
+//! The AR.Drone reports velocity in its own frame, attitude, heading, and height above the ground, each with
+//! a known delay. The [`Estimator`] processes these [`Sample`]s and every [`Order`] that was sent. It
 //!
-//! - integrates the velocity to a place, each one rotated by the heading of the same instant, over
-//!   the time at which it was measured, so that late, lost or bunched packets don't change the way;
-//! - flies a model of the drone along with the orders, which fills the time between and after the
-//!   measurements ([`Estimator::predicted`]), and learns from the difference what pushes the drone;
-//! - learns how this airframe answers its sticks ([`Estimator::airframe`]);
-//! - tells how uncertain it is ([`Estimator::horizontal_deviation_m`]) and whether navdata can be
-//!   believed ([`Estimator::trust`]).
+//! - integrates the velocity to a position, each sample rotated by the heading of the same instant, over
+//!   the time at which it was measured, so that late, lost or bunched packets do not change the result;
+//! - runs a model of the drone under the orders, which covers the time between and after the
+//!   measurements ([`Estimator::predicted`]), and estimates the disturbance from the difference;
+//! - identifies how this airframe responds to its sticks ([`Estimator::airframe`]);
+//! - reports its uncertainty ([`Estimator::horizontal_deviation_m`]) and whether navdata are
+//!   plausible ([`Estimator::trust`]).
 //!
 //! It is pure: samples and orders in, [`Estimate`]s out.
 //!
-//! Frame: x right, y forward, z up, metres; the origin is where the estimator started, the floor
-//! below the drone is z = 0; yaw in degrees, clockwise from above, zero where the drone pointed at
-//! the start. Velocity integrated is position that drifts.
+//! Frame: x right, y forward, z up, in metres. The origin is where the estimator started, and the floor below
+//! the drone is z = 0; yaw in degrees, clockwise from above, zero at the initial heading. An integrated
+//! velocity is a position that drifts.
 //!
 //! ```
 //! use std::time::Duration;
@@ -37,8 +36,6 @@
 //! ```
 #![forbid(unsafe_code)]
 
-mod airframe;
-mod angle;
 mod bank;
 mod clock;
 mod heading;
@@ -54,11 +51,10 @@ mod vertical;
 
 use std::time::Duration;
 
+use kinematics::{Airframe, DroneLimits, world_from_body, wrap_deg};
 use nalgebra::{Vector2, Vector3};
 
-pub use airframe::{Airframe, DroneLimits};
-pub use angle::wrap_deg;
-pub use orders::{Order, Sticks};
+pub use orders::Order;
 pub use tags::{
     KnownTag, MAX_SIGHTS, MAX_TAGS, OrientationSign, Sight, SurveyedTag, TagConfig, TagStatus,
 };
@@ -66,7 +62,7 @@ pub use trust::{Quantity, Trust};
 
 use crate::clock::SampleClock;
 use crate::heading::Heading;
-use crate::horizontal::{Horizontal, ObserverGains, world_from_body};
+use crate::horizontal::{Horizontal, ObserverGains};
 use crate::identification::Identification;
 use crate::orders::Orders;
 use crate::plausibility::{Plausibility, VelocityGate, Verdict};
@@ -75,12 +71,12 @@ use crate::tags::{OdometryStep, Tags};
 use crate::uncertainty::{HEADING_STEP_DEG, Uncertainty};
 use crate::vertical::{AltitudeFilter, Echo, Vertical};
 
-/// What one navdata packet says of the drone's motion.
+/// The motion reported by one navdata packet.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sample {
-    /// When it arrived, on the pilot's clock.
+    /// Time of arrival, on the pilot's clock.
     pub arrival: Duration,
-    /// When it was made, on the drone's clock, which wraps after 2048 s; if the drone sent it.
+    /// Time of measurement on the drone's clock, which wraps after 2048 s, if the drone sent it.
     pub drone_time: Option<Duration>,
     /// Heading, clockwise positive, with an arbitrary zero; jumps at ±180.
     pub yaw_deg: f64,
@@ -94,36 +90,36 @@ pub struct Sample {
     pub velocity_right_m_s: f64,
     /// Height above the ground.
     pub altitude_m: f64,
-    /// Whether the drone flies; on the ground its velocity means nothing.
+    /// Whether the drone is airborne; its velocity on the ground is meaningless.
     pub airborne: bool,
-    /// What the drone itself says it has lost, if anything.
+    /// The quantity that the drone itself reports as lost, if any.
     pub reported_lost: Option<Quantity>,
 }
 
-/// How late the drone tells and obeys, and what it is set to.
+/// Limits, delays and gains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EstimatorConfig {
-    /// What full sticks ask for.
+    /// The drone's limits at full stick.
     pub limits: DroneLimits,
-    /// What is assumed of the airframe until it is known better.
+    /// The airframe that is assumed before identification.
     pub airframe: Airframe,
-    /// From an order to the motors.
+    /// Time from an order to the motors.
     pub dead_time: Duration,
     /// Age of a velocity when its packet is sent: the optical flow and its filter.
     pub velocity_delay: Duration,
-    /// Likewise of the altitude: the ultrasound's own interval.
+    /// Age of an altitude: the ultrasound's own interval.
     pub altitude_delay: Duration,
-    /// Likewise of attitude and heading.
+    /// Age of attitude and heading.
     pub attitude_delay: Duration,
-    /// How fast a velocity that was not foreseen is followed.
+    /// Observer gain of the velocity.
     pub velocity_gain_1_s: f64,
-    /// How fast a disturbance is learnt from it.
+    /// Observer gain of the disturbance.
     pub disturbance_gain_1_s2: f64,
-    /// No disturbance is taken as larger.
+    /// Limit of the disturbance.
     pub disturbance_max_m_s2: f64,
-    /// Whether the airframe is learnt in flight.
+    /// Whether the airframe is identified in flight.
     pub identify: bool,
-    /// How roundels on the floor are used, if they are.
+    /// Use of roundels on the floor, if any.
     pub tags: Option<TagConfig>,
 }
 
@@ -145,37 +141,37 @@ impl Default for EstimatorConfig {
     }
 }
 
-/// Where the drone was and how it moved when the newest sample was made, as it was measured.
+/// Measured position and motion at the time of the newest sample.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Estimate {
-    /// When the sample behind it arrived.
+    /// When that sample arrived.
     pub at: Duration,
     /// Right, forward, up.
     pub position_m: Vector3<f64>,
     /// Right, forward, up.
     pub velocity_m_s: Vector3<f64>,
-    /// In [-180, 180), zero where the drone pointed at the start.
+    /// In [-180, 180), zero at the initial heading.
     pub yaw_deg: f64,
-    /// Height above the floor below, which may not be the floor at the start.
+    /// Height above the floor below the drone, which may differ from the floor at the start.
     pub above_floor_m: f64,
 }
 
-/// Where the drone is, or will be, as far as its orders tell.
+/// Predicted position and motion at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Prediction {
     /// Right, forward, up.
     pub position_m: Vector3<f64>,
     /// Right, forward, up.
     pub velocity_m_s: Vector3<f64>,
-    /// In [-180, 180), zero where the drone pointed at the start.
+    /// In [-180, 180), zero at the initial heading.
     pub yaw_deg: f64,
     /// Clockwise.
     pub turn_deg_s: f64,
-    /// What pushes the drone besides its sticks: wind, a wrong level reference. Right, forward.
+    /// Acceleration that does not come from the sticks: wind, a wrong level reference. Right, forward.
     pub disturbance_m_s2: Vector2<f64>,
 }
 
-/// From samples and orders to the place of the drone.
+/// Estimates the drone's position from samples and orders.
 #[derive(Debug, Clone)]
 pub struct Estimator {
     config: EstimatorConfig,
@@ -183,24 +179,24 @@ pub struct Estimator {
     orders: Orders,
     heading: Heading,
     horizontal: Horizontal,
-    /// The moment that `horizontal` is of.
+    /// Time of `horizontal`.
     velocity_at_s: Option<f64>,
-    /// What navdata said then: forward and to the right.
+    /// The velocity in navdata at that time: forward and to the right.
     velocity_told_m_s: Option<Vector2<f64>>,
     velocity_gate: VelocityGate,
     altitude: AltitudeFilter,
-    /// The moment of the last altitude, and the altitude.
+    /// Time and value of the last altitude.
     altitude_at: Option<(f64, f64)>,
     identification: Identification,
     plausibility: Plausibility,
     response: Response,
     uncertainty: Uncertainty,
-    /// Since when the altitude is that of a drone on the floor, although it follows its sticks.
+    /// Since when the altitude is that of a drone on the floor although it follows its sticks.
     low_since_s: Option<f64>,
     airborne_since_s: Option<f64>,
     airborne: bool,
     estimate: Estimate,
-    /// Where the odometry lies in the world.
+    /// Transform from the odometry to the world frame.
     tags: Option<Box<Tags>>,
 }
 
@@ -210,26 +206,26 @@ impl Default for Estimator {
     }
 }
 
-/// A gap is bridged by the mean of the velocities around it, but for no longer than this: a drone that
-/// is not heard hovers and then lands by itself.
+/// Longest gap that is bridged by the mean of the velocities around it. A drone that receives nothing hovers
+/// and then lands by itself.
 const MAX_STEP_S: f64 = 3.0;
-/// Navdata that are further apart than this leave something unseen.
+/// Longest interval between navdata that counts as gapless.
 const USUAL_STEP_S: f64 = 0.1;
-/// An altitude that is the same after this time is a new one that happens to be the same: the
-/// ultrasound measures 22 or 25 times a second.
+/// A repeated altitude after this time is a new measurement with the same value: the ultrasound measures 22
+/// or 25 times per second.
 const ALTITUDE_INTERVAL_S: f64 = 0.05;
-/// Below this a drone that takes off or lands does not hold its place yet.
+/// Below this height a drone that takes off or lands does not hold its position yet.
 const CLEAR_OF_GROUND_M: f64 = 0.4;
-/// No drone flies this low by its sticks: it is on the floor, or its altitude is wrong.
+/// A drone that follows its sticks does not fly this low: it is on the floor, or its altitude is wrong.
 const ON_FLOOR_M: f64 = 0.1;
 const ON_FLOOR_S: f64 = 0.4;
-/// A take-off is clear of the ground after this time.
+/// Time after which a take-off is clear of the ground.
 const TAKE_OFF_S: f64 = 3.0;
-/// Nothing is predicted further than this beyond the newest sample.
+/// Furthest prediction beyond the newest sample.
 const MAX_PREDICTION_S: f64 = 0.6;
 
 impl Estimator {
-    /// An estimator that has seen nothing.
+    /// An estimator without samples.
     pub fn new(config: EstimatorConfig) -> Self {
         Self {
             clock: SampleClock::default(),
@@ -254,13 +250,13 @@ impl Estimator {
         }
     }
 
-    /// The drone was told something.
+    /// An order was sent to the drone.
     pub fn told(&mut self, sent_at: Duration, order: Order) {
         self.orders.push(sent_at, order);
     }
 
-    /// Takes in the next sample; samples come in the order of the drone's packets. Values that are
-    /// impossible are not used.
+    /// Processes the next sample. Samples come in the order of the drone's packets; impossible values are not
+    /// used.
     pub fn update(&mut self, sample: &Sample) {
         let made_s = self.clock.made_s(sample.drone_time, sample.arrival);
         let arrival_s = sample.arrival.as_secs_f64();
@@ -308,7 +304,7 @@ impl Estimator {
         self.update_tags(made_s, sample);
     }
 
-    /// The odometry has gone on: so does its place in the world.
+    /// Moves the world frame along with the odometry.
     fn update_tags(&mut self, made_s: f64, sample: &Sample) {
         if self.tags.is_none() {
             return;
@@ -332,7 +328,7 @@ impl Estimator {
         self.move_into_world();
     }
 
-    /// The estimate of the odometry's newest moment, in the world.
+    /// Transforms the newest estimate from the odometry to the world frame.
     fn move_into_world(&mut self) {
         let Some(tags) = &self.tags else { return };
         let at_s = self.velocity_at_s.unwrap_or_default();
@@ -346,8 +342,8 @@ impl Estimator {
         estimate.yaw_deg = wrap_deg(tags.heading_deg(yaw_deg));
     }
 
-    /// Takes in the roundels that the packet of the newest sample tells of. Without
-    /// [`EstimatorConfig::tags`] they are not used.
+    /// Processes the roundels in the packet of the newest sample. They are ignored without
+    /// [`EstimatorConfig::tags`].
     pub fn see(&mut self, sights: &[Sight]) {
         let Some(mut tags) = self.tags.take() else { return };
         let turn_deg_s = self.heading.newest_turn_deg_s();
@@ -356,7 +352,7 @@ impl Estimator {
         self.move_into_world();
     }
 
-    /// Whether the compass has made a step.
+    /// Returns whether the compass made a step.
     fn update_attitude(&mut self, attitude_s: f64, sample: &Sample) -> bool {
         let Self { config, orders, heading, identification, .. } = self;
         let airframe = *identification.airframe();
@@ -392,12 +388,12 @@ impl Estimator {
         unresponsive.or(scrapes.then_some(Quantity::Altitude))
     }
 
-    /// Whether the velocity was believed.
+    /// Returns whether the velocity was accepted.
     fn update_horizontal(&mut self, made_s: f64, sample: &Sample, was_airborne: bool) -> bool {
         let at_s = made_s - self.config.velocity_delay.as_secs_f64();
         let body = Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s);
-        // The very same numbers are the last measurement once more: navdata come more often than the
-        // flow measures, and a flow that hangs leaves a gap.
+        // A repeated value is the last measurement again: navdata come more often than the flow measures. A
+        // flow that hangs therefore leaves a gap.
         if self.velocity_told_m_s.replace(body) == Some(body) && sample.airborne {
             return !self.velocity_gate.has_jumped();
         }
@@ -449,7 +445,7 @@ impl Estimator {
         believed
     }
 
-    /// Whether the floor has made a step.
+    /// Returns whether the floor made a step.
     fn update_vertical(&mut self, made_s: f64, sample: &Sample) -> bool {
         let at_s = made_s - self.config.altitude_delay.as_secs_f64();
         if !sample.airborne {
@@ -509,14 +505,13 @@ impl Estimator {
         state
     }
 
-    /// What was measured last.
+    /// The newest measurement.
     pub fn estimate(&self) -> &Estimate {
         &self.estimate
     }
 
-    /// Where the drone is at a time, as far as its orders tell: the newest measurement and what the
-    /// model has done since. The time may lie as far ahead as the orders reach, which is the dead
-    /// time.
+    /// Position and motion at a time: the newest measurement, propagated by the model. The time may lie as
+    /// far ahead as the dead time, because the orders until then are known.
     pub fn predicted(&self, at: Duration) -> Prediction {
         let at_s = at.as_secs_f64();
         let until = |from_s: f64| at_s.clamp(from_s, from_s + MAX_PREDICTION_S);
@@ -557,8 +552,8 @@ impl Estimator {
         }
     }
 
-    /// A prediction as the controller is to have it: where a tag has moved the estimate by a step, the
-    /// step comes over time, as a motion. Without tags it is the prediction.
+    /// A prediction for the controller: where a tag has moved the estimate by a step, the step is turned into
+    /// a motion. Without tags it is the prediction itself.
     pub fn smooth(&self, prediction: &Prediction) -> Prediction {
         let Some(tags) = &self.tags else { return *prediction };
         let (place_m, velocity_m_s, yaw_deg) = tags.smooth(
@@ -574,30 +569,30 @@ impl Estimator {
         }
     }
 
-    /// So much time has passed for what [`Estimator::smooth`] hands over as a motion.
+    /// Advances the motions of [`Estimator::smooth`] by one step.
     pub fn advance_smooth(&mut self, step_s: f64) {
         if let Some(tags) = &mut self.tags {
             tags.advance(step_s);
         }
     }
 
-    /// What is known by tags; nothing if they are not used.
+    /// Status of the tags; `None` if they are not used.
     pub fn tag_status(&self, now: Duration) -> Option<TagStatus> {
         self.tags.as_ref().map(|tags| tags.status(now.as_secs_f64()))
     }
 
-    /// The tags that are known.
+    /// The known tags.
     pub fn known_tags(&self) -> impl Iterator<Item = KnownTag> + '_ {
         self.tags.iter().flat_map(|tags| tags.known())
     }
 
-    /// Whether a tag is in view and a turn of some degrees would tell which way its orientation counts, without
-    /// which tags do not hold the heading.
+    /// Whether a tag is in view and a turn of some degrees would reveal the sign of its orientation, without
+    /// which tags do not correct the heading.
     pub fn would_learn_from_a_turn(&self, now: Duration) -> bool {
         self.tags.as_ref().is_some_and(|tags| tags.would_learn_from_a_turn(now.as_secs_f64()))
     }
 
-    /// Standard deviation of the place on each horizontal axis: grows with time, distance from the
+    /// Standard deviation of the position on each horizontal axis. It grows with time, distance from the
     /// start, and silence.
     pub fn horizontal_deviation_m(&self, now: Duration) -> f64 {
         let speed_m_s = self.horizontal.measured_m_s().norm();
@@ -614,28 +609,28 @@ impl Estimator {
         self.uncertainty.vertical_m(self.silence_s(now)).hypot(self.altitude.disputed_m())
     }
 
-    /// On the ground silence changes nothing.
+    /// Silence on the ground adds no uncertainty.
     fn silence_s(&self, now: Duration) -> f64 {
         if self.airborne { now.saturating_sub(self.estimate.at).as_secs_f64() } else { 0.0 }
     }
 
-    /// How this airframe answers its sticks, as far as that is known.
+    /// The identified response of this airframe.
     pub fn airframe(&self) -> &Airframe {
         self.identification.airframe()
     }
 
-    /// Whether navdata can be believed.
+    /// Whether navdata are plausible.
     pub fn trust(&self) -> Trust {
         self.plausibility.trust()
     }
 
-    /// When the newest navdata arrived that could be believed; nothing if there were none yet. What is
-    /// found to be wrong was so from its first packet on: this moves back to the one before it.
+    /// When the newest plausible navdata arrived; `None` if there were none yet. A fault is dated from its
+    /// first packet: when it is detected this moves back to the packet before.
     pub fn sound_at(&self) -> Option<Duration> {
         self.plausibility.sound_at_s().map(|at_s| Duration::from_secs_f64(at_s.max(0.0)))
     }
 
-    /// Forgets the clock and the compass, not the place: the drone has started again.
+    /// The drone has restarted: forgets the clock and the compass, keeps the position.
     pub fn handle_restart(&mut self) {
         self.clock = SampleClock::default();
         self.heading.handle_restart();

@@ -1,35 +1,24 @@
-//! What the drone was told, and when it acts on it.
+//! Orders sent to the drone, and when they take effect.
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// What the drone is told to do.
+use kinematics::Sticks;
+
+/// An order to the drone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Order {
-    /// It stands, takes off, lands or holds its place by itself.
+    /// The drone stands, takes off, lands or holds its position by itself.
     #[default]
     ByItself,
-    /// It follows the sticks.
+    /// The drone follows the sticks.
     Sticks(Sticks),
 }
 
-/// Stick fractions in [-1, 1].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Sticks {
-    /// Tilt to the right.
-    pub right: f64,
-    /// Tilt forward.
-    pub forward: f64,
-    /// Climb.
-    pub up: f64,
-    /// Turn clockwise.
-    pub clockwise: f64,
-}
-
-/// More than two seconds of ticks: nothing older is asked for.
+/// More than two seconds of ticks; nothing older is used.
 const MEMORY: usize = 80;
 
-/// The newest orders, with the time from which each acts, in seconds on the pilot's clock.
+/// The newest orders, each with the time from which it takes effect, in seconds on the pilot's clock.
 #[derive(Debug, Clone)]
 pub(crate) struct Orders {
     dead_time_s: f64,
@@ -48,13 +37,13 @@ impl Orders {
         self.recent.push_back((sent_at.as_secs_f64() + self.dead_time_s, order));
     }
 
-    /// The order that acts at a time.
+    /// The order in effect at a time.
     pub(crate) fn at(&self, time_s: f64) -> Order {
         let newer = self.recent.partition_point(|(from_s, _)| *from_s <= time_s + 1e-9);
         newer.checked_sub(1).and_then(|i| self.recent.get(i)).map_or(Order::ByItself, |o| o.1)
     }
 
-    /// Cuts the time from one moment to another into steps that no order divides.
+    /// Splits an interval into steps with one order each.
     pub(crate) fn steps(&self, from_s: f64, to_s: f64, mut step: impl FnMut(f64, f64, Order)) {
         let mut now_s = from_s;
         while now_s < to_s - 1e-9 {
@@ -67,7 +56,7 @@ impl Orders {
     }
 }
 
-/// Fine enough for the shortest time constants.
+/// Fine enough for the shortest time constant.
 const MAX_STEP_S: f64 = 0.01;
 
 #[cfg(test)]
@@ -75,7 +64,7 @@ mod tests {
     use super::*;
 
     fn forward(forward: f64) -> Order {
-        Order::Sticks(Sticks { forward, ..Sticks::default() })
+        Order::Sticks(Sticks { pitch: -forward, ..Sticks::default() })
     }
 
     #[test]
@@ -91,7 +80,7 @@ mod tests {
         orders.steps(0.075, 0.15, |_, step_s, order| {
             whole_s += step_s;
             if let Order::Sticks(sticks) = order {
-                sum += sticks.forward * step_s;
+                sum += sticks.tilt().y * step_s;
             }
         });
         assert!((whole_s - 0.075).abs() < 1e-9);

@@ -1,7 +1,7 @@
-//! Whether what navdata say can be: each quantity on its own, on the clock of the packets' arrival.
+//! Checks navdata for plausibility: each quantity on its own, on the clock of the packets' arrival.
 //!
-//! The arrival clock is the one thing that a broken drone cannot stop: with the drone's own clock a
-//! computer that hangs would also stop the time after which it is noticed.
+//! The arrival clock is the only one that a broken drone cannot stop. On the drone's own clock, a computer
+//! that hangs would also stop the timeout that detects it.
 
 use nalgebra::Vector2;
 
@@ -10,9 +10,9 @@ use crate::trust::{Quantity, Trust};
 
 /// Above the top speed of an AR.Drone.
 const MAX_SPEED_M_S: f64 = 8.0;
-/// The ultrasound ends at 6 m; the pressure goes on to what the firmware allows.
+/// The ultrasound ends at 6 m; the pressure sensor goes on to what the firmware allows.
 const MAX_ALTITUDE_M: f64 = 120.0;
-/// A drone that stands on the floor of its pit reads no lower.
+/// A drone on the floor of a pit reads no lower.
 const MIN_ALTITUDE_M: f64 = -1.0;
 /// The firmware cuts the motors long before.
 const MAX_TILT_RAD: f64 = 1.2;
@@ -20,33 +20,33 @@ const MAX_TILT_RAD: f64 = 1.2;
 const WRONG_TIME_S: f64 = 0.4;
 /// How long a quantity with noise of its own must repeat one value: the flow has 40 to 80 mm/s.
 const FROZEN_TIME_S: f64 = 0.4;
-/// The altitude is told in whole millimetres and the attitude in whole thousandths of a degree, so in
-/// a quiet hover they may repeat a value for a while...
+/// The altitude has a resolution of one millimetre and the attitude of a thousandth of a degree, so in a
+/// quiet hover they may repeat a value for a while...
 const QUIET_FROZEN_TIME_S: f64 = 1.0;
-/// ...but not while the drone is told to climb or to turn by this much.
+/// ...but not while the sticks ask for this much climb or turn.
 const ASKED_RISE_M: f64 = 0.05;
 const ASKED_TURN_DEG: f64 = 5.0;
-/// At least this many packets must repeat the value: loss makes the time between them long.
+/// Minimum number of packets that repeat the value, because loss makes the time between packets long.
 const FROZEN_PACKETS: u32 = 5;
-/// A velocity changes from one measurement to the next by no more than this beyond what the model
-/// foresees: by noise (m/s), and by gusts and an airframe that is not known yet (m/s²).
+/// Largest difference between measured and predicted change of the velocity: noise (m/s), plus gusts and an
+/// airframe that is not identified yet (m/s²).
 const JUMP_M_S: f64 = 0.2;
 const JUMP_M_S2: f64 = 4.0;
-/// Once it has jumped it must come back to this share of that.
+/// After a jump the velocity must come back to this fraction of the allowed difference.
 const RETURN_SHARE: f64 = 0.5;
-/// A velocity further than this from the expected one is wrong, however it came there.
+/// Largest difference between measured and expected velocity, however it came about.
 const MAX_SURPRISE_M_S: f64 = 1.5;
-/// How long a quantity that was disproved, by the commands or by a jump that lasted, is not believed. The
-/// answer is a hover, in which nothing is asked for that it could follow, and in which a velocity that lies is
-/// soon as small as the true one; and nobody knows how long it has lied.
+/// How long a disproved quantity is distrusted, whether by the commands or by a lasting jump. The reaction is
+/// a hover, which asks for no motion that could confirm the quantity, and in which a false velocity is soon
+/// as small as the true one. When the fault began is unknown.
 const DISPROVED_TIME_S: f64 = 4.0;
-/// Steps of the floor or of the heading that are forgiven, and how fast they are forgotten.
+/// Steps of the floor or heading that are tolerated, and the rate at which they are forgotten.
 const FORGIVEN_STEPS: f64 = 2.5;
 const FORGET_STEPS_1_S: f64 = 0.25;
-/// Navdata that are this much later than usual are old news.
+/// Lateness, compared with the usual, beyond which navdata are out of date.
 const MAX_LATENESS_S: f64 = 0.3;
 
-/// The quantity of a sample that has a value no AR.Drone can have.
+/// The quantity of a sample whose value is impossible for an AR.Drone.
 pub(crate) fn impossible(sample: &Sample) -> Option<Quantity> {
     let speed_m_s = sample.velocity_forward_m_s.hypot(sample.velocity_right_m_s);
     let tilt_rad = sample.roll_deg.abs().max(sample.pitch_deg.abs()).to_radians();
@@ -61,8 +61,8 @@ pub(crate) fn impossible(sample: &Sample) -> Option<Quantity> {
     .find_map(|(quantity, possible)| (!possible).then_some(quantity))
 }
 
-/// Tells velocities that jump, as no drone can, from those that a gust changes. (right, forward) in the
-/// world.
+/// Separates velocities that jump, as no drone can, from changes by gusts. (right, forward) in the world
+/// frame.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct VelocityGate {
     last_m_s: Option<Vector2<f64>>,
@@ -70,13 +70,13 @@ pub(crate) struct VelocityGate {
 }
 
 impl VelocityGate {
-    /// Whether the newest velocity is not believed because it jumped.
+    /// Whether the newest velocity is rejected because it jumped.
     pub(crate) fn has_jumped(&self) -> bool {
         self.jumped
     }
 
-    /// Whether to believe a velocity that was measured `step_s` after the last one, while the model's
-    /// went from `before` to `foreseen`. After a jump only what the model foresees is believed.
+    /// Whether to accept a velocity that was measured `step_s` after the last one, while the model's velocity
+    /// went from `before` to `foreseen`. After a jump only a velocity near the model's is accepted.
     pub(crate) fn admits(
         &mut self,
         measured_m_s: Vector2<f64>,
@@ -89,32 +89,32 @@ impl VelocityGate {
         let surprise_m_s = (measured_m_s - foreseen_m_s).norm();
         let unforeseen = (measured_m_s - last_m_s) - (foreseen_m_s - before_m_s);
         let jumps = surprise_m_s > allowed_m_s && unforeseen.norm() > allowed_m_s;
-        // A drone that hovers meanwhile comes near any small lie.
+        // Hysteresis: a drone that hovers meanwhile comes near any small false value.
         let lasts = self.jumped && surprise_m_s > RETURN_SHARE * allowed_m_s;
         self.jumped = jumps || lasts;
         !self.jumped && surprise_m_s <= MAX_SURPRISE_M_S + JUMP_M_S2 * step_s
     }
 }
 
-/// What the estimator made of one sample.
+/// Result of the estimator for one sample.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Verdict {
-    /// A quantity with a value that was not used.
+    /// A quantity with a rejected value.
     pub(crate) rejected: Option<Quantity>,
     /// A quantity that does not follow the commands.
     pub(crate) unresponsive: Option<Quantity>,
     /// The floor or the heading made a step, which was compensated.
     pub(crate) step: Option<Quantity>,
-    /// The drone takes off by itself, near the ground: its sensors may not work yet.
+    /// The drone takes off autonomously near the ground, where its sensors may not work yet.
     pub(crate) near_ground: bool,
-    /// What the sticks have asked for since the flight began: climb and turn.
+    /// Climb and turn that the sticks have asked for since the flight began.
     pub(crate) asked_rise_m: f64,
     pub(crate) asked_turn_deg: f64,
-    /// How much later than usual the sample arrived.
+    /// Lateness of the sample, compared with the usual.
     pub(crate) lateness_s: f64,
 }
 
-/// Watches what navdata say.
+/// Monitors the plausibility of navdata.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Plausibility {
     velocity: [Repetition; 2],
@@ -122,11 +122,11 @@ pub(crate) struct Plausibility {
     heading: Repetition,
     attitude: [Repetition; 2],
     wrong: Option<(Quantity, f64)>,
-    /// What was wrong for so long that it was noticed; since when, and until when.
+    /// A quantity that was found to be wrong; since when, and until when it is distrusted.
     disproved: Option<(Quantity, f64, f64)>,
     unresponsive: Option<(Quantity, f64)>,
     reported_since_s: Option<f64>,
-    /// How many steps are remembered, and what made the last one.
+    /// Number of remembered steps, and the quantity of the last one.
     steps: f64,
     stepped: Option<Quantity>,
     last_s: Option<f64>,
@@ -135,7 +135,7 @@ pub(crate) struct Plausibility {
 }
 
 impl Plausibility {
-    /// Looks at a sample that arrived at a time.
+    /// Checks a sample that arrived at a time.
     pub(crate) fn watch(&mut self, arrival_s: f64, sample: &Sample, verdict: &Verdict) {
         let step_s = self.last_s.replace(arrival_s).map_or(0.0, |last_s| arrival_s - last_s);
         self.steps = (self.steps - FORGET_STEPS_1_S * step_s).max(0.0);
@@ -145,7 +145,7 @@ impl Plausibility {
         let wrong = self.wrong(arrival_s, verdict);
         let reported = self.reported(arrival_s, sample);
         let unresponsive = self.unresponsive(arrival_s, verdict);
-        // Since when it cannot be believed: an answer may come at once, not after one more patience.
+        // Dated from the first wrong packet, so that a reaction does not wait for another timeout.
         let since_s = [wrong, frozen, unresponsive].map(|found| found.map(|(_, since_s)| since_s));
         self.trust = if let Some((quantity, _)) = wrong {
             Trust::Implausible(quantity)
@@ -225,7 +225,7 @@ impl Plausibility {
 
     fn unresponsive(&mut self, arrival_s: f64, verdict: &Verdict) -> Option<(Quantity, f64)> {
         if let Some(quantity) = verdict.unresponsive {
-            // It took a while to notice.
+            // The detection took this long.
             self.unresponsive = Some((quantity, arrival_s - WRONG_TIME_S));
         }
         self.unresponsive.filter(|(_, since_s)| arrival_s - since_s < DISPROVED_TIME_S)
@@ -241,24 +241,24 @@ impl Plausibility {
         self.trust
     }
 
-    /// When the newest navdata arrived, in seconds, that could be believed.
+    /// When the newest plausible navdata arrived, in seconds.
     pub(crate) fn sound_at_s(&self) -> Option<f64> {
         self.sound_at_s
     }
 }
 
-/// How often a value came again, exactly.
+/// Counts exact repetitions of a value.
 #[derive(Debug, Clone, Copy, Default)]
 struct Repetition {
     value: Option<f64>,
     count: u32,
     since_s: f64,
-    /// What the sticks had asked for in all when the value came first.
+    /// Total change asked for by the sticks when the value first appeared.
     asked: f64,
 }
 
 impl Repetition {
-    /// A drone on the ground may stand still.
+    /// A drone on the ground may report constant values.
     fn watch(&mut self, at_s: f64, value: f64, asked: f64, airborne: bool) {
         if self.value == Some(value) && airborne {
             self.count += 1;
@@ -283,7 +283,7 @@ mod tests {
     };
     const PERIOD_S: f64 = 0.066;
 
-    /// Everything moves a little.
+    /// All quantities vary slightly.
     fn flying(step: u32) -> Sample {
         let wobble = 0.001 * f64::from(step % 7);
         Sample {
@@ -298,7 +298,7 @@ mod tests {
         }
     }
 
-    /// The trust after each of some packets, and when navdata were sound last.
+    /// The trust after each of some packets, and when navdata were last plausible.
     fn watch(
         packets: u32,
         sample: impl Fn(u32) -> Sample,
@@ -398,7 +398,7 @@ mod tests {
         }
         assert!(!gate.admits(along(0.4), still, still, PERIOD_S), "not half way back");
         assert!(gate.admits(along(0.1), still, still, PERIOD_S), "and no longer");
-        // A gust at 2.5 m/s², which the model does not foresee and follows by two thirds.
+        // A gust of 2.5 m/s² that the model does not predict, and follows by two thirds.
         let (mut gate, mut model_m_s) = (VelocityGate::default(), 0.0);
         for step in 0..12 {
             let measured_m_s = 2.5 * PERIOD_S * f64::from(step);
@@ -406,7 +406,7 @@ mod tests {
             assert!(gate.admits(along(measured_m_s), model, model, PERIOD_S), "{step}");
             model_m_s += 0.66 * (measured_m_s - model_m_s);
         }
-        // After a gap much may have happened.
+        // After a gap large changes are possible.
         let mut gate = VelocityGate { last_m_s: Some(still), jumped: false };
         assert!(gate.admits(along(2.0), still, still, 1.0));
     }
@@ -422,7 +422,7 @@ mod tests {
         assert!((at_s - 10.0 * PERIOD_S) < 0.5, "{at_s}");
         let ends = |step| if (10..20).contains(&step) { bad } else { FINE };
         let watched = watch(100, flying, ends);
-        assert_eq!(watched[50].1, trust, "nobody knows since when it had been wrong");
+        assert_eq!(watched[50].1, trust, "the start of the fault is unknown");
         assert_eq!(watched[99].1, Trust::Sound);
     }
 

@@ -1,54 +1,55 @@
-//! Whether what is measured follows the commands: a sensor that is dead, or drifts by itself, shows
-//! the same when the drone is told to move and when it is not.
+//! Checks that measurements follow the commands. A sensor that is dead or drifts shows the same whether or
+//! not the drone is commanded to move.
 //!
-//! The airframe is not known for sure, and what is learnt of it comes from the same sensors. So the
-//! measurement must show the least that any published airframe does, and what
-//! [`crate::identification`] has learnt plays no part.
+//! The airframe is not known exactly, and its identification uses the same sensors. A measurement therefore
+//! has to show at least the response of the weakest published airframe; [`crate::identification`] is not
+//! used.
 
 use std::collections::VecDeque;
 
 use nalgebra::Vector2;
 
-use crate::airframe::{Airframe, DroneLimits};
-use crate::angle::wrap_deg;
-use crate::horizontal::GRAVITY_M_S2;
-use crate::orders::{Order, Orders, Sticks};
+use crate::orders::{Order, Orders};
 use crate::trust::Quantity;
+use kinematics::GRAVITY_M_S2;
+use kinematics::Sticks;
+use kinematics::wrap_deg;
+use kinematics::{Airframe, DroneLimits};
 
-/// A longer gap than this is not judged: whether the drone heard its commands is not known.
+/// Gaps longer than this are not judged, because it is unknown whether the drone received its commands.
 const MAX_GAP_S: f64 = 0.3;
-/// What is missing of the response to a rate is forgotten with this time constant.
+/// Time constant with which a missing response to a rate is forgotten.
 const FORGET_S: f64 = 10.0;
-/// Slower than this, as a share of full stick, gains of the airframe make no difference, nor do its
-/// lags once it has been so slow for this long.
+/// Below this fraction of full stick the gains of the airframe make no difference, and neither do its lags
+/// once the command has been this slow for this long.
 const SLOW_SHARE: f64 = 0.35;
 const SLOW_TIME_S: f64 = 2.0;
-/// A drone that was told this share of full stick the other way may be braking for this long.
+/// A drone that was commanded this fraction of full stick the other way may still be braking for this long.
 const FAST_SHARE: f64 = 0.2;
 const BRAKING_TIME_S: f64 = 2.0;
-/// A response must be missing for this long.
+/// How long a response must be missing.
 const MISSING_TIME_S: f64 = 0.12;
 
-/// Of an axis that follows its stick as a rate: climb and turn.
+/// Tolerances of an axis that follows its stick as a rate: climb and turn.
 #[derive(Debug, Clone, Copy)]
 struct RateTolerance {
-    /// The least share of what is asked for that an airframe does.
+    /// Smallest fraction of the commanded rate that an airframe achieves.
     share: f64,
     /// Drift of a healthy sensor, and rates too small to judge, per second.
     slack: f64,
-    /// What may be missing in all: of what is asked for, and of what is asked for slowly.
+    /// Tolerated missing response in total: to all commands, and to slow commands.
     missing: f64,
     missing_slowly: f64,
-    /// What some airframes do of a negative rate, as a multiple.
+    /// Largest gain of an airframe for a negative rate.
     most_down: f64,
-    /// A measurement further than this from the expected one, and this much more a second, has
-    /// jumped, which is judged elsewhere.
+    /// A measurement further than this from the expected one, plus this much per second, has jumped; jumps
+    /// are judged elsewhere.
     jump: f64,
     jump_1_s: f64,
 }
 
-/// Published airframes climb with 1 to 1.7 times what is asked for, with a lag of 0.17 to 1.25 s. A share of a
-/// half would let an altitude that drifts down by 0.2 m/s lift the drone by 1.7 m.
+/// Published airframes climb with 1 to 1.7 times the commanded rate, with a lag of 0.17 to 1.25 s. A fraction
+/// of one half would let an altitude that drifts down by 0.2 m/s raise the drone by 1.7 m.
 const CLIMB: RateTolerance = RateTolerance {
     share: 0.6,
     slack: 0.03,
@@ -58,7 +59,7 @@ const CLIMB: RateTolerance = RateTolerance {
     jump: 0.1,
     jump_1_s: 1.0,
 };
-/// They turn with 0.7 to 1 times of it, with a lag of 0.02 to 0.5 s.
+/// Published airframes turn with 0.7 to 1 times the commanded rate, with a lag of 0.02 to 0.5 s.
 const TURN: RateTolerance = RateTolerance {
     share: 0.6,
     slack: 1.0,
@@ -69,20 +70,20 @@ const TURN: RateTolerance = RateTolerance {
     jump_1_s: 60.0,
 };
 
-/// The most sluggish airframe: the published ones accelerate at a tilt by 0.5 to 1.03 of gravity's
-/// pull, and slow down by 0.45 to 1.95 of their speed each second.
+/// The most sluggish airframe: the published ones accelerate with 0.5 to 1.03 of gravity's component at a
+/// tilt, and their drag is 0.45 to 1.95 1/s.
 const LEAST_THRUST: f64 = 0.4;
 const LARGEST_DRAG_1_S: f64 = 1.95;
-/// Where its velocity would have varied this much (standard deviation) in so many seconds, be it quickly or
-/// slowly...
+/// If the velocity of the weakest airframe would have varied this much (standard deviation) in this many
+/// seconds, either quickly or slowly...
 const AXIS_DEVIATION_M_S: f64 = 0.08;
 const AXIS_WINDOWS_S: [f64; 2] = [3.0, 8.0];
-/// ...a flow that works shows more than this share of it, also while the drone leans against gusts; noise of
-/// one that does not is less.
+/// ...a working flow shows more than this fraction of it, also while the drone compensates gusts; the noise
+/// of a dead one is less.
 const AXIS_SHARE: f64 = 0.3;
-/// A drone that begins to lean by this share of full tilt, and does so for a while, gathers speed or brakes.
-/// Where it seems to stand as still as this (standard deviation, and mean), its flow is dead. One that has
-/// leant for longer may hold its place in the wind.
+/// A drone that starts to tilt by this fraction of full tilt, and keeps it for a while, accelerates or
+/// brakes. If it seems to stand this still (standard deviation, and mean), its flow is dead. A drone that has
+/// been tilted for longer may hold its position in the wind.
 const LEANS_SHARE: f64 = 0.8;
 const LEANS_S: f64 = 2.0;
 const LEVEL_SHARE: f64 = 0.0;
@@ -93,7 +94,7 @@ const SMOOTHING_S: f64 = 0.2;
 const AXIS_INTERVAL_S: f64 = 0.05;
 const AXIS_MEMORY: usize = 176;
 
-/// Compares commands with what is measured.
+/// Compares commands with measurements.
 #[derive(Debug, Clone)]
 pub(crate) struct Response {
     at_s: Option<f64>,
@@ -106,33 +107,33 @@ pub(crate) struct Response {
 #[derive(Debug, Clone, Copy)]
 struct Rate {
     tolerance: RateTolerance,
-    /// What an ordinary airframe does, and the way of that since the flight began.
+    /// Rate of an ordinary airframe, and its integral since the flight began.
     now: f64,
     asked: f64,
     last: Option<f64>,
     missing: f64,
-    /// With an ordinary answer to a negative rate, and with the most.
+    /// For an ordinary response to a negative rate, and for the strongest.
     missing_slowly: [f64; 2],
     slow_for_s: f64,
-    /// How long ago the drone was last told to move fast: down and up, or left and right.
+    /// Time since the drone was last commanded to move fast: down and up, or left and right.
     fast_ago_s: [f64; 2],
     missing_for_s: f64,
 }
 
-/// Whether the measured velocity follows the measured tilt, along one axis of the body.
+/// Whether the measured velocity follows the measured tilt, along one body axis.
 #[derive(Debug, Clone)]
 struct Axis {
-    /// What the most sluggish airframe would make of the tilt, in m/s.
+    /// Velocity that the most sluggish airframe would have from the tilt, in m/s.
     least_m_s: f64,
     /// The measured velocity, smoothed.
     measured_m_s: f64,
     recent: VecDeque<Moment>,
-    /// The tilt moves the drone, and the velocity does not show it. Judged anew with each moment that is kept:
-    /// full navdata come four times as often.
+    /// The tilt moves the drone, but the velocity does not show it. Evaluated only for each moment that is
+    /// kept, because full navdata come four times as often.
     is_dead: bool,
 }
 
-/// What an axis did at one moment of the last seconds.
+/// State of an axis at one moment of the last seconds.
 #[derive(Debug, Clone, Copy)]
 struct Moment {
     at_s: f64,
@@ -141,7 +142,7 @@ struct Moment {
     measured_m_s: f64,
 }
 
-/// What was measured, at one moment.
+/// The measurements of one moment.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Measured {
     pub(crate) at_s: f64,
@@ -167,7 +168,7 @@ impl Default for Response {
 }
 
 impl Response {
-    /// Takes in a measurement; returns the quantity that does not follow the commands.
+    /// Processes a measurement. Returns the quantity that does not follow the commands.
     pub(crate) fn watch(
         &mut self,
         measured: &Measured,
@@ -188,9 +189,8 @@ impl Response {
                 Order::Sticks(sticks) => sticks,
                 Order::ByItself => Sticks::default(),
             };
-            rise_m += climb.follow(sticks.up * limits.climb_m_s, airframe.climb_lag_s, step_s);
-            turn_deg +=
-                turn.follow(sticks.clockwise * limits.turn_deg_s, airframe.turn_lag_s, step_s);
+            rise_m += climb.follow(sticks.gaz * limits.climb_m_s, airframe.climb_lag_s, step_s);
+            turn_deg += turn.follow(sticks.yaw * limits.turn_deg_s, airframe.turn_lag_s, step_s);
         });
         let DroneLimits { climb_m_s, turn_deg_s, .. } = *limits;
         self.climb.compare(measured.altitude_m, rise_m, step_s, climb_m_s, |metres| metres);
@@ -216,12 +216,12 @@ impl Response {
         self.climb.asked
     }
 
-    /// Turn that they have asked for.
+    /// Turn that the sticks have asked for since the flight began.
     pub(crate) fn asked_turn_deg(&self) -> f64 {
         self.turn.asked
     }
 
-    /// The drone moves by itself: nothing is asked of it.
+    /// The drone moves autonomously: nothing is commanded.
     fn rest(&mut self, measured: &Measured) {
         self.climb.rest(measured.altitude_m);
         self.turn.rest(measured.yaw_deg);
@@ -258,13 +258,13 @@ impl Axis {
         }
     }
 
-    /// What it did in the last so many seconds.
+    /// The moments of the last `window_s` seconds.
     fn within(&self, at_s: f64, window_s: f64) -> impl ExactSizeIterator<Item = &Moment> + Clone {
         let first = self.recent.partition_point(|then| at_s - then.at_s > window_s);
         self.recent.range(first..)
     }
 
-    /// The tilt swings, and the velocity does not. A steady wind moves neither.
+    /// The tilt varies, and the velocity does not. A steady wind varies neither.
     fn misses_swings(&self, at_s: f64) -> bool {
         AXIS_WINDOWS_S.iter().any(|window_s| {
             let recent = self.within(at_s, *window_s);
@@ -274,7 +274,7 @@ impl Axis {
         })
     }
 
-    /// It has begun to lean, and does not move.
+    /// The drone has started to tilt, and does not move.
     fn stands_while_leaning(&self, at_s: f64, full_tilt_rad: f64) -> bool {
         let recent = self.within(at_s, LEANS_S);
         let Some(first) = recent.clone().next() else { return false };
@@ -323,7 +323,7 @@ impl Rate {
         }
     }
 
-    /// The way that an ordinary airframe makes in a step.
+    /// Integral of the rate of an ordinary airframe over a step.
     fn follow(&mut self, wanted: f64, lag_s: f64, step_s: f64) -> f64 {
         let before = self.now;
         self.now += (wanted - self.now) * (1.0 - (-step_s / lag_s).exp());
@@ -358,7 +358,7 @@ impl Rate {
         let is_slow = self.now.abs() < SLOW_SHARE * full;
         self.slow_for_s = if is_slow { self.slow_for_s + step_s } else { 0.0 };
         if self.slow_for_s > SLOW_TIME_S {
-            // A drone that sinks faster than it climbs needs more up than down to stay where it is.
+            // A drone that descends faster than it climbs needs more up than down to keep its height.
             let most = if asked < 0.0 { most_down * asked } else { asked };
             self.missing_slowly[0] += asked - moved;
             self.missing_slowly[1] += most - moved;
@@ -395,7 +395,7 @@ mod tests {
 
     const PERIOD_MS: u64 = 60;
 
-    /// When a quantity is found not to follow the sticks, in seconds, within `seconds`.
+    /// When a quantity is found to ignore the sticks, in seconds, within `seconds`.
     fn found(
         sticks: Sticks,
         seconds: u64,
@@ -426,9 +426,9 @@ mod tests {
     fn a_drone_that_is_told_to_move_and_shows_no_motion_is_noticed_within_two_seconds() {
         let none = Sticks::default();
         let cases = [
-            (Sticks { up: 1.0, ..none }, Quantity::Altitude),
-            (Sticks { up: -1.0, ..none }, Quantity::Altitude),
-            (Sticks { clockwise: -0.6, ..none }, Quantity::Heading),
+            (Sticks { gaz: 1.0, ..none }, Quantity::Altitude),
+            (Sticks { gaz: -1.0, ..none }, Quantity::Altitude),
+            (Sticks { yaw: -0.6, ..none }, Quantity::Heading),
         ];
         for (sticks, quantity) in cases {
             let (at_s, which) = found(sticks, 5, still).unwrap();
@@ -440,20 +440,20 @@ mod tests {
 
     #[test]
     fn a_drift_that_the_sticks_hide_is_noticed() {
-        // The controller holds the height that it sees: it sinks as fast as the sensor says it climbs.
-        let sinking = Sticks { up: -0.3, ..Sticks::default() };
+        // The controller holds the measured height: the drone sinks as fast as the sensor climbs.
+        let sinking = Sticks { gaz: -0.3, ..Sticks::default() };
         let (at_s, which) = found(sinking, 10, still).unwrap();
         assert!(which == Quantity::Altitude && at_s < 6.0, "{at_s}");
     }
 
     #[test]
     fn the_most_sluggish_airframes_are_not_accused() {
-        let up = Sticks { up: 1.0, right: 1.0, clockwise: 0.6, ..Sticks::default() };
+        let up = Sticks { gaz: 1.0, roll: 1.0, yaw: 0.6, ..Sticks::default() };
         let lag = |at_s: f64, lag_s: f64| at_s - lag_s * (1.0 - (-at_s / lag_s).exp());
         let sluggish = |at_s: f64| Measured {
             altitude_m: 1.0 + 0.7 * lag(at_s, 1.25),
             yaw_deg: wrap_deg(0.7 * 60.0 * lag(at_s, 0.5)),
-            // Half of gravity's pull at full tilt, and the largest drag.
+            // Half of gravity's component at full tilt, and the largest drag.
             velocity_m_s: Vector2::new(1.04 / 1.95 * (1.0 - (-1.95 * at_s).exp()), 0.0),
             ..still(at_s)
         };
@@ -462,12 +462,12 @@ mod tests {
 
     #[test]
     fn a_drone_that_leans_against_a_rising_wind_is_not_accused() {
-        let leaning = Sticks { right: 0.85, ..Sticks::default() };
+        let leaning = Sticks { roll: 0.85, ..Sticks::default() };
         let gently = |at_s: f64| Measured {
             tilt_rad: Vector2::new(0.18 * (at_s / 20.0).min(1.0), 0.0),
             ..still(at_s)
         };
-        // One that rises faster is a storm, for which the drone lands in any case.
+        // A faster rise is a storm, in which the drone lands in any case.
         assert_eq!(found(leaning, 40, gently), None);
     }
 
@@ -486,13 +486,13 @@ mod tests {
                 },
             }
         };
-        // The way before fills the windows of three and eight seconds.
+        // The flight before it fills the windows of three and eight seconds.
         let (at_s, which) = found(Sticks::default(), 12, dies(0.01)).unwrap();
         assert_eq!(which, Quantity::Velocity);
         assert!((DIES_S + LEANS_S - 0.2..DIES_S + LEANS_S + 0.3).contains(&at_s), "{at_s}");
     }
 
-    /// The tilt swings by 12 degrees, and the velocity follows by a share of gravity's pull, on top of
+    /// The tilt varies by 12 degrees, and the velocity follows with a fraction of gravity's component, plus
     /// noise.
     fn swinging(thrust: f64) -> impl Fn(f64) -> Measured {
         move |at_s| {
@@ -510,7 +510,7 @@ mod tests {
 
     #[test]
     fn a_dead_flow_that_rattles_is_noticed_when_the_drone_tilts() {
-        let gently = Sticks { right: 0.5, ..Sticks::default() };
+        let gently = Sticks { roll: 0.5, ..Sticks::default() };
         let (at_s, which) = found(gently, 10, swinging(0.0)).unwrap();
         assert!(which == Quantity::Velocity && at_s < 3.0, "{at_s}");
         for thrust in [0.5, 0.75, 1.03] {
@@ -520,15 +520,15 @@ mod tests {
 
     #[test]
     fn a_slow_drift_of_the_altitude_is_noticed() {
-        let sinking = Sticks { up: -0.15, ..Sticks::default() };
+        let sinking = Sticks { gaz: -0.15, ..Sticks::default() };
         let (at_s, which) = found(sinking, 20, still).unwrap();
         assert!(which == Quantity::Altitude && at_s < 9.0, "{at_s}");
     }
 
-    /// It is answered by a climb that is too fast to be judged as a slow one.
+    /// The reaction is a climb too fast to be judged as a slow one.
     #[test]
     fn an_altitude_that_drifts_down_is_noticed_before_the_drone_has_climbed_a_metre() {
-        let climbing = Sticks { up: 0.37, ..Sticks::default() };
+        let climbing = Sticks { gaz: 0.37, ..Sticks::default() };
         let (at_s, which) = found(climbing, 10, still).unwrap();
         let climbed_m = 0.37 * DroneLimits::default().climb_m_s * at_s;
         assert!(which == Quantity::Altitude && climbed_m < 1.0, "{at_s} s, {climbed_m} m");
@@ -540,7 +540,7 @@ mod tests {
             altitude_m: 1.0 + 0.7 * at_s - if at_s > 1.0 { 0.8 } else { 0.0 },
             ..still(at_s)
         };
-        let up = Sticks { up: 1.0, ..Sticks::default() };
+        let up = Sticks { gaz: 1.0, ..Sticks::default() };
         assert_eq!(found(up, 5, stepping), None);
     }
 }

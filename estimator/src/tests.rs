@@ -8,7 +8,7 @@ fn fly(samples: impl IntoIterator<Item = Sample>) -> Estimate {
     *estimator.estimate()
 }
 
-/// No sensor that works measures the very same velocity twice.
+/// A working sensor never measures the very same velocity twice.
 fn alive((i, sample): (usize, Sample)) -> Sample {
     let rattle_m_s = if i.is_multiple_of(2) { 1e-9 } else { 0.0 };
     Sample { velocity_forward_m_s: sample.velocity_forward_m_s + rattle_m_s, ..sample }
@@ -29,7 +29,7 @@ fn sample(arrival_ms: u64, yaw_deg: f64, forward: f64, right: f64) -> Sample {
 #[test]
 fn clockwise_heading_turns_forward_to_the_right() {
     for (turn_deg, x, y) in [(0.0, 0.0, 1.0), (90.0, 1.0, 0.0), (180.0, 0.0, -1.0)] {
-        // The first sample sets the baseline, at a heading close to the jump; then it turns, slowly.
+        // The first sample sets the baseline, at a heading close to the wrap; then the drone turns slowly.
         let turn = (0..=100).map(|i| {
             let turned_deg = turn_deg * f64::from(u32::try_from(i).unwrap()) / 100.0;
             sample(66 * i, wrap_deg(171.0 + turned_deg), 0.0, 0.0)
@@ -37,7 +37,7 @@ fn clockwise_heading_turns_forward_to_the_right() {
         let ahead = |m_s| sample(6666, wrap_deg(171.0 + turn_deg), m_s, 0.0);
         let flight = (0..=100)
             .map(|i| Sample { arrival: Duration::from_millis(6666 + 10 * i), ..ahead(1.0) });
-        // A speed that is there at once is believed of a drone that is heard for the first time only.
+        // A sudden speed is accepted only from a drone whose first sample it is.
         let mut estimator = Estimator::default();
         turn.enumerate().map(alive).for_each(|sample| estimator.update(&sample));
         estimator.velocity_gate = VelocityGate::default();
@@ -59,7 +59,7 @@ fn lost_packets_do_not_change_the_distance() {
 
 #[test]
 fn the_drones_clock_counts_not_the_arrival() {
-    // Packets held up and delivered in bunches of ten, while the drone's clock wraps.
+    // Packets delayed and delivered in bunches of ten, while the drone's clock wraps.
     let samples = (0..41_u64).map(|i| Sample {
         drone_time: Some(Duration::from_millis((2_047_000 + i * 66) % 2_048_000)),
         ..sample(i.div_ceil(10) * 660, 0.0, 1.0, 0.0)

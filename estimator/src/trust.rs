@@ -1,8 +1,8 @@
-//! Whether navdata can be believed, and which part of them cannot.
+//! Plausibility of navdata, and the quantity that is not plausible.
 
 use std::fmt;
 
-/// What navdata tell of the drone's motion.
+/// Quantities of the drone's motion in navdata.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Velocity across the ground, from the optical flow.
@@ -26,19 +26,19 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// Whether navdata can be believed.
+/// Whether navdata are plausible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Trust {
-    /// They look like those of a drone that flies.
+    /// Plausible.
     #[default]
     Sound,
-    /// Packets keep coming, but a quantity does not change: its sensor or the drone's computer hangs.
+    /// Packets keep coming, but a quantity is constant: its sensor or the drone's computer hangs.
     Frozen(Quantity),
-    /// A quantity has values that no AR.Drone can have, or jumps as none can.
+    /// A quantity has impossible values for an AR.Drone, or jumps.
     Implausible(Quantity),
-    /// A quantity does not follow the commands: the drone is told to move and it shows no motion.
+    /// A quantity does not follow the commands: the drone is commanded to move and shows no motion.
     Unresponsive(Quantity),
-    /// The drone itself says that it has lost a quantity.
+    /// The drone itself reports that it has lost a quantity.
     Reported(Quantity),
 }
 

@@ -1,61 +1,61 @@
-//! How far the estimate may be from the truth: a place that is integrated from a velocity drifts, and
-//! whoever flies by it should know by how much.
+//! Uncertainty of the estimate. A position that is integrated from a velocity drifts, and its users need a
+//! bound on the drift.
 //!
-//! The deviations are those of the flight model's worse sensors, so that the figure errs on the safe
-//! side indoors: the flow's bias, its scale, the heading's drift, and what was flown unseen.
+//! The deviations are those of the worse sensors of the flight model, so that the figure is conservative
+//! indoors: the bias of the flow, its scale, the drift of the heading, and motion that was not measured.
 
 use nalgebra::Vector2;
 
-/// Standard deviation of the flow's bias at the start; by how much it grows, per square root of a second; and
-/// the time after which it has forgotten what it was.
+/// Initial standard deviation of the flow's bias; its random walk per square root of a second; and the time
+/// constant of its decay.
 const BIAS_M_S: f64 = 0.013;
 const BIAS_WALK_M_S: f64 = 0.003;
 const BIAS_TIME_S: f64 = 120.0;
-/// Of the flow's scale, as a share of the distance from the start.
+/// Standard deviation of the flow's scale, as a fraction of the distance from the start.
 const SCALE: f64 = 0.06;
-/// Of the heading's drift.
+/// Standard deviation of the heading's drift.
 const HEADING_DRIFT_DEG_S: f64 = 0.03;
-/// Of the velocity while nothing is heard: in a hover, as a share of the speed, and as a share of what
-/// the speed has changed by in the meantime.
+/// Standard deviation of the velocity while nothing is received: in a hover, as a fraction of the speed, and
+/// as a fraction of the change of speed meanwhile.
 const UNSEEN_M_S: f64 = 0.15;
 const UNSEEN_SPEED: f64 = 0.2;
 const UNSEEN_CHANGE: f64 = 0.25;
-/// After so long a drone that hears nothing hovers and lands by itself, and drifts in the wind.
+/// Time after which a drone that receives nothing hovers and lands by itself, and drifts in the wind.
 const ALONE_AFTER_S: f64 = 2.0;
 const ALONE_M_S: f64 = 0.5;
-/// And it may be gaining: full tilt, which is a fifth of gravity, is the worst.
+/// It may also be accelerating: full tilt, a fifth of gravity, is the worst case.
 const UNSEEN_M_S2: f64 = 0.3;
-/// A velocity that was not believed counts up to this: more is hardly a drone's.
+/// Limit up to which a rejected velocity counts; a larger one is hardly that of a drone.
 const MAX_DISPUTED_M_S: f64 = 1.2;
-/// Of the heading after each step of the compass.
+/// Standard deviation of the heading after each step of the compass.
 pub(crate) const HEADING_STEP_DEG: f64 = 2.0;
-/// Of the place while navdata are late.
+/// Standard deviation of the position while navdata are late.
 const FLOOR_M: f64 = 0.02;
-/// Of the climb while nothing is heard.
+/// Standard deviation of the climb while nothing is received.
 const UNSEEN_CLIMB_M_S: f64 = 0.3;
-/// Of a height.
+/// Standard deviation of a height.
 const HEIGHT_M: f64 = 0.015;
-/// Of the height after each step of the floor.
+/// Standard deviation of the height after each step of the floor.
 const FLOOR_STEP_M: f64 = 0.05;
 
-/// What adds to the uncertainty.
+/// Contributions to the uncertainty.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Uncertainty {
     flown_s: f64,
     unseen_m2: f64,
-    /// How far the drone has flown if velocities that were not believed were true after all.
+    /// Distance flown if the rejected velocities were right after all.
     disputed_m: f64,
     floor_steps: u32,
     heading_steps: u32,
 }
 
 impl Uncertainty {
-    /// So long was flown.
+    /// Adds a step of measured flight.
     pub(crate) fn fly(&mut self, step_s: f64) {
         self.flown_s += step_s;
     }
 
-    /// For so long nothing was known of the velocity but what it was before and after.
+    /// Adds a gap: of the velocity only its values before and after are known.
     pub(crate) fn fly_unseen(
         &mut self,
         gap_s: f64,
@@ -69,17 +69,17 @@ impl Uncertainty {
         self.unseen_m2 += (unseen_m_s * gap_s + alone_m).powi(2);
     }
 
-    /// A velocity was not believed that would have led elsewhere this fast.
+    /// Adds a step with a rejected velocity that differed this much from the expected one.
     pub(crate) fn fly_disputed(&mut self, step_s: f64, surprise_m_s: f64) {
         self.disputed_m += surprise_m_s.min(MAX_DISPUTED_M_S) * step_s;
     }
 
-    /// Variance of the place, on each axis, by what was not seen or not believed.
+    /// Variance of the position on each axis from motion that was not measured or was rejected.
     pub(crate) fn unmeasured_m2(&self) -> f64 {
         self.unseen_m2 + self.disputed_m * self.disputed_m
     }
 
-    /// What a silence adds to the deviation of the place, at a speed.
+    /// Standard deviation of the position that a silence adds, at a speed.
     pub(crate) fn silence_m(silence_s: f64, speed_m_s: f64) -> f64 {
         (UNSEEN_M_S + UNSEEN_SPEED * speed_m_s + UNSEEN_M_S2 * silence_s) * silence_s
     }
@@ -92,8 +92,8 @@ impl Uncertainty {
         self.floor_steps += 1;
     }
 
-    /// Standard deviation of the place across the ground, on each axis, `distance_m` from the start;
-    /// the newest sample is `silence_s` old and had a speed.
+    /// Standard deviation of the horizontal position on each axis, `distance_m` from the start; the newest
+    /// sample is `silence_s` old and had this speed.
     pub(crate) fn horizontal_m(&self, distance_m: f64, silence_s: f64, speed_m_s: f64) -> f64 {
         let steps_deg = HEADING_STEP_DEG * f64::from(self.heading_steps).sqrt();
         let turned = (HEADING_DRIFT_DEG_S * self.flown_s).hypot(steps_deg).to_radians();
@@ -135,7 +135,8 @@ fn bias_m(flown_s: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Of 1500 such biases, simulated apart, the deviation was 0.136 m after 10 s and 0.90 m after a minute.
+    /// The standard deviation of 1500 such biases, simulated separately, was 0.136 m after 10 s and 0.90 m
+    /// after a minute.
     #[test]
     fn the_bias_walks_and_forgets() {
         for (flown_s, expected_m) in [(0.0, 0.0), (10.0, 0.136), (60.0, 0.90)] {
@@ -177,7 +178,7 @@ mod tests {
         };
         assert!(unseen_m(0.0, 0.0) < 0.2);
         assert!((0.5..0.8).contains(&unseen_m(2.5, 2.5)), "it flew on");
-        assert!(unseen_m(2.5, 0.0) > 1.0, "when it braked nobody knows");
+        assert!(unseen_m(2.5, 0.0) > 1.0, "the time of braking is unknown");
         let silent_m = |speed_m_s| Uncertainty::default().horizontal_m(0.0, 1.0, speed_m_s);
         assert!(silent_m(2.5) > silent_m(0.0) + 0.4);
     }

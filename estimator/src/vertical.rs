@@ -1,11 +1,10 @@
-//! Height and climb, from a height that is measured with noise, wrong echoes and steps of the floor.
+//! Height and climb, from heights with noise, wrong echoes and steps of the floor.
 //!
-//! Between the measurements the climb is a model's: it follows the sticks with a lag. The
-//! measurements correct it as an alpha-beta filter would, so that the estimate does not lag behind
-//! what the drone was told.
+//! Between the measurements the climb is a model's: it follows the sticks with a lag. The measurements
+//! correct it as in an alpha-beta filter, so the estimate does not lag behind the commands.
 
-use crate::airframe::{Airframe, DroneLimits};
 use crate::orders::Order;
+use kinematics::{Airframe, DroneLimits};
 
 /// Height above the floor at the start, and climb.
 #[derive(Debug, Clone, Copy, Default)]
@@ -15,7 +14,7 @@ pub(crate) struct Vertical {
 }
 
 impl Vertical {
-    /// Flies on under an order.
+    /// Propagates the state under an order.
     pub(crate) fn advance(
         &mut self,
         step_s: f64,
@@ -25,8 +24,8 @@ impl Vertical {
     ) {
         let before_m_s = self.climb_m_s;
         if let Order::Sticks(sticks) = order {
-            let gain = if sticks.up > 0.0 { airframe.climb_gain } else { airframe.drop_gain };
-            let wanted_m_s = sticks.up * limits.climb_m_s * gain;
+            let gain = if sticks.gaz > 0.0 { airframe.climb_gain } else { airframe.drop_gain };
+            let wanted_m_s = sticks.gaz * limits.climb_m_s * gain;
             let followed = 1.0 - (-step_s / airframe.climb_lag_s).exp();
             self.climb_m_s += (wanted_m_s - self.climb_m_s) * followed;
         }
@@ -34,55 +33,56 @@ impl Vertical {
     }
 }
 
-/// What a measured height was taken for.
+/// Classification of a measured height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Echo {
-    /// A height like the expected one.
+    /// As expected.
     Good,
-    /// A wrong echo: not believed.
+    /// A wrong echo: rejected.
     Wrong,
-    /// The floor has a step: the height above the start goes on as it was.
+    /// A step of the floor: the height above the start stays as it was.
     FloorStep,
     /// The first one.
     First,
 }
 
-/// Corrects height and climb by what is measured.
+/// Corrects height and climb by measurements.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct AltitudeFilter {
     state: Option<Vertical>,
-    /// One height was heard, of a drone that flew already, and none that agrees: it may be a wrong echo.
+    /// The first height of a drone that was already flying, not confirmed by a second one: it may be a wrong
+    /// echo.
     unconfirmed: bool,
-    /// What the floor below is higher than the floor at the start.
+    /// Height of the floor below above the floor at the start.
     floor_m: f64,
-    /// Heights in a row that were not believed, and the newest of them above the expected one.
+    /// Number of consecutive rejected heights, and the newest relative to the expected one.
     rejected: u32,
     rejected_by_m: f64,
-    /// The newest of them above the floor at the start.
+    /// The newest rejected height, relative to the floor at the start.
     rejected_m: f64,
-    /// How long nothing was heard, beyond the usual, since the last height that was believed.
+    /// Time without data, beyond the usual interval, since the last accepted height.
     gap_s: f64,
-    /// The last height that was believed was hardly like the expected one: it may have been a wrong echo.
+    /// The last accepted height was far from the expected one: it may have been a wrong echo.
     doubtful: bool,
 }
 
 impl AltitudeFilter {
-    /// Time constant of the correction while the drone follows sticks.
+    /// Time constant of the correction while the drone follows the sticks.
     const TIME_CONSTANT_S: f64 = 0.2;
-    /// While it moves by itself, and the model knows nothing.
+    /// Time constant while it moves autonomously, which the model cannot predict.
     const TIME_CONSTANT_BY_ITSELF_S: f64 = 0.12;
-    /// A height further than this from the expected one is no good echo (`tum_ardrone` takes 0.11 m
-    /// where the climb is known)...
+    /// Largest difference between a height and the expected one (`tum_ardrone` takes 0.11 m where the climb
+    /// is known)...
     const MAX_JUMP_M: f64 = 0.15;
-    /// ...and so much further for every second since the last one: the climb may have changed.
+    /// ...plus this much per second since the last one, because the climb may have changed.
     const MAX_JUMP_M_S: f64 = 1.0;
-    /// Heights that are further apart than this leave a gap. What only the gap explains is believed when the
-    /// next one agrees: the first may be a wrong echo.
+    /// Heights further apart than this leave a gap. A height that is plausible only because of the gap is
+    /// accepted when the next one agrees: the first may be a wrong echo.
     const USUAL_STEP_S: f64 = 0.1;
-    /// So many that agree are a step of the floor.
+    /// Number of agreeing heights that make a step of the floor.
     const AGREEING: u32 = 4;
-    /// They agree within this, as heights or in what they are above the expected ones: the drone may hold its
-    /// height, or go on as expected.
+    /// Tolerance of the agreement, either of the heights or of their differences to the expected ones: the
+    /// drone may hold its height, or move as expected.
     const AGREEMENT_M: f64 = 0.1;
 
     /// The state at the last measurement; at rest on the floor before the first.
@@ -95,8 +95,8 @@ impl AltitudeFilter {
         height_m - self.floor_m
     }
 
-    /// Takes in a height above the floor below, measured `step_s` after the one before, when the
-    /// state is expected to be `expected`.
+    /// Processes a height above the floor below, measured `step_s` after the previous one, given the expected
+    /// state.
     pub(crate) fn correct(
         &mut self,
         altitude_m: f64,
@@ -137,7 +137,7 @@ impl AltitudeFilter {
         Echo::Good
     }
 
-    /// A height that is not like the expected one: a wrong echo, until others agree with it.
+    /// A height far from the expected one: a wrong echo, unless others agree with it.
     fn reject(&mut self, surprise_m: f64, allowed_m: f64, expected: Vertical) -> Echo {
         let height_m = expected.height_m + surprise_m;
         let agrees = (surprise_m - self.rejected_by_m).abs() <= Self::AGREEMENT_M
@@ -163,7 +163,7 @@ impl AltitudeFilter {
         Echo::FloorStep
     }
 
-    /// By how much the newest heights differ from the expected one, while it is open who is right.
+    /// Difference between the newest heights and the expected one while it is undecided which is right.
     pub(crate) fn disputed_m(&self) -> f64 {
         if self.rejected > 0 { self.rejected_by_m.abs() } else { 0.0 }
     }
@@ -174,7 +174,7 @@ impl AltitudeFilter {
         Echo::First
     }
 
-    /// The drone stands on the floor, whatever echo it hears there.
+    /// The drone stands on the floor, whatever the ultrasound measures there.
     pub(crate) fn stand(&mut self) {
         self.floor_m = 0.0;
         self.gap_s = 0.0;
@@ -188,7 +188,7 @@ impl AltitudeFilter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orders::Sticks;
+    use kinematics::Sticks;
 
     fn run(filter: &mut AltitudeFilter, altitudes_m: impl IntoIterator<Item = f64>) -> Vec<Echo> {
         let (airframe, limits) = (Airframe::default(), DroneLimits::default());
@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn what_the_sticks_do_is_known_at_once() {
         let (airframe, limits) = (Airframe::default(), DroneLimits::default());
-        let order = Order::Sticks(Sticks { up: 1.0, ..Sticks::default() });
+        let order = Order::Sticks(Sticks { gaz: 1.0, ..Sticks::default() });
         let (mut truth, mut filter) = (Vertical::default(), AltitudeFilter::default());
         filter.correct(0.0, truth, 0.0, order);
         for _ in 0..60 {
@@ -235,7 +235,7 @@ mod tests {
         assert!((filter.state().height_m - 1.0).abs() < 0.01);
     }
 
-    /// One echo from a filter that has heard nothing for so long.
+    /// One echo from a filter that has received nothing for `gap_s`.
     fn after_a_gap(filter: &mut AltitudeFilter, gap_s: f64, altitude_m: f64) -> Echo {
         let expected = filter.state();
         filter.correct(altitude_m, expected, gap_s, Order::ByItself)
@@ -246,7 +246,7 @@ mod tests {
         let mut filter = AltitudeFilter::default();
         run(&mut filter, [1.0; 50]);
         assert_eq!(after_a_gap(&mut filter, 0.4, 1.4), Echo::Wrong);
-        assert!((filter.disputed_m() - 0.4).abs() < 0.01, "nobody knows yet");
+        assert!((filter.disputed_m() - 0.4).abs() < 0.01, "it is still undecided");
         assert_eq!(run(&mut filter, [1.0; 10]), [Echo::Good; 10]);
         assert!((filter.state().height_m - 1.0).abs() < 0.01);
         assert!(filter.disputed_m().abs() < 1e-9);
@@ -260,7 +260,7 @@ mod tests {
         assert_eq!(run(&mut filter, [1.4; 5]), [Echo::Good; 5]);
         let height_m = filter.state().height_m;
         assert!((height_m - 1.4).abs() < 0.01, "{height_m}");
-        // Without a gap the same is a step of the floor.
+        // Without a gap the same height is a step of the floor.
         assert!(run(&mut filter, [1.8; 5]).contains(&Echo::FloorStep));
     }
 
@@ -269,7 +269,7 @@ mod tests {
         let mut filter = AltitudeFilter::default();
         run(&mut filter, (0..50).map(|i| 0.5 * 0.066 * f64::from(i)));
         let top_m = filter.state().height_m;
-        // The model climbs on; the drone has turned and sinks.
+        // The model climbs on; the drone has reversed and sinks.
         let expected = Vertical { height_m: top_m + 0.2, climb_m_s: 0.5 };
         assert_eq!(filter.correct(top_m - 0.1, expected, 0.4, Order::ByItself), Echo::Wrong);
         let sinks = (1..20).map(|i| top_m - 0.1 - 0.4 * 0.066 * f64::from(i));

@@ -1,4 +1,4 @@
-//! Any text as an agent: translated or refused, never a crash.
+//! Any text as an agent: it is translated or refused, without a panic.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,4 +1,4 @@
-//! Any bytes as AT commands: what is understood can be sent again and means the same.
+//! Any bytes as AT commands: decoded commands survive encoding and decoding.
 #![no_main]
 
 use ardrone_link::at::{Command, Datagram, decode};

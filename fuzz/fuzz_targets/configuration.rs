@@ -1,4 +1,4 @@
-//! Any text as a configuration: read or refused, never a crash.
+//! Any text as a configuration: it is parsed or refused, without a panic.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,8 +1,8 @@
-//! The bottom camera and what the firmware finds in its pictures: roundels on the floor.
+//! The bottom camera, and the roundels that the firmware detects in its pictures.
 //!
-//! A projection: points of each pattern's outline go through the drone's tilt, its height and a pin-hole
-//! camera, and the firmware reports the box around them. What no pilot knows of a camera (focal length,
-//! centre, mounting, delay, which way orientations count) is drawn from the seed.
+//! A projection: points of each pattern's outline are mapped through the drone's tilt, its height and a
+//! pin-hole camera, and the firmware reports their bounding box. Parameters that a pilot cannot know (focal
+//! length, centre, mounting, delay, sign of orientations) are drawn from the seed.
 
 use std::time::Duration;
 
@@ -19,9 +19,9 @@ use crate::sensors::DelayLine;
 /// A roundel on the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FloorTag {
-    /// Right and forward of the place of the start.
+    /// Right and forward of the start.
     pub place_m: Vector2<f64>,
-    /// Which way its pattern points: clockwise from the drone's heading at the start.
+    /// Direction of its pattern: clockwise from the drone's initial heading.
     pub heading_deg: f64,
     /// Diameter of the pattern.
     pub size_m: f64,
@@ -38,10 +38,11 @@ impl FloorTag {
     }
 }
 
-/// Which way the reported orientation of a roundel grows. Clients of the real drone contradict each other.
+/// Direction in which the reported orientation of a roundel grows. Clients of the real drone contradict each
+/// other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OrientationSign {
-    /// Either, by the seed.
+    /// Drawn from the seed.
     Drawn,
     /// When the drone turns clockwise.
     Clockwise,
@@ -49,34 +50,35 @@ pub enum OrientationSign {
     CounterClockwise,
 }
 
-/// How good the bottom camera is, and what the firmware makes of its pictures.
+/// Errors of the bottom camera and of the detection.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraModel {
-    /// Largest error of the focal length, as a share.
+    /// Maximum relative error of the focal length.
     pub focal_error: f64,
-    /// Largest error of the picture's centre, in thousandths of the picture.
+    /// Maximum error of the picture's centre, in thousandths of the picture.
     pub centre_error_units: f64,
-    /// Largest error of its mounting about each axis.
+    /// Maximum error of its mounting about each axis.
     pub mount_error_deg: f64,
-    /// Whether these errors are their largest, in a direction drawn from the seed, or anything up to that.
+    /// Whether these errors have their maximum size, in a direction drawn from the seed, or any size up to
+    /// it.
     pub at_extremes: bool,
-    /// From the picture to when it is told of: between these, by the seed. Up to a packet's interval is
-    /// added by the wait for the next packet.
+    /// Delay from the picture to its report: between these, drawn from the seed. The wait for the next packet
+    /// adds up to one interval.
     pub delay: [Duration; 2],
     /// White noise of a reported centre, in thousandths of the picture.
     pub noise_units: f64,
     /// White noise of a reported orientation.
     pub orientation_noise_deg: f64,
-    /// Share of the pictures in which a roundel that is whole in them is found.
+    /// Fraction of the pictures in which a complete roundel is detected.
     pub seen: f64,
-    /// Share of the pictures in which something is found that is none.
+    /// Fraction of the pictures with a false detection.
     pub false_sights: f64,
-    /// Which way orientations count.
+    /// Sign of the orientations.
     pub orientation: OrientationSign,
 }
 
 impl CameraModel {
-    /// Without noise, delay or error; it never misses a roundel.
+    /// Without noise, delay or error; every roundel is detected.
     pub fn perfect() -> Self {
         Self {
             focal_error: 0.0,
@@ -108,7 +110,7 @@ impl CameraModel {
         }
     }
 
-    /// Bad light, a camera that is far from the published ones.
+    /// Bad light, a camera far from the published ones.
     pub fn hard() -> Self {
         Self {
             focal_error: 0.10,
@@ -124,12 +126,12 @@ impl CameraModel {
     }
 }
 
-/// What looks for roundels, in the numbers of the firmware.
+/// Detector settings, in the firmware's numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Detector {
-    /// 1 at full speed, 2 in step with the hover.
+    /// 1: at full rate; 2: in step with the hover.
     pub(crate) source: u32,
-    /// 8 the black and white oriented roundel.
+    /// 8: the black and white oriented roundel.
     pub(crate) kind: u32,
 }
 
@@ -140,9 +142,9 @@ pub(crate) struct Camera {
     random: ChaCha8Rng,
     focal_units: Vector2<f64>,
     centre_units: Vector2<f64>,
-    /// From the body to the camera.
+    /// Rotation from the body to the camera.
     mount: Rotation3<f64>,
-    /// 1 if orientations grow as the pattern turns in the picture, clockwise.
+    /// 1 if orientations grow with a clockwise turn of the pattern in the picture.
     sign: f64,
     told: DelayLine<VisionDetect>,
 }
@@ -150,23 +152,23 @@ pub(crate) struct Camera {
 /// Published calibrations of the bottom camera, in thousandths of the whole picture.
 const FOCAL_UNITS: Vector2<f64> = Vector2::new(1072.0, 1452.0);
 const CENTRE_UNITS: Vector2<f64> = Vector2::new(500.0, 450.0);
-/// Pixels of a unit: the picture is 320 by 240.
+/// Pixels per unit: the picture is 320 by 240.
 const UNIT_PX: Vector2<f64> = Vector2::new(0.32, 0.24);
-/// A pattern that is smaller in the picture is not found.
+/// Minimum size of a detectable pattern.
 const LEAST_UNITS: f64 = 20.0;
-/// Above the first height roundels are missed more and more often, above the second always.
+/// Above the first height the detection rate falls; above the second it is zero.
 const HIGH_M: [f64; 2] = [3.0, 4.5];
-/// The firmware takes every pattern for one of this size when it tells the distance.
+/// Pattern size that the firmware assumes for its distance.
 const NOMINAL_SIZE_M: f64 = 0.222;
 const FIRMWARE_FOCAL_PX: f64 = 343.0;
-/// Standard deviation of the distance and of the box, as a share.
+/// Relative standard deviation of the distance and of the box.
 const SIZE_NOISE: f64 = 0.03;
-/// What fits into a packet.
+/// Maximum number of detections in a packet.
 const MOST: usize = 4;
 /// Points of an outline.
 const OUTLINE: u32 = 16;
 
-/// One find in one picture.
+/// One detection in one picture.
 #[derive(Debug, Clone, Copy)]
 struct Sight {
     centre_units: Vector2<f64>,
@@ -198,7 +200,7 @@ impl Camera {
         Self { model, random, focal_units, centre_units, mount, sign, told }
     }
 
-    /// Takes a picture of the floor; `detector` is what looks at it.
+    /// Takes a picture of the floor; `detector` evaluates it.
     pub(crate) fn take(
         &mut self,
         now: Duration,
@@ -210,7 +212,7 @@ impl Camera {
         self.told.push(now, found.unwrap_or_default());
     }
 
-    /// What navdata tell now: the finds in the newest picture that has been looked at.
+    /// Detections in navdata now: those of the newest picture that has been processed.
     pub(crate) fn read(&mut self, now: Duration) -> VisionDetect {
         self.told.read(now)
     }
@@ -232,7 +234,7 @@ impl Camera {
         self.report(&sights, detector)
     }
 
-    /// Where a tag is in the picture, if it is whole.
+    /// Position of a tag in the picture, if it is complete.
     fn sight(&self, airframe: &Airframe, tag: &FloorTag) -> Option<Sight> {
         let (mut least, mut most) =
             (Vector2::repeat(f64::INFINITY), Vector2::repeat(f64::NEG_INFINITY));
@@ -250,14 +252,14 @@ impl Camera {
         let ahead = tag.place_m + Vector2::new(sin, cos) * (tag.size_m / 2.0);
         let arrow = self.project(airframe, ahead)? - self.project(airframe, tag.place_m)?;
         let arrow_px = arrow.component_mul(&UNIT_PX);
-        // Clockwise in the picture from its right side, so that up is 270.
+        // Clockwise from the right side of the picture, so up is 270.
         let turned_deg = arrow_px.y.atan2(arrow_px.x).to_degrees() + 90.0;
         let orientation_deg = 270.0 + self.sign * turned_deg;
         let centre_units = (least + most) / 2.0;
         whole.then_some(Sight { centre_units, size_units, orientation_deg })
     }
 
-    /// A point of the floor in the picture: right and down, if it lies before the camera.
+    /// Projects a point of the floor into the picture (right, down), if it lies in front of the camera.
     fn project(&self, airframe: &Airframe, point_m: Vector2<f64>) -> Option<Vector2<f64>> {
         let up = Vector3::z_axis();
         let attitude = Rotation3::from_axis_angle(&up, -airframe.yaw_rad())
@@ -273,7 +275,7 @@ impl Camera {
         })
     }
 
-    /// Something that is no roundel.
+    /// A false detection.
     fn phantom(&mut self) -> Sight {
         let random = &mut self.random;
         let width = random.random_range(30.0..300.0);
@@ -313,7 +315,7 @@ impl Camera {
     }
 }
 
-/// Rounded, and within the picture.
+/// Rounded and clipped to the picture.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped before")]
 fn whole(units: f64) -> u32 {
     units.round().clamp(0.0, 1000.0) as u32

@@ -1,21 +1,21 @@
-//! The drone's configuration: its keys, which values it takes, and what it sends of them.
+//! The drone's configuration: its keys, the values they accept, and the dump.
 
 use std::collections::BTreeMap;
 
-/// What a key can hold.
+/// Type of a key's value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Flag,
     Integer,
     Float,
     Text,
-    /// Nothing can be set.
+    /// Cannot be set.
     ReadOnly,
 }
 
 use Kind::{Flag, Float, Integer, ReadOnly, Text};
 
-/// Keys of a factory-fresh drone that clients rely on.
+/// Keys of a drone in factory state that clients rely on.
 const KEYS: [(&str, Kind, &str); 66] = [
     ("general:num_version_config", ReadOnly, "1"),
     ("general:num_version_mb", ReadOnly, "33"),
@@ -90,7 +90,7 @@ const KEYS: [(&str, Kind, &str); 66] = [
     ("custom:application_desc", Text, "Default application configuration"),
 ];
 
-/// Limits of which there are an indoor and an outdoor set; the drone flies by the one in use.
+/// Limits with an indoor and an outdoor set; the drone uses the active one.
 const LIMITS: [&str; 3] = ["euler_angle_max", "control_vz_max", "control_yaw"];
 
 /// A drone's configuration.
@@ -106,8 +106,8 @@ impl Default for ConfigurationStore {
 }
 
 impl ConfigurationStore {
-    /// Sets a key as the firmware does: what it does not know, cannot read or will not change it
-    /// ignores without a word.
+    /// Sets a key like the firmware, which silently ignores unknown keys, unreadable values and read-only
+    /// keys.
     pub(crate) fn set(&mut self, key: &str, value: &str) {
         let Some((key, kind, _)) = KEYS.iter().find(|(known, ..)| *known == key) else { return };
         let valid = match kind {
@@ -135,13 +135,13 @@ impl ConfigurationStore {
         }
     }
 
-    /// The key that holds a limit indoors or outdoors, whichever it is now.
+    /// The key of a limit in the active set, indoor or outdoor.
     fn limit_set(&self, limit: &str) -> String {
         let place = if self.is_set("control:outdoor") { "outdoor" } else { "indoor" };
         format!("control:{place}_{limit}")
     }
 
-    /// Copies a limit between its set and the one in use.
+    /// Copies a limit between its set and the active one.
     fn copy_limit(&mut self, set: &str, limit: &str, into_use: bool) {
         let used = format!("control:{limit}");
         let (from, to) = if into_use { (set, used.as_str()) } else { (used.as_str(), set) };
@@ -159,12 +159,12 @@ impl ConfigurationStore {
         self.text(key) == Some("TRUE")
     }
 
-    /// A number; text that is none cannot be in a key that holds one.
+    /// A number; keys of numbers only ever contain numbers.
     pub(crate) fn number(&self, key: &str) -> f64 {
         self.text(key).and_then(|value| value.parse().ok()).unwrap_or(0.0)
     }
 
-    /// The text that goes out on the control port.
+    /// The dump for the control port.
     pub(crate) fn dump(&self) -> String {
         let mut dump = String::new();
         for (key, ..) in KEYS {
@@ -174,7 +174,7 @@ impl ConfigurationStore {
         dump
     }
 
-    /// The list of identities that goes out on the control port.
+    /// The list of identities for the control port.
     pub(crate) fn identities(&self) -> String {
         let mut list = String::new();
         for (section, key) in [

@@ -1,4 +1,4 @@
-//! A whole drone: firmware, airframe and sensors, fed with time and bytes.
+//! A complete drone: firmware, airframe and sensors, fed with time and bytes.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -19,31 +19,31 @@ use crate::sensors::{SensorModel, Sensors};
 use crate::telemetry::{Tag27, Telemetry};
 use crate::wind::Wind;
 
-/// What kind of drone it is.
+/// Configuration of a [`Drone`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct DroneConfig {
-    /// How it moves.
+    /// Model of its motion.
     pub profile: Profile,
     /// Noise and delays of its sensors.
     pub sensors: SensorModel,
-    /// Its bottom camera, which finds roundels when it is told to look for them.
+    /// Its bottom camera, which detects roundels if the configuration enables it.
     pub camera: CameraModel,
-    /// Everything random follows from it.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// Charge at the start.
+    /// Initial charge.
     pub battery_percent: f64,
-    /// By how much less seems to be left at full load.
+    /// Reduction of the measured charge at full load.
     pub battery_sag_percent: f64,
-    /// The drone flies already, at this height in metres, as another pilot has left it: it hovers by
-    /// itself, and lands when it hears nobody.
+    /// The drone starts in flight at this height in metres, as left by another pilot: it hovers autonomously,
+    /// and lands when it receives nothing.
     pub flies_at_m: Option<f64>,
-    /// Blows towards (right, forward).
+    /// Wind towards (right, forward).
     pub wind_m_s: Vector2<f64>,
     /// Standard deviation of the gusts.
     pub gusts_m_s: f64,
-    /// What it sends as option 27.
+    /// Content of option 27.
     pub tag_27: Tag27,
-    /// Largest error of the level reference, which no pilot knows.
+    /// Maximum error of the level reference, unknown to the pilot.
     pub trim_error_deg: f64,
 }
 
@@ -65,52 +65,52 @@ impl Default for DroneConfig {
     }
 }
 
-/// What really happens, and what nobody but the simulation knows.
+/// The true state, which only the simulation knows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Truth {
     /// The drone's own time.
     pub time: Duration,
-    /// When it was switched on last.
+    /// When it was last switched on.
     pub switched_on: Duration,
-    /// Right, forward, up from the place of the start.
+    /// Right, forward, up from the start.
     pub position_m: Vector3<f64>,
     /// Right, forward, up.
     pub velocity_m_s: Vector3<f64>,
-    /// Clockwise from the heading at the start, not wrapped.
+    /// Clockwise from the initial heading, not wrapped.
     pub yaw_deg: f64,
-    /// What the firmware is doing.
+    /// Phase of the firmware.
     pub phase: Phase,
-    /// The velocity that the healthy sensors read, integrated without delay: the frame of whoever
-    /// hears only navdata. Injected sensor faults are not in it. (right, forward)
+    /// Velocity of the healthy sensors, integrated without delay: the frame of a client that only receives
+    /// navdata. Injected sensor faults are excluded. (right, forward)
     pub odometry_m: Vector2<f64>,
-    /// The motion that the firmware carries out while it flies.
+    /// Motion command that the firmware executes in flight.
     pub motion: Motion,
     /// When the firmware last took a command.
     pub heard_at: Option<Duration>,
-    /// How often the level reference was set in the air, where that spoils it.
+    /// How often the level reference was set in flight, which spoils it.
     pub trims_in_flight: u32,
-    /// Remaining charge, as the drone believes it by its voltage.
+    /// Remaining charge as measured by voltage.
     pub battery_percent: f64,
-    /// How often it hit the floor while it was to fly.
+    /// Number of contacts with the floor during flight.
     pub floor_contacts: u32,
-    /// How fast it sank when it last came down on the floor, whatever it was to do.
+    /// Sink rate at the last contact with the floor, in any phase.
     pub touch_down_m_s: Option<f64>,
 }
 
 impl Truth {
-    /// How far the drone's own velocity has led it astray. (right, forward)
+    /// Drift of the drone's own velocity. (right, forward)
     pub fn drift_m(&self) -> Vector2<f64> {
         self.odometry_m - self.position_m.xy()
     }
 }
 
-/// What the firmware says of itself for a time, whether it is so or not.
+/// Reported firmware states for a time, independent of the real state.
 #[derive(Debug, Clone, Default)]
 struct Claims {
-    /// State bits, until when.
+    /// State bits, with the end of each.
     bits: Vec<(DroneState, Duration)>,
-    /// The detail of the control state, until when; the last one counts.
+    /// Details of the control state, with the end of each; the last one counts.
     minor: Vec<(u16, Duration)>,
 }
 
@@ -131,9 +131,9 @@ impl Claims {
 
 /// A simulated drone.
 ///
-/// The shell advances it with [`Drone::advance`], hands it datagrams with [`Drone::handle_at`] and
-/// [`Drone::handle_wake_up`], and sends on what [`Drone::poll_navdata`] and
-/// [`Drone::poll_control`] return.
+/// The caller advances it with [`Drone::advance`], passes it datagrams with [`Drone::handle_at`] and
+/// [`Drone::handle_wake_up`], and forwards the results of [`Drone::poll_navdata`] and
+/// [`Drone::poll_control`].
 #[derive(Debug, Clone)]
 pub struct Drone {
     config: DroneConfig,
@@ -142,13 +142,13 @@ pub struct Drone {
     switched_on: Duration,
     faults: SensorFaults,
     claims: Claims,
-    /// How often it hit the floor while it was to fly.
+    /// Number of contacts with the floor during flight.
     floor_contacts: u32,
     firmware: Firmware,
     airframe: Airframe,
     sensors: Sensors,
     camera: Camera,
-    /// On the floor around the place of the start.
+    /// Roundels on the floor, relative to the start.
     tags: Vec<FloorTag>,
     steps: u64,
     sequence: u32,
@@ -158,20 +158,20 @@ pub struct Drone {
 }
 
 const STEP: Duration = Duration::from_micros(2500);
-/// So many pictures in so many steps: 30 a second.
+/// Pictures per number of steps: 30 per second.
 const PICTURES: (u64, u64) = (3, 40);
 const DEMO_PERIOD: Duration = Duration::from_micros(66_667);
 const FULL_PERIOD: Duration = Duration::from_millis(5);
-/// A full packet fits.
+/// Large enough for a full packet.
 const PACKET_BYTES: usize = 2304;
-/// The drone's clock has run this long when the simulation starts.
+/// Reading of the drone's clock when the simulation starts.
 const CLOCK_AT_START: Duration = Duration::from_millis(31_400);
-/// A restarted drone neither hears nor says anything for so long. The real one takes longer: so the
-/// pilot has less time to notice.
+/// Time without communication after a restart. The real drone takes longer; the shorter time is harder for
+/// the pilot to notice.
 const BOOT_TIME: Duration = Duration::from_secs(1);
 
 impl Drone {
-    /// A drone that has just started, on the ground unless its configuration says otherwise.
+    /// A drone in its initial state, on the ground unless its configuration says otherwise.
     pub fn new(config: &DroneConfig) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(config.seed ^ 0x7472_696d);
         let trim_rad = Uniform::new_inclusive(-1.0, 1.0).map_or(Vector2::zeros(), |unit| {
@@ -214,7 +214,7 @@ impl Drone {
         }
     }
 
-    /// Lives on until `now`, on the drone's own clock from its start.
+    /// Advances to `now`, on the drone's own clock from its start.
     pub fn advance(&mut self, now: Duration) {
         while self.time() + STEP <= now {
             self.steps += 1;
@@ -236,18 +236,18 @@ impl Drone {
         }
     }
 
-    /// The time up to which the drone has lived.
+    /// The time up to which the drone is simulated.
     pub fn time(&self) -> Duration {
         STEP * u32::try_from(self.steps).unwrap_or(u32::MAX)
     }
 
-    /// Takes in a datagram of the AT port; returns what was not understood.
+    /// Processes a datagram of the AT port. Returns its decoding errors.
     pub fn handle_at(&mut self, now: Duration, datagram: &[u8]) -> Vec<DecodeError> {
         self.advance(now);
         if self.is_booting() { Vec::new() } else { self.firmware.handle_at(now, datagram) }
     }
 
-    /// Takes in a datagram of the navdata port: somebody wants to listen.
+    /// Processes a datagram of the navdata port: a client asks for navdata.
     pub fn handle_wake_up(&mut self, now: Duration) {
         self.advance(now);
         if !self.listener && !self.is_booting() {
@@ -256,22 +256,22 @@ impl Drone {
         }
     }
 
-    /// The next navdata packet for whoever woke the drone last.
+    /// The next navdata packet for the client that sent the last wake-up.
     pub fn poll_navdata(&mut self) -> Option<Bytes> {
         self.outgoing.pop_front()
     }
 
-    /// What goes out on the control port, if it was asked for.
+    /// The reply on the control port, if one was requested.
     pub fn poll_control(&mut self) -> Option<String> {
         self.firmware.take_dump()
     }
 
-    /// Something stops a propeller: the drone cuts its motors and falls.
+    /// Blocks a propeller: the drone cuts its motors and falls.
     pub fn block_propeller(&mut self) {
         self.firmware.block_propeller();
     }
 
-    /// Switches the drone off and on again, wherever it is: it forgets everything, and falls.
+    /// Power-cycles the drone wherever it is: it loses its state, and falls if it was flying.
     pub fn restart(&mut self, now: Duration) {
         self.advance(now);
         self.firmware = self.firmware.restarted();
@@ -287,25 +287,25 @@ impl Drone {
         starts_anew && self.time() < self.switched_on + BOOT_TIME
     }
 
-    /// Something that navdata tell is wrong for a time. Several faults may last at once; each sees
-    /// what the earlier ones left.
+    /// Falsifies one quantity in navdata for a time. Several faults may be active at once; each acts on the
+    /// result of the earlier ones.
     pub fn break_sensor(&mut self, quantity: Quantity, fault: SensorFault, time: Duration) {
         let now = self.time();
         let told = self.told(now);
         self.faults.begin(now, quantity, fault, time, &told);
     }
 
-    /// A roundel is laid on the floor.
+    /// Places a roundel on the floor.
     pub fn lay_tag(&mut self, tag: FloorTag) {
         self.tags.push(tag);
     }
 
-    /// The roundels on the floor, in the order in which they were laid.
+    /// The roundels on the floor, in the order of their placement.
     pub fn tags(&self) -> &[FloorTag] {
         &self.tags
     }
 
-    /// Somebody moves a roundel, the first laid being 0, or takes it away.
+    /// Moves or removes a roundel; the first one placed is 0.
     pub fn move_tag(&mut self, tag: usize, to: Option<FloorTag>) {
         match (self.tags.get_mut(tag), to) {
             (Some(tag), Some(to)) => *tag = to,
@@ -314,18 +314,17 @@ impl Drone {
         }
     }
 
-    /// The firmware raises bits of its state word for a time. They are only said: nothing else
-    /// follows from them.
+    /// Sets bits of the reported state word for a time. The firmware's behaviour does not change.
     pub fn claim_state(&mut self, bits: DroneState, time: Duration) {
         self.claims.bits.push((bits, self.time() + time));
     }
 
-    /// The firmware tells this detail of its control state for a time.
+    /// Sets the reported detail of the control state for a time.
     pub fn claim_minor_state(&mut self, minor: u16, time: Duration) {
         self.claims.minor.push((minor, self.time() + time));
     }
 
-    /// A motor weakens to a share of its thrust, from 0 to 1, within a time, for good.
+    /// Weakens a motor to a fraction of its thrust, from 0 to 1, over a time, permanently.
     pub fn weaken_motor(&mut self, share: f64, within: Duration) {
         self.airframe.weaken_motor(share, within);
     }
@@ -336,17 +335,17 @@ impl Drone {
         self.wind.gust_deviation_m_s = gusts_m_s;
     }
 
-    /// Changes by how much less charge seems to be left at full load.
+    /// Sets the reduction of the measured charge at full load.
     pub fn set_battery_sag_percent(&mut self, percent: f64) {
         self.firmware.set_battery_sag_percent(percent);
     }
 
-    /// Changes the charge.
+    /// Sets the charge.
     pub fn set_battery_percent(&mut self, percent: f64) {
         self.firmware.set_battery_percent(percent);
     }
 
-    /// What really happens.
+    /// The true state.
     pub fn truth(&self) -> Truth {
         Truth {
             time: self.time(),
@@ -365,14 +364,14 @@ impl Drone {
         }
     }
 
-    /// Remaining charge, as the drone believes it by its voltage.
+    /// Remaining charge as measured by voltage.
     pub fn battery_percent(&self) -> f64 {
         self.firmware.battery_percent()
     }
 
     fn send_navdata(&mut self, now: Duration) {
         if self.firmware.link_is_lost(now) && !self.firmware.is_bootstrapping() {
-            // The pilot has gone: the drone stops talking until somebody wakes it again.
+            // The client has gone: no navdata until the next wake-up.
             self.listener = false;
             self.firmware.start_bootstrap();
             return;
@@ -381,7 +380,7 @@ impl Drone {
         self.next_navdata = now + if demo_only { DEMO_PERIOD } else { FULL_PERIOD };
         self.sequence += 1;
         let mut bytes = BytesMut::with_capacity(PACKET_BYTES);
-        // All options together are shorter than a packet may be.
+        // All options together are shorter than the maximum packet.
         if self.write_packet(now, demo_only, &mut bytes).is_ok() {
             self.outgoing.push_back(bytes.freeze());
         }
@@ -409,7 +408,7 @@ impl Drone {
                 tag_27: self.config.tag_27,
             };
             let firmware = &self.firmware;
-            // The demo option is sent in any case.
+            // The demo option is always sent.
             let wanted = |tag| !demo_only || tag == 0 || firmware.wants_option(tag);
             telemetry.write(wanted, &mut packet)?;
         }
@@ -417,7 +416,7 @@ impl Drone {
         Ok(())
     }
 
-    /// What navdata say of the motion, be it true or not.
+    /// The motion as reported in navdata, true or not.
     fn told(&mut self, now: Duration) -> Told {
         let clock = now.saturating_sub(self.switched_on) + CLOCK_AT_START;
         let mut told = Told { reading: self.sensors.read(now), clock };

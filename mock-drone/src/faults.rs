@@ -1,7 +1,7 @@
-//! What a drone with broken sensors tells instead of what they read.
+//! Sensor faults in navdata.
 //!
-//! Only what navdata say is wrong: the firmware's own hover and landing go on by the true motion, as
-//! those of a drone whose control loop is well and whose telemetry is not.
+//! Only navdata are falsified: the firmware's own hover and landing use the true motion, as in a drone whose
+//! control loop works and whose telemetry does not.
 
 use std::time::Duration;
 
@@ -11,14 +11,14 @@ use rand_distr::{Distribution as _, StandardNormal};
 
 use crate::sensors::{DelayLine, Reading, SensorModel, wrapped_deg};
 
-/// Something that navdata tell and that can be wrong alone.
+/// A quantity in navdata that can be falsified separately.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quantity {
-    /// Velocity towards the drone's right, in metres a second.
+    /// Velocity towards the drone's right, in m/s.
     VelocityRight,
-    /// Velocity towards the drone's front, in metres a second.
+    /// Velocity towards the drone's front, in m/s.
     VelocityForward,
-    /// Height above the ground, in metres. Whole millimetres on the wire: it is never not a number.
+    /// Height above the ground, in metres. An integer of millimetres on the wire, which cannot be NaN.
     Altitude,
     /// Heading, clockwise, in degrees.
     Yaw,
@@ -26,12 +26,12 @@ pub enum Quantity {
     Roll,
     /// Nose up, in degrees.
     Pitch,
-    /// The drone's clock, in seconds. Whole microseconds on the wire: it is never not a number.
+    /// The drone's clock, in seconds. An integer of microseconds on the wire, which cannot be NaN.
     Clock,
 }
 
 impl Quantity {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Self; 7] = [
         Self::VelocityRight,
         Self::VelocityForward,
@@ -42,7 +42,7 @@ impl Quantity {
         Self::Clock,
     ];
 
-    /// Those that a sensor reads.
+    /// Quantities measured by a sensor.
     pub const SENSED: [Self; 6] = [
         Self::VelocityRight,
         Self::VelocityForward,
@@ -52,7 +52,7 @@ impl Quantity {
         Self::Pitch,
     ];
 
-    /// Whether it is a float on the wire, so that it can be not a number.
+    /// Whether it is a float on the wire, and so can be NaN.
     pub fn is_float(self) -> bool {
         !matches!(self, Self::Altitude | Self::Clock)
     }
@@ -69,26 +69,26 @@ impl Quantity {
     }
 }
 
-/// How a quantity is wrong.
+/// Kind of a sensor fault.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SensorFault {
-    /// It stays at what it read.
+    /// Stays at its last value.
     Stuck,
-    /// It stays at this.
+    /// Stays at this value.
     StuckAt(f64),
-    /// It stays at this, with its usual noise: a dead sensor that still rattles.
+    /// Stays at this value with its usual noise: a dead sensor that still has noise.
     DeadAt(f64),
-    /// So much is added.
+    /// An offset is added.
     Offset(f64),
-    /// So much is added a second.
+    /// A ramp is added, per second.
     Ramp(f64),
-    /// It is not a number. What is no float on the wire reads zero.
+    /// NaN. Quantities that are not floats on the wire read zero.
     NotANumber,
-    /// It is told so much later than the sensor's own delay.
+    /// Additional delay.
     Late(Duration),
 }
 
-/// What navdata tell of the drone's motion, and when.
+/// The motion reported in navdata, with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Told {
     pub(crate) reading: Reading,
@@ -96,7 +96,7 @@ pub(crate) struct Told {
     pub(crate) clock: Duration,
 }
 
-/// The clock starts again from zero after so long.
+/// Time after which the clock wraps.
 const CLOCK_WRAP_S: f64 = 2048.0;
 
 impl Told {
@@ -130,11 +130,11 @@ impl Told {
     }
 }
 
-/// The faults of one drone's sensors, several at once.
+/// The active faults of one drone's sensors.
 #[derive(Debug, Clone)]
 pub(crate) struct SensorFaults {
     random: ChaCha8Rng,
-    /// In the order in which they began: each sees what the earlier ones left.
+    /// In the order of their start: each acts on the result of the earlier ones.
     active: Vec<ActiveFault>,
 }
 
@@ -160,7 +160,7 @@ impl SensorFaults {
         Self { random: ChaCha8Rng::seed_from_u64(seed ^ 0x6661_756c), active: Vec::new() }
     }
 
-    /// A fault begins, for a time; `told` is what would be told now without it.
+    /// Starts a fault for a time; `told` are the values without it.
     pub(crate) fn begin(
         &mut self,
         now: Duration,
@@ -185,7 +185,7 @@ impl SensorFaults {
         self.active.push(ActiveFault { quantity, began: now, ends: now + time, effect });
     }
 
-    /// Changes what is told at `now`.
+    /// Applies the faults to the values at `now`.
     pub(crate) fn apply(&mut self, now: Duration, model: &SensorModel, told: &mut Told) {
         self.active.retain(|fault| fault.ends > now);
         for ActiveFault { quantity, began, effect, .. } in &mut self.active {
@@ -222,7 +222,7 @@ mod tests {
         told
     }
 
-    /// What is told at 1.5 s and at 3.5 s of a fault from 1 s to 3 s.
+    /// The values at 1.5 s and at 3.5 s with a fault from 1 s to 3 s.
     fn told(quantity: Quantity, fault: SensorFault) -> [f64; 2] {
         let mut faults = SensorFaults::new(1);
         faults.begin(SECOND, quantity, fault, 2 * SECOND, &healthy(quantity, SECOND));

@@ -1,4 +1,4 @@
-//! The drone's firmware as the network sees it: what state it is in, and what AT commands do.
+//! The drone's firmware as the network sees it: its state, and the effect of AT commands.
 
 use std::time::Duration;
 
@@ -10,11 +10,11 @@ use crate::airframe::{Airframe, Attitude, Profile, STEP_S, Scaling, Thrust, body
 use crate::camera::Detector;
 use crate::configuration::ConfigurationStore;
 
-/// Motors turn this long before the drone climbs.
+/// Time for which the motors run before the drone climbs.
 const SPIN_UP: Duration = Duration::from_millis(900);
 const TAKE_OFF_HEIGHT_M: f64 = 0.85;
 const TAKE_OFF_CLIMB_M_S: f64 = 0.55;
-/// The take-off is complete this close to its height.
+/// Distance from the hover height at which the take-off is complete.
 const TAKE_OFF_TOLERANCE_M: f64 = 0.06;
 const LANDING_SPEED_M_S: f64 = 0.4;
 const TOUCH_DOWN_SPEED_M_S: f64 = 0.25;
@@ -22,26 +22,26 @@ const TOUCH_DOWN_HEIGHT_M: f64 = 0.4;
 const ALTITUDE_GAIN_1_S: f64 = 1.2;
 /// A gaz demand below this holds the altitude.
 const GAZ_DEAD_ZONE: f64 = 0.005;
-/// Silence that raises the watchdog bit.
+/// Silence after which the watchdog bit is set.
 const WATCHDOG: Duration = Duration::from_millis(50);
-/// Silence that counts as a lost link, and after which the counting of commands starts anew.
+/// Silence after which the link counts as lost, and sequence numbers start again.
 const LINK_LOSS: Duration = Duration::from_secs(2);
-/// The drone hovers this long after a lost link before it lands.
+/// Time for which the drone hovers after a lost link before it lands.
 const LINK_LOSS_HOVER: Duration = Duration::from_secs(2);
-/// Full charge lasts this long in level hover.
+/// Duration of a full charge in level hover.
 const BATTERY_LIFE_S: f64 = 720.0;
 const BATTERY_REFUSES_TAKE_OFF_PERCENT: f64 = 20.0;
 const BATTERY_LOW_PERCENT: f64 = 10.0;
 const BATTERY_LANDS_PERCENT: f64 = 8.0;
 
-/// What the drone is doing.
+/// Phase of the flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
     /// On the ground, motors off.
     Landed,
     /// Spinning up, then climbing to the hover height.
     TakingOff {
-        /// When the order came.
+        /// Time of the order.
         since: Duration,
     },
     /// In the air, following PCMD or holding position.
@@ -64,7 +64,7 @@ pub struct Firmware {
     watchdog: bool,
     last_sequence: Option<u32>,
     last_command: Option<Duration>,
-    /// How often its level reference was set in the air, where that spoils it.
+    /// How often the level reference was set in flight, which spoils it.
     trims_in_flight: u32,
     emergency_bit: bool,
     user_emergency: bool,
@@ -76,17 +76,17 @@ pub struct Firmware {
     dump_requested: Option<Dump>,
 }
 
-/// What the motors draw from the battery, and what that does to what it seems to hold.
+/// Load of the motors on the battery, and its effect on the measured charge.
 #[derive(Debug, Clone, Copy, Default)]
 struct Load {
-    /// So much less seems to be left at full load.
+    /// Reduction of the measured charge at full load.
     sag_percent: f64,
-    /// Share of full load, as the battery feels it.
+    /// Fraction of full load, filtered by the battery.
     share: f64,
 }
 
 impl Load {
-    /// A battery answers its load with this time constant.
+    /// Time constant of the battery's response to its load.
     const TIME_CONSTANT_S: f64 = 0.5;
 
     fn step(&mut self, share: f64) {
@@ -94,7 +94,7 @@ impl Load {
     }
 }
 
-/// PCMD on its way to the motors.
+/// A PCMD on its way to the motors.
 #[derive(Debug, Clone, Default)]
 struct DelayedMotion {
     waiting: std::collections::VecDeque<(Duration, Motion)>,
@@ -117,14 +117,14 @@ impl DelayedMotion {
     }
 }
 
-/// What is asked for on the control port.
+/// Requests on the control port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Dump {
     Configuration,
     Identities,
 }
 
-/// The place and height that the drone holds by itself.
+/// Position and height that the drone holds autonomously.
 #[derive(Debug, Clone, Copy, Default)]
 struct Hold {
     place_m: Option<Vector2<f64>>,
@@ -132,7 +132,7 @@ struct Hold {
 }
 
 impl Firmware {
-    /// A drone of this kind that has just started, with this much charge.
+    /// A drone of this profile after its start, with this charge.
     pub fn new(profile: Profile, battery_percent: f64) -> Self {
         Self {
             profile,
@@ -155,8 +155,8 @@ impl Firmware {
         }
     }
 
-    /// A drone of this kind that another pilot has configured and flown to a height, and whose
-    /// commands ended just now.
+    /// A drone of this profile that another pilot has configured and flown to a height, and whose commands
+    /// have just ended.
     pub fn in_flight(profile: Profile, battery_percent: f64, height_m: f64) -> Self {
         let mut configuration = ConfigurationStore::default();
         configuration.set("general:navdata_demo", "TRUE");
@@ -170,14 +170,13 @@ impl Firmware {
         }
     }
 
-    /// The same drone after it was switched off and on: of what it knew, only its battery remains.
+    /// The same drone after a power cycle: only its battery charge remains.
     #[must_use]
     pub fn restarted(&self) -> Self {
         Self { battery: self.battery, ..Self::new(self.profile, self.charge_percent) }
     }
 
-    /// Takes in a datagram of the AT port. Returns the errors of commands that were not
-    /// understood; the others took effect.
+    /// Processes a datagram of the AT port. Returns the errors of invalid commands; the others take effect.
     pub fn handle_at(
         &mut self,
         now: Duration,
@@ -194,7 +193,7 @@ impl Firmware {
     }
 
     fn command(&mut self, now: Duration, sequence: u32, command: Command) {
-        // Number 1 starts the count anew, and so does a silence that lost the link.
+        // Sequence number 1 restarts the count, and so does a silence that lost the link.
         let silent = self.silence(now).is_none_or(|silence| silence >= LINK_LOSS);
         let fresh =
             sequence == 1 || silent || self.last_sequence.is_none_or(|last| sequence > last);
@@ -205,7 +204,7 @@ impl Firmware {
         self.last_command = Some(now);
         match command {
             Command::Ref(reference) => self.reference(now, reference),
-            // The pilot's own compass is not modelled.
+            // The client's compass is not modelled.
             Command::Pcmd(motion) | Command::PcmdMagneto { motion, .. } => {
                 self.motion.waiting.push_back((now + self.profile.dead_time, motion));
             }
@@ -224,12 +223,12 @@ impl Firmware {
                 self.dump_requested = Some(Dump::Identities);
             }
             Command::CommunicationWatchdog => self.watchdog = false,
-            // The level reference needs no model, but where it is set matters.
+            // Only the place where the level reference is set matters; its value is not modelled.
             Command::FlatTrim => {
                 let grounded = matches!(self.phase, Phase::Landed | Phase::Emergency);
                 self.trims_in_flight += u32::from(!grounded);
             }
-            // Identities need no model; the rest has no effect on flight.
+            // Identities are not modelled; the rest has no effect on flight.
             Command::CalibrateMagneto
             | Command::ConfigIds(_)
             | Command::Control(ControlMode::Other(_))
@@ -273,7 +272,7 @@ impl Firmware {
         self.hold = Hold::default();
     }
 
-    /// One physics step: what the motors are to do.
+    /// One physics step. Returns the command to the motors.
     pub fn step(&mut self, now: Duration, airframe: &Airframe) -> Thrust {
         let silence = self.silence(now);
         if silence.is_some_and(|silence| silence >= WATCHDOG) {
@@ -326,7 +325,7 @@ impl Firmware {
     }
 
     fn drain_battery(&mut self, airframe: &Airframe) {
-        /// What full tilt draws besides what hovering does.
+        /// Additional load of full tilt, relative to hovering.
         const TILT_SHARE: f64 = 0.6;
         if matches!(self.phase, Phase::Landed | Phase::Emergency) {
             self.battery.step(0.0);
@@ -367,7 +366,7 @@ impl Firmware {
         }
     }
 
-    /// Levels and stays over the place where the drone came to rest.
+    /// Levels and holds the position where the drone came to rest.
     fn hover(&mut self, airframe: &Airframe) -> Attitude {
         const PLACE_GAIN: f64 = 0.06;
         const SPEED_GAIN: f64 = 0.16;
@@ -400,39 +399,39 @@ impl Firmware {
         self.last_command.map(|last| now.saturating_sub(last))
     }
 
-    /// Something stops a propeller: the firmware cuts all motors.
+    /// Blocks a propeller: the firmware cuts all motors.
     pub fn block_propeller(&mut self) {
         self.user_emergency = false;
         self.cutout = true;
         self.phase = Phase::Emergency;
     }
 
-    /// How often its level reference was set in the air.
+    /// How often the level reference was set in flight.
     pub fn trims_in_flight(&self) -> u32 {
         self.trims_in_flight
     }
 
-    /// When it last took a command.
+    /// Time of the last command.
     pub fn last_command(&self) -> Option<Duration> {
         self.last_command
     }
 
-    /// What the drone does with its motion commands now.
+    /// Motion command in effect.
     pub fn motion(&self) -> Motion {
         self.motion.active
     }
 
-    /// What the drone is doing.
+    /// Phase of the flight.
     pub fn phase(&self) -> Phase {
         self.phase
     }
 
-    /// Whether the pilot has been silent so long that the link is lost.
+    /// Whether the client has been silent long enough for the link to count as lost.
     pub fn link_is_lost(&self, now: Duration) -> bool {
         self.silence(now).is_some_and(|silence| silence >= LINK_LOSS)
     }
 
-    /// Waits for a pilot to configure the drone again.
+    /// Enters bootstrap mode: the drone has to be configured again.
     pub fn start_bootstrap(&mut self) {
         self.bootstrapping = true;
     }
@@ -447,15 +446,15 @@ impl Firmware {
         self.configuration.is_set("general:navdata_demo")
     }
 
-    /// Whether option `tag` is asked for in demo mode.
+    /// Whether option `tag` is requested in demo mode.
     pub fn wants_option(&self, tag: u16) -> bool {
         let mask = self.configuration.text("general:navdata_options");
         mask.and_then(|mask| mask.parse::<u32>().ok()).is_some_and(|mask| mask >> tag & 1 == 1)
     }
 
-    /// What looks for roundels in the bottom camera's pictures, if the configuration says so.
+    /// The roundel detector, if the configuration enables it.
     pub(crate) fn detector(&self) -> Option<Detector> {
-        /// The black and white oriented roundel, as a kind and as a bit of a selection.
+        /// The black and white oriented roundel, as a kind and as a selection bit.
         const ROUNDEL: u32 = 8;
         let selected = |key| {
             let bits = self.configuration.text(key).and_then(|bits| bits.parse::<u32>().ok());
@@ -475,12 +474,12 @@ impl Firmware {
         self.charge_percent = percent.clamp(0.0, 100.0);
     }
 
-    /// Sets by how much less seems to be left at full load.
+    /// Sets the reduction of the measured charge at full load.
     pub fn set_battery_sag_percent(&mut self, percent: f64) {
         self.battery.sag_percent = percent.clamp(0.0, 100.0);
     }
 
-    /// Remaining charge, as the drone believes it by its voltage, which sags under load.
+    /// Remaining charge as measured by voltage, which sags under load.
     pub fn battery_percent(&self) -> f64 {
         (self.charge_percent - self.battery.sag_percent * self.battery.share).max(0.0)
     }
@@ -530,7 +529,7 @@ impl Firmware {
         }
     }
 
-    /// What the control port sends, if it was asked for since the last call.
+    /// The reply for the control port, if one was requested since the last call.
     pub fn take_dump(&mut self) -> Option<String> {
         self.dump_requested.take().map(|requested| match requested {
             Dump::Configuration => self.configuration.dump(),

@@ -1,19 +1,19 @@
 //! A simulated AR.Drone 2.0 that real clients can fly.
 //!
-//! - [`airframe`]: how the drone moves: tilt, thrust, drag, turn.
+//! - [`airframe`]: motion of the drone: tilt, thrust, drag, turn.
 //! - [`firmware`]: the state machine that the network sees: take-off, landing, emergency, sequence
-//!   numbers, watchdogs, configuration with acknowledge.
-//! - [`sensors`]: what the drone believes of its own motion: noise, bias, delay.
+//!   numbers, watchdogs, configuration with acknowledgement.
+//! - [`sensors`]: measurements of the motion: noise, bias, delay.
 //! - [`Drone`]: the three together, a pure state machine fed with time and bytes.
-//! - [`World`]: a drone in its air, where datagrams are late or lost and faults come by the clock.
+//! - [`World`]: a drone and its radio link, with datagrams that are late or lost, and faults over time.
 #![cfg_attr(feature = "server", doc = "- [`server`]: the drone on real sockets.")]
 #![cfg_attr(feature = "cli", doc = "- [`command_line`]: the program.")]
 //!
-//! Without its features the crate is pure: it opens no socket and reads no clock. `server` needs tokio, `cli` is the
-//! program `mock-drone`.
+//! Without its features the crate is pure: it opens no socket and reads no clock. `server` needs tokio; `cli`
+//! is the program `mock-drone`.
 //!
-//! A drone with the same [`DroneConfig`] that is told the same things at the same times does the
-//! same things, bit for bit. It knows its own [`Truth`], so that a flight can be judged.
+//! A drone with the same [`DroneConfig`] and the same inputs at the same times behaves identically, bit for
+//! bit. Its [`Truth`] is available to judge a flight.
 #![forbid(unsafe_code)]
 
 pub mod airframe;

@@ -1,4 +1,4 @@
-//! The air between pilot and drone, in one direction: what it loses, delays and spoils.
+//! The radio link between pilot and drone, in one direction: loss, delay and corruption.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -7,43 +7,43 @@ use bytes::Bytes;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-/// What goes wrong on the way. Shares are probabilities from 0 to 1.
+/// Faults of the link. Fractions are probabilities from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LinkFaults {
-    /// Share of datagrams that never arrive.
+    /// Fraction of datagrams that are lost.
     pub loss: f64,
-    /// Time that each datagram takes.
+    /// Base latency.
     pub delay: Duration,
-    /// Up to so much more, at random, which also changes their order.
+    /// Maximum random additional latency, which also reorders datagrams.
     pub jitter: Duration,
-    /// Share of datagrams that arrive twice.
+    /// Fraction of datagrams that arrive twice.
     pub duplication: f64,
-    /// Share of datagrams that arrive only behind the next one.
+    /// Fraction of datagrams that arrive after the next one.
     pub reordering: f64,
-    /// Share of datagrams that are spoiled. Navdata arrive with a changed byte, as they do from
-    /// real drones; AT commands do not arrive at all, since UDP's own checksum drops them.
+    /// Fraction of datagrams that are corrupted. Navdata arrive with a changed byte, as from real drones; AT
+    /// commands are lost, because UDP's checksum drops them.
     pub corruption: f64,
 }
 
-/// Datagrams on their way, each with a label of the caller's.
+/// Datagrams in transit, each with a label of the caller.
 #[derive(Debug, Clone)]
 pub(crate) struct Link<L> {
     pub(crate) faults: LinkFaults,
-    /// Whether nothing arrives at all.
+    /// Whether all datagrams are lost.
     pub(crate) out: bool,
-    /// Whether what is spoiled is dropped on the way.
+    /// Whether corrupted datagrams are dropped.
     drops_spoiled: bool,
     random: ChaCha8Rng,
-    /// In the order in which they arrive.
+    /// In the order of arrival.
     waiting: VecDeque<Travelling<L>>,
     held_back: Option<(L, Bytes)>,
-    /// Until then nothing arrives, and then all of it at once.
+    /// Until then datagrams are held back, and then arrive at once.
     held_until: Duration,
-    /// What arrived last.
+    /// The last datagrams that arrived.
     past: VecDeque<(L, Bytes)>,
 }
 
-/// So many old datagrams can arrive again.
+/// Maximum number of datagrams that can be repeated.
 pub(crate) const PAST: usize = 256;
 
 #[derive(Debug, Clone)]
@@ -67,13 +67,13 @@ impl<L: Copy> Link<L> {
         }
     }
 
-    /// The same link, on which what is spoiled is dropped.
+    /// The same link, but corrupted datagrams are dropped.
     pub(crate) fn dropping_spoiled(mut self) -> Self {
         self.drops_spoiled = true;
         self
     }
 
-    /// A datagram sets out.
+    /// Sends a datagram.
     pub(crate) fn send(&mut self, now: Duration, label: L, datagram: Bytes) {
         if self.out || self.happens(self.faults.loss) {
             return;
@@ -112,12 +112,12 @@ impl<L: Copy> Link<L> {
         self.waiting.insert(place, Travelling { due, label, datagram });
     }
 
-    /// Nothing arrives until then, and then all of it at once.
+    /// Holds datagrams back until `time`; then they arrive at once.
     pub(crate) fn hold_until(&mut self, time: Duration) {
         self.held_until = self.held_until.max(time);
     }
 
-    /// The last datagrams that arrived, at most [`PAST`], arrive again, in their old order.
+    /// Repeats the last datagrams that arrived, at most [`PAST`], in their old order.
     pub(crate) fn repeat(&mut self, now: Duration, count: usize) {
         for (label, datagram) in self.past.iter().skip(self.past.len().saturating_sub(count)) {
             let place = self.waiting.partition_point(|other| other.due <= now);
@@ -131,7 +131,7 @@ impl<L: Copy> Link<L> {
         self.waiting.front().map(|next| next.due.max(self.held_until))
     }
 
-    /// The next datagram that has arrived by now, with the time at which it did.
+    /// The next datagram that has arrived by now, with its time of arrival.
     pub(crate) fn receive(&mut self, now: Duration) -> Option<(Duration, L, Bytes)> {
         let next = self.waiting.pop_front_if(|next| next.due.max(self.held_until) <= now)?;
         if self.past.len() == PAST {
@@ -152,7 +152,7 @@ mod tests {
 
     const MS: fn(u64) -> Duration = Duration::from_millis;
 
-    /// Sends the numbers 0 to 255, ten times, one a millisecond; returns what arrived.
+    /// Sends the numbers 0 to 255, ten times, one per millisecond; returns the datagrams that arrived.
     fn numbers(faults: LinkFaults) -> Vec<(Duration, Bytes)> {
         let mut link = Link::new(faults, 5);
         let mut arrived = Vec::new();
@@ -187,7 +187,7 @@ mod tests {
         let doubled = numbers(LinkFaults { duplication: 0.2, ..LinkFaults::default() });
         assert!((2950..3190).contains(&doubled.len()), "{}", doubled.len());
         let swapped = numbers(LinkFaults { reordering: 0.1, ..LinkFaults::default() });
-        // The last one may still be waiting for a next one.
+        // The last one may still wait for its successor.
         assert!(swapped.len() >= 2559);
         assert!(out_of_order(&swapped) > 300);
         let spoiled = numbers(LinkFaults { corruption: 0.1, ..LinkFaults::default() });

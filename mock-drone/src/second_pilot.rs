@@ -1,13 +1,13 @@
-//! Another client that flies the same drone: it goes on telling it to hover where it is.
+//! Another client of the same drone, which keeps commanding it to hover.
 
 use std::time::Duration;
 
 use ardrone_link::at::{Command, Datagram, Motion, Ref};
 
-/// Other clients send as often as we do.
+/// Same period as the autopilot's.
 const PERIOD: Duration = Duration::from_millis(30);
 
-/// A client that has its own count of commands and hears nothing.
+/// A client with its own sequence numbers, which receives nothing.
 #[derive(Debug, Clone)]
 pub(crate) struct SecondPilot {
     next: Duration,
@@ -16,17 +16,17 @@ pub(crate) struct SecondPilot {
 }
 
 impl SecondPilot {
-    /// A client that sends from now on, for a time; `sequence` numbers its first command.
+    /// A client that sends from `now` on, for `time`; `sequence` numbers its first command.
     pub(crate) fn new(now: Duration, time: Duration, sequence: u32) -> Self {
         Self { next: now, ends: now + time, sequence }
     }
 
-    /// When it sends next, unless it has finished.
+    /// When it sends next; `None` when it has finished.
     pub(crate) fn next_due(&self) -> Option<Duration> {
         (self.next < self.ends).then_some(self.next)
     }
 
-    /// What it sends at `now`.
+    /// Its datagram at `now`.
     pub(crate) fn datagram(&mut self, now: Duration) -> Option<Datagram> {
         self.next_due().filter(|due| *due <= now)?;
         self.next += PERIOD;

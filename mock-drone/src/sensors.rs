@@ -1,4 +1,4 @@
-//! What the drone believes of its own motion: optical flow, altitude, attitude, heading.
+//! Sensors of the drone's motion: optical flow, altitude, attitude, heading.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -10,24 +10,24 @@ use rand_distr::{Distribution as _, StandardNormal};
 
 use crate::airframe::{Airframe, STEP_S, world_from_body};
 
-/// How good the sensors are.
+/// Errors of the sensors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorModel {
-    /// White noise of the optical flow, a sample.
+    /// White noise of each sample of the optical flow.
     pub flow_noise_m_s: f64,
     /// Time constant of the flow's own filter.
     pub flow_filter: Duration,
-    /// Delay of the flow behind the motion, besides its filter.
+    /// Delay of the flow besides its filter.
     pub flow_delay: Duration,
-    /// Standard deviation of the flow's bias at the start.
+    /// Initial standard deviation of the flow's bias.
     pub flow_bias_m_s: f64,
-    /// How fast the bias wanders, per root second.
+    /// Random walk of the bias, per root second.
     pub flow_bias_walk_m_s: f64,
     /// Scale error of the flow, 0.03 for 3 %.
     pub flow_scale_error: f64,
-    /// White noise of the altitude, a sample.
+    /// White noise of each sample of the altitude.
     pub altitude_noise_m: f64,
-    /// Share of ultrasound echoes that are wrong.
+    /// Fraction of ultrasound echoes that are wrong.
     pub bad_echoes: f64,
     /// White noise of pitch and roll.
     pub attitude_noise_deg: f64,
@@ -37,7 +37,7 @@ pub struct SensorModel {
     pub yaw_noise_deg: f64,
     /// Drift of the heading.
     pub yaw_drift_deg_s: f64,
-    /// What the heading reads at the start.
+    /// Initial reading of the heading.
     pub initial_heading_deg: f64,
 }
 
@@ -82,7 +82,7 @@ impl SensorModel {
 }
 
 impl SensorModel {
-    /// A bad room: dim, smooth floor, things in the way of the ultrasound.
+    /// A bad room: dim light, smooth floor, obstacles below the ultrasound.
     pub fn hard() -> Self {
         Self {
             flow_noise_m_s: 0.08,
@@ -101,7 +101,7 @@ impl SensorModel {
         }
     }
 
-    /// Standard deviation of the flow's white noise behind its own filter.
+    /// Standard deviation of the flow's white noise after its own filter.
     pub(crate) fn filtered_flow_noise_m_s(&self) -> f64 {
         let period_s = FLOW_STEPS as f64 * STEP_S;
         let share = period_s / (period_s + self.flow_filter.as_secs_f64());
@@ -109,7 +109,7 @@ impl SensorModel {
     }
 }
 
-/// What the sensors read now.
+/// Sensor readings at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Reading {
@@ -155,7 +155,7 @@ const ATTITUDE_STEPS: u64 = 2;
 const BIAS_LEAK_S: f64 = 120.0;
 
 impl Sensors {
-    /// Sensors whose noise follows from `seed`.
+    /// Sensors with noise from `seed`.
     pub fn new(model: SensorModel, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let bias_m_s = gaussian_pair(&mut random) * model.flow_bias_m_s;
@@ -172,8 +172,7 @@ impl Sensors {
         }
     }
 
-    /// The same sensors as they are when they have looked at an airframe at rest for long: nothing is
-    /// still on its way.
+    /// The same sensors after a long time at rest: delay lines and filters are settled.
     #[must_use]
     pub fn settled(mut self, airframe: &Airframe) -> Self {
         let attitude = AttitudeReading {
@@ -187,14 +186,14 @@ impl Sensors {
         self
     }
 
-    /// The same sensors after the drone was switched off and on. What they were integrated to is
-    /// nothing that the drone knows: it goes on.
+    /// The same sensors after a power cycle. The integrated velocity continues, because it is part of the
+    /// simulation and not of the drone.
     #[must_use]
     pub fn restarted(self, seed: u64) -> Self {
         Self { odometry_m: self.odometry_m, ..Self::new(self.model, seed) }
     }
 
-    /// Looks at the airframe after physics step number `step`, at time `now`.
+    /// Samples the airframe after physics step number `step`, at time `now`.
     pub fn step(&mut self, step: u64, now: Duration, airframe: &Airframe) {
         if step.is_multiple_of(FLOW_STEPS) {
             self.sample_flow(now, airframe);
@@ -248,7 +247,7 @@ impl Sensors {
         self.attitude.push(now, reading);
     }
 
-    /// What the drone would report at `now`.
+    /// The readings that the drone reports at `now`.
     pub fn read(&mut self, now: Duration) -> Reading {
         let attitude = self.attitude.read(now);
         Reading {
@@ -260,9 +259,8 @@ impl Sensors {
         }
     }
 
-    /// The velocity that the healthy sensors read, integrated without delay: the best that anybody
-    /// can know of the drone's place who hears only navdata. Injected faults are not in it.
-    /// (right, forward) from the start.
+    /// The velocity of the healthy sensors, integrated without delay: the best position estimate that is
+    /// possible from navdata alone. Injected faults are excluded. (right, forward) from the start.
     pub fn odometry_m(&self) -> Vector2<f64> {
         self.odometry_m
     }
@@ -272,7 +270,7 @@ impl Sensors {
     }
 }
 
-/// The same angle in [-180, 180).
+/// Wraps an angle to [-180, 180).
 pub(crate) fn wrapped_deg(deg: f64) -> f64 {
     (deg + 180.0).rem_euclid(360.0) - 180.0
 }
@@ -281,7 +279,7 @@ fn gaussian_pair(random: &mut ChaCha8Rng) -> Vector2<f64> {
     Vector2::new(StandardNormal.sample(random), StandardNormal.sample(random))
 }
 
-/// Values that become visible some time after they were measured.
+/// Delays values by a fixed time.
 #[derive(Debug, Clone)]
 pub(crate) struct DelayLine<T> {
     delay: Duration,
@@ -294,7 +292,7 @@ impl<T: Copy + Default> DelayLine<T> {
         Self::starting_at(T::default(), delay)
     }
 
-    /// A line that shows this value until the first one has come through.
+    /// A delay line that returns this value until the first one has passed.
     pub(crate) fn starting_at(value: T, delay: Duration) -> Self {
         Self { delay, waiting: VecDeque::new(), visible: value }
     }

@@ -1,4 +1,4 @@
-//! What the drone tells of itself: every option of a packet, from what its sensors read.
+//! Content of navdata: every option of a packet, from the sensor readings.
 
 use std::time::Duration;
 
@@ -16,26 +16,26 @@ use crate::airframe::{Airframe, GRAVITY_M_S2};
 use crate::firmware::{Firmware, Phase};
 use crate::sensors::Reading;
 
-/// What the drone sends as option 27, in which firmware versions differ.
+/// Content of option 27, in which firmware versions differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Tag27 {
     /// Nothing, which every client understands.
     #[default]
     Absent,
-    /// 12 bytes, as older firmware does; some clients lose every packet then.
+    /// 12 bytes, as in older firmware; some clients then lose every packet.
     Zimmu,
-    /// 216 bytes of GPS, as firmware 2.4 does; other clients lose every packet then.
+    /// 216 bytes of GPS, as in firmware 2.4; other clients then lose every packet.
     Gps,
 }
 
-/// The parts of a drone that it tells of.
+/// Sources of navdata.
 pub(crate) struct Telemetry<'a> {
     pub(crate) firmware: &'a Firmware,
     pub(crate) airframe: &'a Airframe,
     pub(crate) reading: Reading,
-    /// What was found in the pictures.
+    /// Detections in the pictures.
     pub(crate) tags: VisionDetect,
-    /// The detail of the control state; 0 when all is well.
+    /// Detail of the control state; 0 if there is none.
     pub(crate) minor_state: u16,
     pub(crate) wind_m_s: Vector2<f64>,
     /// The drone's own clock.
@@ -43,16 +43,16 @@ pub(crate) struct Telemetry<'a> {
     pub(crate) tag_27: Tag27,
 }
 
-/// Battery voltage when empty, and what a full charge adds.
+/// Battery voltage when empty, and the difference to a full charge.
 const EMPTY_V: f64 = 9.9;
 const CHARGE_V: f64 = 2.6;
-/// The ultrasound sensor sits this high when the drone stands.
+/// Height of the ultrasound sensor when the drone stands.
 const SENSOR_HEIGHT_M: f64 = 0.24;
 const SEA_LEVEL_PA: f64 = 101_325.0;
 const PASCALS_PER_METRE: f64 = 12.0;
 
 impl Telemetry<'_> {
-    /// Writes the options that are wanted, in the order of their tags.
+    /// Writes the requested options, in the order of their tags.
     pub(crate) fn write(
         &self,
         wanted: impl Fn(u16) -> bool,
@@ -93,7 +93,7 @@ impl Telemetry<'_> {
                 Tag27::Zimmu => NavdataOption::Zimmu3000(Zimmu3000::default()),
                 Tag27::Gps => NavdataOption::Gps(Gps::default()),
             },
-            // What has no counterpart in the simulation is there all the same, as zeros.
+            // Options without a counterpart in the simulation are zero.
             4 => NavdataOption::GyroOffsets(GyroOffsets::default()),
             8 => NavdataOption::RcReferences(RcReferences::default()),
             11 => NavdataOption::VisionRaw(VisionRaw::default()),
@@ -110,7 +110,7 @@ impl Telemetry<'_> {
     }
 
     fn demo(&self) -> Demo {
-        // A percentage: it fits.
+        // A percentage fits.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let battery_percent = self.firmware.battery_percent().round() as u32;
         Demo {
@@ -197,7 +197,7 @@ impl Telemetry<'_> {
 
     fn pressure(&self) -> PressureRaw {
         let pressure_pa = SEA_LEVEL_PA - PASCALS_PER_METRE * self.airframe.position_m().z;
-        // Pressures of the lower atmosphere fit by far.
+        // Pressures of the lower atmosphere fit.
         #[allow(clippy::cast_possible_truncation)]
         let pressure_pa = pressure_pa.round() as i32;
         PressureRaw {
@@ -222,7 +222,7 @@ impl Telemetry<'_> {
     }
 
     fn wind(&self) -> WindSpeed {
-        // Where it blows from; without wind, from nowhere.
+        // Direction from which it blows; zero without wind.
         let still = self.wind_m_s == Vector2::zeros();
         let from_deg = (-self.wind_m_s.x).atan2(-self.wind_m_s.y).to_degrees();
         let from_deg = if still { 0.0 } else { from_deg };

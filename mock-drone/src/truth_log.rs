@@ -1,4 +1,4 @@
-//! What really happened, as CSV: one row every 20 ms.
+//! The true state as CSV: one row every 20 ms.
 
 use std::io::{self, Write};
 use std::time::Duration;
@@ -9,19 +9,19 @@ use crate::world::World;
 /// Time between two rows.
 const PERIOD: Duration = Duration::from_millis(20);
 
-/// Writes the truth of a world.
+/// Writes the true state of a world.
 #[derive(Debug)]
-#[must_use = "what is not recorded is not known"]
+#[must_use = "the log is written by `record`"]
 pub struct TruthLog<W: Write> {
     writer: csv::Writer<W>,
     next: Duration,
 }
 
 impl<W: Write> TruthLog<W> {
-    /// A log with its first line.
+    /// Writes the header.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     pub fn new(writer: W) -> io::Result<Self> {
         let mut writer = csv::Writer::from_writer(writer);
         writer.write_record([
@@ -41,10 +41,10 @@ impl<W: Write> TruthLog<W> {
         Ok(Self { writer, next: Duration::ZERO })
     }
 
-    /// Writes a row if it is time for one.
+    /// Writes a row if one is due.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     pub fn record(&mut self, world: &World) -> io::Result<()> {
         let truth = world.truth();
         if truth.time < self.next {
@@ -73,10 +73,10 @@ impl<W: Write> TruthLog<W> {
         Ok(())
     }
 
-    /// Writes out what is still in memory.
+    /// Flushes buffered rows.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     pub fn flush(&mut self) -> io::Result<()> {
         self.writer.flush()
     }

@@ -7,7 +7,7 @@ use rand_distr::{Distribution as _, StandardNormal};
 
 use crate::airframe::STEP_S;
 
-/// Gusts come and go with this time constant.
+/// Time constant of the gusts.
 const GUST_TIME_CONSTANT_S: f64 = 2.0;
 
 /// Wind that blows towards (right, forward).
@@ -29,7 +29,7 @@ impl Wind {
         }
     }
 
-    /// The wind in the next physics step: a Gauss-Markov process around the steady one.
+    /// The wind in the next physics step: a Gauss-Markov process around the steady wind.
     pub(crate) fn step(&mut self) -> Vector2<f64> {
         if self.gust_deviation_m_s > 0.0 {
             let fade = STEP_S / GUST_TIME_CONSTANT_S;

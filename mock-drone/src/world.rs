@@ -1,6 +1,6 @@
-//! A drone and the air around it: links with faults, and a scenario that changes them over time.
+//! A drone and its radio link: faults of the link, and a scenario that changes them over time.
 //!
-//! Pure like the drone itself: whoever drives it, a server or a simulation, gets the same.
+//! Pure, like the drone itself: server and simulation drive it alike.
 
 use std::time::Duration;
 
@@ -14,29 +14,29 @@ use crate::link::{Link, LinkFaults};
 use crate::scenario::{Action, Direction, Scenario};
 use crate::second_pilot::SecondPilot;
 
-/// A world to fly in.
+/// Configuration of a [`World`].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct WorldConfig {
     /// The drone.
     pub drone: DroneConfig,
-    /// What the air does in both directions from the start.
+    /// Initial faults of the link in both directions.
     pub link: LinkFaults,
-    /// What happens over time.
+    /// Faults over time.
     pub scenario: Scenario,
     /// Roundels on the floor.
     pub tags: Vec<FloorTag>,
 }
 
-/// What comes back from the drone.
+/// A message from the drone.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Message {
-    /// A datagram of the navdata port, for whoever woke it last.
+    /// A datagram of the navdata port, for the client that sent the last wake-up.
     Navdata(Bytes),
     /// Text for the control port.
     Control(String),
 }
 
-/// Where a datagram goes.
+/// Destination of a datagram.
 #[derive(Debug, Clone, Copy)]
 enum Port {
     At,
@@ -51,14 +51,14 @@ pub struct World {
     down: Link<()>,
     scenario: Scenario,
     take_off: Option<Duration>,
-    /// When nothing is lost any more on the way up, and on the way down.
+    /// End of the current outage, up and down.
     outage_ends: [Option<Duration>; 2],
     second_pilot: Option<SecondPilot>,
     control: Option<String>,
 }
 
 impl World {
-    /// A world in which nothing has happened yet.
+    /// A world at its start.
     pub fn new(config: &WorldConfig) -> Self {
         let seed = config.drone.seed;
         let mut drone = Drone::new(&config.drone);
@@ -77,19 +77,19 @@ impl World {
         }
     }
 
-    /// A datagram sets out for the drone's AT port.
+    /// Sends a datagram to the drone's AT port.
     pub fn send_at(&mut self, now: Duration, datagram: &[u8]) {
         self.advance(now);
         self.up.send(now, Port::At, Bytes::copy_from_slice(datagram));
     }
 
-    /// A datagram sets out for the drone's navdata port.
+    /// Sends a datagram to the drone's navdata port.
     pub fn send_wake_up(&mut self, now: Duration, datagram: &[u8]) {
         self.advance(now);
         self.up.send(now, Port::Navdata, Bytes::copy_from_slice(datagram));
     }
 
-    /// Lives on until `now`.
+    /// Advances the simulation to `now`.
     pub fn advance(&mut self, now: Duration) {
         loop {
             let next = [
@@ -118,13 +118,13 @@ impl World {
         self.live(now);
     }
 
-    /// What has arrived at the pilot by now.
+    /// The next message that has arrived by now.
     pub fn receive(&mut self, now: Duration) -> Option<Message> {
         let navdata = self.down.receive(now).map(|(_, (), datagram)| Message::Navdata(datagram));
         navdata.or_else(|| self.control.take().map(Message::Control))
     }
 
-    /// What really happens.
+    /// The true state.
     pub fn truth(&self) -> Truth {
         self.drone.truth()
     }
@@ -142,14 +142,14 @@ impl World {
 
     fn live(&mut self, now: Duration) {
         self.drone.advance(now);
-        // A drone that flies from the start has taken off then.
+        // A drone that starts airborne has taken off at the start.
         if matches!(self.drone.truth().phase, Phase::TakingOff { .. } | Phase::Flying) {
             self.take_off.get_or_insert(now);
         }
         while let Some(packet) = self.drone.poll_navdata() {
             self.down.send(now, (), packet);
         }
-        // TCP repeats what is lost, and needs both directions.
+        // TCP retransmits lost segments, and needs both directions.
         if !self.down.out
             && !self.up.out
             && let Some(dump) = self.drone.poll_control()
@@ -158,7 +158,7 @@ impl World {
         }
     }
 
-    /// Ends what is over, begins what is due.
+    /// Ends faults that are over and starts those that are due.
     fn change(&mut self, now: Duration) {
         let over = |end: &mut Duration| *end <= now;
         let [up, down] = &mut self.outage_ends;
@@ -236,7 +236,7 @@ impl World {
         }
     }
 
-    /// Nothing passes until then; of two outages the later end counts.
+    /// Blocks a direction until `ends`; of two outages the later end counts.
     fn cut_off(&mut self, direction: Direction, ends: Duration) {
         let [up, down] = &mut self.outage_ends;
         if direction.is_up() {
@@ -259,12 +259,12 @@ mod tests {
 
     const TICK: Duration = Duration::from_millis(30);
 
-    /// A world with a client that configures the drone and keeps it in the air.
+    /// A world with a client that configures the drone and keeps it flying.
     struct Bench {
         world: World,
         now: Duration,
         sequence: u32,
-        /// When each packet of navdata came, and its number.
+        /// Time of arrival and number of each navdata packet.
         heard: Vec<(Duration, u32)>,
     }
 
@@ -310,8 +310,8 @@ mod tests {
     fn an_outage_may_concern_one_direction() {
         let mut deaf = Bench::new("8 outage up 8");
         deaf.fly(Ref::TakeOff, 15);
-        assert_eq!(deaf.world.truth().phase, Phase::Landed, "the drone has heard nobody");
-        assert!(deaf.heard_between(8.1, 9.9) > 20, "but said that it lives");
+        assert_eq!(deaf.world.truth().phase, Phase::Landed, "the drone has received nothing");
+        assert!(deaf.heard_between(8.1, 9.9) > 20, "but kept sending");
         let mut dumb = Bench::new("8 outage down 6");
         dumb.fly(Ref::TakeOff, 15);
         assert_eq!(dumb.world.truth().phase, Phase::Flying);
@@ -326,7 +326,7 @@ mod tests {
         assert_eq!(bench.heard_between(3.05, 4.0), 0);
         assert!(bench.heard_between(4.0, 4.05) > 12);
         let again = bench.heard.windows(2).filter(|pair| pair[1].1 <= pair[0].1).count();
-        assert_eq!(again, 1, "a heap of old ones");
+        assert_eq!(again, 1, "a burst of old ones");
         assert!(bench.heard_between(5.95, 6.05) >= 20);
     }
 

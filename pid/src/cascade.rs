@@ -5,22 +5,19 @@
 //! moment at which the command takes effect. The estimated disturbance is compensated at once; an integral
 //! learns the rest and keeps it across targets.
 
+use kinematics::{
+    Airframe, DroneLimits, GRAVITY_M_S2, Sticks, body_from_world, world_from_body, wrap_deg,
+};
 use nalgebra::Vector2;
 
 use crate::climb::{ClimbLimits, ClimbReference};
 use crate::pid::{Pid, PidGains, PidInputs};
-use crate::position::{Airframe, Demand, Inputs, body_from_world, world_from_body, wrap_deg};
+use crate::position::Inputs;
 use crate::trajectory::{MotionLimits, Trajectory};
-
-const GRAVITY_M_S2: f64 = 9.81;
 
 /// Gains and limits of the law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CascadeConfig {
-    /// Tilt at full stick, in radians.
-    pub tilt_max_rad: f64,
-    /// Rate of climb at full stick.
-    pub climb_max_m_s: f64,
     /// Maximum horizontal speed of the reference.
     pub speed_max_m_s: f64,
     /// Fraction of the acceleration at full tilt that the reference uses; the rest is reserved for errors and
@@ -49,8 +46,6 @@ pub struct CascadeConfig {
 impl Default for CascadeConfig {
     fn default() -> Self {
         Self {
-            tilt_max_rad: 12_f64.to_radians(),
-            climb_max_m_s: 0.7,
             speed_max_m_s: 2.2,
             acceleration_share: 0.72,
             jerk_max_m_s3: 14.0,
@@ -69,6 +64,7 @@ impl Default for CascadeConfig {
 #[derive(Debug, Clone)]
 pub(crate) struct Cascade {
     config: CascadeConfig,
+    limits: DroneLimits,
     way: Option<Way>,
     right: Pid,
     forward: Pid,
@@ -84,7 +80,7 @@ struct Way {
 }
 
 impl Cascade {
-    pub(crate) fn new(config: CascadeConfig) -> Self {
+    pub(crate) fn new(config: CascadeConfig, limits: DroneLimits) -> Self {
         Self {
             way: None,
             right: Pid::new(config.horizontal),
@@ -92,12 +88,13 @@ impl Cascade {
             up: Pid::default(),
             yaw: Pid::new(config.yaw),
             config,
+            limits,
         }
     }
 
     /// Resets the reference and the integrals.
     pub(crate) fn reset(&mut self) {
-        *self = Self::new(self.config);
+        *self = Self::new(self.config, self.limits);
     }
 
     /// Resets the reference, keeps the integrals.
@@ -105,7 +102,7 @@ impl Cascade {
         self.way = None;
     }
 
-    pub(crate) fn step(&mut self, inputs: &Inputs<'_>) -> Demand {
+    pub(crate) fn step(&mut self, inputs: &Inputs<'_>) -> Sticks {
         let Inputs { pose, target, .. } = *inputs;
         if self.way.is_none() {
             self.way = Some(Way {
@@ -118,22 +115,22 @@ impl Cascade {
         let turn_deg = wrap_deg(target.yaw_deg - pose.yaw_deg);
         let yaw = self.yaw.output(&PidInputs {
             setpoint: turn_deg,
-            measured_rate: inputs.motion.yaw_deg_s,
+            measured_rate: inputs.velocity.yaw_deg_s,
             ..PidInputs::default()
         });
         // A drone that turns more slowly while moving flies a straighter path.
         let moves = self.way.as_ref().is_some_and(|way| way.horizontal.is_moving());
         let most = if moves { inputs.limit * self.config.turn_share } else { inputs.limit };
-        Demand { roll: right, pitch: -forward, gaz, yaw: yaw.clamp(-most, most) }
+        Sticks { roll: right, pitch: -forward, gaz, yaw: yaw.clamp(-most, most) }
     }
 
     /// Horizontal stick demand (right, forward).
     fn across(&mut self, inputs: &Inputs<'_>) -> (f64, f64) {
-        let Inputs { pose, motion, target, airframe, disturbance_m_s2, step_s, limit } = *inputs;
+        let Inputs { pose, velocity, target, airframe, disturbance_m_s2, step_s, limit } = *inputs;
         let Some(way) = &mut self.way else { return (0.0, 0.0) };
-        let config = self.config;
+        let (config, tilt_max_rad) = (self.config, self.limits.tilt_rad);
         let thrust = airframe.thrust_gain;
-        let full_m_s2 = GRAVITY_M_S2 * config.tilt_max_rad.tan() * thrust.amin();
+        let full_m_s2 = GRAVITY_M_S2 * tilt_max_rad.tan() * thrust.amin();
         // Acceleration needed against the disturbance is not available to the reference.
         let free_m_s2 = (full_m_s2 - disturbance_m_s2.norm()).max(full_m_s2 / 3.0);
         let limits = MotionLimits {
@@ -146,8 +143,8 @@ impl Cascade {
         // The command holds for one step, so it is computed for the middle of the step.
         let ahead = way.horizontal.at(step_s / 2.0);
         way.horizontal.advance(step_s);
-        let speed = body_from_world(ahead.velocity_m_s.x, ahead.velocity_m_s.y, pose.yaw_deg);
-        let drag = Vector2::new(speed.0, speed.1).component_mul(&airframe.drag_1_s);
+        let speed_m_s = body_from_world(ahead.velocity_m_s, pose.yaw_deg);
+        let drag = speed_m_s.component_mul(&airframe.drag_1_s);
         let feed_forward = ahead.acceleration_m_s2
             + ahead.jerk_m_s3 * airframe.tilt_lag_s
             + world_from_body(drag, pose.yaw_deg)
@@ -159,14 +156,14 @@ impl Cascade {
             measured_rate,
             feed_forward: feed_forward[i],
         };
-        let (x, y) = (axis(0, pose.x_m, motion.x_m_s), axis(1, pose.y_m, motion.y_m_s));
+        let (x, y) = (axis(0, pose.x_m, velocity.x_m_s), axis(1, pose.y_m, velocity.y_m_s));
         let wanted = Vector2::new(self.right.output(&x), self.forward.output(&y));
         // While the tilt follows its stick the drone turns, and the tilt with it.
         let ahead_s = airframe.tilt_lag_s + step_s / 2.0;
-        let yaw_deg = pose.yaw_deg + motion.yaw_deg_s * ahead_s;
-        let (right, forward) = body_from_world(wanted.x, wanted.y, yaw_deg);
-        let pull = Vector2::new(right, forward).component_div(&(thrust * GRAVITY_M_S2));
-        let sticks = pull.map(f64::atan) / (config.tilt_max_rad * airframe.tilt_gain);
+        let yaw_deg = pose.yaw_deg + velocity.yaw_deg_s * ahead_s;
+        let wanted_m_s2 = body_from_world(wanted, yaw_deg);
+        let pull = wanted_m_s2.component_div(&(thrust * GRAVITY_M_S2));
+        let sticks = pull.map(f64::atan) / (tilt_max_rad * airframe.tilt_gain);
         // Keeps the direction if one axis exceeds the limit. The drone does not tilt beyond its limit,
         // whatever its gain.
         let most = limit.min(1.0 / airframe.tilt_gain);
@@ -180,11 +177,11 @@ impl Cascade {
 
     /// Vertical stick demand.
     fn up(&mut self, inputs: &Inputs<'_>) -> f64 {
-        let Inputs { pose, motion, target, airframe, step_s, limit, .. } = *inputs;
+        let Inputs { pose, velocity, target, airframe, step_s, limit, .. } = *inputs;
         let Some(way) = &mut self.way else { return 0.0 };
-        let config = self.config;
-        let rise_m_s = config.climb_max_m_s * airframe.climb_gain * limit;
-        let drop_m_s = config.climb_max_m_s * airframe.drop_gain * limit;
+        let (config, climb_max_m_s) = (self.config, self.limits.climb_m_s);
+        let rise_m_s = climb_max_m_s * airframe.climb_gain * limit;
+        let drop_m_s = climb_max_m_s * airframe.drop_gain * limit;
         let reference = way.vertical;
         let feed_forward = way.vertical.advance(
             target.z_m,
@@ -202,14 +199,14 @@ impl Cascade {
             setpoint: reference.height_m,
             setpoint_rate: reference.climb_m_s,
             measured: pose.z_m,
-            measured_rate: motion.z_m_s,
+            measured_rate: velocity.z_m_s,
             feed_forward,
         };
         let wanted_m_s = self.up.output(&z);
         let climb_m_s = wanted_m_s.clamp(-drop_m_s, rise_m_s);
         self.up.learn(&z, wanted_m_s, climb_m_s, step_s);
         let gain = if climb_m_s > 0.0 { airframe.climb_gain } else { airframe.drop_gain };
-        climb_m_s / (config.climb_max_m_s * gain)
+        climb_m_s / (climb_max_m_s * gain)
     }
 
     /// Gains from natural frequency and damping: a drone whose climb follows with a lag `τ`, controlled by

@@ -14,4 +14,4 @@ mod tum;
 
 pub use cascade::CascadeConfig;
 pub use pid::{Pid, PidGains, PidInputs};
-pub use position::{Airframe, Demand, Inputs, Law, Motion, Pose, PositionController};
+pub use position::{Inputs, Law, PositionController};

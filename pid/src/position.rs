@@ -1,82 +1,10 @@
 //! Position control with one of two laws.
 
+use kinematics::{Airframe, DroneLimits, Pose, Sticks, Velocity};
 use nalgebra::Vector2;
 
 use crate::cascade::{Cascade, CascadeConfig};
 use crate::tum::TumLaw;
-
-/// Position and heading: x right, y forward, z up in metres; yaw in degrees, clockwise.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Pose {
-    /// Right.
-    pub x_m: f64,
-    /// Forward.
-    pub y_m: f64,
-    /// Up.
-    pub z_m: f64,
-    /// Clockwise from above.
-    pub yaw_deg: f64,
-}
-
-/// Velocity in the world frame.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Motion {
-    /// Right.
-    pub x_m_s: f64,
-    /// Forward.
-    pub y_m_s: f64,
-    /// Up.
-    pub z_m_s: f64,
-    /// Clockwise.
-    pub yaw_deg_s: f64,
-}
-
-/// Response of the airframe to its sticks. Gains are relative to the nominal response.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Airframe {
-    /// Achieved over commanded tilt.
-    pub tilt_gain: f64,
-    /// Time constant of the tilt.
-    pub tilt_lag_s: f64,
-    /// Achieved over commanded rate of climb.
-    pub climb_gain: f64,
-    /// Achieved over commanded rate of descent.
-    pub drop_gain: f64,
-    /// Time constant of the rate of climb.
-    pub climb_lag_s: f64,
-    /// Achieved acceleration over that of gravity at the same tilt (right, forward).
-    pub thrust_gain: Vector2<f64>,
-    /// Linear drag (right, forward).
-    pub drag_1_s: Vector2<f64>,
-}
-
-impl Default for Airframe {
-    /// Mean of the published models.
-    fn default() -> Self {
-        Self {
-            tilt_gain: 1.0,
-            tilt_lag_s: 0.13,
-            climb_gain: 1.0,
-            drop_gain: 1.0,
-            climb_lag_s: 0.5,
-            thrust_gain: Vector2::new(1.0, 1.0),
-            drag_1_s: Vector2::new(0.5, 0.5),
-        }
-    }
-}
-
-/// Stick fractions in [-1, 1] with the drone's signs.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Demand {
-    /// Positive flies right.
-    pub roll: f64,
-    /// Positive flies backward.
-    pub pitch: f64,
-    /// Positive climbs.
-    pub gaz: f64,
-    /// Positive turns clockwise.
-    pub yaw: f64,
-}
 
 /// Inputs of a control law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,7 +12,7 @@ pub struct Inputs<'a> {
     /// Pose at the time when the demand takes effect.
     pub pose: &'a Pose,
     /// Velocity at that time.
-    pub motion: &'a Motion,
+    pub velocity: &'a Velocity,
     /// Disturbance acceleration (right, forward).
     pub disturbance_m_s2: Vector2<f64>,
     /// Identified response of the airframe.
@@ -99,16 +27,16 @@ pub struct Inputs<'a> {
 
 impl Inputs<'_> {
     fn is_finite(&self) -> bool {
-        let Inputs { pose, motion, disturbance_m_s2, airframe, target, step_s, limit } = self;
+        let Inputs { pose, velocity, disturbance_m_s2, airframe, target, step_s, limit } = self;
         [
             pose.x_m,
             pose.y_m,
             pose.z_m,
             pose.yaw_deg,
-            motion.x_m_s,
-            motion.y_m_s,
-            motion.z_m_s,
-            motion.yaw_deg_s,
+            velocity.x_m_s,
+            velocity.y_m_s,
+            velocity.z_m_s,
+            velocity.yaw_deg_s,
             disturbance_m_s2.x,
             disturbance_m_s2.y,
             airframe.tilt_lag_s,
@@ -179,24 +107,24 @@ enum Flying {
 
 impl Default for PositionController {
     fn default() -> Self {
-        Self::new(Law::default(), CascadeConfig::default())
+        Self::new(Law::default(), CascadeConfig::default(), DroneLimits::default())
     }
 }
 
 impl PositionController {
-    /// A controller in its initial state; `config` applies to [`Law::Cascade`].
-    pub fn new(law: Law, config: CascadeConfig) -> Self {
+    /// A controller in its initial state; `config` and the drone's limits apply to [`Law::Cascade`].
+    pub fn new(law: Law, config: CascadeConfig, limits: DroneLimits) -> Self {
         let law = match law {
-            Law::Cascade => Flying::Cascade(Box::new(Cascade::new(config))),
+            Law::Cascade => Flying::Cascade(Box::new(Cascade::new(config, limits))),
             Law::Tum => Flying::Tum(TumLaw::default()),
         };
         Self { law }
     }
 
     /// Stick fractions for the next step, within the limit. Inputs that are NaN result in no motion.
-    pub fn step(&mut self, inputs: &Inputs<'_>) -> Demand {
+    pub fn step(&mut self, inputs: &Inputs<'_>) -> Sticks {
         if !inputs.is_finite() {
-            return Demand::default();
+            return Sticks::default();
         }
         let inputs = Inputs { limit: inputs.limit.clamp(0.0, 1.0), ..*inputs };
         match &mut self.law {
@@ -222,37 +150,21 @@ impl PositionController {
     }
 }
 
-/// Rotates (right, forward) from the body to the world frame at a clockwise heading.
-pub(crate) fn world_from_body(body: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
-    let (sin, cos) = yaw_deg.to_radians().sin_cos();
-    Vector2::new(cos * body.x + sin * body.y, cos * body.y - sin * body.x)
-}
-
-/// Rotates (right, forward) from the world to the body frame at a clockwise heading.
-pub(crate) fn body_from_world(x: f64, y: f64, yaw_deg: f64) -> (f64, f64) {
-    let (sin, cos) = yaw_deg.to_radians().sin_cos();
-    (cos * x - sin * y, sin * x + cos * y)
-}
-
-/// Wraps an angle to [-180, 180).
-pub(crate) fn wrap_deg(angle_deg: f64) -> f64 {
-    (angle_deg + 180.0).rem_euclid(360.0) - 180.0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const LAWS: [Law; 2] = Law::ALL;
 
-    /// Demand after a while at one place.
-    fn demand(law: Law, pose: Pose, target: Pose, limit: f64) -> Demand {
-        let mut controller = PositionController::new(law, CascadeConfig::default());
+    /// Sticks after a while at one place.
+    fn demand(law: Law, pose: Pose, target: Pose, limit: f64) -> Sticks {
+        let mut controller =
+            PositionController::new(law, CascadeConfig::default(), DroneLimits::default());
         let step = |controller: &mut PositionController, target: &Pose| {
-            let motion = &Motion::default();
+            let velocity = &Velocity::default();
             controller.step(&Inputs {
                 pose: &pose,
-                motion,
+                velocity,
                 target,
                 disturbance_m_s2: Vector2::zeros(),
                 airframe: Airframe::default(),
@@ -316,21 +228,22 @@ mod tests {
             .into_iter()
             .flat_map(|law| [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].map(|bad| (law, bad)))
         {
-            let mut controller = PositionController::new(law, CascadeConfig::default());
+            let mut controller =
+                PositionController::new(law, CascadeConfig::default(), DroneLimits::default());
             let good = Pose::default();
             let target = Pose { y_m: 1.0, ..good };
             for pose in [Pose { x_m: bad, ..good }, Pose { yaw_deg: bad, ..good }] {
-                let motion = &Motion::default();
+                let velocity = &Velocity::default();
                 let inputs = Inputs {
                     pose: &pose,
-                    motion,
+                    velocity,
                     target: &target,
                     disturbance_m_s2: Vector2::zeros(),
                     airframe: Airframe::default(),
                     step_s: 0.03,
                     limit: 1.0,
                 };
-                assert_eq!(controller.step(&inputs), Demand::default());
+                assert_eq!(controller.step(&inputs), Sticks::default());
                 let demand = controller.step(&Inputs { pose: &good, ..inputs });
                 assert!(demand.pitch.is_finite() && demand.pitch <= 0.0);
             }

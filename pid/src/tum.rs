@@ -4,7 +4,10 @@
 //! quarter of the stick, and climb amplified by 2.5 (J. Engel, J. Sturm, D. Cremers, "Camera-based navigation
 //! of a low-cost quadrocopter", IROS 2012, with the gains of its package).
 
-use crate::position::{Demand, Inputs, Pose, body_from_world, wrap_deg};
+use kinematics::{Pose, Sticks, body_from_world, wrap_deg};
+use nalgebra::Vector2;
+
+use crate::position::Inputs;
 
 const PROPORTIONAL: f64 = 0.5;
 const DERIVATIVE: f64 = 0.35;
@@ -27,22 +30,23 @@ pub(crate) struct TumLaw {
 }
 
 impl TumLaw {
-    pub(crate) fn step(&mut self, inputs: &Inputs<'_>) -> Demand {
-        let Inputs { pose, motion, target, step_s, limit, .. } = *inputs;
+    pub(crate) fn step(&mut self, inputs: &Inputs<'_>) -> Sticks {
+        let Inputs { pose, velocity, target, step_s, limit, .. } = *inputs;
         if self.target != Some(*target) {
             self.target = Some(*target);
             self.height_integral = 0.0;
         }
-        let (right, forward) =
-            body_from_world(target.x_m - pose.x_m, target.y_m - pose.y_m, pose.yaw_deg);
-        let (rightward, ahead) = body_from_world(motion.x_m_s, motion.y_m_s, pose.yaw_deg);
-        let roll = PROPORTIONAL * right - DERIVATIVE * rightward;
-        let pitch = -(PROPORTIONAL * forward - DERIVATIVE * ahead);
+        let error_m = Vector2::new(target.x_m - pose.x_m, target.y_m - pose.y_m);
+        let error_m = body_from_world(error_m, pose.yaw_deg);
+        let velocity_m_s = Vector2::new(velocity.x_m_s, velocity.y_m_s);
+        let velocity_m_s = body_from_world(velocity_m_s, pose.yaw_deg);
+        let roll = PROPORTIONAL * error_m.x - DERIVATIVE * velocity_m_s.x;
+        let pitch = -(PROPORTIONAL * error_m.y - DERIVATIVE * velocity_m_s.y);
         let yaw = YAW * wrap_deg(target.yaw_deg - pose.yaw_deg);
-        let gaz = self.gaz(target.z_m - pose.z_m, motion.z_m_s, step_s);
+        let gaz = self.gaz(target.z_m - pose.z_m, velocity.z_m_s, step_s);
         let [roll, pitch, gaz, yaw] =
             [roll, pitch, gaz, yaw].map(|stick| stick.clamp(-limit, limit));
-        Demand { roll, pitch, gaz, yaw }
+        Sticks { roll, pitch, gaz, yaw }
     }
 
     fn gaz(&mut self, error_m: f64, climb_m_s: f64, step_s: f64) -> f64 {

@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use ardrone_link::WAKE_UP;
-use ardrone_link::at::EncodeError;
 use autopilot::Vehicle;
 use autopilot::vehicle::{Input, Operator, OperatorOrder, Output, Refused, TICK, Transmit};
 use mock_drone::{Message, World, WorldConfig};
@@ -55,10 +54,7 @@ impl Driver {
 
     /// Handles all input of the present time, and ticks if a tick is due; returns whether it was. Time does
     /// not advance, so that the state after the tick can be inspected.
-    ///
-    /// # Errors
-    /// See [`Vehicle::tick`].
-    pub fn step(&mut self, mut tee: impl FnMut(Passed<'_>)) -> Result<bool, EncodeError> {
+    pub fn step(&mut self, mut tee: impl FnMut(Passed<'_>)) -> bool {
         let now = self.now;
         self.world.advance(now);
         while let Some(message) = self.world.receive(now) {
@@ -74,9 +70,9 @@ impl Driver {
             }
         }
         if !self.is_tick_due() {
-            return Ok(false);
+            return false;
         }
-        self.vehicle.tick(now)?;
+        self.vehicle.tick(now);
         while let Some(output) = self.vehicle.poll() {
             match &output {
                 Output::Transmit(Transmit::Command { datagram, .. }) => {
@@ -87,7 +83,7 @@ impl Driver {
             }
             tee(Passed::Output(output));
         }
-        Ok(true)
+        true
     }
 
     /// Simulates a program that does not run: the world advances, and input is queued. Returns whether a tick

@@ -4,8 +4,8 @@
 
 use std::time::Duration;
 
-use autopilot::Demand;
 use autopilot::vehicle::{OperatorOrder, TICK};
+use kinematics::Sticks;
 use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
@@ -74,7 +74,7 @@ fn orders() -> Vec<Landing> {
     let mut landings = Vec::new();
     let others = [
         OperatorOrder::Hold,
-        OperatorOrder::Steer(Demand { roll: 0.5, ..Demand::default() }),
+        OperatorOrder::Steer(Sticks { roll: 0.5, ..Sticks::default() }),
         OperatorOrder::GoTo { x_m: 0.0, y_m: 1.0 },
         OperatorOrder::Load(plan("takeoff\ngoto 0 1 0 0\nland\n")),
         OperatorOrder::Clear,

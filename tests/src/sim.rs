@@ -4,7 +4,6 @@
 
 use std::time::Duration;
 
-use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
 use ardrone_pilot::recording::{Record, Timing};
 use autopilot::outcome::Outcome;
@@ -69,9 +68,6 @@ pub enum SimulationError {
     /// The limits cannot be encoded as drone settings.
     #[error(transparent)]
     Config(#[from] SettingError),
-    /// See [`Vehicle::tick`].
-    #[error(transparent)]
-    Encode(#[from] EncodeError),
     /// The flight did not end within an hour.
     #[error("the flight did not end within {} s", .limit.as_secs())]
     Endless {
@@ -167,7 +163,7 @@ impl Simulation {
                 if let Some(entry) = recorded(now, passed) {
                     record(entry);
                 }
-            })?;
+            });
             if ticked {
                 watch(&moment(&driver, ended.is_some()), &driver.world);
                 if reached {

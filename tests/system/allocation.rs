@@ -4,11 +4,12 @@ use std::time::Duration;
 
 use allocation_counter::measure;
 use ardrone_pilot::recording::{Header, Recorder, Timing};
+use autopilot::Vehicle;
 use autopilot::vehicle::{
     Input, NavdataRate, Operator, OperatorOrder, Output, Phase, TICK, TagConfig, Transmit,
     VehicleConfig,
 };
-use autopilot::{Demand, Vehicle};
+use kinematics::Sticks;
 use mock_drone::{FloorTag, Message, World, WorldConfig};
 use system_tests::{SQUARE, plan};
 
@@ -54,7 +55,7 @@ fn allocations(
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
                 count(&mut || pilot.handle(now, Input::Order(Operator::TERMINAL, order.clone())));
             }
-            count(&mut || pilot.tick(now).unwrap());
+            count(&mut || pilot.tick(now));
             count(&mut || {
                 while let Some(output) = pilot.poll() {
                     match output {
@@ -90,7 +91,7 @@ fn nothing_is_allocated_in_flight() {
     let second = Duration::from_secs(1);
     let orders = [
         (7 * second, OperatorOrder::Hold),
-        (8 * second, OperatorOrder::Steer(Demand { roll: 0.5, ..Demand::default() })),
+        (8 * second, OperatorOrder::Steer(Sticks { roll: 0.5, ..Sticks::default() })),
         (10 * second, OperatorOrder::GoTo { x_m: 0.5, y_m: 0.5 }),
         (13 * second, OperatorOrder::Resume),
         (18 * second, OperatorOrder::Land),

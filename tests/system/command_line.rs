@@ -188,7 +188,7 @@ fn the_mock_drone_says_what_is_wrong_with_its_files() {
       |
       = help: a number from 0 to 100
 
-    error: `soon` is no time
+    error: `soon` is not a time
      --> /faults.txt:2:1
       |
     2 | soon restart

@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use autopilot::outcome::Outcome;
-use autopilot::vehicle::{Airframe, Quantity, Trust};
+use autopilot::vehicle::{Quantity, Trust};
+use kinematics::Airframe;
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;

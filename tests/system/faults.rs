@@ -4,8 +4,8 @@
 use std::time::Duration;
 
 use ardrone_link::WAKE_UP;
-use ardrone_link::at::{Config, Datagram};
-use ardrone_link::session::{Order, Received, Session, SessionConfig};
+use ardrone_link::at::Config;
+use ardrone_link::session::{Input, Order, Output, Session, SessionConfig, Transmit};
 use autopilot::outcome::Outcome;
 use autopilot::vehicle::{FlightEvent, LandingReason};
 use mock_drone::firmware::Phase;
@@ -104,26 +104,28 @@ fn navdata_are_back_within_a_second_of_the_links_return() {
             let mut world = World::new(&config);
             let settings = vec![Config::new("general:navdata_demo", "TRUE").unwrap()];
             let mut session = Session::new(SessionConfig { settings, ..SessionConfig::default() });
-            let mut datagram = Datagram::new();
             let mut heard = Duration::ZERO;
             for step in 0_u32..3000 {
                 let now = Duration::from_millis(5) * step;
                 world.advance(now);
                 while let Some(message) = world.receive(now) {
                     if let Message::Navdata(packet) = message {
-                        let received = session.handle_navdata(now, &packet);
-                        let new = matches!(received, Received::Navdata(n) if n.demo.is_some());
+                        session.handle(now, Input::Navdata(&packet));
+                        let received = session.poll();
+                        let new = matches!(received, Some(Output::Navdata(n)) if n.demo.is_some());
                         if new && heard < Duration::from_secs(back) {
                             heard = now;
                         }
                     }
                 }
                 if step % 6 == 0 {
-                    session.tick(now, Order::LAND, &mut datagram).unwrap();
-                    world.send_at(now, datagram.as_bytes());
+                    session.handle(now, Input::Tick(Order::LAND));
                 }
-                if session.wake_up_due(now) {
-                    world.send_wake_up(now, &WAKE_UP);
+                while let Some(transmit) = session.poll_transmit() {
+                    match transmit {
+                        Transmit::Command(datagram) => world.send_at(now, datagram),
+                        Transmit::WakeUp => world.send_wake_up(now, &WAKE_UP),
+                    }
                 }
             }
             let late = heard.checked_sub(Duration::from_secs(back));

@@ -6,7 +6,7 @@ use std::time::Duration;
 use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter};
 use ardrone_pilot::replay::Replay;
 use ardrone_pilot::report;
-use ardrone_pilot::settings;
+use ardrone_pilot::settings::Settings;
 use autopilot::plan::ZOrigin;
 use autopilot::vehicle::{FlightEvent, NavdataRate, OperatorOrder, VehicleConfig};
 use serde_json::{Value, json};
@@ -18,7 +18,7 @@ fn header(text: &str) -> Header {
         start: Duration::from_secs(1_700_000_000),
         plan_name: "plan.txt".to_owned(),
         plan: text.to_owned(),
-        settings: settings::DEFAULTS.to_owned(),
+        settings: Settings::sample().unwrap(),
         z_origin: ZOrigin::Hover,
         drone: "simulated".to_owned(),
     }
@@ -45,7 +45,7 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
     let second = Duration::from_secs(1);
     let orders = vec![
         (7 * second, OperatorOrder::Hold),
-        (8 * second, OperatorOrder::Steer(autopilot::Demand { roll: 0.3, ..Default::default() })),
+        (8 * second, OperatorOrder::Steer(kinematics::Sticks { roll: 0.3, ..Default::default() })),
         (9 * second, OperatorOrder::GoTo { x_m: 0.5, y_m: 0.25 }),
         (12 * second, OperatorOrder::Resume),
     ];
@@ -138,8 +138,9 @@ fn foreign_log(
     metadata.insert("z_origin".to_owned(), ZOrigin::Hover.name().to_owned());
     let metadata = mcap::records::Metadata { name: "flight".to_owned(), metadata };
     writer.write_metadata(&metadata).unwrap();
+    let settings = Settings::sample().unwrap();
     for (name, text) in
-        [("plan.txt", plan), ("pilot.toml", settings::DEFAULTS), ("autopilot.asl", agent)]
+        [("plan.txt", plan), ("pilot.toml", settings.as_str()), ("autopilot.asl", agent)]
     {
         let attachment = mcap::Attachment {
             log_time: 0,

@@ -3,13 +3,14 @@
 use std::thread;
 use std::time::Duration;
 
+use autopilot::Plan;
 use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
 use autopilot::safety::Veto;
 use autopilot::vehicle::{
     FlightEvent, LandingReason, OperatorOrder, Quantity, Trust, VehicleConfig,
 };
-use autopilot::{Demand, Plan};
+use kinematics::Sticks;
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
@@ -38,6 +39,19 @@ fn five_hundred_flights_with_random_faults_end_well() {
     }
     // A campaign without completed flights would prove nothing.
     assert!(flown > 100, "only {flown} plans were flown to their end");
+}
+
+/// Seeds beyond those five hundred that showed a fault which was then mended.
+#[test]
+fn flights_that_once_went_wrong_end_well() {
+    const LANDING_RIGHT_AFTER_TAKE_OFF: u64 = 2_004_116;
+    const RESTARTED_DRONES: [u64; 2] = [6426, 8461];
+    const CUT_DURING_A_TAKE_OVER: u64 = 900_820;
+    const STORMS: [u64; 4] = [2359, 8173, 8688, 2_002_821];
+    let single = [LANDING_RIGHT_AFTER_TAKE_OFF, CUT_DURING_A_TAKE_OVER];
+    for seed in RESTARTED_DRONES.into_iter().chain(STORMS).chain(single) {
+        assert_eq!(campaign::fly(seed).unwrap().faults, [], "seed {seed}");
+    }
 }
 
 #[test]
@@ -125,7 +139,7 @@ fn furthest_m(moment: &Moment, furthest_m: &mut f64) {
 
 #[test]
 fn manual_control_does_not_leave_the_fence() {
-    let full = Demand { roll: 1.0, ..Demand::default() };
+    let full = Sticks { roll: 1.0, ..Sticks::default() };
     let sticks = (0..200_u32)
         .map(|tenth| (8 * SECOND + SECOND / 10 * tenth, OperatorOrder::Steer(full)))
         .chain([(30 * SECOND, OperatorOrder::Land)]);

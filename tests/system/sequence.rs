@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ardrone_link::at::{Command, Datagram, Motion, Ref};
-use ardrone_link::session::{FlightOrder, Order, Session, SessionConfig};
+use ardrone_link::session::{FlightOrder, Input, Order, Session, SessionConfig, Transmit};
 use ardrone_link::settings::Setting;
 use mock_drone::firmware::Phase;
 use mock_drone::{Message, World, WorldConfig};
@@ -44,20 +44,21 @@ impl Bench {
         self.world.advance(self.now);
         while let Some(message) = self.world.receive(self.now) {
             if let (Message::Navdata(packet), true) = (message, self.hears) {
-                self.session.handle_navdata(self.now, &packet);
+                self.session.handle(self.now, Input::Navdata(&packet));
             }
         }
-        let mut datagram = Datagram::new();
         let order = Order { flight, motion: Motion::Hover };
-        if self.session.silence(self.now).is_some() {
-            self.session.tick(self.now, order, &mut datagram).unwrap();
-            if self.lost != Some(0) {
-                self.world.send_at(self.now, datagram.as_bytes());
+        self.session.handle(self.now, Input::Tick(order));
+        while let Some(transmit) = self.session.poll_transmit() {
+            match transmit {
+                Transmit::Command(datagram) => {
+                    if self.lost != Some(0) {
+                        self.world.send_at(self.now, datagram);
+                    }
+                    self.lost = self.lost.and_then(|lost| lost.checked_sub(1));
+                }
+                Transmit::WakeUp => self.world.send_wake_up(self.now, &ardrone_link::WAKE_UP),
             }
-            self.lost = self.lost.and_then(|lost| lost.checked_sub(1));
-        }
-        if self.session.wake_up_due(self.now) {
-            self.world.send_wake_up(self.now, &ardrone_link::WAKE_UP);
         }
     }
 
@@ -122,12 +123,11 @@ fn no_single_loss_delays_the_landing_of_a_pilot_that_leaves() {
         let mut bench = Bench::new().after_another_pilot();
         bench.until(FlightOrder::Land, |bench| bench.session.is_ready());
         bench.until(FlightOrder::TakeOff, |bench| bench.phase() == Phase::Flying);
-        let mut datagram = Datagram::new();
         for parting in 0..10 {
             bench.now += TICK;
-            bench.session.part(bench.now, &mut datagram).unwrap();
+            bench.session.handle(bench.now, Input::Part);
             if parting != lost {
-                bench.world.send_at(bench.now, datagram.as_bytes());
+                bench.world.send_at(bench.now, bench.session.datagram());
             }
             let begun = parting + 1 - u32::from(lost <= parting);
             bench.world.advance(bench.now + TICK / 2);

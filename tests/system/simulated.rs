@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::vehicle::{FlightEvent, LandingReason, OperatorOrder};
+use kinematics::wrap_deg;
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
@@ -100,7 +101,7 @@ fn a_turn_goes_the_short_way_and_the_frame_does_not_turn_with_the_drone() {
     assert_eq!(flight.outcome, Outcome::Completed);
     assert!(largest_true_error_m(&flight) < 0.2);
     // Whole turns do not matter, only the final heading.
-    let off_deg = (flight.final_truth.yaw_deg + 180.0).rem_euclid(360.0) - 180.0;
+    let off_deg = wrap_deg(flight.final_truth.yaw_deg);
     assert!(off_deg.abs() < 8.0, "{off_deg}");
 }
 

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use autopilot::plan::Commands;
 use autopilot::vehicle::{FlightEvent, OperatorOrder, TagConfig, VehicleConfig};
+use kinematics::wrap_deg;
 use mock_drone::scenario::Scenario;
 use mock_drone::sensors::SensorModel;
 use mock_drone::{CameraModel, DroneConfig, FloorTag, WorldConfig};
@@ -69,7 +70,7 @@ fn hover(seed: u64, hard: bool, scenario: &str) -> (Kept, SimulatedFlight) {
         let most_m = 2.0 * moment.status.horizontal_deviation_m;
         kept.inside += f64::from(u8::from(off.x.abs() <= most_m && off.y.abs() <= most_m));
         let turned_deg = moment.truth.yaw_deg - pose.yaw_deg;
-        kept.heading_deg = ((turned_deg + 180.0).rem_euclid(360.0) - 180.0).abs();
+        kept.heading_deg = wrap_deg(turned_deg).abs();
         kept.flown_s = since_s;
     };
     let flight =

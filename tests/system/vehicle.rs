@@ -9,7 +9,7 @@ use autopilot::vehicle::{
 };
 use autopilot::{Vehicle, VehicleConfig};
 use mock_drone::scenario::Scenario;
-use mock_drone::{Truth, WorldConfig, firmware};
+use mock_drone::{DroneConfig, Truth, WorldConfig, firmware};
 use system_tests::drive::{Driver, Passed};
 use system_tests::{SQUARE, plan};
 
@@ -29,8 +29,11 @@ struct Bench {
 impl Bench {
     fn new(scenario: &str) -> Self {
         let scenario = Scenario::parse("scenario", scenario).unwrap();
-        let world = WorldConfig { scenario, ..WorldConfig::default() };
-        let driver = Driver::new(Vehicle::new(&VehicleConfig::default()).unwrap(), &world);
+        Self::in_world(&WorldConfig { scenario, ..WorldConfig::default() })
+    }
+
+    fn in_world(world: &WorldConfig) -> Self {
+        let driver = Driver::new(Vehicle::new(&VehicleConfig::default()).unwrap(), world);
         Self { driver, events: Vec::new(), outcomes: Vec::new(), ready: None, missions: 0 }
     }
 
@@ -67,18 +70,16 @@ impl Bench {
     fn step(&mut self) {
         let now = self.driver.now();
         let Self { driver, events, outcomes, ready, missions } = self;
-        driver
-            .step(|passed| {
-                let Passed::Output(output) = passed else { return };
-                match output {
-                    Output::Event(event) => events.push((now, event)),
-                    Output::Ended(outcome) => outcomes.push(outcome.clone()),
-                    Output::Readiness(reasons) => *ready = Some(reasons.to_vec()),
-                    Output::Mission(_) => *missions += 1,
-                    Output::Waypoint(_) | Output::Transmit(_) => {}
-                }
-            })
-            .unwrap();
+        driver.step(|passed| {
+            let Passed::Output(output) = passed else { return };
+            match output {
+                Output::Event(event) => events.push((now, event)),
+                Output::Ended(outcome) => outcomes.push(outcome.clone()),
+                Output::Readiness(reasons) => *ready = Some(reasons.to_vec()),
+                Output::Mission(_) => *missions += 1,
+                Output::Waypoint(_) | Output::Transmit(_) => {}
+            }
+        });
         driver.pass();
     }
 
@@ -367,4 +368,39 @@ fn what_is_ordered_before_the_drone_has_lifted_keeps_it_down() {
             !bench.events.iter().any(|(_, event)| *event == FlightEvent::StepStarted { step: 1 })
         );
     }
+}
+
+#[test]
+fn a_flight_does_not_end_while_a_drone_that_is_taken_over_still_flies() {
+    let mut taken_over = 0;
+    for ticks in 0..120_u32 {
+        let drone = DroneConfig { flies_at_m: Some(1.0), ..DroneConfig::default() };
+        let mut bench = Bench::in_world(&WorldConfig { drone, ..WorldConfig::default() });
+        bench.accepted(OperatorOrder::Load(plan(
+            "autoTakeover 500 800 0.5 0.5\ngoto 0 1 0 0\nland\n",
+        )));
+        bench.until(SECOND, |bench| bench.phase() == Phase::Observing);
+        bench.accepted(START);
+        bench.run(Duration::from_millis(30) * ticks);
+        bench.accepted(OperatorOrder::Cut);
+        let is_down = |bench: &Bench| {
+            matches!(bench.truth().phase, firmware::Phase::Emergency | firmware::Phase::Landed)
+        };
+        bench.until(5 * SECOND, |bench| !bench.outcomes.is_empty() || is_down(bench));
+        // Nothing is sent to a drone that has not been taken over yet.
+        if matches!(bench.outcomes.first(), Some(Outcome::PreflightRefused { .. })) {
+            continue;
+        }
+        assert!(is_down(&bench), "{ticks}: {:?}", bench.outcomes);
+        taken_over += 1;
+    }
+    assert!(taken_over > 60, "{taken_over}");
+}
+
+#[test]
+fn a_cut_is_refused_where_nothing_may_be_sent() {
+    let drone = DroneConfig { flies_at_m: Some(1.0), ..DroneConfig::default() };
+    let mut bench = Bench::in_world(&WorldConfig { drone, ..WorldConfig::default() });
+    bench.until(SECOND, |bench| bench.phase() == Phase::Observing);
+    assert_eq!(bench.order(OperatorOrder::Cut), Err(Refused::FlownByAnother));
 }

@@ -1,6 +1,6 @@
-//! How fast agents are translated, and how many instructions a step of the autopilot takes.
+//! Speed of the translation, and number of instructions of a step of the autopilot.
 //!
-//! `cargo bench -p translator`. Instructions are counted by valgrind, which need not be there.
+//! `cargo bench -p translator`. Instructions are counted by valgrind, which is optional.
 #![allow(
     clippy::print_stdout,
     clippy::unwrap_used,
@@ -20,7 +20,7 @@ const AUTOPILOT: [&str; 2] = [
     include_str!("../../autopilot/agent/autopilot.asl"),
 ];
 
-/// Random orders, places and times for the autopilot, with a state of its own like any environment.
+/// Random orders, positions and times for the autopilot, with its own state like any environment.
 const ENVIRONMENT: &str = r"
 static uint32_t seed = 1U;
 static uint32_t number(uint32_t below) { seed = seed * 1664525U + 1013904223U; return (seed >> 8) % below; }
@@ -79,7 +79,7 @@ int main(void)
 }
 ";
 
-/// Steps that are counted.
+/// Number of measured steps.
 const STEPS: u64 = 100_000;
 
 fn main() {
@@ -115,14 +115,14 @@ fn main() {
     }
 }
 
-/// What can be long in one place: formulae that can fail, conditions, plans of one trigger.
+/// Large constructs: formulas that can fail, conditions, plans of one trigger.
 const LARGE: [(&str, [usize; 2]); 3] = [
     ("formulae", [3_000, 30_000]),
     ("conditions", [3_000, 30_000]),
     ("of a trigger", [20_000, 330_000]),
 ];
 
-/// An agent that is large in this way.
+/// An agent with such a construct.
 fn large(what: &str, size: usize) -> (String, String) {
     let parts = |part: &dyn Fn(usize) -> String, between: &str| {
         (0..size).map(part).collect::<Vec<_>>().join(between)
@@ -153,7 +153,7 @@ fn milliseconds(time: &Duration) -> f64 {
     time.as_secs_f64() * 1000.0
 }
 
-/// An agent with so many plans, three for each goal, that call and post each other.
+/// An agent with this number of plans, three for each goal, that call and post each other.
 fn agent_of(plans: usize) -> (String, String) {
     let goals = plans / 3;
     let mut types = String::from("b(int); ");
@@ -177,7 +177,7 @@ fn agent_of(plans: usize) -> (String, String) {
     (configuration, agent)
 }
 
-/// Instructions of `next_step()` without and with what it calls outside the agent, per step.
+/// Instructions of `next_step()` per step, without and with its calls outside the agent.
 fn instructions(translation: &Translation, optimisation: &str) -> Option<(u64, u64)> {
     let folder = tempfile::tempdir().unwrap();
     for file in &translation.files {

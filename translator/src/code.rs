@@ -1,11 +1,11 @@
-//! The kinds of errors and warnings, each with a name that stays.
+//! Kinds of errors and warnings, each with a stable name.
 
 use diagnostic::{Diagnostic, Severity, Span};
 
 macro_rules! codes {
     ($($severity:ident $code:ident $name:literal $meaning:literal;)*) => {
-        /// A kind of error or warning. Its [name](Code::name) is what a [`Diagnostic`] has as its code: it is never
-        /// given another meaning, while messages may be worded anew.
+        /// A kind of error or warning. Its [name](Code::name) is the code of a [`Diagnostic`]. The meaning of
+        /// a name never changes, while messages may be reworded.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum Code {
@@ -13,15 +13,15 @@ macro_rules! codes {
         }
 
         impl Code {
-            /// All kinds: errors, then warnings with the most important first.
+            /// All kinds: errors, then warnings by importance.
             pub const ALL: &[Self] = &[$(Self::$code),*];
 
-            /// Its name: words with hyphens between.
+            /// Its name: words joined by hyphens.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$code => $name),* }
             }
 
-            /// Whether nothing is translated in spite of it.
+            /// Whether it prevents translation.
             pub const fn severity(self) -> Severity {
                 match self { $(Self::$code => Severity::$severity),* }
             }
@@ -35,82 +35,82 @@ macro_rules! codes {
 }
 
 codes! {
-    Error Syntax "syntax" "text that is not of the language: something else is expected there";
+    Error Syntax "syntax" "text that does not follow the grammar";
     Error NotClosed "not-closed" "a comment, a string or an include without its end";
-    Error MalformedNumber "malformed-number" "digits that are no number, or no number of steps";
-    Error MalformedString "malformed-string" "an escape that is none, or a NUL in a string";
-    Error Limit "limit" "more nesting, operators, arguments or ways to ask than are translated";
+    Error MalformedNumber "malformed-number" "digits that are not a number, or not a number of steps";
+    Error MalformedString "malformed-string" "an unknown escape, or a NUL in a string";
+    Error Limit "limit" "more nesting, operators, arguments or combinations of asked arguments than are supported";
     Error NoPlans "no-plans" "an agent without a plan";
-    Error UnknownAction "unknown-action" "an internal action that is none, such as `.print`";
-    Error UnknownSection "unknown-section" "a section of the configuration that is none";
-    Error UnknownSetting "unknown-setting" "a setting that is none";
-    Error MissingSetting "missing-setting" "a setting that every configuration needs";
-    Error SettingValue "setting-value" "a setting with a value that it cannot have";
-    Error ExclusiveSettings "exclusive-settings" "two settings of which only one can be";
-    Error UnknownFormula "unknown-formula" "a property of a form that is none";
-    Error NotAType "not-a-type" "words that are no type of C, or none for this place";
-    Error StructField "struct-field" "a struct without fields, or with one that is no number or `bool`";
-    Error FileName "file-name" "an output that C cannot include, or outside the output's folder";
-    Error Overwrites "overwrites" "an output that would take the place of something else";
-    Error WrongSignature "wrong-signature" "`updateBeliefs` declared in another way";
-    Error DeclaredTwice "declared-twice" "a name, section, setting or trigger that stands twice";
-    Error ReservedName "reserved-name" "a name that C, Rust or generated code needs";
-    Error RustBoundary "rust-boundary" "something that the Rust side has no counterpart for";
+    Error UnknownAction "unknown-action" "an unknown internal action, such as `.print`";
+    Error UnknownSection "unknown-section" "an unknown section of the configuration";
+    Error UnknownSetting "unknown-setting" "an unknown setting";
+    Error MissingSetting "missing-setting" "a required setting is missing";
+    Error SettingValue "setting-value" "an invalid value of a setting";
+    Error ExclusiveSettings "exclusive-settings" "two settings that exclude each other";
+    Error UnknownFormula "unknown-formula" "an unknown form of a property";
+    Error NotAType "not-a-type" "words that are not a C type, or not one that is allowed there";
+    Error StructField "struct-field" "a struct without fields, or with a field that is neither a number nor `bool`";
+    Error FileName "file-name" "an output that C cannot include, or outside the output folder";
+    Error Overwrites "overwrites" "an output that would overwrite another file";
+    Error WrongSignature "wrong-signature" "`updateBeliefs` declared with another signature";
+    Error DeclaredTwice "declared-twice" "a name, section, setting or trigger that is declared twice";
+    Error ReservedName "reserved-name" "a name that C, Rust or generated code uses";
+    Error RustBoundary "rust-boundary" "something without a counterpart in the Rust bindings";
     Error NotDeclared "not-declared" "an action, belief, goal or clock that the configuration does not declare";
-    Error WrongKind "wrong-kind" "a belief or goal where an action should stand, or the other way round";
+    Error WrongKind "wrong-kind" "a belief or goal in place of an action, or the other way round";
     Error ArgumentCount "argument-count" "too few or too many arguments";
-    Error WrongType "wrong-type" "a value of another type than is expected, or one that does not fit it";
+    Error WrongType "wrong-type" "a value of the wrong type, or outside its range";
     Error UnknownType "unknown-type" "a constant that could be of several types";
-    Error NoValue "no-value" "an action that returns nothing where a value is needed";
+    Error NoValue "no-value" "an action without a result where a value is needed";
     Error NotAValue "not-a-value" "a condition where a value is needed";
     Error NotACondition "not-a-condition" "a value where a condition is needed";
-    Error NotConstant "not-constant" "an initial belief or goal with something else than constants";
+    Error NotConstant "not-constant" "an initial belief or goal with other arguments than constants";
     Error NotComparable "not-comparable" "values that C or a property cannot compare";
-    Error ConstantComparison "constant-comparison" "a comparison that always holds, or never";
-    Error UnboundVariable "unbound-variable" "a variable that has no value there";
-    Error BoundTwice "bound-twice" "`=` for a variable that has a value";
+    Error ConstantComparison "constant-comparison" "a comparison with a constant result";
+    Error UnboundVariable "unbound-variable" "a variable without a value";
+    Error BoundTwice "bound-twice" "`=` for a variable that already has a value";
     Error MissingPlan "missing-plan" "a goal or trigger without a plan, or a failure plan that can never run";
-    Error Recursion "recursion" "a goal that leads back to itself before the end of its plan";
+    Error Recursion "recursion" "a recursive goal that is not the last formula of its plan";
     Error NoClock "no-clock" "`.wait` or a deadline in an agent without a clock";
     Error NotAClock "not-a-clock" "a clock that takes arguments, or is too narrow";
-    Error IdleDeadline "idle-deadline" "a deadline of a goal that is achieved at once";
+    Error IdleDeadline "idle-deadline" "a deadline of a goal that is achieved within one step";
     Error WaitInTestGoal "wait-in-test-goal" "`.wait` in the plan of a test goal";
     Error AskedArgument "asked-argument" "an argument that a test goal asks for, used as if it had a value";
-    Error NeverAnswered "never-answered" "an argument that a test goal asks for and its plan gives no value";
+    Error NeverAnswered "never-answered" "an argument that a test goal asks for and that its plan leaves without a value";
     Error Unanswerable "unanswerable" "a test goal that its plans cannot answer";
-    Error UnaskableType "unaskable-type" "a test goal that asks for a value of a type that cannot be kept";
+    Error UnaskableType "unaskable-type" "a test goal that asks for a value of a type that cannot be stored";
     Error NotTriggerable "not-triggerable" "an event that the environment does not, or cannot, raise";
     Error NotSettable "not-settable" "a perceived belief that the environment does not set";
-    Error NotPreemptive "not-preemptive" "a pre-empting event that is no goal";
-    Error ComparedUnbelieved "compared-unbelieved" "a property that compares what is never believed";
-    Warning UnseenFailure "unseen-failure" "failure plans that cannot see what their goal comes to in later steps";
-    Warning NoPlan "no-plan" "goals that may find no plan while no `-!g` is there to mend it";
+    Error NotPreemptive "not-preemptive" "a pre-empting event that is not a goal";
+    Error ComparedUnbelieved "compared-unbelieved" "a property that compares a belief that is never held";
+    Warning UnseenFailure "unseen-failure" "failure plans that do not handle later failures of their goal";
+    Warning NoPlan "no-plan" "goals that may find no plan and have no failure plan";
     Warning NeverTried "never-tried" "plans behind one that always applies";
-    Warning NeverBelieved "never-believed" "beliefs that a context asks for and nothing makes true";
+    Warning NeverBelieved "never-believed" "beliefs in a context that nothing makes true";
     Warning NeverTriggered "never-triggered" "plans of events that nothing raises";
-    Warning NeverAsked "never-asked" "plans of test goals that nobody asks";
-    Warning UnusedVariable "unused-variable" "variables that nobody uses";
-    Warning UnusedDeclaration "unused-declaration" "declarations that nobody uses; actions of a library, if more than three, in one line";
+    Warning NeverAsked "never-asked" "plans of test goals that are never asked";
+    Warning UnusedVariable "unused-variable" "variables that are never used";
+    Warning UnusedDeclaration "unused-declaration" "declarations that are never used; unused actions of a library, if more than three, in one line";
 }
 
-/// A section for each kind, in their order.
+/// One section per kind, in their order.
 const EXPLANATIONS: &str = include_str!("explanations.md");
 
 impl Code {
-    /// The kind of this name.
+    /// Looks up a kind by its name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|code| code.name() == name)
     }
 
-    /// What is wrong, why that matters and what to do, mostly with an example, as Markdown. Blocks called `wrong` and
-    /// `right` hold agents.
+    /// Problem, consequences and remedy, usually with an example, as Markdown. Blocks named `wrong` and
+    /// `right` contain agents.
     pub fn explanation(self) -> &'static str {
         let sections = EXPLANATIONS.split("## ").filter_map(|section| section.split_once('\n'));
         let mut own = sections.filter(|(name, _)| *name == self.name());
         own.next().map_or("", |(_, text)| text.trim())
     }
 
-    /// The kinds of warnings, the most important first: people may allow, ask for or deny each.
+    /// The kinds of warnings by importance; users may allow, enable or deny each.
     pub fn warnings() -> impl Iterator<Item = Self> {
         Self::ALL.iter().copied().filter(|code| code.severity() == Severity::Warning)
     }
@@ -138,13 +138,13 @@ mod tests {
         assert!(names.into_iter().all(plain));
     }
 
-    /// The guide has a row for each kind, in the words that stand here, and for no other.
+    /// The guide has exactly one row per kind, with the same words.
     #[test]
     fn every_kind_is_in_the_guide() {
         let guide = include_str!("../../docs/agentspeak.md");
-        let (_, rest) = guide.split_once("| code | is said of |\n|---|---|\n").unwrap();
+        let (_, rest) = guide.split_once("| code | error |\n|---|---|\n").unwrap();
         let errors = rest.split_once("\n\n").unwrap().0.lines();
-        let (_, rest) = guide.split_once("| code | warns of |\n|---|---|\n").unwrap();
+        let (_, rest) = guide.split_once("| code | warning |\n|---|---|\n").unwrap();
         let warnings = rest.split_once("\n\n").unwrap().0.lines();
         let rows: Vec<&str> = errors.chain(warnings).collect();
         let row = |code: &Code| format!("| `{}` | {} |", code.name(), code.meaning());
@@ -152,16 +152,16 @@ mod tests {
         assert_eq!(rows, expected);
     }
 
-    /// What the examples of explanations are translated with.
+    /// Configuration of the examples in the explanations.
     const EXAMPLE: &str =
         "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; clock = now; };
         basics { void on(void); void show(int32_t); int32_t read(void); bool dark(void); int64_t now(void); };
         types { light(void); dim(int32_t); level(int32_t); asked(int32_t); pair(int32_t, int32_t); idle(void); }; settables { level; };
         triggerables { +!light; +!dim; };";
 
-    /// The codes of all that is found in an agent.
+    /// The codes of all findings in an agent.
     fn found(agent: &str) -> Vec<&'static str> {
-        // Events without a plan are none of the example.
+        // Missing plans of events are not part of the example.
         let mut text = EXAMPLE.to_owned();
         for event in ["+!light", "+!dim"] {
             if !agent.contains(event) {
@@ -203,7 +203,7 @@ mod tests {
         assert!(examples > 50, "{examples}");
     }
 
-    /// There is no message without a kind.
+    /// Every message has a kind.
     #[test]
     fn no_message_is_made_in_another_way() {
         let mut folders =
@@ -225,7 +225,7 @@ mod tests {
                 }
             }
         }
-        // What follows from another error is not said at all.
+        // Suppressed consequences of other errors have no message.
         assert_eq!(bare, ["Diagnostic::error(String::new(), 0..0)"]);
     }
 }

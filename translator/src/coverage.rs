@@ -1,9 +1,9 @@
-//! Whether some plan of a trigger applies, whatever is believed.
+//! Checks whether some plan of a trigger applies in every state.
 //!
-//! Contexts become formulae over questions such as "is `b` believed" and "is its first value less
-//! than 20", and all answers are tried. Questions are taken as independent, so a trigger that is
-//! found to be covered is covered. What a function says, and what may have no result, is a question
-//! of its own each time: a function such as a clock can answer differently for the next plan.
+//! Contexts become formulas over questions such as "is `b` believed" and "is its first value less than 20",
+//! and all answers are tried. Questions are treated as independent, so the result is conservative: a trigger
+//! found to be covered is covered. The result of a function, or of an operation that may fail, is a new
+//! question each time: a function such as a clock may differ for the next plan.
 
 use std::collections::HashMap;
 
@@ -11,7 +11,7 @@ use crate::program::{Condition, Handler, Pattern, Plan, Program, Value, Variable
 use crate::syntax::ast::Relation;
 use crate::types::CType;
 
-/// With more questions than this all answers are not tried: the trigger counts as not covered.
+/// With more questions than this the answers are not enumerated, and the trigger counts as not covered.
 const MAX_QUESTIONS: usize = 12;
 
 /// Whether one of the plans applies to every event.
@@ -26,8 +26,8 @@ pub(crate) fn always_finds_a_plan(handler: &Handler) -> bool {
         && (0_u32..1 << questions.count).all(|answers| plans.iter().any(|plan| plan.holds(answers)))
 }
 
-/// Plans that can never be chosen: an earlier one always applies, or they need what is
-/// never believed.
+/// Plans that can never be chosen: an earlier one always applies, or they require a belief that is never
+/// held.
 pub(crate) fn never_applicable(program: &Program) -> impl Iterator<Item = &Plan> {
     let mut covered = false;
     program.plans().filter_map(move |(_, number, plan)| {
@@ -75,14 +75,14 @@ impl Questions {
         Formula::Question(number)
     }
 
-    /// A question that nobody else asks.
+    /// A question that no other plan shares.
     fn fresh(&mut self) -> Formula {
         self.count += 1;
         Formula::Question(self.count - 1)
     }
 }
 
-/// What is known of a plan's variables: where each value comes from.
+/// Origin of each value of a plan's variables.
 struct Origins {
     origins: Vec<Option<String>>,
 }
@@ -92,7 +92,7 @@ impl Origins {
         self.origins[id.0] = origin;
     }
 
-    /// The value in words that mean the same in every plan of the trigger.
+    /// The value as text with the same meaning in every plan of the trigger.
     fn text(&self, value: &Value) -> Option<String> {
         match value {
             Value::Variable(id) => self.origins[id.0].clone(),
@@ -103,7 +103,7 @@ impl Origins {
     }
 }
 
-/// When the plan applies.
+/// Condition under which the plan applies.
 fn applies(plan: &Plan, questions: &mut Questions) -> Formula {
     let mut origins = Origins { origins: vec![None; plan.variables.len()] };
     let mut parts = Vec::new();
@@ -112,7 +112,7 @@ fn applies(plan: &Plan, questions: &mut Questions) -> Formula {
     Formula::All(parts)
 }
 
-/// The questions whether values match patterns; variables learn where they come from.
+/// The questions whether values match patterns; records the origins of variables.
 fn matches(
     of: &str,
     patterns: &[Pattern],
@@ -175,7 +175,7 @@ fn formula(condition: &Condition, origins: &mut Origins, questions: &mut Questio
     }
 }
 
-/// Of numbers without NaN, `<` and `==` are all questions that there are.
+/// For numbers without NaN, `<` and `==` are the only questions.
 fn comparison(
     relation: Relation,
     left: &str,

@@ -6,8 +6,8 @@ use diagnostic::{Diagnostic, Diagnostics, Source};
 
 use crate::code::Code;
 
-/// Everything that was found in some texts: errors before warnings, the most important of these first, and otherwise
-/// in the order of the texts.
+/// All findings in some texts: errors before warnings, warnings by importance, otherwise in the order of the
+/// texts.
 pub(crate) fn gather<const N: usize>(found: [(Vec<Diagnostic>, Source<'_>); N]) -> Diagnostics {
     let mut all = Vec::new();
     let mut sources = Vec::new();

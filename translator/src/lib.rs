@@ -1,9 +1,9 @@
-//! AgentSpeak to C: a compiler for agents that fly.
+//! Compiler from AgentSpeak to C, for agents in safety-critical systems.
 //!
-//! An agent is written in the fragment of AgentSpeak of Bucheli, Kroening, Martins and Natraj,
-//! "From AgentSpeak to C for Safety Considerations in Unmanned Aerial Vehicles" (TAROS 2015), with
-//! a configuration that declares what the environment offers. The output is C99 without heap,
-//! recursion or unbounded loops, and the Rust side of the boundary if asked for.
+//! An agent is written in the fragment of AgentSpeak of Bucheli, Kroening, Martins and Natraj, "From
+//! AgentSpeak to C for Safety Considerations in Unmanned Aerial Vehicles" (TAROS 2015), with a configuration
+//! that declares its environment. The output is C99 without heap, recursion or unbounded loops, and on
+//! request Rust bindings.
 //!
 //! The crate is pure: texts in, texts out. Layers, each using only those before it:
 //! `syntax` and `configuration` (texts to trees) → `analysis` (trees to a checked `Program`) →
@@ -49,7 +49,7 @@ use reserved::is_rust_word;
 use syntax::ast::Name;
 use types::TypeKind;
 
-/// A configuration that was read without errors.
+/// A configuration without errors.
 #[derive(Debug, Clone)]
 pub struct ParsedConfiguration {
     name: String,
@@ -63,21 +63,20 @@ impl ParsedConfiguration {
         &self.configuration.settings.input
     }
 
-    /// Where a compiler may look for the files of the section `includes`, relative to the configuration's folder or
-    /// that of the outputs.
+    /// Possible paths of the files in the section `includes`, relative to the folder of the configuration or
+    /// of the outputs.
     pub fn included_files(&self) -> impl Iterator<Item = String> {
         self.configuration.included_files().into_iter()
     }
 
-    /// An error at the value of a setting whose file would take the place of something else: what that is, and what
-    /// to do.
+    /// An error at the value of a setting whose file would overwrite another one, with its message and help.
     pub fn overwrites(&self, setting: &str, message: &str, help: &str) -> TranslateError {
         let place = self.configuration.settings.places.get(setting).cloned().unwrap_or_default();
         let found = vec![Code::Overwrites.at(message, place).help(help)];
         TranslateError::Refused(gather([(found, self.source())]))
     }
 
-    /// What the configuration declares.
+    /// The declarations of the configuration.
     pub fn declarations(&self) -> &Configuration {
         &self.configuration
     }
@@ -102,16 +101,16 @@ impl ParsedConfiguration {
     }
 }
 
-/// A finished translation.
+/// Result of a translation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Translation {
-    /// The C file, its header, the header of the basic actions, and if asked for the Rust bindings
-    /// and the trace matrix.
+    /// The C file, its header, the header of the basic actions, and on request the Rust bindings and the
+    /// trace matrix.
     pub files: Vec<GeneratedFile>,
-    /// Warnings, the most important first.
+    /// Warnings by importance.
     pub warnings: Diagnostics,
-    /// What the agent costs: memory, call depth, calls of each action in a step.
+    /// Cost of the agent: memory, call depth, calls of each action in a step.
     pub report: Report,
 }
 
@@ -123,19 +122,19 @@ pub struct GeneratedFile {
     pub name: String,
     /// Its text.
     pub text: String,
-    /// The setting that names it; empty for what no setting names.
+    /// The setting that names it; empty if there is none.
     pub setting: &'static str,
 }
 
-/// Why nothing was translated.
+/// Errors of a translation.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TranslateError {
-    /// The configuration or the agent has errors. There may be warnings behind them.
+    /// The configuration or the agent has errors, possibly followed by warnings.
     #[error("{0}")]
     Refused(Diagnostics),
-    /// A proof would have to make up values that only the environment knows.
-    #[error("values of type `{name}` cannot be made up: nothing can be proved of this agent")]
+    /// A proof would need arbitrary values of a type that only the environment can create.
+    #[error("cannot create arbitrary values of type `{name}`, which a proof of this agent needs")]
     Unprovable {
         /// The type.
         name: String,
@@ -143,13 +142,13 @@ pub enum TranslateError {
     /// The trace matrix could not be written as CSV.
     #[error("cannot write the trace matrix: {problem}")]
     Matrix {
-        /// What went wrong.
+        /// The error.
         problem: String,
     },
 }
 
 impl TranslateError {
-    /// The errors and warnings by place; empty if the error has no place in a text.
+    /// The errors and warnings; empty if the error has no place in a text.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         match self {
             Self::Refused(found) => found,
@@ -158,10 +157,10 @@ impl TranslateError {
     }
 }
 
-/// Reads a configuration; `name` is its file's name for messages.
+/// Parses a configuration; `name` is its file's name for messages.
 ///
 /// # Errors
-/// [`TranslateError::Refused`] with everything that is wrong in it.
+/// [`TranslateError::Refused`] with all errors.
 pub fn parse_configuration(name: &str, text: &str) -> Result<ParsedConfiguration, TranslateError> {
     let (configuration, diagnostics) = configuration::parse(text);
     if diagnostics.is_empty() {
@@ -174,8 +173,8 @@ pub fn parse_configuration(name: &str, text: &str) -> Result<ParsedConfiguration
 /// Translates the agent in `agent_text`, the content of the configuration's input file.
 ///
 /// # Errors
-/// [`TranslateError::Refused`] with everything that is wrong in either text. Nothing is produced
-/// then: the translator refuses what it cannot translate.
+/// [`TranslateError::Refused`] with all errors in both texts. Nothing is produced then: the translator
+/// refuses what it cannot translate.
 pub fn translate(
     configuration: &ParsedConfiguration,
     agent_text: &str,
@@ -198,19 +197,20 @@ pub fn translate(
     Ok(Translation { files, warnings, report: Report::new(&program) })
 }
 
-/// What a model checker needs to prove the properties of an agent on its C.
+/// Input of a model checker for proving an agent's properties on its C.
 ///
-/// The agent is translated with its state passed in, whatever the configuration says: a proof starts in
-/// any state.
+/// The agent is translated with its state passed in, whatever the configuration says, because a proof starts
+/// in any state.
 ///
 /// # Errors
-/// As [`translate`], and if a value of a type would have to be made up that only the environment knows.
+/// As [`translate`], and if an arbitrary value of a type would be needed that only the environment can
+/// create.
 pub fn obligations(
     configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Obligations, TranslateError> {
     let properties = configuration.promises();
-    // What would not be translated is not proved either.
+    // An agent that cannot be translated cannot be proved either.
     let wanted = configuration.configuration.settings.instance;
     let (mut program, _) = check(configuration, agent_text, wanted)?;
     if wanted != Instance::Context {
@@ -232,7 +232,7 @@ pub fn obligations(
     })
 }
 
-/// A model of the agent for SPIN, in which its properties can be checked in every environment.
+/// A model of the agent for SPIN, in which its properties can be checked for every environment.
 ///
 /// # Errors
 /// As [`translate`].
@@ -257,7 +257,7 @@ fn c_files(program: &program::Program) -> Vec<GeneratedFile> {
     ]
 }
 
-/// The checked program, for C of a form, and the warnings.
+/// The checked program for a form of the C, and the warnings.
 fn check(
     configuration: &ParsedConfiguration,
     agent_text: &str,
@@ -271,7 +271,7 @@ fn check(
     let boundary = check_rust_boundary(configuration);
     let (agent, diagnostics) = syntax::parse(agent_text);
     if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
-        // What cannot be read cannot be checked either.
+        // A text that cannot be parsed cannot be checked either.
         let found = gather([(diagnostics, agent_source), (boundary, configuration_source)]);
         return Err(TranslateError::Refused(found));
     }
@@ -286,7 +286,7 @@ fn check(
     }
 }
 
-/// The Rust side needs the state passed in, and types that it knows.
+/// The Rust bindings need the state passed in, and types that are known in Rust.
 fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
     let mut findings = Vec::new();
     let Some(rust) = &configuration.settings.rust else { return findings };
@@ -323,20 +323,19 @@ fn check_rust_boundary(configuration: &Configuration) -> Vec<Diagnostic> {
     findings
 }
 
-/// Names in Rust are none of its words, and no two of ours become one.
+/// Names must not be Rust keywords, and must stay distinct in Rust.
 fn check_rust_names(configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
     let mut taken: HashSet<String> = HashSet::from(["Environment::update_beliefs".to_owned()]);
-    let mut check = |owner: &str, name: String, source: &Name, known: bool| {
-        let fresh = taken.insert(format!("{owner}::{name}"));
-        if !fresh || known || is_rust_word(&name) {
-            let message = format!("`{}` cannot be called `{name}` in Rust", source.text);
-            findings.push(
-                Code::ReservedName
-                    .at(message, source.span.clone())
-                    .help("Rust has this word, or something else is called so there; rename it"),
-            );
-        }
-    };
+    let mut check =
+        |owner: &str, name: String, source: &Name, known: bool| {
+            let fresh = taken.insert(format!("{owner}::{name}"));
+            if !fresh || known || is_rust_word(&name) {
+                let message = format!("`{}` cannot be called `{name}` in Rust", source.text);
+                findings.push(Code::ReservedName.at(message, source.span.clone()).help(
+                    "it is a Rust keyword, or collides with another name in Rust; rename it",
+                ));
+            }
+        };
     for basic in &configuration.basics {
         check("Environment", snake_case(&basic.name.text), &basic.name, false);
     }

@@ -1,4 +1,4 @@
-//! A model of the agent for the model checker SPIN, and what its replays mean.
+//! Model of an agent for the model checker SPIN, and the interpretation of its replays.
 
 use std::fmt;
 
@@ -10,33 +10,32 @@ use crate::program::{Program, trigger_text};
 
 /// A model of an agent in Promela.
 ///
-/// Beliefs are held or not; their values, what functions return and how values compare is free, but for
-/// the comparisons that properties speak of. So a property that holds of the model holds in every
-/// environment, while a failure may need an environment that there is not.
+/// Beliefs are held or not. Their values, the results of functions and the outcome of comparisons are
+/// nondeterministic, except for the comparisons in properties. A property that holds in the model therefore
+/// holds in every environment, while a counterexample may need an environment that cannot exist.
 #[derive(Debug)]
 #[non_exhaustive]
-#[must_use = "nothing is checked yet"]
+#[must_use = "the model has to be checked"]
 pub struct Model {
     /// The properties, in the order of their numbers.
     pub properties: Vec<Promise>,
     program: Program,
 }
 
-/// Something that happens on the way to a failure, in the agent's own terms.
+/// A step of a counterexample, in the agent's terms.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Happening {
-    /// How deep it belongs below what comes before it: 0 for the environment and for steps, 1 for plans, 2 for
-    /// what plans do.
+    /// Nesting depth: 0 for the environment and for steps, 1 for plans, 2 for the actions of plans.
     pub depth: usize,
     /// The line of the agent's source, if there is one.
     pub line: Option<usize>,
-    /// What happens.
+    /// Description.
     pub text: String,
 }
 
 impl Happening {
-    /// Something that happens.
+    /// A step of a counterexample.
     pub fn new(depth: usize, line: Option<usize>, text: String) -> Self {
         Self { depth, line, text }
     }
@@ -57,8 +56,7 @@ impl Model {
         Self { properties, program }
     }
 
-    /// The name of the environment variable that tells the checker which property to look at, counted
-    /// from 1.
+    /// The environment variable that selects the property to check, counted from 1.
     pub fn selector(&self) -> &'static str {
         PROPERTY
     }
@@ -73,7 +71,7 @@ impl Model {
         emit(&self.program)
     }
 
-    /// What the replay of a failure tells, in the agent's terms.
+    /// Translates the replay of a counterexample to the agent's terms.
     pub fn explain(&self, replay: &str) -> Vec<Happening> {
         let told = replay.lines().filter_map(|line| line.trim().strip_prefix(MARK));
         let told: Vec<Vec<&str>> = told.map(|line| line.split_whitespace().collect()).collect();
@@ -90,13 +88,13 @@ impl Model {
             steps += 1;
             let handles = told.get(index + 1).is_some_and(|next| next.first() == Some(&"event"));
             let text = match idle_from.filter(|_| !handles) {
-                // One line for all steps in which nothing waits.
+                // Consecutive steps without an event share one line.
                 Some(first) => {
                     happenings.pop();
-                    format!("steps {first} to {steps}: no event waits")
+                    format!("steps {first} to {steps}: no event is pending")
                 }
                 None if handles => format!("step {steps}"),
-                None => format!("step {steps}: no event waits"),
+                None => format!("step {steps}: no event is pending"),
             };
             happenings.push(Happening { depth: 0, line: None, text });
             let alone = told.get(index + 1).is_none_or(|next| next.first() == Some(&"step"));
@@ -112,7 +110,7 @@ impl Model {
             "raise" => at(0, None, format!("the environment raises {}", self.event(first?)?)),
             "set" => {
                 let belief = self.program.beliefs.get(first?)?;
-                at(0, None, format!("the environment tells `{}`", belief.name))
+                at(0, None, format!("the environment sets `{}`", belief.name))
             }
             "event" => at(1, None, format!("handles {}", self.event(first?)?)),
             "plan" => {
@@ -134,12 +132,12 @@ impl Model {
         }
     }
 
-    /// An event by its number, and why it is there.
+    /// Description of an event by its number, with its cause.
     fn event(&self, number: usize) -> Option<String> {
         let handler = |id| self.program.handler(id).text();
         Some(match events(&self.program).get(number.checked_sub(1)?)? {
             Waiting::Posted(id) => handler(*id),
-            Waiting::Overdue(id) => format!("the end of the time for {}", handler(*id)),
+            Waiting::Overdue(id) => format!("the deadline of {}", handler(*id)),
             Waiting::Perceived(_, id) => format!("{}, which was perceived", handler(*id)),
             Waiting::External(index) => {
                 let external = self.program.external.get(*index)?;

@@ -1,27 +1,27 @@
-//! What a model checker needs to prove the properties of an agent.
+//! Input of a model checker for proving an agent's properties.
 
 use std::fmt::Write as _;
 
 use crate::GeneratedFile;
 
-/// Compiled with this defined as a number, the proof's `main` makes so many random transitions and ends; the agent's
-/// C is then compiled by itself.
+/// If this is defined as a number, the proof's `main` makes that many random transitions and ends; the
+/// agent's C is then compiled separately.
 pub use crate::backend::c::{ANSWERS, CALLS, RANDOM_TRANSITIONS, STEPS};
 
 /// The file of a proof that includes all others.
 pub const HARNESS: &str = "harness.c";
 
-/// What must be shown of an agent's C, and the environment in which it must be shown.
+/// Assertions on an agent's C, and the environment in which they must hold.
 ///
-/// A proof needs an invariant: it begins with all candidates and drops those that do not hold in the
-/// beginning, or that some transition breaks, until the rest proves itself.
+/// A proof needs an invariant: it starts with all candidates and removes those that do not hold initially, or
+/// that some transition breaks, until the rest is inductive.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
-#[must_use = "nothing is proved yet"]
+#[must_use = "the assertions have to be proved"]
 pub struct Obligations {
     /// The C of the agent and [`HARNESS`], with the functions `base`, `induction` and `main`.
     pub files: Vec<GeneratedFile>,
-    /// The linker's name of `next_step()`, with the state passed in.
+    /// Linker symbol of `next_step()` with the state passed in.
     pub entry: String,
     pub(crate) state_type: String,
     pub(crate) candidates: Vec<String>,
@@ -29,15 +29,15 @@ pub struct Obligations {
     pub properties: Vec<Promise>,
 }
 
-/// A property as it was declared.
+/// A property as declared.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Promise {
     /// Its name.
     pub name: String,
-    /// The requirements that it stands for.
+    /// The requirements that it implements.
     pub requirements: Vec<String>,
-    /// What must hold, with single blanks.
+    /// Its formula, with single blanks.
     pub formula: String,
 }
 
@@ -126,7 +126,7 @@ mod tests {
         assert!(error.to_string().contains("`handle_t`"), "{error}");
     }
 
-    /// A proof needs the state passed in, and is made of what would be translated, not of another agent.
+    /// A proof needs the state passed in, and proves exactly the agent that would be translated.
     #[test]
     fn what_is_not_translated_is_not_proved() {
         let text = LAMP.replace("basics = b.h;", "basics = b.h; rust = b.rs;");

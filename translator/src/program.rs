@@ -1,8 +1,7 @@
-//! The checked program: what the back ends translate.
+//! The checked program: input of the back ends.
 //!
-//! A [`Program`] can only come from [`crate::analysis::analyse`], so whoever holds one knows that
-//! names are declared, arities and types fit, each variable is bound before it is used, and no
-//! call can be recursive. Everything is resolved to indices.
+//! Only [`crate::analysis::analyse`] creates a [`Program`]. Therefore names are declared, arities and types
+//! fit, each variable is bound before it is used, and no call is recursive. All references are indices.
 
 use std::collections::BTreeSet;
 
@@ -16,31 +15,31 @@ use crate::types::CType;
 #[derive(Debug)]
 pub(crate) struct Program {
     pub(crate) configuration: Configuration,
-    /// The form that the C has: a proof needs another than the configuration may ask for.
+    /// Form of the C: a proof may need another one than the configuration asks for.
     pub(crate) instance: Instance,
     pub(crate) beliefs: Vec<Belief>,
-    /// Beliefs that something can make true.
+    /// Beliefs that can become true.
     pub(crate) believable: BTreeSet<BeliefId>,
-    /// Those that some event leads to, in the order of the source. There are no others here: a back end cannot
-    /// translate what never runs.
+    /// Reachable handlers, in the order of the source. Unreachable ones are removed, so that a back end
+    /// cannot translate dead code.
     pub(crate) handlers: Vec<Handler>,
-    /// How many plans are left out, because no event leads to them.
+    /// Number of plans that were removed as unreachable.
     pub(crate) left_out: usize,
-    /// Handlers whose events can be the one of the next step: those that a plan posts, and the
-    /// initial goal's. At most one is pending.
+    /// Handlers whose events can be the event of the next step: those that a plan posts, and the initial
+    /// goal's. At most one is pending.
     pub(crate) posted: Vec<HandlerId>,
-    /// Handlers whose events a plan posts as the last thing it does.
+    /// Handlers whose events a plan posts as its last action.
     pub(crate) posted_by_plans: Vec<HandlerId>,
     /// Handlers whose goals a plan can post with `!!`: each has one slot.
     pub(crate) deferred: Vec<HandlerId>,
-    /// How many goals posted with `!!` can wait among external events, in queue mode: as many as those, and one
-    /// for each `!!` that the agent has.
+    /// Capacity for goals posted with `!!` among external events, in queue mode: that of the inbox plus one
+    /// for each `!!` of the agent.
     pub(crate) deferred_room: usize,
     /// Handlers whose goals a plan gives a deadline.
     pub(crate) limited: Vec<HandlerId>,
-    /// The function that tells the time, and the type of its times.
+    /// The clock function, and the type of its times.
     pub(crate) clock: Option<(BasicId, CType)>,
-    /// What the environment can raise.
+    /// Events of the environment.
     pub(crate) external: Vec<External>,
     pub(crate) initial_goal: Option<(HandlerId, Vec<Value>)>,
 }
@@ -61,17 +60,17 @@ pub(crate) struct VariableId(pub(crate) usize);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct BasicId(pub(crate) usize);
 
-/// A predicate that the belief base can hold, at most one instance of it.
+/// A predicate of the belief base, with at most one instance.
 #[derive(Debug)]
 pub(crate) struct Belief {
     pub(crate) name: String,
     pub(crate) types: Vec<CType>,
-    /// Values believed from the start.
+    /// Initial values.
     pub(crate) initial: Option<Vec<Value>>,
     pub(crate) settable: bool,
-    /// Who handles a change by `set_b`, if it raises an event.
+    /// Handler of a change by `set_b`, if it raises an event.
     pub(crate) perceived: Option<HandlerId>,
-    /// Where a context first asks for it.
+    /// First context that queries it.
     pub(crate) asked_at: Option<Span>,
 }
 
@@ -85,16 +84,16 @@ pub(crate) struct Handler {
     pub(crate) plans: Vec<Plan>,
     /// The handler of `-!g` for a handler of `+!g`.
     pub(crate) failure: Option<HandlerId>,
-    /// Where the first trigger stands in the source.
+    /// Place of the first trigger in the source.
     pub(crate) span: Span,
-    /// For plans of test goals: which arguments are asked for rather than given.
+    /// For plans of test goals: which arguments are queried rather than given.
     pub(crate) holes: Vec<bool>,
-    /// Whether this is what is left of a plan that waits. Where the goal has failure plans, its
-    /// arguments come first.
+    /// Whether this is the rest of a plan that waits. If the goal has failure plans, its arguments come
+    /// first.
     pub(crate) resumed: bool,
 }
 
-/// An event that the environment can raise.
+/// An event of the environment.
 #[derive(Debug)]
 pub(crate) struct External {
     pub(crate) operator: Operator,
@@ -103,9 +102,9 @@ pub(crate) struct External {
     pub(crate) types: Vec<CType>,
     /// The belief that the event changes.
     pub(crate) belief: Option<BeliefId>,
-    /// Who handles it; a mere update of a belief has nobody.
+    /// Its handler; `None` for a mere update of a belief.
     pub(crate) handler: Option<HandlerId>,
-    /// Whether it aborts what runs.
+    /// Whether it aborts the pending event.
     pub(crate) preemptive: bool,
 }
 
@@ -114,14 +113,14 @@ pub(crate) struct External {
 pub(crate) struct Plan {
     /// First and last line in the source.
     pub(crate) lines: (usize, usize),
-    /// The plan as it stands in the source.
+    /// Its text in the source.
     pub(crate) source: String,
     pub(crate) variables: Vec<Variable>,
     /// One pattern for each argument of the trigger.
     pub(crate) patterns: Vec<Pattern>,
     pub(crate) context: Vec<Condition>,
     pub(crate) body: Vec<Placed>,
-    /// For plans of test goals: which variable answers which argument.
+    /// For plans of test goals: which variable returns which argument.
     pub(crate) outputs: Vec<(usize, VariableId)>,
     pub(crate) label: Option<String>,
     pub(crate) requirements: Vec<String>,
@@ -132,19 +131,19 @@ pub(crate) struct Plan {
 pub(crate) struct Variable {
     /// Its name in the agent.
     pub(crate) source: String,
-    /// Its name in C, which no other variable of the plan has.
+    /// Its name in C, unique within the plan.
     pub(crate) name: String,
     pub(crate) ctype: CType,
-    /// Whether its value is used; a variable that is only bound is not generated.
+    /// Whether its value is used; an unused variable is not generated.
     pub(crate) used: bool,
 }
 
-/// What an argument must look like.
+/// Pattern of an argument.
 #[derive(Debug)]
 pub(crate) enum Pattern {
-    /// Anything.
+    /// Any value.
     Any,
-    /// Anything, remembered.
+    /// Any value, bound to a variable.
     Bind(VariableId),
     /// This value.
     Equal(Value),
@@ -157,13 +156,13 @@ pub(crate) enum Condition {
     Holds { belief: BeliefId, patterns: Vec<Pattern> },
     /// A value of type bool is true.
     Truth(Value),
-    /// Two values compare so.
+    /// A comparison of two values.
     Compare { relation: Relation, left: Value, right: Value, ctype: CType },
-    /// Always true; the variable has the value from now on.
+    /// Always true; binds the variable.
     Bind { variable: VariableId, value: Value },
     /// The conjunction does not hold.
     Not(Vec<Self>),
-    /// One of the conjunctions holds; the first that does counts.
+    /// One of the conjunctions holds; the first that does is used.
     Any(Alternatives),
 }
 
@@ -171,11 +170,11 @@ pub(crate) enum Condition {
 #[derive(Debug)]
 pub(crate) struct Alternatives {
     pub(crate) branches: Vec<Vec<Condition>>,
-    /// Variables that every branch binds: the one that is seen afterwards, and each branch's own.
+    /// Variables that every branch binds: the one visible afterwards, and each branch's own.
     pub(crate) exports: Vec<(VariableId, Vec<VariableId>)>,
 }
 
-/// A formula of a body, and the line of the source where it stands.
+/// A formula of a body, and its line in the source.
 #[derive(Debug)]
 pub(crate) struct Placed {
     pub(crate) line: usize,
@@ -226,7 +225,7 @@ pub(crate) enum Step {
     },
 }
 
-/// What a change of a belief triggers.
+/// Consequence of a change of a belief.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Raise {
     Nothing,
@@ -243,7 +242,7 @@ pub(crate) enum Value {
     /// A C constant.
     Constant(String, CType),
     Call(Call),
-    /// The sign of a floating-point value turned; of an integer it is a subtraction.
+    /// Sign change of a floating-point value; for integers it is a subtraction.
     Negate(Box<Self>),
     Arithmetic(Box<Operation>),
 }
@@ -258,27 +257,27 @@ pub(crate) struct Operation {
 }
 
 impl Operation {
-    /// Whether the operation has no result for some operands: integers overflow, and nothing can
-    /// be divided by zero. What has no result fails.
+    /// Whether the operation has no result for some operands: integer overflow, or division by zero. Without
+    /// a result it fails.
     pub(crate) fn can_fail(&self) -> bool {
         !self.ctype.is_float() || self.operator == Arithmetic::Divide
     }
 }
 
 impl Handler {
-    /// How the trigger is written in AgentSpeak: for what is left of a plan that waits, `+!g_wait1`.
+    /// The trigger in AgentSpeak; `+!g_wait1` for the rest of a plan that waits.
     pub(crate) fn text(&self) -> String {
         trigger_text(self.operator, self.kind, &self.name)
     }
 }
 
 impl Plan {
-    /// What the body does, in order.
+    /// The steps of the body, in order.
     pub(crate) fn steps(&self) -> impl Iterator<Item = &Step> {
         self.body.iter().map(|placed| &placed.step)
     }
 
-    /// The calls that finding out whether the plan applies can make, in order.
+    /// The calls that evaluating the context can make, in order.
     pub(crate) fn context_calls(&self) -> Vec<ContextCall> {
         let (mut effects, mut calls) = (Vec::new(), Vec::new());
         pattern_effects(&self.patterns, &mut effects);
@@ -287,7 +286,7 @@ impl Plan {
         calls
     }
 
-    /// Whether the plan fits every event of its trigger.
+    /// Whether the plan applies to every event of its trigger.
     pub(crate) fn always_applies(&self) -> bool {
         self.context.is_empty()
             && !self.patterns.iter().any(|pattern| matches!(pattern, Pattern::Equal(_)))
@@ -308,17 +307,17 @@ impl Value {
     }
 }
 
-/// What evaluating values does.
+/// Effect of evaluating values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Effect {
     /// A basic action or function is called.
     Call(BasicId),
-    /// There may be no result; then nothing that follows happens.
+    /// There may be no result; then the following effects do not happen.
     MayFail,
 }
 
 impl Value {
-    /// What evaluating it does, in order.
+    /// Effects of the evaluation, in order.
     fn effects(&self, effects: &mut Vec<Effect>) {
         match self {
             Self::Variable(_) | Self::Constant(..) => {}
@@ -350,11 +349,11 @@ fn pattern_effects(patterns: &[Pattern], effects: &mut Vec<Effect>) {
     }
 }
 
-/// A call that choosing a plan may make.
+/// A call that evaluating a context may make.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ContextCall {
     pub(crate) basic: BasicId,
-    /// Whether it is made whenever the plan applies.
+    /// Whether it is always made when the plan applies.
     pub(crate) certain: bool,
 }
 
@@ -386,7 +385,7 @@ fn push_calls(effects: &[Effect], certain: bool, calls: &mut Vec<ContextCall>) {
 }
 
 impl Step {
-    /// What evaluating the values in it does, in order, before its own effect; an action is a value too.
+    /// Effects of evaluating its values, in order, before its own effect; an action is a value too.
     pub(crate) fn effects(&self) -> Vec<Effect> {
         let mut effects = Vec::new();
         match self {
@@ -409,7 +408,7 @@ impl Step {
         effects
     }
 
-    /// Whether the body can end here, before the formulae behind this one.
+    /// Whether the body can end here, before the following formulas.
     pub(crate) fn can_fail(&self) -> bool {
         let calls = match self {
             Self::Achieve { .. } | Self::Ask { .. } => true,
@@ -454,10 +453,10 @@ pub(crate) struct Call {
     pub(crate) arguments: Vec<Value>,
 }
 
-/// More `!!` than this get no more room in the queue.
+/// Maximum number of `!!` that add capacity to the queue.
 const MOST_DEFERRED: usize = 64;
 
-/// The room of [`Program::deferred_room`], for an agent with so many `!!`.
+/// The capacity of [`Program::deferred_room`], for an agent with this number of `!!`.
 pub(crate) fn deferred_room(settings: &Settings, formulae: usize) -> usize {
     settings.inbox as usize + formulae.min(MOST_DEFERRED)
 }
@@ -467,7 +466,7 @@ impl Program {
         &self.beliefs[id.0]
     }
 
-    /// The one value of a belief that has it from the start and never gets another.
+    /// The value of a belief that has it from the start and never changes.
     pub(crate) fn fixed(&self, id: BeliefId) -> Option<&Value> {
         let belief = self.belief(id);
         let [value] = belief.initial.as_deref()? else { return None };
@@ -478,12 +477,12 @@ impl Program {
         (!changes).then_some(value)
     }
 
-    /// Whether anything can make a belief true.
+    /// Whether a belief can become true.
     pub(crate) fn is_believable(&self, id: BeliefId) -> bool {
         self.believable.contains(&id)
     }
 
-    /// Whether a plan or the environment can take a belief back.
+    /// Whether a plan or the environment can delete a belief.
     pub(crate) fn is_deleted(&self, belief: &Belief) -> bool {
         let deletes = |step: &Step| matches!(step, Step::Delete { belief: other, .. } if std::ptr::eq(self.belief(*other), belief));
         let takes_back = |external: &External| {
@@ -514,19 +513,19 @@ impl Program {
         &self.configuration.basics[id.0]
     }
 
-    /// The function that is told which plan was chosen.
+    /// The trace function, which is called with each chosen plan.
     pub(crate) fn trace(&self) -> Option<BasicId> {
         let name = self.configuration.settings.trace.as_ref()?;
         let mut basics = self.configuration.basics.iter();
         basics.position(|basic| basic.name.text == name.text).map(BasicId)
     }
 
-    /// The function that every step asks whether the deadline of what runs has passed.
+    /// The clock, if every step has to check a deadline.
     pub(crate) fn deadline_clock(&self) -> Option<BasicId> {
         self.clock.as_ref().filter(|_| !self.limited.is_empty()).map(|(basic, _)| *basic)
     }
 
-    /// What plans call in their bodies, not only to find out whether they apply.
+    /// Functions called in bodies, not only in contexts.
     pub(crate) fn called_in_bodies(&self) -> BTreeSet<BasicId> {
         let steps = self.plans().flat_map(|(_, _, plan)| plan.steps());
         let effects = steps.flat_map(Step::effects);
@@ -539,7 +538,7 @@ impl Program {
     }
 }
 
-/// `achieve_goto`, `add_battery`: how a trigger is called in generated names.
+/// `achieve_goto`, `add_battery`: a trigger in generated names.
 pub(crate) fn trigger_name(operator: Operator, kind: TriggerKind, name: &str) -> String {
     let verb = match (operator, kind) {
         (Operator::Add, TriggerKind::Achieve) => "achieve",
@@ -552,7 +551,7 @@ pub(crate) fn trigger_name(operator: Operator, kind: TriggerKind, name: &str) ->
     format!("{verb}_{name}")
 }
 
-/// `+!goto`, `-battery`: how a trigger is written in AgentSpeak.
+/// `+!goto`, `-battery`: a trigger in AgentSpeak.
 pub(crate) fn trigger_text(operator: Operator, kind: TriggerKind, name: &str) -> String {
     let operator = match operator {
         Operator::Add => "+",

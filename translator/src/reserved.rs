@@ -1,8 +1,7 @@
-//! Names that nobody else may have: those of C and its library, and those of generated C.
+//! Reserved names: those of C and its library, and those of generated C.
 //!
-//! Generated names never meet others because their space is closed: whatever a configuration calls so is
-//! refused. In that space each part of a name that is a user's comes last, behind words of ours that tell
-//! what it is.
+//! Generated names never collide with others, because their name space is closed: such names are refused in a
+//! configuration. In generated names, the user's part comes last, behind fixed words that identify its role.
 
 /// C99 keywords, the names of `<stdbool.h>` and some that are not functions.
 const WORDS: &str = "auto break case char const continue default do double else enum extern float for goto if \
@@ -18,7 +17,7 @@ const MATHEMATICS: &str = "acos acosh asin asinh atan atan2 atanh atol cabs caco
     nextafter nexttoward pow pow10 remainder remquo rint round roundeven scalb scalbln scalbn signbit \
     significand sin sincos sinh sqrt strtol strtoul tan tanh tgamma trunc wcstol wcstoul y0 y1 yn";
 
-/// Other functions of the standard library, and those that compilers know besides.
+/// Other functions of the standard library, and builtins of compilers.
 const LIBRARY: &str = "abort abs aligned_alloc alloca asctime assert at_quick_exit atexit atof atoi bcmp bcopy bsearch btowc bzero \
     calloc clearerr clock ctime dcgettext dgettext difftime div execl execle execlp execv execve execvp exit \
     fclose feclearexcept fegetenv fegetexceptflag fegetround feholdexcept feof feraiseexcept ferror fesetenv \
@@ -60,16 +59,16 @@ pub(crate) const INTERFACE: [&str; 9] = [
     "update_beliefs",
 ];
 
-/// What functions of the interface that belong to a belief or goal begin with.
+/// Prefixes of interface functions that belong to a belief or goal.
 pub(crate) const VERBS: [&str; 4] = ["achieve", "add", "del", "set"];
 
-/// Words that generated names begin with, before the first underscore; `plan` and `var` with a number.
+/// First words of generated names, before the first underscore; `plan` and `var` with a number.
 const FIRST_WORDS: [&str; 12] = [
     "run", "post", "defer", "limit", "equal", "checked", "plan", "var", "calls", "due", "allowed",
     "any",
 ];
 
-/// Other generated names: of functions, types, variables, parameters.
+/// Other generated names: functions, types, variables, parameters.
 const OWN: [&str; 9] = [
     "take_event",
     "handle_event",
@@ -82,7 +81,7 @@ const OWN: [&str; 9] = [
     "environment",
 ];
 
-/// Functions of proofs, where actions have the agent's prefix: no type may be called so.
+/// Functions of proofs, where actions have the agent's prefix: types must not have these names.
 const PROOFS: [&str; 7] = [
     "base",
     "induction",
@@ -111,16 +110,16 @@ const LOCALS: [&str; 14] = [
     "value",
 ];
 
-/// What generated constants begin with.
+/// Prefixes of generated constants.
 const CONSTANTS: [&str; 3] = ["EVENT_", "OUTCOME_", "ASL2C_"];
 
-/// Whether C, its library or a compiler has a use for the name.
+/// Whether C, its library or a compiler uses the name.
 pub(crate) fn is_c(name: &str) -> bool {
     is_c_word(name) || is_library(name)
 }
 
-/// Whether the name means something wherever it stands: a keyword, or what the headers that generated C
-/// includes define.
+/// Whether the name has a meaning in any position: a keyword, or a macro of the headers that generated C
+/// includes.
 pub(crate) fn is_c_word(name: &str) -> bool {
     let is_in = |words: &str| words.split_ascii_whitespace().any(|word| word == name);
     name.starts_with('_') || is_in(WORDS) || is_integer_type(name) || is_integer_macro(name)
@@ -134,7 +133,7 @@ pub(crate) fn is_library(name: &str) -> bool {
     is_in(MATHEMATICS, name) || is_in(LIBRARY, name) || VARIANTS.iter().any(variant)
 }
 
-/// `int32_t`, `uint_fast8_t`, `intptr_t`: C has all names that begin and end so.
+/// `int32_t`, `uint_fast8_t`, `intptr_t`: C reserves all names with this prefix and suffix.
 fn is_integer_type(name: &str) -> bool {
     (name.starts_with("int") || name.starts_with("uint")) && name.ends_with("_t")
 }
@@ -146,7 +145,7 @@ fn is_integer_macro(name: &str) -> bool {
     begins.iter().any(|begin| name.starts_with(begin)) && ends.iter().any(|end| name.ends_with(end))
 }
 
-/// Whether a name is one that generated C has for something of its own.
+/// Whether generated C uses the name.
 pub(crate) fn is_generated(name: &str) -> bool {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let first =
@@ -158,19 +157,19 @@ pub(crate) fn is_generated(name: &str) -> bool {
         || CONSTANTS.iter().any(|start| name.starts_with(start))
 }
 
-/// Whether everything that begins so could be a generated name: the prefix of an agent that is passed its state.
+/// Whether names with this prefix could be generated names: the prefix of an agent with its state passed in.
 pub(crate) fn is_generated_prefix(prefix: &str) -> bool {
     let first = prefix.split('_').next().unwrap_or_default();
     let first = first.trim_end_matches(|c: char| c.is_ascii_digit());
     FIRST_WORDS.contains(&first) || CONSTANTS.iter().any(|start| prefix.starts_with(start))
 }
 
-/// Whether a type of this name could not be told from a function of a proof.
+/// Whether a type of this name would collide with a function of a proof.
 pub(crate) fn is_of_proofs(name: &str) -> bool {
     PROOFS.contains(&name)
 }
 
-/// What generated names are, for those who have to choose others.
+/// Description of the generated names, for error messages.
 pub(crate) fn described() -> String {
     let listed = |words: &[&str]| words.join(", ");
     format!(
@@ -184,7 +183,7 @@ pub(crate) fn described() -> String {
     )
 }
 
-/// Rust's keywords, also those of other editions and those that it may have one day.
+/// Keywords of Rust, including other editions and reserved words.
 pub(crate) fn is_rust_word(name: &str) -> bool {
     const KEYWORDS: &str = "as break const continue crate else enum extern false fn for if impl in let loop match mod \
         move mut pub ref return self Self static struct super trait true type unsafe use where while async await dyn \

@@ -1,6 +1,6 @@
-//! What the translator knows of C types.
+//! C types.
 
-/// Words that C types of numbers begin with, also of those that the translator does not calculate with.
+/// First words of numeric C types, including those without arithmetic support.
 pub(crate) const C_NUMBERS: [&str; 18] = [
     "bool",
     "char",
@@ -22,16 +22,16 @@ pub(crate) const C_NUMBERS: [&str; 18] = [
     "clock_t",
 ];
 
-/// A C type as the configuration names it.
+/// A C type as named in the configuration.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CType {
     /// The type's name with single blanks, `unsigned int`.
     pub name: String,
-    /// What can be done with its values.
+    /// Operations on its values.
     pub kind: TypeKind,
 }
 
-/// What can be done with values of a type.
+/// Kinds of types by their operations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TypeKind {
     /// No value.
@@ -54,14 +54,14 @@ pub enum TypeKind {
     Float64,
     /// `const char *`
     Text,
-    /// A struct that the configuration declares: it can be compared, field by field.
+    /// A struct declared in the configuration: compared field by field.
     Struct,
-    /// Anything else: it can be passed on, but neither written down nor compared.
+    /// Any other type: can be passed on, but neither written as a constant nor compared.
     Opaque,
 }
 
 impl CType {
-    /// The type that the configuration calls `name`.
+    /// The type named `name`.
     pub fn named(name: &str) -> Self {
         let kind = match name {
             "void" => TypeKind::Void,
@@ -90,7 +90,7 @@ impl CType {
         Self { name: name.to_owned(), kind }
     }
 
-    /// Whether the type may be one of strings, for all that its name tells: `name_t`, `char *`.
+    /// Whether it may be a type of strings, judging by its name: `name_t`, `char *`.
     pub fn may_be_text(&self) -> bool {
         let mut words = self.name.split(' ').filter(|word| *word != "const");
         match (words.next(), self.name.matches('*').count()) {
@@ -106,7 +106,7 @@ impl CType {
         !matches!(self.kind, TypeKind::Void | TypeKind::Text | TypeKind::Opaque)
     }
 
-    /// Whether one can calculate with values of the type.
+    /// Whether arithmetic is possible.
     pub fn is_numeric(&self) -> bool {
         self.is_float() || self.integer_bits().is_some()
     }
@@ -130,7 +130,7 @@ impl CType {
         })
     }
 
-    /// The constant that a variable of the type can start with, where the translator knows one.
+    /// The zero constant of the type, if it is known.
     pub fn zero(&self) -> Option<&'static str> {
         match self.kind {
             TypeKind::Bool => Some("false"),
@@ -139,7 +139,7 @@ impl CType {
             TypeKind::Float32 => Some("0.0F"),
             TypeKind::Float64 => Some("0.0"),
             TypeKind::Text => Some("\"\""),
-            // C lets any type begin so.
+            // In C this initializes any type.
             TypeKind::Struct | TypeKind::Opaque => Some("{ 0 }"),
             TypeKind::Void => None,
         }

@@ -7,6 +7,7 @@ use autopilot::Plan;
 use autopilot::outcome::Outcome;
 use autopilot::plan::Commands;
 use autopilot::vehicle::{OperatorOrder, TagConfig, VehicleConfig};
+use kinematics::wrap_deg;
 use mock_drone::scenario::Scenario;
 use mock_drone::sensors::SensorModel;
 use mock_drone::{CameraModel, DroneConfig, FloorTag, LinkFaults, OrientationSign, WorldConfig};
@@ -385,7 +386,7 @@ fn fly(job: Job) -> Result<Flown, TagError> {
         flown.inside +=
             off.iter().map(|off| f64::from(u8::from(off.abs() <= most_m)) / 2.0).sum::<f64>();
         let turned = moment.truth.yaw_deg - pose.yaw_deg;
-        flown.heading_deg = ((turned + 180.0).rem_euclid(360.0) - 180.0).abs();
+        flown.heading_deg = wrap_deg(turned).abs();
         let seen = moment.status.tags.and_then(|tags| tags.seen_ago);
         flown.seen += f64::from(u8::from(seen.is_some_and(|ago| ago < Duration::from_millis(500))));
     })?;

@@ -3,7 +3,6 @@
 use std::io;
 use std::time::Duration;
 
-use crate::at::EncodeError;
 use crate::settings::SettingError;
 
 /// Why a client could not be started.
@@ -35,9 +34,6 @@ pub enum StartError {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ClientError {
-    /// See [`crate::session::Session::tick`].
-    #[error(transparent)]
-    Encode(#[from] EncodeError),
     /// The client's task panicked, or its runtime has ended.
     #[error("the client's task has died; its last datagrams ordered the landing")]
     Task,

@@ -14,9 +14,9 @@ use super::orders::{Orders, Reply, Seen};
 use super::readiness::{ConfigureReply, Readiness, ReadyReply};
 use super::wire::Wire;
 use crate::WAKE_UP;
-use crate::at::{Config, Datagram, Motion};
+use crate::at::{Config, Motion};
 use crate::navdata::{ControlState, Navdata};
-use crate::session::{Event, Received, Session};
+use crate::session::{self, Event, Output, Session, Transmit};
 
 /// Landing orders sent when the client ends; several, because a datagram may be lost.
 pub(super) const PARTING_ORDERS: u32 = 10;
@@ -84,23 +84,17 @@ enum Input {
 impl Link {
     pub(super) async fn run(mut self) -> Result<(), ClientError> {
         let start = Instant::now();
-        let mut datagram = Datagram::new();
         let mut clock = interval(TICK);
         clock.set_missed_tick_behavior(MissedTickBehavior::Skip);
-        let end = self.fly(start, &mut clock, &mut datagram).await;
+        let end = self.fly(start, &mut clock).await;
         self.dismiss(end.clone().err().unwrap_or(ClientError::Closed));
         // The landing is ordered whatever ended the flight.
-        self.part(start, &mut clock, &mut datagram).await;
+        self.part(start, &mut clock).await;
         end
     }
 
     /// Runs until the client is dropped.
-    async fn fly(
-        &mut self,
-        start: Instant,
-        clock: &mut Interval,
-        datagram: &mut Datagram,
-    ) -> Result<(), ClientError> {
+    async fn fly(&mut self, start: Instant, clock: &mut Interval) -> Result<(), ClientError> {
         let mut buffer = [0_u8; BUFFER_BYTES];
         loop {
             // Ticks have priority, however much navdata arrive, then orders, then navdata.
@@ -122,11 +116,10 @@ impl Link {
                 self.take_in_steering(start);
             }
             // After a panic of the session the landing must still be ordered.
-            let handled =
-                catch_unwind(AssertUnwindSafe(|| self.handle(now, input, &buffer, datagram)));
-            handled.map_err(|_| ClientError::Task)??;
+            let handled = catch_unwind(AssertUnwindSafe(|| self.handle(now, input, &buffer)));
+            let wake_up = handled.map_err(|_| ClientError::Task)?;
             if ticks {
-                self.send(now, datagram).await;
+                self.send(now, wake_up).await;
             }
             if self.navdata.mend(now).await {
                 self.navdata.send(now, &WAKE_UP).await;
@@ -143,28 +136,28 @@ impl Link {
         }
     }
 
-    fn handle(
-        &mut self,
-        now: Duration,
-        input: Input,
-        buffer: &[u8],
-        datagram: &mut Datagram,
-    ) -> Result<(), ClientError> {
+    /// Handles an event; returns whether the drone must be woken up.
+    fn handle(&mut self, now: Duration, input: Input, buffer: &[u8]) -> bool {
+        let mut packet: &[u8] = &[];
         match input {
             Input::Tick => {
                 self.rests = false;
                 let order = self.orders.order(now, &self.seen(now));
-                self.session.tick(now, order, datagram)?;
+                self.session.handle(now, session::Input::Tick(order));
             }
             Input::Request(request) => self.ask(now, request),
-            Input::Control(block) => self.session.handle_control(&block),
+            Input::Control(block) => self.session.handle(now, session::Input::Control(&block)),
             Input::Navdata(received) => match self.navdata.judge(now, received) {
-                Some(length) => self.take_in(now, &buffer[..length]),
+                Some(length) => {
+                    packet = &buffer[..length];
+                    self.session.handle(now, session::Input::Navdata(packet));
+                }
                 None => self.rests = true,
             },
         }
+        let wake_up = self.take_in(now, packet);
         self.report(now);
-        Ok(())
+        wake_up
     }
 
     fn ask(&mut self, now: Duration, request: Request) {
@@ -172,18 +165,18 @@ impl Link {
             Request::Ready(reply) => self.readiness.wait(now, reply),
             Request::Configure(config, reply) => {
                 if self.readiness.change(now, self.session.is_ready(), &config, reply) {
-                    self.session.request_setting(config);
+                    self.request(now, session::Request::Setting(config));
                 }
             }
             Request::TakeOff(reply) => self.orders.take_off(now, &self.seen(now), reply),
             Request::Land(reply) => self.orders.land(now, reply),
-            Request::FlatTrim => self.session.request_flat_trim(),
+            Request::FlatTrim => self.request(now, session::Request::FlatTrim),
             Request::EmergencyStop(reply) => {
-                self.session.request_emergency_stop();
+                self.request(now, session::Request::EmergencyStop);
                 self.orders.stop(now, reply);
             }
             Request::EmergencyReset(reply) => {
-                self.session.request_emergency_reset();
+                self.request(now, session::Request::EmergencyReset);
                 self.orders.reset(now, reply);
             }
             #[cfg(test)]
@@ -191,31 +184,45 @@ impl Link {
         }
     }
 
-    fn take_in(&mut self, now: Duration, packet: &[u8]) {
-        match self.session.handle_navdata(now, packet) {
-            Received::Navdata(Navdata { demo, .. }) => {
-                self.control_state = demo.map(|demo| demo.control_state);
-                self.battery_percent =
-                    demo.map(|demo| demo.battery_percent).or(self.battery_percent);
-                self.packets.send_replace(Some(Bytes::copy_from_slice(packet)));
-            }
-            Received::Stale => {}
-            Received::Damaged(error) => tracing::debug!("{error}"),
-        }
+    fn request(&mut self, now: Duration, request: session::Request) {
+        self.session.handle(now, session::Input::Request(request));
     }
 
-    /// Passes on events to those who wait for them.
-    fn report(&mut self, now: Duration) {
-        while let Some(event) = self.session.poll_event() {
-            self.orders.event(&event, &self.seen(now));
-            self.readiness.event(&event);
-            if event == Event::LinkLost {
-                // The last packet may not be valid any more.
-                self.packets.send_replace(None);
+    /// Takes in the session's outputs after an input; `packet` is its navdata datagram, if any. Returns whether
+    /// the drone must be woken up. The command is sent by [`Self::send`].
+    fn take_in(&mut self, now: Duration, packet: &[u8]) -> bool {
+        let mut wake_up = false;
+        while let Some(output) = self.session.poll() {
+            match output {
+                Output::Transmit(Transmit::Command(_)) => {}
+                Output::Transmit(Transmit::WakeUp) => wake_up = true,
+                Output::Navdata(Navdata { demo, .. }) => {
+                    self.control_state = demo.map(|demo| demo.control_state);
+                    self.battery_percent =
+                        demo.map(|demo| demo.battery_percent).or(self.battery_percent);
+                    self.packets.send_replace(Some(Bytes::copy_from_slice(packet)));
+                }
+                Output::Damaged(error) => tracing::debug!("{error}"),
+                Output::Event(event) => self.pass_on(now, event),
             }
-            // Without subscriptions there is no receiver.
-            _ = self.events.send(event);
         }
+        wake_up
+    }
+
+    /// Passes on an event to those who wait for it.
+    fn pass_on(&mut self, now: Duration, event: Event) {
+        self.orders.event(&event, &self.seen(now));
+        self.readiness.event(&event);
+        if event == Event::LinkLost {
+            // The last packet may not be valid any more.
+            self.packets.send_replace(None);
+        }
+        // Without subscriptions there is no receiver.
+        _ = self.events.send(event);
+    }
+
+    /// Updates everything that depends on the drone's state.
+    fn report(&mut self, now: Duration) {
         let seen = self.seen(now);
         self.orders.observe(now, &seen);
         self.readiness.observe(now, seen.ready, seen.alive);
@@ -238,12 +245,13 @@ impl Link {
         }
     }
 
-    async fn send(&mut self, now: Duration, datagram: &Datagram) {
-        if !datagram.as_bytes().is_empty() {
-            self.at.send(now, datagram.as_bytes()).await;
+    async fn send(&mut self, now: Duration, wake_up: bool) {
+        let datagram = self.session.datagram();
+        if !datagram.is_empty() {
+            self.at.send(now, datagram).await;
         }
         self.at.mend(now).await;
-        if self.session.wake_up_due(now) {
+        if wake_up {
             self.navdata.send(now, &WAKE_UP).await;
         }
     }
@@ -259,17 +267,18 @@ impl Link {
     }
 
     /// Orders the landing repeatedly.
-    async fn part(&mut self, start: Instant, clock: &mut Interval, datagram: &mut Datagram) {
+    async fn part(&mut self, start: Instant, clock: &mut Interval) {
         let mut parted = 0;
         for _ in 0..PARTING_TICKS {
             clock.tick().await;
             let now = start.elapsed();
-            let sent = self.session.part(now, datagram).is_ok();
+            self.session.handle(now, session::Input::Part);
+            let datagram = self.session.datagram();
             // A drone that was never sent anything must not be landed: another client may fly it.
-            if !sent || datagram.as_bytes().is_empty() || parted == PARTING_ORDERS {
+            if datagram.is_empty() || parted == PARTING_ORDERS {
                 return;
             }
-            parted += u32::from(self.at.send(now, datagram.as_bytes()).await);
+            parted += u32::from(self.at.send(now, datagram).await);
             self.at.mend(now).await;
         }
     }

@@ -1,8 +1,11 @@
 use bytes::BytesMut;
 
+use super::silence::{HELD_UP, UNHEARD};
 use super::*;
-use crate::at::{ControlMode, decode};
+use crate::at::{Command, Config, ControlMode, Fraction, Identity, Motion, Ref, decode};
+use crate::configuration::Configuration;
 use crate::navdata::{Demo, NavdataOption, PacketWriter};
+use crate::settings::{NavdataMode, Setting, SettingError};
 
 const TICK: Duration = Duration::from_millis(30);
 
@@ -10,21 +13,49 @@ const TICK: Duration = Duration::from_millis(30);
 struct Bench {
     session: Session,
     now: Duration,
+    /// Events that were polled with other outputs.
+    events: Vec<Event>,
 }
 
 impl Bench {
     fn new(keys: &[(&str, &str)]) -> Self {
         let settings = keys.iter().map(|(key, value)| Config::new(*key, value).unwrap()).collect();
-        let config = SessionConfig { settings, ..SessionConfig::default() };
-        Self { session: Session::new(config), now: Duration::ZERO }
+        Self::with(SessionConfig { settings, ..SessionConfig::default() })
     }
 
     fn reading_back() -> Self {
-        let config = SessionConfig { read_back: true, ..SessionConfig::default() };
-        Self { session: Session::new(config), now: Duration::ZERO }
+        Self::with(SessionConfig { read_back: true, ..SessionConfig::default() })
     }
 
-    fn hear(&mut self, sequence: u32, state: DroneState) -> Received {
+    fn with(config: SessionConfig) -> Self {
+        Self { session: Session::new(config), now: Duration::ZERO, events: Vec::new() }
+    }
+
+    /// What is to be sent after an input: the commands of the datagram, with their numbers, and whether a
+    /// wake-up follows. Events are kept.
+    fn handle(&mut self, input: Input<'_>) -> (Vec<(u32, Command)>, bool) {
+        self.session.handle(self.now, input);
+        let (mut commands, mut wake_up) = (Vec::new(), false);
+        while let Some(output) = self.session.poll() {
+            match output {
+                Output::Transmit(Transmit::Command(datagram)) => {
+                    assert_ne!(datagram, b"", "an empty datagram is none");
+                    commands = decode(datagram).map(Result::unwrap).collect();
+                }
+                Output::Transmit(Transmit::WakeUp) => wake_up = true,
+                Output::Event(event) => self.events.push(event),
+                Output::Navdata(_) | Output::Damaged(_) => {}
+            }
+        }
+        (commands, wake_up)
+    }
+
+    fn request(&mut self, request: Request) {
+        assert_eq!(self.handle(Input::Request(request)), (Vec::new(), false));
+    }
+
+    /// The next packet; returns whether it was accepted.
+    fn hear(&mut self, sequence: u32, state: DroneState) -> bool {
         let control_state = if state.contains(DroneState::FLYING) {
             ControlState::Flying
         } else {
@@ -35,7 +66,9 @@ impl Bench {
         let mut packet = PacketWriter::new(&mut bytes, state, sequence, 0);
         packet.option(&NavdataOption::Demo(demo)).unwrap();
         packet.finish();
-        self.session.handle_navdata(self.now, &bytes)
+        let received = self.session.statistics().received;
+        self.handle(Input::Navdata(&bytes));
+        self.session.statistics().received > received
     }
 
     /// The first packets of a restarted drone, after the time that it takes to start.
@@ -50,10 +83,8 @@ impl Bench {
     /// Commands of one tick.
     fn tick(&mut self, flight: FlightOrder) -> Vec<Command> {
         self.now += TICK;
-        let mut datagram = Datagram::new();
-        let order = Order { flight, motion: Motion::Hover };
-        self.session.tick(self.now, order, &mut datagram).unwrap();
-        decode(datagram.as_bytes()).map(|command| command.unwrap().1).collect()
+        let (commands, _) = self.handle(Input::Tick(Order { flight, motion: Motion::Hover }));
+        commands.into_iter().map(|(_, command)| command).collect()
     }
 
     fn takes_off(&mut self, flight: FlightOrder) -> bool {
@@ -61,7 +92,7 @@ impl Bench {
     }
 
     fn events(&mut self) -> Vec<Event> {
-        std::iter::from_fn(|| self.session.poll_event()).collect()
+        std::mem::take(&mut self.events)
     }
 }
 
@@ -123,9 +154,9 @@ fn the_configuration_is_read_back_in_pieces() {
         bench.tick(FlightOrder::Land)[2..],
         [Command::Control(ControlMode::SendConfiguration)]
     );
-    bench.session.handle_control(b"control:outdoor = FA");
+    bench.handle(Input::Control(b"control:outdoor = FA"));
     assert!(!bench.session.is_ready());
-    bench.session.handle_control(b"LSE\n\0");
+    bench.handle(Input::Control(b"LSE\n\0"));
     assert!(bench.session.is_ready());
     let read = Configuration::parse("control:outdoor = FALSE\n");
     assert!(bench.events().contains(&Event::ConfigurationRead(read)));
@@ -145,10 +176,11 @@ fn without_a_control_port_the_session_goes_on_and_says_so() {
 #[test]
 fn old_repeated_and_damaged_navdata_is_dropped_and_counted() {
     let mut bench = Bench::new(&[]);
-    assert!(matches!(bench.hear(50, DroneState::empty()), Received::Navdata(_)));
-    assert_eq!(bench.hear(50, DroneState::empty()), Received::Stale);
-    assert_eq!(bench.hear(49, DroneState::empty()), Received::Stale);
-    assert!(matches!(bench.session.handle_navdata(bench.now, b"garbage"), Received::Damaged(_)));
+    assert!(bench.hear(50, DroneState::empty()));
+    assert!(!bench.hear(50, DroneState::empty()));
+    assert!(!bench.hear(49, DroneState::empty()));
+    bench.session.handle(bench.now, Input::Navdata(b"garbage"));
+    assert!(matches!(bench.session.poll(), Some(Output::Damaged(_))));
     let expected = Statistics { received: 1, stale: 2, damaged: 1 };
     assert_eq!(bench.session.statistics(), expected);
 }
@@ -165,19 +197,21 @@ fn the_watchdog_bit_is_answered_and_nothing_else_is() {
 #[test]
 fn silence_wakes_the_drone_again_and_becomes_a_loss() {
     let mut bench = Bench::new(&[]);
-    assert!(bench.session.wake_up_due(bench.now));
-    assert!(!bench.session.wake_up_due(bench.now + TICK));
+    assert_eq!(bench.handle(Input::Listen), (Vec::new(), true));
+    bench.now += TICK;
+    assert_eq!(bench.handle(Input::Listen), (Vec::new(), false));
     bench.hear(900, DroneState::FLYING);
     bench.now += Duration::from_millis(1900);
-    bench.tick(FlightOrder::StayAirborne);
+    let stay = Order { flight: FlightOrder::StayAirborne, motion: Motion::Hover };
+    let (commands, wake_up) = bench.handle(Input::Tick(stay));
+    assert!(!commands.is_empty() && wake_up);
     assert!(bench.session.is_alive());
-    assert!(bench.session.wake_up_due(bench.now));
     bench.now += Duration::from_millis(200);
     let datagram = bench.tick(FlightOrder::StayAirborne);
     assert!(!bench.session.is_alive());
     assert_eq!(datagram[0], Command::Ref(Ref::Land));
     // The drone is back with low numbers, which is accepted.
-    assert!(matches!(bench.hear(1, DroneState::empty()), Received::Navdata(_)));
+    assert!(bench.hear(1, DroneState::empty()));
     assert_eq!(
         bench.events(),
         [
@@ -231,16 +265,16 @@ fn nothing_that_could_lift_the_drone_is_said_into_the_silence() {
 fn old_packets_that_come_again_are_no_restart() {
     let mut bench = Bench::new(&[]);
     let bootstrapping = DroneState::NAVDATA_BOOTSTRAP;
-    assert!(matches!(bench.hear(40, bootstrapping), Received::Navdata(_)));
+    assert!(bench.hear(40, bootstrapping));
     bench.hear(100, DroneState::FLYING);
     for old in [1, 2, 39, 40] {
-        assert_eq!(bench.hear(old, bootstrapping), Received::Stale, "amid new ones");
+        assert!(!bench.hear(old, bootstrapping), "amid new ones");
     }
     // The drone was lost, and waits in the air to be configured again.
     bench.now += UNHEARD;
     bench.hear(140, bootstrapping | DroneState::FLYING);
-    assert_eq!(bench.hear(139, bootstrapping | DroneState::FLYING), Received::Stale, "overtaken");
-    assert!(matches!(bench.hear(1, bootstrapping), Received::Navdata(_)));
+    assert!(!bench.hear(139, bootstrapping | DroneState::FLYING), "overtaken");
+    assert!(bench.hear(1, bootstrapping));
     let restarts = bench.events().into_iter().filter(|event| *event == Event::DroneRestarted);
     assert_eq!(restarts.count(), 1, "that was one");
 }
@@ -262,24 +296,6 @@ fn packets_that_were_held_up_do_not_show_that_the_drone_still_flies() {
     bench.now += HELD_UP;
     bench.hear(113, DroneState::FLYING);
     assert!(lifts(&bench.tick(FlightOrder::StayAirborne)), "it goes on telling");
-}
-
-/// The exact limits of the silence.
-#[test]
-fn a_drone_is_heard_for_as_long_as_it_was_silent_for_less_than_the_limit() {
-    let just_before = |limit: Duration| limit.saturating_sub(Duration::from_millis(1));
-    let heard = |at| Heard { at, sequence: 1, bootstrapping: false, returned_at: None };
-    let start = Duration::from_secs(5);
-    assert_eq!(heard(start).returned_at(start + just_before(UNHEARD)), None);
-    let back = start + UNHEARD;
-    assert_eq!(heard(start).returned_at(back), Some(back));
-    let returned = Heard { returned_at: Some(back), ..heard(back) };
-    assert_eq!(returned.returned_at(back + just_before(HELD_UP)), Some(back));
-    assert_eq!(returned.returned_at(back + HELD_UP), None);
-    let mut bench = Bench::new(&[]);
-    bench.hear(1, DroneState::empty());
-    assert!(bench.session.is_heard(just_before(UNHEARD)));
-    assert!(!bench.session.is_heard(UNHEARD));
 }
 
 #[test]
@@ -309,7 +325,7 @@ fn identities_are_selected_first_and_stand_before_each_key() {
         .map(|key| Config::new(key, "1").unwrap())
         .to_vec();
     let config = SessionConfig { settings, identity: Some(identity), ..SessionConfig::default() };
-    let mut bench = Bench { session: Session::new(config), now: Duration::ZERO };
+    let mut bench = Bench::with(config);
     let mut sent = Vec::new();
     let mut acknowledged = false;
     for sequence in 1..60 {
@@ -351,23 +367,23 @@ fn flying_and_landing_are_reported_and_a_take_off_that_does_not_come_is_given_up
     for sequence in 1..400 {
         bench.hear(sequence, DroneState::empty());
         ordered += usize::from(take_off(&bench.tick(FlightOrder::TakeOff)));
-        events.extend(std::iter::from_fn(|| bench.session.poll_event()));
+        events.extend(bench.events());
     }
     assert!(events.contains(&Event::TakeOffTimedOut));
     assert!((260..275).contains(&ordered), "eight seconds, then never again: {ordered}");
     bench.tick(FlightOrder::Land);
     assert!(take_off(&bench.tick(FlightOrder::TakeOff)), "until it is ordered anew");
     bench.hear(400, DroneState::FLYING);
-    assert_eq!(bench.session.poll_event(), Some(Event::Airborne));
+    assert_eq!(bench.events(), [Event::Airborne]);
     bench.hear(401, DroneState::empty());
-    assert_eq!(bench.session.poll_event(), Some(Event::Landed));
+    assert_eq!(bench.events(), [Event::Landed]);
 }
 
 #[test]
 fn an_emergency_stop_beats_every_order_and_is_never_left_on() {
     let mut bench = Bench::new(&[]);
     bench.hear(1, DroneState::FLYING);
-    bench.session.request_emergency_stop();
+    bench.request(Request::EmergencyStop);
     let reference = |commands: &[Command]| match commands[0] {
         Command::Ref(reference) => reference,
         _ => panic!("REF comes first"),
@@ -377,7 +393,7 @@ fn an_emergency_stop_beats_every_order_and_is_never_left_on() {
     for _ in 0..10 {
         assert_eq!(reference(&bench.tick(FlightOrder::TakeOff)), Ref::Land);
     }
-    bench.session.request_emergency_reset();
+    bench.request(Request::EmergencyReset);
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::ToggleEmergency);
     bench.hear(9, DroneState::empty());
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::Land);
@@ -401,9 +417,8 @@ fn a_drone_that_falls_or_has_restarted_has_not_landed() {
 /// Sequence numbers of one tick's commands.
 fn numbers(bench: &mut Bench) -> Vec<u32> {
     bench.now += TICK;
-    let mut datagram = Datagram::new();
-    bench.session.tick(bench.now, Order::LAND, &mut datagram).unwrap();
-    decode(datagram.as_bytes()).map(|command| command.unwrap().0).collect()
+    let (commands, _) = bench.handle(Input::Tick(Order::LAND));
+    commands.into_iter().map(|(number, _)| number).collect()
 }
 
 #[test]
@@ -444,24 +459,20 @@ fn the_count_goes_on_after_a_loss_and_after_a_restart() {
 
 #[test]
 fn a_parting_says_land_and_nothing_else_and_only_to_a_drone_that_was_spoken_to() {
-    let part = |bench: &mut Bench| -> Vec<(u32, Command)> {
-        let mut datagram = Datagram::new();
-        bench.session.part(bench.now, &mut datagram).unwrap();
-        decode(datagram.as_bytes()).map(Result::unwrap).collect()
-    };
+    let part = |bench: &mut Bench| bench.handle(Input::Part).0;
     let mut bench = Bench::new(&[("general:navdata_demo", "TRUE")]);
     bench.hear(1, DroneState::FLYING);
     assert_eq!(part(&mut bench), []);
     bench.tick(FlightOrder::Land);
     bench.hear(2, DroneState::FLYING | DroneState::COMMAND_ACKNOWLEDGE);
-    bench.session.request_flat_trim();
+    bench.request(Request::FlatTrim);
     let first = part(&mut bench);
     let landing = [Command::Ref(Ref::Land), Command::Pcmd(Motion::Hover)];
     assert_eq!(first.iter().map(|(_, command)| command.clone()).collect::<Vec<_>>(), landing);
     assert!(first[0].0 > 1_000_000, "beyond whatever another client has counted to");
     assert_eq!(part(&mut bench)[0].0, first[1].0 + 1, "numbers go on");
     // A cut of the motors is not taken back.
-    bench.session.request_emergency_stop();
+    bench.request(Request::EmergencyStop);
     assert_eq!(part(&mut bench)[0].1, Command::Ref(Ref::ToggleEmergency));
     bench.hear(3, DroneState::EMERGENCY);
     assert_eq!(part(&mut bench)[0].1, Command::Ref(Ref::Land));
@@ -479,10 +490,7 @@ fn a_landing_that_is_not_obeyed_is_counted_far_ahead() {
     let mut first_number = |bench: &mut Bench| {
         bench.hear(sequence, DroneState::FLYING);
         sequence += 1;
-        bench.now += TICK;
-        let mut datagram = Datagram::new();
-        bench.session.tick(bench.now, Order::LAND, &mut datagram).unwrap();
-        decode(datagram.as_bytes()).next().unwrap().unwrap().0
+        numbers(bench)[0]
     };
     assert!(first_number(&mut bench) > 1, "it may be on its way");
     let ahead = (0..30).position(|_| first_number(&mut bench) > 1_000_000);
@@ -563,7 +571,7 @@ fn a_setting_can_be_changed_once_the_session_is_ready() {
     assert!(bench.session.is_ready());
     bench.events();
     for (name, value) in [("control:outdoor", "TRUE"), ("control:altitude_max", "2000")] {
-        bench.session.request_setting(Config::new(name, value).unwrap());
+        bench.request(Request::Setting(Config::new(name, value).unwrap()));
     }
     let changes = ["control:outdoor=TRUE", "control:altitude_max=2000"];
     assert_eq!(converse(&mut bench, quiet), changes);
@@ -571,7 +579,7 @@ fn a_setting_can_be_changed_once_the_session_is_ready() {
     assert!(bench.session.is_ready());
     assert_eq!(converse(&mut bench, quiet), [""; 0], "that was all");
     // The drone has lost its client and is configured again, while one change is still queued.
-    bench.session.request_setting(Config::new("control:outdoor", "FALSE").unwrap());
+    bench.request(Request::Setting(Config::new("control:outdoor", "FALSE").unwrap()));
     bench.hear(1000, DroneState::NAVDATA_BOOTSTRAP);
     assert!(!bench.session.is_ready());
     bench.now += Duration::from_secs(3);
@@ -579,7 +587,7 @@ fn a_setting_can_be_changed_once_the_session_is_ready() {
     let all = ["general:navdata_demo=TRUE", "control:outdoor=FALSE", "control:altitude_max=2000"];
     assert_eq!(converse(&mut bench, quiet), all);
     // A change that is never acknowledged is given up like any other.
-    bench.session.request_setting(Config::new("video:codec_fps", "30").unwrap());
+    bench.request(Request::Setting(Config::new("video:codec_fps", "30").unwrap()));
     bench.events();
     for _ in 0..100 {
         bench.tick(FlightOrder::Land);
@@ -609,7 +617,7 @@ fn settings_that_another_client_may_have_changed_are_made_again() {
             bench.hear(sequence + 100, quiet);
         }
         assert!(bench.events().contains(&Event::Ready));
-        bench.session.configure_again();
+        bench.request(Request::AllSettings);
         assert!(!bench.session.is_ready());
     }
 }
@@ -620,4 +628,24 @@ fn nothing_is_said_to_a_drone_that_was_not_heard() {
     assert_eq!(bench.tick(FlightOrder::TakeOff), []);
     bench.hear(1, DroneState::empty());
     assert_eq!(bench.tick(FlightOrder::Land)[0], Command::Ref(Ref::Land));
+}
+
+/// [`Session::push`] depends on it.
+#[test]
+fn the_longest_commands_of_one_tick_fit_into_its_datagram() {
+    let most = u32::MAX;
+    let identity = Identity { session: most, user: most, application: most };
+    let key = format!("section:{}", "n".repeat(248));
+    let settings = vec![Config::new(key, "v".repeat(256)).unwrap()];
+    let config = SessionConfig { settings, identity: Some(identity), ..SessionConfig::default() };
+    let mut bench = Bench::with(config);
+    bench.hear(1, DroneState::COMMUNICATION_WATCHDOG);
+    bench.request(Request::FlatTrim);
+    let longest = Fraction::saturating(-0.123_456_79);
+    let motion = Motion::Progressive { roll: longest, pitch: longest, gaz: longest, yaw: longest };
+    let (commands, _) = bench.handle(Input::Tick(Order { flight: FlightOrder::Land, motion }));
+    assert_eq!(commands.len(), 6, "{commands:?}");
+    // Sequence numbers have up to ten digits.
+    let digits = 10 * commands.len();
+    assert!(bench.session.datagram().len() + digits <= crate::at::MAX_DATAGRAM_BYTES);
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use autopilot::plan::{Expectation, FlightLimits, Plan, TagUse, battery_percent};
 use autopilot::vehicle::SurveyedTag;
 use diagnostic::{Diagnostic, Severity, Source, line_column, render_all};
-use pid::Pose;
+use kinematics::Pose;
 use serde_json::{Value, json};
 
 use super::arguments::CheckPlan;

@@ -9,10 +9,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use autopilot::Demand;
 use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, poll, read};
+use kinematics::Sticks;
 use rustix::event::{PollFd, PollFlags, Timespec};
 use rustix::termios::{
     InputModes, LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcsetattr,
@@ -56,21 +56,21 @@ impl Keymap {
     fn action(&mut self, now: Duration, key: KeyCode) -> Option<Action> {
         let asked = self.cut_asked.take();
         let steer = |demand| Some(Action::Order(OperatorOrder::Steer(demand)));
-        let rest = Demand::default();
+        let rest = Sticks::default();
         match key {
             KeyCode::Char(' ') => Some(Action::Order(OperatorOrder::Hold)),
             KeyCode::Char('r') => Some(Action::Order(OperatorOrder::Resume)),
             KeyCode::Char('l') => Some(Action::Order(OperatorOrder::Land)),
             KeyCode::Char('q') => Some(Action::Stop),
             KeyCode::Char(':') => Some(Action::Type),
-            KeyCode::Char('w') => steer(Demand { pitch: -STICK, ..rest }),
-            KeyCode::Char('s') => steer(Demand { pitch: STICK, ..rest }),
-            KeyCode::Char('a') => steer(Demand { roll: -STICK, ..rest }),
-            KeyCode::Char('d') => steer(Demand { roll: STICK, ..rest }),
-            KeyCode::Up => steer(Demand { gaz: STICK, ..rest }),
-            KeyCode::Down => steer(Demand { gaz: -STICK, ..rest }),
-            KeyCode::Left => steer(Demand { yaw: -STICK, ..rest }),
-            KeyCode::Right => steer(Demand { yaw: STICK, ..rest }),
+            KeyCode::Char('w') => steer(Sticks { pitch: -STICK, ..rest }),
+            KeyCode::Char('s') => steer(Sticks { pitch: STICK, ..rest }),
+            KeyCode::Char('a') => steer(Sticks { roll: -STICK, ..rest }),
+            KeyCode::Char('d') => steer(Sticks { roll: STICK, ..rest }),
+            KeyCode::Up => steer(Sticks { gaz: STICK, ..rest }),
+            KeyCode::Down => steer(Sticks { gaz: -STICK, ..rest }),
+            KeyCode::Left => steer(Sticks { yaw: -STICK, ..rest }),
+            KeyCode::Right => steer(Sticks { yaw: STICK, ..rest }),
             KeyCode::Char('e') => {
                 if asked.is_some_and(|asked| now.saturating_sub(asked) < CUT_AGAIN) {
                     return Some(Action::Order(OperatorOrder::Cut));
@@ -250,7 +250,7 @@ mod tests {
         assert_eq!(action(key('l')), Some(Action::Order(OperatorOrder::Land)));
         assert_eq!(action(key('q')), Some(Action::Stop));
         assert_eq!(action(key(':')), Some(Action::Type));
-        let forward = Demand { pitch: -STICK, ..Demand::default() };
+        let forward = Sticks { pitch: -STICK, ..Sticks::default() };
         assert_eq!(action(key('w')), Some(Action::Order(OperatorOrder::Steer(forward))));
         assert_eq!(action(key('x')), None);
     }

@@ -31,7 +31,7 @@ use crate::plan_drawing::PlanDrawingError;
 use crate::recording::{LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{self, ReportError};
-use crate::settings::{self, Settings, SettingsError};
+use crate::settings::{Settings, SettingsError};
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -117,7 +117,7 @@ pub fn main() -> ExitCode {
 fn print_settings(path: Option<&Path>) -> Result<u8, CommandError> {
     let text = match path {
         Some(_) => read_settings(path)?.to_toml()?,
-        None => settings::DEFAULTS.to_owned(),
+        None => Settings::sample()?,
     };
     terminal::print(text);
     Ok(0)

@@ -4,10 +4,10 @@ use std::io::{BufRead, BufReader, Read as _};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use autopilot::Demand;
 use autopilot::plan::{Commands, FlightLimits, Plan};
 use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
+use kinematics::Sticks;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -342,7 +342,7 @@ fn order(request: Request, limits: &FlightLimits) -> Result<Option<OperatorOrder
         Request::Hold {} => OperatorOrder::Hold,
         Request::Resume {} => OperatorOrder::Resume,
         Request::Steer { roll, pitch, gaz, yaw } => {
-            OperatorOrder::Steer(Demand { roll, pitch, gaz, yaw })
+            OperatorOrder::Steer(Sticks { roll, pitch, gaz, yaw })
         }
         Request::GoTo { x_m, y_m } => OperatorOrder::GoTo { x_m, y_m },
         Request::Land {} => OperatorOrder::Land,

@@ -165,11 +165,12 @@ fn time(at: Duration) -> String {
 
 #[cfg(test)]
 mod tests {
-    use pid::Pose;
+    use kinematics::Pose;
 
     use super::*;
     use autopilot::agent::ChosenPlans;
-    use autopilot::vehicle::{Airframe, Trust};
+    use autopilot::vehicle::Trust;
+    use kinematics::Airframe;
 
     #[test]
     fn a_status_line_does_not_wrap() {

@@ -23,7 +23,6 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use ardrone_link::DroneAddress;
-use ardrone_link::at::EncodeError;
 use ardrone_link::settings::SettingError;
 use crossbeam_channel::{Receiver, Sender, bounded};
 
@@ -118,9 +117,6 @@ pub enum FlightError {
     /// The limits cannot be encoded as drone settings.
     #[error(transparent)]
     Config(#[from] SettingError),
-    /// See [`Vehicle::tick`].
-    #[error(transparent)]
-    Encode(#[from] EncodeError),
     /// The flight's thread panicked.
     #[error("internal error: the flight thread panicked; its last datagrams ordered the landing")]
     Panicked,
@@ -344,7 +340,7 @@ impl TickLoop {
         self.start = clock();
         // After a panic only the session is used, which a panic elsewhere cannot leave inconsistent.
         let flown = catch_unwind(AssertUnwindSafe(|| self.fly(before)));
-        let end = flown.unwrap_or(Err(FlightError::Panicked));
+        let end = flown.map_err(|_| FlightError::Panicked);
         let down = match &end {
             Ok(_) if self.stay == Stay::UntilLeft => self.vehicle.is_at_rest(),
             Ok(outcome) => {
@@ -358,7 +354,7 @@ impl TickLoop {
         end.map(|outcome| self.finished(outcome, down))
     }
 
-    fn fly(&mut self, mut before: impl FnMut(u32)) -> Result<Outcome, FlightError> {
+    fn fly(&mut self, mut before: impl FnMut(u32)) -> Outcome {
         let mut held_up = false;
         let mut count = 0_u32;
         loop {
@@ -379,17 +375,17 @@ impl TickLoop {
             self.intake = Intake::NOTHING;
             self.take_in_late_navdata();
             self.take_in_services(now);
-            self.tick()?;
+            self.tick();
             self.ticks.end();
             self.record_tick(late, self.start.elapsed().saturating_sub(now));
             self.report(now, count.is_multiple_of(STATUS_TICKS));
             count = count.wrapping_add(1);
             if let Some(outcome) = self.end() {
-                return Ok(outcome);
+                return outcome;
             }
             // A second stop does not wait for the ground.
             if self.orders.stops() >= 2 {
-                return Ok(Outcome::LeftLanding);
+                return Outcome::LeftLanding;
             }
         }
     }
@@ -408,7 +404,7 @@ impl TickLoop {
     }
 
     /// Decides and sends, and measures each stage.
-    fn tick(&mut self) -> Result<(), FlightError> {
+    fn tick(&mut self) {
         let start = self.start;
         let now = start.elapsed();
         let mut last = now;
@@ -417,7 +413,7 @@ impl TickLoop {
             ticks.spend(stage, now.saturating_sub(last));
             last = now;
         };
-        self.vehicle.tick_timed(now, |stage| done(&mut self.ticks, stage))?;
+        self.vehicle.tick_timed(now, |stage| done(&mut self.ticks, stage));
         while let Some(transmit) = self.vehicle.poll_transmit() {
             match transmit {
                 Transmit::Command { datagram, .. } => {
@@ -427,7 +423,6 @@ impl TickLoop {
             }
         }
         done(&mut self.ticks, Stage::Send);
-        Ok(())
     }
 
     /// Handles incoming navdata until the next tick is due.
@@ -570,9 +565,7 @@ impl TickLoop {
             sleep(self.deadline.saturating_sub(now));
             self.deadline += TICK;
             let now = self.start.elapsed();
-            if self.vehicle.part(now).is_err() {
-                break;
-            }
+            self.vehicle.part(now);
             let Some(Transmit::Command { datagram, .. }) = self.vehicle.poll_transmit() else {
                 // Nothing was ever sent to this drone.
                 break;

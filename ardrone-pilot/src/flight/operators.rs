@@ -9,7 +9,7 @@ use autopilot::vehicle::{
     Input, Operator, OperatorOrder, Output, Phase, Refused, Station, TICK, Transmit, Vehicle,
     VehicleConfig,
 };
-use autopilot::{Demand, Pose};
+use kinematics::{Pose, Sticks};
 use mock_drone::{Message, World, WorldConfig};
 use proptest::prelude::*;
 
@@ -35,10 +35,10 @@ fn order() -> impl Strategy<Value = OperatorOrder> {
         any::<bool>().prop_map(|when_ready| OperatorOrder::Start { when_ready }),
         Just(OperatorOrder::Hold),
         Just(OperatorOrder::Resume),
-        (stick.clone(), stick).prop_map(|(roll, gaz)| OperatorOrder::Steer(Demand {
+        (stick.clone(), stick).prop_map(|(roll, gaz)| OperatorOrder::Steer(Sticks {
             roll,
             gaz,
-            ..Demand::default()
+            ..Sticks::default()
         })),
         (-2.0..2.0, -2.0..2.0).prop_map(|(x_m, y_m)| OperatorOrder::GoTo { x_m, y_m }),
         Just(OperatorOrder::Land),
@@ -132,7 +132,7 @@ proptest! {
                     Message::Control(dump) => vehicle.handle(now, Input::Control(dump.as_bytes())),
                 }
             }
-            vehicle.tick(now).unwrap();
+            vehicle.tick(now);
             while let Some(output) = vehicle.poll() {
                 match output {
                     Output::Transmit(Transmit::Command { datagram, decision }) => {

@@ -4,7 +4,7 @@ use ardrone_link::at::Motion;
 use ardrone_link::navdata::Navdata;
 use ardrone_link::session::FlightOrder;
 use autopilot::vehicle::Decision;
-use pid::Pose;
+use kinematics::Pose;
 use serde::{Deserialize, Serialize};
 
 /// A tick: state, decision and output.

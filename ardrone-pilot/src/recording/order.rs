@@ -2,7 +2,7 @@
 
 use autopilot::plan::{Commands, FlightLimits, Plan, PlanError};
 use autopilot::vehicle::{Operator, OperatorOrder, Station};
-use pid::Demand;
+use kinematics::Sticks;
 use serde::{Deserialize, Serialize};
 
 /// An order and its operator.
@@ -83,7 +83,7 @@ impl Order {
             Ordered::Hold => OperatorOrder::Hold,
             Ordered::Resume => OperatorOrder::Resume,
             &Ordered::Steer { roll, pitch, gaz, yaw } => {
-                OperatorOrder::Steer(Demand { roll, pitch, gaz, yaw })
+                OperatorOrder::Steer(Sticks { roll, pitch, gaz, yaw })
             }
             &Ordered::GoTo { x_m, y_m } => OperatorOrder::GoTo { x_m, y_m },
             Ordered::Land => OperatorOrder::Land,
@@ -108,7 +108,7 @@ impl From<&OperatorOrder> for Ordered {
             OperatorOrder::Start { when_ready } => Self::Start { when_ready: *when_ready },
             OperatorOrder::Hold => Self::Hold,
             OperatorOrder::Resume => Self::Resume,
-            &OperatorOrder::Steer(Demand { roll, pitch, gaz, yaw }) => {
+            &OperatorOrder::Steer(Sticks { roll, pitch, gaz, yaw }) => {
                 Self::Steer { roll, pitch, gaz, yaw }
             }
             &OperatorOrder::GoTo { x_m, y_m } => Self::GoTo { x_m, y_m },
@@ -132,7 +132,7 @@ mod tests {
             OperatorOrder::Load(Plan::parse("square.txt", "takeoff\nland\n").unwrap()),
             OperatorOrder::Append(Commands::parse("command", "goto 0 1 0 0").unwrap()),
             OperatorOrder::Start { when_ready: true },
-            OperatorOrder::Steer(Demand { roll: 0.5, ..Demand::default() }),
+            OperatorOrder::Steer(Sticks { roll: 0.5, ..Sticks::default() }),
             OperatorOrder::GoTo { x_m: 1.0, y_m: -2.5 },
             OperatorOrder::Cut,
         ] {

@@ -1,33 +1,57 @@
 //! `[tags]`: roundels on the floor that hold the place.
 
 use std::str::FromStr;
-use std::time::Duration;
 
 use estimator::{MAX_TAGS, OrientationSign, SurveyedTag, TagConfig};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use super::outside;
+use super::section::{Milliseconds, Setting, section};
 
-/// What a `pilot.toml` says of tags.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub(super) struct Tags {
-    pub(super) detect: bool,
-    surveyed: Vec<Vec<f64>>,
-    size_m: f64,
-    delay_ms: u32,
-    focal_units: [f64; 2],
-    centre_units: [f64; 2],
-    orientation: Orientation,
+section! {
+    struct Tags("tags") of TagConfig {
+        /// Whether black and white roundels on the floor hold the place: the drone is asked to look for them. docs/position.md
+        detect: bool = [default false],
+        /// Tags whose place was measured, [right, forward] or [right, forward, heading] from where the drone starts, in metres
+        /// and degrees clockwise. Others are found and mapped.
+        surveyed: Vec<Vec<f64>> = [default Vec::new()],
+        /// Diameter of the printed pattern.
+        size_m: f64 = [size_m] in 0.05..=1.0,
+        /// Age of a sight when it is told.
+        delay_ms: Milliseconds = [delay] in 0.0..=300.0,
+        /// The bottom camera: focal length across and along, and centre, in thousandths of its picture.
+        focal_units: [f64; 2] = [focal_units] in 500.0..=3000.0,
+        centre_units: [f64; 2] = [centre_units] in 300.0..=700.0,
+        /// Which way the told orientation grows: "clockwise" or "counterclockwise" with the drone, or "find" it in flight, for
+        /// which the drone turns by 8 degrees to and fro above its first tag.
+        orientation: Orientation = [orientation],
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-enum Orientation {
+pub(super) enum Orientation {
     Find,
     Clockwise,
     Counterclockwise,
+}
+
+impl Setting<Option<OrientationSign>> for Orientation {
+    fn of(value: &Option<OrientationSign>) -> Self {
+        match value {
+            None => Self::Find,
+            Some(OrientationSign::Clockwise) => Self::Clockwise,
+            Some(OrientationSign::CounterClockwise) => Self::Counterclockwise,
+        }
+    }
+
+    fn value(&self) -> Option<OrientationSign> {
+        match self {
+            Self::Find => None,
+            Self::Clockwise => Some(OrientationSign::Clockwise),
+            Self::Counterclockwise => Some(OrientationSign::CounterClockwise),
+        }
+    }
 }
 
 /// A tag as it is given on the command line: `X,Y` or `X,Y,HEADING`.
@@ -66,21 +90,6 @@ impl FromStr for GivenTag {
     }
 }
 
-impl Default for Tags {
-    fn default() -> Self {
-        let config = TagConfig::default();
-        Self {
-            detect: false,
-            surveyed: Vec::new(),
-            size_m: config.size_m,
-            delay_ms: u32::try_from(config.delay.as_millis()).unwrap_or(u32::MAX),
-            focal_units: config.focal_units,
-            centre_units: config.centre_units,
-            orientation: Orientation::Find,
-        }
-    }
-}
-
 impl Tags {
     pub(super) fn add(&mut self, tag: &GivenTag) {
         self.detect = true;
@@ -93,41 +102,19 @@ impl Tags {
 
     /// Nothing if tags are not used.
     pub(super) fn config(&self) -> Option<TagConfig> {
-        let mut surveyed = [None; MAX_TAGS];
-        for (slot, tag) in surveyed.iter_mut().zip(self.surveyed()) {
+        let mut config = TagConfig::default();
+        self.apply(&mut config);
+        for (slot, tag) in config.surveyed.iter_mut().zip(self.surveyed()) {
             let place_m = Vector2::from(tag.place_m);
             *slot = Some(SurveyedTag { place_m, heading_deg: tag.heading_deg });
         }
-        self.detect.then(|| TagConfig {
-            surveyed,
-            delay: Duration::from_millis(self.delay_ms.into()),
-            focal_units: self.focal_units,
-            centre_units: self.centre_units,
-            size_m: self.size_m,
-            orientation: match self.orientation {
-                Orientation::Find => None,
-                Orientation::Clockwise => Some(OrientationSign::Clockwise),
-                Orientation::Counterclockwise => Some(OrientationSign::CounterClockwise),
-            },
-        })
+        self.detect.then_some(config)
     }
 
     pub(super) fn reasons_against(&self) -> Vec<String> {
         /// Tags nearer to each other than this are confused.
         const APART_M: f64 = 1.5;
-        let [focal_x, focal_y] = self.focal_units;
-        let [centre_x, centre_y] = self.centre_units;
-        let mut reasons: Vec<String> = [
-            ("tags.size_m", self.size_m, 0.05..=1.0),
-            ("tags.delay_ms", self.delay_ms.into(), 0.0..=300.0),
-            ("tags.focal_units", focal_x, 500.0..=3000.0),
-            ("tags.focal_units", focal_y, 500.0..=3000.0),
-            ("tags.centre_units", centre_x, 300.0..=700.0),
-            ("tags.centre_units", centre_y, 300.0..=700.0),
-        ]
-        .iter()
-        .filter_map(|(name, value, range)| outside(name, *value, range))
-        .collect();
+        let mut reasons = self.out_of_range();
         let wrong = self.surveyed.iter().filter(|tag| GivenTag::from_numbers(tag).is_none());
         reasons.extend(wrong.map(|tag| {
             format!("tags.surveyed has {tag:?}: it must be [right, forward] or [right, forward, heading]")

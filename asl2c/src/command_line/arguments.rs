@@ -7,9 +7,8 @@ use translator::Code;
 
 /// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
 ///
-/// Writes the files that the configuration's `settings` name: the C file, its header, the header
-/// of the basic actions and, with `rust = FILE`, the Rust side of the boundary. Nothing is written
-/// if anything is wrong.
+/// Writes the files that the configuration's `settings` name: the C file, its header, the header of the basic
+/// actions and, with `rust = FILE`, the Rust bindings. If there is an error nothing is written.
 #[derive(Debug, Parser)]
 #[command(
     name = "asl2c",
@@ -17,8 +16,8 @@ use translator::Code;
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
     after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, not printed, or a \
-                  property that does not hold; 2 usage; 3 nothing is known of some property, for want of a tool, \
-                  of memory, or of properties."
+                  property that does not hold; 2 usage; 3 a property could not be checked because a tool, memory \
+                  or the properties are missing."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
@@ -26,27 +25,27 @@ pub(super) struct Arguments {
     /// The agent's configuration
     #[arg(value_name = "AGENT.CONF", required = true)]
     pub(super) configuration: Option<PathBuf>,
-    /// Where the generated files go [default: the configuration's folder]
+    /// Folder of the generated files [default: the configuration's folder]
     #[arg(short, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
-    /// Print what the agent costs: memory, call depth, calls of each action in a step. The stack and the
-    /// longest path of a step are gcc's, the costliest step that random events lead to is callgrind's, if they
-    /// are there
+    /// Print the agent's cost: memory, call depth, calls of each action in a step. If gcc and callgrind are
+    /// installed, also the stack and the longest path of a step (gcc) and the costliest step under random
+    /// events (callgrind)
     #[arg(long)]
     pub(super) report: bool,
     /// Print errors only
     #[arg(short, long)]
     pub(super) quiet: bool,
-    /// Do not warn of this: a warning's code, or `all`; may be given more than once
+    /// Silence this warning: its code, or `all`; may be repeated
     #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = code("all"))]
     pub(super) allow: Vec<String>,
-    /// Warn of this, whatever `-A` says
+    /// Enable this warning in spite of `-A`
     #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = code("all"))]
     pub(super) warn: Vec<String>,
-    /// Refuse agents with this: a warning's code, or `warnings` for all that are not allowed
+    /// Treat this warning as an error: its code, or `warnings` for all that are not silenced
     #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = code("warnings"))]
     pub(super) deny: Vec<String>,
-    /// How errors and warnings are printed: for people, or each as a line of JSON
+    /// Format of errors and warnings: text, or one JSON object per line
     #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
     pub(super) message_format: String,
 }
@@ -58,13 +57,13 @@ impl Arguments {
         named(&self.warn) || !named(&self.allow) || self.deny.iter().any(|other| other == code)
     }
 
-    /// Whether a warning that is printed forbids translation.
+    /// Whether a printed warning counts as an error.
     pub(super) fn is_denied(&self, code: &str) -> bool {
         self.deny.iter().any(|other| other == code || other == "warnings")
     }
 }
 
-/// Whether messages are lines of JSON.
+/// Whether messages are printed as JSON.
 pub(super) fn is_json(message_format: &str) -> bool {
     message_format == "json"
 }
@@ -81,9 +80,10 @@ fn any_code() -> clap::builder::PossibleValuesParser {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Task {
-    /// Make a folder with an agent, its configuration, a main program, and a Makefile that builds and runs all
+    /// Create a folder with an agent, its configuration, a main program, and a Makefile that builds and runs
+    /// them
     New {
-        /// The agent's name, and the folder's: a word of lower-case letters, digits and `_`
+        /// Name of the agent and the folder: lower-case letters, digits and `_`
         #[arg(value_name = "NAME")]
         name: String,
     },
@@ -93,24 +93,24 @@ pub(super) enum Task {
         #[arg(value_name = "CODE", value_parser = any_code())]
         code: Option<String>,
     },
-    /// Run the agent by the reference interpreter, without any C: a prompt for calls of its interface, results of
-    /// its functions, steps, and a look into its mind
+    /// Run the agent by the reference interpreter, without any C: a prompt for calls of its interface,
+    /// results of its functions, steps, and its state
     ///
-    /// `help` tells what can be said. Input that is no terminal is carried out line by line; the exit status is 1 if
-    /// a line has an error, shows something else than a transcript says, or breaks a property.
+    /// `help` lists the commands. Input from a file or pipe is executed line by line; the exit status is 1 if
+    /// a line has an error, differs from a transcript, or violates a property.
     Run(Run),
-    /// Prove the configuration's properties, and that there are no errors at run time, on the agent's C with CBMC
+    /// Prove the configuration's properties, and the absence of run-time errors, on the agent's C with CBMC
     ///
-    /// In every environment and for any number of steps: an invariant is found, and proved with the properties. What
-    /// does not hold is told as a way to its failure, with all values, in the agent's own terms; the way is saved as a
-    /// script for `asl2c run --script`. The exit status is 0 if all is proved, 1 if there is a way to a failure, and 3
-    /// if something could not be decided or a tool is missing.
+    /// In every environment and for any number of steps: an invariant is found, and proved with the
+    /// properties. For a property that does not hold, a counterexample with all values is shown and saved as
+    /// a script for `asl2c run --script`. The exit status is 0 if all is proved, 1 if there is a
+    /// counterexample, and 3 if something could not be decided or a tool is missing.
     Prove(Prove),
     /// Check the configuration's properties with SPIN, on a model of the agent in any environment
     ///
-    /// A property that does not hold is told as a way to its failure in the agent's own terms: what the
-    /// environment did, the event of each step, its plan and the actions, with lines of the agent. Values are
-    /// not part of the model, so a failure may need an environment that there is not.
+    /// For a property that does not hold, the shortest counterexample is shown: the environment's actions,
+    /// the event of each step, its plan and the actions, with lines of the agent. Values are not part of the
+    /// model, so the counterexample may need an environment that cannot exist.
     Verify(Verify),
 }
 
@@ -120,19 +120,19 @@ pub(super) struct Verify {
     /// The agent's configuration
     #[arg(value_name = "AGENT.CONF")]
     pub(super) configuration: PathBuf,
-    /// Check this property only; may be given more than once
+    /// Check only this property; may be repeated
     #[arg(long, value_name = "PROPERTY")]
     pub(super) only: Vec<String>,
     /// Print one JSON object
     #[arg(long)]
     pub(super) json: bool,
-    /// Print the model in Promela, and check nothing
+    /// Print the Promela model without checking it
     #[arg(long, conflicts_with = "json")]
     pub(super) model: bool,
-    /// Print only what does not hold; `--json` tells of all
+    /// Print only properties that do not hold; `--json` still prints all
     #[arg(short, long)]
     pub(super) quiet: bool,
-    /// How errors are printed: for people, or each as a line of JSON
+    /// Format of errors: text, or one JSON object per line
     #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
     pub(super) message_format: String,
 }
@@ -143,8 +143,8 @@ pub(super) struct Run {
     /// The agent's configuration
     #[arg(value_name = "AGENT.CONF")]
     pub(super) configuration: PathBuf,
-    /// Carry out the lines of this file. If some begin with `>` they are a transcript: those are carried out, and
-    /// what stands between them must come of them
+    /// Execute the lines of this file. If some begin with `>` it is a transcript: those lines are executed,
+    /// and the lines between them are the expected output
     #[arg(long, value_name = "FILE")]
     pub(super) script: Option<PathBuf>,
 }
@@ -155,25 +155,25 @@ pub(super) struct Prove {
     /// The agent's configuration
     #[arg(value_name = "AGENT.CONF")]
     pub(super) configuration: PathBuf,
-    /// Where the ways to failures go [default: the configuration's folder]
+    /// Folder of the counterexamples [default: the configuration's folder]
     #[arg(short, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
     /// The CBMC to use [default: that on the path]
     #[arg(long, value_name = "PATH")]
     pub(super) cbmc: Option<PathBuf>,
-    /// Look for ways to failures up to this length, in events, beliefs and steps
+    /// Maximum length of counterexamples, in events, beliefs and steps
     #[arg(long, value_name = "TRANSITIONS", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(super) length: u32,
-    /// Look for ways to failures for so many seconds
+    /// Time limit of the search for counterexamples, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 600)]
     pub(super) time: u64,
     /// Print one JSON object
     #[arg(long)]
     pub(super) json: bool,
-    /// Print only what does not hold; `--json` tells of all
+    /// Print only what is not proved; `--json` still prints all
     #[arg(short, long)]
     pub(super) quiet: bool,
-    /// How errors are printed: for people, or each as a line of JSON
+    /// Format of errors: text, or one JSON object per line
     #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
     pub(super) message_format: String,
 }

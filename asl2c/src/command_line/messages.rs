@@ -9,7 +9,7 @@ use super::CommandError;
 use crate::agent::ReadError;
 use crate::output::OutputError;
 
-/// Most messages that are printed; each costs a pass over the whole text.
+/// Maximum number of printed messages; each costs a scan of the text.
 const MOST: usize = 50;
 
 /// An error as lines of JSON.
@@ -58,7 +58,7 @@ fn located(found: &Located<'_>) -> String {
     .to_string()
 }
 
-/// A message without a place in a text, as a line of JSON with the same keys.
+/// A message without a location, as a line of JSON with the same keys.
 pub(super) fn line(severity: &str, code: &str, message: &str, file: Option<&Path>) -> String {
     json!({
         "severity": severity,
@@ -76,8 +76,8 @@ pub(super) fn line(severity: &str, code: &str, message: &str, file: Option<&Path
     .to_string()
 }
 
-/// How many of the warnings forbid translation.
+/// States how many warnings count as errors.
 pub(super) fn denied(found: &Diagnostics) -> String {
     let denied = found.iter().filter(|found| found.severity == Severity::Error).count();
-    format!("{denied} of these are denied: nothing is translated")
+    format!("{denied} of these are denied as errors: nothing is translated")
 }

@@ -1,4 +1,4 @@
-//! The command line: runs what the arguments ask for, prints the result and returns the exit status.
+//! The command line: executes the arguments, prints the result and returns the exit status.
 
 mod arguments;
 mod messages;
@@ -24,7 +24,7 @@ use crate::output::{self, OutputError};
 use crate::prove::ProveError;
 use crate::verify::{VerifyError, verify};
 
-/// Why nothing came of what was asked for.
+/// Errors of the program.
 #[derive(Debug, thiserror::Error)]
 enum CommandError {
     #[error(transparent)]
@@ -39,20 +39,20 @@ enum CommandError {
     Output(#[from] OutputError),
     #[error(transparent)]
     New(#[from] NewError),
-    /// Warnings that are refused, with the others that are wanted.
+    /// Denied warnings, and the other enabled ones.
     #[error("{}\n\nerror: {}", .0, denied(.0))]
     Denied(Diagnostics),
-    /// The prompt does not work, or what is typed cannot be read.
-    #[error("cannot read what is typed: {0}")]
+    /// The prompt fails, or its input cannot be read.
+    #[error("cannot read the input: {0}")]
     Typed(String),
     #[error("cannot print {what}: {source}")]
     Print { what: &'static str, source: std::io::Error },
 }
 
-/// The exit status if nothing is known of what should be checked.
+/// Exit status if a check has no result.
 const NOT_CHECKED: u8 = 3;
 
-/// Does what the program's arguments ask for, and says how to exit.
+/// Runs the program. Returns its exit status.
 pub fn run() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -101,7 +101,7 @@ fn check(asked: &Verify) -> Result<ExitCode, CommandError> {
     };
     let only: Vec<&str> = asked.only.iter().map(String::as_str).collect();
     let checked = verify(&model, &only)?;
-    print("what was found", &verdicts::printed(&model, &checked, detail))?;
+    print("the result", &verdicts::printed(&model, &checked, detail))?;
     Ok(verdicts::status(&checked))
 }
 
@@ -128,7 +128,8 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
     Ok(ExitCode::SUCCESS)
 }
 
-/// The warnings that are wanted; an error if one is denied. Those come first then, or alone if only errors are wanted.
+/// The enabled warnings; an error if one is denied. Denied ones come first then, or alone if only errors are
+/// printed.
 fn warnings(arguments: &Arguments, found: &Diagnostics) -> Result<Diagnostics, CommandError> {
     let wanted = found.iter().filter(|warning| arguments.is_wanted(warning.code));
     let (mut denied, others): (Vec<Diagnostic>, Vec<Diagnostic>) =
@@ -145,7 +146,7 @@ fn warnings(arguments: &Arguments, found: &Diagnostics) -> Result<Diagnostics, C
     Err(CommandError::Denied(found.with(denied)))
 }
 
-/// Prints what went wrong, and returns how to exit.
+/// Prints an error. Returns the exit status.
 fn complain(error: &CommandError, as_json: bool) -> ExitCode {
     let ours = matches!(
         error,
@@ -168,12 +169,12 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
     if nothing_known { NOT_CHECKED.into() } else { ExitCode::FAILURE }
 }
 
-/// Prints a message. One that cannot be printed has nowhere else to go.
+/// Prints a message to standard error. There is no other channel if that fails.
 fn complain_of(message: &str) {
     _ = writeln!(std::io::stderr(), "{message}");
 }
 
-/// Prints what was asked for.
+/// Prints a result.
 fn print(what: &'static str, text: &str) -> Result<(), CommandError> {
     printed(text).map_err(|source| CommandError::Print { what, source })
 }
@@ -184,7 +185,7 @@ fn printed(text: &str) -> std::io::Result<()> {
     stdout.flush()
 }
 
-/// Prints what clap says: help and version, or what is wrong with the usage.
+/// Prints clap's output: help, version, or a usage error.
 fn say(usage: &clap::Error) -> ExitCode {
     let said = usage.print().and_then(|()| std::io::stdout().flush());
     if let Err(source) = said

@@ -15,7 +15,7 @@ pub(super) struct Prompt {
 }
 
 impl Prompt {
-    /// A prompt that completes these words.
+    /// A prompt with completion of these words.
     pub(super) fn new(words: Vec<String>) -> Result<Self, ReadlineError> {
         let config = Config::builder().completion_type(CompletionType::List).build();
         let mut editor = Editor::with_history(config, MemHistory::new())?;
@@ -23,7 +23,7 @@ impl Prompt {
         Ok(Self { editor })
     }
 
-    /// The next line; nothing at the end of the input. An interrupted line is an empty one.
+    /// The next line; `None` at the end of the input. An interrupted line is empty.
     pub(super) fn line(&mut self) -> Result<Option<String>, ReadlineError> {
         match self.editor.readline("> ") {
             Ok(line) => {
@@ -37,11 +37,11 @@ impl Prompt {
     }
 }
 
-/// What lines may begin with.
+/// Possible beginnings of a line.
 struct Words(Vec<String>);
 
 impl Words {
-    /// Where the last word begins, and the words that go on so.
+    /// Start of the last word, and its completions.
     fn completions(&self, line: &str) -> (usize, Vec<String>) {
         let start = line.rfind([' ', ';']).map_or(0, |index| index + 1);
         let begun = line.get(start..).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! `asl2c prove`: what is proved, and ways to what does not hold.
+//! `asl2c prove`: the proof, and counterexamples.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -14,15 +14,15 @@ use crate::agent::Agent;
 use crate::prove::{Cbmc, Found, Limits, Plan, Proof, ProveError, Searched, Way, prove, search};
 use crate::run::Session;
 
-/// A way that was saved.
+/// A result, with its saved counterexample.
 struct Saved {
-    /// Of what.
+    /// Result of the search.
     searched: Searched,
-    /// Where, if there is one.
+    /// The script, if there is a counterexample.
     path: Option<PathBuf>,
 }
 
-/// Proves what can be proved, looks for ways to the rest, and saves them.
+/// Proves what can be proved, searches for counterexamples to the rest, and saves them.
 pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     let agent = Agent::read(&asked.configuration)?;
     let Agent { configuration, text, .. } = &agent;
@@ -48,7 +48,7 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     } else {
         as_text(&proof, &saved, configuration, asked)
     };
-    print("what was found", &text)?;
+    print("the result", &text)?;
     Ok(status(&proof, &saved))
 }
 
@@ -62,7 +62,7 @@ fn status(proof: &Proof, saved: &[Saved]) -> ExitCode {
     }
 }
 
-/// Writes the way to a failure as a script and returns its file.
+/// Writes a counterexample as a script. Returns its path.
 fn save(
     searched: &Searched,
     index: usize,
@@ -85,7 +85,7 @@ fn save(
 
 fn script(searched: &Searched, way: &Way) -> String {
     let what = searched.property.as_deref().unwrap_or(&searched.said);
-    let mut text = format!("// How this fails: {what}\n");
+    let mut text = format!("// Counterexample: {what}\n");
     for line in way.lines() {
         // Writing to a string cannot fail.
         _ = writeln!(text, "{line}");
@@ -123,7 +123,7 @@ fn as_text(
     }
     if !asked.quiet {
         let (kept, all) = (proof.invariant.len(), proof.candidates);
-        _ = writeln!(text, "(by an invariant of {kept} conditions, of {all} that were tried)");
+        _ = writeln!(text, "(by an invariant of {kept} conditions, out of {all} candidates)");
     }
     text
 }
@@ -142,26 +142,26 @@ fn tell(
         Found::Way(_, story) => {
             _ = writeln!(
                 text,
-                "{head}: DOES NOT HOLD\n{formula}  for this can happen ({}):",
+                "{head}: DOES NOT HOLD\n{formula}  counterexample ({}):",
                 configuration.input()
             );
             for happening in story {
                 _ = writeln!(text, "    {happening}");
             }
             let agent = asked.configuration.display();
-            _ = writeln!(text, "  to see it: asl2c run {agent} --script {path}");
+            _ = writeln!(text, "  to replay it: asl2c run {agent} --script {path}");
         }
         Found::Unconfirmed(_) => {
             _ = writeln!(
                 text,
-                "{head}: NOT DECIDED\n{formula}  CBMC found a way to a failure in the C, {path}, that the reference \
-                 interpreter does not take: C and interpreter differ"
+                "{head}: NOT DECIDED\n{formula}  CBMC found a counterexample in the C, {path}, that the reference \
+                 interpreter does not confirm: C and interpreter differ"
             );
         }
         Found::None(length) => {
             _ = writeln!(
                 text,
-                "{head}: NOT DECIDED\n{formula}  neither proved, nor is there a failure within {length} events, beliefs \
+                "{head}: NOT DECIDED\n{formula}  not proved, and no counterexample found within {length} events, beliefs \
                  and steps (--length, --time)"
             );
         }

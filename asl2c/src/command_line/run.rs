@@ -11,7 +11,7 @@ use super::{CommandError, complain_of, print};
 use crate::agent::{self, Agent};
 use crate::run::{Session, is_skipped, replay};
 
-/// Plans may call each other deeper than a usual stack is made for.
+/// Plans may be nested deeper than the usual stack allows.
 const STACK_BYTES: usize = 256 << 20;
 
 /// Runs the agent until its input ends.
@@ -30,7 +30,7 @@ fn converse(asked: &Run) -> Result<ExitCode, CommandError> {
     if let Some(path) = &asked.script {
         let script = agent::read(path)?;
         let replayed = replay(&mut session, &path.display().to_string(), &script);
-        print("what was shown", &replayed.shown)?;
+        print("the output", &replayed.shown)?;
         return Ok(status(replayed.is_fine()));
     }
     if std::io::stdin().is_terminal() {
@@ -44,7 +44,7 @@ fn status(is_fine: bool) -> ExitCode {
     if is_fine { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// Carries out what is piped in, each line at once.
+/// Executes piped input, each line as it arrives.
 fn follow(session: &mut Session) -> Result<ExitCode, CommandError> {
     let mut fine = true;
     for (index, line) in std::io::stdin().lock().lines().enumerate() {
@@ -53,7 +53,7 @@ fn follow(session: &mut Session) -> Result<ExitCode, CommandError> {
             continue;
         }
         let text = format!("{}{line}", "\n".repeat(index));
-        print("what was shown", &format!("> {}\n", line.trim()))?;
+        print("the output", &format!("> {}\n", line.trim()))?;
         fine &= show(session, &text, index)? && session.broken().is_empty();
         if session.is_ended() {
             break;
@@ -62,7 +62,7 @@ fn follow(session: &mut Session) -> Result<ExitCode, CommandError> {
     Ok(status(fine))
 }
 
-/// Asks for lines at a terminal. Errors there are no failure.
+/// Executes lines from a terminal. Their errors do not change the exit status.
 fn talk(session: &mut Session) -> Result<(), CommandError> {
     let mut prompt =
         Prompt::new(session.words()).map_err(|error| CommandError::Typed(error.to_string()))?;
@@ -76,7 +76,7 @@ fn talk(session: &mut Session) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// Carries out the last line of a text and prints what comes of it; whether it had no error.
+/// Executes the last line of a text and prints its output. Returns whether it had no error.
 fn show(session: &mut Session, text: &str, start: usize) -> Result<bool, CommandError> {
     match session.execute(&text[start..]) {
         Ok(lines) => {
@@ -84,7 +84,7 @@ fn show(session: &mut Session, text: &str, start: usize) -> Result<bool, Command
             if !lines.is_empty() {
                 shown.push('\n');
             }
-            print("what was shown", &shown)?;
+            print("the output", &shown)?;
             Ok(true)
         }
         Err(mut error) => {

@@ -10,14 +10,14 @@ use super::NOT_CHECKED;
 use crate::spin::Verdict;
 use crate::verify::Checked;
 
-/// How much is printed of the properties, and for whom.
+/// Form of the output.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Detail {
-    /// Each, for people.
+    /// All properties, as text.
     All,
-    /// Those that do not hold or are not decided, for people.
+    /// Properties that do not hold or are undecided, as text.
     Failures,
-    /// Each, for programs.
+    /// All properties, as JSON.
     Json,
 }
 
@@ -32,7 +32,7 @@ pub(super) fn printed(model: &Model, checked: &[Checked], detail: Detail) -> Str
     }
 }
 
-/// How to exit: well only if everything holds.
+/// Exit status: success only if everything holds.
 pub(super) fn status(checked: &[Checked]) -> ExitCode {
     let any = |wanted: fn(&Verdict) -> bool| checked.iter().any(|checked| wanted(&checked.verdict));
     if any(|verdict| matches!(verdict, Verdict::Fails(_))) {
@@ -61,7 +61,7 @@ fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> St
             Verdict::Fails(happenings) => {
                 let Promise { formula, .. } = promise;
                 _ = writeln!(text, "{head}: DOES NOT HOLD\n  {formula}");
-                _ = writeln!(text, "  for this can happen ({}):", model.input());
+                _ = writeln!(text, "  counterexample ({}):", model.input());
                 for happening in happenings {
                     _ = writeln!(text, "    {happening}");
                 }

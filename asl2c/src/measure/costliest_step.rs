@@ -1,17 +1,17 @@
-//! The instructions of the costliest step that random events and beliefs lead to, counted by callgrind.
+//! Instructions of the costliest step under random events and beliefs, counted by callgrind.
 
 use std::path::Path;
 use std::process::Command;
 
 use translator::{HARNESS, Obligations, RANDOM_TRANSITIONS};
 
-/// What compiles, and how: as for the bound that the figure is held against.
+/// Compiler options, the same as for the upper bound.
 const OPTIMIZED: &str = "-O2";
-/// Transitions to try; most are steps.
+/// Number of transitions to try; most are steps.
 const TRANSITIONS: u32 = 4000;
 
-/// Instructions of the agent's own C in the costliest step, or why they are not known. Actions and senses
-/// are the environment's and do not count.
+/// Instructions of the agent's own C in the costliest step, or the reason why they are unknown. Actions and
+/// functions of the environment do not count.
 pub(super) fn costliest(obligations: &Obligations) -> Result<u64, String> {
     let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
     let folder = folder.path();
@@ -60,7 +60,7 @@ fn run(folder: &Path, program: &str, arguments: &[&str]) -> Result<(), String> {
 }
 
 /// The cost of the lines of one source file in a profile of callgrind (its manual, "Callgrind Format
-/// Specification"). Costs behind `calls=` are those of what is called, which has lines of its own.
+/// Specification"). Costs behind `calls=` are those of the callee, which has lines of its own.
 fn own_cost(profile: &str, source: &str) -> u64 {
     let mut files: Vec<(&str, &str)> = Vec::new();
     let mut inside = false;
@@ -70,7 +70,7 @@ fn own_cost(profile: &str, source: &str) -> u64 {
         let value = |keys: &[&str]| keys.iter().find_map(|key| line.strip_prefix(key));
         let own = value(&["fl=", "fi=", "fe="]);
         if let Some(place) = own.or_else(|| value(&["cfl=", "cfi="])) {
-            // "(3) name" says what the number stands for from then on.
+            // "(3) name" defines the number's name for the rest of the file.
             let (number, name) = place.split_once(' ').unwrap_or((place, ""));
             if !name.is_empty() {
                 files.push((number, name));

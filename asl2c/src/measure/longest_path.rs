@@ -1,13 +1,13 @@
-//! The longest way through the compiled C: an upper bound of the instructions of a step.
+//! Longest path through the compiled C: an upper bound of the instructions of a step.
 //!
-//! The generated C has no loops and no recursion, so the compiled code should have neither. That is checked
-//! here on the compiler's assembly, not believed: the flow graph of each function must have no cycle, and
-//! neither must the calls. The longest path is then exact for the graph, and an upper bound for any run.
+//! The generated C has no loops and no recursion, so the compiled code should have neither. This is checked
+//! on the compiler's assembly: neither the flow graph of a function nor the call graph may have a cycle. The
+//! longest path is then exact for the graph, and an upper bound for any run.
 
 use std::collections::HashMap;
 
-/// Instructions from the call of `entry` to its return over the longest path, or why there is no such
-/// number. Functions that the assembly does not define, the basic actions, cost nothing.
+/// Instructions from the call of `entry` to its return over the longest path, or the reason why there is no
+/// such number. Functions that the assembly does not define, the basic actions, cost nothing.
 pub(super) fn longest(assembly: &str, entry: &str) -> Result<u64, String> {
     let functions = functions(assembly)?;
     let mut longest = Longest { functions: &functions, known: HashMap::new() };
@@ -17,28 +17,28 @@ pub(super) fn longest(assembly: &str, entry: &str) -> Result<u64, String> {
     longest.function(entry)
 }
 
-/// What an instruction leads to.
+/// Successors of an instruction.
 #[derive(Debug, PartialEq, Eq)]
 enum Flow<'a> {
     Next,
-    /// Here or on.
+    /// This label or the next instruction.
     Branch(&'a str),
     Jump(&'a str),
-    /// And then on.
+    /// A call, then the next instruction.
     Call(&'a str),
-    /// And then back to the caller.
+    /// A call, then the return to the caller.
     TailCall(&'a str),
     Return,
 }
 
-/// A function: its instructions, and which of them its labels stand before.
+/// A function: its instructions, and the positions of its labels.
 #[derive(Debug, Default)]
 struct Function<'a> {
     instructions: Vec<Flow<'a>>,
     labels: HashMap<&'a str, usize>,
 }
 
-/// The functions of an assembly in the syntax of AT&T for x86-64.
+/// The functions of an assembly in AT&T syntax for x86-64.
 fn functions(assembly: &str) -> Result<HashMap<&str, Function<'_>>, String> {
     let mut functions: HashMap<&str, Function<'_>> = HashMap::new();
     let mut current: Option<&str> = None;
@@ -71,7 +71,7 @@ fn flow(instruction: &str) -> Result<Flow<'_>, String> {
     let mnemonic = words.next().unwrap_or_default();
     let target = words.next().unwrap_or_default().trim_end_matches("@PLT");
     if target.starts_with('*') && (mnemonic.starts_with('j') || mnemonic.starts_with("call")) {
-        return Err(format!("`{instruction}` may lead anywhere"));
+        return Err(format!("`{instruction}` may jump anywhere"));
     }
     Ok(match mnemonic {
         "ret" | "retq" | "ud2" => Flow::Return,
@@ -85,7 +85,7 @@ fn flow(instruction: &str) -> Result<Flow<'_>, String> {
 
 struct Longest<'a> {
     functions: &'a HashMap<&'a str, Function<'a>>,
-    /// `None` while a function is being looked at.
+    /// `None` while a function is being evaluated.
     known: HashMap<&'a str, Option<u64>>,
 }
 
@@ -104,7 +104,8 @@ impl<'a> Longest<'a> {
         Ok(length)
     }
 
-    /// The longest path from the first instruction. Depth first by hand: a path may be very long.
+    /// The longest path from the first instruction. The depth-first search has an explicit stack, because a
+    /// path may be very long.
     fn path(
         &mut self,
         name: &str,
@@ -141,7 +142,7 @@ impl<'a> Longest<'a> {
     }
 }
 
-/// Where a function may go on behind an instruction.
+/// Possible successors of an instruction within its function.
 fn followers(function: &Function<'_>, index: usize) -> Result<Vec<usize>, String> {
     let label = |label: &str| {
         function.labels.get(label).copied().ok_or_else(|| format!("there is no label `{label}`"))
@@ -179,7 +180,7 @@ mod tests {
         assert_eq!(longest(recursive, "f"), Err("`f` calls itself".to_owned()));
         assert!(longest("f:\n\tjmp\t*%rax\n", "f").is_err());
         assert!(longest(STEP, "other").is_err());
-        // Back in the text is not back in the flow.
+        // A backward jump in the text is not necessarily a cycle.
         let back = "f:\n\tjmp\t.L2\n.L1:\n\tret\n.L2:\n\tnop\n\tjmp\t.L1\n";
         assert_eq!(longest(back, "f"), Ok(4));
     }

@@ -6,11 +6,11 @@ mod stack;
 
 use translator::{ParsedConfiguration, Translation, obligations};
 
-/// Adds stack, longest path and costliest step of the compiled C to a translation's report. Returns the figures that
-/// could not be measured, with the reason: a line each, without a full stop.
+/// Adds stack, longest path and costliest step of the compiled C to a translation's report. Returns the
+/// figures that could not be measured, with the reason: one line each, without a full stop.
 ///
 /// The agent's configuration and text are those that were translated.
-#[must_use = "a figure that is missing must not look as if nobody had asked for it"]
+#[must_use = "missing figures should be reported"]
 pub fn measure(
     translation: &mut Translation,
     configuration: &ParsedConfiguration,
@@ -18,14 +18,14 @@ pub fn measure(
 ) -> Vec<String> {
     let compiled = match stack::compiled(translation) {
         Ok(compiled) => compiled,
-        Err(reason) => return vec![format!("the stack is not measured: {reason}")],
+        Err(reason) => return vec![format!("the stack was not measured: {reason}")],
     };
     let mut unknown = Vec::new();
     let report = &mut translation.report;
     report.add_stack(stack::COMPILER, &compiled.frame_bytes);
     match longest_path::longest(&compiled.assembly, report.entry()) {
         Ok(instructions) => report.add_path(stack::COMPILER, instructions),
-        Err(reason) => unknown.push(format!("the longest path is not known: {reason}")),
+        Err(reason) => unknown.push(format!("the longest path is unknown: {reason}")),
     }
     let costliest = obligations(configuration, agent)
         .map_err(|error| error.to_string())

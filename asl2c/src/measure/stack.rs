@@ -1,4 +1,4 @@
-//! Asks the C compiler how large the frame of each generated function is, and what it makes of them.
+//! Measures the stack frame of each generated function, and keeps the assembly.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -6,18 +6,18 @@ use std::process::Command;
 
 use translator::Translation;
 
-/// What compiles, and how: the figures hold for these options.
+/// Compiler and options for which the figures hold.
 pub(super) const COMPILER: &str = "gcc -O2";
 
-/// What the compiler says of the generated C.
+/// Output of the compiler.
 pub(super) struct Compiled {
-    /// Bytes of stack by function.
+    /// Stack frame in bytes, by function.
     pub(super) frame_bytes: HashMap<String, u64>,
     /// The assembly.
     pub(super) assembly: String,
 }
 
-/// Compiles the generated C, or says why it is not compiled.
+/// Compiles the generated C; the error is the reason why that fails.
 pub(super) fn compiled(translation: &Translation) -> Result<Compiled, String> {
     let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
     for file in &translation.files {
@@ -34,7 +34,7 @@ pub(super) fn compiled(translation: &Translation) -> Result<Compiled, String> {
 fn compile(folder: &Path, source: &str) -> Result<Compiled, String> {
     let output = Command::new("gcc")
         .current_dir(folder)
-        // Tables of jumps would hide where a path goes on.
+        // Without jump tables, which would hide the successors of an instruction.
         .args(["-std=c99", "-O2", "-fno-jump-tables", "-fstack-usage", "-S", "-o", "agent.s"])
         .arg(source)
         .output()
@@ -51,8 +51,8 @@ fn compile(folder: &Path, source: &str) -> Result<Compiled, String> {
     Ok(Compiled { frame_bytes: parse(&usage), assembly })
 }
 
-/// Each line has place and function, bytes and kind, with tabs between. Of the parts that the compiler may make of
-/// a function, `run_g.part.0`, the largest counts.
+/// Each line has location and function, bytes and kind, separated by tabs. Of the parts that the compiler may
+/// split a function into, `run_g.part.0`, the largest counts.
 fn parse(usage: &str) -> HashMap<String, u64> {
     let mut frames: HashMap<String, u64> = HashMap::new();
     for line in usage.lines() {

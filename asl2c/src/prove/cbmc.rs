@@ -1,4 +1,4 @@
-//! The model checker of C: where it is, and what it is asked.
+//! Runs CBMC, the model checker for C.
 
 use std::io::{Read as _, Seek as _};
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ use super::{Checks, ProveError, in_file};
 
 /// The program.
 pub const CBMC: &str = "cbmc";
-/// Earlier ones have other options.
+/// Earlier versions have other options.
 const OLDEST: u32 = 6;
 
-/// A CBMC that runs here.
+/// A CBMC that can be run.
 #[derive(Debug, Clone)]
 pub struct Cbmc {
     path: PathBuf,
@@ -25,52 +25,55 @@ pub struct Cbmc {
 /// An assertion that is not proved.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Failure {
-    /// What CBMC calls it: `step.assertion.1`.
+    /// CBMC's name of it: `step.assertion.1`.
     pub(crate) name: String,
-    /// What it says of it, without the line.
+    /// CBMC's description, without the line.
     pub(crate) said: String,
 }
 
 impl Failure {
-    /// The property that it is of.
+    /// Its property.
     pub(crate) fn property(&self) -> Option<&str> {
         self.said.strip_prefix("property ")
     }
 }
 
 impl Cbmc {
-    /// Finds a CBMC: the one that is named, or that on the path.
+    /// Finds a CBMC: the given one, or that on the path.
     ///
     /// # Errors
-    /// [`ProveError::Missing`] if there is none, it is too old, or the C preprocessor that it uses is missing.
+    /// [`ProveError::Missing`] if there is none, it is too old, or its C preprocessor is missing.
     pub fn find(named: Option<&Path>) -> Result<Self, ProveError> {
         let missing = |reason: String| ProveError::Missing { reason };
         let path = named.unwrap_or(Path::new(CBMC));
-        // Where it is named from here, it is started elsewhere.
+        // Made absolute, because it is run in another folder.
         let path = if path.components().count() > 1 {
             path.canonicalize().map_err(|error| missing(format!("{}: {error}", path.display())))?
         } else {
             path.to_owned()
         };
         let output = Command::new(&path).arg("--version").output();
-        let output = output.map_err(|_| missing("there is no CBMC here".to_owned()))?;
+        let output = output.map_err(|_| missing("CBMC cannot be run".to_owned()))?;
         let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
         let major = version.split('.').next().and_then(|major| major.parse::<u32>().ok());
         if major.is_none_or(|major| major < OLDEST) {
             return Err(missing(format!("{} is `{version}`", path.display())));
         }
         if Command::new("gcc").arg("--version").output().is_err() {
-            return Err(missing("there is no gcc here, with which CBMC reads C".to_owned()));
+            return Err(missing(
+                "gcc, which CBMC uses as its preprocessor, cannot be run".to_owned(),
+            ));
         }
         Ok(Self { path, version })
     }
 
-    /// What it calls itself.
+    /// Its version.
     pub fn version(&self) -> &str {
         &self.version
     }
 
-    /// Checks a function of the harness in a folder: what fails besides candidates, and the candidates that do not.
+    /// Checks a function of the harness in a folder. Returns the failures other than candidates, and the
+    /// candidates that hold.
     pub(super) fn check(
         &self,
         folder: &Path,
@@ -112,8 +115,8 @@ impl Cbmc {
         Ok((others, left))
     }
 
-    /// Looks for ways to failures from the beginning on, at most so many transitions long; nothing if the time was
-    /// not enough.
+    /// Searches for counterexamples from the initial state, up to this number of transitions; `None` on a
+    /// timeout.
     pub(super) fn ways(
         &self,
         folder: &Path,
@@ -124,12 +127,12 @@ impl Cbmc {
         let is_property = |failure: &&Failure| failure.property().is_some();
         let only_properties = wanted.iter().all(is_property);
         let checks = if only_properties { Checks::Properties } else { Checks::All };
-        // What it says may be longer than a pipe takes while it is waited for.
+        // A file, because the output may exceed the capacity of a pipe while the process is waited for.
         let mut said = tempfile::tempfile().map_err(in_file("cannot make", folder))?;
         let output = said.try_clone().map_err(in_file("cannot make", folder))?;
         let mut child = Command::new(&self.path)
             .args([HARNESS, "--function", "main", "--trace", "--json-ui"])
-            // Each transition has objects of its own.
+            // Each transition has its own objects.
             .args(["--object-bits", "20"])
             .args(options(checks))
             .args(["--unwindset", &format!("main.0:{transitions}"), "--no-unwinding-assertions"])
@@ -141,7 +144,7 @@ impl Cbmc {
             .map_err(in_file("cannot run", &self.path))?;
         while child.try_wait().map_err(in_file("cannot wait for", &self.path))?.is_none() {
             if Instant::now() >= until {
-                // It may have ended by itself by now.
+                // It may have ended already.
                 _ = child.kill();
                 child.wait().map_err(in_file("cannot wait for", &self.path))?;
                 return Ok(None);
@@ -150,7 +153,7 @@ impl Cbmc {
         }
         let mut text = String::new();
         let read = said.rewind().and_then(|()| said.read_to_string(&mut text));
-        read.map_err(in_file("cannot read what is said by", &self.path))?;
+        read.map_err(in_file("cannot read the output of", &self.path))?;
         traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
     }
 }

@@ -1,9 +1,9 @@
-//! Proofs on an agent's C, in every environment and for any number of steps, and ways to what does not hold.
+//! Proofs on an agent's C, for every environment and any number of steps, and counterexamples.
 //!
-//! CBMC checks one transition from any state that satisfies an invariant. The invariant is found by
-//! dropping, from many candidates, those that do not hold in the beginning or that some transition
-//! breaks, until the rest proves itself (Flanagan and Leino, "Houdini", FME 2001). Where that proves nothing, CBMC
-//! looks for a way to a failure from the beginning on, which the reference interpreter must confirm.
+//! CBMC checks one transition from any state that satisfies an invariant. The invariant is found by removing,
+//! from many candidates, those that do not hold initially or that some transition breaks, until the rest is
+//! inductive (Flanagan and Leino, "Houdini", FME 2001). If that does not prove a property, CBMC searches for
+//! a counterexample from the initial state, which the reference interpreter has to confirm.
 
 #[allow(clippy::disallowed_methods, reason = "other programs get a limited time")]
 mod cbmc;
@@ -21,48 +21,48 @@ pub use self::cbmc::{CBMC, Cbmc};
 pub(crate) use self::search::{Found, Limits, Searched, search};
 pub(crate) use self::trace::Way;
 
-/// Why nothing was proved.
+/// Errors that prevent a proof.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProveError {
-    /// There is no CBMC, or none that can be used.
+    /// There is no usable CBMC.
     #[error(
         "nothing is proved: {reason}; CBMC 6 or later is needed: `apt install cbmc` where that is new enough, or \
-         https://github.com/diffblue/cbmc/releases; one that is elsewhere is named by `--cbmc PATH`"
+         https://github.com/diffblue/cbmc/releases; `--cbmc PATH` selects an installation"
     )]
     Missing {
-        /// What is missing.
+        /// The reason.
         reason: String,
     },
-    /// A file or a program.
+    /// Error of a file or program.
     #[error("{what}: {source}")]
     Io {
-        /// What was tried.
+        /// The operation.
         what: String,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
-    /// CBMC said something else than a result.
-    #[error("CBMC did not come to a result:\n{output}")]
+    /// CBMC printed no result.
+    #[error("CBMC gave no result:\n{output}")]
     NoResult {
-        /// The end of what it said.
+        /// End of its output.
         output: String,
     },
 }
 
-/// What was proved of an agent's C, and what was not.
+/// Results for an agent's C.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Proof {
-    /// Each property, and whether it holds in every environment, however long the agent runs.
+    /// Each property, and whether it holds in every environment and for any number of steps.
     pub properties: Vec<(Promise, bool)>,
-    /// Errors at run time that could not be excluded, as CBMC says it.
+    /// Run-time errors that could not be excluded, in CBMC's words.
     pub run_time: Vec<String>,
     /// The candidates that are invariant.
     pub invariant: Vec<String>,
-    /// How many candidates there were.
+    /// Number of candidates.
     pub candidates: usize,
-    /// Names of the assertions that are not proved.
+    /// Assertions that are not proved.
     pub(crate) open: Vec<cbmc::Failure>,
 }
 
@@ -73,35 +73,35 @@ impl Proof {
     }
 }
 
-/// What is looked at besides the candidates.
+/// Assertions to check besides the candidates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Checks {
     /// The properties.
     Properties,
-    /// And whatever could be an error at run time.
+    /// The properties and all run-time errors.
     All,
 }
 
-/// How a proof is made.
+/// Parameters of a proof.
 #[derive(Debug, Clone, Copy)]
 pub struct Plan<'a> {
-    /// What is proved.
+    /// Assertions to check.
     pub checks: Checks,
-    /// Only these candidates are tried, unless there are none: those of an agent that nearly is this one.
+    /// Only these candidates are tried, if there are any: the invariant of a nearly identical agent.
     pub known: &'a [String],
-    /// It is enough to know that this property is not proved: with fewer candidates it is not proved either.
+    /// Stop once this property is not proved: fewer candidates will not prove it either.
     pub enough: Option<&'a str>,
 }
 
 impl Plan<'_> {
-    /// Everything, with all candidates.
+    /// All checks, all candidates.
     pub const ALL: Plan<'static> = Plan { checks: Checks::All, known: &[], enough: None };
 }
 
-/// Proves what can be proved of an agent's C; `folder` is made and gets the generated files.
+/// Proves the properties and run-time safety of an agent's C. Creates `folder` for the generated files.
 ///
 /// # Errors
-/// If a file cannot be written, or CBMC comes to no result.
+/// If a file cannot be written, or CBMC gives no result.
 pub fn prove(
     obligations: &Obligations,
     cbmc: &Cbmc,

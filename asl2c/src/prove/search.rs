@@ -1,4 +1,4 @@
-//! Looks for ways to what could not be proved.
+//! Searches for counterexamples to what could not be proved.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -11,37 +11,37 @@ use super::trace::Way;
 use super::{Proof, ProveError};
 use crate::run::{IDLE, Session};
 
-/// How far ways are looked for.
+/// Limits of the search.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
-    /// Transitions of the longest way: events raised, beliefs set and steps.
+    /// Maximum length: events raised, beliefs set and steps.
     pub(crate) transitions: u32,
-    /// For all of them together.
+    /// Total time limit.
     pub(crate) time: Duration,
 }
 
-/// What is known of something that is not proved.
+/// Result of the search for one unproved assertion.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Searched {
-    /// The property; nothing for an error at run time.
+    /// The property; `None` for a run-time error.
     pub(crate) property: Option<String>,
-    /// What CBMC says of it.
+    /// CBMC's description.
     pub(crate) said: String,
     pub(crate) found: Found,
 }
 
-/// Whether there is a way to a failure.
+/// Result of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Found {
-    /// This one: what the environment does, and what the agent does then.
+    /// A confirmed counterexample: the actions of the environment, and the agent's steps.
     Way(Way, Vec<Happening>),
-    /// CBMC found one that the reference interpreter does not take.
+    /// A trace of CBMC that the reference interpreter does not confirm.
     Unconfirmed(Way),
-    /// None has at most so many transitions.
+    /// There is no counterexample with at most this number of transitions.
     None(u32),
 }
 
-/// Looks for a way to each failure of a proof that was made in `folder`.
+/// Searches for a counterexample to each failure of a proof that was made in `folder`.
 pub(crate) fn search(
     proof: &Proof,
     configuration: &ParsedConfiguration,
@@ -82,10 +82,10 @@ pub(crate) fn search(
     Ok(results)
 }
 
-/// The reference interpreter goes the way, as far as it can tell whether that is one.
+/// Replays the trace by the reference interpreter, as far as that can decide the failure.
 fn confirm(way: Way, failure: &Failure, session: &Session) -> Found {
     let Some(property) = failure.property() else {
-        // The interpreter has no errors at run time.
+        // The interpreter has no run-time errors.
         let story = told(&way, session);
         return Found::Way(way, story);
     };
@@ -98,7 +98,7 @@ fn confirm(way: Way, failure: &Failure, session: &Session) -> Found {
     }
 }
 
-/// What happens on a way, in the agent's words.
+/// The steps of a counterexample.
 fn told(way: &Way, session: &Session) -> Vec<Happening> {
     let mut session = session.clone();
     let mut story = Vec::new();
@@ -109,7 +109,7 @@ fn told(way: &Way, session: &Session) -> Vec<Happening> {
         if !is_idle {
             idle_from = None;
         } else if let Some(first) = idle_from {
-            // One line for all steps in which nothing waits.
+            // Consecutive steps without an event share one line.
             story.pop();
             let text = format!("steps {first} to {}: {IDLE}", session.steps());
             story.push(Happening::new(0, None, text));

@@ -1,18 +1,18 @@
-//! Makes ways to failures short and their values plain; the reference interpreter says what still fails.
+//! Minimizes counterexamples and simplifies their values; the reference interpreter checks what still fails.
 
 use translator::interpreter::Value;
 
 use super::trace::{Kind, Way};
 use crate::run::Session;
 
-/// A way is looked at so often, however long it is.
+/// Maximum number of attempts, whatever the length.
 const MOST: u32 = 4000;
 
-/// The way up to where it breaks the property, without what it does not need; nothing if it breaks nothing.
+/// The counterexample up to the violation, without unnecessary lines; `None` if it violates nothing.
 pub(super) fn shortest(way: &Way, property: &str, session: &Session) -> Option<Way> {
     let mut way = Way { acts: way.acts[..=breaks(way, property, session)?].to_vec() };
     let mut left = MOST;
-    // What is left out may make more superfluous.
+    // A removal may make further lines unnecessary.
     loop {
         let before = way.acts.len();
         for index in (0..before).rev() {
@@ -39,7 +39,7 @@ pub(super) fn shortest(way: &Way, property: &str, session: &Session) -> Option<W
     Some(way)
 }
 
-/// Tries plain values instead of one.
+/// Tries to replace a value by a simpler one.
 fn plainer(
     way: &mut Way,
     (index, place): (usize, usize),
@@ -56,7 +56,7 @@ fn plainer(
         Value::Float(_) => [0.0, 1.0, 10.0, 100.0, 1000.0, -1.0].map(Value::Float).to_vec(),
         Value::Text(_) | Value::Struct(_) => Vec::new(),
     };
-    // The first of them are the plainest.
+    // Ordered by simplicity.
     for plain in plain.into_iter().take_while(|plain| *plain != value) {
         if attempt(way, property, session, left, |acts| acts[index].values[place] = plain) {
             return;
@@ -64,7 +64,7 @@ fn plainer(
     }
 }
 
-/// Keeps a change if the way still breaks the property.
+/// Applies a change if the property is still violated.
 fn attempt(
     way: &mut Way,
     property: &str,
@@ -84,7 +84,7 @@ fn attempt(
     true
 }
 
-/// The first line with which the way breaks the property.
+/// The first line at which the property is violated.
 fn breaks(way: &Way, property: &str, session: &Session) -> Option<usize> {
     let mut session = session.clone();
     way.lines().position(|line| {

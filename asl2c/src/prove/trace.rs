@@ -1,4 +1,4 @@
-//! What CBMC's traces say: what the environment did, as a script.
+//! Converts CBMC's traces to scripts of the environment's actions.
 
 use serde::Deserialize;
 use translator::configuration::Configuration;
@@ -6,7 +6,7 @@ use translator::interpreter::Value;
 use translator::types::{CType, TypeKind};
 use translator::{ANSWERS, CALLS, STEPS};
 
-/// How an assertion fails: its name, and what the environment did.
+/// A failing assertion: its name, and the environment's actions.
 #[derive(Debug, Clone)]
 pub(super) struct Trace {
     pub(super) name: String,
@@ -49,7 +49,7 @@ struct Bits {
     binary: String,
 }
 
-/// The traces of what CBMC has found; nothing if it came to no result.
+/// The traces in CBMC's output; `None` if it has no result.
 pub(super) fn traces(text: &str) -> Option<Vec<Trace>> {
     let messages: Vec<Message> = serde_json::from_str(text).ok()?;
     let checked = messages.into_iter().find_map(|message| message.result)?;
@@ -63,13 +63,13 @@ pub(super) fn traces(text: &str) -> Option<Vec<Trace>> {
     Some(traces.collect())
 }
 
-/// What the environment does on the way to a failure.
+/// The environment's actions that lead to a failure.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Way {
     pub(super) acts: Vec<Act>,
 }
 
-/// One line of a way.
+/// One line of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Act {
     pub(super) kind: Kind,
@@ -82,13 +82,13 @@ pub(super) struct Act {
 pub(super) enum Kind {
     /// The environment calls the agent.
     Call,
-    /// What a function returns in the step that follows.
+    /// A function's result in the following step.
     Answers,
     Step,
 }
 
 impl Way {
-    /// The way of a trace; answers stand before the step in which they are given.
+    /// Converts a trace; results are placed before the step in which they are returned.
     pub(super) fn new(trace: &Trace, configuration: &Configuration) -> Option<Self> {
         let mut acts: Vec<Act> = Vec::new();
         let mut step: Option<usize> = None;
@@ -112,7 +112,7 @@ impl Way {
                     let basic = basics.find(|basic| basic.name.text == name)?;
                     let values = values(std::slice::from_ref(&basic.result))?;
                     let at = step?;
-                    // Those of this step stand between the line before it and the step.
+                    // The results of this step stand between the line before it and the step.
                     let before = acts[..at].iter().rposition(|act| act.kind != Kind::Answers);
                     let begin = before.map_or(0, |before| before + 1);
                     if let Some(act) = acts[begin..at].iter_mut().find(|act| act.name == name) {
@@ -146,7 +146,8 @@ impl Act {
     }
 }
 
-/// Types of the arguments of `achieve_g`, `add_b` and `set_b`; none for `del_b`, whose belief is removed.
+/// Types of the arguments of `achieve_g`, `add_b` and `set_b`; none for `del_b`, which removes the belief
+/// whatever its values.
 fn parameters<'a>(configuration: &'a Configuration, call: &str) -> &'a [CType] {
     let prefixes = ["achieve_", "add_", "set_"];
     let name = prefixes.iter().find_map(|prefix| call.strip_prefix(prefix));
@@ -156,7 +157,7 @@ fn parameters<'a>(configuration: &'a Configuration, call: &str) -> &'a [CType] {
     declared.map_or(&[], |declared| &declared.parameters)
 }
 
-/// The value of bits, the highest first.
+/// The value of a bit string, highest bit first.
 fn decode(binary: &str, ctype: &CType) -> Option<Value> {
     let bits = u64::from_str_radix(binary, 2).ok()?;
     Some(match ctype.kind {

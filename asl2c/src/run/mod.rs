@@ -1,4 +1,4 @@
-//! An agent that is run by the reference interpreter, one line of a script after the other.
+//! Runs an agent by the reference interpreter, line by line of a script.
 
 mod monitor;
 mod script;

@@ -1,4 +1,4 @@
-//! Watches the properties of an agent that is run, by the rules of the language guide.
+//! Monitors the properties of a running agent, by the rules of the language guide.
 
 use std::collections::BTreeMap;
 
@@ -18,27 +18,27 @@ pub(crate) struct Monitors {
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct State {
-    /// Steps that are left for an answer; 0 if none is due.
+    /// Remaining steps for the answer; 0 if none is due.
     due: u32,
     /// Whether the action may be called.
     allowed: bool,
 }
 
-/// What a step has done.
+/// Summary of a step.
 pub(crate) struct Step<'a> {
-    /// How often each basic action or function was called.
+    /// Number of calls of each basic action or function.
     pub(crate) calls: &'a BTreeMap<String, u32>,
-    /// Whether an event was not handled to its end.
+    /// Whether an event was not handled completely.
     pub(crate) lost: bool,
 }
 
 impl Monitors {
-    /// Nothing has happened yet.
+    /// The state before the first event.
     pub(crate) fn new(configuration: &Configuration) -> Self {
         Self { states: vec![State::default(); configuration.properties.len()] }
     }
 
-    /// The environment has raised an event, and it was accepted.
+    /// The environment has raised an event that was accepted.
     pub(crate) fn raised(
         &mut self,
         event: &ExternalTrigger,
@@ -78,7 +78,7 @@ impl Monitors {
         }
     }
 
-    /// A step has ended; returns the properties that it breaks.
+    /// A step has ended. Returns the properties that it violates.
     pub(crate) fn end_step<'a>(
         &mut self,
         step: &Step<'_>,
@@ -132,7 +132,7 @@ impl State {
         }
     }
 
-    /// Whether what was due is answered, or still may be.
+    /// Whether the answer came, or may still come.
     fn answered(&mut self, answered: bool) -> bool {
         if self.due == 0 {
             return true;

@@ -35,24 +35,24 @@ pub(super) enum Statement {
     Quit,
 }
 
-/// The commands beside calls and results.
+/// Commands besides calls and results.
 const COMMANDS: [&str; 6] = ["step", "run", "mind", "undo", "help", "quit"];
-/// Calls that every agent has.
+/// Calls that exist for every agent.
 const CALLS: [&str; 3] = ["next_step", "init", "clear"];
-/// Most steps of one command.
+/// Maximum number of steps of one command.
 const MOST: u32 = 10_000;
-/// Steps of `run`, unless it is told.
+/// Default maximum number of steps of `run`.
 const USUAL: u32 = 1000;
-/// Values of structs may be nested so deep.
+/// Maximum nesting of struct values.
 const DEEPEST: u32 = 16;
 
-/// Whether a line says nothing.
+/// Whether a line is empty or a comment.
 pub(crate) fn is_skipped(line: &str) -> bool {
     let line = line.trim();
     line.is_empty() || line.starts_with("//")
 }
 
-/// Everything that a line of a script may begin with: calls with an open parenthesis, results with `=`, commands.
+/// All possible beginnings of a line: calls with an opening parenthesis, results with `=`, commands.
 pub(super) fn words(configuration: &Configuration) -> Vec<String> {
     let mut words: Vec<String> =
         raised(configuration).map(|(name, _)| format!("{name}(")).collect();
@@ -63,7 +63,7 @@ pub(super) fn words(configuration: &Configuration) -> Vec<String> {
     words
 }
 
-/// Each event that can be raised, with the name of its call.
+/// The external events, each with the name of its call.
 fn raised(configuration: &Configuration) -> impl Iterator<Item = (String, &ExternalTrigger)> {
     let events = configuration.triggerables.iter();
     events.map(|event| (call_name(event), event))
@@ -84,7 +84,7 @@ fn functions(configuration: &Configuration) -> impl Iterator<Item = (&str, &CTyp
     basics.map(|basic| (basic.name.text.as_str(), &basic.result))
 }
 
-/// The statements of a line; spans of errors count from its beginning.
+/// Parses the statements of a line; spans of errors are relative to its beginning.
 pub(super) fn parse_line(
     line: &str,
     configuration: &Configuration,
@@ -135,7 +135,7 @@ impl<'a> Parser<'a> {
         found
     }
 
-    /// A word, or what else stands here up to a blank or a mark.
+    /// A word, or any text up to a blank or a mark.
     fn word(&mut self) -> (&'a str, Span) {
         self.skip();
         let rest = self.rest();
@@ -162,7 +162,7 @@ impl<'a> Parser<'a> {
         if let Some((_, event)) = raised {
             let types = match event.operator {
                 Operator::Add => parameters(configuration, &event.name.text),
-                // The belief is removed, whatever its values.
+                // The belief is removed whatever its values, so it has no arguments.
                 Operator::Delete => &[],
             };
             return Ok(Statement::Raise(event.clone(), self.arguments(types)?));
@@ -288,7 +288,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    /// A text whose first quote is read; `\"` and `\\` stand for the second of their characters.
+    /// A string after its opening quote; `\"` and `\\` are escapes.
     fn text(&mut self) -> Result<Value, Diagnostic> {
         let start = self.at;
         let mut text = String::new();

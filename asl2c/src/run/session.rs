@@ -1,4 +1,4 @@
-//! A run of an agent: its state, and the states before, to which it can go back.
+//! A run of an agent: its state, and earlier states for `undo`.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -14,12 +14,12 @@ use super::script::{Statement, parse_line, words};
 use super::values::zero;
 use super::world::{Answers, World};
 
-/// What is told of a step in which nothing happens.
-pub(crate) const IDLE: &str = "no event waits";
-/// States that can be gone back to.
+/// Shown for a step without an event.
+pub(crate) const IDLE: &str = "no event is pending";
+/// Number of states kept for `undo`.
 const KEPT: usize = 500;
 
-/// An agent that is run by hand.
+/// An agent that is run interactively or by a script.
 ///
 /// ```
 /// let configuration = "settings { input = lamp.asl; output = lamp.c; header = lamp.h; basics = actions.h; };
@@ -49,7 +49,7 @@ pub(super) struct State {
 }
 
 impl Session {
-    /// An agent whose functions return 0, `false` and the like.
+    /// An agent whose functions return 0, `false` or the like.
     ///
     /// # Errors
     /// As [`translator::translate`].
@@ -69,11 +69,11 @@ impl Session {
         Ok(Self { configuration, now, before: VecDeque::new(), broken: Vec::new(), ended: false })
     }
 
-    /// Does what a line says and returns what is to be shown. Actions stand there as calls; what begins with `//` is
-    /// a note.
+    /// Executes a line and returns its output. Actions are shown as calls; lines that begin with `//` are
+    /// comments.
     ///
     /// # Errors
-    /// What is wrong with the line, with a span in it. Nothing of the line is done then, or, if a step is too long,
+    /// The error in the line, with its span. Nothing of the line is executed then, or, if a step is too long,
     /// nothing from that step on.
     pub fn execute(&mut self, line: &str) -> Result<Vec<String>, Diagnostic> {
         self.broken.clear();
@@ -98,27 +98,27 @@ impl Session {
         Ok(shown)
     }
 
-    /// Names of the properties that the last line has broken.
+    /// Names of the properties that the last line violated.
     pub fn broken(&self) -> &[String] {
         &self.broken
     }
 
-    /// Whether `quit` was said.
+    /// Whether `quit` was executed.
     pub fn is_ended(&self) -> bool {
         self.ended
     }
 
-    /// What a line may begin with.
+    /// Possible beginnings of a line, for completion.
     pub fn words(&self) -> Vec<String> {
         words(&self.configuration)
     }
 
-    /// Steps since the beginning.
+    /// Number of steps since the start.
     pub(crate) fn steps(&self) -> u64 {
         self.now.steps
     }
 
-    /// Does what a line says, and returns what that is in the agent's words.
+    /// Executes a line, and returns it as steps of a counterexample.
     pub(crate) fn told(&mut self, line: &str) -> Vec<Happening> {
         let parsed = parse_line(line, &self.configuration);
         let Ok(shown) = self.execute(line) else { return Vec::new() };
@@ -131,16 +131,16 @@ impl Session {
             }
             Some(Statement::Set(belief, values)) => {
                 let belief = with_values(belief, values);
-                return vec![at(0, format!("the environment tells {belief}"))];
+                return vec![at(0, format!("the environment sets {belief}"))];
             }
             Some(Statement::Step(_)) => {}
-            // What functions return is told where they are called.
+            // Results of functions are shown where the functions are called.
             _ => return Vec::new(),
         }
         let story = &self.now.world.story;
         let idle = if story.is_empty() { format!(": {IDLE}") } else { String::new() };
         let step = at(0, format!("step {}{idle}", self.now.steps));
-        // Plans that do not apply are told with all that was asked for them.
+        // Plans that do not apply are shown with all queries of their contexts.
         std::iter::once(step).chain(story.iter().cloned()).collect()
     }
 
@@ -183,7 +183,7 @@ impl Session {
         Ok(())
     }
 
-    /// What is believed, what waits, and what the last step did.
+    /// The beliefs, the pending events, and the last step.
     fn mind(&self) -> Vec<String> {
         let State { agent, world, steps, .. } = &self.now;
         let mut lines = Vec::new();
@@ -199,10 +199,10 @@ impl Session {
                 format!("{name}({})", values.join(", "))
             }
         });
-        section(&mut lines, "believes", "believes nothing", beliefs.collect());
-        section(&mut lines, "waiting, the next first", "nothing waits", agent.waiting());
+        section(&mut lines, "believes", "no beliefs", beliefs.collect());
+        section(&mut lines, "pending, the next one first", "no events", agent.waiting());
         let counts = [
-            (agent.unhandled_events(), "not handled to their end"),
+            (agent.unhandled_events(), "not handled completely"),
             (agent.refused_events(), "refused"),
             (agent.aborted_events(), "aborted"),
         ];
@@ -220,7 +220,7 @@ impl Session {
             section(
                 &mut lines,
                 &format!("step {steps}"),
-                &format!("step {steps}: no event waited"),
+                &format!("step {steps}: no event was pending"),
                 story.collect(),
             );
         }
@@ -229,13 +229,13 @@ impl Session {
 }
 
 const HELP: &str = "\
-achieve_g(1); add_b(1); del_b();  raise an event that the configuration has among its triggerables
-set_b(1.5);                       set a belief that it has among its settables
-f_result = true;                  what a function returns from now on
-f_result = 1, 2;                  what it returns the next times; the last value stays
-next_step();  step [N]            one deliberation cycle, or so many
-run [N]                           steps until nothing waits or nothing changes, at most 1000 or N
-init();  clear();                 start anew; forget all events
-mind                              beliefs, waiting events, and what the last step did and why
-undo [N]                          take the last line back, or so many
+achieve_g(1); add_b(1); del_b();  raise an event of the configuration's triggerables
+set_b(1.5);                       set a belief of its settables
+f_result = true;                  result of a function from now on
+f_result = 1, 2;                  its next results; the last one repeats
+next_step();  step [N]            one deliberation cycle, or N
+run [N]                           steps until no event is pending or a state repeats, at most 1000 or N
+init();  clear();                 start again; drop all events
+mind                              beliefs, pending events, and the last step with its causes
+undo [N]                          undo the last line, or N lines
 quit";

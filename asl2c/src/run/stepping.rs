@@ -3,11 +3,11 @@
 use super::monitor::Step;
 use super::session::Session;
 
-/// Plans and formulae that one step may try. The longest step of any real agent is far below.
+/// Maximum number of plans and formulas that one step may try, far above the longest step of a real agent.
 const LONGEST: u32 = 100_000;
-/// Lines that a command may show.
+/// Maximum number of lines that a command may show.
 const MOST_LINES: usize = 100_000;
-/// `run` looks back so many steps for a state that comes again.
+/// Number of earlier states that `run` compares with, to detect a cycle.
 const LOOKED_BACK: usize = 64;
 
 impl Session {
@@ -18,12 +18,12 @@ impl Session {
         Ok(())
     }
 
-    /// Steps until nothing waits, or all is as it was.
+    /// Executes steps until no event is pending or a state repeats.
     pub(super) fn run(&mut self, most: u32, shown: &mut Vec<String>) -> Result<(), String> {
         let mut seen = vec![(self.now.steps, self.now.agent.clone())];
         for _ in 0..most {
             if self.now.agent.waiting().is_empty() {
-                shown.push("// nothing waits".to_owned());
+                shown.push("// no event is pending".to_owned());
                 return Ok(());
             }
             self.step(shown)?;
@@ -31,7 +31,7 @@ impl Session {
             let again = seen.iter().rev().take(LOOKED_BACK).find(|(_, then)| agent.is_like(then));
             if let Some((then, _)) = again.filter(|_| self.now.world.is_constant()) {
                 let now = self.now.steps;
-                shown.push(format!("// after step {now} all is as after step {then}"));
+                shown.push(format!("// step {now} ends in the same state as step {then}"));
                 return Ok(());
             }
             seen.push((self.now.steps, agent.clone()));
@@ -55,14 +55,14 @@ impl Session {
         if now.agent.next_step_within(LONGEST, &mut now.world).is_err() {
             self.now = before;
             return Err(format!(
-                "this step tries more than {LONGEST} plans and formulae, or calls too deep: it is not made"
+                "this step tries more than {LONGEST} plans and formulas, or nests calls too deep: it is not executed"
             ));
         }
         now.steps += 1;
         let step = Step { calls: &now.world.calls, lost: now.agent.unhandled_events() != lost };
         shown.append(&mut now.world.shown);
         if step.lost {
-            shown.push(format!("// step {}: an event is not handled to its end", now.steps));
+            shown.push(format!("// step {}: an event was not handled completely", now.steps));
         }
         for property in now.monitors.end_step(&step, &self.configuration, &now.agent) {
             shown.push(format!("// step {} breaks `{}`", now.steps, property.name.text));

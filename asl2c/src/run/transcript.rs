@@ -1,4 +1,4 @@
-//! Whole scripts, and transcripts: scripts with what must come of each line.
+//! Scripts, and transcripts: scripts with their expected output.
 
 use std::fmt::Write as _;
 
@@ -7,27 +7,28 @@ use diagnostic::{Diagnostic, Source};
 use super::script::is_skipped;
 use super::session::Session;
 
-/// What came of a script.
+/// Result of a script.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Replay {
-    /// Each line behind `> ` with what it shows, and errors where they happened.
+    /// Each line behind `> ` with its output, and errors where they occurred.
     pub shown: String,
-    /// Errors, and what a transcript says else than what came.
+    /// Number of errors, and of differences from the transcript.
     pub errors: usize,
-    /// Properties that were broken without a transcript that says so.
+    /// Violated properties that are not expected by a transcript.
     pub broken: Vec<String>,
 }
 
 impl Replay {
-    /// Whether everything went as it should.
+    /// Whether there were no errors, differences or violations.
     pub fn is_fine(&self) -> bool {
         self.errors == 0 && self.broken.is_empty()
     }
 }
 
-/// Runs a script of this name. If some of its lines begin with `>` it is a transcript: those are carried out, and what
-/// stands between them must be what comes of them. Notes, `// ..`, may be left out of a transcript.
+/// Runs a script of this name. If some of its lines begin with `>` it is a transcript: those lines are
+/// executed, and the lines between them are the expected output. Comments, `// ..`, may be missing from a
+/// transcript.
 pub fn replay(session: &mut Session, name: &str, text: &str) -> Replay {
     let mut replay = Replay { shown: String::new(), errors: 0, broken: Vec::new() };
     let is_transcript = text.lines().any(|line| line.starts_with('>'));
@@ -88,7 +89,7 @@ impl Replay {
             shown.filter(|line| !is_note(line)).collect()
         };
         if shown != expected {
-            let error = Diagnostic::error("this shows something else", 0..command.len());
+            let error = Diagnostic::error("the output differs", 0..command.len());
             let expected = expected.join("\n");
             self.error(error.help(format!("expected\n{expected}")), start, source);
         }
@@ -101,7 +102,7 @@ impl Replay {
     }
 }
 
-/// Lines, and where each begins.
+/// The lines, with the offset of each.
 fn places(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut start = 0;
     text.split_inclusive('\n').map(move |line| {

@@ -1,10 +1,10 @@
-//! Values as scripts write them.
+//! Syntax of values in scripts.
 
 use translator::configuration::{Configuration, Struct};
 use translator::interpreter::Value;
 use translator::types::{CType, TypeKind};
 
-/// The value that a type starts with.
+/// The zero value of a type.
 pub(super) fn zero(ctype: &CType, configuration: &Configuration) -> Value {
     match ctype.kind {
         TypeKind::Bool => Value::Bool(false),
@@ -26,7 +26,7 @@ pub(super) fn fields(ctype: &CType, configuration: &Configuration) -> Vec<CType>
     })
 }
 
-/// The value of a word; an error is what would be one.
+/// Parses a value; the error describes the expected form.
 pub(super) fn parse(word: &str, ctype: &CType) -> Result<Value, String> {
     match ctype.kind {
         TypeKind::Bool => match word {
@@ -54,7 +54,7 @@ pub(super) fn parse(word: &str, ctype: &CType) -> Result<Value, String> {
 }
 
 fn float(word: &str, single: bool) -> Result<f64, String> {
-    // Rust would take other words too, such as `infinity`.
+    // Rust would accept other words too, such as `infinity`.
     let known = matches!(word, "nan" | "inf" | "-inf");
     let plain = word.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
     let value =

@@ -1,4 +1,4 @@
-//! The environment of an agent that is run by hand: what its functions return, and what it has done.
+//! The environment of an agent in a run: the results of its functions, and its actions.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -6,7 +6,7 @@ use translator::Happening;
 use translator::interpreter::{Environment, Value};
 use translator::types::{CType, TypeKind};
 
-/// What one function returns: these values, one each time, and from then on the last of them.
+/// Results of one function: these values in turn; the last one repeats.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Answers {
     next: VecDeque<Value>,
@@ -25,25 +25,25 @@ impl Answers {
 /// The environment of a run.
 #[derive(Debug, Clone, Default)]
 pub(super) struct World {
-    /// What functions return, by name.
+    /// Results of functions, by name.
     pub(super) answers: BTreeMap<String, Answers>,
-    /// The actions of the step, as transcripts show them.
+    /// The actions of the step, as shown in transcripts.
     pub(super) shown: Vec<String>,
-    /// How often each basic action or function was called in the step.
+    /// Number of calls of each basic action or function in the step.
     pub(super) calls: BTreeMap<String, u32>,
-    /// What happened in the step and why.
+    /// Events of the step, with their causes.
     pub(super) story: Vec<Happening>,
 }
 
 impl World {
-    /// What is known of the last step is forgotten.
+    /// Clears the data of the last step.
     pub(super) fn begin_step(&mut self) {
         self.shown.clear();
         self.calls.clear();
         self.story.clear();
     }
 
-    /// Whether functions go on to return what they return now.
+    /// Whether all functions have reached their last result.
     pub(super) fn is_constant(&self) -> bool {
         self.answers.values().all(|answers| answers.next.len() <= 1)
     }
@@ -57,7 +57,7 @@ impl Environment for World {
     fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value> {
         *self.calls.entry(name.to_owned()).or_default() += 1;
         if result.kind == TypeKind::Void {
-            // As the guide's transcripts show them.
+            // In the form of the guide's transcripts.
             let arguments: Vec<String> = (arguments.iter())
                 .map(|value| match value {
                     Value::Text(text) => text.clone(),

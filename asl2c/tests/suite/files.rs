@@ -1,4 +1,4 @@
-//! What `asl2c` writes, and what it leaves alone.
+//! Files that `asl2c` writes, and files that it must not touch.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -87,7 +87,7 @@ fn links_between_outputs_are_noticed() {
     refused(folder.path(), &[], &["a.conf:1:64", "which is written too"]);
 }
 
-/// A header of the user's that the generated ones include is theirs.
+/// A user's header that is included by the generated ones is not overwritten.
 #[test]
 fn what_is_included_is_not_overwritten() {
     let settings = "input = a.asl; output = a.c; header = user.h; basics = b.h;";
@@ -112,7 +112,7 @@ fn what_is_included_is_not_overwritten() {
     }
 }
 
-/// Outputs that are not there yet are known by the folder that they come into.
+/// Outputs that do not exist yet are identified by their folder.
 #[cfg(unix)]
 #[test]
 fn links_between_folders_are_noticed() {
@@ -135,7 +135,7 @@ fn links_between_folders_are_noticed() {
         refused(place.path(), &[], &[at, "out of the output's folder"]);
         assert_eq!(contents(other.path()), [("file.h".to_owned(), "mine".to_owned())]);
     }
-    // A folder that is a link is as good as another where it leads nowhere else.
+    // A folder that is a link is allowed if no two outputs collide.
     let place = folder("input = a.asl; output = y/a.c; header = y/a.h; basics = b.h;");
     std::fs::create_dir(place.path().join("x")).unwrap();
     symlink("x", place.path().join("y")).unwrap();
@@ -150,7 +150,7 @@ fn all_is_written_or_nothing() {
             std::fs::write(folder.join(name), "old").unwrap();
         }
     };
-    // One cannot be written: there is a folder of its name, or no folder to hold it.
+    // One cannot be written: a folder has its name, or its folder is missing.
     let place = folder(files);
     old(place.path());
     std::fs::create_dir(place.path().join("m.json")).unwrap();
@@ -158,7 +158,7 @@ fn all_is_written_or_nothing() {
     let place = folder(&files.replace("b.h", "sub/b.h"));
     old(place.path());
     refused(place.path(), &[], &["sub/b.h", "nothing is changed"]);
-    // One may not be written.
+    // One must not be written.
     let place = folder(files);
     old(place.path());
     std::fs::write(place.path().join("b.h"), "mine").unwrap();
@@ -168,7 +168,7 @@ fn all_is_written_or_nothing() {
     refused(place.path(), &[], &["b.h", "nothing is changed"]);
 }
 
-/// No file grows larger than a block: as on a full disk, writing fails in the middle.
+/// A file size limit: as on a full disk, writing fails in the middle.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_changes_nothing() {
@@ -201,7 +201,7 @@ fn what_is_written_replaces_what_was() {
     assert_eq!(names, ["a.asl", "a.c", "a.conf", "a.h", "b.h", "real"]);
     let read = |name: &str| std::fs::read_to_string(place.path().join(name)).unwrap();
     assert!(read("a.c").contains("next_step"));
-    // A link stays one.
+    // A link stays a link.
     #[cfg(unix)]
     assert!(place.path().join("a.h").is_symlink() && read("real/a.h").contains("ASL2C_A_H"));
 }
@@ -221,7 +221,7 @@ fn a_report_that_cannot_be_printed_is_an_error() {
     }
 }
 
-/// Nor is help that nobody reads a success, and an agent of which nobody was told is not there.
+/// Printing help to a closed pipe is not a success, and an agent that could not be announced is removed.
 #[cfg(unix)]
 #[test]
 fn what_cannot_be_said_is_not_done() {
@@ -240,7 +240,7 @@ fn what_cannot_be_said_is_not_done() {
     assert!(output.status.success() && place.path().join("pilot/Makefile").exists());
 }
 
-/// What is in folders finds each other, and is measured as anything else.
+/// Outputs in folders include each other correctly, and are measured like others.
 #[test]
 fn outputs_may_be_in_folders() {
     for instance in ["static", "context"] {

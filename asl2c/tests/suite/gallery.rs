@@ -1,4 +1,5 @@
-//! The agents of `translator/agents`: each is translated, run by its transcript, and proved as its README says.
+//! The agents of `translator/agents`: each is translated, run by its transcript, and proved as its README
+//! states.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,7 +9,7 @@ use asl2c::{Agent, Session, replay};
 use crate::harness::{cbmc, skip};
 
 const FOLDER: &str = "../translator/agents";
-/// Each agent, and those of its properties that do not hold.
+/// Each agent, and its properties that do not hold.
 const AGENTS: [(&str, &[&str]); 6] = [
     (
         "paper",
@@ -68,7 +69,7 @@ fn the_kept_way_breaks_what_it_is_kept_for() {
     assert_eq!((replayed.errors, replayed.broken), (0, vec!["air_is_heard".to_owned()]));
 }
 
-/// What holds is proved; each way to what does not breaks it when it is run.
+/// Properties that hold are proved; each counterexample violates its property when it is run.
 #[test]
 fn what_is_proved_holds_and_what_is_not_has_a_way() {
     let Some(cbmc) = cbmc() else {

@@ -1,4 +1,4 @@
-//! The language guide shows what `asl2c` prints.
+//! The language guide shows the real output of `asl2c`.
 
 use std::process::Command;
 
@@ -6,7 +6,7 @@ use crate::harness::skip;
 
 const GUIDE: &str = include_str!("../../../docs/agentspeak.md");
 
-/// Runs `asl2c` as a terminal shows it; without SPIN it is [skipped](skip).
+/// Runs `asl2c` as in a terminal; [skipped](skip) without SPIN.
 fn shows(terminal: &str) {
     let (command, expected) = terminal.split_once('\n').unwrap();
     let arguments = command.strip_prefix("$ asl2c ").unwrap();

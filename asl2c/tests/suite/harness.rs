@@ -1,12 +1,12 @@
 //! Shared by the tests.
 
-/// A number that an environment variable tells, or the usual one.
+/// A number from an environment variable, or the default.
 pub(crate) fn from_environment(variable: &str, usual: u32) -> u32 {
     std::env::var(variable).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
-/// Says that something is not tested for want of a tool. In CI that is a failure: what was not tested must not look as
-/// if it was.
+/// Reports that a test was skipped because a tool is missing. In CI that is a failure, so that a skipped test
+/// cannot look like a passed one.
 ///
 /// # Panics
 /// In CI.
@@ -16,7 +16,7 @@ pub(crate) fn skip(tool: &str) {
     println!("skipped: there is no {tool} here");
 }
 
-/// A CBMC: the one that `ASL2C_CBMC` names, or that on the path.
+/// A CBMC: the one named by `ASL2C_CBMC`, or that on the path.
 pub(crate) fn cbmc() -> Option<std::path::PathBuf> {
     let named =
         std::env::var_os("ASL2C_CBMC").map_or_else(|| "cbmc".into(), std::path::PathBuf::from);

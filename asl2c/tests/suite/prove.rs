@@ -1,4 +1,4 @@
-//! `asl2c prove`: tools that are missing, and what cannot be decided. Proofs themselves are the gallery's.
+//! `asl2c prove` without its tools, and undecided results. Proofs themselves are tested with the gallery.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -29,7 +29,7 @@ fn complaint(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// What was not proved must not look as if it was.
+/// A missing proof must not look like a successful one.
 #[test]
 fn a_missing_tool_is_no_pass() {
     let folder = folder("");
@@ -39,7 +39,7 @@ fn a_missing_tool_is_no_pass() {
         "{text}"
     );
     let text = complaint(&asl2c(folder.path(), Path::new("no-such-cbmc"), &[]));
-    assert!(text.contains("there is no CBMC here"), "{text}");
+    assert!(text.contains("CBMC cannot be run"), "{text}");
     let json = ["--message-format", "json"];
     let text = complaint(&asl2c(folder.path(), Path::new("no-such-cbmc"), &json));
     assert!(text.contains("\"not-checked\""), "{text}");
@@ -53,7 +53,7 @@ fn another_tool_is_none() {
     for (version, said, expected) in [
         ("5.12 (cbmc-5.12)", "VERIFICATION SUCCESSFUL", "is `5.12"),
         ("something", "VERIFICATION SUCCESSFUL", "is `something"),
-        ("6.6.0", "Out of memory", "did not come to a result"),
+        ("6.6.0", "Out of memory", "gave no result"),
     ] {
         let script = folder.path().join("cbmc");
         let text = format!(
@@ -73,7 +73,7 @@ fn what_only_the_environment_knows_is_undecided() {
     std::fs::write(folder.path().join("a.conf"), text).unwrap();
     std::fs::write(folder.path().join("a.asl"), "+!light : level(_) <- on.\n+!light.\n").unwrap();
     let text = complaint(&asl2c(folder.path(), Path::new("no-such-cbmc"), &[]));
-    assert!(text.contains("cannot be made up"), "{text}");
+    assert!(text.contains("cannot create arbitrary values"), "{text}");
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn each_end_has_its_status() {
             none,
             &[],
             1,
-            "p: DOES NOT HOLD\n  never(on)\n  for this can happen (a.asl):\n    the environment raises +!light\n",
+            "p: DOES NOT HOLD\n  never(on)\n  counterexample (a.asl):\n    the environment raises +!light\n",
         ),
         (none, &["--length", "1"], 3, "p: NOT DECIDED"),
         (none, &["--time", "0"], 3, "p: NOT DECIDED"),

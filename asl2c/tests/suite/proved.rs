@@ -1,7 +1,7 @@
-//! Proofs against runs: what `asl2c verify` says to hold in every environment must hold in each run of the
-//! reference interpreter, whatever the environment does there.
+//! Proofs against runs: what `asl2c verify` proves for every environment must hold in each run of the
+//! reference interpreter, whatever its environment does.
 //!
-//! The monitors here are made from the guide, and share nothing with those of the model and the harness.
+//! The monitors here follow the guide, and share nothing with those of the model and the harness.
 //! `ASL2C_PROVED=2000` checks more agents than usual, `ASL2C_PROVED_SEED` other ones.
 
 use std::collections::BTreeMap;
@@ -35,10 +35,10 @@ impl Random {
 }
 
 const BASICS: &str = "void on(void); void off(void); void idle(void); bool flash(int); int read(void); bool dark(void); int64_t now(void);";
-/// What properties count.
+/// Calls that properties count.
 const COUNTED: [&str; 8] = ["on", "off", "idle", "flash", "read", "dark", "now", "shows"];
 
-/// The basic actions that a name stands for.
+/// The basic actions of a name.
 fn members(name: &str) -> &[&str] {
     match name {
         "on" => &["on"],
@@ -85,7 +85,7 @@ fn condition(random: &mut Random) -> String {
     }
 }
 
-/// A formula; without goals to call it changes no belief either, so that nothing leads back to itself.
+/// A formula; without goals to call it changes no belief either, so that there is no cycle.
 fn formula(random: &mut Random, goals: &[&str]) -> String {
     let value = value(random);
     match random.below(if goals.is_empty() { 8 } else { 16 }) {
@@ -121,7 +121,7 @@ fn plan(random: &mut Random, trigger: &str, goals: &[&str], posts: &[&str]) -> S
     if body.is_empty() {
         body.push("true".to_owned());
     }
-    // Without an argument of its own a plan has another number.
+    // A plan without an argument of its own gets another number.
     let text = format!("{trigger}{context} <- {}.\n", body.join("; "));
     if trigger.contains('X') { text } else { text.replace('X', "2") }
 }
@@ -168,7 +168,7 @@ fn agent(random: &mut Random) -> String {
     text
 }
 
-/// A property, as it is written and as runs are judged.
+/// A property, as written and as checked in runs.
 enum Promise {
     Count(&'static str, &'static str),
     Within(u32, Cause, &'static str),
@@ -180,7 +180,7 @@ enum Promise {
 enum Cause {
     Raised(&'static str),
     Called(&'static str),
-    /// The level is at most so.
+    /// The level is at most this.
     Low(i128),
 }
 
@@ -229,7 +229,7 @@ impl Promise {
     }
 }
 
-/// What a run has shown of a property.
+/// State of a property in a run.
 #[derive(Default, Clone)]
 struct Monitor {
     due: u32,
@@ -248,7 +248,7 @@ impl Monitor {
         }
     }
 
-    /// A step has ended; it began with this level, and this is how often it called what.
+    /// A step has ended; `level` is that of its beginning, `calls` are its calls.
     fn stepped(
         &mut self,
         promise: &Promise,
@@ -326,7 +326,7 @@ impl Environment for World<'_> {
     }
 }
 
-/// Runs an agent; says which promises are broken.
+/// Runs an agent. Returns the violated properties.
 fn runs(
     random: &mut Random,
     configuration: &str,
@@ -384,7 +384,7 @@ fn runs(
     Some(broken)
 }
 
-/// What `asl2c verify` says of each property.
+/// The verdict of `asl2c verify` on each property.
 fn verdicts(configuration: &str, agent: &str) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("a.conf"), configuration).unwrap();

@@ -1,4 +1,4 @@
-//! `asl2c run`: what it shows, and that nothing that is said to it ends it.
+//! `asl2c run`: its output, and that no input ends it.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -64,24 +64,21 @@ fn a_transcript_is_compared() {
         Some(1),
         "`+!land` on the ground has no plan: properties are broken, and it does not say so"
     );
-    let good = good.replacen("step 2\n", "step\n// step 2: an event is not handled to its end\n\
+    let good = good.replacen("step 2\n", "step\n// step 2: an event was not handled completely\n\
         // step 2 breaks `one_command`\n// step 2 breaks `landing_is_honoured`\n// step 2 breaks `nothing_is_lost`\n\
         > step\n", 1);
     let (shown, status) = run(&good);
     assert_eq!(status, Some(0), "{shown}");
     let (shown, status) = run(&good.replacen("standBy()", "sendLand()", 1));
     assert_eq!(status, Some(1));
-    assert!(
-        shown.contains("this shows something else") && shown.contains("a.script:2:2"),
-        "{shown}"
-    );
+    assert!(shown.contains("the output differs") && shown.contains("a.script:2:2"), "{shown}");
 }
 
 fn piped(arguments: &[&str], lines: &[u8], folder: &Path) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
     command.args(arguments).current_dir(folder).stdin(Stdio::piped());
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    // It may have ended before all is written.
+    // It may have ended before everything is written.
     _ = child.stdin.take().unwrap().write_all(lines);
     child.wait_with_output().unwrap()
 }
@@ -103,7 +100,7 @@ fn what_is_piped_in_is_carried_out() {
     assert_eq!(String::from_utf8(output.stdout).unwrap().matches("> step").count(), 2);
 }
 
-/// The guide's transcripts, which its own test compiles, come out the same without any C.
+/// The guide's transcripts, which another test compiles, have the same result without any C.
 #[test]
 fn the_guides_transcripts_need_no_c() {
     let mut configuration = "";
@@ -121,7 +118,7 @@ fn the_guides_transcripts_need_no_c() {
                 assert_eq!(replayed.errors, 0, "{}", replayed.shown);
                 checked += 1;
             }
-            // What is said, errors too, is what stands there.
+            // The expected output includes errors.
             "session" => {
                 let parsed = parse_configuration("a.conf", configuration).unwrap();
                 let mut session = Session::new(&parsed, agent).unwrap();
@@ -138,7 +135,7 @@ fn the_guides_transcripts_need_no_c() {
 
 const DEEP: &str = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\nbasics { void on(int); };\n";
 
-/// No step runs for ever, however the agent is made.
+/// No step runs for ever, whatever the agent.
 #[test]
 fn a_step_that_is_too_long_is_not_made() {
     // Each goal calls the next one twice.
@@ -151,11 +148,11 @@ fn a_step_that_is_too_long_is_not_made() {
     let parsed = parse_configuration("a.conf", &configuration).unwrap();
     let mut session = Session::new(&parsed, &wide).unwrap();
     let error = session.execute("achieve_g0(); step").unwrap_err();
-    assert!(error.message.contains("it is not made"), "{}", error.message);
+    assert!(error.message.contains("it is not executed"), "{}", error.message);
     assert_eq!(session.execute("clear(); achieve_g40(); step").unwrap(), ["on(1)"]);
 }
 
-/// Calls that are nested as deep as a long agent can nest them.
+/// Calls nested as deep as a long agent can nest them.
 #[test]
 fn a_deep_step_overflows_no_stack() {
     let goals = 3000;
@@ -174,7 +171,7 @@ fn a_deep_step_overflows_no_stack() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("calls too deep"));
 }
 
-/// Whatever is said, there is an answer.
+/// Every input gets a response.
 #[test]
 fn no_line_ends_a_session() {
     let configuration = std::fs::read_to_string("../translator/agents/paper.conf").unwrap();

@@ -1,4 +1,4 @@
-//! The command line: warnings and who wants them, JSON, new agents.
+//! The command line: warnings and their selection, JSON, new agents.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -19,7 +19,7 @@ fn asl2c(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_asl2c")).args(arguments).current_dir(folder).output().unwrap()
 }
 
-/// The first lines of what is printed of warnings.
+/// The first line of each printed warning.
 fn warned(output: &Output) -> Vec<String> {
     let text = String::from_utf8_lossy(&output.stderr);
     text.lines()
@@ -92,13 +92,13 @@ fn each_finding_is_a_line_of_json() {
     assert!(missing[0]["message"].as_str().unwrap().contains("cannot read"));
 }
 
-/// What is denied is an error, and alone of interest to those who want errors only.
+/// A denied warning is an error, and is printed even if only errors are.
 #[test]
 fn what_is_denied_is_an_error() {
     let folder = folder();
     let unused = "error[unused-declaration]: 4 actions and functions are never used";
     let idle = "error[unused-declaration]: `idle` is declared and never used";
-    let summary = "error: 2 of these are denied: nothing is translated";
+    let summary = "error: 2 of these are denied as errors: nothing is translated";
     let no_plan = "warning[no-plan]: `+!light` may find no plan";
     let variable = "warning[unused-variable]: variable `X` is never used";
     let deny = ["a.conf", "-D", "unused-declaration"];
@@ -114,10 +114,10 @@ fn what_is_denied_is_an_error() {
     assert!(said.iter().all(|finding| finding["severity"] == "error"));
 }
 
-/// Whatever is said as JSON has the same keys, and a code.
+/// All JSON lines have the same keys, and a code.
 #[test]
 fn all_lines_of_json_are_alike() {
-    // Options, what is wrong in the folder, the first code and the exit status.
+    // Options, the defect in the folder, the first code and the exit status.
     type Case<'a> = (&'a [&'a str], &'a dyn Fn(&Path), &'a str, i32);
     let json = ["a.conf", "--message-format", "json"];
     let no_agent = |folder: &Path| std::fs::remove_file(folder.join("a.asl")).unwrap();
@@ -181,19 +181,19 @@ fn a_new_agent_builds_and_runs_at_once() {
     let printed = String::from_utf8(output.stdout).unwrap();
     let steps: Vec<&str> = printed.split("step ").skip(1).map(|step| step[1..].trim()).collect();
     assert_eq!(steps, ["hover", "hover", "land", "land", "land", "", "hover", "hover"]);
-    // What is there is not touched, and names are names.
+    // Existing files are not touched, and names are checked.
     assert_eq!(asl2c(folder.path(), &["new", "pilot"]).status.code(), Some(1));
     for (name, reason) in [
-        ("../x", "is no name"),
-        ("Pilot", "is no name"),
+        ("../x", "is not a valid agent name"),
+        ("Pilot", "is not a valid agent name"),
         ("sendLand", "then lower-case letters"),
-        ("a b", "is no name"),
-        ("", "is no name"),
+        ("a b", "is not a valid agent name"),
+        ("", "is not a valid agent name"),
         ("main", "`main` is taken: the C file"),
         ("actions", "`actions` is taken: the header"),
-        ("run", "`run` is taken: the Makefile"),
-        ("verify", "`verify` is taken: the Makefile"),
-        ("clean", "`clean` is taken: the Makefile"),
+        ("run", "`run` is taken: a target of the Makefile"),
+        ("verify", "`verify` is taken: a target of the Makefile"),
+        ("clean", "`clean` is taken: a target of the Makefile"),
     ] {
         let output = asl2c(folder.path(), &["new", name]);
         let text = String::from_utf8_lossy(&output.stderr);

@@ -1,4 +1,4 @@
-//! What `asl2c verify` finds, and how it tells it.
+//! Results and output of `asl2c verify`.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -7,7 +7,7 @@ use translator::{model, parse_configuration};
 
 use crate::harness::skip;
 
-/// An agent that can switch a lamp, and promises something.
+/// An agent that can switch a lamp, with a property.
 fn configuration(settings: &str, sections: &str, agent: &str, property: &str) -> String {
     let events = ["+!light", "+!dim", "+flag", "-flag"];
     let raised = events.iter().filter(|event| agent.lines().any(|line| line.starts_with(**event)));
@@ -23,7 +23,7 @@ fn configuration(settings: &str, sections: &str, agent: &str, property: &str) ->
     )
 }
 
-/// Runs `asl2c verify`; without SPIN it is [skipped](skip).
+/// Runs `asl2c verify`; [skipped](skip) without SPIN.
 fn verify(configuration: &str, agent: &str, options: &[&str]) -> Option<Output> {
     if Command::new("spin").arg("-V").output().is_err() {
         skip("spin");
@@ -47,10 +47,10 @@ fn run(folder: &Path, options: &[&str]) -> Output {
 
 const WAITING: &str = "!wait.\n+!wait <- idle; !!wait.\n";
 
-/// Whether a property holds of an agent that idles besides.
+/// Checks a property of an agent with an additional idle plan.
 #[track_caller]
 fn check(settings: &str, sections: &str, plans: &str, property: &str, holds: bool) {
-    // Each plan on a line of its own; beliefs come first.
+    // Each plan on its own line; beliefs come first.
     let plans = plans.replace(". ", ".\n");
     let (beliefs, plans): (Vec<&str>, Vec<&str>) =
         plans.lines().partition(|line| !line.starts_with(['+', '-']));
@@ -79,7 +79,7 @@ fn a_failure_is_told_in_the_agents_own_terms() {
     insta::assert_snapshot!(String::from_utf8_lossy(&output.stdout), @r"
     p [R-1]: DOES NOT HOLD
       within(1, +!light, on)
-      for this can happen (a.asl):
+      counterexample (a.asl):
         the environment raises +!light
         step 1
           handles +!light
@@ -96,16 +96,16 @@ fn a_failure_is_told_in_the_agents_own_terms() {
 
 #[test]
 fn events_come_in_the_order_of_the_cycle() {
-    // What pre-empts is next; what waits in the inbox comes before deferred goals.
+    // Pre-empting events come first; the inbox comes before deferred goals.
     check("", PREEMPTIVE, "+!light <- on.", "within(1, +!light, on)", true);
     check("", "", "+!light <- on.", "within(1, +!light, on)", false);
     check("", "", "+!light <- on.", "within(2, +!light, on)", true);
-    // One that waits already is served first.
+    // An event that is already pending is served first.
     check("inbox = 2;", "", "+!light <- on. +!dim(_) <- off.", "within(2, +!light, on)", false);
     check("inbox = 2;", "", "+!light <- on. +!dim(_) <- off.", "within(3, +!light, on)", true);
-    // A posted event holds up the inbox.
+    // A posted event delays the inbox.
     check("", "", "+!light <- on. +!dim(X) <- off; !dim(X).", "within(9, +!light, on)", false);
-    // In queue mode so does a deferred goal that came before.
+    // In queue mode so does an earlier deferred goal.
     check(
         "max_events = 2;",
         "",
@@ -130,7 +130,7 @@ fn failure_is_mended_or_is_not() {
         "exactly_one(idle)",
         false,
     );
-    // What no value fits is asked of the plans.
+    // If no value matches, the plans are asked.
     check(
         "",
         "",
@@ -162,7 +162,7 @@ fn beliefs_are_followed_and_their_values_are_free() {
         "never(on)",
         false,
     );
-    // A belief that changes calls its plans only if it changes.
+    // A belief triggers its plans only if it changes.
     check("", "", "+!light <- +flag; -flag. +flag <- on. -flag <- off.", "at_most_one(on)", true);
     check("", "", "+!light <- +flag; +flag. +flag <- on.", "at_most_one(on)", true);
     check("", "", "+!dim(X) <- +level(X); +level(1). +level(_) <- on.", "at_most_one(on)", false);
@@ -172,13 +172,13 @@ fn beliefs_are_followed_and_their_values_are_free() {
 fn the_comparisons_of_properties_are_remembered() {
     let sections = "settables { level; };";
     let watching = "limit(5).\n+!light : level(X) & limit(Y) & X <= Y <- on.\n+!light <- off.\n";
-    // The step that idles is free to come first.
+    // The idle step may come first.
     let lowers = "within(1, level <= limit, on, idle)";
     check("", sections, watching, lowers, true);
     check("", sections, &watching.replace("X <= Y", "Y >= X"), lowers, true);
     check("", sections, &watching.replace("X <= Y", "not X > Y"), lowers, true);
     check("", sections, &watching.replace("X <= Y", "X < Y"), lowers, false);
-    // With numbers too, whatever the belief is that a plan compares with.
+    // Also with numbers, whichever belief a plan compares with.
     for below in ["within(1, level <= 5, on, idle)", "within(1, level < -2, on, idle)"] {
         check("", sections, watching, below, true);
         check("", sections, &watching.replace("limit(Y) & X <= Y", "X <= 5"), below, true);
@@ -189,7 +189,7 @@ fn the_comparisons_of_properties_are_remembered() {
     check("", sections, watching, "within(1, level <= 6, on, idle)", false);
     check("", "", "level(3).\n+!light <- on.", "within(1, level < 4, on)", false);
     check("", "", "level(3).\n+!light <- on.", "within(1, level > 4, on)", true);
-    // What is believed from the start compares from the start.
+    // Initial beliefs are compared from the start.
     check("", "", "level(3).\nlimit(5).\n+!light <- on.", "within(1, level <= limit, on)", false);
 }
 
@@ -204,7 +204,7 @@ fn of_what_holds_nothing_is_said_if_only_failures_are_wanted() {
     assert_eq!(output.status.code(), Some(1));
 }
 
-/// A property that compares with a limit that never changes takes nothing from one that compares with its number.
+/// A property that compares with a constant limit gives the same result as one that compares with its number.
 #[test]
 fn what_is_known_does_not_depend_on_other_properties() {
     let agent = |compared: &str| {
@@ -235,7 +235,7 @@ fn what_is_known_does_not_depend_on_other_properties() {
     }
 }
 
-/// Whatever returns a value is an action all the same, wherever the call stands.
+/// A function with a result is an action too, wherever it is called.
 #[test]
 fn calls_that_return_a_value_are_counted() {
     for (plans, holds) in [
@@ -265,7 +265,7 @@ fn calls_that_return_a_value_are_counted() {
     ] {
         check("", "", plans, "never(read)", holds);
     }
-    // By their class too, and as cause, answer and end of a permission.
+    // Also by class, and as cause, answer and end of a permission.
     check("", "", "+!light <- on; X = flash(1); idle.", "at_most_one(shows)", false);
     check("", "", "+!light <- X = flash(1); idle.", "at_most_one(shows)", true);
     check("", "", "+!light <- X = flash(1); !!light.", "within(1, flash, shows, idle)", true);
@@ -285,11 +285,11 @@ fn calls_that_return_a_value_are_counted() {
         "only_after(off, +!light, until flash)",
         false,
     );
-    // What fails before the call calls nothing.
+    // A failure before the call prevents the call.
     check("", "", "+!dim(X) <- flash(1 / X). +!light.", "at_most_one(flash)", true);
 }
 
-/// The clock and the trace function are called by what is translated, not by what is written.
+/// The clock and the trace function are called by generated code, not by plans.
 #[test]
 fn calls_of_our_own_are_counted() {
     let limited =
@@ -300,7 +300,7 @@ fn calls_of_our_own_are_counted() {
     check("trace = told;", "", "+!light <- on.", "at_most_one(told)", true);
 }
 
-/// What finds no room in the queue is lost, and the model knows it.
+/// An event that does not fit into the queue is lost, and the model covers it.
 #[test]
 fn a_full_queue_loses_goals() {
     let queue = "max_events = 1;";
@@ -315,7 +315,7 @@ fn a_full_queue_loses_goals() {
     check("", "", "+!light <- !!dim(1); !!dim(2); !!light. +!dim(_) <- on.", "all_handled", true);
 }
 
-/// What is asked of the beliefs alone, since they always answer, needs no plans.
+/// Queries that beliefs always answer need no plans.
 #[test]
 fn plans_of_what_is_always_believed_are_never_asked() {
     check(
@@ -353,7 +353,7 @@ fn what_cannot_be_checked_is_said() {
         places,
         [
             "error: `level` is never believed",
-            "error: `flag` is no belief with one number",
+            "error: `flag` is not a belief with one number",
             "error: `flag` is never believed",
         ]
     );

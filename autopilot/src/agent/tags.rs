@@ -1,6 +1,6 @@
 //! What the agent is given of tags, and where it looks for them.
 
-use pid::Pose;
+use kinematics::Pose;
 
 use crate::plan::FlightLimits;
 

@@ -1,7 +1,7 @@
 //! Checks of a plan that was parsed: the order of its commands, and targets inside the fence.
 
 use diagnostic::{Diagnostic, Span};
-use pid::Pose;
+use kinematics::Pose;
 
 use super::Command;
 use super::dry_run::DryRun;

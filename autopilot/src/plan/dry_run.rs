@@ -1,7 +1,7 @@
 //! Execution of a plan without a drone.
 
+use kinematics::Pose;
 use nalgebra::Vector2;
-use pid::Pose;
 
 use super::interpreter::{AgentOrder, Interpreter};
 use super::{Command, FlightLimits};

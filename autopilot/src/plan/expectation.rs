@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
-use estimator::{SurveyedTag, wrap_deg};
+use estimator::SurveyedTag;
+use kinematics::{Pose, wrap_deg};
 use nalgebra::Vector2;
-use pid::Pose;
 
 use super::dry_run::DryRun;
 use super::interpreter::AgentOrder;

@@ -7,8 +7,7 @@
 //! As in `tum_ardrone`, only `setReference` moves the reference; landing and taking off again do not. The
 //! origin is the pose at the end of the first take-off, because that is the first pose known in flight.
 
-use estimator::wrap_deg;
-use pid::Pose;
+use kinematics::{Pose, wrap_deg};
 
 use super::{Command, FlightLimits};
 use crate::agent::{ApproachSettings, distance};

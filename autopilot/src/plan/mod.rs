@@ -21,7 +21,7 @@ mod warnings;
 
 use diagnostic::{Diagnostic, Severity};
 use estimator::SurveyedTag;
-use pid::Pose;
+use kinematics::Pose;
 
 pub use check::{FlightLimits, ZOrigin};
 pub use commands::Commands;

@@ -2,8 +2,8 @@
 
 use diagnostic::{Diagnostic, Span, closest};
 use estimator::SurveyedTag;
+use kinematics::Pose;
 use nalgebra::Vector2;
-use pid::Pose;
 
 use super::{Command, Step};
 

@@ -2,8 +2,8 @@
 
 use diagnostic::{Diagnostic, Span};
 use estimator::{MAX_TAGS, SurveyedTag};
+use kinematics::Pose;
 use nalgebra::{Rotation2, Vector2};
-use pid::Pose;
 
 use super::expectation::Expectations;
 use super::parser::Line;

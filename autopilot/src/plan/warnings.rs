@@ -3,8 +3,7 @@
 use std::time::Duration;
 
 use diagnostic::{Diagnostic, Span};
-use estimator::wrap_deg;
-use pid::Pose;
+use kinematics::{Pose, wrap_deg};
 
 use super::expectation::Expectations;
 use super::parser::Line;

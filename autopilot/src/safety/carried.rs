@@ -5,32 +5,57 @@
 
 use std::time::Duration;
 
-use super::{BRAKES, BRAKES_M_S, GUST, MARGIN_M, REACTION_S, Situation, outward};
+use kinematics::Pose;
 
-/// Outward speed up to which a drone counts as holding its position, in m/s.
+use super::{BRAKES, BRAKES_M_S, GUST, MARGIN_M, REACTION_S, Situation};
+
+/// Speed up to which a drone counts as holding its position, in m/s.
 const SLOW_M_S: f64 = 0.3;
+
+/// Smallest wind in the direction of motion that carries a drone off, as a fraction of the acceleration at full
+/// tilt. In less wind a drone that cannot brake before the fence is too fast by its own sticks, and turns or
+/// brakes by them.
+const STORM: f64 = 0.7;
+/// Time after which a drone that could brake again is no longer carried off: leaning against a storm stops it
+/// for a moment.
+const LULL: Duration = Duration::from_millis(500);
+/// A storm is leant against once it would carry the drone over the fence within this time at its speed.
+const SOON_S: f64 = 6.0;
 
 /// How long the drone has been carried outward faster than it can brake.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct CarriedOff {
     since: Option<Duration>,
-    /// Largest outward speed since it last fell, and until when a braking drone is given time.
+    /// Since when the drone could brake again.
+    stops_since: Option<Duration>,
+    /// Largest speed since it last fell, and until when a braking drone is given time.
     away_m_s: f64,
     brakes_until: Duration,
+    /// Whether the fence is so near that the drone must lean against the wind at once.
+    near_fence: bool,
 }
 
 impl CarriedOff {
     /// Handles the motion of one tick in a fence of this radius.
     pub(super) fn see(&mut self, now: &Situation, radius_m: f64) {
-        let [right_m_s, forward_m_s, _] = now.velocity_m_s;
-        let away_m_s = outward(now, [right_m_s, forward_m_s]);
-        if Self::stops(now, away_m_s, radius_m) {
+        let motion = Motion::of(now);
+        let away_m_s = motion.speed_m_s;
+        if now.blind_for > super::STALE {
             *self = Self::default();
             return;
         }
-        if self.since.is_none() {
-            *self = Self { since: Some(now.now), away_m_s, brakes_until: Duration::ZERO };
+        if motion.stops(now, radius_m) {
+            let stops_since = *self.stops_since.get_or_insert(now.now);
+            if now.now.saturating_sub(stops_since) >= LULL {
+                *self = Self::default();
+            }
+            return;
         }
+        self.stops_since = None;
+        if self.since.is_none() {
+            *self = Self { since: Some(now.now), away_m_s, ..Self::default() };
+        }
+        self.near_fence = motion.room_m(now, radius_m) <= motion.speed_m_s * SOON_S;
         if away_m_s < self.away_m_s - BRAKES_M_S {
             self.away_m_s = away_m_s;
             self.brakes_until = now.now + BRAKES;
@@ -43,23 +68,58 @@ impl CarriedOff {
         self.since
     }
 
+    /// Whether the drone must lean against the wind before it is known to last.
+    pub(super) fn leans(&self) -> bool {
+        self.since.is_some() && self.near_fence
+    }
+
     /// Whether it has lasted longer than a gust.
     pub(super) fn lasts(&self, now: Duration) -> bool {
         self.since.is_some_and(|since| now.saturating_sub(since) >= GUST)
             && now >= self.brakes_until
+            && self.stops_since.is_none()
+    }
+}
+
+/// Horizontal motion of the drone.
+#[derive(Debug, Clone, Copy)]
+struct Motion {
+    speed_m_s: f64,
+    /// Unit vector towards right and forward; zero at rest.
+    heading: [f64; 2],
+}
+
+impl Motion {
+    fn of(now: &Situation) -> Self {
+        let [right_m_s, forward_m_s, _] = now.velocity_m_s;
+        let speed_m_s = right_m_s.hypot(forward_m_s);
+        let share = 1.0 / speed_m_s.max(f64::EPSILON);
+        Self { speed_m_s, heading: [right_m_s * share, forward_m_s * share] }
     }
 
-    /// Whether the drone comes to rest inside the fence at full tilt against its motion. Assumed if navdata
-    /// are too old to tell.
-    fn stops(now: &Situation, away_m_s: f64, radius_m: f64) -> bool {
-        let room_m = radius_m + MARGIN_M - now.pose.x_m.hypot(now.pose.y_m);
+    /// Whether no storm keeps the drone from coming to rest inside the fence at full tilt against its motion.
+    fn stops(&self, now: &Situation, radius_m: f64) -> bool {
         // The disturbance refers to a drone at rest; one that moves with the wind experiences less of it.
-        let dragged_m_s2 = now.drag_1_s * away_m_s / 2.0;
-        let braking_m_s2 = now.full_tilt_m_s2 * (1.0 - outward(now, now.wind)) + dragged_m_s2;
-        let way_m = away_m_s * REACTION_S + away_m_s * away_m_s / (2.0 * braking_m_s2);
-        away_m_s <= SLOW_M_S
-            || now.blind_for > super::STALE
-            || braking_m_s2 > 0.0 && way_m <= room_m
+        let dragged_m_s2 = now.drag_1_s * self.speed_m_s / 2.0;
+        let braking_m_s2 = now.full_tilt_m_s2 * (1.0 - self.along(now.wind)) + dragged_m_s2;
+        let way_m =
+            self.speed_m_s * REACTION_S + self.speed_m_s * self.speed_m_s / (2.0 * braking_m_s2);
+        self.speed_m_s <= SLOW_M_S
+            || self.along(now.wind) < STORM
+            || braking_m_s2 > 0.0 && way_m <= self.room_m(now, radius_m + MARGIN_M)
+    }
+
+    /// Distance in the direction of motion until the drone is this far from the fence's centre.
+    fn room_m(&self, now: &Situation, radius_m: f64) -> f64 {
+        let Pose { x_m, y_m, .. } = now.pose;
+        let passed_m = self.along([x_m, y_m]);
+        let aside_m = self.heading[0] * y_m - self.heading[1] * x_m;
+        (radius_m * radius_m - aside_m * aside_m).max(0.0).sqrt() - passed_m
+    }
+
+    /// The component in the direction of motion.
+    fn along(&self, [right, forward]: [f64; 2]) -> f64 {
+        right * self.heading[0] + forward * self.heading[1]
     }
 }
 
@@ -69,7 +129,7 @@ mod tests {
     use crate::safety::tests::FINE;
 
     const RADIUS_M: f64 = 10.0;
-    const STORM: [f64; 2] = [0.0, -1.1];
+    const TO_THE_REAR: [f64; 2] = [0.0, -1.1];
 
     /// Time until a drone is carried off that is 3 m inside its fence and moves backward at the given speed.
     fn carried_off_after(
@@ -92,13 +152,13 @@ mod tests {
             |wind, away_m_s| carried_off_after(|now| Situation { wind, ..now }, |_| away_m_s);
         let soon = Some(GUST);
         let within = |time: Option<Duration>| time.is_some_and(|time| time <= GUST * 2);
-        assert!(after(STORM, 1.0) >= soon && within(after(STORM, 1.0)));
+        assert!(after(TO_THE_REAR, 1.0) >= soon && within(after(TO_THE_REAR, 1.0)));
         assert!(within(after([0.0, -0.98], 1.0)), "it leans against more, but not enough");
-        assert_eq!(after(STORM, 0.2), None, "it holds its place");
+        assert_eq!(after(TO_THE_REAR, 0.2), None, "it holds its place");
         assert_eq!(after([0.0, -0.5], 1.0), None, "it can brake");
         assert_eq!(after([0.0, 1.1], 1.0), None, "the wind brakes it");
         assert_eq!(after([1.1, 0.0], 1.0), None, "the wind comes from the side");
-        let blind = |now| Situation { wind: STORM, blind_for: Duration::from_secs(1), ..now };
+        let blind = |now| Situation { wind: TO_THE_REAR, blind_for: Duration::from_secs(1), ..now };
         assert_eq!(carried_off_after(blind, |_| 1.0), None, "nobody knows");
     }
 
@@ -106,12 +166,41 @@ mod tests {
     fn a_gust_passes() {
         let wind = |now: Situation| {
             let gust_ends = FINE.now + GUST.saturating_sub(Duration::from_millis(60));
-            Situation { wind: if now.now < gust_ends { STORM } else { [0.0; 2] }, ..now }
+            Situation { wind: if now.now < gust_ends { TO_THE_REAR } else { [0.0; 2] }, ..now }
         };
         assert_eq!(carried_off_after(wind, |_| 1.0), None);
         // While the drone decelerates, a gust is not taken for a storm.
-        let storm = |now| Situation { wind: STORM, ..now };
+        let storm = |now| Situation { wind: TO_THE_REAR, ..now };
         let braking = |s: f64| (3.0 - 1.2 * s).max(0.0);
         assert_eq!(carried_off_after(storm, braking), None);
+    }
+
+    #[test]
+    fn room_is_measured_in_the_direction_of_motion() {
+        // Seen from the fence's centre, the drone moves neither outward nor inward.
+        let pose = Pose { x_m: 6.0, ..FINE.pose };
+        let now = Situation { pose, velocity_m_s: [0.0, -3.0, 0.0], ..FINE };
+        let room_m = Motion::of(&now).room_m(&now, RADIUS_M);
+        assert!((room_m - 8.0).abs() < 1e-9, "{room_m}");
+        let back = Situation { velocity_m_s: [-3.0, 0.0, 0.0], ..now };
+        assert!((Motion::of(&back).room_m(&back, RADIUS_M) - 16.0).abs() < 1e-9);
+        let outside = Situation { pose: Pose { x_m: 11.0, ..pose }, ..now };
+        assert!(Motion::of(&outside).room_m(&outside, RADIUS_M) <= 0.0);
+    }
+
+    #[test]
+    fn a_wind_that_the_controller_can_brake_against_is_no_storm() {
+        let see = |wind, velocity_m_s| {
+            let mut carried = CarriedOff::default();
+            let pose = Pose { y_m: 1.0 - RADIUS_M, ..FINE.pose };
+            carried.see(&Situation { pose, velocity_m_s, wind, ..FINE }, RADIUS_M);
+            (carried.since().is_some(), carried.leans())
+        };
+        let backward = [0.0, -2.0, 0.0];
+        assert_eq!(see(TO_THE_REAR, backward), (true, true));
+        assert_eq!(see([0.0, -0.5], backward), (false, false), "it flies too fast by its sticks");
+        assert_eq!(see(TO_THE_REAR, [0.0; 3]), (false, false));
+        let toward_the_far_side = [0.0, 2.0, 0.0];
+        assert_eq!(see([0.0, 1.1], toward_the_far_side), (true, false), "there is time");
     }
 }

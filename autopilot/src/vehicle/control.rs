@@ -4,8 +4,9 @@ use std::time::Duration;
 
 use ardrone_link::at::{Fraction, Motion};
 use ardrone_link::session::{FlightOrder, Order};
-use estimator::{Airframe, Prediction, Sticks};
-use pid::{Demand, Inputs, Pose};
+use estimator::Prediction;
+use kinematics::{Pose, Sticks, Velocity};
+use pid::Inputs;
 
 use super::{Vehicle, pose};
 use crate::agent::AgentCommand;
@@ -24,7 +25,7 @@ impl Vehicle {
         if !matches!(command, AgentCommand::GoTo(_)) {
             self.flight.saturation.rest(state, step_s);
         }
-        let mut sent: Option<Demand> = None;
+        let mut sent: Option<Sticks> = None;
         let order = match command {
             AgentCommand::Standby | AgentCommand::Land => {
                 self.flight.controller.reset();
@@ -67,53 +68,28 @@ impl Vehicle {
         if sent.is_none() {
             self.flight.safety.let_go();
         }
-        let sent = sent.map_or(estimator::Order::ByItself, |demand| {
-            estimator::Order::Sticks(Sticks {
-                right: demand.roll,
-                forward: -demand.pitch,
-                up: demand.gaz,
-                clockwise: demand.yaw,
-            })
-        });
+        let sent = sent.map_or(estimator::Order::ByItself, estimator::Order::Sticks);
         self.flight.estimator.told(now, sent);
         order
     }
 
     /// Stick demand that steers towards `target`.
-    fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Demand {
+    fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Sticks {
         // A command takes effect after the dead time, so it is computed for the state predicted at that
         // moment.
         let state = self.state(now + self.config.estimator.dead_time);
         // A tag that is seen again moves the estimate by a step, which comes as a motion.
         let state = self.flight.estimator.smooth(&state);
-        let Airframe {
-            tilt_gain,
-            tilt_lag_s,
-            climb_gain,
-            drop_gain,
-            climb_lag_s,
-            thrust_gain,
-            drag_1_s,
-            ..
-        } = *self.flight.estimator.airframe();
         self.flight.controller.step(&Inputs {
             pose: &pose(&state),
-            motion: &pid::Motion {
+            velocity: &Velocity {
                 x_m_s: state.velocity_m_s.x,
                 y_m_s: state.velocity_m_s.y,
                 z_m_s: state.velocity_m_s.z,
                 yaw_deg_s: state.turn_deg_s,
             },
             disturbance_m_s2: state.disturbance_m_s2,
-            airframe: pid::Airframe {
-                tilt_gain,
-                tilt_lag_s,
-                climb_gain,
-                drop_gain,
-                climb_lag_s,
-                thrust_gain,
-                drag_1_s,
-            },
+            airframe: *self.flight.estimator.airframe(),
             target,
             step_s,
             limit: self.mission.max_control(),
@@ -121,7 +97,7 @@ impl Vehicle {
     }
 }
 
-fn motion(demand: &Demand) -> Motion {
+fn motion(demand: &Sticks) -> Motion {
     Motion::Progressive {
         roll: Fraction::saturating(demand.roll),
         pitch: Fraction::saturating(demand.pitch),

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use ardrone_link::session::Order;
 use estimator::Prediction;
-use pid::Pose;
+use kinematics::Pose;
 
 use super::Phase;
 use crate::agent::{AgentCommand, ChosenPlans, Danger, Percepts, Report};

@@ -4,8 +4,9 @@ use std::time::Duration;
 
 use ardrone_link::navdata::{Demo, DroneState, Navdata};
 use estimator::{Estimator, Quantity, Sample};
+use kinematics::Pose;
 use nalgebra::Vector2;
-use pid::{Pose, PositionController};
+use pid::PositionController;
 
 use super::manual::Manual;
 use super::saturation::Saturation;
@@ -62,7 +63,11 @@ impl Flight {
     pub(super) fn new(config: &VehicleConfig, begins: Duration) -> Self {
         Self {
             estimator: Estimator::new(config.estimator),
-            controller: PositionController::new(config.law, config.cascade),
+            controller: PositionController::new(
+                config.law,
+                config.cascade,
+                config.estimator.limits,
+            ),
             agent: Agent::new(),
             activity: Activity::default(),
             safety: SafetyMonitor::new(config.limits),

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use pid::{Demand, Pose};
+use kinematics::{Pose, Sticks};
 
 use super::{FlightEvent, Refused, Vehicle};
 use crate::agent::Report;
@@ -28,7 +28,7 @@ enum Mode {
     #[default]
     None,
     Steered {
-        sticks: Demand,
+        sticks: Sticks,
         since: Duration,
     },
     SentTo {
@@ -40,7 +40,7 @@ enum Mode {
 
 impl Manual {
     /// The current stick input; `None` once it has expired.
-    pub(super) fn sticks(&self, now: Duration) -> Option<Demand> {
+    pub(super) fn sticks(&self, now: Duration) -> Option<Sticks> {
         match self.mode {
             Mode::Steered { sticks, since } if now.saturating_sub(since) < STICK_TIME => {
                 Some(sticks)
@@ -61,7 +61,7 @@ impl Vehicle {
         self.agent_holds();
     }
 
-    pub(super) fn steer(&mut self, now: Duration, sticks: Demand) {
+    pub(super) fn steer(&mut self, now: Duration, sticks: Sticks) {
         if self.flight.manual.sticks(now).is_none() {
             self.begin_manual(FlightEvent::Steered);
             self.flight.manual.pre_empts = true;

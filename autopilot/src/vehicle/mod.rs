@@ -8,6 +8,7 @@
 mod control;
 mod decision;
 mod flight;
+mod link;
 mod manual;
 mod operators;
 mod orders;
@@ -23,15 +24,15 @@ mod tick;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use ardrone_link::at::{Config, Datagram, EncodeError};
-use ardrone_link::configuration::Configuration;
+use ardrone_link::at::Config;
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
-use ardrone_link::session::{self, Received, Session, SessionConfig};
+use ardrone_link::session::{self, Session, SessionConfig};
 use ardrone_link::settings::{Detection, Setting, SettingError};
-pub use estimator::{Airframe, KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use estimator::{EstimatorConfig, Prediction};
+pub use estimator::{KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
+use kinematics::Pose;
+use pid::CascadeConfig;
 pub use pid::Law;
-use pid::{CascadeConfig, Pose};
 
 pub use self::decision::Decision;
 use self::flight::{Active, Flight, sample};
@@ -113,19 +114,10 @@ const EVENTS: usize = 64;
 const FAULT_TIME: Duration = Duration::from_millis(300);
 /// Time constant of the average that removes gusts from the disturbance, in seconds.
 const WIND_TIME_S: f64 = 2.0;
-/// Time constant of the navdata rate's average, in seconds.
-const RATE_TIME_S: f64 = 1.0;
-const GRAVITY_M_S2: f64 = 9.81;
 
 /// Ticks between two readiness checks.
 const READINESS_TICKS: u32 = 10;
 
-/// Requests the drone's clock in demo mode. Some firmware lets only a custom configuration change this key,
-/// so flying does not depend on it.
-const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
-/// What makes the drone look for roundels. A firmware may not know it, or not let the default configuration
-/// change it: the flight does not depend on it.
-const DETECTION_SECTION: &str = "detect:";
 /// The black and white oriented roundel in the selection of the bottom camera.
 const ROUNDEL_BIT: u32 = 1 << 7;
 
@@ -155,8 +147,6 @@ pub struct Vehicle {
     events: VecDeque<FlightEvent>,
     /// Decision of the last tick; `None` before the first navdata.
     decision: Option<Decision>,
-    /// Datagram of the last tick; its buffer is allocated once.
-    datagram: Datagram,
     pending: Pending,
 }
 
@@ -215,7 +205,6 @@ impl Vehicle {
             readiness_in: 0,
             events: VecDeque::with_capacity(EVENTS),
             decision: None,
-            datagram: Datagram::new(),
             pending: Pending::default(),
         })
     }
@@ -261,46 +250,12 @@ impl Vehicle {
         self.phase = FlightPhase::Settling { since: now, received };
     }
 
-    fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
-        match self.session.handle_navdata(now, datagram) {
-            Received::Navdata(navdata) => {
-                self.count_packet(now);
-                self.session_events(now);
-                if let Some(demo) = &navdata.demo {
-                    self.flight.estimator.update(&sample(now, &navdata, demo));
-                    if self.config.estimator.tags.is_some() {
-                        self.flight.estimator.see(&sights(datagram));
-                    }
-                }
-                self.navdata = Some(navdata);
-            }
-            // The session counts these.
-            Received::Stale | Received::Damaged(_) => {}
-        }
-    }
-
-    fn count_packet(&mut self, now: Duration) {
-        if let Some(last) = self.packet_at.replace(now) {
-            let period_s = now.saturating_sub(last).as_secs_f64().max(1e-3);
-            let share = (period_s / RATE_TIME_S).min(1.0);
-            self.navdata_hz += (1.0 / period_s - self.navdata_hz) * share;
-        }
-    }
-
-    fn handle_control(&mut self, now: Duration, bytes: &[u8]) {
-        self.session.handle_control(bytes);
-        self.session_events(now);
-    }
-
     /// A tick of a program that is about to exit: orders the landing through the session alone, so that it
-    /// works whatever state the agent and the estimator are in. See [`Session::part`].
-    ///
-    /// # Errors
-    /// See [`Session::part`].
-    pub fn part(&mut self, now: Duration) -> Result<(), EncodeError> {
-        self.session.part(now, &mut self.datagram)?;
-        self.pending.command = !self.datagram.as_bytes().is_empty();
-        Ok(())
+    /// works whatever state the agent and the estimator are in. See [`session::Input::Part`].
+    pub fn part(&mut self, now: Duration) {
+        self.session.handle(now, session::Input::Part);
+        let transmit = self.session.poll_transmit();
+        self.pending.command = matches!(transmit, Some(session::Transmit::Command(_)));
     }
 
     /// Counts of valid, stale and damaged datagrams.
@@ -310,7 +265,7 @@ impl Vehicle {
 
     /// The datagram of the last tick, empty if there was none.
     pub fn datagram(&self) -> &[u8] {
-        self.datagram.as_bytes()
+        self.session.datagram()
     }
 
     /// Decision of the last tick; `None` before the first navdata.

@@ -9,7 +9,8 @@ use crate::mission::{AppendError, Underway};
 use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, Commands, Plan};
 use ardrone_link::navdata::DroneState;
-use pid::Demand;
+use ardrone_link::session::Request;
+use kinematics::Sticks;
 
 /// An order from an operator.
 ///
@@ -36,7 +37,7 @@ pub enum OperatorOrder {
     /// Resume the mission.
     Resume,
     /// Manual control: stick fractions with the drone's signs. They expire after 600 ms unless repeated.
-    Steer(Demand),
+    Steer(Sticks),
     /// Fly to this place at the present height and heading and stay there; the mission is paused. A place
     /// near or outside the fence is moved inside. Coordinates are in the estimator's frame.
     GoTo {
@@ -151,13 +152,18 @@ impl Vehicle {
                 self.flight.safety.land_here();
                 self.land(now, LandingReason::Operator);
             }
+            // Nothing is sent to such a drone, so a cut would have no effect.
+            OperatorOrder::Cut if self.departure.is_none() && self.is_foreign() => {
+                return Err(Refused::FlownByAnother);
+            }
             OperatorOrder::Cut => {
-                // A start that waits is no reason to fly once the motors have been cut.
+                // A start that waits is no reason to fly once the motors have been cut. A drone that is
+                // being taken over in the air is landed, in case the cut does not reach it.
                 if self.departure.is_some() {
-                    self.end(now, Outcome::Interrupted);
+                    self.land(now, LandingReason::Operator);
                 }
                 self.events.push_back(FlightEvent::CutOrdered);
-                self.session.request_emergency_stop();
+                self.request(now, Request::EmergencyStop);
             }
             OperatorOrder::Recover => return self.recover(now),
             OperatorOrder::Release => self.controls.release(by),
@@ -206,13 +212,18 @@ impl Vehicle {
     fn can_be_held(&self) -> Result<(), Refused> {
         if self.lands() {
             Err(Refused::Landing)
-        } else if self.authority == Authority::None && !self.on_ground() {
+        } else if self.is_foreign() {
             Err(Refused::FlownByAnother)
         } else if self.phase != FlightPhase::Flying || self.on_ground() {
             Err(Refused::OnGround)
         } else {
             Ok(())
         }
+    }
+
+    /// Whether another client flies the drone.
+    fn is_foreign(&self) -> bool {
+        self.authority == Authority::None && self.navdata.is_some() && !self.on_ground()
     }
 
     /// Whether the drone is landing, either by order or because the mission has reached its landing step.
@@ -319,7 +330,7 @@ impl Vehicle {
         if self.departure.is_some() {
             self.end(now, Outcome::Interrupted);
         }
-        self.session.request_emergency_reset();
+        self.request(now, Request::EmergencyReset);
         Ok(())
     }
 

@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use super::readiness::NotReady;
 use super::{
-    AgentOrder, Authority, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configuration,
-    Configured, DETECTION_SECTION, Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT,
-    NAVDATA_OPTIONS_KEY, SETTLE_TIME, TAG_LANDING_TIMEOUT, Trust, Vehicle, Veto, session,
+    AgentOrder, Authority, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configured,
+    Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT, SETTLE_TIME, TAG_LANDING_TIMEOUT, Trust,
+    Vehicle, Veto, session,
 };
 use crate::outcome::Outcome;
 
@@ -203,7 +203,7 @@ impl Vehicle {
             }
             // Another client has landed the drone, and may have changed its settings.
             FlightPhase::Observing { .. } if self.on_ground() && self.navdata.is_some() => {
-                self.session.configure_again();
+                self.request(now, session::Request::AllSettings);
                 self.begin_to_configure(now, Authority::OnGround);
             }
             FlightPhase::Configuring { since }
@@ -446,121 +446,11 @@ impl Vehicle {
         }
     }
 
-    pub(super) fn session_events(&mut self, now: Duration) {
-        while let Some(event) = self.session.poll_event() {
-            match event {
-                session::Event::Connected => {
-                    if self.phase == FlightPhase::Connecting {
-                        self.found(now);
-                        self.events.push_back(FlightEvent::Connected);
-                    }
-                }
-                session::Event::ConfigurationTimedOut { key } => self.setting_unconfirmed(&key),
-                session::Event::ConfigurationRead(configuration) => {
-                    self.compare_configuration(&configuration);
-                }
-                session::Event::ConfigurationNotRead => {
-                    self.configured.not_read = true;
-                    self.events.push_back(FlightEvent::ConfigurationNotRead);
-                }
-                session::Event::Ready => {
-                    if matches!(self.phase, FlightPhase::Configuring { .. }) {
-                        // In the air the drone is not level, so flat trim would set a wrong reference.
-                        if self.on_ground() {
-                            self.session.request_flat_trim();
-                        }
-                        let received = self.session.statistics().received;
-                        self.phase = FlightPhase::Settling { since: now, received };
-                        self.events.push_back(FlightEvent::Configured);
-                    }
-                }
-                session::Event::LinkLost => self.link_lost(now),
-                session::Event::DroneRestarted => {
-                    self.flight.estimator.handle_restart();
-                    self.navdata = None;
-                    match self.phase {
-                        FlightPhase::Flying => self.land(now, LandingReason::DroneRestarted),
-                        FlightPhase::Settling { .. } | FlightPhase::Standby { .. } => {
-                            self.begin_to_configure(now, self.authority);
-                        }
-                        _ => {}
-                    }
-                }
-                session::Event::Emergency => {
-                    self.events.push_back(FlightEvent::Emergency);
-                    if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
-                        self.end(now, Outcome::Emergency);
-                    }
-                }
-                session::Event::EmergencyCleared => {
-                    self.events.push_back(FlightEvent::EmergencyCleared);
-                }
-                session::Event::Landed => self.events.push_back(FlightEvent::Landed),
-                // The agent has its own take-off timeout.
-                session::Event::Configured { .. }
-                | session::Event::Airborne
-                | session::Event::TakeOffTimedOut => {}
-            }
-        }
-    }
-
-    /// Handles the first answer of the drone.
-    fn found(&mut self, now: Duration) {
-        if self.on_ground() {
-            self.begin_to_configure(now, Authority::OnGround);
-        } else {
-            let received = self.session.statistics().received;
-            self.phase = FlightPhase::Observing { since: now, received };
-        }
-    }
-
     /// Starts sending to the drone.
     pub(super) fn begin_to_configure(&mut self, now: Duration, authority: Authority) {
         self.authority = authority;
         self.flight.asked_at = now;
         self.configured = Configured::default();
         self.phase = FlightPhase::Configuring { since: now };
-    }
-
-    fn link_lost(&mut self, now: Duration) {
-        self.events.push_back(FlightEvent::LinkLost);
-        // In flight the agent lands once navdata have been missing for too long.
-        if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
-            return;
-        }
-        self.phase = FlightPhase::Connecting;
-        self.authority = Authority::None;
-        self.navdata = None;
-        if self.departure.is_some() {
-            self.end(now, Outcome::NoDrone);
-        }
-    }
-
-    pub(super) fn compare_configuration(&mut self, configuration: &Configuration) {
-        let version = configuration.get("general:num_version_soft").map(str::to_owned);
-        self.events.push_back(FlightEvent::ConfigurationRead { version });
-        let differing: Vec<String> = self
-            .settings
-            .iter()
-            .filter(|setting| !configuration.has(setting.key(), setting.value()))
-            .map(|setting| setting.key().to_owned())
-            .collect();
-        for key in differing {
-            self.setting_unconfirmed(&key);
-        }
-    }
-
-    /// A limit that the drone has not applied forbids the flight. Without the additional navdata options the
-    /// estimator falls back to arrival times.
-    pub(super) fn setting_unconfirmed(&mut self, key: &str) {
-        if key == NAVDATA_OPTIONS_KEY {
-            self.events.push_back(FlightEvent::NoDroneClock);
-        } else if key.starts_with(DETECTION_SECTION) {
-            if !std::mem::replace(&mut self.configured.no_detection, true) {
-                self.events.push_back(FlightEvent::NoTagDetection);
-            }
-        } else if !self.configured.unconfirmed.iter().any(|other| other == key) {
-            self.configured.unconfirmed.push(key.to_owned());
-        }
     }
 }

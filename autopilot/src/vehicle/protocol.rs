@@ -3,8 +3,6 @@
 
 use std::time::Duration;
 
-use ardrone_link::at::EncodeError;
-
 use super::{Decision, FlightEvent, NotReady, Operator, OperatorOrder, Vehicle, Waypoint};
 use crate::outcome::Outcome;
 use crate::plan::Step;
@@ -78,17 +76,14 @@ impl Vehicle {
     }
 
     /// Decides what the drone shall do. Call it every [`TICK`](super::TICK), then poll the outputs.
-    ///
-    /// # Errors
-    /// See [`Session::tick`](ardrone_link::session::Session::tick).
-    pub fn tick(&mut self, now: Duration) -> Result<(), EncodeError> {
-        self.tick_timed(now, |_| {})
+    pub fn tick(&mut self, now: Duration) {
+        self.tick_timed(now, |_| {});
     }
 
     /// The next datagram to send. The command comes first, because it must not wait for the rest.
     pub fn poll_transmit(&mut self) -> Option<Transmit<'_>> {
         if std::mem::take(&mut self.pending.command) {
-            let datagram = self.datagram.as_bytes();
+            let datagram = self.session.datagram();
             return Some(Transmit::Command { datagram, decision: self.decision.as_ref() });
         }
         std::mem::take(&mut self.pending.wake_up).then_some(Transmit::WakeUp)

@@ -4,8 +4,8 @@ use std::fmt;
 use std::time::Duration;
 
 use diagnostic::printable;
-use estimator::{Airframe, TagStatus, Trust};
-use pid::Pose;
+use estimator::{TagStatus, Trust};
+use kinematics::{Airframe, Pose};
 
 use super::{LandingReason, Operator, Phase};
 use crate::agent::{ChosenPlans, distance};
@@ -198,6 +198,7 @@ impl fmt::Display for FlightEvent {
                 Veto::TargetOutside => "target outside the fence: flying to its edge",
                 Veto::NearFence => "at the fence: stopping",
                 Veto::OutsideFence => "outside the fence: flying back and landing",
+                Veto::AgainstWind => "the wind is stronger than the drone can brake: leaning against it",
                 Veto::CarriedOff => "the wind is stronger than the drone can brake: landing",
             }),
         }

@@ -9,8 +9,8 @@
 //! velocity measurement that drifts, which nothing else detects.
 
 use estimator::Prediction;
+use kinematics::{Pose, Sticks};
 use nalgebra::{Vector2, Vector3};
-use pid::{Demand, Pose};
 
 /// Sticks beyond this fraction of their limit count as saturated; the control law keeps a small reserve.
 const FULL: f64 = 0.95;
@@ -68,7 +68,7 @@ impl Saturation {
     /// then is not enough to hold a position.
     pub(super) fn watch(
         &mut self,
-        demand: &Demand,
+        demand: &Sticks,
         limit: f64,
         state: &Prediction,
         target: &Pose,
@@ -119,7 +119,7 @@ mod tests {
 
     const TARGET: Pose = Pose { x_m: 0.0, y_m: 0.0, z_m: 1.0, yaw_deg: 0.0 };
 
-    fn after_a_second(demand: Demand, position: [f64; 3], velocity: [f64; 3]) -> i64 {
+    fn after_a_second(demand: Sticks, position: [f64; 3], velocity: [f64; 3]) -> i64 {
         let state = Prediction {
             position_m: position.into(),
             velocity_m_s: velocity.into(),
@@ -134,9 +134,9 @@ mod tests {
 
     #[test]
     fn only_a_drone_that_drifts_off_at_full_stick_is_too_weak() {
-        let full = Demand { roll: -1.0, ..Demand::default() };
-        let half = Demand { roll: -0.5, ..Demand::default() };
-        let sinking = Demand { gaz: 1.0, ..Demand::default() };
+        let full = Sticks { roll: -1.0, ..Sticks::default() };
+        let half = Sticks { roll: -0.5, ..Sticks::default() };
+        let sinking = Sticks { gaz: 1.0, ..Sticks::default() };
         let (right, low) = ([1.0, 0.0, 1.0], [0.0, 0.0, 0.5]);
         assert_eq!(after_a_second(full, right, [0.5, 0.0, 0.0]), 1000);
         assert_eq!(after_a_second(full, right, [-0.5, 0.0, 0.0]), 0, "it comes back");
@@ -159,7 +159,7 @@ mod tests {
             let here = Pose { z_m: 0.0, ..TARGET };
             for _ in 0..500 {
                 let state = disturbed(then_m_s2);
-                saturation.watch(&Demand::default(), 1.0, &state, &here, 2.0, 0.01);
+                saturation.watch(&Sticks::default(), 1.0, &state, &here, 2.0, 0.01);
             }
             saturation.for_ms()
         };
@@ -176,7 +176,7 @@ mod tests {
                 let x_m = 3.0 - speed_m_s * 0.01 * f64::from(step);
                 let position_m = Vector3::new(x_m, 0.0, 1.0);
                 let state = Prediction { position_m, ..Prediction::default() };
-                saturation.watch(&Demand::default(), 1.0, &state, &TARGET, 2.0, 0.01);
+                saturation.watch(&Sticks::default(), 1.0, &state, &TARGET, 2.0, 0.01);
             }
             saturation.for_ms()
         };

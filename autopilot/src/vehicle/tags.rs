@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use ardrone_link::navdata::{Packet, VisionDetect};
 use estimator::{MAX_SIGHTS, Prediction, Sight};
+use kinematics::Pose;
 use nalgebra::Vector2;
-use pid::Pose;
 
 use super::{Vehicle, VehicleConfig};
 use crate::agent::TagPercepts;

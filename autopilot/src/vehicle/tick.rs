@@ -2,39 +2,30 @@
 
 use std::time::Duration;
 
-use ardrone_link::at::EncodeError;
 use ardrone_link::navdata::{ControlState, DroneState};
+use ardrone_link::session::Input;
 use estimator::Prediction;
+use kinematics::{GRAVITY_M_S2, Pose};
 use nalgebra::Vector2;
-use pid::Pose;
 
 use super::{
-    Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, GRAVITY_M_S2, LandingReason,
-    NotReady, Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S,
-    Waypoint, pose,
+    Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, LandingReason, NotReady,
+    Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S, Waypoint, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Percepts};
 use crate::safety::Situation;
 
 impl Vehicle {
     /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
-    ///
-    /// # Errors
-    /// See [`ardrone_link::session::Session::tick`].
-    pub fn tick_timed(
-        &mut self,
-        now: Duration,
-        mut done: impl FnMut(Stage),
-    ) -> Result<(), EncodeError> {
-        self.datagram.clear();
-        self.decide(now, &mut done)?;
-        self.pending.command = !self.datagram.as_bytes().is_empty();
-        self.pending.wake_up = self.session.wake_up_due(now);
-        Ok(())
+    pub fn tick_timed(&mut self, now: Duration, mut done: impl FnMut(Stage)) {
+        // A datagram that was not sent is outdated.
+        self.pending.command = false;
+        self.pending.wake_up = false;
+        self.decide(now, &mut done);
     }
 
     /// Decides what the drone shall do, and encodes it.
-    fn decide(&mut self, now: Duration, done: &mut impl FnMut(Stage)) -> Result<(), EncodeError> {
+    fn decide(&mut self, now: Duration, done: &mut impl FnMut(Stage)) {
         let step_s = self
             .last_tick
             .map_or(TICK, |last| now.saturating_sub(last))
@@ -44,9 +35,8 @@ impl Vehicle {
         self.watch_readiness(now);
         self.watch(now);
         if self.navdata.is_none() || self.authority == Authority::None {
-            self.session.idle(now);
-            self.session_events(now);
-            return Ok(());
+            self.pass_on(now, Input::Listen);
+            return;
         }
         self.offer_order(now);
         // The state is predicted once, so that everything below uses the same one.
@@ -92,10 +82,9 @@ impl Vehicle {
             order,
         });
         done(Stage::Control);
-        self.session.tick(now, order, &mut self.datagram)?;
+        self.session.handle(now, Input::Tick(order));
         done(Stage::Encode);
-        self.session_events(now);
-        Ok(())
+        self.take_in(now);
     }
 
     /// Checks the readiness every [`READINESS_TICKS`]. Only a change in the kinds of reasons is reported, not

@@ -1,18 +1,18 @@
-//! From a place in the picture to a place on the floor below the drone.
+//! From a position in the picture to a position on the floor below the drone.
 
 use nalgebra::Vector2;
 
 use super::history::Moment;
 use super::{Sight, TagConfig};
 
-/// The firmware takes every pattern for one of this size when it tells the distance.
+/// Pattern size that the firmware assumes for its distance.
 const FIRMWARE_SIZE_M: f64 = 0.222;
-/// A distance or a size that is further off than this share is that of something else.
+/// Relative error of distance or size beyond which a sighting is not one of our roundels.
 const WRONG_SIZE: f64 = 0.4;
-/// No look goes further aside than this: the picture ends long before.
+/// Largest angle from the vertical; the picture ends long before.
 const STEEPEST_RAD: f64 = 1.0;
 
-/// Where a roundel lies as seen from the drone.
+/// Position of a roundel relative to the drone.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Look {
     /// Right and forward of the point below the drone, levelled.
@@ -22,7 +22,7 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// Nothing if what was seen cannot be one of our roundels on the floor, or is not whole.
+    /// `None` if the sighting cannot be one of our roundels on the floor, or is not complete.
     pub(super) fn new(sight: &Sight, moment: &Moment, config: &TagConfig) -> Option<Self> {
         let [focal_x, focal_y] = config.focal_units;
         let [centre_x, centre_y] = config.centre_units;
@@ -34,7 +34,7 @@ impl Look {
         if touches_rim(sight.x, sight.width) || touches_rim(sight.y, sight.height) {
             return None;
         }
-        // Leaning right the camera looks left: what is below appears further right.
+        // With the right side down the camera looks left, and points below appear further right.
         let right_rad = ((sight.x - centre_x) / focal_x).atan() - tilt_rad.x;
         let forward_rad = ((centre_y - sight.y) / focal_y).atan() + tilt_rad.y;
         if right_rad.abs().max(forward_rad.abs()) > STEEPEST_RAD {

@@ -1,8 +1,8 @@
-//! An extended Kalman filter of what the odometry is wrong by.
+//! An extended Kalman filter for the error of the odometry.
 //!
-//! State: the correction of the place (2), the flow's bias in the body (2), the correction of the heading and its
-//! rate, two angles by which the camera's centre is off (mounting, level reference, calibration), and for each tag
-//! its place (2) and direction. Arrays of fixed size: nothing is allocated.
+//! State: correction of the position (2), bias of the flow in the body frame (2), correction of the heading
+//! and its rate, two angles of the camera's centre (mounting, level reference, calibration), and for each tag
+//! its position (2) and direction. Arrays of fixed size: no allocation.
 
 mod landmarks;
 
@@ -11,7 +11,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::SLOTS;
 use super::camera::Look;
 use super::history::Moment;
-use crate::horizontal::world_from_body;
+use kinematics::{world_from_body, wrap_deg, wrap_rad};
 
 const PLACE: usize = 0;
 const BIAS: usize = 2;
@@ -21,55 +21,55 @@ const CAMERA: usize = 6;
 const TAGS: usize = 8;
 const STATES: usize = TAGS + 3 * SLOTS;
 
-/// Standard deviation of the flow's bias at the start, how it walks, and when it has forgotten what it was.
+/// Initial standard deviation of the flow's bias, its random walk, and the time constant of its decay.
 const BIAS_M_S: f64 = 0.013;
 const BIAS_WALK_M_S: f64 = 0.003;
 const BIAS_TIME_S: f64 = 120.0;
-/// What the flow's noise adds to the place, in m² a second.
+/// Variance that the flow's noise adds to the position, in m² per second.
 const PLACE_WALK_M2_S: f64 = 1e-4;
-/// Of the heading's drift, and what makes it wander.
+/// Standard deviation of the heading's drift, and its random walk.
 const RATE_DEG_S: f64 = 0.03;
 const RATE_WALK_DEG_S: f64 = 0.0005;
 const HEADING_WALK_DEG: f64 = 0.02;
-/// Of the camera's centre: 50 units and a degree of mounting.
+/// Standard deviation of the camera's centre: 50 units, and a degree of mounting.
 const CAMERA_RAD: f64 = 0.03;
-/// How well a surveyed drone stands where the plan begins, and points there.
+/// Standard deviation with which a drone is placed at the start of the plan, and aligned.
 const START_M: f64 = 0.15;
 const START_DEG: f64 = 5.0;
-/// Of one sight: the share of the height, the share of the way aside (a focal length that is wrong), the age of
-/// the picture, and what remains. Sights follow each other closely and err alike: each counts for less than its
-/// noise would make it.
+/// Standard deviations of one sighting: a fraction of the height, a fraction of the offset (focal length),
+/// the age of the picture, and a constant. Consecutive sightings have correlated errors, so each has more
+/// variance than its noise alone.
 const SIGHT_HEIGHT: f64 = 0.03;
 const SIGHT_ASIDE: f64 = 0.06;
 const SIGHT_AGE_S: f64 = 0.06;
 const SIGHT_M: f64 = 0.01;
-/// Of the flow's scale, as a share of the way since the last fix.
+/// Standard deviation of the flow's scale, as a fraction of the distance since the last fix.
 const SCALE: f64 = 0.06;
-/// Of one orientation.
+/// Standard deviation of one orientation.
 const ORIENTATION_DEG: f64 = 8.0;
-/// Of the mean over some of them.
+/// Standard deviation of a mean orientation.
 const MEAN_ORIENTATION_DEG: f64 = 3.0;
-/// Sights beyond so many deviations are of something else.
+/// Gate in standard deviations, beyond which a sighting is of something else.
 const GATE: f64 = 5.0;
 
-/// What is to be added to the odometry.
+/// Correction to be added to the odometry.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Correction {
     pub(super) place_m: Vector2<f64>,
     pub(super) heading_rad: f64,
 }
 
-/// A sight in the world.
+/// A sighting in the world frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sighted {
-    /// Where the tag lies as far as is known.
+    /// Estimated position of the tag.
     pub(super) place_m: Vector2<f64>,
     /// From the drone to the tag.
     from_drone_m: Vector2<f64>,
-    /// The world's right and forward per camera angle.
+    /// World displacement (right, forward) per camera angle.
     camera_m: Matrix2<f64>,
     variance_m2: f64,
-    /// Variance that the odometry's scale adds to what may be expected.
+    /// Variance that the scale of the odometry adds to the gate.
     scale_m2: f64,
 }
 
@@ -77,7 +77,7 @@ pub(super) struct Sighted {
 pub(super) struct Filter {
     x: [f64; STATES],
     p: [[f64; STATES]; STATES],
-    /// States in use: nothing behind them is looked at.
+    /// Number of states in use; the rest is not evaluated.
     used: usize,
 }
 
@@ -85,7 +85,7 @@ type Row = [f64; STATES];
 
 #[expect(clippy::needless_range_loop, reason = "rows and columns of matrices")]
 impl Filter {
-    /// `surveyed`: the world is given by tags, and the drone stands in it as well as it was put.
+    /// `surveyed`: the world is given by tags, and the drone stands in it with the accuracy of its placement.
     pub(super) fn new(surveyed: bool) -> Self {
         let mut filter = Self { x: [0.0; STATES], p: [[0.0; STATES]; STATES], used: TAGS };
         let mut set = |state: usize, deviation: f64| filter.p[state][state] = deviation * deviation;
@@ -114,12 +114,12 @@ impl Filter {
         Vector2::new(self.x[BIAS], self.x[BIAS + 1])
     }
 
-    /// Of the place, on the worse axis.
+    /// Variance of the position on the worse axis.
     pub(super) fn place_variance_m2(&self) -> f64 {
         self.p[PLACE][PLACE].max(self.p[PLACE + 1][PLACE + 1])
     }
 
-    /// The odometry has gone this way, facing so, in so much time of flight.
+    /// Propagates by a displacement of the odometry at a heading, in this much time of flight.
     pub(super) fn fly(&mut self, way_m: Vector2<f64>, yaw_deg: f64, step_s: f64) {
         let heading_rad = self.x[HEADING];
         let turned = world_from_body(way_m, heading_rad.to_degrees());
@@ -127,7 +127,7 @@ impl Filter {
         let (right, forward) =
             (world_from_body(Vector2::x(), yaw_deg), world_from_body(Vector2::y(), yaw_deg));
         let biased = (right * self.x[BIAS] + forward * self.x[BIAS + 1]) * step_s;
-        // Turned clockwise by a little more.
+        // Derivative with respect to the heading.
         let by_heading = Vector2::new(turned.y, -turned.x);
         let kept = (1.0 - step_s / BIAS_TIME_S).max(0.0);
         for axis in 0..2 {
@@ -175,7 +175,7 @@ impl Filter {
         self.p[HEADING][HEADING] += deviation_rad * deviation_rad;
     }
 
-    /// The flow's bias is what it was at the start: not known.
+    /// The flow's bias is unknown again, as at the start.
     pub(super) fn forget_bias(&mut self) {
         for axis in 0..2 {
             self.forget(BIAS + axis, BIAS_M_S * BIAS_M_S);
@@ -183,7 +183,7 @@ impl Filter {
         }
     }
 
-    /// A state that nothing is known of but its variance.
+    /// Resets a state to zero with a variance.
     fn forget(&mut self, state: usize, variance: f64) {
         for other in 0..STATES {
             self.p[state][other] = 0.0;
@@ -192,7 +192,7 @@ impl Filter {
         self.p[state][state] = variance;
     }
 
-    /// A look in the world, `way_m` from where the last tag was seen.
+    /// Transforms a look to the world; `way_m` is the distance from the last sighting of a tag.
     pub(super) fn sighted(&self, look: &Look, moment: &Moment, way_m: f64) -> Sighted {
         let yaw_deg = moment.yaw_deg + self.x[HEADING].to_degrees();
         let height_m = look.height_m;
@@ -217,7 +217,7 @@ impl Filter {
         }
     }
 
-    /// How the place of a sight follows from the states, without the tag's own.
+    /// Rows of the Jacobian of a sighting, without the tag's own position.
     fn rows(sighted: &Sighted) -> [Row; 2] {
         let mut rows = [[0.0; STATES]; 2];
         let by_heading = Vector2::new(sighted.from_drone_m.y, -sighted.from_drone_m.x);
@@ -244,7 +244,7 @@ impl Filter {
     }
 
     pub(super) fn tag_heading_deg(&self, tag: usize) -> f64 {
-        crate::angle::wrap_deg(self.x[TAGS + 3 * tag + 2].to_degrees())
+        wrap_deg(self.x[TAGS + 3 * tag + 2].to_degrees())
     }
 
     pub(super) fn tag_deviation_m(&self, tag: usize) -> f64 {
@@ -268,7 +268,7 @@ impl Filter {
         (gains, spread)
     }
 
-    /// Whether a sight may be of this tag.
+    /// Whether a sighting passes the gate of this tag.
     pub(super) fn admits(&self, sighted: &Sighted, tag: usize) -> bool {
         let off = sighted.place_m - self.tag_place_m(tag);
         let (_, spread) = self.spread(&Self::tag_rows(sighted, tag));
@@ -279,21 +279,21 @@ impl Filter {
         )
     }
 
-    /// A sight of a tag.
+    /// Corrects the state by a sighting of a tag.
     pub(super) fn correct(&mut self, sighted: &Sighted, tag: usize) {
         let off = sighted.place_m - self.tag_place_m(tag);
         let rows = Self::tag_rows(sighted, tag);
         self.correct_two(&rows, off, sighted.variance_m2 + sighted.scale_m2);
     }
 
-    /// Whether two tags may be one, in so many deviations, `way_m` from where the last one was seen.
+    /// Whether two tags may be one, within a number of deviations, `way_m` from the last sighting.
     pub(super) fn may_be_one(&self, one: usize, other: usize, way_m: f64) -> bool {
         let (_, spread) = self.spread(&Self::same_rows(one, other));
         let off = self.tag_place_m(one) - self.tag_place_m(other);
         is_within(GATE, off, spread + Matrix2::identity() * same_variance_m2(way_m))
     }
 
-    /// Two tags are one.
+    /// Merges two tags that are one.
     pub(super) fn make_one(&mut self, one: usize, other: usize, way_m: f64) {
         let off = self.tag_place_m(one) - self.tag_place_m(other);
         self.correct_two(&Self::same_rows(one, other), off, same_variance_m2(way_m));
@@ -308,7 +308,7 @@ impl Filter {
         rows
     }
 
-    /// What these rows see was seen to be off by this, with a variance, and should not be.
+    /// Corrects by two rows whose measured value should be zero and was `off`, with a variance.
     fn correct_two(&mut self, rows: &[Row; 2], off: Vector2<f64>, variance_m2: f64) {
         let (gains, spread) = self.spread(rows);
         let spread = spread + Matrix2::identity() * variance_m2;
@@ -328,7 +328,7 @@ impl Filter {
         }
     }
 
-    /// One orientation says that the tag points so, by the heading that is believed.
+    /// Corrects the heading by one orientation: the direction of the tag by the current heading.
     pub(super) fn correct_heading(&mut self, tag: usize, direction_rad: f64) {
         let state = TAGS + 3 * tag + 2;
         let mut row = [0.0; STATES];
@@ -353,7 +353,7 @@ impl Filter {
     }
 }
 
-/// Of two places that are one: what the flow's scale makes of the way between their sights.
+/// Variance that the flow's scale adds between two sightings of the same tag.
 fn same_variance_m2(way_m: f64) -> f64 {
     const SAME_M: f64 = 0.02;
     SAME_M * SAME_M + (SCALE * way_m).powi(2)
@@ -366,8 +366,4 @@ fn is_within(deviations: f64, off: Vector2<f64>, spread: Matrix2<f64>) -> bool {
 
 fn dot(left: &Row, right: &Row, used: usize) -> f64 {
     left.iter().zip(right).take(used).map(|(left, right)| left * right).sum()
-}
-
-fn wrap_rad(angle_rad: f64) -> f64 {
-    crate::angle::wrap_deg(angle_rad.to_degrees()).to_radians()
 }

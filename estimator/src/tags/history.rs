@@ -1,4 +1,4 @@
-//! How the drone moved and leaned a little ago.
+//! Recent motion and tilt of the drone.
 
 use std::collections::VecDeque;
 
@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use super::OdometryStep;
 
-/// More than a second of navdata at 200 packets a second.
+/// More than a second of navdata at 200 packets per second.
 const MEMORY: usize = 220;
 
 /// The odometry at one moment.
@@ -20,10 +20,10 @@ pub(super) struct Moment {
     pub(super) height_m: f64,
 }
 
-/// Places and velocities by their times.
+/// Positions and velocities by time.
 type Places = VecDeque<(f64, (Vector2<f64>, Vector2<f64>))>;
 
-/// The newest odometry, tilt and height, each by its own time.
+/// Recent odometry, tilt and height, each by its own time.
 #[derive(Debug, Clone)]
 pub(super) struct History {
     places: Places,
@@ -42,7 +42,7 @@ impl History {
         }
     }
 
-    /// Returns the way since the last step, and its time, if the odometry has gone on.
+    /// Returns the displacement since the last step, and its duration, if the odometry has advanced.
     pub(super) fn push(&mut self, step: &OdometryStep) -> Option<(Vector2<f64>, f64)> {
         self.newest_s = Some(step.made_s);
         push(&mut self.tilts, step.tilt.0, step.tilt.1);
@@ -55,12 +55,12 @@ impl History {
         last.map(|(last_s, (last_m, _))| (step.place_m - last_m, step.at_s - last_s))
     }
 
-    /// When the newest sample was made.
+    /// Time of the newest sample.
     pub(super) fn newest_s(&self) -> Option<f64> {
         self.newest_s
     }
 
-    /// The odometry at a time; nothing before the first sample.
+    /// The odometry at a time; `None` before the first sample.
     pub(super) fn at(&self, at_s: f64, yaw_deg: f64) -> Option<Moment> {
         let (place_m, velocity_m_s) = place_at(&self.places, at_s)?;
         Some(Moment {
@@ -73,7 +73,7 @@ impl History {
     }
 }
 
-/// Whether it is newer than the last.
+/// Returns whether the value is newer than the last.
 fn push<T>(line: &mut VecDeque<(f64, T)>, at_s: f64, value: T) -> bool {
     if line.back().is_some_and(|(last_s, _)| at_s <= *last_s) {
         return false;
@@ -85,7 +85,7 @@ fn push<T>(line: &mut VecDeque<(f64, T)>, at_s: f64, value: T) -> bool {
     true
 }
 
-/// On the line between two values; beyond the ends the end's.
+/// Interpolates linearly; constant beyond the ends.
 fn between<T: Copy>(
     line: &VecDeque<(f64, T)>,
     at_s: f64,
@@ -102,7 +102,7 @@ fn between<T: Copy>(
     }
 }
 
-/// Beyond the newest place it flies on for a moment.
+/// Extrapolates with the velocity for a moment beyond the newest position.
 fn place_at(places: &Places, at_s: f64) -> Option<(Vector2<f64>, Vector2<f64>)> {
     const LONGEST_S: f64 = 0.1;
     let (place_m, velocity_m_s) = between(places, at_s, |from, to, share| {

@@ -1,32 +1,32 @@
-//! Which tags are known, and which of them a sight is of.
+//! The known tags, and the association of sightings with them.
 //!
-//! What is seen where no tag is known becomes a tag on trial at once, so that little of the drift before its
-//! first sight is lost; it is known when it was seen again and again, and forgotten if it was not.
+//! A sighting where no tag is known creates a tag on trial at once, so that little of the drift before its
+//! first sighting is lost. After enough sightings it becomes known; otherwise it is forgotten.
 
 use nalgebra::Vector2;
 
 use super::filter::{Filter, Sighted};
 use super::{MAX_TAGS, SLOTS};
 
-/// A tag whose place was measured.
+/// A tag with a measured position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurveyedTag {
-    /// Right and forward of where the drone starts.
+    /// Position relative to the drone's start: right and forward.
     pub place_m: Vector2<f64>,
-    /// Which way its pattern points, clockwise from the drone's heading at the start, if that was measured.
+    /// Direction of its pattern, clockwise from the drone's initial heading, if it was measured.
     pub heading_deg: Option<f64>,
 }
 
-/// A tag that is known.
+/// A known tag.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KnownTag {
-    /// Right and forward of the start.
+    /// Position relative to the start: right and forward.
     pub place_m: Vector2<f64>,
-    /// Which way it points, once that is known.
+    /// Its direction, once it is known.
     pub heading_deg: Option<f64>,
-    /// Standard deviation of the place on the worse axis.
+    /// Standard deviation of the position on the worse axis.
     pub deviation_m: f64,
-    /// Whether its place was given.
+    /// Whether its position was given.
     pub surveyed: bool,
 }
 
@@ -34,7 +34,7 @@ pub struct KnownTag {
 enum Standing {
     #[default]
     Free,
-    /// Seen so often.
+    /// On trial, with its number of sightings.
     OnTrial(u32),
     Known,
 }
@@ -45,7 +45,7 @@ struct Slot {
     surveyed: bool,
     has_heading: bool,
     seen_s: f64,
-    /// What its sights were off by in the mean, and whether that is too much.
+    /// Mean residual of its sightings, and whether it is too large.
     off_m: Vector2<f64>,
     moves: bool,
 }
@@ -55,31 +55,32 @@ pub(super) struct Map {
     slots: [Slot; SLOTS],
 }
 
-/// Another tag must be this many times as far as the one that is meant.
+/// Minimum ratio of the distance of the second nearest tag to that of the nearest.
 const RUNNER_UP: f64 = 2.0;
-/// So many sights make a tag on trial a known one, and so many make it one that was known before.
+/// Number of sightings after which a tag on trial becomes known, and after which it is recognised as one that
+/// was known before.
 const ENOUGH: u32 = 10;
 const AGAIN: u32 = 5;
-/// After so many one on trial corrects the place.
+/// Number of sightings after which a tag on trial corrects the position.
 const LIKELY: u32 = 3;
-/// Likewise after another tag has moved, of sights that all agree.
+/// The same after another tag has moved; all of them must agree.
 const STILL: u32 = 60;
-/// Over so many sights the mean of what a tag is off by is taken.
+/// Number of sightings in the mean of the residuals.
 const MEAN_SIGHTS: f64 = 8.0;
-/// It is no more than this, and these shares of the height and of the way aside, for tags that lie still.
+/// Largest mean residual of a tag that does not move: a constant, and fractions of height and offset.
 const OFF_M: f64 = 0.03;
 const OFF_HEIGHT: f64 = 0.025;
 const OFF_ASIDE: f64 = 0.15;
-/// A faster drone is off by its delays.
+/// Maximum speed for this check; at higher speeds delays cause residuals.
 const SLOW_M_S: f64 = 0.4;
-/// One that is not seen again within this time is forgotten.
+/// Time without sightings after which a tag on trial is forgotten.
 const TRIAL_S: f64 = 2.0;
-/// A tag that was not seen for this time is recognised by several sights only: while the place is uncertain, one
-/// sight of something else must not decide where the drone is.
+/// Time without sightings after which a tag is recognised only by several sightings: while the position is
+/// uncertain, one sighting of something else must not decide it.
 const IN_VIEW_S: f64 = 1.0;
-/// One sight moves the estimate by no more than this.
+/// Largest correction by a single sighting.
 const NEAR_M: f64 = 0.3;
-/// What is found this near to a known tag that is not seen any more is that tag: it was moved.
+/// A new tag within this distance of a known tag that is no longer seen is that tag after it was moved.
 const MOVED_M: f64 = 1.0;
 
 impl Map {
@@ -127,8 +128,8 @@ impl Map {
         }
     }
 
-    /// The tag that a sight is of; a new one if it is of none. Nothing if two could be meant, one that was seen
-    /// already, or there is no room.
+    /// The tag of a sighting; a new one if none is near. `None` if two tags are possible, if the tag was
+    /// already seen in this packet, or if there is no room.
     pub(super) fn associate(
         &mut self,
         filter: &mut Filter,
@@ -157,8 +158,8 @@ impl Map {
         None
     }
 
-    /// A tag was seen again, `way_m` from where the last known one was; returns the known tag that it is, if it
-    /// is one.
+    /// A tag was seen again, `way_m` from the last known one. Returns the known tag that it turns out to be,
+    /// if any.
     pub(super) fn saw(
         &mut self,
         filter: &mut Filter,
@@ -197,7 +198,7 @@ impl Map {
         Some(tag)
     }
 
-    /// The known tag that comes into view again as one on trial.
+    /// The known tag that has reappeared as this tag on trial.
     fn recognised(&self, filter: &Filter, trial: usize, now_s: f64, way_m: f64) -> Option<usize> {
         let place_m = filter.tag_place_m(trial);
         let far = |tag: usize| (filter.tag_place_m(tag) - place_m).norm();
@@ -225,7 +226,7 @@ impl Map {
         self.slots[tag].has_heading = true;
     }
 
-    /// Orientations count the other way: the directions that were taken from them are wrong.
+    /// The sign of orientations was wrong: discards the directions that were derived from them.
     pub(super) fn forget_found_headings(&mut self) {
         for slot in self.slots.iter_mut().filter(|slot| !slot.surveyed) {
             slot.has_heading = false;
@@ -236,17 +237,17 @@ impl Map {
         is_known(self.slots[tag].standing)
     }
 
-    /// Whether one on trial was seen so often that it is hardly something else.
+    /// Whether a tag on trial has enough sightings to correct the position.
     pub(super) fn is_likely(&self, tag: usize) -> bool {
         matches!(self.slots[tag].standing, Standing::OnTrial(sights) if sights >= LIKELY)
     }
 
-    /// Whether a tag has been seen once so far.
+    /// Whether a tag has been seen only once.
     pub(super) fn is_new(&self, tag: usize) -> bool {
         self.slots[tag].standing == Standing::OnTrial(0)
     }
 
-    /// A sight of a tag was off by this, of a drone so high and fast; the tag so far aside.
+    /// Adds the residual of a sighting at a height and speed; the tag was this far aside.
     pub(super) fn watch(
         &mut self,
         tag: usize,
@@ -264,12 +265,12 @@ impl Map {
         slot.moves = slot.off_m.norm() > most_m;
     }
 
-    /// Whether a tag is off again and again.
+    /// Whether the residuals of a tag show that it moves.
     pub(super) fn moves(&self, tag: usize) -> bool {
         self.slots[tag].moves
     }
 
-    /// Forgets a tag that moves, and what is on trial.
+    /// Forgets a moving tag, and the tags on trial.
     pub(super) fn forget_moving(&mut self, filter: &mut Filter, tag: usize) {
         self.forget(filter, tag);
         for trial in 0..SLOTS {

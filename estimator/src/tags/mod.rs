@@ -1,11 +1,12 @@
-//! Where the odometry lies in the world, from roundels on the floor.
+//! Transform from the odometry to the world frame, from roundels on the floor.
 //!
-//! The odometry stays what it is: the integral of the velocity, smooth, in a frame that drifts. Here the frame's
-//! place and direction in the world are estimated: `world = odometry + correction`, turned by a heading
-//! correction. Each sight of a roundel is compared with the odometry of the moment at which its picture was
-//! taken, so that nothing is rolled back. The world is the start's: right and forward of where the drone stood.
+//! The odometry remains the integral of the velocity: smooth, in a frame that drifts. This module estimates
+//! position and direction of that frame in the world: `world = odometry + correction`, rotated by a heading
+//! correction. Each sighting of a roundel is compared with the odometry at the time of its picture, so
+//! nothing has to be rolled back. The world frame is that of the start: right and forward of the drone's
+//! initial position.
 //!
-//! What jumps by a correction is not handed to the controller at once: see [`Tags::smooth`].
+//! Jumps of the correction do not reach the controller at once: see [`Tags::smooth`].
 
 mod camera;
 mod filter;
@@ -28,29 +29,29 @@ pub use self::map::{KnownTag, SurveyedTag};
 use self::orientation::Orientation;
 pub use self::orientation::OrientationSign;
 use self::take_back::TakeBack;
-use crate::horizontal::world_from_body;
+use kinematics::world_from_body;
 
-/// Tags that can be known at a time.
+/// Maximum number of known tags.
 pub const MAX_TAGS: usize = 8;
-/// Besides those that are known some may be on trial.
+/// Known tags plus tags on trial.
 const SLOTS: usize = MAX_TAGS + 3;
-/// Sights in one packet.
+/// Maximum number of sightings in one packet.
 pub const MAX_SIGHTS: usize = 4;
 
-/// How roundels are seen, and which are where.
+/// Camera and tags.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TagConfig {
-    /// Tags whose place is known beforehand. Others are found and mapped.
+    /// Tags with known positions. Other tags are found and mapped.
     pub surveyed: [Option<SurveyedTag>; MAX_TAGS],
-    /// Age of a sight when its packet is sent: exposure, processing, and half a packet's interval.
+    /// Age of a sighting when its packet is sent: exposure, processing, and half a packet's interval.
     pub delay: Duration,
-    /// Focal length of the bottom camera, across and along, in thousandths of its picture.
+    /// Focal length of the bottom camera, horizontal and vertical, in thousandths of its picture.
     pub focal_units: [f64; 2],
-    /// Centre of its picture, likewise.
+    /// Centre of its picture, in the same units.
     pub centre_units: [f64; 2],
     /// Diameter of the printed pattern.
     pub size_m: f64,
-    /// Which way reported orientations grow, if that is known of this drone; else it is found in flight.
+    /// Sign of the reported orientations, if known for this drone; otherwise it is determined in flight.
     pub orientation: Option<OrientationSign>,
 }
 
@@ -67,50 +68,50 @@ impl Default for TagConfig {
     }
 }
 
-/// A roundel in the bottom camera's picture, as navdata tell of it.
+/// A roundel in the bottom camera's picture, as reported in navdata.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sight {
     /// Centre, 0 to 1000 from left to right.
     pub x: f64,
     /// Centre, 0 to 1000 from top to bottom.
     pub y: f64,
-    /// Of the box, in thousandths of the picture's width.
+    /// Width of the box, in thousandths of the picture's width.
     pub width: f64,
-    /// Of the box, in thousandths of the picture's height.
+    /// Height of the box, in thousandths of the picture's height.
     pub height: f64,
-    /// By the roundel's apparent size.
+    /// Distance derived from the roundel's apparent size.
     pub distance_m: f64,
-    /// Of the pattern in the picture; 270 when the drone points as the pattern does.
+    /// Orientation of the pattern in the picture; 270 when the drone is aligned with it.
     pub orientation_deg: f64,
 }
 
-/// What is known by tags.
+/// Status of the tags.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TagStatus {
-    /// Tags whose place is known.
+    /// Number of tags with known positions.
     pub known: usize,
-    /// How long ago one of them was seen.
+    /// Time since one of them was seen.
     pub seen_ago: Option<Duration>,
-    /// Whether it is known which way orientations count, so that tags hold the heading too.
+    /// Whether the sign of orientations is known, so that tags correct the heading too.
     pub heading_held: bool,
-    /// How far the odometry has drifted: right and forward.
+    /// Drift of the odometry: right and forward.
     pub drift_m: Vector2<f64>,
 }
 
-/// The drone turns too fast for a sharp and timely picture.
+/// Largest turn rate with a sharp and timely picture.
 const FASTEST_TURN_DEG_S: f64 = 60.0;
-/// Lower than this a tag is hardly whole in the picture.
+/// Below this height a tag is hardly ever complete in the picture.
 const LOWEST_M: f64 = 0.45;
-/// A drone this low stands, whatever its motors do.
+/// A drone this low stands, even with its motors running.
 const STANDS_M: f64 = 0.1;
-/// Four deviations of the flow's bias on a hard day.
+/// Four standard deviations of the flow's bias on a bad day.
 const MOST_BIAS_M_S: f64 = 0.09;
-/// For how long after a tag was seen to move nothing new is believed soon.
+/// After a tag was seen to move, tags need more sightings for this long.
 const CAUTIOUS_S: f64 = 30.0;
-/// A tag that was seen this recently is in view.
+/// Time since a sighting during which a tag counts as in view.
 const IN_VIEW_S: f64 = 0.5;
 
-/// The correction of the odometry.
+/// Correction of the odometry.
 #[derive(Debug, Clone)]
 pub(crate) struct Tags {
     config: TagConfig,
@@ -120,11 +121,11 @@ pub(crate) struct Tags {
     history: History,
     take_back: TakeBack,
     last_sights: [Option<Sight>; MAX_SIGHTS],
-    /// When a known tag was seen last, when its packet arrived, and where the odometry was.
+    /// Last sighting of a known tag: its time, the arrival of its packet, and the odometry.
     fix: Option<Fix>,
-    /// A tag has moved: until then others must prove that they lie still.
+    /// Until then tags have to prove that they do not move, because one did.
     cautious_until_s: f64,
-    /// What was counted as flown unseen or disputed so far.
+    /// Unmeasured or disputed variance that has already been added.
     unseen_m2: f64,
 }
 
@@ -137,19 +138,19 @@ struct Fix {
 /// The odometry's newest step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OdometryStep {
-    /// When the newest sample was made.
+    /// Time of the newest sample.
     pub(crate) made_s: f64,
-    /// The moment of the odometry.
+    /// Time of the odometry.
     pub(crate) at_s: f64,
     pub(crate) place_m: Vector2<f64>,
     pub(crate) velocity_m_s: Vector2<f64>,
     pub(crate) yaw_deg: f64,
-    /// Moment and value of the tilt: right side down, nose up.
+    /// Time and value of the tilt: right side down, nose up.
     pub(crate) tilt: (f64, Vector2<f64>),
-    /// Moment and value of the height above the floor.
+    /// Time and value of the height above the floor.
     pub(crate) height: (f64, f64),
     pub(crate) airborne: bool,
-    /// Variance that came from what was not measured, in all.
+    /// Total variance from motion that was not measured.
     pub(crate) unseen_m2: f64,
 }
 
@@ -172,7 +173,7 @@ impl Tags {
         }
     }
 
-    /// The odometry has gone on.
+    /// The odometry has advanced.
     pub(crate) fn fly(&mut self, step: &OdometryStep) {
         if let Some((way_m, step_s)) = self.history.push(step) {
             let flown_s = if step.airborne { step_s } else { 0.0 };
@@ -180,25 +181,25 @@ impl Tags {
         }
         let unseen_m2 = (step.unseen_m2 - self.unseen_m2).max(0.0);
         self.unseen_m2 = step.unseen_m2;
-        // A drone that spins its motors up measures nothing, and stands.
+        // A drone on the ground with its motors running measures nothing, and does not move.
         if step.height.1 > STANDS_M {
             self.filter.doubt_place(unseen_m2);
         }
     }
 
-    /// The compass has made a step, which was compensated with some error.
+    /// The compass made a step, which was compensated with this deviation.
     pub(crate) fn step_of_the_heading(&mut self, deviation_deg: f64) {
         self.filter.doubt_heading(deviation_deg.to_radians());
     }
 
-    /// The drone has started again: what it said before is of another time.
+    /// The drone has restarted: its earlier data are obsolete.
     pub(crate) fn handle_restart(&mut self) {
         self.history = History::new();
         self.last_sights = [None; MAX_SIGHTS];
     }
 
-    /// Takes in the sights of the newest packet. `yaw_deg` is the odometry's heading at a time, `turn_deg_s` how
-    /// fast the drone turns.
+    /// Processes the sightings of the newest packet. `yaw_deg` is the odometry's heading at a time,
+    /// `turn_deg_s` the turn rate.
     pub(crate) fn see(
         &mut self,
         sights: &[Sight],
@@ -210,7 +211,7 @@ impl Tags {
         for (slot, sight) in newest.iter_mut().zip(sights) {
             *slot = Some(*sight);
         }
-        // Packets come more often than pictures: the very same numbers are the same picture.
+        // Packets come more often than pictures: identical values are the same picture.
         if std::mem::replace(&mut self.last_sights, newest) == newest || !airborne {
             return;
         }
@@ -260,7 +261,7 @@ impl Tags {
         }
     }
 
-    /// Holds the heading by a tag's orientation, once it is known which way that counts.
+    /// Corrects the heading by a tag's orientation, once its sign is known.
     fn orient(&mut self, tag: usize, look: &Look, moment: &Moment) {
         let heading_deg = moment.yaw_deg + self.filter.correction().heading_rad.to_degrees();
         let turned = self.orientation.saw(tag, heading_deg, look.orientation_deg);
@@ -277,10 +278,10 @@ impl Tags {
         }
     }
 
-    /// A tag that moves would take the drone with it: what it is off by does not average out, or makes a bias of
-    /// the flow that no flow has.
+    /// Distrusts a moving tag, which would drag the position along: its residuals do not average out, or
+    /// imply an impossible bias of the flow.
     fn distrust_what_moves(&mut self, tag: usize, made_s: f64) {
-        /// How far it may have led us before it was noticed.
+        /// Position error that a moving tag may have caused before its detection.
         const LED_ASTRAY_M: f64 = 0.2;
         if self.map.moves(tag) || self.filter.bias_m_s().norm() > MOST_BIAS_M_S {
             self.map.forget_moving(&mut self.filter, tag);
@@ -295,18 +296,18 @@ impl Tags {
         self.fix.map_or(moment.place_m.norm(), |fix| (moment.place_m - fix.odometry_m).norm())
     }
 
-    /// The place in the world of one in the odometry's frame.
+    /// Transforms a position from the odometry to the world frame.
     pub(crate) fn place_m(&self, odometry_m: Vector2<f64>) -> Vector2<f64> {
         odometry_m + self.filter.correction().place_m
     }
 
-    /// The velocity in the world of one in the odometry's frame, at its heading.
+    /// Transforms a velocity from the odometry to the world frame, at its heading.
     pub(crate) fn velocity_m_s(&self, odometry_m_s: Vector2<f64>, yaw_deg: f64) -> Vector2<f64> {
         let heading_deg = self.heading_deg(yaw_deg);
         self.turned(odometry_m_s) - world_from_body(self.filter.bias_m_s(), heading_deg)
     }
 
-    /// A direction of the odometry's frame in the world.
+    /// Rotates a direction from the odometry to the world frame.
     pub(crate) fn turned(&self, odometry: Vector2<f64>) -> Vector2<f64> {
         world_from_body(odometry, self.filter.correction().heading_rad.to_degrees())
     }
@@ -315,12 +316,12 @@ impl Tags {
         yaw_deg + self.filter.correction().heading_rad.to_degrees()
     }
 
-    /// Standard deviation of the place on the worse axis, where the odometry is `odometry_m` and the drone so
-    /// high, without what silence adds.
+    /// Standard deviation of the position on the worse axis, at this odometry and height, without the
+    /// contribution of silence.
     pub(crate) fn deviation_m(&self, odometry_m: Vector2<f64>, height_m: f64) -> f64 {
-        /// Of the flow's scale, as a share of the way since a tag was seen.
+        /// Standard deviation of the flow's scale, as a fraction of the distance since the last sighting.
         const SCALE: f64 = 0.06;
-        /// Tilt, delay and the picture's centre do not average out: a share of the height.
+        /// Tilt, delay and the picture's centre do not average out: a fraction of the height.
         const SYSTEMATIC: f64 = 0.012;
         const FLOOR_M: f64 = 0.015;
         let way_m = self.fix.map_or(odometry_m.norm(), |fix| (odometry_m - fix.odometry_m).norm());
@@ -329,13 +330,13 @@ impl Tags {
         (self.filter.place_variance_m2() + squares).sqrt()
     }
 
-    /// The reference goes on its way back to where it belongs.
+    /// Moves the reference back towards the estimate.
     pub(crate) fn advance(&mut self, step_s: f64) {
         self.take_back.advance(step_s);
     }
 
-    /// What the controller is to be told of a place, a velocity and a heading in the world: without the jumps of
-    /// the corrections, which come over time as a motion.
+    /// Position, velocity and heading for the controller: without the jumps of the corrections, which become
+    /// a motion over time.
     pub(crate) fn smooth(
         &self,
         place_m: Vector2<f64>,
@@ -355,7 +356,7 @@ impl Tags {
         }
     }
 
-    /// Whether a turn would tell which way orientations count.
+    /// Whether a turn would reveal the sign of orientations.
     pub(crate) fn would_learn_from_a_turn(&self, now_s: f64) -> bool {
         let in_view = self.fix.is_some_and(|fix| now_s - fix.at_s < IN_VIEW_S);
         in_view && self.orientation.sign().is_none()

@@ -1,12 +1,13 @@
-//! Which way the orientation of a roundel counts, and which way roundels point.
+//! Sign of a roundel's orientation, and directions of the roundels.
 //!
-//! Clients of the real drone contradict each other. Of the two readings the right one makes a tag point the same
-//! way however the drone turns; the wrong one makes it turn twice as far. Any turn tells them apart.
+//! Clients of the real drone contradict each other on the sign. With the right sign a tag's direction does
+//! not depend on the drone's heading; with the wrong one it turns by twice the angle. Any turn therefore
+//! decides.
 
 use super::SLOTS;
-use crate::angle::wrap_deg;
+use kinematics::wrap_deg;
 
-/// Which way the reported orientation grows.
+/// Direction in which the reported orientation grows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OrientationSign {
     /// When the drone turns clockwise.
@@ -18,7 +19,7 @@ pub enum OrientationSign {
 impl OrientationSign {
     const BOTH: [Self; 2] = [Self::Clockwise, Self::CounterClockwise];
 
-    /// The direction of a tag by this reading.
+    /// The direction of a tag with this sign.
     fn direction_deg(self, heading_deg: f64, orientation_deg: f64) -> f64 {
         let turned_deg = orientation_deg - ALONG_DEG;
         match self {
@@ -28,34 +29,34 @@ impl OrientationSign {
     }
 }
 
-/// What is told when the drone points as the tag does.
+/// Reported orientation when the drone is aligned with the tag.
 const ALONG_DEG: f64 = 270.0;
-/// Deviation of one orientation, taken large: neighbours err alike.
+/// Standard deviation of one orientation, chosen large because consecutive errors are correlated.
 const NOISE_DEG: f64 = 8.0;
-/// One sight counts for no more than this: it may be of something else.
+/// Limit of the evidence of one sighting: it may be of something else.
 const MOST_EVIDENCE: f64 = 1.0;
-/// Logarithm of the odds at which it is decided, and beyond which they are not counted.
+/// Logarithm of the odds that decides, and at which the odds are limited.
 const DECIDED: f64 = 8.0;
 const CERTAIN: f64 = 24.0;
-/// A smaller turn may be noise alone.
+/// Smaller turns may be noise.
 const LEAST_TURN_DEG: f64 = 1.5;
-/// Sights over which the mean direction of a tag is taken.
+/// Number of sightings in the mean direction of a tag.
 const MEMORY: f64 = 40.0;
-/// Sights before a mean means something.
+/// Number of sightings before a mean is used.
 const LEAST: u32 = 8;
 
-/// What a sight says of directions.
+/// Result of an orientation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Turned {
-    /// The tag's mean direction, if it is known which way to read it.
+    /// The tag's mean direction, if the sign is known.
     pub(super) direction_deg: Option<f64>,
-    /// The tag's direction by this sight alone.
+    /// The tag's direction from this sighting alone.
     pub(super) newest_deg: Option<f64>,
-    /// It was read the wrong way until now.
+    /// The sign was wrong until now.
     pub(super) sign_changed: bool,
 }
 
-/// Mean direction of one tag by one reading.
+/// Mean direction of one tag with one sign.
 #[derive(Debug, Clone, Copy, Default)]
 struct Mean {
     deg: f64,
@@ -63,7 +64,7 @@ struct Mean {
 }
 
 impl Mean {
-    /// How far a direction is from the mean of those before it, which it then joins.
+    /// Difference between a direction and the mean, to which it is then added.
     fn join(&mut self, deg: f64) -> f64 {
         let off_deg = if self.sights == 0 { 0.0 } else { wrap_deg(deg - self.deg) };
         self.sights = self.sights.saturating_add(1);
@@ -79,7 +80,7 @@ pub(super) struct Orientation {
     odds: f64,
     sign: Option<OrientationSign>,
     given: bool,
-    /// By the readings, in the order of [`OrientationSign::BOTH`].
+    /// Means by sign, in the order of [`OrientationSign::BOTH`].
     means: [[Mean; 2]; SLOTS],
 }
 
@@ -93,12 +94,12 @@ impl Orientation {
         self.sign
     }
 
-    /// Another tag has this number now.
+    /// The slot now belongs to another tag.
     pub(super) fn forget(&mut self, tag: usize) {
         self.means[tag] = [Mean::default(); 2];
     }
 
-    /// A known tag was seen from a heading.
+    /// A known tag was seen at a heading.
     pub(super) fn saw(&mut self, tag: usize, heading_deg: f64, orientation_deg: f64) -> Turned {
         let means = &mut self.means[tag];
         let mut off = [0.0; 2];
@@ -107,7 +108,7 @@ impl Orientation {
             directions[reading] = sign.direction_deg(heading_deg, orientation_deg);
             off[reading] = means[reading].join(directions[reading]);
         }
-        // The mean of both is how far the drone has turned.
+        // The mean of both is the angle by which the drone has turned.
         let turned_deg = f64::midpoint(off[0], off[1]).abs();
         if means[0].sights > LEAST && turned_deg > LEAST_TURN_DEG {
             let evidence = (off[1].powi(2) - off[0].powi(2)) / (2.0 * NOISE_DEG * NOISE_DEG);
@@ -136,7 +137,7 @@ impl Orientation {
 mod tests {
     use super::*;
 
-    /// Noise of a few degrees that repeats itself late.
+    /// Noise of a few degrees with a long period.
     fn noise(i: u32) -> f64 {
         (f64::from(i) * 12.9898).sin() * 5.0
     }

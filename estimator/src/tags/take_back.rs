@@ -1,19 +1,19 @@
-//! Jumps of the estimate, handed to the controller as a motion.
+//! Turns jumps of the estimate into a motion for the controller.
 //!
-//! When a tag is seen again the estimate jumps to where the drone is. The reference jumps with it, so that the
-//! controller sees no step, and then moves back to where it belongs.
+//! When a tag is seen again the estimate jumps to the drone's position. The reference jumps along, so that
+//! the controller sees no step, and then moves back to its place.
 
 use nalgebra::Vector2;
 
-/// How fast what is left goes back.
+/// Natural frequency of the motion back.
 const FREQUENCY_1_S: f64 = 1.2;
 const FASTEST_M_S: f64 = 0.25;
 const MOST_M_S2: f64 = 0.4;
 const FASTEST_DEG_S: f64 = 8.0;
-/// A step of time longer than this is a pause.
+/// A longer time step is a pause.
 const LONGEST_STEP_S: f64 = 0.1;
 
-/// What is left to be taken back.
+/// The remaining offset.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct TakeBack {
     place_m: Vector2<f64>,

@@ -8,14 +8,14 @@ const PERIOD: Duration = Duration::from_micros(66_667);
 const HEIGHT_M: f64 = 1.5;
 const DELAY: Duration = Duration::from_millis(60);
 
-/// A drone that hovers, and whose flow has a bias.
+/// A hovering drone whose flow has a bias.
 struct Bench {
     estimator: Estimator,
     packet: u32,
     flow_m_s: Vector2<f64>,
     yaw_deg: f64,
     sees: bool,
-    /// Of the tag: from the drone, and which way it points.
+    /// The tag: position relative to the drone, and its direction.
     tag_m: Vector2<f64>,
     direction_deg: f64,
 }
@@ -39,7 +39,7 @@ impl Bench {
         PERIOD * self.packet
     }
 
-    /// So many packets; `wrong` is a sight of something else.
+    /// Flies a number of packets; `wrong` adds sightings of something else.
     fn fly(&mut self, packets: u32, mut wrong: impl FnMut(u32) -> Option<Sight>) {
         for _ in 0..packets {
             self.packet += 1;
@@ -60,7 +60,7 @@ impl Bench {
     }
 
     fn sight(&self) -> Sight {
-        let body = crate::horizontal::body_from_world(self.tag_m, self.yaw_deg);
+        let body = kinematics::body_from_world(self.tag_m, self.yaw_deg);
         let noise = f64::from(self.packet * 7 % 5) - 2.0;
         sight_at(body, 270.0 + self.yaw_deg - self.direction_deg + noise, noise)
     }
@@ -74,7 +74,7 @@ impl Bench {
     }
 }
 
-/// A tag that lies so from a level drone.
+/// A sighting of a tag at this offset from a level drone.
 fn sight_at(body_m: Vector2<f64>, orientation_deg: f64, noise: f64) -> Sight {
     let width = 1072.0 * 0.19 / HEIGHT_M;
     Sight {
@@ -190,7 +190,7 @@ fn a_surveyed_tag_says_where_the_drone_stands() {
     let mut bench = Bench::new(Some(&config));
     bench.flow_m_s = Vector2::zeros();
     bench.fly(400, none);
-    // It lies at (0.2, 0.1) from the drone, which therefore is not where it was said to start.
+    // The tag is at (0.2, 0.1) from the drone, so the drone did not start where it was assumed.
     let expected = place_m - bench.tag_m;
     assert!((bench.place_m() - expected).norm() < 0.06, "{}", bench.place_m());
 }
@@ -207,7 +207,7 @@ fn orientation_holds_the_heading_once_a_turn_has_told_its_sign() {
     let status = bench.estimator.tag_status(bench.now()).unwrap();
     assert!(status.heading_held && status.known == 1, "{status:?}");
     assert!(!bench.estimator.would_learn_from_a_turn(bench.now()));
-    // The gyroscope drifts, the drone does not turn.
+    // The gyroscope drifts; the drone does not turn.
     let held_deg = bench.yaw_deg;
     for packet in 0..4500 {
         let drift_deg = 0.001 * f64::from(packet);
@@ -246,7 +246,7 @@ fn nothing_that_can_be_told_breaks_it() {
     assert_eq!(DELAY, TagConfig::default().delay);
 }
 
-/// What a packet with four sights costs with all tags known: `cargo test --release -p estimator -- --ignored
+/// Cost of a packet with four sightings of known tags: `cargo test --release -p estimator -- --ignored
 /// --nocapture costs`.
 #[test]
 #[ignore = "measures time"]

@@ -1,4 +1,4 @@
-//! How the drone moves: tilt, thrust, drag, turn, as one of the published models has it.
+//! Motion of the drone: tilt, thrust, drag and turn, by one of the published models.
 //!
 //! World frame: x right, y forward, z up, metres; yaw in radians, clockwise from above.
 //! Angles: pitch nose up, roll right side down.
@@ -16,7 +16,7 @@ pub const GRAVITY_M_S2: f64 = 9.81;
 /// Integration step; the attitude loop has 12 rad/s, so this is fine enough for Euler.
 pub const STEP_S: f64 = 0.0025;
 
-/// What the firmware asks of the motors.
+/// The firmware's command to the motors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Thrust {
     /// Motors off: the drone stands or falls.
@@ -25,7 +25,7 @@ pub enum Thrust {
     On(Attitude),
 }
 
-/// An attitude and climb demand.
+/// A demand for attitude, climb and turn.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Attitude {
     /// Nose up.
@@ -38,7 +38,7 @@ pub struct Attitude {
     pub turn_rad_s: f64,
 }
 
-/// A drone's body in the air.
+/// The drone as a rigid body.
 #[derive(Debug, Clone)]
 pub struct Airframe {
     profile: Profile,
@@ -54,10 +54,10 @@ pub struct Airframe {
     touch_down_m_s: Option<f64>,
 }
 
-/// A motor that may weaken: the drone leans to its side, sinks, and obeys less.
+/// A motor that may weaken: the drone tilts to its side, sinks, and responds less.
 #[derive(Debug, Clone, Copy)]
 struct Motor {
-    /// What is left of its thrust, from 0 to 1.
+    /// Remaining fraction of its thrust, from 0 to 1.
     share: f64,
     goal: f64,
     change_1_s: f64,
@@ -65,8 +65,7 @@ struct Motor {
 
 impl Motor {
     const HEALTHY: Self = Self { share: 1.0, goal: 1.0, change_1_s: 0.0 };
-    /// A motor without any thrust would make the drone lean and sink by so much. Crude: it is to
-    /// disturb, not to foretell.
+    /// Tilt and sink rate if a motor had no thrust at all. A crude model, sufficient as a disturbance.
     const LEAN_RAD: f64 = 0.3;
     const SINK_M_S: f64 = 1.5;
 
@@ -75,7 +74,7 @@ impl Motor {
         self.share += left.signum() * (self.change_1_s * STEP_S).min(left.abs());
     }
 
-    /// What becomes of a demand.
+    /// The demand as the weakened drone carries it out.
     fn carry_out(&self, demand: &Attitude) -> Attitude {
         let lost = 1.0 - self.share;
         Attitude {
@@ -103,8 +102,8 @@ impl Tilt {
 impl Airframe {
     const MAX_CLIMB_ACCELERATION_M_S2: f64 = 4.0;
 
-    /// A drone on the ground at the origin. `trim_rad` is the error of its level reference,
-    /// (roll, pitch), that it does not know of.
+    /// A drone on the ground at the origin. `trim_rad` is the unknown error of its level reference (roll,
+    /// pitch).
     pub fn new(profile: Profile, trim_rad: Vector2<f64>) -> Self {
         Self {
             profile,
@@ -121,14 +120,14 @@ impl Airframe {
         }
     }
 
-    /// The same drone, at rest at a height above the origin.
+    /// The same drone, at rest at this height above the origin.
     #[must_use]
     pub fn at_height(mut self, height_m: f64) -> Self {
         self.position_m.z = height_m.max(0.0);
         self
     }
 
-    /// A motor weakens to this share of its thrust, from 0 to 1, within a time.
+    /// Weakens a motor to this fraction of its thrust, from 0 to 1, over a time.
     pub fn weaken_motor(&mut self, share: f64, within: Duration) {
         let motor = &mut self.motor;
         motor.goal = share.clamp(0.0, 1.0);
@@ -136,7 +135,7 @@ impl Airframe {
         motor.change_1_s = change / within.as_secs_f64().max(STEP_S);
     }
 
-    /// One step of [`STEP_S`] seconds, in a wind that blows towards (right, forward).
+    /// Advances by one step of [`STEP_S`] seconds, in a wind that blows towards (right, forward).
     pub fn step(&mut self, thrust: Thrust, wind_m_s: Vector2<f64>) {
         let was_up = self.position_m.z > 0.0;
         self.motor.step();
@@ -154,7 +153,7 @@ impl Airframe {
             if thrust == Thrust::Off {
                 self.come_to_rest();
             } else {
-                // Standing with turning motors: no sliding.
+                // On the ground with running motors: no sliding.
                 self.velocity_m_s.x = 0.0;
                 self.velocity_m_s.y = 0.0;
             }
@@ -204,22 +203,22 @@ impl Airframe {
         self.turn_rad_s = 0.0;
     }
 
-    /// The model that it follows.
+    /// The model of its response.
     pub fn profile(&self) -> &Profile {
         &self.profile
     }
 
-    /// How fast it rolls, pitches and turns.
+    /// Angular rates: roll, pitch, turn.
     pub fn angular_rate_rad_s(&self) -> Vector3<f64> {
         Vector3::new(self.roll.rate_rad_s, self.pitch.rate_rad_s, self.turn_rad_s)
     }
 
-    /// How often it came down on the floor.
+    /// Number of contacts with the floor.
     pub fn floor_contacts(&self) -> u32 {
         self.floor_contacts
     }
 
-    /// How fast it sank when it last came down on the floor.
+    /// Sink rate at the last contact with the floor.
     pub fn touch_down_m_s(&self) -> Option<f64> {
         self.touch_down_m_s
     }
@@ -255,7 +254,7 @@ impl Airframe {
     }
 }
 
-/// (right, forward) in the body to (right, forward) in the world, at a clockwise heading.
+/// Rotates (right, forward) from the body to the world frame, at a clockwise heading.
 pub(crate) fn world_from_body(right: f64, forward: f64, yaw_rad: f64) -> Vector2<f64> {
     let (sin, cos) = yaw_rad.sin_cos();
     Vector2::new(sin * forward + cos * right, cos * forward - sin * right)

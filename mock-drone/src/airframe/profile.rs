@@ -1,6 +1,6 @@
-//! Published models of the same airframe, which disagree by factors of two and three.
+//! Published models of the same airframe, which disagree by factors of two to three.
 //!
-//! Whoever tunes to one of them alone tunes to its author.
+//! A controller tuned to one of them alone is tuned to its author's drone.
 
 use std::time::Duration;
 
@@ -8,22 +8,22 @@ use nalgebra::Vector2;
 
 use super::{GRAVITY_M_S2, STEP_S};
 
-/// A model of how the drone answers its commands.
+/// A model of the response to commands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
     /// Time from an AT command to the motors.
     pub dead_time: Duration,
-    /// How the firmware scales a command.
+    /// Scaling of commands by the firmware.
     pub scaling: Scaling,
-    /// Attitude of roll.
+    /// Response of the roll angle.
     pub roll: AttitudeLoop,
-    /// Attitude of pitch.
+    /// Response of the pitch angle.
     pub pitch: AttitudeLoop,
-    /// How tilt accelerates.
+    /// Acceleration by tilt.
     pub thrust: ThrustLaw,
-    /// Slows by its speed through the air (right, forward).
+    /// Linear drag by the speed through the air (right, forward).
     pub linear_drag_1_s: Vector2<f64>,
-    /// Slows by the square of it.
+    /// Quadratic drag.
     pub quadratic_drag_1_m: f64,
     /// Time constant of the climb.
     pub climb_time_constant_s: f64,
@@ -31,32 +31,32 @@ pub struct Profile {
     pub turn_time_constant_s: f64,
 }
 
-/// What full sticks demand, as a multiple of the configured limit.
+/// Demand at full stick, as a multiple of the configured limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scaling {
-    /// Of `control:euler_angle_max`.
+    /// Multiple of `control:euler_angle_max`.
     pub tilt: f64,
-    /// No tilt is larger.
+    /// Limit of the tilt.
     pub tilt_limit_rad: f64,
-    /// Of `control:control_vz_max`, upward.
+    /// Multiple of `control:control_vz_max`, upwards.
     pub climb: f64,
-    /// Likewise, downward.
+    /// Multiple of `control:control_vz_max`, downwards.
     pub drop: f64,
-    /// Of `control:control_yaw`.
+    /// Multiple of `control:control_yaw`.
     pub turn: f64,
 }
 
-/// How the attitude follows its demand.
+/// Response of an angle to its demand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AttitudeLoop {
-    /// At once: the lag is in the dead time.
+    /// Without lag, which is part of the dead time.
     Immediate,
-    /// With this rate.
+    /// First-order lag.
     FirstOrder {
         /// Inverse of the time constant.
         rate_1_s: f64,
     },
-    /// Like a damped spring.
+    /// Second-order system.
     SecondOrder {
         /// Natural frequency.
         frequency_rad_s: f64,
@@ -84,25 +84,25 @@ impl AttitudeLoop {
     }
 }
 
-/// How tilt becomes acceleration.
+/// Acceleration by tilt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ThrustLaw {
-    /// Thrust is raised to carry the weight at any tilt: g tan(tilt).
+    /// Thrust carries the weight at any tilt: g tan(tilt).
     CarriesWeight,
-    /// In proportion to the sine of the tilt.
+    /// Proportional to the sine of the tilt.
     Sine {
-        /// At one radian, if the sine were the angle.
+        /// Acceleration per unit of the sine.
         acceleration_m_s2: f64,
     },
-    /// In proportion to the tilt (right, forward).
+    /// Proportional to the tilt (right, forward).
     Linear {
-        /// Per radian.
+        /// Acceleration per radian.
         acceleration_m_s2: Vector2<f64>,
     },
 }
 
 impl ThrustLaw {
-    /// (right, forward) at these angles.
+    /// Acceleration (right, forward) at these angles.
     pub(super) fn acceleration_m_s2(self, roll_rad: f64, pitch_rad: f64) -> Vector2<f64> {
         let tilt = Vector2::new(roll_rad, -pitch_rad);
         match self {
@@ -117,7 +117,7 @@ const AS_CONFIGURED: Scaling =
     Scaling { tilt: 1.0, tilt_limit_rad: f64::INFINITY, climb: 1.0, drop: 1.0, turn: 1.0 };
 
 impl Profile {
-    /// Chosen inside the spread of the published models; the default.
+    /// Parameters inside the range of the published models; the default.
     pub fn rec() -> Self {
         let attitude = AttitudeLoop::SecondOrder { frequency_rad_s: 12.0, damping: 0.8 };
         Self {
@@ -133,8 +133,8 @@ impl Profile {
         }
     }
 
-    /// The model in `tum_ardrone`'s Kalman filter: twice the tilt at half the stick, slow to climb,
-    /// twice as fast to drop.
+    /// The model in `tum_ardrone`'s Kalman filter: twice the tilt at half the stick, slow climb, twice as
+    /// fast descent.
     pub fn tum() -> Self {
         let attitude = AttitudeLoop::FirstOrder { rate_1_s: 7.0 };
         Self {
@@ -156,7 +156,7 @@ impl Profile {
         }
     }
 
-    /// Transfer functions fitted to flights: weak tilt, brisk climb, a long dead time.
+    /// Transfer functions fitted to flights: weak tilt, fast climb, long dead time.
     pub fn tf() -> Self {
         Self {
             dead_time: Duration::from_millis(100),
@@ -171,7 +171,7 @@ impl Profile {
         }
     }
 
-    /// A model identified for a thesis: strong drag, slow to climb and to turn.
+    /// A model identified for a thesis: strong drag, slow climb and turn.
     pub fn leo() -> Self {
         Self {
             dead_time: Duration::from_millis(60),

@@ -3,7 +3,7 @@ use crate::airframe::{Attitude, Profile, Thrust};
 
 const DETECTOR: Detector = Detector { source: 1, kind: 8 };
 
-/// A drone that has flown under a demand, at this height.
+/// A drone after a flight with a demand, at this height.
 fn flown(demand: Attitude, height_m: f64) -> Airframe {
     let mut airframe = Airframe::new(Profile::rec(), Vector2::zeros()).at_height(height_m);
     for _ in 0..400 {
@@ -12,7 +12,7 @@ fn flown(demand: Attitude, height_m: f64) -> Airframe {
     airframe
 }
 
-/// What is told of tags that lie so from below the drone, in its own directions.
+/// Reports of tags at these positions relative to the point below the drone, in its own axes.
 fn told(model: CameraModel, airframe: &Airframe, tags: &[(f64, f64, f64)]) -> VisionDetect {
     let yaw_rad = airframe.yaw_rad();
     let tags: Vec<FloorTag> = tags
@@ -39,7 +39,7 @@ fn a_level_drone_sees_a_tag_where_it_lies() {
         // 1072 · 0.19 / 2, with noise.
         assert!(seen.widths[0].abs_diff(102) <= 10, "{}", seen.widths[0]);
         assert!((seen.orientations_deg[0] - 270.0).abs() < 1.0, "{}", seen.orientations_deg[0]);
-        // A pattern smaller than the firmware believes seems further away.
+        // A pattern smaller than the firmware assumes seems further away.
         assert!((seen.distances_m[0] - 2.0 * 0.222 / 0.19).abs() < 0.3, "{}", seen.distances_m[0]);
     }
 }
@@ -52,7 +52,7 @@ fn a_drone_that_leans_right_sees_what_is_below_further_right() {
     assert!((f64::from(seen.x[0]) - expected).abs() < 3.0, "{} {expected}", seen.x[0]);
     let airframe = flown(Attitude { pitch_rad: 0.1, ..Attitude::default() }, 2.0);
     let seen = told(CameraModel::perfect(), &airframe, &[(0.0, 0.0, 0.0)]);
-    // Nose up: the camera looks ahead, what is below lies at the back.
+    // Nose up: the camera looks ahead, so points below appear towards the back.
     let expected = 450.0 + 1452.0 * airframe.pitch_rad().tan();
     assert!((f64::from(seen.y[0]) - expected).abs() < 3.0, "{} {expected}", seen.y[0]);
 }
@@ -64,7 +64,7 @@ fn orientations_count_either_way_by_the_seed() {
         let model = CameraModel { orientation, ..CameraModel::perfect() };
         told(model, &airframe, &[(0.0, 0.0, -30.0)]).orientations_deg[0]
     };
-    // The tag points to the left of the drone: the drone has turned clockwise from it.
+    // The tag points to the left of the drone: the drone has turned clockwise relative to it.
     assert!((turned(OrientationSign::Clockwise) - 300.0).abs() < 1.0);
     assert!((turned(OrientationSign::CounterClockwise) - 240.0).abs() < 1.0);
 }
@@ -92,13 +92,13 @@ fn pictures_are_late_and_some_are_missed() {
     for picture in 0..300 {
         camera.take(ms(33 * picture), &airframe, &tags, Some(DETECTOR));
         if picture < 3 {
-            assert_eq!(camera.read(ms(33 * picture)).count, 0, "still on its way");
+            assert_eq!(camera.read(ms(33 * picture)).count, 0, "still delayed");
         }
         seen += camera.read(ms(33 * picture)).count;
     }
     assert!((140..230).contains(&seen), "{seen} of 300");
     camera.take(ms(9900), &airframe, &tags, None);
-    assert_eq!(camera.read(ms(20_000)).count, 0, "nobody looks");
+    assert_eq!(camera.read(ms(20_000)).count, 0, "no detector is active");
 }
 
 #[test]

@@ -7,10 +7,10 @@ use std::path::PathBuf;
 use ardrone_link::{AT_PORT, CONTROL_PORT, FTP_PORT, NAVDATA_PORT, VIDEO_PORT};
 use clap::{Args, Parser, ValueEnum};
 
-/// A simulated AR.Drone 2.0: any client of the real drone can fly it.
+/// A simulated AR.Drone 2.0 for any client of the real drone.
 ///
-/// It boots, waits to be configured, takes off, flies, lands and runs out of battery like the real
-/// one, and loses patience with a silent pilot like the real one. It runs until it is stopped.
+/// It boots, waits to be configured, takes off, flies, lands and drains its battery like the real one, and
+/// lands when its pilot is silent. It runs until it is stopped.
 #[derive(Debug, Parser)]
 #[command(version, after_help = AFTER_HELP)]
 pub(super) struct Arguments {
@@ -20,45 +20,45 @@ pub(super) struct Arguments {
     pub(super) drone: DroneArguments,
     #[command(flatten)]
     pub(super) faults: FaultArguments,
-    /// Write what really happens to this CSV file
+    /// Write the true state to this CSV file
     #[arg(long, value_name = "FILE")]
     pub(super) truth: Option<PathBuf>,
 }
 
 const AFTER_HELP: &str = "\
-Scenario files have one fault a line: a time, then what happens. A time is in seconds since the
+Scenario files have one fault per line: a time, then the fault. A time is in seconds since the
 start, or with a plus since the first take-off; # starts a comment.
 
   0     delay 20 jitter 15       milliseconds
   +2    loss 30                  percent; likewise duplicate, reorder, corrupt
   +5    outage 1.2               seconds without any datagram
-  +6    hold 0.8                 seconds of datagrams that arrive in a heap at their end
-  +7    burst 50                 so many of the last navdata packets arrive once more
-  +8    freeze 2                 seconds of sensors that read the same
-  +12   lie altitude 0.5 for 3   what is added to a quantity, for so many seconds
-  +16   wind 1.5 -0.5 gusts 0.4  metres a second towards right and forward
-  +20   battery 15               percent; likewise sag, what is lost under full load
-  +22   motor 70 over 2          percent of its thrust that are left, after so many seconds
-  +23   second-pilot 5           seconds of another client's orders to hover; its commands count
-                                 from 1, or with `from 5000` at the end from there
-  +24   tag 1.5 -0.5 90          a roundel is laid: metres right and forward, degrees; likewise
-                                 tag-moved 1 0 0 90 (its number, and where to) and tag-gone 1
-  +25   restart                  or propeller, which cuts the motors
+  +6    hold 0.8                 seconds in which datagrams are held back; then they arrive at once
+  +7    burst 50                 number of the last navdata packets that arrive once more
+  +8    freeze 2                 seconds of constant sensor readings
+  +12   lie altitude 0.5 for 3   offset that is added to a quantity, and seconds
+  +16   wind 1.5 -0.5 gusts 0.4  m/s towards right and forward
+  +20   battery 15               percent; likewise sag, the reduction under full load
+  +22   motor 70 over 2          remaining percent of its thrust, reached after these seconds
+  +23   second-pilot 5           seconds in which another client commands a hover; its sequence
+                                 numbers start at 1, or with `from 5000` at the end there
+  +24   tag 1.5 -0.5 90          place a roundel: metres right and forward, degrees; likewise
+                                 tag-moved 1 0 0 90 (number and new place) and tag-gone 1
+  +25   restart                  power cycle; or propeller, a blocked one, which cuts the motors
 
-loss, outage and hold concern both directions, or with up or down behind the word only what goes to
-the drone or comes from it. A quantity is velocity-right, velocity-forward, altitude, yaw (or heading),
-roll, pitch or clock, in metres, degrees and seconds; each of these lasts so many seconds:
+loss, outage and hold affect both directions, or with up or down behind the word only the datagrams
+to or from the drone. A quantity is velocity-right, velocity-forward, altitude, yaw (or heading),
+roll, pitch or clock, in metres, degrees and seconds. `for` gives the duration in seconds:
 
-  +8    stuck yaw for 3              it stays at what it read; with `at 20` at that
-  +8    dead altitude at 1.5 for 3   it stays at that, with its usual noise; else at zero
-  +8    lie velocity-right 0.5 for 3 that is added; `lie velocity RIGHT FORWARD` is two in one
-  +8    ramp heading 5 for 3         that is added each second
-  +8    nan pitch for 3              it is not a number; altitude and clock always are
-  +8    late altitude 0.5 for 3      it is told so many seconds late
-  +8    state ultrasound-deaf for 3  a bit of the state word is raised
-  +8    minor 6 for 3                the detail of the control state
+  +8    stuck yaw for 3              constant at the last value; with `at 20` at that value
+  +8    dead altitude at 1.5 for 3   constant at that value or zero, with its usual noise
+  +8    lie velocity-right 0.5 for 3 offset; `lie velocity RIGHT FORWARD` is two in one
+  +8    ramp heading 5 for 3         offset that grows by this each second
+  +8    nan pitch for 3              NaN; not possible for altitude and clock
+  +8    late altitude 0.5 for 3      additional delay in seconds
+  +8    state ultrasound-deaf for 3  set a bit of the state word
+  +8    minor 6 for 3                detail of the control state
 
-What is faulty is what navdata say. The drone's own hover and landing go on by the truth.
+Only navdata are falsified. The drone's own hover and landing use the true motion.
 
 Exit status: 0 stopped by Ctrl-C; 1 a port is taken, a file is wrong or a socket failed; 2 usage.";
 
@@ -77,13 +77,13 @@ pub(super) struct PortArguments {
     /// TCP port for the configuration
     #[arg(long, value_name = "PORT", default_value_t = CONTROL_PORT)]
     pub(super) control_port: u16,
-    /// TCP port for FTP, which knows the firmware's version
+    /// TCP port for FTP, which serves the firmware's version
     #[arg(long, value_name = "PORT", default_value_t = FTP_PORT)]
     pub(super) ftp_port: u16,
-    /// TCP port for video; connections are kept, no picture is sent
+    /// TCP port for video; connections stay open, no picture is sent
     #[arg(long, value_name = "PORT", default_value_t = VIDEO_PORT)]
     pub(super) video_port: u16,
-    /// TCP port that some clients knock at to see if the drone is there; the real one has 21
+    /// TCP port that some clients probe to detect the drone; the real one has 21
     #[arg(long, value_name = "PORT")]
     pub(super) presence_port: Option<u16>,
 }
@@ -91,25 +91,25 @@ pub(super) struct PortArguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Drone")]
 pub(super) struct DroneArguments {
-    /// Everything random follows from this number
+    /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(super) seed: u64,
-    /// Charge at the start, in percent
+    /// Initial charge, in percent
     #[arg(long, value_name = "PERCENT", default_value_t = 90, value_parser = clap::value_parser!(u8).range(0..=100))]
     pub(super) battery: u8,
-    /// What the charge seems to lose under full load, in percent
+    /// Reduction of the measured charge under full load, in percent
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, value_parser = percentage)]
     pub(super) battery_sag: f64,
-    /// It flies already at this height in metres, as another pilot has left it
+    /// Start in flight at this height in metres, as left by another pilot
     #[arg(long, value_name = "METRES", value_parser = not_negative)]
     pub(super) flies_at: Option<f64>,
-    /// Which published model it flies by
+    /// Published model of the airframe
     #[arg(long, value_enum, default_value_t = Airframe::Rec)]
     pub(super) airframe: Airframe,
-    /// How good the drone's sensors are
+    /// Quality of the drone's sensors
     #[arg(long, value_enum, default_value_t = Sensors::Nominal)]
     pub(super) sensors: Sensors,
-    /// What is sent as navdata option 27, in which firmware versions differ
+    /// Content of navdata option 27, in which firmware versions differ
     #[arg(long, value_enum, default_value_t = Option27::Absent)]
     pub(super) option_27: Option27,
     /// Wind towards right and forward, in metres a second
@@ -118,8 +118,8 @@ pub(super) struct DroneArguments {
     /// Standard deviation of the gusts, in metres a second
     #[arg(long, value_name = "M/S", default_value_t = 0.0, value_parser = not_negative)]
     pub(super) gusts: f64,
-    /// A roundel on the floor, so far to the right and forward of the start, pointing so many degrees
-    /// clockwise; it may be given several times
+    /// A roundel on the floor: metres to the right and forward of the start, and its heading clockwise in
+    /// degrees; may be repeated
     #[arg(long, value_name = "X,Y[,HEADING]", value_parser = floor_tag, allow_hyphen_values = true)]
     pub(super) tag: Vec<FloorTag>,
 }
@@ -133,16 +133,16 @@ pub(super) struct FaultArguments {
     /// Datagrams that arrive twice
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, value_parser = percentage)]
     pub(super) duplicate: f64,
-    /// Datagrams that arrive behind the next one
+    /// Datagrams that arrive after the next one
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, value_parser = percentage)]
     pub(super) reorder: f64,
-    /// Datagrams that are spoiled: navdata with a changed byte, lost AT commands
+    /// Datagrams that are corrupted: navdata with a changed byte, AT commands lost
     #[arg(long, value_name = "PERCENT", default_value_t = 0.0, value_parser = percentage)]
     pub(super) corrupt: f64,
-    /// Time that each datagram takes, in milliseconds
+    /// Latency of each datagram, in milliseconds
     #[arg(long, value_name = "MS", default_value_t = 0)]
     pub(super) delay: u16,
-    /// Up to so much more, at random, in milliseconds
+    /// Maximum random additional latency, in milliseconds
     #[arg(long, value_name = "MS", default_value_t = 0)]
     pub(super) jitter: u16,
     /// Faults over time, see below
@@ -152,11 +152,11 @@ pub(super) struct FaultArguments {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Airframe {
-    /// Inside the spread of the others
+    /// Inside the range of the others
     Rec,
-    /// That of the filter in TUM's packages: strong tilt, slow climb, fast drop
+    /// That of the filter in TUM's packages: strong tilt, slow climb, fast descent
     Tum,
-    /// Fitted transfer functions: weak tilt, brisk climb, long dead time
+    /// Fitted transfer functions: weak tilt, fast climb, long dead time
     Tf,
     /// Identified for a thesis: strong drag, slow climb and turn
     Leo,
@@ -198,10 +198,14 @@ fn floor_tag(text: &str) -> Result<FloorTag, String> {
 
 fn percentage(text: &str) -> Result<f64, String> {
     let number = not_negative(text)?;
-    if number <= 100.0 { Ok(number) } else { Err("more than 100 percent".to_owned()) }
+    if number <= 100.0 { Ok(number) } else { Err("greater than 100 percent".to_owned()) }
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {
     let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if number.is_finite() && number >= 0.0 { Ok(number) } else { Err("not a size".to_owned()) }
+    if number.is_finite() && number >= 0.0 {
+        Ok(number)
+    } else {
+        Err("must not be negative".to_owned())
+    }
 }

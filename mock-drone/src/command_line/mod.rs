@@ -19,7 +19,7 @@ use crate::sensors::SensorModel;
 use crate::server::{Ports, Server, ServerError};
 use crate::{CameraModel, DroneConfig, LinkFaults, Tag27, TruthLog, WorldConfig};
 
-/// Why the mock drone could not be started or has ended.
+/// Errors of the program.
 #[derive(Debug, thiserror::Error)]
 enum CommandError {
     #[error("cannot {action} {}: {source}", path.display())]
@@ -30,7 +30,7 @@ enum CommandError {
     Server(#[from] ServerError),
 }
 
-/// Does what the program's arguments ask for, until it is stopped, and says how to exit.
+/// Runs the program until it is stopped. Returns its exit status.
 pub fn run() -> ExitCode {
     // A closed pipe ends the log, not the drone.
     tracing_subscriber::fmt()
@@ -42,10 +42,10 @@ pub fn run() -> ExitCode {
     match serve(&Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // The mistakes of a scenario stand by themselves.
+            // The diagnostics of a scenario need no prefix.
             let scenario = matches!(error, CommandError::Scenario(_));
             let prefix = if scenario { "" } else { "error: " };
-            // A message that cannot be printed has nowhere else to go.
+            // There is no other channel for a message that cannot be printed.
             _ = writeln!(std::io::stderr(), "{prefix}{error}");
             ExitCode::FAILURE
         }
@@ -96,7 +96,7 @@ async fn stopped() {
     let terminated = async {
         match signal(SignalKind::terminate()) {
             Ok(mut signal) => _ = signal.recv().await,
-            // It will end the program by itself.
+            // Without the handler, the signal ends the program.
             Err(_) => std::future::pending().await,
         }
     };

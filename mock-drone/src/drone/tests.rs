@@ -3,7 +3,7 @@ use ardrone_link::navdata::{ControlState, DroneState, Navdata};
 
 use super::*;
 
-/// A drone and a client that talks to it every 30 ms.
+/// A drone, and a client that sends a datagram every 30 ms.
 struct Bench {
     drone: Drone,
     now: Duration,
@@ -180,7 +180,7 @@ fn a_silent_pilot_raises_the_watchdog_then_loses_the_link() {
     bench.wait(Duration::from_secs(2));
     let packets = bench.heard.len();
     bench.wait(Duration::from_secs(1));
-    assert_eq!(bench.heard.len(), packets, "the drone talks to nobody");
+    assert_eq!(bench.heard.len(), packets, "the drone sends to nobody");
     assert_eq!(bench.drone.truth().phase, Phase::Flying);
     bench.wait(Duration::from_secs(6));
     assert_eq!(bench.drone.truth().phase, Phase::Landed);
@@ -298,7 +298,7 @@ fn the_truth_counts_meetings_with_the_floor_and_tells_their_speed() {
     bench.fly(Ref::TakeOff, HOVER, 5.0);
     bench.fly(Ref::Land, HOVER, 5.0);
     let truth = bench.drone.truth();
-    assert_eq!(truth.floor_contacts, 0, "a landing is no accident");
+    assert_eq!(truth.floor_contacts, 0, "a landing is not a floor contact");
     assert!(truth.touch_down_m_s.is_some_and(|speed_m_s| speed_m_s < 0.3), "{truth:?}");
 }
 
@@ -323,7 +323,7 @@ fn the_same_seed_flies_the_same_flight() {
     assert_eq!(fly(), fly());
 }
 
-/// How many roundels the newest packet tells of.
+/// Number of roundels in the newest packet.
 fn tags_told(bench: &mut Bench) -> u32 {
     bench.now += DEMO_PERIOD;
     bench.drone.advance(bench.now);
@@ -351,6 +351,6 @@ fn roundels_are_told_only_of_a_drone_that_was_asked_to_look_for_them() {
         assert_eq!(tags_told(&mut bench), seen, "{settings:?}");
         bench.drone.move_tag(0, None);
         bench.wait(Duration::from_millis(200));
-        assert_eq!(tags_told(&mut bench), 0, "it was taken away");
+        assert_eq!(tags_told(&mut bench), 0, "it was removed");
     }
 }

@@ -1,4 +1,4 @@
-//! Faults over time, as a text that anybody can write.
+//! Faults over time, in a text format.
 //!
 //! ```text
 //! # seconds since the start, or with a plus since the first take-off
@@ -22,7 +22,7 @@ use nalgebra::Vector2;
 use crate::camera::FloorTag;
 use crate::faults::{Quantity, SensorFault};
 
-/// What happens, and when.
+/// A list of actions with their times.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scenario {
     entries: Vec<Entry>,
@@ -34,23 +34,23 @@ struct Entry {
     action: Action,
 }
 
-/// When something happens.
+/// Time of an action.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum When {
-    /// So long after the start.
+    /// Time since the start.
     SinceStart(Duration),
-    /// So long after the first take-off.
+    /// Time since the first take-off.
     SinceTakeOff(Duration),
 }
 
-/// Which datagrams a fault of the link concerns.
+/// Direction of a link fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
-    /// From the pilot to the drone.
+    /// Pilot to drone.
     Up,
-    /// From the drone to the pilot.
+    /// Drone to pilot.
     Down,
-    /// All.
+    /// Both directions.
     Both,
 }
 
@@ -64,74 +64,74 @@ impl Direction {
     }
 }
 
-/// Something that happens. Shares are probabilities from 0 to 1.
+/// A fault or another change. Fractions are probabilities from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// Datagrams are lost.
+    /// Fraction of datagrams that are lost.
     Loss(Direction, f64),
-    /// Datagrams take so long, and up to so much more.
+    /// Base latency and maximum jitter.
     Delay(Duration, Duration),
-    /// Datagrams arrive twice.
+    /// Fraction of datagrams that arrive twice.
     Duplication(f64),
-    /// Datagrams change their order.
+    /// Fraction of datagrams that are reordered.
     Reordering(f64),
-    /// Datagrams are spoiled.
+    /// Fraction of datagrams that are corrupted.
     Corruption(f64),
-    /// Nothing passes for a while: it is lost.
+    /// All datagrams are lost for a time.
     Outage(Direction, Duration),
-    /// Nothing arrives for a while, and then all of it at once.
+    /// Datagrams are held back for a time, and then arrive at once.
     Hold(Direction, Duration),
-    /// So many of the last navdata packets arrive once more, at once.
+    /// The last navdata packets, this many, arrive once more, at once.
     Burst(usize),
-    /// The drone is switched off and on again.
+    /// The drone is power-cycled.
     Restart,
-    /// Something stops a propeller.
+    /// A propeller is blocked.
     Propeller,
-    /// All that sensors read stays the same for a while; the drone's clock goes on.
+    /// All sensor readings stay constant for a time; the drone's clock goes on.
     Freeze(Duration),
-    /// One thing that navdata tell is wrong for a while.
+    /// One quantity in navdata is wrong for a time.
     Sensor(Quantity, SensorFault, Duration),
-    /// The drone raises bits of its state word for a while.
+    /// The drone sets bits of its state word for a time.
     State(DroneState, Duration),
-    /// The drone tells this detail of its control state for a while.
+    /// The drone reports this detail of its control state for a time.
     Minor(u16, Duration),
-    /// A motor weakens to this share of its thrust, within a time.
+    /// A motor weakens to this fraction of its thrust, over a time.
     Motor(f64, Duration),
-    /// The wind towards (right, forward), and the deviation of its gusts.
+    /// The wind towards (right, forward), and the standard deviation of its gusts.
     Wind(Vector2<f64>, f64),
-    /// A roundel is laid on the floor.
+    /// A roundel is placed on the floor.
     LayTag(FloorTag),
-    /// A roundel is moved, the first laid being 0, or taken away.
+    /// A roundel is moved or removed; the first one placed is 0.
     MoveTag(usize, Option<FloorTag>),
-    /// The charge in percent.
+    /// Sets the charge in percent.
     Battery(f64),
-    /// So many percent less charge seem to be left at full load.
+    /// Reduction of the measured charge at full load, in percent.
     BatterySag(f64),
-    /// Another pilot tells the drone to hover for a while; its commands are numbered from this on.
+    /// Another client commands the drone to hover for a time; its sequence numbers start here.
     SecondPilot(Duration, u32),
 }
 
-/// A scenario that could not be read.
+/// The errors of a scenario.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{rendered}")]
 #[non_exhaustive]
 pub struct ScenarioError {
-    /// Everything that is wrong, with line and column.
+    /// All errors, with line and column.
     pub rendered: String,
 }
 
 impl Scenario {
-    /// A scenario of one action.
+    /// Adds an action.
     #[must_use]
     pub fn and(mut self, when: When, action: Action) -> Self {
         self.entries.push(Entry { when, action });
         self
     }
 
-    /// Reads a scenario; `name` is its file's name for messages.
+    /// Parses a scenario; `name` is its file's name for messages.
     ///
     /// # Errors
-    /// [`ScenarioError`] with everything that is wrong.
+    /// [`ScenarioError`] with all errors.
     pub fn parse(name: &str, text: &str) -> Result<Self, ScenarioError> {
         let (entries, diagnostics) = parser::parse(text);
         if diagnostics.is_empty() {
@@ -141,13 +141,13 @@ impl Scenario {
         Err(ScenarioError { rendered })
     }
 
-    /// Takes out what is due, in the order in which it was written.
+    /// Removes and returns the actions that are due, in the order of the text.
     pub(crate) fn due(&mut self, now: Duration, take_off: Option<Duration>) -> Vec<Action> {
         let is_due = |entry: &mut Entry| entry.time(take_off).is_some_and(|time| time <= now);
         self.entries.extract_if(.., is_due).map(|entry| entry.action).collect()
     }
 
-    /// When the next action is due, as far as that is known.
+    /// When the next action is due, as far as it is known.
     pub(crate) fn next_due(&self, take_off: Option<Duration>) -> Option<Duration> {
         self.entries.iter().filter_map(|entry| entry.time(take_off)).min()
     }
@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(scenario, Scenario::default());
     }
 
-    /// The actions of a text, all of them due.
+    /// The actions of a text, as if all were due.
     fn actions(text: &str) -> Vec<Action> {
         let mut scenario = Scenario::parse("s.txt", text).unwrap_or_else(|error| panic!("{error}"));
         scenario.due(Duration::from_hours(1), None)
@@ -256,20 +256,20 @@ mod tests {
         assert_eq!(
             places,
             [
-                "error: `soon` is no time",
+                "error: `soon` is not a time",
                 "error: unknown action `los`",
                 "error: expected a percentage, found `300`",
                 "error: expected a percentage, found the end of the line",
-                "error: `now` is one word too many",
-                "error: the drone does not tell its `wind`",
+                "error: unexpected `now`",
+                "error: unknown quantity `wind`",
                 "error: expected `for`, found `1`",
-                "error: `-7` is no time",
-                "error: `NaN` is no time",
+                "error: `-7` is not a time",
+                "error: `NaN` is not a time",
                 "error: altitude is always a number",
                 "error: unknown state `happy`",
                 "error: expected a number of packets, found `1.5`",
                 "error: expected metres a second, found `for`",
-                "error: the drone does not tell its `velocity`",
+                "error: unknown quantity `velocity`",
             ]
         );
         assert!(error.contains("s.txt:3:8"), "{error}");

@@ -1,4 +1,4 @@
-//! The text of a scenario, line by line.
+//! Parser of scenarios, line by line.
 
 use std::ops::RangeInclusive;
 use std::str::FromStr;
@@ -17,7 +17,7 @@ const ACTIONS: &str = "loss, delay, duplicate, reorder, corrupt, outage, hold, b
                        propeller, freeze, stuck, dead, lie, ramp, nan, late, state, minor, motor, \
                        wind, battery, sag, second-pilot, tag, tag-moved, tag-gone";
 
-/// Names of what navdata tell.
+/// Names of the quantities in navdata.
 const QUANTITIES: [(&str, Quantity); 8] = [
     ("velocity-right", Quantity::VelocityRight),
     ("velocity-forward", Quantity::VelocityForward),
@@ -29,7 +29,7 @@ const QUANTITIES: [(&str, Quantity); 8] = [
     ("clock", Quantity::Clock),
 ];
 
-/// Reads all lines; what could be read, and what is wrong with the others.
+/// Parses all lines: the valid entries, and the errors of the others.
 pub(super) fn parse(text: &str) -> (Vec<Entry>, Vec<Diagnostic>) {
     let mut entries = Vec::new();
     let mut diagnostics = Vec::new();
@@ -52,19 +52,19 @@ fn line_entries(words: &mut Words<'_>) -> Result<Vec<Entry>, Diagnostic> {
     let (word, span) = words.next("a time")?;
     let time = word.parse().ok().filter(|seconds| (0.0..=36_000.0).contains(seconds));
     let Some(time) = time.map(Duration::from_secs_f64) else {
-        return Err(Diagnostic::error(format!("`{word}` is no time"), span)
+        return Err(Diagnostic::error(format!("`{word}` is not a time"), span)
             .help("seconds since the start, or with a plus since the first take-off"));
     };
     let when =
         if word.starts_with('+') { When::SinceTakeOff(time) } else { When::SinceStart(time) };
     let actions = actions(words)?;
     if let Ok((word, span)) = words.next("") {
-        return Err(Diagnostic::error(format!("`{word}` is one word too many"), span));
+        return Err(Diagnostic::error(format!("unexpected `{word}`"), span));
     }
     Ok(actions.into_iter().map(|action| Entry { when, action }).collect())
 }
 
-/// What a line says; a velocity that lies in both its directions is two things.
+/// The actions of a line; a velocity fault in both directions is two actions.
 fn actions(words: &mut Words<'_>) -> Result<Vec<Action>, Diagnostic> {
     let (word, span) = words.next("an action")?;
     let action = match word {
@@ -110,7 +110,7 @@ fn actions(words: &mut Words<'_>) -> Result<Vec<Action>, Diagnostic> {
     Ok(vec![action])
 }
 
-/// `loss up 30`, `hold 2`, `burst 20` and their like.
+/// `loss up 30`, `hold 2`, `burst 20` and similar.
 fn link(word: &str, words: &mut Words<'_>) -> Result<Action, Diagnostic> {
     Ok(match word {
         "loss" => Action::Loss(words.direction(), words.share()?),
@@ -139,7 +139,7 @@ fn velocity_lie(words: &mut Words<'_>) -> Result<Vec<Action>, Diagnostic> {
     ])
 }
 
-/// `stuck yaw for 3`, `dead altitude at 1 for 3` and their like.
+/// `stuck yaw for 3`, `dead altitude at 1 for 3` and similar.
 fn sensor(word: &str, words: &mut Words<'_>) -> Result<Action, Diagnostic> {
     let (quantity, name, span) = words.quantity()?;
     let at = |words: &mut Words<'_>| words.take("at").then(|| words.value(quantity)).transpose();
@@ -151,7 +151,7 @@ fn sensor(word: &str, words: &mut Words<'_>) -> Result<Action, Diagnostic> {
         "nan" if quantity.is_float() => SensorFault::NotANumber,
         "nan" => {
             return Err(Diagnostic::error(format!("{name} is always a number"), span)
-                .help("it is no float on the wire"));
+                .help("it is an integer on the wire, which cannot be NaN"));
         }
         _ => SensorFault::Late(words.seconds()?),
     };
@@ -177,7 +177,7 @@ fn claim(word: &str, words: &mut Words<'_>) -> Result<Action, Diagnostic> {
     Ok(Action::State(bits, words.for_seconds()?))
 }
 
-/// The words of a line, with their places in the text.
+/// The words of a line, with their positions in the text.
 struct Words<'a> {
     all: Vec<(&'a str, Span)>,
     next: usize,
@@ -188,7 +188,7 @@ impl<'a> Words<'a> {
     fn new(line: &'a str, start: usize) -> Self {
         let content = line.split('#').next().unwrap_or_default();
         let words = content.split_whitespace().map(|word| {
-            // A word is a part of the line that it came from.
+            // Each word is a slice of its line.
             let offset = start + (word.as_ptr().addr() - line.as_ptr().addr());
             (word, offset..offset + word.len())
         });
@@ -238,7 +238,7 @@ impl<'a> Words<'a> {
         })
     }
 
-    /// A percentage as a share.
+    /// A percentage, as a fraction.
     fn share(&mut self) -> Result<f64, Diagnostic> {
         Ok(self.number("a percentage", 0.0, 100.0)? / 100.0)
     }
@@ -269,7 +269,7 @@ impl<'a> Words<'a> {
         Ok(Vector2::new(right, forward))
     }
 
-    /// `1 -0.5 90`: right, forward, and which way it points.
+    /// `1 -0.5 90`: right, forward, heading.
     fn tag(&mut self) -> Result<FloorTag, Diagnostic> {
         let right_m = self.number("metres", -100.0, 100.0)?;
         let forward_m = self.number("metres", -100.0, 100.0)?;
@@ -289,16 +289,16 @@ impl<'a> Words<'a> {
     }
 
     fn quantity(&mut self) -> Result<(Quantity, &'a str, Span), Diagnostic> {
-        let (word, span) = self.next("something that the drone tells")?;
+        let (word, span) = self.next("a quantity in navdata")?;
         let Some((_, quantity)) = QUANTITIES.iter().find(|(name, _)| *name == word) else {
             let names = QUANTITIES.map(|(name, _)| name).join(", ");
-            let message = format!("the drone does not tell its `{word}`");
+            let message = format!("unknown quantity `{word}`");
             return Err(Diagnostic::error(message, span).help(format!("one of {names}")));
         };
         Ok((*quantity, word, span))
     }
 
-    /// A value of a quantity, or how much it changes.
+    /// A value of a quantity, or its change.
     fn value(&mut self, quantity: Quantity) -> Result<f64, Diagnostic> {
         match quantity {
             Quantity::VelocityRight | Quantity::VelocityForward => {

@@ -1,4 +1,4 @@
-//! As much of FTP as clients need to read the firmware's version.
+//! The part of FTP that clients need to read the firmware's version.
 
 use std::io;
 use std::net::{IpAddr, SocketAddr};
@@ -7,10 +7,10 @@ use tokio::io::{AsyncBufReadExt as _, AsyncWriteExt as _, BufReader};
 use tokio::net::{TcpListener, TcpStream};
 
 const VERSION: &str = "2.4.8\n";
-/// Commands are short; a client that says more says nothing that is understood.
+/// Maximum length of a command; valid ones are short.
 const MAX_COMMAND_BYTES: usize = 512;
 
-/// Serves one client to its end.
+/// Serves one client until it disconnects.
 pub(super) async fn serve(stream: TcpStream) -> io::Result<()> {
     let host = stream.local_addr()?.ip();
     let mut stream = BufReader::new(stream);
@@ -27,10 +27,10 @@ pub(super) async fn serve(stream: TcpStream) -> io::Result<()> {
         match command.to_ascii_uppercase().as_str() {
             "USER" => reply(&mut stream, "331 any password").await?,
             "PASS" => reply(&mut stream, "230 welcome").await?,
-            "TYPE" | "MODE" | "STRU" | "NOOP" => reply(&mut stream, "200 as you like").await?,
+            "TYPE" | "MODE" | "STRU" | "NOOP" => reply(&mut stream, "200 OK").await?,
             "SYST" => reply(&mut stream, "215 UNIX Type: L8").await?,
             "PWD" => reply(&mut stream, "257 \"/\"").await?,
-            "CWD" => reply(&mut stream, "250 there is one folder").await?,
+            "CWD" => reply(&mut stream, "250 OK").await?,
             "PASV" | "EPSV" => {
                 let listener = TcpListener::bind((host, 0)).await?;
                 let address = listener.local_addr()?;
@@ -43,15 +43,15 @@ pub(super) async fn serve(stream: TcpStream) -> io::Result<()> {
                     let retrieving = command.eq_ignore_ascii_case("RETR");
                     let known = argument.trim_start_matches('/') == "version.txt";
                     if retrieving && !known {
-                        reply(&mut stream, "550 only version.txt is here").await?;
+                        reply(&mut stream, "550 no such file; only version.txt exists").await?;
                         continue;
                     }
-                    reply(&mut stream, "150 here it comes").await?;
+                    reply(&mut stream, "150 sending").await?;
                     let (mut connection, _) = listener.accept().await?;
                     let content = if retrieving { VERSION } else { "version.txt\r\n" };
                     connection.write_all(content.as_bytes()).await?;
                     connection.shutdown().await?;
-                    reply(&mut stream, "226 that was it").await?;
+                    reply(&mut stream, "226 transfer complete").await?;
                 }
                 None => reply(&mut stream, "425 say PASV first").await?,
             },
@@ -59,7 +59,7 @@ pub(super) async fn serve(stream: TcpStream) -> io::Result<()> {
                 reply(&mut stream, "221 goodbye").await?;
                 return Ok(());
             }
-            _ => reply(&mut stream, "502 not here").await?,
+            _ => reply(&mut stream, "502 not implemented").await?,
         }
     }
 }

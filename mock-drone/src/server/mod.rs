@@ -1,5 +1,5 @@
-//! The drone on real sockets: UDP for AT commands and navdata, TCP for the configuration, and as
-//! much of its other ports as clients need to get going.
+//! The drone on real sockets: UDP for AT commands and navdata, TCP for the configuration, and its other ports
+//! as far as clients need them to connect.
 
 mod ftp;
 
@@ -22,7 +22,7 @@ use tracing::{debug, info};
 use crate::truth_log::TruthLog;
 use crate::{Message, Truth, World, WorldConfig};
 
-/// Where the drone listens. Port 0 takes any free port.
+/// Addresses and ports of the drone. Port 0 takes any free port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ports {
     /// The address to bind.
@@ -33,11 +33,11 @@ pub struct Ports {
     pub navdata: u16,
     /// TCP, configuration.
     pub control: u16,
-    /// TCP, FTP with the firmware's version, if it is wanted.
+    /// TCP, FTP with the firmware's version; `None` disables it.
     pub ftp: Option<u16>,
-    /// TCP, video: connections are kept and never hear anything.
+    /// TCP, video: connections stay open without data.
     pub video: Option<u16>,
-    /// TCP, a port that some clients knock at to see if the drone is there. The real one has 21.
+    /// TCP, a port that some clients probe to detect the drone. The real drone has 21.
     pub presence: Option<u16>,
 }
 
@@ -53,7 +53,7 @@ impl Ports {
         presence: None,
     };
 
-    /// The drone's own ports.
+    /// The real drone's ports.
     pub fn standard(host: IpAddr) -> Self {
         Self {
             host,
@@ -67,7 +67,7 @@ impl Ports {
     }
 }
 
-/// Why the drone could not be put on the network.
+/// Errors on starting the server.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ServerError {
@@ -76,9 +76,9 @@ pub enum ServerError {
     Bind {
         /// The address.
         address: SocketAddr,
-        /// What the port is for.
+        /// Purpose of the port.
         purpose: &'static str,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
     /// The runtime or its thread could not be started.
@@ -86,9 +86,9 @@ pub enum ServerError {
     Start(#[from] io::Error),
 }
 
-/// A drone on its sockets, not yet alive.
+/// A drone with bound sockets, before it runs.
 #[derive(Debug)]
-#[must_use = "the drone lives while `run` is awaited"]
+#[must_use = "the drone runs while `run` is awaited"]
 pub struct Server {
     at: UdpSocket,
     navdata: UdpSocket,
@@ -102,18 +102,18 @@ pub struct Server {
     next_flush: Duration,
 }
 
-/// How long the drone lives between two looks at the clock.
+/// Simulation step: interval between readings of the clock.
 const PERIOD: Duration = Duration::from_millis(5);
-/// How often the truth log is written out, so that a kill loses little.
+/// Interval between flushes of the truth log, so that a kill loses little.
 const FLUSH_PERIOD: Duration = Duration::from_millis(500);
-/// Longer than any datagram that means something.
+/// Longer than any valid datagram.
 const BUFFER_BYTES: usize = 2048;
 
 impl Server {
     /// Binds the ports.
     ///
     /// # Errors
-    /// [`ServerError::Bind`] naming the port that is taken.
+    /// [`ServerError::Bind`] with the port that is taken.
     pub async fn bind(config: &WorldConfig, ports: Ports) -> Result<Self, ServerError> {
         let address = |port| SocketAddr::new(ports.host, port);
         let udp = async |port, purpose| {
@@ -152,15 +152,15 @@ impl Server {
         })
     }
 
-    /// Records what really happens.
+    /// Records the true state.
     pub fn log_truth(&mut self, log: TruthLog<File>) {
         self.log = Some(log);
     }
 
-    /// The ports that were bound.
+    /// The bound ports.
     ///
     /// # Errors
-    /// What the system says if a socket has no address.
+    /// The system's error if a socket has no address.
     pub fn ports(&self) -> io::Result<Ports> {
         let port = |listener: Option<&TcpListener>| {
             listener.map(|listener| listener.local_addr().map(|address| address.port())).transpose()
@@ -177,10 +177,10 @@ impl Server {
         })
     }
 
-    /// Lives for ever.
+    /// Runs until a socket fails.
     ///
     /// # Errors
-    /// What the system says when a socket fails for good.
+    /// The system's error when a socket fails for good.
     pub async fn run(mut self) -> io::Result<()> {
         let start = Instant::now();
         let mut at_buffer = [0_u8; BUFFER_BYTES];
@@ -200,7 +200,7 @@ impl Server {
                 received = self.navdata.recv_from(&mut navdata_buffer) => {
                     if let Some((length, from)) = tolerate(received)? {
                         if listener != Some(from) {
-                            info!("navdata goes to {from}");
+                            info!("sending navdata to {from}");
                         }
                         listener = Some(from);
                         let datagram = navdata_buffer.get(..length).unwrap_or_default();
@@ -209,14 +209,14 @@ impl Server {
                 }
                 accepted = self.control.accept() => {
                     if let Ok((stream, from)) = accepted {
-                        info!("{from} is connected to the control port");
+                        info!("{from} connected to the control port");
                         reader = Some(stream);
                     }
                 }
                 Some(stream) = accept(self.ftp.as_ref()) => {
                     tokio::spawn(async move {
                         if let Err(error) = ftp::serve(stream).await {
-                            debug!("the FTP client has gone: {error}");
+                            debug!("FTP client disconnected: {error}");
                         }
                     });
                 }
@@ -237,7 +237,7 @@ impl Server {
                         if let Some(stream) = &mut reader
                             && let Err(error) = stream.write_all(dump.as_bytes()).await
                         {
-                            debug!("the reader of the configuration has gone: {error}");
+                            debug!("configuration client disconnected: {error}");
                             reader = None;
                         }
                     }
@@ -255,7 +255,7 @@ impl Server {
     }
 }
 
-/// The next connection; never anything without a listener.
+/// The next connection; pending for ever without a listener.
 async fn accept(listener: Option<&TcpListener>) -> Option<TcpStream> {
     match listener {
         Some(listener) => listener.accept().await.ok().map(|(stream, _)| stream),
@@ -263,7 +263,7 @@ async fn accept(listener: Option<&TcpListener>) -> Option<TcpStream> {
     }
 }
 
-/// Connections that are kept open and never hear anything, the newest of them.
+/// Connections that stay open without data; the oldest are closed.
 #[derive(Default)]
 struct Visitors(VecDeque<TcpStream>);
 
@@ -278,7 +278,7 @@ impl Visitors {
     }
 }
 
-/// A datagram to somebody who has gone comes back as an error of the next call: no reason to die.
+/// UDP reports a peer that has gone as an error of the next call; the server continues.
 fn tolerate<T>(result: io::Result<T>) -> io::Result<Option<T>> {
     match result {
         Err(error) if is_passing(&error) => Ok(None),
@@ -286,9 +286,9 @@ fn tolerate<T>(result: io::Result<T>) -> io::Result<Option<T>> {
     }
 }
 
-/// A drone that lives on a thread of its own, until it is dropped.
+/// A drone that runs on its own thread until it is dropped.
 #[derive(Debug)]
-#[must_use = "the drone is gone when this is dropped"]
+#[must_use = "the drone stops when this is dropped"]
 pub struct MockDrone {
     ports: Ports,
     truth: Arc<Mutex<Truth>>,
@@ -300,12 +300,12 @@ impl MockDrone {
     /// Starts a drone.
     ///
     /// # Errors
-    /// [`ServerError`] if a port is taken or no thread can be had.
+    /// [`ServerError`] if a port is taken or the thread cannot be started.
     pub fn start(config: &WorldConfig, ports: Ports) -> Result<Self, ServerError> {
         let config = config.clone();
         let (stop, stopped) = oneshot::channel();
         let (started, starting) = std::sync::mpsc::sync_channel(1);
-        // All of it happens on the drone's own thread, so that a caller may have a runtime too.
+        // The runtime is created on the drone's own thread, so that the caller may have one too.
         let thread =
             std::thread::Builder::new().name("mock-drone".to_owned()).spawn(move || {
                 live(&config, ports, &started, stopped);
@@ -315,28 +315,28 @@ impl MockDrone {
         Ok(Self { ports, truth, stop: Some(stop), thread: Some(thread) })
     }
 
-    /// Where it listens.
+    /// Its ports.
     pub fn ports(&self) -> Ports {
         self.ports
     }
 
-    /// What really happens, now.
+    /// The true state now.
     pub fn truth(&self) -> Truth {
         *self.truth.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// What is known of a drone once it lives.
+/// Result of starting a drone.
 type Started = Result<(Ports, Arc<Mutex<Truth>>), ServerError>;
 
-/// The life of a drone on its thread: tells how it started, then runs until it is stopped.
+/// Body of the drone's thread: reports the start, then runs until it is stopped.
 fn live(
     config: &WorldConfig,
     ports: Ports,
     started: &SyncSender<Started>,
     stopped: oneshot::Receiver<()>,
 ) {
-    // Whoever wanted to know may have gone; then the drone ends, since nobody can stop it.
+    // If the receiver has gone, nobody can stop the drone, and it ends.
     let tell = |result| _ = started.send(result);
     let runtime = match tokio::runtime::Builder::new_current_thread().enable_all().build() {
         Ok(runtime) => runtime,
@@ -355,7 +355,7 @@ fn live(
                     tracing::error!("the mock drone's sockets failed: {error}");
                 }
             }
-            // Stopped, or its owner has gone.
+            // Stopped, or its owner was dropped.
             _ = stopped => {}
         }
     });
@@ -364,7 +364,7 @@ fn live(
 impl Drop for MockDrone {
     fn drop(&mut self) {
         if let Some(stop) = self.stop.take() {
-            // The thread may have ended by itself.
+            // The thread may have ended already.
             _ = stop.send(());
         }
         if let Some(thread) = self.thread.take()

@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use ardrone_link::navdata::DroneState;
+use autopilot::Plan;
 use autopilot::plan::{FlightLimits, ZOrigin};
 use autopilot::vehicle::{OperatorOrder, VehicleConfig};
-use autopilot::{Demand, Plan};
-use mock_drone::airframe::{Profile, ThrustLaw};
+use kinematics::Sticks;
+use mock_drone::airframe::{GRAVITY_M_S2, Profile, ThrustLaw};
 use mock_drone::scenario::{Action, Direction, When};
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, LinkFaults, Quantity, SensorFault, WorldConfig};
@@ -200,7 +201,7 @@ fn orders(random: &mut impl Rng) -> Vec<(Duration, OperatorOrder)> {
 fn strongest_wind_m_s(profile: &Profile) -> f64 {
     let tilt_rad = 12_f64.to_radians();
     let acceleration = match profile.thrust {
-        ThrustLaw::CarriesWeight => Vector2::repeat(9.81 * tilt_rad.tan()),
+        ThrustLaw::CarriesWeight => Vector2::repeat(GRAVITY_M_S2 * tilt_rad.tan()),
         ThrustLaw::Sine { acceleration_m_s2 } => {
             Vector2::repeat(acceleration_m_s2 * tilt_rad.sin())
         }
@@ -336,7 +337,7 @@ fn pilot_order(random: &mut impl Rng) -> OperatorOrder {
         2..=4 => OperatorOrder::Resume,
         5..=7 => {
             let mut stick = || random.random_range(-1.0..1.0);
-            OperatorOrder::Steer(Demand {
+            OperatorOrder::Steer(Sticks {
                 roll: stick(),
                 pitch: stick(),
                 gaz: stick(),

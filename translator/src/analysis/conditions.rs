@@ -12,7 +12,7 @@ use crate::syntax::ast::{Atom, Expression, Name, Relation};
 use crate::types::{CType, TypeKind};
 
 impl Analysis<'_> {
-    /// Adds what `expression` demands to a conjunction, left to right.
+    /// Adds the conditions of `expression` to a conjunction, left to right.
     pub(super) fn conditions(
         &mut self,
         expression: &Expression,
@@ -27,7 +27,7 @@ impl Analysis<'_> {
                 }
                 return Ok(());
             }
-            // `true` demands nothing.
+            // `true` adds no condition.
             Expression::Boolean { value: true, .. } => return Ok(()),
             _ => {}
         }
@@ -52,7 +52,7 @@ impl Analysis<'_> {
                     if scope.is_broken(left) || scope.is_broken(right) {
                         return Err(said_already());
                     }
-                    // An unbound variable is the likelier mistake.
+                    // Reported first, because an unbound variable is the likelier mistake.
                     for side in [left, right] {
                         if let Expression::Variable(name) = side.as_ref() {
                             scope.bound(name)?;
@@ -125,7 +125,7 @@ impl Analysis<'_> {
     }
 }
 
-/// Variables that every branch binds, to values of one type, can be seen afterwards.
+/// Variables that every branch binds to values of one type are visible afterwards.
 fn exports(
     bound: &[Vec<(String, VariableId)>],
     scope: &mut Scope,
@@ -139,7 +139,7 @@ fn exports(
         };
         let inner: Option<Vec<VariableId>> =
             others.iter().map(|branch| branch.iter().find(same).map(|(_, id)| *id)).collect();
-        // A variable that is assigned in branches needs a value to start with.
+        // A variable that is assigned in branches needs an initial value.
         if let Some(inner) = inner.filter(|_| ctype.zero().is_some()) {
             let inner: Vec<VariableId> = std::iter::once(*id).chain(inner).collect();
             exports.push((scope.export(inner.clone()), inner));
@@ -148,7 +148,7 @@ fn exports(
     exports
 }
 
-/// Refuses comparisons whose outcome does not depend on anything.
+/// Refuses comparisons with a constant result.
 fn check_informative(
     relation: Relation,
     left: &Value,
@@ -160,7 +160,7 @@ fn check_informative(
         return Err(Code::ConstantComparison.at("a value is compared with itself", span.clone()));
     }
     let Some((low, high)) = ctype.integer_range() else { return Ok(()) };
-    // Read as `variable relation constant`, whichever side the constant is on.
+    // Normalized to `variable relation constant`.
     let limits_decide = match relation {
         Relation::Less | Relation::GreaterOrEqual => (Some(low), Some(high)),
         Relation::Greater | Relation::LessOrEqual => (Some(high), Some(low)),
@@ -168,7 +168,7 @@ fn check_informative(
     };
     let is = |value: &Value, limit: Option<i128>| limit.is_some() && integer(value) == limit;
     if is(right, limits_decide.0) || is(left, limits_decide.1) {
-        let message = format!("every value of type `{}` compares so, or none does", ctype.name);
+        let message = format!("the result is the same for every value of type `{}`", ctype.name);
         return Err(Code::ConstantComparison.at(message, span.clone()));
     }
     Ok(())

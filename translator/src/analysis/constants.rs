@@ -1,4 +1,4 @@
-//! Numbers and strings as C constants of the type that is asked for.
+//! Numbers and strings as C constants of the expected type.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use crate::program::Value;
 use crate::syntax::ast::{Expression, Number};
 use crate::types::{CType, TypeKind};
 
-/// An expression as a constant of type `ctype`; nothing if it is no constant at all.
+/// An expression as a constant of type `ctype`; `None` if it is not a constant.
 pub(super) fn constant(
     expression: &Expression,
     ctype: &CType,
@@ -47,7 +47,7 @@ pub(crate) fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnos
             };
             let mantissa = number.digits.split(['e', 'E']).next().unwrap_or_default();
             let is_zero = mantissa.bytes().all(|byte| matches!(byte, b'0' | b'.'));
-            // What is too small would be zero in silence.
+            // An underflow would silently be zero.
             if !value.is_finite() || (value == 0.0 && !is_zero) {
                 return error(format!("number out of the range of `{}`", ctype.name));
             }
@@ -92,7 +92,7 @@ fn c_integer(value: i128, bits: u32, signed: bool) -> String {
     format!("{value}{suffix}")
 }
 
-/// The number that a floating-point constant stands for.
+/// The value of a floating-point constant.
 pub(crate) fn float(value: &Value) -> Option<f64> {
     let Value::Constant(text, ctype) = value else { return None };
     match ctype.kind {
@@ -102,7 +102,7 @@ pub(crate) fn float(value: &Value) -> Option<f64> {
     }
 }
 
-/// The number that an integer constant stands for.
+/// The value of an integer constant.
 pub(crate) fn integer(value: &Value) -> Option<i128> {
     let Value::Constant(text, ctype) = value else { return None };
     let (low, _) = ctype.integer_range()?;
@@ -113,7 +113,7 @@ pub(crate) fn integer(value: &Value) -> Option<i128> {
     text.trim_end_matches(['U', 'L']).parse().ok()
 }
 
-/// A C string constant: plain ASCII stands as it is, everything else as octal escapes, so that no
+/// A C string constant: printable ASCII is copied, everything else becomes octal escapes, so that no
 /// trigraph, comment or source encoding can change it.
 fn c_string(text: &str) -> String {
     let mut out = String::from("\"");

@@ -1,4 +1,4 @@
-//! What the configuration declares, by name.
+//! The declarations of the configuration, by name.
 
 use std::cell::Cell;
 use std::collections::{HashMap, HashSet};
@@ -34,7 +34,7 @@ pub(super) struct Declarations {
 struct Declaration {
     declared: Declared,
     span: Span,
-    /// Whether anybody has asked for it.
+    /// Whether it is used.
     used: Cell<bool>,
 }
 
@@ -61,7 +61,7 @@ impl Declarations {
                 findings.push(
                     Code::DeclaredTwice
                         .at(message, class.name.span.clone())
-                        .help("a property could not tell them apart: give the class another name"),
+                        .help("properties could not distinguish them: rename the class"),
                 );
             }
             for action in class.actions.iter().filter(|action| !declarations.is_basic(&action.text))
@@ -77,7 +77,7 @@ impl Declarations {
         declarations
     }
 
-    /// Properties speak of actions, classes and events that there are.
+    /// Checks that properties refer to declared actions, classes and events.
     fn check_properties(&self, configuration: &Configuration, findings: &mut Vec<Diagnostic>) {
         let (mut actions, mut events) = (Vec::new(), Vec::new());
         for property in &configuration.properties {
@@ -118,13 +118,13 @@ impl Declarations {
                 findings.push(
                     Code::NotTriggerable
                         .at("the environment does not raise this", event.span.clone())
-                        .help("properties speak of events of the section `triggerables`"),
+                        .help("properties refer to events of the section `triggerables`"),
                 );
             }
         }
     }
 
-    /// What is compared are beliefs with one number of the same type, or numbers that fit it.
+    /// Checks that both sides are beliefs with one number of the same type, or numbers of that type.
     fn check_comparison(&self, comparison: &Comparison, findings: &mut Vec<Diagnostic>) {
         let mut number = |name: &Name| {
             let Some(Declared::Predicate(types)) = self.find(&name.text) else {
@@ -133,7 +133,7 @@ impl Declarations {
             };
             let number = types.first().filter(|ctype| types.len() == 1 && ctype.is_numeric());
             if number.is_none() {
-                let message = format!("`{}` is no belief with one number", name.text);
+                let message = format!("`{}` is not a belief with one number", name.text);
                 findings.push(
                     Code::NotComparable
                         .at(message, name.span.clone())
@@ -221,14 +221,15 @@ impl Declarations {
         self.names.get(name).map(|declaration| &declaration.declared)
     }
 
-    /// What is declared by this name, from now on in use.
+    /// The declaration of this name, which is marked as used.
     fn find(&self, name: &str) -> Option<&Declared> {
         let declaration = self.names.get(name)?;
         declaration.used.set(true);
         Some(&declaration.declared)
     }
 
-    /// Warns of what neither the agent nor the configuration uses; the settings name `functions`.
+    /// Warns of declarations that neither the agent nor the configuration uses; the settings name
+    /// `functions`.
     pub(super) fn warn_unused(&self, functions: &[&str], findings: &mut Vec<Diagnostic>) {
         let mut unused: Vec<(&String, &Declaration)> = self
             .names
@@ -244,10 +245,10 @@ impl Declarations {
             |message: String, span: &Span| Code::UnusedDeclaration.at(message, span.clone());
         let single = |(name, declaration): &(&String, &Declaration)| {
             warning(format!("`{name}` is declared and never used"), &declaration.span)
-                .help("take it out, or use it in the agent")
+                .help("remove it, or use it in the agent")
         };
         if let [(_, first), _, _, _, ..] = basics.as_slice() {
-            // A library of actions serves several agents.
+            // Unused basics are allowed, because a library of actions serves several agents.
             let names: Vec<&str> = basics.iter().map(|(name, _)| name.as_str()).collect();
             let message = format!("{} actions and functions are never used", names.len());
             findings
@@ -277,7 +278,7 @@ impl Declarations {
     }
 }
 
-/// A basic action is a C function, whose name nobody else may have.
+/// A basic action is a C function, so its name must be unique.
 fn check_basic_name(basic: &Basic, prefix: &str) -> Option<Diagnostic> {
     let name = &basic.name.text;
     let symbol = format!("{prefix}{name}");
@@ -295,7 +296,7 @@ fn check_basic_name(basic: &Basic, prefix: &str) -> Option<Diagnostic> {
     })
 }
 
-/// Types have names that no function has, and none that generated C has for something of its own.
+/// Types must not have names of functions or of generated C.
 fn check_types(configuration: &Configuration, instance: Instance, findings: &mut Vec<Diagnostic>) {
     let settings = &configuration.settings;
     let prefix = settings.symbol_prefix(instance);

@@ -1,11 +1,11 @@
-//! The trigger graph: which plans call which, and which can come back to themselves.
+//! The trigger graph: which plans call which, and which calls are recursive.
 
 use std::collections::HashMap;
 
 use super::TriggerKey;
 use crate::syntax::ast::{Agent, Formula, Operator, Trigger, TriggerKind};
 
-/// Which triggers are recursive: from them a cycle of calls can be reached.
+/// Recursive triggers, from which a cycle of calls can be reached.
 pub(super) struct TriggerGraph {
     nodes: HashMap<TriggerKey, usize>,
     recursive: Vec<bool>,
@@ -41,9 +41,9 @@ impl TriggerGraph {
                     Formula::Test(belief) => {
                         node(Operator::Add, TriggerKind::Test, &belief.name.text)
                     }
-                    // What is left of a plan that waits is the event of a later step.
+                    // The rest of a plan that waits is the event of a later step.
                     Formula::Wait { .. } => Some(&from),
-                    // A deferred goal is never called; actions call no plan.
+                    // A deferred goal is not called, and actions call no plan.
                     Formula::Defer(_) | Formula::Action(_) | Formula::Assign { .. } => None,
                 };
                 if let Some(to) = target {
@@ -73,7 +73,7 @@ fn trigger_key(trigger: &Trigger) -> TriggerKey {
     (trigger.operator, trigger.kind, trigger.atom.name.text.clone())
 }
 
-/// Takes away, again and again, what calls nothing that is left: what remains reaches a cycle.
+/// Repeatedly removes nodes without outgoing calls; the remaining ones reach a cycle.
 fn reaches_cycle(callers: &[Vec<usize>], mut open_calls: Vec<usize>) -> Vec<bool> {
     let mut ready: Vec<usize> =
         (0..open_calls.len()).filter(|node| open_calls[*node] == 0).collect();

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use crate::program::{HandlerId, Plan, Program, Raise, Step};
 
-/// Keeps the handlers of `reached` only, and renumbers all ids accordingly.
+/// Keeps only the handlers in `reached`, and renumbers all ids.
 ///
-/// `reached` is closed: a reached handler refers to reached handlers only, so every remaining id stays valid.
+/// `reached` is closed: a reached handler refers only to reached handlers, so every remaining id stays valid.
 pub(super) fn leave_out(program: &mut Program, reached: &BTreeSet<HandlerId>) {
     let kept: Vec<HandlerId> = reached.iter().copied().collect();
     let renumber = |id: &mut HandlerId| *id = HandlerId(kept.partition_point(|other| other < id));
@@ -34,7 +34,7 @@ pub(super) fn leave_out(program: &mut Program, reached: &BTreeSet<HandlerId>) {
     program.initial_goal.iter_mut().for_each(|(handler, _)| renumber(handler));
 }
 
-/// Renumbers all handlers that a plan names.
+/// Renumbers all handlers that a plan refers to.
 fn in_plan(plan: &mut Plan, renumber: impl Fn(&mut HandlerId)) {
     for placed in &mut plan.body {
         match &mut placed.step {

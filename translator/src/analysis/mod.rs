@@ -1,7 +1,7 @@
 //! Checks a syntax tree against its configuration and resolves it to a [`Program`].
 //!
-//! The order: declarations, then the triggers and which of them are recursive, then each plan. All
-//! errors of a file are reported in one run.
+//! The order: declarations, then the triggers and their recursion, then each plan. All errors of a file are
+//! reported in one run.
 
 mod conditions;
 pub(crate) mod constants;
@@ -36,17 +36,17 @@ use crate::program::{
 use crate::syntax::ast::{self, Agent, Atom, Operator, TriggerKind};
 use crate::types::CType;
 
-/// What was found wrong, by the file it is wrong in.
+/// Findings, by file.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
-    /// About the configuration.
+    /// Findings in the configuration.
     pub(crate) configuration: Vec<Diagnostic>,
-    /// About the agent.
+    /// Findings in the agent.
     pub(crate) agent: Vec<Diagnostic>,
 }
 
 impl Findings {
-    /// Whether anything forbids translation.
+    /// Whether an error prevents translation.
     pub(crate) fn has_errors(&self) -> bool {
         self.configuration.iter().chain(&self.agent).any(|d| d.severity == Severity::Error)
     }
@@ -55,7 +55,8 @@ impl Findings {
 /// A trigger: operator, kind and name.
 pub(crate) type TriggerKey = (Operator, TriggerKind, String);
 
-/// Checks `agent`, whose source is `text`, for C of a form. The program is there exactly if no finding is an error.
+/// Checks `agent`, whose source is `text`, for a form of the C. The program is `Some` iff no finding is an
+/// error.
 pub(crate) fn analyse(
     configuration: Configuration,
     instance: Instance,
@@ -104,7 +105,7 @@ pub(crate) fn analyse(
     }
     let Analysis { mut findings, beliefs, handlers, clock, .. } = analysis;
     let clock = clock.map(Clock::into_parts);
-    // A plan of a test goal is looked at once for each way it is asked.
+    // A plan of a test goal is resolved once for each combination of given and queried arguments.
     let mut seen = HashSet::new();
     findings.agent.retain(|found| seen.insert((found.span.clone(), found.message.clone())));
     if findings.has_errors() {
@@ -150,7 +151,7 @@ pub(crate) fn analyse(
 struct Analysis<'a> {
     text: &'a str,
     clock: Option<Clock>,
-    /// Where each line begins.
+    /// Offset of each line.
     line_starts: Vec<usize>,
     declarations: Declarations,
     findings: Findings,
@@ -158,29 +159,29 @@ struct Analysis<'a> {
     belief_ids: HashMap<String, BeliefId>,
     handler_ids: HashMap<TriggerKey, HandlerId>,
     handlers: Vec<Handler>,
-    /// Handlers of test goals: one for each trigger and each set of arguments that is asked for.
+    /// Handlers of test goals: one for each trigger and combination of queried arguments.
     test_handlers: HashMap<TriggerKey, HashMap<Vec<bool>, HandlerId>>,
     /// Test goals that have plans.
     test_triggers: HashSet<TriggerKey>,
-    /// Test goals that are asked in too many ways, of which it is said.
+    /// Test goals with too many combinations, for which this was reported.
     crowded: HashSet<String>,
-    /// Handlers of test goals whose plans are not looked at yet.
+    /// Handlers of test goals whose plans are not resolved yet.
     open_tests: VecDeque<(HandlerId, TriggerKey, Vec<bool>)>,
-    /// Handlers that have a plan which fits every event.
+    /// Handlers with a plan that applies to every event.
     covered: HashSet<HandlerId>,
-    /// How many waits of each goal or belief have a name.
+    /// Number of named waits of each goal or belief.
     waits: HashMap<String, usize>,
 }
 
 impl Analysis<'_> {
     fn error(&mut self, diagnostic: Diagnostic) {
-        // What follows from another error is not said.
+        // Consequences of another error are not reported.
         if !diagnostic.message.is_empty() {
             self.findings.agent.push(diagnostic);
         }
     }
 
-    /// The line that a byte of the source stands in, from 1.
+    /// Line of a byte of the source, from 1.
     fn line(&self, offset: usize) -> usize {
         self.line_starts.partition_point(|start| *start <= offset)
     }
@@ -189,7 +190,7 @@ impl Analysis<'_> {
         self.handler_ids.get(&(operator, kind, name.to_owned())).copied()
     }
 
-    /// A label is the name of one plan.
+    /// Checks that labels are unique.
     fn labels(&mut self, agent: &Agent) {
         let mut known: HashSet<&str> = HashSet::new();
         for label in agent.plans.iter().filter_map(|plan| plan.label.as_ref()) {
@@ -203,12 +204,12 @@ impl Analysis<'_> {
         }
     }
 
-    /// One handler for each trigger that has plans, except those of test goals.
+    /// Creates one handler for each trigger with plans, except those of test goals.
     fn collect_triggers(&mut self, agent: &Agent) {
         for plan in &agent.plans {
             let trigger = &plan.trigger;
             if trigger.kind == TriggerKind::Test {
-                // Their handlers are made when somebody asks.
+                // Their handlers are created on demand.
                 self.test_triggers.insert((
                     trigger.operator,
                     trigger.kind,
@@ -317,7 +318,7 @@ impl Analysis<'_> {
         Some((handler, values))
     }
 
-    /// The handler of `+!goal`, or an error that there is none.
+    /// The handler of `+!goal`; reports an error if there is none.
     fn goal_handler(&mut self, goal: &Atom) -> Option<HandlerId> {
         let name = &goal.name.text;
         let handler = self.handler_id(Operator::Add, TriggerKind::Achieve, name);
@@ -354,7 +355,7 @@ impl Analysis<'_> {
                 _ => self.findings.configuration.push(if settable {
                     Code::MissingPlan
                         .at(format!("no plan for `+{}`", name.text), name.span.clone())
-                        .help("a change would raise an event that nobody handles")
+                        .help("a change would raise an event without a plan")
                 } else {
                     Code::NotSettable
                         .at(
@@ -397,7 +398,7 @@ impl Analysis<'_> {
                 self.findings.configuration.push(
                     Code::NotPreemptive
                         .at("only goals can pre-empt", trigger.span.clone())
-                        .help("raise a goal, `+!goal`, where the belief matters that much"),
+                        .help("raise a goal, `+!goal`, instead"),
                 );
             }
         }
@@ -431,7 +432,7 @@ impl Analysis<'_> {
             self.findings.configuration.push(
                 Code::MissingPlan
                     .at(format!("no plan for `+!{name}`"), trigger.span.clone())
-                    .help("the environment could order what the agent can't do"),
+                    .help("the environment could request what the agent cannot do"),
             );
         }
         let preemptive = configuration.preemptive.iter().any(|other| {
@@ -439,7 +440,7 @@ impl Analysis<'_> {
                 && other.kind == trigger.kind
                 && other.operator == trigger.operator
         });
-        // An event that deletes a belief carries no arguments.
+        // An event that deletes a belief has no arguments.
         let types = if trigger.operator == Operator::Delete { Vec::new() } else { types };
         Some(External {
             operator: trigger.operator,
@@ -452,7 +453,7 @@ impl Analysis<'_> {
         })
     }
 
-    /// Properties compare what the agent believes.
+    /// Beliefs in the comparisons of properties.
     fn compared_beliefs(&mut self, configuration: &Configuration) {
         for property in &configuration.properties {
             let Formula::Within { cause: Cause::Comparison(comparison), .. } = &property.formula
@@ -474,7 +475,7 @@ impl Analysis<'_> {
         }
     }
 
-    /// The id of a belief; a predicate becomes a belief when it is first used as one.
+    /// The id of a belief; a predicate becomes a belief on its first use as one.
     fn belief_id(&mut self, name: &str, types: &[CType]) -> BeliefId {
         if let Some(id) = self.belief_ids.get(name) {
             return *id;
@@ -492,7 +493,7 @@ impl Analysis<'_> {
         id
     }
 
-    /// The declared argument types of a belief or goal, if it is declared and the arity fits.
+    /// The declared argument types of a belief or goal, if it is declared with this arity.
     fn predicate_types(&mut self, atom: &Atom) -> Option<Vec<CType>> {
         match self.declarations.predicate(atom) {
             Ok(types) => Some(types),

@@ -17,8 +17,8 @@ use crate::syntax::ast::{
 };
 use crate::types::CType;
 
-/// Plans of a test goal are C of their own for each choice of arguments that are asked for. Without a limit plans that
-/// ask each other multiply; up to three arguments may be asked for in every way.
+/// Plans of a test goal are compiled once for each combination of queried arguments. Without a limit, plans
+/// that query each other multiply; up to three arguments allow all combinations.
 pub(super) const MOST_QUESTIONS: usize = 8;
 
 impl Analysis<'_> {
@@ -31,8 +31,8 @@ impl Analysis<'_> {
         }
     }
 
-    /// Resolves the plans of test goals, once for each way that somebody asks; asking can make
-    /// plans that ask again.
+    /// Resolves the plans of test goals, once for each combination in use; a resolved plan may add further
+    /// combinations.
     pub(super) fn test_plans(&mut self, agent: &Agent, graph: &TriggerGraph) {
         let mut plans: HashMap<TriggerKey, Vec<&ast::Plan>> = HashMap::new();
         for plan in agent.plans.iter().filter(|plan| plan.trigger.kind == TriggerKind::Test) {
@@ -60,7 +60,7 @@ impl Analysis<'_> {
                 );
             }
             if !is_asked(plan) {
-                let text = format!("nothing ever asks `?{name}`");
+                let text = format!("`?{name}` is never asked");
                 self.error(
                     Code::NeverAsked
                         .at(text, trigger.span.clone())
@@ -69,11 +69,11 @@ impl Analysis<'_> {
                 self.unasked_plan(plan, graph);
             }
         }
-        // What these ask in turn is looked at too.
+        // Queries in these plans are resolved too.
         self.asked_plans(&plans, graph);
     }
 
-    /// Resolves plans of those handlers of test goals that have none yet.
+    /// Resolves the plans of those handlers of test goals that have none yet.
     fn asked_plans(&mut self, plans: &HashMap<TriggerKey, Vec<&ast::Plan>>, graph: &TriggerGraph) {
         while let Some((id, key, holes)) = self.open_tests.pop_front() {
             for plan in plans.get(&key).into_iter().flatten() {
@@ -82,8 +82,8 @@ impl Analysis<'_> {
         }
     }
 
-    /// Resolves a plan of a test goal for one way in which it is asked. If the plan is right and only that way does not
-    /// fit, the mistake is where it is asked.
+    /// Resolves a plan of a test goal for one combination. If the plan is correct for another combination,
+    /// the mistake is reported at the query.
     fn asked_plan(
         &mut self,
         id: HandlerId,
@@ -111,18 +111,18 @@ impl Analysis<'_> {
                 self.findings.agent.truncate(findings);
                 self.error(error);
             }
-            // Wrong in every way: the usual one says it best.
+            // Wrong for every combination: the usual one gives the best message.
             Err(usual) if !self.modes(plan).iter().any(|mode| mode == holes) => {
                 self.findings.agent.truncate(findings);
                 self.findings.agent.extend(usual);
             }
             Err(_) => return,
         }
-        // What is asked by a plan that is asked wrongly follows from that.
+        // Queries in a wrongly queried plan would cause consequential errors.
         self.open_tests.truncate(waiting);
     }
 
-    /// The likeliest way to ask a plan in which it is right, or what is wrong with it in the likeliest of all.
+    /// The most likely combination for which a plan is correct, or the errors for the most likely one.
     fn fitting_mode(
         &mut self,
         plan: &ast::Plan,
@@ -139,7 +139,7 @@ impl Analysis<'_> {
         Err(first.unwrap_or_default())
     }
 
-    /// The ways to ask a plan that may fit it, the likeliest first.
+    /// Combinations that may fit a plan, the most likely first.
     fn modes(&self, plan: &ast::Plan) -> [Vec<bool>; 3] {
         let types = self.declarations.predicate(&plan.trigger.atom).unwrap_or_default();
         let fresh = fresh_variables(&plan.trigger.atom);
@@ -165,7 +165,7 @@ impl Analysis<'_> {
         ]
     }
 
-    /// Looks at a plan of a test goal that nobody asks, as if somebody did in a way that fits it.
+    /// Checks a plan of an unused test goal with a combination that fits it.
     fn unasked_plan(&mut self, plan: &ast::Plan, graph: &TriggerGraph) {
         let Some(types) = self.predicate_types(&plan.trigger.atom) else { return };
         match self.fitting_mode(plan, graph) {
@@ -178,7 +178,7 @@ impl Analysis<'_> {
         }
     }
 
-    /// What is found in a plan of a test goal that is asked so, as if it had not been looked at.
+    /// The findings in a plan of a test goal for one combination; all state is restored.
     fn try_plan(
         &mut self,
         plan: &ast::Plan,
@@ -202,7 +202,7 @@ impl Analysis<'_> {
         found
     }
 
-    /// The handler of a test goal that is asked with these holes, if it has plans.
+    /// The handler of a test goal for a combination of queried arguments, if it has plans.
     fn test_handler(
         &mut self,
         operator: Operator,
@@ -306,7 +306,7 @@ impl Analysis<'_> {
         self.handlers[handler.0].plans.push(resolved);
     }
 
-    /// What the trigger's arguments must look like, and which names answer which holes.
+    /// The patterns of the trigger's arguments, and the names that return queried arguments.
     fn trigger_patterns<'a>(
         &mut self,
         trigger: &'a Trigger,
@@ -341,7 +341,7 @@ impl Analysis<'_> {
         (patterns, answers)
     }
 
-    /// The variables that answer, each of which must have its value by now.
+    /// The variables that return queried arguments, each of which must have a value by now.
     fn outputs(
         &mut self,
         answers: &[(usize, &Name)],
@@ -368,7 +368,7 @@ impl Analysis<'_> {
         outputs
     }
 
-    /// The formulae of a body up to the first that waits; it takes along those behind it.
+    /// Resolves the formulas of a body up to the first wait, which takes the rest along.
     pub(super) fn body(
         &mut self,
         place: &Place<'_>,
@@ -446,7 +446,7 @@ impl Analysis<'_> {
                     Err(Code::IdleDeadline
                         .at(message, deadline.span())
                         .label("a deadline that is always met")
-                        .help("it is for goals that wait or post themselves again"))
+                        .help("deadlines are for goals that wait or post themselves again"))
                 } else {
                     Ok(Step::Achieve { handler, values })
                 }
@@ -474,7 +474,7 @@ impl Analysis<'_> {
         if plans.is_some() {
             if graph.is_recursive(Operator::Add, TriggerKind::Test, &atom.name.text) {
                 return Err(Code::Recursion
-                    .at(format!("`?{}` leads back to itself", atom.name.text), atom.span.clone())
+                    .at(format!("`?{}` is recursive", atom.name.text), atom.span.clone())
                     .label("this call would be recursive")
                     .help("the answer is needed at once, so it cannot wait for the next step"));
             }
@@ -491,7 +491,7 @@ impl Analysis<'_> {
         Ok(Step::Ask { belief, patterns, plans })
     }
 
-    /// A test goal with plans is asked in a few ways only; of more it is said once.
+    /// Limits the combinations of a test goal; reported once per goal.
     fn check_questions(&mut self, atom: &Atom, holes: &[bool]) -> Resolved<()> {
         let name = &atom.name.text;
         let key = (Operator::Add, TriggerKind::Test, name.clone());
@@ -505,14 +505,14 @@ impl Analysis<'_> {
             return Err(said_already());
         }
         Err(Code::Limit.at(
-            format!("`?{name}` is asked in more than {MOST_QUESTIONS} ways"),
+            format!("`?{name}` is asked with more than {MOST_QUESTIONS} combinations of arguments"),
             atom.span.clone(),
         )
-        .label("other arguments have a value here than before")
-        .help("its plans are translated anew for each way: ask in one of the others, and compare what is answered"))
+        .label("a new combination of given and asked arguments")
+        .help("its plans are translated once per combination: use one of the others, and compare the answers"))
     }
 
-    /// What is given is evaluated before any answer is known.
+    /// Given arguments are evaluated before any answer is known.
     fn question(&self, atom: &Atom, types: &[CType], scope: &mut Scope) -> Resolved<Vec<Pattern>> {
         let pairs = || atom.arguments.iter().zip(types);
         let asked = |expression: &Expression, scope: &Scope| match expression {
@@ -567,7 +567,7 @@ impl Analysis<'_> {
     }
 }
 
-/// The arguments that are variables which do not stand before in the trigger.
+/// The arguments that are variables on their first occurrence in the trigger.
 fn fresh_variables(atom: &Atom) -> Vec<Option<&str>> {
     let mut known: HashSet<&str> = HashSet::new();
     let arguments = atom.arguments.iter();
@@ -579,7 +579,7 @@ fn fresh_variables(atom: &Atom) -> Vec<Option<&str>> {
         .collect()
 }
 
-/// A variable that is asked for gets one answer.
+/// A variable may be queried only once.
 fn check_asked_once(atom: &Atom, scope: &Scope) -> Resolved<()> {
     let mut asked: Vec<&str> = Vec::new();
     for expression in &atom.arguments {
@@ -603,7 +603,7 @@ fn check_last(atom: &Atom, last: bool) -> Resolved<()> {
     }
     Err(Code::Recursion
         .at(
-            format!("`{}` leads back to itself and is not the last formula", atom.name.text),
+            format!("`{}` is recursive and not the last formula", atom.name.text),
             atom.span.clone(),
         )
         .label("this call would be recursive")

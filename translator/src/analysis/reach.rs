@@ -1,4 +1,4 @@
-//! Which triggers any event can lead to.
+//! Reachability of triggers from events.
 
 use std::collections::BTreeSet;
 
@@ -9,19 +9,19 @@ use crate::coverage::always_finds_a_plan;
 use crate::program::{Belief, BeliefId, External, Handler, HandlerId, Plan, Raise, Step};
 use crate::syntax::ast::{Operator, TriggerKind};
 
-/// Which handlers some event leads to, and what their plans do besides calling each other.
+/// Reachable handlers, and how their plans refer to each other.
 pub(super) struct Reached {
-    /// Those that some event leads to. Whatever one of them names is among them.
+    /// Handlers reachable from an event; everything that they refer to is included.
     pub(super) handlers: BTreeSet<HandlerId>,
-    /// Handlers whose events they post for the next step.
+    /// Handlers whose events are posted for the next step.
     pub(super) posted: BTreeSet<HandlerId>,
-    /// Handlers whose goals they defer.
+    /// Handlers whose goals are deferred.
     pub(super) deferred: BTreeSet<HandlerId>,
-    /// Handlers whose goals they give a deadline.
+    /// Handlers whose goals get a deadline.
     pub(super) limited: BTreeSet<HandlerId>,
 }
 
-/// Follows the plans from `roots`.
+/// Computes reachability from `roots`.
 pub(super) fn reach(handlers: &[Handler], roots: &[HandlerId]) -> Reached {
     let mut reached = Reached {
         handlers: BTreeSet::new(),
@@ -69,7 +69,7 @@ pub(super) fn warn_unreachable(
     reached: &BTreeSet<HandlerId>,
     findings: &mut Vec<Diagnostic>,
 ) {
-    // Of test goals that nobody asks it is said where they stand.
+    // Unused test goals are reported elsewhere.
     let idle = |(index, handler): &(usize, &Handler)| {
         let told = handler.resumed || handler.kind == TriggerKind::Test;
         !told && !reached.contains(&HandlerId(*index))
@@ -78,13 +78,13 @@ pub(super) fn warn_unreachable(
         let text = handler.text();
         findings.push(
             Code::NeverTriggered
-                .at(format!("nothing ever triggers `{text}`"), handler.span.clone())
+                .at(format!("`{text}` is never triggered"), handler.span.clone())
                 .help("its plans are left out; list it in `triggerables` or let a plan post it"),
         );
     }
 }
 
-/// What something can make true: an initial belief, a plan, an event, a `set_` function.
+/// Sources of a belief: an initial belief, a plan, an event, a `set_` function.
 pub(super) fn believable(
     beliefs: &[Belief],
     handlers: &[Handler],
@@ -102,7 +102,7 @@ pub(super) fn believable(
     given.chain(raised.filter_map(|event| event.belief)).chain(added).collect()
 }
 
-/// Warns of beliefs that a context asks for and that nothing can make true.
+/// Warns of beliefs in a context that nothing can make true.
 pub(super) fn warn_never_believed(
     beliefs: &[Belief],
     believable: &BTreeSet<BeliefId>,
@@ -121,7 +121,7 @@ pub(super) fn warn_never_believed(
     }
 }
 
-/// Warns of goals that may find no plan while no failure plan is there to mend it.
+/// Warns of goals that may find no plan and have no failure plan.
 pub(super) fn warn_without_plan(
     handlers: &[Handler],
     events: &[HandlerId],
@@ -149,7 +149,7 @@ pub(super) fn warn_without_plan(
         findings.push(
             Code::NoPlan
                 .at(format!("`{text}` may find no plan"), handler.span.clone())
-                .label("then it fails, and nothing mends that")
+                .label("then it fails, and no failure plan handles that")
                 .help(format!(
                     "add a plan without context behind its others, or one for `{failure}`"
                 )),

@@ -9,32 +9,33 @@ use crate::program::{Variable, VariableId};
 use crate::syntax::ast::{Expression, Name};
 use crate::types::CType;
 
-/// Which variables there are, and which can be seen.
+/// Variables, and their visibility.
 #[derive(Default)]
 pub(super) struct Scope {
     pub(super) variables: Vec<Variable>,
-    /// Names whose value could not be resolved: of that it is said once.
+    /// Names whose value could not be resolved, which was reported.
     broken: HashSet<String>,
-    /// How often each name was bound.
+    /// Number of bindings of each name.
     times: HashMap<String, usize>,
-    /// Where each variable is bound.
+    /// Place of the binding of each variable.
     bound_at: Vec<Span>,
-    /// The variables that can be seen, innermost last.
+    /// The visible variables, innermost last.
     visible: Vec<(String, VariableId)>,
-    /// Types of variables that the plan of a test goal must give a value.
+    /// Types of the queried variables that the plan of a test goal has to bind.
     pub(super) asked: Vec<(String, CType)>,
-    /// Names that were bound inside a negation or an alternative and can't be seen any more.
+    /// Names that were bound inside a negation or an alternative and are no longer visible.
     hidden: Vec<String>,
-    /// Variables that every branch of an alternative binds: the one seen afterwards, and theirs.
+    /// Variables that every branch of an alternative binds: the one visible afterwards, and those of the
+    /// branches.
     exports: Vec<(VariableId, Vec<VariableId>)>,
 }
 
-/// An error that needs no word, because it follows from another.
+/// An error that is not reported, because it is the consequence of another one.
 pub(super) fn said_already() -> Diagnostic {
     Diagnostic::error(String::new(), 0..0)
 }
 
-/// How much was visible when a negation or an alternative began.
+/// Number of visible variables at the start of a negation or an alternative.
 #[derive(Clone, Copy)]
 pub(super) struct Mark(usize);
 
@@ -46,7 +47,7 @@ impl Scope {
     pub(super) fn bind(&mut self, name: &Name, ctype: &CType) -> VariableId {
         let times = self.times.entry(name.text.clone()).or_default();
         *times += 1;
-        // In C every variable of a plan has a name of its own: what is ours ends at the first underscore.
+        // In C every variable of a plan has its own name: the generated prefix ends at the first underscore.
         let number = if *times == 1 { String::new() } else { times.to_string() };
         let unique = format!("var{number}_{}", name.text);
         let id = VariableId(self.variables.len());
@@ -74,7 +75,7 @@ impl Scope {
         id
     }
 
-    /// All variables that have a value here.
+    /// All variables with a value at this place.
     pub(super) fn visible(&self) -> impl Iterator<Item = (Name, VariableId)> {
         self.visible
             .iter()
@@ -89,7 +90,7 @@ impl Scope {
         if self.broken.contains(&name.text) {
             return Err(said_already());
         }
-        // Somebody wanted to use it: it is no idle variable.
+        // A use was intended, so it is not reported as unused.
         for variable in self.variables.iter_mut().filter(|other| other.source == name.text) {
             variable.used = true;
         }
@@ -107,7 +108,7 @@ impl Scope {
         self.broken.insert(name.text.clone());
     }
 
-    /// Whether a value could be resolved if that of a variable in it could.
+    /// Whether an expression is unresolved only because of a broken variable.
     pub(super) fn is_broken(&self, expression: &Expression) -> bool {
         let mut broken = false;
         expression.for_each_variable(&mut |name| {
@@ -120,12 +121,12 @@ impl Scope {
         Mark(self.visible.len())
     }
 
-    /// What was bound since the mark.
+    /// The bindings since the mark.
     pub(super) fn bound_since(&self, mark: Mark) -> Vec<(String, VariableId)> {
         self.visible[mark.0..].to_vec()
     }
 
-    /// Hides what was bound since the mark.
+    /// Hides the bindings since the mark.
     pub(super) fn leave(&mut self, mark: Mark) {
         let hidden = self.visible.drain(mark.0..).map(|(name, _)| name);
         self.hidden.extend(hidden);
@@ -144,9 +145,9 @@ impl Scope {
         outer
     }
 
-    /// Who uses a variable uses those that it stands for. To be called at the end of the plan.
+    /// Propagates uses from exported variables to those of the branches. To be called at the end of the plan.
     pub(super) fn settle(&mut self) {
-        // A variable is always made after those that it stands for.
+        // A variable is always created after those that it stands for.
         for (outer, inner) in self.exports.iter().rev() {
             if self.variables[outer.0].used {
                 for id in inner {
@@ -156,7 +157,7 @@ impl Scope {
         }
     }
 
-    /// Variables that were bound and never used.
+    /// Unused variables.
     pub(super) fn unused(&self) -> impl Iterator<Item = (&str, &Span)> {
         let exported = |index| self.exports.iter().any(|(outer, _)| outer.0 == index);
         self.variables

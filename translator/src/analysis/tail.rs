@@ -1,8 +1,8 @@
-//! Failures that do not go outward.
+//! Failures that do not propagate outward.
 //!
-//! A recursive goal in last position is posted for the next step: for the plan that posts it, it has succeeded
-//! at that moment. What fails in a later step is mended by the failure plans of the goal that fails then, and by
-//! none of those that led to it.
+//! A recursive goal in last position is posted for the next step, and has succeeded for the plan that posts
+//! it. A failure in a later step is handled by the failure plans of the goal that fails then, and not by
+//! those of its callers.
 
 use std::collections::{BTreeSet, HashSet, VecDeque};
 
@@ -13,7 +13,7 @@ use crate::coverage::always_finds_a_plan;
 use crate::program::{Handler, HandlerId, Plan, Raise, Step};
 use crate::syntax::ast::{Operator, TriggerKind};
 
-/// Warns of failure plans that cannot see what their goal comes to.
+/// Warns of failure plans that never see the failure of their goal.
 pub(super) fn warn_unseen(
     handlers: &[Handler],
     reached: &BTreeSet<HandlerId>,
@@ -38,24 +38,24 @@ pub(super) fn warn_unseen(
                     format!("add plans for `{}`", text.replacen('+', "-", 1))
                 }
                 (TriggerKind::Achieve, Some(_)) => {
-                    format!("let plans for `{}` fit whatever fails", text.replacen('+', "-", 1))
+                    format!("let plans for `{}` apply to every failure", text.replacen('+', "-", 1))
                 }
                 _ => "let its plans post a goal that has failure plans".to_owned(),
             };
             findings.push(
                 Code::UnseenFailure
                     .at(
-                        format!("`{guard}` does not see it if `{text}` fails later"),
+                        format!("`{guard}` does not handle a later failure of `{text}`"),
                         placed.span.clone(),
                     )
-                    .label("posted for the next step: with that this plan has succeeded")
+                    .label("posted for the next step, so this plan has already succeeded")
                     .help(mend),
             );
         }
     }
 }
 
-/// What a formula posts for the next step.
+/// A goal that a formula posts for the next step.
 #[derive(Clone, Copy)]
 struct Posted {
     handler: HandlerId,
@@ -76,14 +76,14 @@ impl Posted {
         }
     }
 
-    /// Whether its failure can stay: of its plans, or because its time is over.
+    /// Whether it can fail without recovery: in its plans, or by its deadline.
     fn fails(self, handlers: &[Handler], fails: &[bool]) -> bool {
         let late = || handlers[self.handler.0].failure.is_none_or(|failure| fails[failure.0]);
         fails[self.handler.0] || (self.limited && late())
     }
 }
 
-/// The nearest of what is posted from here on that can fail without `guard` being asked.
+/// The nearest posted goal from here on that can fail without `guard` being tried.
 fn unseen(
     handlers: &[Handler],
     fails: &[bool],
@@ -94,7 +94,7 @@ fn unseen(
     let mut known: HashSet<HandlerId> = HashSet::new();
     while let Some(posted) = open.pop_front() {
         let handler = &handlers[posted.handler.0];
-        // The goal itself, or what is left of its plans that wait, is looked at by itself.
+        // The goal itself, and the rests of its plans that wait, are checked separately.
         if handler.failure == Some(guard) || !known.insert(posted.handler) {
             continue;
         }
@@ -109,13 +109,13 @@ fn unseen(
     None
 }
 
-/// Which handlers can fail for those that run them, failure plans and all.
+/// Handlers that can fail for their callers, in spite of failure plans.
 fn failing(handlers: &[Handler]) -> Vec<bool> {
     let mut users: Vec<Vec<usize>> = vec![Vec::new(); handlers.len()];
     let mut mends: Vec<Vec<usize>> = vec![Vec::new(); handlers.len()];
     let mut body = vec![false; handlers.len()];
     for (index, handler) in handlers.iter().enumerate() {
-        // A percept that no plan cares for is no failure.
+        // A percept without an applicable plan is not a failure.
         body[index] = handler.kind != TriggerKind::Belief && !always_finds_a_plan(handler);
         if let Some(failure) = handler.failure {
             mends[failure.0].push(index);

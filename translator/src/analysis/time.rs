@@ -1,8 +1,8 @@
 //! Time: `.wait(ms)` and deadlines of goals.
 //!
-//! Neither stops anything: a plan that waits ends there, and what is left of it becomes the event
-//! of the next step, with plans of its own: one that posts the event again while the time is not
-//! come, and one that goes on. So all of it is made of what the language has already.
+//! Neither blocks. A plan that waits ends there, and its rest becomes the event of the next step, with two
+//! plans: one posts the event again while it is too early, the other goes on. Both use only existing features
+//! of the language.
 
 use std::collections::HashSet;
 
@@ -22,7 +22,7 @@ use crate::syntax::ast::{
 };
 use crate::types::CType;
 
-/// The function that tells the time in milliseconds.
+/// The function that returns the time in milliseconds.
 #[derive(Debug, Clone)]
 pub(super) struct Clock {
     function: BasicId,
@@ -40,19 +40,19 @@ pub(super) struct Place<'a> {
     pub(super) handler: HandlerId,
     pub(super) plan: &'a ast::Plan,
     pub(super) graph: &'a TriggerGraph,
-    /// The arguments of the trigger, where a failure plan may need them after a wait.
+    /// The arguments of the trigger, if a failure plan may need them after a wait.
     pub(super) arguments: Vec<Value>,
 }
 
-/// What a plan that waits takes along.
+/// A value that is carried across a wait.
 struct Carried {
     value: Value,
     ctype: CType,
-    /// The variable that it is called by afterwards.
+    /// The variable's name afterwards.
     name: Option<Name>,
 }
 
-/// The clock that the setting names.
+/// The clock named in the settings.
 pub(super) fn find_clock(
     configuration: &Configuration,
     findings: &mut Vec<Diagnostic>,
@@ -108,20 +108,20 @@ impl Analysis<'_> {
     ) -> Resolved<Step> {
         let carried = self.carried(place, rest, scope);
         let due = self.due(duration, span, scope);
-        // What is left is looked at in any case: all errors of a file are reported in one run.
+        // The rest is checked in any case: all errors of a file are reported in one run.
         let ctype = self.clock.as_ref().map_or(CType::named("double"), |clock| clock.ctype.clone());
         let handler = self.resumed(place, &carried, &ctype, span, rest);
         let due = due?;
         if place.plan.trigger.kind == TriggerKind::Test {
             return Err(Code::WaitInTestGoal
                 .at("a test goal is answered at once", span.clone())
-                .help("wait in the plan that asks"));
+                .help("wait in the plan with the test goal"));
         }
         let values = carried.into_iter().map(|carried| carried.value).chain([due]).collect();
         Ok(Step::Post { handler, values, deadline: None })
     }
 
-    /// What the rest of the plan, or its failure plans, will need.
+    /// The values that the rest of the plan, or its failure plans, will need.
     fn carried(&self, place: &Place<'_>, rest: &[Formula], scope: &mut Scope) -> Vec<Carried> {
         let mut names: HashSet<&str> = HashSet::new();
         for formula in rest {
@@ -153,7 +153,7 @@ impl Analysis<'_> {
         carried
     }
 
-    /// The event that what is left of a plan waits in: it carries the time at last.
+    /// The event that represents the rest of a plan; its last argument is the time.
     fn resumed(
         &mut self,
         place: &Place<'_>,
@@ -189,7 +189,7 @@ impl Analysis<'_> {
         id
     }
 
-    /// Posts the event again while the time is not come.
+    /// The plan that posts the event again while it is too early.
     fn waiting_plan(
         &self,
         place: &Place<'_>,
@@ -227,7 +227,7 @@ impl Analysis<'_> {
         }
     }
 
-    /// What stands behind the wait.
+    /// The plan with the rest behind the wait.
     fn plan_after_wait(
         &mut self,
         place: &Place<'_>,
@@ -264,7 +264,7 @@ impl Analysis<'_> {
         }
     }
 
-    /// The arguments of a trigger as values, for a plan that waits and whose failure has plans.
+    /// The arguments of a trigger as values, for a plan that waits and has failure plans.
     pub(super) fn kept_arguments(
         &self,
         handler: HandlerId,
@@ -291,7 +291,7 @@ impl Analysis<'_> {
             let variable = Value::Variable(id);
             arguments.push(variable.clone());
             if let Pattern::Equal(value) = std::mem::replace(pattern, Pattern::Bind(id)) {
-                // The function of a pattern is called once: its result is what came in.
+                // The function of a pattern is called once; the incoming value is its result.
                 equal.push(Condition::Compare {
                     relation: Relation::Equal,
                     left: variable,

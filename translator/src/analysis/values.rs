@@ -1,4 +1,4 @@
-//! Resolves expressions whose value is needed, and patterns that values are matched with.
+//! Resolves expressions to values, and to patterns that are matched against values.
 
 use diagnostic::{Diagnostic, Span};
 
@@ -81,7 +81,7 @@ impl Analysis<'_> {
         }
     }
 
-    /// The type of an expression as far as it follows from what stands in it.
+    /// The type of an expression as far as it follows from its parts.
     pub(super) fn infer(&self, expression: &Expression, scope: &Scope) -> Option<CType> {
         match expression {
             Expression::Variable(name) => {
@@ -101,8 +101,7 @@ impl Analysis<'_> {
         }
     }
 
-    /// An expression with the type that follows from it, for `X = ..`; `expected` is that of `X`
-    /// where it is known beforehand.
+    /// An expression with its inferred type, for `X = ..`; `expected` is that of `X` if it is already known.
     pub(super) fn typed_value(
         &self,
         expression: &Expression,
@@ -176,7 +175,7 @@ pub(super) fn check_numeric(ctype: &CType, span: &Span) -> Resolved<()> {
     if ctype.is_numeric() {
         return Ok(());
     }
-    let message = format!("values of type `{}` are no numbers", ctype.name);
+    let message = format!("values of type `{}` are not numbers", ctype.name);
     Err(Code::WrongType.at(message, span.clone()))
 }
 

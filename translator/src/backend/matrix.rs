@@ -7,10 +7,10 @@ use serde_json::{Value, json};
 use super::c::{handler_name, plan_name};
 use crate::program::Program;
 
-/// One line of the matrix.
+/// One row of the matrix.
 struct Row {
     requirement: String,
-    /// The number that the trace function gets.
+    /// The number that is passed to the trace function.
     plan: usize,
     label: String,
     trigger: String,
@@ -25,7 +25,7 @@ pub(crate) struct Matrix {
     pub(crate) json: String,
 }
 
-/// Traces the plans of `program` to their functions in `source`, the generated C.
+/// Maps the plans of `program` to their functions in `source`, the generated C.
 pub(crate) fn emit(program: &Program, input: &str, source: &str) -> Result<Matrix, csv::Error> {
     let rows = rows(program, source);
     let output = &program.configuration.settings.output;

@@ -1,4 +1,4 @@
-//! Checked programs to text in other languages.
+//! Back ends: from the checked program to text in other languages.
 
 pub(crate) mod c;
 pub(crate) mod matrix;

@@ -1,8 +1,8 @@
-//! The Rust side of the C boundary: a trait for the environment, shims that C calls, and a safe
-//! agent that is the only owner of the C state.
+//! Rust bindings of the generated C: a trait for the environment, shims that C calls, and a safe agent that
+//! is the only owner of the C state.
 //!
-//! The generated module holds every `unsafe` block that the boundary needs, each with its
-//! argument. It expects `instance = context`.
+//! The generated module contains all `unsafe` blocks of the boundary, each with its justification. It
+//! requires `instance = context`.
 
 use std::fmt::Write as _;
 
@@ -49,7 +49,7 @@ fn structs(writer: &mut Writer, program: &Program) {
 }
 
 fn state(writer: &mut Writer, program: &Program) {
-    writer.line("/// The agent's state, field for field as the C struct.");
+    writer.line("/// The agent's state, with the layout of the C struct.");
     writer.line("#[repr(C)]");
     writer.line("#[derive(Debug, Clone)]");
     writer.line("#[allow(non_snake_case)]");
@@ -95,7 +95,7 @@ fn external_functions(writer: &mut Writer, program: &Program) {
 }
 
 fn environment_trait(writer: &mut Writer, program: &Program) {
-    writer.line("/// What the agent senses and does: one method for each basic action.");
+    writer.line("/// The environment of the agent: one method for each basic action.");
     writer.open_here("pub trait Environment");
     writer.line("/// Called at the start of each deliberation cycle.");
     writer.line("fn update_beliefs(&mut self, beliefs: &mut Beliefs<'_>);");
@@ -133,16 +133,16 @@ fn beliefs(writer: &mut Writer, program: &Program) {
     writer.line("");
 }
 
-/// What C carries through a step for the shims: a panic must not unwind through it.
-const LOAN: &str = r"/// The environment for one step, and the panic that C is carried past.
+/// Data that is passed through C to the shims during a step: a panic must not unwind through C.
+const LOAN: &str = r"/// The environment for one step, and a panic that is delayed until C returns.
 struct Loan<'a> {
     environment: &'a mut dyn Environment,
     panic: Option<Box<dyn core::any::Any + Send>>,
 }
 
 impl Loan<'_> {
-    /// Asks the environment. Once it has panicked it is not asked again: C gets `idle` and comes to
-    /// its end.
+    /// Calls the environment. After a panic it is not called again: C gets `idle` until its step
+    /// ends.
     fn ask<T>(&mut self, idle: T, ask: impl FnOnce(&mut dyn Environment) -> T) -> T {
         if self.panic.is_some() {
             return idle;
@@ -210,7 +210,7 @@ fn shims(writer: &mut Writer, program: &Program) {
     writer.line("");
 }
 
-/// What C gets of an environment that has panicked.
+/// Result for C after a panic of the environment.
 fn idle_result(writer: &mut Writer, basic: &Basic) -> &'static str {
     match basic.result.kind {
         TypeKind::Void => "()",
@@ -230,7 +230,7 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("#[derive(Debug)]");
     writer.open_here("pub struct Agent");
     writer.line("state: State,");
-    writer.line("/// The environment has panicked: the state is that of a step that never was.");
+    writer.line("/// The environment has panicked: the state is that of an incomplete step.");
     writer.line("broken: bool,");
     writer.close("}");
     writer.line("");
@@ -245,13 +245,13 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.close("}");
     writer.line("");
     writer.open_here("impl Agent");
-    writer.line("/// An agent that has not run yet.");
+    writer.line("/// An agent before its first step.");
     writer.open_here("pub fn new() -> Self");
     writer.line(
         "// SAFETY: every field is a number, a flag or a raw pointer; zero is valid for each.",
     );
     writer.line("let mut state: State = unsafe { core::mem::zeroed() };");
-    writer.line("// SAFETY: the state is exclusively ours, and `init` only writes to it.");
+    writer.line("// SAFETY: the state is exclusively owned, and `init` only writes to it.");
     writer.line(format!("unsafe {{ {prefix}init(&raw mut state, core::ptr::null_mut()) }};"));
     writer.line("Self { state, broken: false }");
     writer.close("}");
@@ -259,10 +259,9 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("/// One deliberation cycle: updates the beliefs, then runs at most one event.");
     writer.line("///");
     writer.line("/// # Panics");
-    writer.line(
-        "/// As the environment does: C comes to the end of its step, then the panic goes on. An",
-    );
-    writer.line("/// agent to which that has happened must not be run again, and panics.");
+    writer
+        .line("/// If the environment panics: C completes its step, then the panic continues. An");
+    writer.line("/// agent must not be run again after that; it panics.");
     writer.open_here("pub fn next_step(&mut self, environment: &mut dyn Environment)");
     writer.line("assert!(!self.broken, \"the agent's environment has panicked before\");");
     writer.line("let mut loan = Loan { environment, panic: None };");
@@ -294,7 +293,7 @@ fn agent(writer: &mut Writer, program: &Program) {
         query(writer, meaning, &format!("{name}_events"), "u32");
         writer.line("");
     }
-    let doc = "Forgets all events and keeps the beliefs; the initial goal runs in the next step.";
+    let doc = "Drops all events and keeps the beliefs; the initial goal runs in the next step.";
     query(writer, doc, "clear", "");
     for external in &program.external {
         let name = trigger_name(external.operator, external.kind, &external.name);
@@ -318,7 +317,7 @@ fn agent(writer: &mut Writer, program: &Program) {
     writer.line("pub const STATE_BYTES: usize = size_of::<State>();");
 }
 
-/// What the numbers that the trace function gets mean.
+/// Meaning of the numbers that are passed to the trace function.
 fn plans(writer: &mut Writer, program: &Program) {
     let count = program.plans().count();
     writer.line("");
@@ -386,7 +385,7 @@ fn safe_type(ctype: &CType) -> String {
     if ctype.kind == TypeKind::Struct {
         return camel_case(&ctype.name);
     }
-    // A belief may keep a string, so only one that lives for ever is safe to hand over.
+    // A belief may keep a string, so only a static one is safe to pass.
     ctype.rust_name().unwrap_or("&'static core::ffi::CStr").to_owned()
 }
 

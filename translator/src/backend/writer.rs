@@ -1,6 +1,6 @@
 //! Lines with indentation.
 
-/// Collects lines of generated text and knows how deep each is indented.
+/// Collects lines of generated text with their indentation.
 #[derive(Debug, Default)]
 pub(super) struct Writer {
     text: String,
@@ -49,12 +49,12 @@ impl Writer {
         self.line(closing);
     }
 
-    /// Indents what follows without braces, for the labels of a `switch`.
+    /// Indents the following lines without braces, for the labels of a `switch`.
     pub(super) fn indent(&mut self) {
         self.depth += 1;
     }
 
-    /// Ends what [`Self::indent`] began.
+    /// Ends the indentation of [`Self::indent`].
     pub(super) fn dedent(&mut self) {
         self.depth -= 1;
     }

@@ -1,4 +1,4 @@
-//! Types as the configuration may write them.
+//! Syntax of types in the configuration.
 
 use super::scanner::Parsed;
 use crate::code::Code;
@@ -6,7 +6,7 @@ use crate::reserved::is_c_word;
 use crate::syntax::ast::Name;
 use crate::types::{C_NUMBERS, CType, TypeKind};
 
-/// Refuses what is no type of a parameter, a result or a field in C, with the reason.
+/// Refuses types that C does not allow for a parameter, a result or a field.
 pub(super) fn check_type(words: &[Name]) -> Parsed<()> {
     let (Some(first), Some(last)) = (words.first(), words.last()) else { return Ok(()) };
     let span = first.span.start..last.span.end;
@@ -16,14 +16,17 @@ pub(super) fn check_type(words: &[Name]) -> Parsed<()> {
     let (base, pointer) = words.split_at(stars);
     if pointer.iter().any(|word| word.text != "*") {
         return error(
-            "this is no type",
+            "not a type",
             "the translator knows `name`, `struct name`, `const name *` and numbers",
         );
     }
     let is_const = |word: &&Name| word.text == "const";
     let constant = base.iter().filter(is_const).count();
     if constant > 0 && pointer.is_empty() {
-        return error("a value needs no `const`", "what is passed is a copy: leave `const` out");
+        return error(
+            "`const` has no effect on a value",
+            "values are passed by copy: remove `const`",
+        );
     }
     let base: Vec<&str> =
         base.iter().filter(|word| !is_const(word)).map(|word| word.text.as_str()).collect();
@@ -40,15 +43,12 @@ pub(super) fn check_type(words: &[Name]) -> Parsed<()> {
         several => is_number(several),
     };
     if !known || constant > 1 {
-        return error(
-            "this is no type",
-            "a parameter is written without its name: `int`, not `int x`",
-        );
+        return error("not a type", "a parameter is written without its name: `int`, not `int x`");
     }
     Ok(())
 }
 
-/// Whether these words are a type of numbers in C.
+/// Whether these words are a numeric type in C.
 fn is_number(words: &[&str]) -> bool {
     const KNOWN: [&str; 18] = [
         "short int",

@@ -1,4 +1,4 @@
-//! The sections that declare something: functions, structs, classes of actions, beliefs and goals.
+//! Sections with declarations: functions, structs, classes of actions, beliefs and goals.
 
 use super::c_type::{c_type, check_type};
 use super::parser::Parser;
@@ -8,7 +8,7 @@ use crate::code::Code;
 use crate::syntax::ast::Name;
 use crate::types::{CType, TypeKind};
 
-/// C99 promises 127 parameters, of which some are ours.
+/// C99 guarantees 127 parameters; some are used by generated code.
 const MOST_PARAMETERS: usize = 100;
 
 impl Parser<'_> {
@@ -40,7 +40,7 @@ impl Parser<'_> {
             if !ctype.is_numeric() && ctype.kind != TypeKind::Bool {
                 return Err(Code::StructField
                     .at("a field must be a number or bool", field.span)
-                    .help("structs of structs and pointers are not translated"));
+                    .help("structs of structs and pointers are not supported"));
             }
             if fields.iter().any(|(other, _)| other.text == field.text) {
                 return Err(Code::DeclaredTwice.at("a second field of this name", field.span));
@@ -69,7 +69,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The function that is told of plans is a basic action like any other.
+    /// The trace function is declared as a basic action.
     pub(super) fn declare_trace(&mut self) {
         let Some(name) = self.configuration.settings.trace.clone() else { return };
         if !name.text.starts_with(is_word_start) || !name.text.chars().all(is_word) {
@@ -88,7 +88,7 @@ impl Parser<'_> {
         });
     }
 
-    /// Types that the section `structs` declares are known wherever they are named.
+    /// Resolves types that are declared in the section `structs`, wherever they are used.
     pub(super) fn resolve_structs(&mut self) {
         let Configuration { structs, basics, predicates, .. } = &mut self.configuration;
         let resolve = |ctype: &mut CType| {
@@ -122,7 +122,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `unsigned int f` → the type and the name.
+    /// `unsigned int f`: the type and the name.
     fn typed_name(&mut self) -> Parsed<(CType, Name)> {
         let mut words = self.type_words()?;
         let name = match words.pop() {
@@ -154,16 +154,14 @@ impl Parser<'_> {
                     return Ok(parameters);
                 }
                 return Err(Code::NotAType
-                    .at("`void` is no parameter", start..self.scanner.position)
-                    .help("`(void)` alone says that there is none"));
+                    .at("`void` is not a parameter type", start..self.scanner.position)
+                    .help("`(void)` alone means no parameters"));
             }
             parameters.push(parameter);
             if parameters.len() > MOST_PARAMETERS {
                 return Err(Code::Limit
                     .at("too many arguments", start..self.scanner.position)
-                    .help(format!(
-                        "C promises room for 127; at most {MOST_PARAMETERS} are translated"
-                    )));
+                    .help(format!("C guarantees 127; at most {MOST_PARAMETERS} are translated")));
             }
             self.scanner.skip_blanks()?;
             if self.scanner.take(")") {

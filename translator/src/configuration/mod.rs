@@ -1,4 +1,4 @@
-//! The configuration: what the environment offers the agent, and where the output goes.
+//! The configuration: the environment of the agent, and the output files.
 //!
 //! The format is the paper's: named sections in braces, declarations that end in semicolons.
 //!
@@ -16,7 +16,7 @@
 //! properties { one_command: exactly_one(at_command); };
 //! ```
 //!
-//! Sections may stand in any order and may be left out or empty, except `settings`.
+//! Sections may appear in any order and may be missing or empty, except `settings`.
 
 mod c_type;
 mod declarations;
@@ -57,15 +57,15 @@ pub struct Configuration {
     pub perceived: Vec<Name>,
     /// Events that the environment can raise.
     pub triggerables: Vec<ExternalTrigger>,
-    /// External events that abort what runs, in order of priority.
+    /// External events that abort the pending event, by priority.
     pub preemptive: Vec<ExternalTrigger>,
-    /// What must hold in every environment.
+    /// Properties that must hold in every environment.
     pub properties: Vec<Property>,
 }
 
 impl Configuration {
-    /// Where a compiler may look for each file of `includes`, relative to the folder of the outputs: beside the
-    /// headers that include it, and there.
+    /// Possible paths of each file in `includes`, relative to the folder of the outputs: beside the headers
+    /// that include it, and in that folder.
     pub(crate) fn included_files(&self) -> BTreeSet<String> {
         let headers = [&self.settings.header, &self.settings.basics];
         let folders = headers.map(|file| file.rsplit_once('/').map_or("", |(folder, _)| folder));
@@ -81,7 +81,7 @@ impl Configuration {
     }
 }
 
-/// The path of a file seen from a folder, without `.`, `//` and what `..` takes back.
+/// The path of a file relative to a folder, normalized.
 fn plain_path(folder: &str, file: &str) -> String {
     if file.starts_with('/') {
         return file.to_owned();
@@ -108,26 +108,26 @@ pub struct Settings {
     pub header: String,
     /// The header with the basic actions that the environment provides.
     pub basics: String,
-    /// The Rust side of the boundary, if wanted.
+    /// The Rust bindings, if requested.
     pub rust: Option<Name>,
-    /// The trace matrix, written as this name with `.csv` and `.json`, if wanted.
+    /// The trace matrix, written under this name with `.csv` and `.json`, if requested.
     pub matrix: Option<String>,
-    /// The function that is told which plan was chosen, if wanted.
+    /// The trace function, which is called with each chosen plan, if requested.
     pub trace: Option<Name>,
-    /// The function that tells the time in milliseconds, for agents that wait.
+    /// The clock function in milliseconds, for agents that wait.
     pub clock: Option<Name>,
     /// Whether the agent's state is static or passed in.
     pub instance: Instance,
-    /// External events that can wait at the same time.
+    /// Capacity of the inbox for external events.
     pub inbox: u32,
-    /// Whether deferred goals wait in the same queue as external events, the paper's `max_events`.
+    /// Whether deferred goals share the queue of external events, the paper's `max_events`.
     pub queue: bool,
-    /// Where the value of each setting stands.
+    /// Place of each setting's value.
     pub places: BTreeMap<String, Span>,
 }
 
 impl Settings {
-    /// The files that are written, with the setting that names each.
+    /// The output files, each with its setting.
     pub fn outputs(&self) -> Vec<(&'static str, String)> {
         let mut outputs = vec![
             ("output", self.output.clone()),
@@ -141,8 +141,8 @@ impl Settings {
         outputs
     }
 
-    /// What stands before every external symbol of this form: with its state passed in, several agents can be
-    /// linked into one program.
+    /// Prefix of every external symbol in this form: with the state passed in, several agents can be linked
+    /// into one program.
     pub(crate) fn symbol_prefix(&self, instance: Instance) -> String {
         if instance == Instance::Static {
             return String::new();
@@ -175,10 +175,10 @@ impl Default for Settings {
     }
 }
 
-/// Where the agent's state lives.
+/// Storage of the agent's state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Instance {
-    /// In the C file: one agent a process, the paper's `next_step(void)`.
+    /// In the C file: one agent per process, the paper's `next_step(void)`.
     Static,
     /// In a struct that the caller owns and passes to each function.
     Context,
@@ -198,9 +198,9 @@ pub struct Struct {
 pub struct Basic {
     /// The C function's name.
     pub name: Name,
-    /// What it returns.
+    /// Type of its result.
     pub result: CType,
-    /// What it takes.
+    /// Types of its parameters.
     pub parameters: Vec<CType>,
     /// The whole declaration.
     pub span: Span,
@@ -209,7 +209,7 @@ pub struct Basic {
 /// Actions that are counted together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ActionClass {
-    /// What they are called together.
+    /// Their common name.
     pub name: Name,
     /// The basic actions.
     pub actions: Vec<Name>,

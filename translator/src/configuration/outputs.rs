@@ -5,7 +5,7 @@ use diagnostic::{Diagnostic, is_printable};
 use super::{Configuration, Settings};
 use crate::code::Code;
 
-/// Output names must be includable from C, stay inside the output folder, and be distinct.
+/// Output names must be usable in `#include`, stay inside the output folder, and be distinct.
 pub(super) fn check_outputs(configuration: &Configuration) -> Vec<Diagnostic> {
     let outputs = configuration.settings.outputs();
     let included = configuration.included_files();
@@ -18,18 +18,18 @@ pub(super) fn check_outputs(configuration: &Configuration) -> Vec<Diagnostic> {
         if name.contains(odd) {
             findings.push(
                 Code::FileName
-                    .at(format!("`{key}` is no name for a file that C includes"), span)
+                    .at(format!("`{key}` is not a valid file name for `#include`"), span)
                     .help("letters, digits, `_`, `-`, `.` and `/` do"),
             );
         } else if name.starts_with('/') || name.split('/').any(|part| part == "..") {
             findings.push(
-                    Code::FileName.at(format!("`{key}` leads out of the output's folder"), span)
-                        .help("name a file in the configuration's folder or below; `-o DIR` puts all elsewhere"),
+                    Code::FileName.at(format!("`{key}` is outside the output folder"), span)
+                        .help("name a file in the configuration's folder or below; `-o DIR` selects another folder"),
                 );
         } else if name.split('/').any(|part| matches!(part, "" | ".")) {
             findings.push(
                 Code::FileName
-                    .at(format!("`{key}` is no plain name of a file"), span)
+                    .at(format!("`{key}` is not a plain file name"), span)
                     .help("write it without `./` and `//`"),
             );
         } else if ["harness.c", "invariant.h"].contains(&name.as_str()) {
@@ -41,7 +41,7 @@ pub(super) fn check_outputs(configuration: &Configuration) -> Vec<Diagnostic> {
         } else if let Some((other, _)) = outputs[..index].iter().find(|(_, other)| other == name) {
             findings.push(
                 Code::Overwrites
-                    .at(format!("`{key}` and `{other}` are one file"), span)
+                    .at(format!("`{key}` and `{other}` are the same file"), span)
                     .help("the second would overwrite the first"),
             );
         } else if included.contains(name) {
@@ -52,7 +52,7 @@ pub(super) fn check_outputs(configuration: &Configuration) -> Vec<Diagnostic> {
             );
         }
     }
-    // A name that ends in two files is refused once.
+    // A name with two conflicts is reported once.
     findings.dedup_by(|one, other| one.message == other.message);
     findings
 }

@@ -1,4 +1,4 @@
-//! Reads a configuration.
+//! Parser of the configuration.
 
 use diagnostic::{Diagnostic, Span, is_printable};
 
@@ -21,7 +21,7 @@ const SECTIONS: [&str; 11] = [
     "preemptive",
     "properties",
 ];
-/// The configuration in `text` and everything that is wrong with it.
+/// Parses `text`. Returns the configuration and all errors.
 pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
     const BYTE_ORDER_MARK: char = '\u{feff}';
     let position = if text.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len_utf8() } else { 0 };
@@ -40,7 +40,7 @@ pub(super) struct Parser<'a> {
     pub(super) scanner: Scanner<'a>,
     pub(super) configuration: Configuration,
     seen: Vec<&'a str>,
-    /// Where the section `settings` begins, or would have to.
+    /// Place of the section `settings`, or where it is missing.
     pub(super) settings: Span,
     pub(super) diagnostics: Vec<Diagnostic>,
 }
@@ -53,7 +53,7 @@ impl<'a> Parser<'a> {
                 Ok(false) => break,
                 Err(diagnostic) => {
                     self.diagnostics.push(diagnostic);
-                    // Go on behind the section, or stop where no section ends.
+                    // Continues behind the section, or stops if no section ends.
                     match self.scanner.rest().find('}') {
                         Some(offset) => self.scanner.position += offset + 1,
                         None => break,
@@ -216,10 +216,8 @@ impl<'a> Parser<'a> {
             }
             let odd = |c: char| c == '\\' || !is_printable(c);
             if file.contains(odd) || ["??", "/*", "//"].iter().any(|mark| file.contains(mark)) {
-                return Err(Code::FileName.at(
-                    "this is no name of a file that C includes",
-                    start..self.scanner.position,
-                ));
+                return Err(Code::FileName
+                    .at("not a valid file name for `#include`", start..self.scanner.position));
             }
             self.configuration.includes.push(format!("#include {file}"));
         }
@@ -320,7 +318,7 @@ mod tests {
         );
         let expected = [
             "expected a result type and a function name, found `(`",
-            "`void` is no parameter",
+            "`void` is not a parameter type",
             "unknown section `typs`",
             "expected a belief, found `3`",
             "expected `+!goal`, `+belief` or `-belief`, found `q`",

@@ -1,4 +1,4 @@
-//! The section `properties`: what must hold of the agent in every environment.
+//! The section `properties`: requirements that must hold in every environment.
 
 use diagnostic::Span;
 
@@ -8,56 +8,56 @@ use super::scanner::Parsed;
 use crate::code::Code;
 use crate::syntax::ast::{Name, Number, Relation};
 
-/// Something that must hold, whatever the environment does and however long the agent runs.
+/// A requirement that must hold in every environment and for any number of steps.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Property {
-    /// What it is called.
+    /// Its name.
     pub name: Name,
-    /// The requirements that it stands for.
+    /// The requirements that it implements.
     pub requirements: Vec<String>,
-    /// What must hold.
+    /// Its formula.
     pub formula: Formula,
     /// The whole declaration.
     pub span: Span,
 }
 
-/// What must hold. Actions are basic actions, or classes of them.
+/// Formula of a property. Actions are basic actions or classes of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Formula {
-    /// `exactly_one(a)`: how often one of the actions is called in each step.
+    /// `exactly_one(a)`: number of calls of the actions in each step.
     Count {
-        /// How often.
+        /// The bound.
         bound: CallBound,
-        /// Of what.
+        /// The action.
         action: Name,
     },
-    /// `within(n, cause, a, b, unless +!g)`: after the cause one of the actions is called in one of the
-    /// next steps, unless one of the events waits already or comes first. A comparison must go on to hold.
+    /// `within(n, cause, a, b, unless +!g)`: after the cause one of the actions is called in one of the next
+    /// steps, unless one of the events is pending already or comes first. A comparison must continue to hold.
     Within {
-        /// In how many.
+        /// Maximum number of steps.
         steps: u32,
-        /// After what.
+        /// The cause.
         cause: Cause,
-        /// What must then be called.
+        /// The required actions.
         actions: Vec<Name>,
-        /// What excuses.
+        /// Excusing events.
         unless: Vec<ExternalTrigger>,
     },
     /// `only_after(a, +!g, until b, c)`: the action is called only after the event was accepted, and not
-    /// again once one of the others was called while no such event waited.
+    /// again after a call of one of the others while no such event was pending.
     OnlyAfter {
-        /// What is called.
+        /// The action.
         action: Name,
-        /// What allows it.
+        /// The event that permits it.
         event: ExternalTrigger,
-        /// What ends the permission.
+        /// Actions that end the permission.
         until: Vec<Name>,
     },
-    /// `all_handled`: each event is handled to its end by some plan.
+    /// `all_handled`: each event is handled completely by some plan.
     AllHandled,
 }
 
-/// How often in a step.
+/// Bound on the calls in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CallBound {
     /// `exactly_one`
@@ -70,40 +70,40 @@ pub enum CallBound {
     Never,
 }
 
-/// What must be answered.
+/// Cause that requires an answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Cause {
     /// The environment raised an event, and it was accepted.
     Event(ExternalTrigger),
     /// The agent called an action.
     Action(Name),
-    /// A belief compares so when a step begins.
+    /// A comparison holds at the start of a step.
     Comparison(Comparison),
 }
 
-/// What is compared is believed, and the values compare so: `battery <= landingBattery`,
-/// `blindFor > 2000`.
+/// Both sides are believed, and the values satisfy the relation: `battery <= landingBattery`, `blindFor >
+/// 2000`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Comparison {
     /// A belief with one value.
     pub left: Name,
-    /// How they compare.
+    /// The relation.
     pub relation: Relation,
-    /// With what.
+    /// The right side.
     pub right: Operand,
 }
 
-/// What a belief is compared with.
+/// Right side of a comparison.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Operand {
     /// A belief with one value of the same type.
     Belief(Name),
-    /// A number that fits the type.
+    /// A number of its type.
     Number(Number),
 }
 
 impl Comparison {
-    /// The beliefs that are compared.
+    /// The compared beliefs.
     pub fn beliefs(&self) -> impl Iterator<Item = &Name> {
         let right = match &self.right {
             Operand::Belief(name) => Some(name),
@@ -115,7 +115,7 @@ impl Comparison {
 
 const FORMULAS: &str = "`exactly_one`, `at_most_one`, `at_least_one`, `never`, `within`, `only_after` \
                         or `all_handled`";
-/// A response that may take longer than this is none.
+/// Longer responses are pointless.
 const MOST_STEPS: u32 = 1000;
 
 impl Parser<'_> {
@@ -138,7 +138,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// `[REQ-1, REQ-2]`, or nothing.
+    /// `[REQ-1, REQ-2]`, or empty.
     fn requirements(&mut self) -> Parsed<Vec<String>> {
         self.scanner.skip_blanks()?;
         if !self.scanner.take("[") {

@@ -1,4 +1,4 @@
-//! Reads words and symbols of a configuration.
+//! Scanner for words and symbols of a configuration.
 
 use diagnostic::{Diagnostic, Span};
 
@@ -7,7 +7,7 @@ use crate::syntax::ast::Name;
 
 pub(super) type Parsed<T> = Result<T, Diagnostic>;
 
-/// A place in a text.
+/// A position in a text.
 pub(super) struct Scanner<'a> {
     pub(super) text: &'a str,
     pub(super) position: usize,
@@ -63,7 +63,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// Goes on behind the next `;`, or before the `}` that ends the section.
+    /// Continues behind the next `;`, or before the `}` that ends the section.
     pub(super) fn skip_entry(&mut self) {
         match self.rest().find([';', '}']) {
             Some(offset) if self.rest()[offset..].starts_with(';') => self.position += offset + 1,
@@ -98,7 +98,7 @@ pub(super) fn is_word(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
 }
 
-/// What to do about a word that is none of those that are known.
+/// Help for an unknown word.
 pub(super) fn advice(word: &str, known: &[&str]) -> String {
     match diagnostic::closest(word, known.iter().copied()) {
         Some(candidate) => format!("did you mean `{candidate}`?"),

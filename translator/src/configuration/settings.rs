@@ -19,7 +19,7 @@ const SETTINGS: [&str; 11] = [
     "inbox",
     "max_events",
 ];
-/// More waiting events than this is a mistake: each costs memory and makes commands stale.
+/// Maximum capacity of the inbox: each event costs memory, and a long queue makes commands stale.
 const MAX_INBOX: u32 = 64;
 
 impl Parser<'_> {
@@ -31,9 +31,7 @@ impl Parser<'_> {
         let settings = &mut self.configuration.settings;
         if settings.places.contains_key(&key.text) {
             let message = format!("a second setting `{}`", key.text);
-            return Err(Code::DeclaredTwice
-                .at(message, key.span)
-                .help("only one of them could count"));
+            return Err(Code::DeclaredTwice.at(message, key.span).help("a setting has one value"));
         }
         let same = |other: &str| settings.places.contains_key(other);
         if matches!(key.text.as_str(), "inbox" | "max_events")
@@ -41,7 +39,7 @@ impl Parser<'_> {
         {
             return Err(Code::ExclusiveSettings
                 .at("`inbox` and `max_events` exclude each other", key.span)
-                .help("both tell how many external events can wait"));
+                .help("both set the capacity for external events"));
         }
         settings.places.insert(key.text.clone(), value.span.clone());
         match key.text.as_str() {
@@ -84,7 +82,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// A word, a number or a file's name, which may stand in quotes. Comments may follow.
+    /// A word, a number or a file name, optionally in quotes. Comments may follow.
     fn setting_value(&mut self) -> Parsed<Name> {
         self.scanner.skip_blanks()?;
         let rest = self.scanner.rest();

@@ -1,14 +1,14 @@
-//! Expressions under a substitution.
+//! Evaluates expressions under a substitution.
 
 use super::{Environment, Interpreter, Value};
 use crate::syntax::ast::{Atom, Expression, Relation};
 use crate::types::CType;
 
-/// Variables and their values.
+/// Values of variables.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Substitution {
     bound: Vec<(String, CType, Value)>,
-    /// Types of variables that are asked for and have no value yet.
+    /// Types of queried variables without a value.
     asked: Vec<(String, CType)>,
 }
 
@@ -31,18 +31,18 @@ impl Substitution {
 }
 
 impl Substitution {
-    /// Notes that the plan must give the variable a value.
+    /// Marks a variable that the plan has to bind.
     pub(super) fn ask(&mut self, name: &str, ctype: &CType) {
         self.asked.push((name.to_owned(), ctype.clone()));
     }
 
-    /// The type that the answer must have.
+    /// The type of a queried variable.
     pub(super) fn asked(&self, name: &str) -> Option<CType> {
         self.asked.type_of(name)
     }
 }
 
-/// Whatever knows the types of variables.
+/// Source of the types of variables.
 pub(super) trait Types {
     fn type_of(&self, variable: &str) -> Option<CType>;
 }
@@ -60,7 +60,7 @@ impl Types for Vec<(String, CType)> {
 }
 
 impl Interpreter {
-    /// The value of an expression; nothing if it has none.
+    /// The value of an expression; `None` if it has no result.
     pub(super) fn evaluate(
         &self,
         expression: &Expression,
@@ -83,8 +83,8 @@ impl Interpreter {
         }
     }
 
-    /// Calls a basic action or function; nothing if one of its arguments has no value, and inside
-    /// that nothing if it returns none.
+    /// Calls a basic action or function. `None` if an argument has no value; the inner option is `None` if
+    /// there is no result.
     #[allow(clippy::option_option, reason = "having no result is not having failed")]
     pub(super) fn call(
         &self,
@@ -112,7 +112,7 @@ impl Interpreter {
         pairs.map(|(e, ctype)| self.evaluate(e, ctype, theta, environment)).collect()
     }
 
-    /// The type that follows from what stands in an expression.
+    /// The type of an expression, inferred from its parts.
     pub(super) fn type_of(&self, expression: &Expression, types: &dyn Types) -> Option<CType> {
         match expression {
             Expression::Variable(name) => types.type_of(&name.text),
@@ -173,7 +173,7 @@ impl Interpreter {
         }
     }
 
-    /// Extends the substitution so that the context holds, if it can be.
+    /// Extends the substitution so that the context holds, if possible.
     pub(super) fn context(
         &self,
         expression: &Expression,
@@ -187,7 +187,7 @@ impl Interpreter {
             Expression::Or(parts) => {
                 let mut extended =
                     parts.iter().find_map(|part| self.context(part, theta, environment))?;
-                // What is not bound by every alternative is forgotten.
+                // Variables that are not bound by every alternative are dropped.
                 let mut bound = theta.types();
                 self.bound_by(expression, &mut bound);
                 extended.keep(&bound);

@@ -1,11 +1,11 @@
-//! What an interpreted agent believes, and what it has yet to do.
+//! Beliefs and pending events of an interpreted agent.
 
 use super::telling::{key_text, with_values};
 use super::{Interpreter, Value};
 use crate::syntax::ast::{Operator, TriggerKind};
 
 impl Interpreter {
-    /// What is believed now, by name.
+    /// Current beliefs, by name.
     pub fn beliefs(&self) -> impl Iterator<Item = (&str, &[Value])> {
         self.beliefs.iter().map(|(name, values)| (name.as_str(), values.as_slice()))
     }
@@ -15,14 +15,14 @@ impl Interpreter {
         self.beliefs.get(name).map(Vec::as_slice)
     }
 
-    /// Whether an event of the environment waits to be handled.
+    /// Whether an event of the environment is pending.
     pub fn is_waiting(&self, operator: Operator, kind: TriggerKind, name: &str) -> bool {
         let is_this = |key: &super::Key| (key.0, key.1, key.2.as_str()) == (operator, kind, name);
         let external = self.inbox.iter().filter(|event| event.is_external());
         external.chain(&self.preemptive).any(|event| is_this(&event.key))
     }
 
-    /// The events that wait, each with its reason, in the order in which they are served.
+    /// The pending events, each with its cause, in the order of service.
     pub fn waiting(&self) -> Vec<String> {
         let rank = |key: &super::Key| {
             self.configuration.preemptive.iter().position(|trigger| {
@@ -36,7 +36,7 @@ impl Interpreter {
         waiting.extend(self.posted.iter().map(|event| event.text(", posted")));
         if let Some(deadline) = &self.deadline {
             let goal = with_values(&key_text(&deadline.goal), &deadline.arguments);
-            waiting.push(format!("the end of the time for {goal}, at {}", deadline.due));
+            waiting.push(format!("the deadline of {goal}, at {}", deadline.due));
         }
         let perceived =
             self.configuration.perceived.iter().filter(|name| self.perceived.contains(&name.text));
@@ -46,7 +46,7 @@ impl Interpreter {
         waiting
     }
 
-    /// Whether both would go on alike, if the environment did. What is counted is left out.
+    /// Whether both agents would behave identically from now on. Counters are ignored.
     pub fn is_like(&self, other: &Self) -> bool {
         self.beliefs == other.beliefs
             && self.posted == other.posted

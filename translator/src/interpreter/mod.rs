@@ -1,8 +1,8 @@
 //! The reference interpreter: executes a syntax tree directly, by the rules of the language.
 //!
-//! It shares nothing with the C back end but the tree: it resolves names as it goes, matches at run
-//! time and finds recursion by itself. So where both leave the same trace, the translation means
-//! what the agent says. It expects an agent that [`crate::translate`] accepts.
+//! It shares only the syntax tree with the C back end: it resolves names as it goes, matches at run time and
+//! has its own detection of recursion. If both leave the same trace, the translation is right. It requires an
+//! agent that [`crate::translate`] accepts.
 
 mod evaluate;
 mod mind;
@@ -25,13 +25,13 @@ use crate::syntax::parse;
 use crate::types::CType;
 use crate::{Happening, ParsedConfiguration};
 
-/// What surrounds an interpreted agent.
+/// The environment of an interpreted agent.
 pub trait Environment {
-    /// Called at the start of each step: the beliefs that are set now, with their values.
+    /// Called at the start of each step. Returns the beliefs to set, with their values.
     fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)>;
-    /// A basic action or function is called; functions return a value of `result`.
+    /// Calls a basic action or function; functions return a value of `result`.
     fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value>;
-    /// Where each step is told: events, plans that apply or do not, and what plans do. Nothing unless it is wanted.
+    /// Log of each step: events, plans that apply or do not, and their actions. `None` disables it.
     fn story(&mut self) -> Option<&mut Vec<Happening>> {
         None
     }
@@ -43,8 +43,7 @@ pub trait Environment {
 #[non_exhaustive]
 pub struct Refused;
 
-/// A step that would take longer than it may. Each step comes to an end, but may take exponentially long in the
-/// number of plans.
+/// A step exceeded its limit. Each step terminates, but its length may be exponential in the number of plans.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the step is too long")]
 #[non_exhaustive]
@@ -60,15 +59,15 @@ struct Event {
     origin: Origin,
 }
 
-/// Where an event comes from.
+/// Cause of an event.
 #[derive(Debug, Clone, PartialEq)]
 enum Origin {
     /// A plan, or a belief that was set.
     Agent,
     Environment,
-    /// A plan that waits and has not come to its end.
+    /// The rest of a plan that waits.
     Wait(Box<Waiting>),
-    /// A goal that was not achieved in time.
+    /// A goal whose deadline has passed.
     Overdue,
 }
 
@@ -77,12 +76,12 @@ enum Origin {
 struct Waiting {
     due: Value,
     plan: Plan,
-    /// The formula that comes next.
+    /// The next formula.
     next: usize,
     theta: Substitution,
 }
 
-/// What runs must end by this time.
+/// Deadline of the pending event.
 #[derive(Debug, Clone, PartialEq)]
 struct Deadline {
     goal: Key,
@@ -90,18 +89,18 @@ struct Deadline {
     due: Value,
 }
 
-/// How the plans of one trigger ended.
+/// Result of the plans of one trigger.
 #[derive(Debug, Clone, PartialEq)]
 enum Outcome {
     /// No plan is applicable.
     NoPlan,
-    /// The plan that was chosen failed.
+    /// The chosen plan failed.
     Failed,
-    /// The plan succeeded, with its answers to what was asked for.
+    /// The plan succeeded, with the queried arguments.
     Achieved(Vec<Value>),
 }
 
-/// An agent that is executed without being translated.
+/// An agent that is executed without translation.
 #[derive(Debug, Clone)]
 pub struct Interpreter {
     configuration: Arc<Configuration>,
@@ -114,7 +113,7 @@ pub struct Interpreter {
     deadline: Option<Deadline>,
     inbox: VecDeque<Event>,
     preemptive: Vec<Event>,
-    /// Beliefs that were set to something else.
+    /// Changed beliefs whose events are pending.
     perceived: BTreeSet<String>,
     deferred: VecDeque<Event>,
     unhandled: u32,
@@ -123,7 +122,7 @@ pub struct Interpreter {
 }
 
 impl Interpreter {
-    /// An agent that has not run yet.
+    /// An agent before its first step.
     ///
     /// # Errors
     /// The rendered errors of an agent that cannot be translated.
@@ -154,7 +153,7 @@ impl Interpreter {
         Ok(interpreter)
     }
 
-    /// Starts anew: initial beliefs only, the initial goal in the first step.
+    /// Resets to the initial beliefs; the initial goal runs in the first step.
     pub fn init(&mut self) {
         self.beliefs = self
             .agent
@@ -168,7 +167,7 @@ impl Interpreter {
         self.clear();
     }
 
-    /// Forgets all events and keeps the beliefs; the initial goal runs in the next step.
+    /// Drops all events and keeps the beliefs; the initial goal runs in the next step.
     pub fn clear(&mut self) {
         self.posted = self.agent.goal.as_ref().map(|goal| Event {
             key: (Operator::Add, TriggerKind::Achieve, goal.name.text.clone()),
@@ -188,17 +187,17 @@ impl Interpreter {
             < self.configuration.settings.inbox as usize
     }
 
-    /// Events since the start that no plan handled to its end.
+    /// Number of events that no plan handled completely.
     pub fn unhandled_events(&self) -> u32 {
         self.unhandled
     }
 
-    /// External events since the start that were refused because the inbox was full.
+    /// Number of external events that were refused because the inbox was full.
     pub fn refused_events(&self) -> u32 {
         self.refused
     }
 
-    /// Posted events since the start that a pre-empting one took the place of.
+    /// Number of posted events that were replaced by a pre-empting one.
     pub fn aborted_events(&self) -> u32 {
         self.aborted
     }
@@ -231,7 +230,7 @@ impl Interpreter {
         Ok(())
     }
 
-    /// Believes `belief` with these values, one for each argument; if it is perceived, that is an event.
+    /// Sets `belief` to these values, one for each argument; if it is perceived, a change raises an event.
     pub fn set(&mut self, belief: String, values: Vec<Value>) {
         let watched = self.configuration.perceived.iter().any(|name| name.text == belief);
         let old = self.beliefs.insert(belief.clone(), values);
@@ -241,10 +240,10 @@ impl Interpreter {
         }
     }
 
-    /// One deliberation cycle that carries out at most so many formulae and conditions.
+    /// One deliberation cycle with at most this number of formulas and conditions.
     ///
     /// # Errors
-    /// [`TooLong`] if that is not enough. The agent is then in a state that means nothing.
+    /// [`TooLong`] if the limit is exceeded. The agent's state is then undefined.
     pub fn next_step_within(
         &mut self,
         formulae: u32,
@@ -268,7 +267,7 @@ impl Interpreter {
                 if operator == Operator::Add {
                     self.beliefs.insert(name, event.arguments.clone());
                 } else if let Some(old) = self.beliefs.remove(&name) {
-                    // The event carries no arguments: its plans see what was believed.
+                    // The event has no arguments: its plans get the old values of the belief.
                     event.arguments = old;
                 } else {
                     continue;
@@ -296,7 +295,7 @@ impl Interpreter {
         };
         let fine = match outcome {
             Outcome::Achieved(_) => true,
-            // A percept that no plan cares for is no failure.
+            // A percept without an applicable plan is not a failure.
             Outcome::NoPlan => key.1 == TriggerKind::Belief,
             Outcome::Failed => false,
         };
@@ -305,7 +304,7 @@ impl Interpreter {
         }
     }
 
-    /// The next event.
+    /// Takes the next event.
     fn take_event(&mut self, environment: &mut dyn Environment) -> Option<Event> {
         let priority = |event: &Event| {
             self.configuration.preemptive.iter().position(|trigger| {
@@ -331,7 +330,7 @@ impl Interpreter {
             }));
         }
         for name in &self.configuration.perceived {
-            // What is no longer believed by now raises nothing.
+            // A belief that has been deleted meanwhile raises no event.
             if self.perceived.remove(&name.text)
                 && let Some(arguments) = self.beliefs.get(&name.text).cloned()
             {
@@ -342,7 +341,7 @@ impl Interpreter {
         self.inbox.pop_front().or_else(|| self.deferred.pop_front())
     }
 
-    /// Whether the clock says so much or more.
+    /// Whether the clock has reached a time.
     fn is_due(
         configuration: &Configuration,
         due: &Value,
@@ -358,8 +357,8 @@ impl Interpreter {
     fn defer(&mut self, key: Key, arguments: Vec<Value>) {
         let event = Event { key, arguments, origin: Origin::Agent };
         if self.configuration.settings.queue {
-            // Each by itself among the external events, as long as there is room: as much as for those, and for
-            // each `!!` of the agent, up to 64, one more.
+            // Each deferred goal is a separate element, as long as there is room: that of the external
+            // events, plus one for each `!!` of the agent up to 64.
             let ours = self.inbox.iter().filter(|event| !event.is_external()).count();
             let formulae = self.agent.plans.iter().flat_map(|plan| &plan.body);
             let defers = formulae.filter(|formula| matches!(formula, Formula::Defer(_))).count();

@@ -1,4 +1,4 @@
-//! Plans and their formulae.
+//! Executes plans and their formulas.
 
 use std::sync::Arc;
 
@@ -12,8 +12,8 @@ use crate::syntax::ast::{
 use crate::types::CType;
 
 impl Interpreter {
-    /// Runs a trigger's plans, and if they fail those of its failure trigger. Arguments that are
-    /// `None` are asked for.
+    /// Runs a trigger's plans, and if they fail those of its failure trigger. Arguments that are `None` are
+    /// queried.
     pub(super) fn run_with_failure(
         &mut self,
         key: &Key,
@@ -29,7 +29,7 @@ impl Interpreter {
         outcome
     }
 
-    /// Where a goal was not achieved, the plans of its failure trigger have their say.
+    /// Runs the failure plans of a goal that was not achieved.
     pub(super) fn mend(
         &mut self,
         key: &Key,
@@ -46,7 +46,7 @@ impl Interpreter {
         self.run(&failure, arguments, environment)
     }
 
-    /// Goes on with a plan that waits, if its time has come.
+    /// Continues a plan that waits, if its time has come.
     pub(super) fn resume(
         &mut self,
         key: &Key,
@@ -113,7 +113,7 @@ impl Interpreter {
         }
     }
 
-    /// The formulae from the one with the index `first`.
+    /// Runs the formulas from index `first` on.
     fn body(
         &mut self,
         plan: &Plan,
@@ -150,7 +150,7 @@ impl Interpreter {
         Outcome::Achieved(answers.collect())
     }
 
-    /// One formula; nothing if it fails.
+    /// Runs one formula; `None` if it fails.
     fn formula(
         &mut self,
         formula: &Formula,
@@ -214,7 +214,7 @@ impl Interpreter {
                 self.defer(key, arguments);
             }
             Formula::Test(atom) => self.test(atom, theta, environment)?,
-            // The body has waited already.
+            // The wait is over.
             Formula::Wait { .. } => {}
         }
         Some(())
@@ -266,7 +266,7 @@ impl Interpreter {
         (outcome != Outcome::Failed).then_some(())
     }
 
-    /// The arguments that have a value, evaluated in order; the others are asked for.
+    /// The given arguments, evaluated in order; the others are queried.
     fn given(
         &self,
         atom: &Atom,

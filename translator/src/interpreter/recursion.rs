@@ -1,11 +1,11 @@
-//! Which goals and beliefs lead back to themselves: found anew, apart from the analysis that translation uses.
+//! Finds recursive goals and beliefs, independently of the analysis that the translation uses.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use super::{Key, key_of};
 use crate::syntax::ast::{Agent, Formula, Operator, TriggerKind};
 
-/// Triggers from which a call can come back to itself, found by following every call.
+/// Triggers from which a cycle of calls is reachable, found by following every call.
 pub(super) fn recursive_triggers(agent: &Agent) -> HashSet<Key> {
     let plans: BTreeSet<Key> = agent.plans.iter().map(|plan| key_of(&plan.trigger)).collect();
     let mut calls: BTreeMap<&Key, BTreeSet<Key>> = BTreeMap::new();
@@ -19,7 +19,7 @@ pub(super) fn recursive_triggers(agent: &Agent) -> HashSet<Key> {
         }
         for formula in &plan.body {
             let target = match formula {
-                // What is left of a plan that waits is the event of a later step.
+                // The rest of a plan that waits is the event of a later step.
                 Formula::Wait { .. } => {
                     targets.insert(key.clone());
                     continue;

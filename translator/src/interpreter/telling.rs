@@ -1,15 +1,15 @@
-//! What a step is told to have done, in the agent's own words, and how much it may do.
+//! Log of a step in the agent's terms, and the limit of its length.
 
 use super::{Environment, Event, Interpreter, Key, Origin, Value};
 use crate::Happening;
 use crate::program::trigger_text;
 use crate::syntax::ast::{Atom, Formula, Operator, Plan, TriggerKind};
 
-/// The agent's text, to quote it and to count its lines.
+/// The agent's text, for quotes and line numbers.
 #[derive(Debug)]
 pub(super) struct Source {
     text: String,
-    /// Where lines end.
+    /// Ends of the lines.
     ends: Vec<usize>,
 }
 
@@ -35,7 +35,7 @@ impl Source {
     }
 }
 
-/// How much a step may still do.
+/// Remaining work of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limit {
     left: u32,
@@ -44,7 +44,7 @@ pub(super) struct Limit {
     exceeded: bool,
 }
 
-/// Calls may be nested so deep in a step that is limited.
+/// Maximum nesting of calls in a limited step.
 const DEEPEST: usize = 2000;
 
 impl Limit {
@@ -60,7 +60,7 @@ impl Limit {
         self.exceeded
     }
 
-    /// Whether one more formula or plan may be looked at.
+    /// Whether one more formula or plan may be tried.
     pub(super) fn spend(&mut self) -> bool {
         if self.deepest == usize::MAX {
             return true;
@@ -82,12 +82,12 @@ impl Limit {
     }
 }
 
-/// An event as agents write it: `+!goTo(1, 2)`.
+/// An event in AgentSpeak: `+!goTo(1, 2)`.
 pub fn trigger(operator: Operator, kind: TriggerKind, name: &str, values: &[Value]) -> String {
     with_values(&trigger_text(operator, kind, name), values)
 }
 
-/// A name with values behind it, if there are any: `goTo(1, 2)`.
+/// A name with its values, if there are any: `goTo(1, 2)`.
 pub fn with_values(head: &str, values: &[Value]) -> String {
     if values.is_empty() {
         return head.to_owned();
@@ -101,20 +101,20 @@ pub(super) fn key_text(key: &Key) -> String {
 }
 
 impl Event {
-    /// The event in the agent's words, and why it is there.
+    /// The event in AgentSpeak, with its cause.
     pub(super) fn text(&self, posted: &str) -> String {
         let head = with_values(&key_text(&self.key), &self.arguments);
         match &self.origin {
             Origin::Agent => format!("{head}{posted}"),
             Origin::Environment => format!("{head}, raised by the environment"),
             Origin::Wait(waiting) => format!("{head}, which waits until {}", waiting.due),
-            Origin::Overdue => format!("the end of the time for {head}"),
+            Origin::Overdue => format!("the deadline of {head}"),
         }
     }
 }
 
 impl Interpreter {
-    /// Plans stand one deeper than what calls them.
+    /// Adds a line to the log; plans are one level deeper than their caller.
     fn tell(
         &self,
         further: usize,
@@ -123,7 +123,7 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Option<usize> {
         let story = environment.story()?;
-        // What a call does stands below the formula that calls.
+        // The effects of a call are below the formula that calls.
         let depth = (2 * self.limit.depth.max(1) - 1) + further;
         story.push(Happening { depth, line, text: text() });
         Some(story.len() - 1)
@@ -133,7 +133,7 @@ impl Interpreter {
         self.tell(0, None, || format!("handles {}", event.text("")), environment);
     }
 
-    /// Returns which of what was told it is.
+    /// Returns the index of the line in the log.
     pub(super) fn tell_plan(
         &self,
         plan: &Plan,
@@ -143,7 +143,7 @@ impl Interpreter {
         self.tell(0, Some(line), || format!("plan {}", self.source.head(plan)), environment)
     }
 
-    /// The plan does not apply after all.
+    /// Marks a logged plan as not applicable.
     pub(super) fn tell_skipped(told: Option<usize>, environment: &mut dyn Environment) {
         let story = environment.story().zip(told);
         if let Some(plan) = story.and_then(|(story, index)| story.get_mut(index)) {
@@ -152,7 +152,7 @@ impl Interpreter {
     }
 
     pub(super) fn tell_no_plan(&self, key: &Key, environment: &mut dyn Environment) {
-        // That nobody cares for a change of a belief is nothing to tell.
+        // A change of a belief without plans is not logged.
         if key.1 == TriggerKind::Belief {
             return;
         }

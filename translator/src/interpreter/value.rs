@@ -1,4 +1,4 @@
-//! Values with their C type's range.
+//! Values within the range of their C type.
 
 use std::cmp::Ordering::{Equal, Greater, Less};
 use std::fmt;
@@ -11,7 +11,7 @@ use crate::types::{CType, TypeKind};
 pub enum Value {
     /// `bool`
     Bool(bool),
-    /// Any integer type; the type that it belongs to bounds it.
+    /// Any integer type; its range is that of its C type.
     Integer(i128),
     /// `double` and, rounded to single precision, `float`.
     Float(f64),
@@ -22,7 +22,7 @@ pub enum Value {
 }
 
 impl fmt::Display for Value {
-    /// As agents and scripts write it: the shortest digits that mean exactly this value.
+    /// In the syntax of agents and scripts: the shortest digits with exactly this value.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Bool(value) => write!(f, "{value}"),
@@ -50,7 +50,7 @@ impl fmt::Display for Value {
 }
 
 impl Value {
-    /// The value that a C variable of the type starts with.
+    /// The initial value of a C variable of the type.
     pub(super) fn zero(ctype: &CType) -> Option<Self> {
         match ctype.kind {
             TypeKind::Bool => Some(Self::Bool(false)),
@@ -62,7 +62,7 @@ impl Value {
         }
     }
 
-    /// A constant of the tree.
+    /// The value of a constant in the tree.
     pub(super) fn constant(expression: &Expression, ctype: &CType) -> Option<Self> {
         match expression {
             Expression::Number(number) => {
@@ -82,8 +82,7 @@ impl Value {
         }
     }
 
-    /// The result of an operation, if there is one: integers must not leave their type's range,
-    /// and nothing is divided by zero.
+    /// The result of an operation, if there is one: no overflow of integers, and no division by zero.
     pub(super) fn calculate(
         operator: Arithmetic,
         left: &Self,
@@ -98,7 +97,7 @@ impl Value {
                     Arithmetic::Multiply => left.checked_mul(*right),
                     Arithmetic::Divide => left.checked_div(*right),
                     Arithmetic::Remainder => {
-                        // C has no remainder where it has no quotient.
+                        // In C the remainder is defined only if the quotient is.
                         in_range(left.checked_div(*right)?, ctype)?;
                         left.checked_rem(*right)
                     }
@@ -123,7 +122,7 @@ impl Value {
         }
     }
 
-    /// The value with its sign turned.
+    /// The negated value.
     pub(super) fn negate(&self, ctype: &CType) -> Option<Self> {
         match self {
             Self::Float(value) => Some(Self::Float(-value)),
@@ -136,7 +135,7 @@ impl Value {
         left.iter().zip(right).all(|(left, right)| Self::compare(Relation::Equal, left, right))
     }
 
-    /// Whether two values stand in a relation.
+    /// Whether two values satisfy a relation.
     pub fn compare(relation: Relation, left: &Self, right: &Self) -> bool {
         let order = match (left, right) {
             (Self::Bool(left), Self::Bool(right)) => left.partial_cmp(right),

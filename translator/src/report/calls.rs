@@ -1,30 +1,30 @@
-//! How often a step can call each action, at least and at most, over all paths.
+//! Minimum and maximum number of calls of each action in a step, over all paths.
 
 use crate::coverage::always_finds_a_plan;
 use crate::program::{BasicId, ContextCall, Effect, HandlerId, Plan, Program, Raise, Step};
 
-/// Fewest and most calls of each basic action, then of each class of actions.
+/// Minimum and maximum number of calls of each basic action, then of each class of actions.
 type Bounds = Vec<(u32, u32)>;
 
-/// Bounds of what one step can do.
+/// Bounds of one step.
 #[derive(Debug, Clone)]
 pub(super) struct Cost {
-    /// Triggers that call each other, itself included.
+    /// Depth of nested triggers, itself included.
     pub(super) depth: usize,
-    /// What is called if it succeeds; nothing if it cannot.
+    /// Calls on success; `None` if it cannot succeed.
     succeeds: Option<Bounds>,
-    /// What is called if it fails; nothing if it cannot.
+    /// Calls on failure; `None` if it cannot fail.
     fails: Option<Bounds>,
 }
 
 impl Cost {
-    /// Fewest and most calls, however it ends.
+    /// Minimum and maximum number of calls, whatever the result.
     pub(super) fn calls(&self) -> Bounds {
         either(self.succeeds.clone(), self.fails.clone()).unwrap_or_default()
     }
 }
 
-/// What is called if one of two things happens.
+/// Bounds of one of two alternatives.
 fn either(one: Option<Bounds>, other: Option<Bounds>) -> Option<Bounds> {
     match (one, other) {
         (Some(one), Some(other)) => {
@@ -35,19 +35,19 @@ fn either(one: Option<Bounds>, other: Option<Bounds>) -> Option<Bounds> {
     }
 }
 
-/// What is called if one thing happens and then the other.
+/// Bounds of a sequence.
 fn then(first: &Bounds, second: Option<&Bounds>) -> Option<Bounds> {
     let both = first.iter().zip(second?);
     Some(both.map(|(a, b)| (a.0.saturating_add(b.0), a.1.saturating_add(b.1))).collect())
 }
 
-/// What is counted: each basic action and each class of actions.
+/// Counters: one for each basic action and each class of actions.
 struct Counted {
     /// For each basic action, the counters that a call of it advances.
     counters: Vec<Vec<usize>>,
     /// The number of counters.
     count: usize,
-    /// What is called whenever a plan is chosen.
+    /// The trace function, called for each chosen plan.
     trace: Option<BasicId>,
 }
 
@@ -72,7 +72,7 @@ impl Counted {
         vec![(0, 0); self.count]
     }
 
-    /// Counts a call that is certain, or one that may be made.
+    /// Adds a call that is certain, or one that may be made.
     fn call(&self, basic: BasicId, certain: bool, bounds: &mut Bounds) {
         for counter in &self.counters[basic.0] {
             let (fewest, most) = bounds[*counter];
@@ -81,7 +81,7 @@ impl Counted {
     }
 }
 
-/// What each counter can count besides what plans call.
+/// Calls outside of plans.
 pub(super) fn besides(program: &Program) -> Bounds {
     let counted = Counted::new(program);
     let mut bounds = counted.nothing();
@@ -99,7 +99,7 @@ pub(super) fn events(program: &Program) -> Vec<HandlerId> {
         .chain(perceived)
         .chain(program.posted.iter().copied())
         .chain(program.deferred.iter().copied())
-        // What is late is handled by its failure plans.
+        // A goal whose deadline has passed is handled by its failure plans.
         .chain(program.limited.iter().filter_map(|id| program.handler(*id).failure))
         .collect();
     events.sort_unstable();
@@ -107,7 +107,7 @@ pub(super) fn events(program: &Program) -> Vec<HandlerId> {
     events
 }
 
-/// Costs of all handlers, callees before callers; calls never lead back.
+/// Costs of all handlers, callees before callers; the call graph has no cycles.
 pub(super) fn costs(program: &Program) -> Vec<Cost> {
     let counted = Counted::new(program);
     let none = || Cost { depth: 0, succeeds: Some(counted.nothing()), fails: None };
@@ -155,7 +155,7 @@ fn handler_cost(
     let handler = program.handler(id);
     let known = |id: HandlerId| costs[id.0].as_ref();
     let (mut succeeds, mut fails) = (None, None);
-    // What earlier plans have called to find out that they do not apply.
+    // Calls in the contexts of earlier plans that did not apply.
     let mut before = counted.nothing();
     for plan in &handler.plans {
         let outcome = plan_outcome(plan, counted, &before, &known);
@@ -165,11 +165,11 @@ fn handler_cost(
             counted.call(basic, false, &mut before);
         }
     }
-    // Without a plan that always applies, nothing else may be called.
+    // Without a plan that always applies, there may be no further calls.
     if !always_finds_a_plan(handler) {
         fails = either(fails, Some(before));
     }
-    // A goal that its failure plans mend is achieved after all.
+    // A goal that its failure plans recover is achieved.
     if let (Some(failed), Some(failure)) = (&fails, handler.failure.and_then(known)) {
         succeeds = either(succeeds, then(failed, failure.succeeds.as_ref()));
         fails = then(failed, failure.fails.as_ref());
@@ -178,7 +178,7 @@ fn handler_cost(
     Cost { depth: 1 + below.unwrap_or(0), succeeds, fails }
 }
 
-/// What is called if the body is carried out to its end, and if it is not.
+/// Calls of a completed body, and of one that fails.
 fn plan_outcome<'a>(
     plan: &Plan,
     counted: &Counted,
@@ -208,8 +208,8 @@ fn plan_outcome<'a>(
         }
         if let Some(cost) = called {
             let after = then(&now, cost.succeeds.as_ref());
-            // A belief that has not changed calls nothing, nor does an answered question; a goal
-            // that cannot succeed ends the body, and what follows is never carried out.
+            // An unchanged belief calls nothing, nor does an answered query. A goal that cannot succeed ends
+            // the body, so the following formulas are never executed.
             let certain = matches!(step, Step::Achieve { .. });
             now = match after {
                 Some(after) if certain => after,

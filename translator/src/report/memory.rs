@@ -1,5 +1,4 @@
-//! How much memory an agent takes: its state, and its stack once a compiler has said how large the
-//! frame of each function is.
+//! Memory of an agent: its state, and its stack if a compiler has reported the frame size of each function.
 
 use std::collections::HashMap;
 
@@ -8,13 +7,13 @@ use crate::backend::c::{FieldType, handler_name, layout, plan_name};
 use crate::program::Program;
 use crate::types::{CType, TypeKind};
 
-/// Functions of the C file that the others call without calling anything themselves.
+/// Functions of the C file that others call and that call nothing.
 const LEAVES: [&str; 5] = ["checked_", "equal_", "post_", "defer_", "limit_"];
 
-/// Which function calls which; calls never lead back.
+/// The call graph, which has no cycles.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Frames {
-    /// For each trigger its function, those of its plans, and the triggers that these call.
+    /// For each trigger: its function, those of its plans, and the triggers that they call.
     triggers: Vec<Trigger>,
     next_step: String,
 }
@@ -48,12 +47,12 @@ impl Frames {
         Self { triggers, next_step }
     }
 
-    /// The linker's name of `next_step()`.
+    /// Linker symbol of `next_step()`.
     pub(super) fn next_step(&self) -> &str {
         &self.next_step
     }
 
-    /// The deepest stack below a call of `next_step()`, without what the basic actions take.
+    /// Maximum stack below a call of `next_step()`, without that of the basic actions.
     pub(super) fn deepest(&self, frame_bytes: &HashMap<String, u64>) -> u64 {
         let frame = |name: &str| frame_bytes.get(name).copied().unwrap_or(0);
         let leaf = |name: &str| LEAVES.iter().any(|prefix| name.starts_with(prefix));
@@ -79,7 +78,7 @@ impl Frames {
     }
 }
 
-/// The size of the state struct where every scalar is aligned to its own size.
+/// Size of the state struct if every scalar is aligned to its own size.
 pub(super) fn state_bytes(program: &Program) -> usize {
     let mut bytes = 0_usize;
     let mut alignment = 1;
@@ -96,7 +95,7 @@ pub(super) fn state_bytes(program: &Program) -> usize {
     bytes.next_multiple_of(alignment)
 }
 
-/// Size and alignment; of types that the translator does not know, those of a pointer.
+/// Size and alignment; for unknown types, those of a pointer.
 fn size_of_type(program: &Program, ctype: &CType) -> (usize, usize) {
     match ctype.kind {
         TypeKind::Bool => (1, 1),

@@ -1,4 +1,4 @@
-//! What an agent costs: memory, call depth, and how often a step calls each action.
+//! Cost of an agent: memory, call depth, and number of calls of each action in a step.
 
 mod calls;
 mod memory;
@@ -13,19 +13,19 @@ use crate::coverage::never_applicable;
 use crate::program::{BasicId, HandlerId, Program};
 use crate::types::TypeKind;
 
-/// What an agent costs. It is written out by its `Display`.
+/// Cost of an agent. `Display` formats it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Report {
     figures: Vec<(&'static str, String)>,
-    /// Name, fewest and most calls in a step that handles an event.
+    /// Name, minimum and maximum number of calls in a step that handles an event.
     actions: Vec<(String, u32, u32)>,
     classes: Vec<(String, u32, u32)>,
     frames: Frames,
-    /// The deepest stack, if a compiler has said how large each frame is.
+    /// Maximum stack, if a compiler has reported the frame sizes.
     stack: Option<(String, u64)>,
-    /// The instructions of the longest path, if a compiler has made some.
+    /// Instructions of the longest path, if the code was compiled.
     path: Option<(String, u64)>,
-    /// The instructions of the costliest step that was found.
+    /// Instructions of the costliest step that was found.
     costliest: Option<u64>,
 }
 
@@ -43,7 +43,8 @@ impl Report {
             (fewest.saturating_add(besides[counter].0), most.saturating_add(besides[counter].1))
         };
         let actions = configuration.basics.iter().enumerate();
-        // Functions that only contexts call do nothing; the clock and the trace function are asked by ourselves.
+        // Functions in contexts have no effects; generated code calls the clock and the trace function
+        // itself.
         let called = program.called_in_bodies();
         let settings = &configuration.settings;
         let ours: Vec<&str> =
@@ -74,19 +75,18 @@ impl Report {
         }
     }
 
-    /// Adds the deepest stack of `next_step()`. `frame_bytes` are the sizes of the functions'
-    /// frames in the generated C file, as `compiler` gives them; functions that it has put into
-    /// others are not among them.
+    /// Adds the maximum stack of `next_step()`. `frame_bytes` are the frame sizes of the functions in the
+    /// generated C file, as reported by `compiler`; inlined functions are missing.
     pub fn add_stack(&mut self, compiler: &str, frame_bytes: &HashMap<String, u64>) {
         self.stack = Some((compiler.to_owned(), self.frames.deepest(frame_bytes)));
     }
 
-    /// The linker's name of `next_step()`.
+    /// Linker symbol of `next_step()`.
     pub fn entry(&self) -> &str {
         self.frames.next_step()
     }
 
-    /// Adds the instructions of the longest path through `next_step()`, as `compiler` has made them.
+    /// Adds the instructions of the longest path through `next_step()`, as compiled by `compiler`.
     pub fn add_path(&mut self, compiler: &str, instructions: u64) {
         self.path = Some((compiler.to_owned(), instructions));
     }
@@ -97,7 +97,7 @@ impl Report {
     }
 }
 
-/// What so many instructions take of a tick of 30 ms, on a slow machine.
+/// Share of a 30 ms tick that this number of instructions takes on a slow machine.
 fn share_percent(instructions: u64) -> f64 {
     const PER_TICK: f64 = 0.03 * 1e9;
     100.0 * instructions as f64 / PER_TICK
@@ -110,13 +110,13 @@ fn figures(program: &Program, costs: &[Cost], events: &[HandlerId]) -> Vec<(&'st
         ("plans", program.plans().count().to_string()),
         ("triggers", program.handlers().count().to_string()),
     ];
-    figures.push(("plans that nothing triggers", program.left_out.to_string()));
+    figures.push(("plans never triggered", program.left_out.to_string()));
     let lines: Vec<String> =
         never_applicable(program).map(|plan| format!("line {}", plan.lines.0)).collect();
     let never = if lines.is_empty() { "0".to_owned() } else { lines.join(", ") };
     figures.push(("plans never applicable", never));
     if let Some(id) = events.iter().max_by_key(|id| costs[id.0].depth) {
-        // next_step, handle_event, then a trigger's function and a plan's for each level.
+        // next_step, handle_event, then the functions of a trigger and of a plan for each level.
         let frames = 2 + 2 * costs[id.0].depth;
         let trigger = program.handler(*id).text();
         figures.push(("deepest chain of calls", format!("{frames} functions, from `{trigger}`")));

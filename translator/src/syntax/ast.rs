@@ -13,12 +13,12 @@ pub struct Agent {
     pub plans: Vec<Plan>,
 }
 
-/// An identifier and where it stands.
+/// An identifier with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Name {
     /// The identifier.
     pub text: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
@@ -44,9 +44,9 @@ pub enum Expression {
     Number(Number),
     /// `true`, `false`
     Boolean {
-        /// Which.
+        /// Its value.
         value: bool,
-        /// Where it stands.
+        /// Its place.
         span: Span,
     },
     /// `"text"`, escapes resolved.
@@ -93,12 +93,12 @@ pub enum Expression {
         variable: Name,
         /// The value.
         value: Box<Self>,
-        /// The whole.
+        /// The whole binding.
         span: Span,
     },
     /// `not b`
     Not {
-        /// What must not hold.
+        /// The negated condition.
         operand: Box<Self>,
         /// `not` and operand.
         span: Span,
@@ -110,7 +110,7 @@ pub enum Expression {
 }
 
 impl Expression {
-    /// Where the expression stands.
+    /// Place of the expression.
     pub fn span(&self) -> Span {
         match self {
             Self::Variable(name) => name.span.clone(),
@@ -134,7 +134,7 @@ impl Expression {
 }
 
 impl Expression {
-    /// Every variable that stands in the expression; its depth is bounded by the parser.
+    /// Visits every variable in the expression; its depth is bounded by the parser.
     pub(crate) fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
         match self {
             Self::Variable(name) => visit(name),
@@ -161,7 +161,7 @@ impl Expression {
 }
 
 impl Expression {
-    /// Every variable that `=` gives a value in a condition.
+    /// Visits every variable that `=` binds in a condition.
     pub(crate) fn for_each_assigned<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
         match self {
             Self::Bind { variable, .. } => visit(variable),
@@ -208,7 +208,7 @@ pub enum Relation {
     NotEqual,
 }
 
-/// A number exactly as written, so that it reaches C with its exact value.
+/// A number as written, so that its exact value reaches C.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Number {
     /// Digits, optional fraction and exponent, without sign.
@@ -228,7 +228,7 @@ pub enum Operator {
     Delete,
 }
 
-/// What a trigger is about.
+/// Kind of a trigger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TriggerKind {
     /// A belief: `+b`
@@ -255,15 +255,15 @@ pub struct Trigger {
 /// `@label[req("tag")] trigger : context <- body.`
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Plan {
-    /// The plan's own name, if it has one.
+    /// The plan's name, if it has one.
     pub label: Option<Name>,
-    /// Tags of the requirements that it fulfils.
+    /// Tags of the requirements that it implements.
     pub requirements: Vec<String>,
-    /// The event it is for.
+    /// The triggering event.
     pub trigger: Trigger,
-    /// What must hold; nothing for `true`.
+    /// The context; `None` for `true`.
     pub context: Option<Expression>,
-    /// The formulae in order; empty for `true`.
+    /// The formulas in order; empty for `true`.
     pub body: Vec<Formula>,
     /// The whole plan with its full stop.
     pub span: Span,
@@ -289,7 +289,7 @@ pub enum Formula {
     Achieve {
         /// The goal.
         goal: Atom,
-        /// How long it may take, in milliseconds.
+        /// Time limit in milliseconds.
         deadline: Option<Expression>,
     },
     /// `!!g(t)`
@@ -298,7 +298,7 @@ pub enum Formula {
     Test(Atom),
     /// `.wait(ms)`
     Wait {
-        /// How long, in milliseconds.
+        /// Duration in milliseconds.
         duration: Expression,
         /// From the full stop to the closing parenthesis.
         span: Span,
@@ -306,7 +306,7 @@ pub enum Formula {
 }
 
 impl Formula {
-    /// Where the formula begins and ends, without a leading `+`, `-`, `!` or `?`.
+    /// Place of the formula, without a leading `+`, `-`, `!` or `?`.
     pub(crate) fn span(&self) -> Span {
         match self {
             Self::Action(atom)
@@ -320,7 +320,7 @@ impl Formula {
         }
     }
 
-    /// Every variable that stands in the formula.
+    /// Visits every variable in the formula.
     pub(crate) fn for_each_variable<'a>(&'a self, visit: &mut impl FnMut(&'a Name)) {
         match self {
             Self::Action(atom)

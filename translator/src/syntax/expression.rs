@@ -7,9 +7,9 @@ use super::lexer::TokenKind;
 use super::parser::{Parsed, Parser};
 use crate::code::Code;
 
-/// Parentheses, calls, signs and `not` may be nested this deep: the parser's stack is bounded.
+/// Maximum nesting of parentheses, calls, signs and `not`, which bounds the parser's stack.
 const MAX_NESTING: usize = 32;
-/// So many arithmetic operators may follow each other on one level.
+/// Maximum number of consecutive arithmetic operators on one level.
 const MAX_CHAIN: usize = 32;
 
 impl Parser<'_> {
@@ -135,7 +135,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A sign directly before a number belongs to it; before anything else it negates.
+    /// A sign directly before a number belongs to it; elsewhere it negates.
     fn signed(&mut self, depth: usize) -> Parsed<Expression> {
         let sign = self.next().span;
         if self.peek() == &TokenKind::Number && self.span().start == sign.end {

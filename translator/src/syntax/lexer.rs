@@ -1,10 +1,10 @@
-//! Text to tokens.
+//! Lexer: from text to tokens.
 
 use diagnostic::{Diagnostic, Span};
 
 use crate::code::Code;
 
-/// What a token is.
+/// Kind of a token.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum TokenKind {
     /// `goto`: starts with a lower-case letter.
@@ -47,7 +47,7 @@ pub(super) enum TokenKind {
     At,
     LeftBracket,
     RightBracket,
-    /// Something that has been reported already.
+    /// An error that has been reported.
     Invalid,
     End,
 }
@@ -58,7 +58,7 @@ pub(super) struct Token {
     pub(super) span: Span,
 }
 
-/// All tokens of `text`, the last one [`TokenKind::End`], and what could not be read.
+/// All tokens of `text`, ending with [`TokenKind::End`], and the errors.
 pub(super) fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
     let mut lexer = Lexer { text, position: 0, tokens: Vec::new(), diagnostics: Vec::new() };
     lexer.run();
@@ -268,7 +268,7 @@ impl Lexer<'_> {
         let character = self.peek().unwrap_or(' ');
         self.advance();
         let help = match character {
-            '~' => "strong negation is not translated; `not b` tests that `b` is not believed",
+            '~' => "strong negation is not supported; `not b` tests that `b` is not believed",
             '{' | '}' => "braces do not occur in AgentSpeak",
             '\\' => "`\\==` is the only operator with a backslash",
             _ => "this character has no meaning in AgentSpeak",

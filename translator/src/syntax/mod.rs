@@ -1,7 +1,7 @@
-//! AgentSpeak text to syntax tree.
+//! Lexer and parser: from AgentSpeak text to a syntax tree.
 //!
-//! [`parse`] never fails: it returns the tree of what it understood and a diagnostic for each
-//! thing that it did not. A tree with errors must not be translated.
+//! [`parse`] never fails: it returns the tree of the parts that it understood, and a diagnostic for each
+//! error. A tree with errors must not be translated.
 
 pub mod ast;
 mod expression;

@@ -1,7 +1,7 @@
-//! Tokens to syntax tree, by recursive descent with one token of look-ahead.
+//! Recursive-descent parser with one token of look-ahead.
 //!
-//! After an error the parser goes on behind the next full stop, so that one run reports all errors
-//! of a file.
+//! After an error the parser continues behind the next full stop, so that one run reports all errors of a
+//! file.
 
 use diagnostic::{Diagnostic, Span};
 
@@ -9,7 +9,7 @@ use super::ast::{Agent, Atom, Formula, Name, Operator, Plan, Trigger, TriggerKin
 use super::lexer::{Token, TokenKind, tokenize};
 use crate::code::Code;
 
-/// The syntax tree of `text` and everything that is wrong with it.
+/// The syntax tree of `text` and all errors.
 pub fn parse(text: &str) -> (Agent, Vec<Diagnostic>) {
     let (tokens, diagnostics) = tokenize(text);
     let mut parser = Parser { text, tokens, position: 0, diagnostics };
@@ -34,7 +34,7 @@ impl Parser<'_> {
         let mut agent = Agent::default();
         while self.peek() != &TokenKind::End {
             if let Err(diagnostic) = self.statement(&mut agent) {
-                // What the lexer could not read it has reported.
+                // The lexer has reported it.
                 if self.peek() != &TokenKind::Invalid {
                     self.diagnostics.push(diagnostic);
                 }
@@ -99,7 +99,7 @@ impl Parser<'_> {
         if !agent.plans.is_empty() {
             self.diagnostics.push(
                 Code::Syntax
-                    .at(format!("{what} stands after a plan"), span)
+                    .at(format!("{what} after a plan"), span)
                     .help("the order is: initial beliefs, initial goal, plans"),
             );
         }
@@ -250,8 +250,8 @@ impl Parser<'_> {
         Ok(Formula::Achieve { goal, deadline })
     }
 
-    /// `.wait(ms)`, the one internal action. Nowhere else can a full stop stand before a name
-    /// where a formula is expected.
+    /// `.wait(ms)`, the one internal action. Where a formula is expected, a full stop before a name has no
+    /// other meaning.
     fn wait(&mut self) -> Parsed<Formula> {
         let start = self.next().span.start;
         let name = self.span();
@@ -276,7 +276,7 @@ impl Parser<'_> {
         found
     }
 
-    /// A name with arguments; `depth` counts what it stands inside of.
+    /// A name with arguments; `depth` is the nesting depth.
     pub(super) fn atom(&mut self, depth: usize) -> Parsed<Atom> {
         if self.peek() != &TokenKind::Atom {
             return Err(self.unexpected("a name that starts with a lower-case letter"));
@@ -297,7 +297,7 @@ impl Parser<'_> {
         Ok(Atom { name, arguments, span })
     }
 
-    /// The token under the cursor as a name; the caller has looked at its kind.
+    /// The current token as a name; the caller has checked its kind.
     pub(super) fn name(&mut self) -> Name {
         let span = self.next().span;
         Name { text: self.text[span.clone()].to_owned(), span }
@@ -312,7 +312,7 @@ impl Parser<'_> {
         &self.token().kind
     }
 
-    /// What stands behind the token under the cursor.
+    /// The token behind the current one.
     fn following(&self) -> &TokenKind {
         &self.tokens[(self.position + 1).min(self.tokens.len() - 1)].kind
     }
@@ -349,7 +349,7 @@ impl Parser<'_> {
         Code::Syntax.at(format!("expected {expected}, found {found}"), self.span())
     }
 
-    /// Skips behind the next full stop.
+    /// Skips to behind the next full stop.
     fn recover(&mut self) {
         while !matches!(self.next().kind, TokenKind::Dot | TokenKind::End) {}
     }

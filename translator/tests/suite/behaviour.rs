@@ -1,4 +1,4 @@
-//! What generated C does beyond the conformance suite: structs, the trace function, comments.
+//! Behaviour of generated C beyond the conformance suite: structs, the trace function, comments.
 
 use translator::{parse_configuration, translate};
 
@@ -47,7 +47,7 @@ fn the_trace_function_is_told_which_plan_was_chosen() {
     assert_eq!(trace, "chosen(1)\nchosen(2)\nact(3)\nact(2)");
 }
 
-/// The answer may be of any type that can be passed on.
+/// Queried arguments may be of any type that can be passed on.
 #[test]
 fn test_goals_are_for_every_type() {
     let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
@@ -72,7 +72,8 @@ fn test_goals_are_for_every_type() {
     assert_eq!(crate::harness::compile_and_run(&translation, environment), "me 7 none");
 }
 
-/// Plans of events that nothing raises leave no trace, wherever they stand: neither in the C nor in a model.
+/// Plans of events that nothing raises do not appear in the C or in the model, wherever they are in the
+/// source.
 #[test]
 fn what_nothing_triggers_is_as_if_it_were_not_there() {
     let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; inbox = 2; clock = now; };\n\
@@ -88,7 +89,7 @@ fn what_nothing_triggers_is_as_if_it_were_not_there() {
         "+!dim(X) : X < 3 <- off; !dim(X + 1).\n-!dim(_) <- on.\n",
         "+lit(X) <- on; !dim(X)[deadline(5)].\n",
     ];
-    // Lines are told in comments and in the model: the dead plans take the place of empty lines.
+    // Line numbers appear in comments and in the model, so the dead plans replace empty lines.
     let agent = |dead: [&str; 2]| {
         format!("!light.\n{}{}{}{}{}", live[0], dead[0], live[1], dead[1], live[2])
     };

@@ -1,19 +1,19 @@
-//! The conformance suite: programs with the traces that they must leave, and programs that must be
-//! refused, in `tests/conformance/*.txt`.
+//! The conformance suite: programs with their expected traces, and programs that must be refused, in
+//! `tests/conformance/*.txt`.
 //!
-//! Each program is run twice, by the reference interpreter and as compiled C, and both must leave
-//! the trace that the file gives. A case is a title, `== title`, then
+//! Each program is run twice, by the reference interpreter and as compiled C, and both must leave the trace
+//! in the file. A case is a title, `== title`, then
 //!
-//! - `rule:` what of the language it is about; all rules together are in `RULES`;
+//! - `rule:` the rules of the language that it covers; all rules are in `RULES`;
 //! - `with:` sections of the configuration, `settings:` settings instead of the clock, both
 //!   optional;
 //! - the agent, indented;
-//! - `run:` commands, separated by `;`, and `trace:` what they print; or `refused:` where the first
-//!   error of the agent is and what it says.
+//! - `run:` commands, separated by `;`, and `trace:` their output; or `refused:` place and message of
+//!   the agent's first error.
 //!
-//! Commands: `step`; `at 50` sets the clock and takes a step; `set b(3)`; `+!g(1)`, `+b(1)`, `-b`
-//! raise an event and print whether it was accepted; `room` prints whether the next one will be;
-//! `init`; `clear`; `counts` prints the counters. A step ends with `|`.
+//! Commands: `step`; `at 50` sets the clock and takes a step; `set b(3)`; `+!g(1)`, `+b(1)`, `-b` raise an
+//! event and print whether it was accepted; `room` prints whether the next one would be; `init`; `clear`;
+//! `counts` prints the counters. A step ends with `|`.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -28,7 +28,7 @@ use translator::{ParsedConfiguration, parse_configuration, translate};
 
 use crate::harness::{compile_and_run, trimmed_lines};
 
-/// Every part of the language that the suite must touch.
+/// All rules of the language, each of which the suite must cover.
 const RULES: [&str; 121] = [
     "program comments",
     "program left out",
@@ -153,7 +153,7 @@ const RULES: [&str; 121] = [
     "refused time",
 ];
 
-/// What every agent of the suite can use. Actions and functions print their call.
+/// The environment of all agents of the suite. Actions and functions print their call.
 pub(crate) const BASICS: &str = "void a(void); void act(int); void pair(int, int); void real(double); \
     void say(const char *); bool yes(int); bool no(int); bool flip(bool); int twice(int); \
     int count(void); int now(void);";
@@ -189,7 +189,7 @@ struct Case {
 }
 
 enum Expected {
-    /// The commands and what they print.
+    /// The commands and their output.
     Trace { run: String, trace: String },
     /// Place and message of the first error.
     Refused(String),
@@ -206,7 +206,7 @@ impl Case {
         parse_configuration("agent.conf", &text).unwrap_or_else(|e| panic!("{}: {e}", self.title))
     }
 
-    /// Nothing if the case holds.
+    /// `None` if the case passes.
     fn check(&self) -> Option<String> {
         let complaint = |found: &str, by: &str, expected: &str| {
             Some(format!("{}\n  expected: {expected}\n  {by}: {found}\n{}", self.title, self.agent))
@@ -429,7 +429,7 @@ fn case(text: &str) -> Case {
     Case { title, rule, sections, settings, agent, expected }
 }
 
-/// The agents that are accepted.
+/// The accepted agents.
 pub(crate) fn agents() -> Vec<String> {
     let accepted = |case: &Case| matches!(case.expected, Expected::Trace { .. });
     cases().into_iter().filter(accepted).map(|case| case.agent).collect()

@@ -1,4 +1,4 @@
-//! What the generated text looks like, and that compilers accept it.
+//! Form of the generated text, and its acceptance by compilers.
 
 use std::process::Command;
 
@@ -26,7 +26,7 @@ fn a_whole_agent_as_c_and_rust() {
     LAMP.compile();
 }
 
-/// A panic cannot unwind through C: it waits until C has come to the end of its step.
+/// A panic cannot unwind through C, so it is delayed until C has finished its step.
 #[test]
 fn a_panic_of_the_environment_is_carried_over_the_c() {
     let folder = tempfile::tempdir().unwrap();
@@ -119,7 +119,7 @@ fn the_report_bounds_calls_over_all_paths() {
     insta::assert_snapshot!("bounded_report", case.translate("").unwrap().report);
 }
 
-/// An action is one, whatever it returns and wherever the call stands.
+/// A function with a result is an action too, wherever it is called.
 #[test]
 fn the_report_counts_calls_that_return_a_value() {
     let case = Case {
@@ -162,7 +162,7 @@ fn the_trace_matrix_leads_from_requirement_to_c_lines() {
     assert_eq!(line(fields[10]), "}");
 }
 
-/// How deep the braces of a C text are nested.
+/// Nesting depth of the braces of a C text.
 fn depth(text: &str) -> usize {
     let mut depth = 0_usize;
     let mut deepest = 0;
@@ -177,8 +177,8 @@ fn depth(text: &str) -> usize {
     deepest
 }
 
-/// The trace of an agent with the goal `g(X)` and the belief `b(3)`, whose C must be no deeper than C99 promises, and
-/// the length of that.
+/// The trace of an agent with the goal `g(X)` and the belief `b(3)`, whose C must not be nested deeper than
+/// C99 guarantees, and the length of the C.
 fn trace_of(agent: &str) -> (String, usize) {
     let configuration = "settings { input = a; output = a.c; header = a.h; basics = b.h; };\n\
         basics { void act(int); bool yes(int); };\ntypes { g(int); b(int); c(int); };";
@@ -194,7 +194,7 @@ fn trace_of(agent: &str) -> (String, usize) {
 
 #[test]
 fn nesting_is_bounded_however_long_a_plan() {
-    // What each formula binds is used at the end.
+    // All bindings are used at the end.
     let body = |count: usize, last: &str| {
         let binds: Vec<String> = (0..count).map(|n| format!("V{n} = X + {n}")).collect();
         let uses: Vec<String> = (0..count).step_by(50).map(|n| format!("act(V{n})")).collect();
@@ -205,7 +205,7 @@ fn nesting_is_bounded_however_long_a_plan() {
     let (trace, long) = trace_of(&body(3000, "V2999 / (V2999 - V2999)"));
     assert!(trace.starts_with("1 51 101 ") && trace.ends_with(" 2951 1"), "{trace}");
     assert!(long < 12 * short, "{short} {long}");
-    // Contexts too, and the fate of one condition in the middle is that of all.
+    // Also contexts; a failing condition in the middle makes the whole context fail.
     let context = |count: usize, odd: usize| {
         let parts: Vec<String> = (0..count)
             .map(
@@ -219,7 +219,7 @@ fn nesting_is_bounded_however_long_a_plan() {
     };
     assert_eq!(trace_of(&context(300, 999)).0, "6 0");
     assert_eq!(trace_of(&context(300, 150)).0, "1 0");
-    // Alternatives and negations as deep as the language has them, with several conditions on each level.
+    // Alternatives and negations at maximum depth, with several conditions on each level.
     let level = "b(A) & yes(A) & yes(A + 1) & (b(2) & yes(1) | ";
     let deep = format!("{}b(3) & yes(4){}", level.repeat(30), ")".repeat(30));
     assert_eq!(
@@ -253,7 +253,7 @@ fn size_grows_with_the_agent() {
     assert!(few.iter().zip(many).all(|(few, many)| many < 25 * few), "{few:?} {many:?}");
 }
 
-/// What [`EVERYTHING`] tells the time by.
+/// The clock of [`EVERYTHING`].
 const CLOCK: &str = "clock = level;";
 
 /// Every construct of the language in one agent.
@@ -273,7 +273,7 @@ const EVERYTHING: Case = Case {
         +!v(_) <- .wait(5); !v(3).\n-!v(X) <- act(X).\n",
 };
 
-/// cppcheck's checks and its MISRA addon find nothing but that nobody calls the interface.
+/// cppcheck's checks and its MISRA addon only report that the interface is not called.
 #[test]
 fn generated_c_passes_the_misra_addon() {
     let autopilot = parse_configuration(
@@ -307,7 +307,7 @@ fn generated_c_passes_the_misra_addon() {
     }
 }
 
-/// The addon does find what is wrong.
+/// The addon detects violations.
 #[test]
 fn the_misra_addon_is_awake() {
     let folder = tempfile::tempdir().unwrap();

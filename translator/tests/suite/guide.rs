@@ -1,4 +1,4 @@
-//! The language guide's examples do what the guide says.
+//! The language guide's examples behave as the guide states.
 
 use std::process::Command;
 
@@ -8,7 +8,7 @@ use crate::harness::run_program;
 
 const GUIDE: &str = include_str!("../../../docs/agentspeak.md");
 
-/// What the guide's properties speak of.
+/// Declarations for the guide's properties.
 const DRONE: &str = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
     basics { void sendLand(void); void sendStandby(void); void sendTakeOff(void);
         void sendHover(void); };
@@ -34,7 +34,7 @@ fn blocks() -> Vec<(&'static str, String)> {
     blocks
 }
 
-/// What a program prints that is compiled beside the agent's C, as the guide says.
+/// Output of a program that is compiled with the agent's C, as in the guide.
 fn runs_alone(translation: &Translation, main: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     for file in &translation.files {
@@ -82,14 +82,14 @@ fn every_example_of_the_guide_does_what_it_says() {
                 assert!(warnings.starts_with(content.trim_end()), "{warnings}");
                 checked += 1;
             }
-            // A whole program around the agent: it compiles and runs.
+            // A complete program with the agent: it compiles and runs.
             "c" => {
                 let parsed = parse_configuration("a.conf", &configuration).unwrap();
                 let translation = translate(&parsed, &agent).unwrap();
                 assert_eq!(runs_alone(&translation, &content), "land\n");
                 checked += 1;
             }
-            // What `asl2c` shows is tested where that is.
+            // Output of `asl2c` is tested in that crate.
             "sh" | "console" | "session" => {}
             "properties" => {
                 let parsed = parse_configuration("a.conf", &format!("{DRONE}{content}")).unwrap();

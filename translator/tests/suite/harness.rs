@@ -1,4 +1,4 @@
-//! Translates small agents, compiles their C with every warning an error, and runs it.
+//! Translates small agents, compiles their C with all warnings as errors, and runs it.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -20,13 +20,13 @@ pub(crate) const STRICT: [&str; 10] = [
     "-Werror",
 ];
 
-/// A number that an environment variable tells, or the usual one.
+/// A number from an environment variable, or the default.
 pub(crate) fn from_environment(variable: &str, usual: u32) -> u32 {
     std::env::var(variable).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
-/// Says that something is not tested for want of a tool. In CI that is a failure: what was not tested must not look as
-/// if it was.
+/// Reports that a test was skipped because a tool is missing. In CI that is a failure, so that a skipped test
+/// cannot look like a passed one.
 ///
 /// # Panics
 /// In CI.
@@ -36,13 +36,13 @@ pub(crate) fn skip(tool: &str) {
     println!("skipped: there is no {tool} here");
 }
 
-/// A small agent and what surrounds it.
+/// A small agent with its environment.
 pub(crate) struct Case {
-    /// `basics` entries. Actions print themselves; functions are given in `functions`.
+    /// `basics` entries. Actions print their call; functions are defined in `functions`.
     pub(crate) basics: &'static str,
     /// `types` entries.
     pub(crate) types: &'static str,
-    /// The other sections, as they stand in the configuration.
+    /// The other sections, as in the configuration.
     pub(crate) sections: &'static str,
     /// The agent.
     pub(crate) agent: &'static str,
@@ -62,7 +62,7 @@ impl Case {
         translate(&configuration, self.agent)
     }
 
-    /// Compiles the C for both kinds of instance with every warning an error.
+    /// Compiles the C for both kinds of instance with all warnings as errors.
     pub(crate) fn compile(&self) {
         self.compile_with("");
     }
@@ -89,8 +89,8 @@ impl Case {
         }
     }
 
-    /// Runs `script`, C statements that call the agent's interface, and returns what was printed.
-    /// `functions` are C definitions of the basic functions that return something.
+    /// Runs `script`, C statements that call the agent's interface, and returns the output. `functions` are C
+    /// definitions of the basic functions with a result.
     pub(crate) fn run(&self, functions: &str, script: &str) -> String {
         self.run_with("", functions, script)
     }
@@ -130,8 +130,8 @@ impl Case {
     }
 }
 
-/// Translates, compiles and runs a program whose basic actions print themselves; a function
-/// `f` returns the variable `f_result`, which the script may set. Lines are kept.
+/// Translates, compiles and runs a program whose basic actions print their calls; a function `f` returns the
+/// variable `f_result`, which the script may set. Lines are kept.
 pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> String {
     let parsed = parse_configuration("a.conf", configuration).unwrap_or_else(|e| panic!("{e}"));
     let translation = translate(&parsed, agent).unwrap_or_else(|error| panic!("{error}"));
@@ -166,7 +166,7 @@ pub(crate) fn run_program(configuration: &str, agent: &str, script: &str) -> Str
     String::from_utf8(result.stdout).unwrap().trim_end().to_owned()
 }
 
-/// Compiles the agent and `environment` as one unit and returns what the program printed.
+/// Compiles the agent and `environment` as one unit and returns the program's output.
 pub(crate) fn compile_and_run(translation: &Translation, environment: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     for file in &translation.files {

@@ -1,5 +1,5 @@
-//! Names and texts that were made to be mistaken for generated C, or for Rust: either they are refused, with the
-//! line, or the C means what the agent says.
+//! Names and texts designed to be mistaken for generated C or Rust: either they are refused with their line,
+//! or the C behaves as the agent specifies.
 
 use std::process::Command;
 
@@ -13,7 +13,7 @@ fn translated(configuration: &str, agent: &str) -> Result<Translation, Translate
     translate(&parse_configuration("a.conf", configuration)?, agent)
 }
 
-/// Compiles all C of a translation by itself, and includes both headers together.
+/// Compiles all C of a translation separately, and includes both headers together.
 fn compile(translation: &Translation) -> Result<(), String> {
     let folder = tempfile::tempdir().unwrap();
     for file in &translation.files {
@@ -25,7 +25,7 @@ fn compile(translation: &Translation) -> Result<(), String> {
     let main = format!("#include \"{}\"\n#include \"{}\"\n", basics.name, header.name);
     std::fs::write(folder.path().join("both.c"), main + "int unused;\n").unwrap();
     for compiler in ["gcc", "clang"] {
-        // What is not used is only told by a compiler that comes to its end.
+        // Compilers report unused functions only after a complete compilation.
         for unit in [source.name.as_str(), "both.c"] {
             let mut command = Command::new(compiler);
             command.current_dir(folder.path()).args(STRICT);
@@ -118,7 +118,7 @@ fn comments_stay_comments() {
     assert_eq!(compile(&translated(configuration, "!g. +!g.").unwrap()), Ok(()));
 }
 
-/// `settings` and `sections` of a configuration that must be refused, and the beginning of the first error.
+/// `settings` and `sections` of a configuration that must be refused, and the start of the first error.
 #[track_caller]
 fn refused(settings: &str, sections: &str, expected: &str) {
     let configuration = format!("settings {{ {settings} }};\n{sections}\n");
@@ -185,12 +185,12 @@ fn names_of_c_and_of_ours_are_refused() {
 #[test]
 fn types_that_are_none_are_refused() {
     for (ctype, expected) in [
-        ("const int", "a value needs no `const`"),
-        ("int x", "this is no type"),
-        ("short double", "this is no type"),
-        ("while", "this is no type"),
-        ("struct", "this is no type"),
-        ("int * const", "this is no type"),
+        ("const int", "`const` has no effect on a value"),
+        ("int x", "not a type"),
+        ("short double", "not a type"),
+        ("while", "not a type"),
+        ("struct", "not a type"),
+        ("int * const", "not a type"),
     ] {
         refused(FILES, &format!("basics {{ void f({ctype}); }}; types {{ g(void); }};"), expected);
         refused(FILES, &format!("types {{ g(void); b({ctype}); }};"), expected);
@@ -209,7 +209,7 @@ fn types_that_are_none_are_refused() {
         );
         assert!(translated(&configuration, "!g. +!g : b(X) <- f(X).").is_ok(), "{ctype}");
     }
-    // A number is no place for a string.
+    // Strings are not allowed for numbers.
     let configuration =
         format!("settings {{ {FILES} }}; basics {{ void f(long); }}; types {{ g(void); }};");
     assert!(translated(&configuration, "!g. +!g <- f(\"x\").").is_err());
@@ -221,27 +221,39 @@ fn settings_are_read_once_and_as_they_stand() {
     refused(
         "input = a; output = a.c; header = a.h; basics = a.h;",
         "",
-        "`basics` and `header` are one file",
+        "`basics` and `header` are the same file",
     );
     refused(
         "input = a; output = ./a.c; header = a.h; basics = b.h;",
         "",
-        "`output` is no plain name",
+        "`output` is not a plain file name",
     );
-    refused("input = a; output = ../a.c; header = a.h; basics = b.h;", "", "`output` leads out");
-    refused("input = a; output = /tmp/a.c; header = a.h; basics = b.h;", "", "`output` leads out");
-    refused(&format!("{FILES} matrix = /tmp/m;"), "", "`matrix` leads out");
+    refused(
+        "input = a; output = ../a.c; header = a.h; basics = b.h;",
+        "",
+        "`output` is outside the output folder",
+    );
+    refused(
+        "input = a; output = /tmp/a.c; header = a.h; basics = b.h;",
+        "",
+        "`output` is outside the output folder",
+    );
+    refused(&format!("{FILES} matrix = /tmp/m;"), "", "`matrix` is outside the output folder");
     refused(
         &format!("{FILES} rust = a.c; instance = context;"),
         "",
-        "`rust` and `output` are one file",
+        "`rust` and `output` are the same file",
     );
     refused(
         &format!("{FILES} rust = m.csv; matrix = m; instance = context;"),
         "",
-        "`matrix` and `rust` are one file",
+        "`matrix` and `rust` are the same file",
     );
-    refused("input = a; output = a*/b.c; header = a.h; basics = b.h;", "", "`output` is no name");
+    refused(
+        "input = a; output = a*/b.c; header = a.h; basics = b.h;",
+        "",
+        "`output` is not a valid file name",
+    );
     refused(&format!("{FILES} input = b;"), "", "a second setting `input`");
     refused(&format!("{FILES} inbox = 2; max_events = 3;"), "", "`inbox` and `max_events` exclude");
     refused("output = a.c; header = a.h; basics = b.h;", "", "the setting `input` is missing");
@@ -307,7 +319,7 @@ fn words_of_rust_are_refused() {
     }
 }
 
-/// Text that looks like the state is not the state.
+/// Text that looks like the state is not a use of the state.
 #[test]
 fn a_plan_that_speaks_of_self_need_not_use_it() {
     let configuration = format!(
@@ -319,7 +331,7 @@ fn a_plan_that_speaks_of_self_need_not_use_it() {
     assert_eq!(compile(&translated(&configuration, agent).unwrap()), Ok(()));
 }
 
-/// What cannot be compared needs no function that compares.
+/// Values that are not compared need no comparison function.
 #[test]
 fn what_is_not_compared_needs_no_helper() {
     for (basics, types, structs) in [
@@ -358,8 +370,8 @@ fn what_is_not_compared_needs_no_helper() {
     }
 }
 
-/// Agents that are nearly those of the conformance suite: words taken out, doubled, exchanged, put in.
-/// `ASL2C_FUZZ=1800` goes on for so many seconds.
+/// Mutations of the agents of the conformance suite: words removed, doubled, exchanged, inserted.
+/// `ASL2C_FUZZ=1800` runs for that number of seconds.
 #[test]
 #[allow(clippy::disallowed_methods, reason = "it ends when the time is over")]
 fn whatever_is_accepted_compiles() {
@@ -450,7 +462,7 @@ fn whatever_is_accepted_compiles() {
     println!("{accepted} of {tried} accepted in {seconds} s, and compiled");
 }
 
-/// Names that clash with something, or nearly.
+/// Names that collide with something, or nearly.
 const HOSTILE: &[&str] = &[
     "x",
     "X_2",
@@ -553,7 +565,7 @@ const HOSTILE: &[&str] = &[
     "accepted",
 ];
 
-/// Whatever is called whatever: it is refused, or the C is accepted by both compilers.
+/// Any combination of names is refused, or both compilers accept the C.
 #[test]
 fn hostile_names_are_refused_or_compile() {
     let cases = from_environment("ASL2C_HOSTILE", 60);

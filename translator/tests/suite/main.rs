@@ -1,4 +1,4 @@
-//! Translation as a whole: what is refused and how, what the C looks like, and what it does.
+//! Tests of the whole translation: refused agents and their errors, the form of the C, and its behaviour.
 #![forbid(unsafe_code)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(

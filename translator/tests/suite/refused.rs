@@ -1,4 +1,4 @@
-//! What is refused, and with which words.
+//! Refused agents and configurations, and the messages.
 
 use translator::Severity;
 
@@ -52,7 +52,7 @@ fn an_error_shows_its_line_a_caret_and_what_to_do() {
     ");
 }
 
-/// The first lines of all errors of an agent.
+/// The first line of each error of an agent.
 fn errors(agent: &'static str) -> Vec<String> {
     let case = Case {
         basics: "void act(int); bool flag(int); int count(void); void take(handle_t);",
@@ -69,10 +69,10 @@ fn plans_of_test_goals_that_nobody_asks_are_checked() {
     assert_eq!(errors("!g. +!g. +?b(X) <- fly(X)."), ["`fly` is not declared"]);
     assert_eq!(errors("!g. +!g. +?b(X, Y) <- act(X)."), ["`b` takes 1 arguments, not 2"]);
     assert_eq!(errors("!g. +!g. +?b(X) <- act(X, 1)."), ["`act` takes 1 arguments, not 2"]);
-    assert_eq!(errors("!g. +!g. +?b(X) <- ?b(X)."), ["`?b` leads back to itself"]);
+    assert_eq!(errors("!g. +!g. +?b(X) <- ?b(X)."), ["`?b` is recursive"]);
     assert_eq!(
         errors("!g. +!g. +?b(X) <- ?d(Y); X = 1. +?d(Y) <- ?b(_); Y = 1.0."),
-        ["`?d` leads back to itself", "`?b` leads back to itself"]
+        ["`?d` is recursive", "`?b` is recursive"]
     );
     assert_eq!(
         errors("!g. +!g. +?b(X) <- ?p(X, _). +?p(X, Y) <- fly(X); Y = 1."),
@@ -84,7 +84,7 @@ fn plans_of_test_goals_that_nobody_asks_are_checked() {
         ["`-?b` can never run: no plan for `+?b`"]
     );
     assert_eq!(errors("!g. +!g. +?b(X) : c <- X = Y."), ["`Y` has no value here"]);
-    // In whatever way they are meant to be asked.
+    // However they are queried.
     for agent in [
         "!g. +!g. +?b(X) <- X = 1.",
         "!g. +!g. +?b(X) <- act(X).",
@@ -106,14 +106,14 @@ fn one_mistake_is_said_once() {
     only("!g. +!g <- X = fly(1); act(X); Y = X + 1; act(Y + X); !gi(Y); +b(X); -b(X); act(-X).");
     only("!g. +!g : X = fly(1) & X > 3 & Y = X & not (Y == X) <- act(Y).");
     only("!g. +!g <- ?b(X); act(X). +?b(X) <- X = fly(1).");
-    // Another mistake is said as well.
+    // Other errors are reported as well.
     assert_eq!(
         errors("!g. +!g <- X = fly(1); act(X); act(Z)."),
         ["`fly` is not declared", "`Z` has no value here"]
     );
 }
 
-/// What is said of an agent of test goals.
+/// The messages for an agent with test goals.
 fn said(agent: &str) -> String {
     let configuration = "settings { input = agent.asl; output = a.c; header = a.h; basics = b.h; };\n\
         basics { void act(int); int count(void); };\n\
@@ -123,7 +123,7 @@ fn said(agent: &str) -> String {
     translator::translate(&parsed, agent).map_or_else(|error| error.to_string(), |_| String::new())
 }
 
-/// A plan that is right, and asked in a way that it is not made for, is no mistake of the plan.
+/// If a correct plan is queried in a way that it does not support, the error is at the query.
 #[test]
 fn a_question_that_no_plan_answers_is_one_mistake() {
     const PLANS: &str = "+?p(X, Y) : X > 3 & X \\== 8 <- act(X); Y = X + 5.\n\
@@ -146,7 +146,7 @@ fn a_question_that_no_plan_answers_is_one_mistake() {
       |
       = help: ask `?p(value, New)`, a value where the plan needs one and a new variable where it gives one, or change the plan
     ");
-    // A mistake of the plan is one however it is asked, and one of another question is another.
+    // An error of the plan is reported once for all queries; one of another query separately.
     assert_eq!(
         errors("!g. +!g <- ?p(X, 8); ?p(3, Y); ?p(3, 4). +?p(X, Y) : X > 3 <- Y = fly(X)."),
         ["`fly` is not declared"]
@@ -157,7 +157,7 @@ fn a_question_that_no_plan_answers_is_one_mistake() {
     assert_eq!(said(&format!("!g. +!g <- ?p(4, X); act(X).\n{PLANS}")), "");
 }
 
-/// Plans that ask each other in many ways would multiply.
+/// Plans that query each other in many ways would multiply.
 #[test]
 fn a_question_has_a_few_ways_to_be_asked() {
     let asked = |ways: u32| {
@@ -173,13 +173,13 @@ fn a_question_has_a_few_ways_to_be_asked() {
     };
     assert_eq!(asked(8), "");
     insta::assert_snapshot!(asked(11), @r"
-    error: `?h0` is asked in more than 8 ways
+    error: `?h0` is asked with more than 8 combinations of arguments
      --> agent.asl:9:2
       |
     9 | ?h0(_, _, _, 1);
-      |  ^^^^^^^^^^^^^^ other arguments have a value here than before
+      |  ^^^^^^^^^^^^^^ a new combination of given and asked arguments
       |
-      = help: its plans are translated anew for each way: ask in one of the others, and compare what is answered
+      = help: its plans are translated once per combination: use one of the others, and compare the answers
     ");
 }
 
@@ -217,7 +217,7 @@ fn the_configuration_is_checked_too() {
     4 | settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };
       |                                   ^^^
       |
-      = help: the environment could order what the agent can't do
+      = help: the environment could request what the agent cannot do
 
     error: this trigger is listed twice
      --> agent.conf:4:44
@@ -239,7 +239,7 @@ fn the_configuration_is_checked_too() {
     4 | settables { bb; }; triggerables { +!c; +b; +b; }; preemptive { +!gi; +b; };
       |                                                                      ^^
       |
-      = help: raise a goal, `+!goal`, where the belief matters that much
+      = help: raise a goal, `+!goal`, instead
     "
     );
 }
@@ -279,7 +279,7 @@ fn what_nothing_triggers_is_left_out_with_a_warning() {
         agent: "!g. +!g <- act(1). +!c <- act(2).",
     };
     let translation = case.translate("").unwrap();
-    assert!(translation.warnings.to_string().contains("nothing ever triggers `+!c`"));
+    assert!(translation.warnings.to_string().contains("`+!c` is never triggered"));
     assert!(!translation.files[0].text.contains("act(2)"));
     case.compile();
 }
@@ -333,7 +333,7 @@ fn what_cannot_happen_is_warned_of() {
     ");
 }
 
-/// The first lines of all warnings about the agent.
+/// The first line of each warning about the agent.
 fn warnings(agent: &'static str) -> Vec<String> {
     let case = Case {
         basics: "void act(int); bool flag(void);",
@@ -354,11 +354,11 @@ fn a_goal_that_may_find_no_plan_is_warned_of_unless_every_case_is_covered() {
     assert_eq!(warnings("!g. +!g : c <- act(1)."), may("+!g"));
     assert_eq!(warnings("!g. +!g : c <- act(1). +!g : not c <- act(2)."), [""; 0]);
     assert_eq!(warnings("!g. +!g : c <- act(1). +!g : b(_) <- act(2)."), may("+!g"));
-    // A failure plan mends it, its own or that of whoever calls.
+    // A failure plan handles it, its own or that of a caller.
     assert_eq!(warnings("!g. +!g : c <- act(1). -!g <- act(2)."), [""; 0]);
     assert_eq!(warnings("!g. +!g <- !k. +!k : c <- act(1). -!g <- act(2)."), [""; 0]);
     assert_eq!(warnings("!g. +!g <- !k. +!k : c <- act(1)."), may("+!k"));
-    // Comparisons of whole numbers leave no third way; with doubles there is NaN.
+    // Comparisons of integers cover all cases; for doubles there is NaN.
     let compared = "!g. +!g : b(X) & X < 3 <- act(1). +!g : b(X) & X >= 3 <- act(2). +!g : not b(_) <- act(3).";
     assert_eq!(warnings(compared), [""; 0]);
     let compared = "!g. +!g : d(X) & X < 3.0 <- act(1). +!g : d(X) & X >= 3.0 <- act(2). +!g : not d(_) <- act(3).";
@@ -368,17 +368,17 @@ fn a_goal_that_may_find_no_plan_is_warned_of_unless_every_case_is_covered() {
         [""; 0]
     );
     assert_eq!(warnings("!g. +!g : c | b(_) <- act(1). +!g : not (b(_) | c) <- act(2)."), [""; 0]);
-    // A function may answer differently the next time.
+    // A function may return something else the next time.
     assert_eq!(warnings("!g. +!g : flag <- act(1). +!g : not flag <- act(2)."), may("+!g"));
 }
 
 #[test]
 fn a_failure_that_does_not_go_outward_is_warned_of() {
     let unseen = |guard: &str, goal: &str| {
-        vec![format!("`{guard}` does not see it if `{goal}` fails later")]
+        vec![format!("`{guard}` does not handle a later failure of `{goal}`")]
     };
     let may = |goal: &str| format!("`{goal}` may find no plan");
-    // `k` goes on in later steps, and fails there.
+    // `k` continues in later steps, and fails there.
     let tail = warnings("!g. +!g <- !k. -!g <- act(1). +!k : c <- !k.");
     assert_eq!(tail, [unseen("-!g", "+!k"), vec![may("+!k")]].concat());
     assert_eq!(
@@ -389,7 +389,7 @@ fn a_failure_that_does_not_go_outward_is_warned_of() {
         warnings("!g. +!g <- !k. -!g <- act(1). +!k <- ?b(X); act(X); !k. -!k <- act(2)."),
         [""; 0]
     );
-    // Mended in part is not mended; nor are those that lead there by several steps.
+    // Partial handling is not enough; nor are failures several steps later covered.
     assert_eq!(
         warnings("!g. +!g <- !k. -!g <- act(1). +!k <- ?b(X); act(X); !k. -!k : c <- act(2)."),
         unseen("-!g", "+!k")
@@ -404,7 +404,7 @@ fn a_failure_that_does_not_go_outward_is_warned_of() {
         ),
         unseen("-!g", "+!h")
     );
-    // A goal that posts itself sees its own failures, and what cannot fail needs nobody.
+    // A goal that posts itself handles its own failures, and a goal that cannot fail needs no failure plan.
     assert_eq!(warnings("!g. +!g <- ?c; !g. -!g <- act(1)."), [""; 0]);
     assert_eq!(warnings("!g. +!g <- !k. -!g <- act(1). +!k <- act(2); !g."), [""; 0]);
     // A percept is posted too.
@@ -424,7 +424,8 @@ fn a_deadline_that_nobody_sees_is_warned_of() {
     };
     let warnings = case.translate("clock = now;").unwrap().warnings.to_string();
     assert!(
-        warnings.starts_with("warning[unseen-failure]: `-!g` does not see it if `+!k` fails later"),
+        warnings
+            .starts_with("warning[unseen-failure]: `-!g` does not handle a later failure of `+!k`"),
         "{warnings}"
     );
     let mended = Case {
@@ -449,7 +450,7 @@ fn what_is_declared_and_never_used_is_warned_of() {
     2 | basics { void act(int); bool flag(void); int now(void); };
       |                              ^^^^
       |
-      = help: take it out, or use it in the agent
+      = help: remove it, or use it in the agent
 
     warning[unused-declaration]: `b` is declared and never used
      --> agent.conf:3:18
@@ -457,7 +458,7 @@ fn what_is_declared_and_never_used_is_warned_of() {
     3 | types { g(void); b(int); };
       |                  ^
       |
-      = help: take it out, or use it in the agent
+      = help: remove it, or use it in the agent
     ");
 }
 
@@ -506,7 +507,7 @@ fn slips_of_the_pen_are_understood() {
     assert!(error.to_string().contains("without arguments it is `light(void)`"), "{error}");
 }
 
-/// Editors and build scripts need no text: each finding is data, about one of the two files.
+/// For editors and build scripts: each finding is data about one of the two files.
 #[test]
 fn what_is_found_is_data() {
     let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\

@@ -27,8 +27,10 @@ const CONTROL: &str = "autopilot/src/vehicle/control.rs";
 const PHASE: &str = "autopilot/src/vehicle/phase.rs";
 const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
 const ESTIMATOR: &str = "estimator/src/lib.rs";
+const FRAME: &str = "kinematics/src/frame.rs";
 const HORIZONTAL: &str = "estimator/src/horizontal.rs";
-const SESSION: &str = "ardrone-link/src/session/mod.rs";
+const TAKE_OFF: &str = "ardrone-link/src/session/take_off.rs";
+const SILENCE: &str = "ardrone-link/src/session/silence.rs";
 
 const fn mutant(name: &'static str, edits: &'static [Edit]) -> Mutant {
     Mutant { name, edits }
@@ -63,22 +65,18 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "the heading turns no velocity",
-        &[edit(
-            HORIZONTAL,
-            "Rotation2::new(-yaw_deg.to_radians())",
-            "Rotation2::new(0.0 * yaw_deg)",
-        )],
+        &[edit(FRAME, "Rotation2::new(-yaw_deg.to_radians())", "Rotation2::new(0.0 * yaw_deg)")],
     ),
     mutant(
         "the heading turns velocities the wrong way",
         &[
             edit(
-                HORIZONTAL,
+                FRAME,
                 "Rotation2::new(-yaw_deg.to_radians())",
                 "Rotation2::new(1.0 * yaw_deg.to_radians())",
             ),
             edit(
-                HORIZONTAL,
+                FRAME,
                 "Rotation2::new(yaw_deg.to_radians())",
                 "Rotation2::new(-1.0 * yaw_deg.to_radians())",
             ),
@@ -318,23 +316,23 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "the take-off latch is ignored",
         &[edit(
-            SESSION,
-            "self.take_off = TakeOffLatch::Withheld { landing_ordered: false };",
-            "self.take_off = TakeOffLatch::Follow { airborne: true };",
+            TAKE_OFF,
+            "*self = Self::Withheld { landing_ordered: false };",
+            "*self = Self::Follow { airborne: true };",
         )],
     ),
     mutant(
         "a drone that is not heard is told to fly",
         &[
             edit(
-                SESSION,
-                "heard.returned_at.is_none() && now.saturating_sub(heard.at) < UNHEARD",
-                "now.saturating_sub(heard.at) < Duration::MAX",
+                SILENCE,
+                "self.returned_at.is_none() && now.saturating_sub(self.at) < UNHEARD",
+                "now.saturating_sub(self.at) < Duration::MAX",
             ),
             edit(
-                SESSION,
-                "self.take_off = TakeOffLatch::Withheld { landing_ordered: false };",
-                "self.take_off = TakeOffLatch::Follow { airborne: true };",
+                TAKE_OFF,
+                "*self = Self::Withheld { landing_ordered: false };",
+                "*self = Self::Follow { airborne: true };",
             ),
         ],
     ),

@@ -37,7 +37,7 @@ pub(crate) enum VerifyError {
     #[error("{0}")]
     Missing(Missing),
     /// CBMC is missing, which is not available as a package everywhere.
-    #[error("nothing is proved: there is no CBMC here")]
+    #[error("nothing is proved: CBMC cannot be run")]
     NoCbmc,
     /// The agent was rejected by the translator.
     #[error("{0}")]

@@ -60,7 +60,7 @@ pub(super) fn proved(autopilot: &Findings) -> String {
     for checked in autopilot.model.iter().filter(|one| !one.verdict.is_proved()) {
         _ = writeln!(
             text,
-            "  {} does not hold of the model, for this can happen:",
+            "  {} does not hold of the model, counterexample:",
             checked.property.name
         );
         for happening in checked.verdict.counterexample() {
@@ -117,7 +117,7 @@ impl Report {
         for caught in &self.mutants {
             let not = if caught.is_caught() { "" } else { "**not caught**; " };
             let on_model = match caught.on_model {
-                Some(true) => "a way to the failure",
+                Some(true) => "counterexample",
                 Some(false) => "**holds**",
                 None => "",
             };
@@ -148,7 +148,7 @@ impl Report {
         if let Some(checked) = told.filter(|checked| checked.verdict.is_refuted()) {
             _ = writeln!(
                 text,
-                "\nHow `flying_goes_on` fails, as `asl2c verify` tells it:\n\n```text"
+                "\nThe counterexample of `asl2c verify` to `flying_goes_on`:\n\n```text"
             );
             for happening in checked.verdict.counterexample() {
                 _ = writeln!(text, "{happening}");
@@ -189,37 +189,37 @@ impl Report {
 const INTRODUCTION: &str = "\
 # Verification
 
-`cargo xtask verify` proves what must hold of the shipped agent
+`cargo xtask verify` proves the required properties of the shipped agent
 ([`autopilot.asl`](../autopilot/agent/autopilot.asl), [`autopilot.conf`](../autopilot/agent/autopilot.conf)),
-shows that the proof can fail, measures what the tests exercise, and, if all was proved, writes this page. Without
+checks that the proofs can fail, measures the coverage of the tests, and, if all was proved, writes this page. Without
 CBMC, SPIN or Frama-C it proves nothing and fails.
 
-Each property is proved twice, in an environment that may do anything at any time: raise every event with any
-arguments, believe any values (numbers that are none among them), answer every question differently each time it
-is asked. Neither proof has a bound on the length of the flight.
+Each property is proved twice, in a nondeterministic environment: it may raise every event with any
+arguments at any time, set beliefs to any values (including NaN), and return a different answer to each
+query. Neither proof has a bound on the length of the flight.
 
 - **On a model of the agent** (`asl2c verify`): events, beliefs that are held or not, and plans in Promela. SPIN
-  visits every state that can be reached. What fails is told in the agent's own words.
+  visits every reachable state. A counterexample is shown in the agent's terms.
 - **On the generated C**: CBMC shows that one transition (an event raised, a belief set, or a step) from *any* state
-  that satisfies an invariant keeps the invariant and every property, and that the first state satisfies it. The
-  invariant is found, not written: from candidates made of the agent's events and beliefs those are dropped that
-  the first state or some transition breaks, until the rest proves itself. Frama-C's EVA follows the whole life of
-  the same C from `init()` on.
+  that satisfies an invariant preserves the invariant and every property, and that the initial state satisfies it. The
+  invariant is found automatically: from candidates about the agent's events and beliefs, those are removed that
+  the initial state or some transition violates, until the rest is inductive. Frama-C's EVA analyses the same C from
+  `init()` on.
 
-Properties stand in the configuration; [the language guide](agentspeak.md#properties) tells what they mean. Those of
-dangers begin where the danger does, at what the agent is told, and have no excuse: a step that begins in danger commands
-the way down, whatever runs and whatever the pilot orders. Their numbers are the requirement's, not the agent's limits, so
-that a limit which is changed breaks them. That the way down then goes on to the ground is `descending_goes_on` and
-`landing_goes_on`, also when the danger has passed.
+The properties are part of the configuration; [the language guide](agentspeak.md#properties) defines their meaning. Those
+for dangers refer to the agent's percepts and have no exceptions: a step that begins in danger commands the descent, whatever
+is running and whatever the operator orders. Their numbers are those of the requirement, not the agent's limits, so
+a changed limit violates them. `descending_goes_on` and `landing_goes_on` state that the descent continues to the ground,
+also after the danger has passed.
 
 ";
 
 const MUTANTS_INTRODUCTION: &str = "\
 ## The proof can fail
 
-Each of these mutants is the shipped agent, its configuration or its C with one mistake in it, and breaks
-what it is made to break: the proof on the C does not go through, and on the model (where the mistake is not in the
-C) SPIN finds a way to the failure.
+Each of these mutants is the shipped agent, its configuration or its C with one mistake, and violates
+the intended property: the proof on the C fails, and on the model (unless the mistake is in the
+C) SPIN finds a counterexample.
 
 ";
 
@@ -227,54 +227,52 @@ const PAPER_INTRODUCTION: &str = "
 ## The paper's autopilot
 
 [`paper.asl`](../translator/agents/paper.asl) is the autopilot of Bucheli, Kroening, Martins and Natraj (TAROS 2015,
-figures 1 and 2), written anew from what its plans do, with promises like ours
+figures 1 and 2), rewritten from the description of its plans, with properties like those above
 ([`paper.conf`](../translator/agents/paper.conf)). The paper leaves as future work to prove that \"in every deliberation
-cycle one of the basic actions is executed\". That is not so: without a position, on orders for which no plan applies (a
+cycle one of the basic actions is executed\". This does not hold: without a position, for orders without an applicable plan (a
 take-off in the air, a target on the ground), and in the step in which a target is reached for the first time,
-nothing is sent. A landing order waits until the target is reached and stayed at, for which there is no bound. That
-`onGround` and `closeEnough` may answer differently when asked again, as senses do, loses goals whose plans
-ask the same question twice. Our agent asks in order, with a last plan for everything else, lets landing pre-empt,
-and mends failures.
+no command is sent. A landing order waits until the target is reached and the stay is over, without a bound. Because
+`onGround` and `closeEnough` are sensors that may return different results in one step, goals are lost whose plans
+query them twice. The shipped agent queries in order, with a last plan for all other cases, lets landing pre-empt,
+and has failure plans.
 
 ";
 
 const COVERAGE_INTRODUCTION: &str = "
-## What the tests exercise
+## Coverage of the tests
 
-The agent's own tests and all flights in simulated time (500 with random faults among them), with the agent's C counted
-by gcov. A condition has two outcomes, true and false; the generated C evaluates one condition after the other, so
-where all outcomes were seen, so was every decision. What cannot come out otherwise counts too: that a limit
-is believed, which it is from the start, or that `airworthy` is not. Plans carry the requirements that they are for
+Measured by gcov on the agent's C, in the agent's own tests and all flights in simulated time (500 of them with random
+faults). A condition has two outcomes, true and false; the generated C evaluates one condition after the other, so
+if all outcomes were seen, every decision was covered. Impossible outcomes count as missing: for example a limit
+is always believed, and `airworthy` never. Plans name the requirements that they implement
 (`@label[req(\"SAF-2\")]`).
 
 ";
 
 const COST: &str = "
-## What a step costs
+## Cost of a step
 
 ";
 
 const LIMITS: &str = "
-## What is assumed, and what is not proved
+## Assumptions and limits
 
-- The C is translated with the agent's state passed in, as the autopilot uses it; of `instance = static` the
-  same plans and cycle are proved, not the other way of reaching the state.
-- CBMC, Frama-C, SPIN, the C compiler and the Rust around the agent are trusted. What the environment does with an
-  AT command is not part of the proof: that is the guard's, the session's and the drone's
-  ([safety.md](safety.md)), and tested.
-- The properties of dangers speak of what the agent is told. That charge, blindness, doubt and saturation are measured
-  rightly is the estimator's and the flight program's, and tested. A doubt that is no number lands the drone too, which
-  a comparison cannot say: it is tested.
-- The agent has no clock. It is told for how long it has been taking off, approaching, holding a place and descending,
-  and in the proofs that may be any time in any step. So `a_take_off_ends` says: in the step in which the agent is told
-  that the take-off has lasted more than 10 s, it goes down. That what it is told grows as time does, and is not set back
-  by arriving for a moment or by a moment's blindness, is the work of 40 lines (`Activity` in `autopilot/src/agent.rs`),
+- The C is translated with the agent's state passed in, as the autopilot uses it. For `instance = static` the
+  proofs cover the same plans and cycle, but not the other access to the state.
+- CBMC, Frama-C, SPIN, the C compiler and the Rust code around the agent are trusted. The effect of an
+  AT command is not part of the proof: it depends on the safety monitor, the session and the drone
+  ([safety.md](safety.md)), and is tested.
+- The properties for dangers refer to the agent's percepts. Tests cover the correct measurement of charge, blindness,
+  position uncertainty (`doubt`) and saturation by the estimator and the flight program. An uncertainty that is NaN lands the
+  drone too, which a comparison cannot express; that is tested.
+- The agent has no clock. Its percepts include the time that it has been taking off, approaching, holding a position and
+  descending, and in the proofs each may have any value in any step. `a_take_off_ends` therefore means: in a step in which
+  the percept exceeds 10 s, the agent descends. That these times grow with the clock, and are not reset
+  by a momentary arrival or blindness, is implemented in 40 lines (`Activity` in `autopilot/src/agent.rs`),
   and tested.
-- A stay has no limit but the plan's own time and the battery: who drifts off begins it anew, as often as there is time
-  left to approach.
-- The pilot's hand (`+!hold`, `+!steer`) takes back a landing in which there is no danger (or no more), each time anew:
-  that is what `unless` says. The flight program does not pass it on once a landing for a danger has begun.
-- The model knows no values, so it proves less than the C where values matter; here it proves the same.
-- Frama-C's WP with ACSL contracts is not used: what it would prove of single functions, CBMC proves of every
-  path through all of them, and frames (what a function does not change) are part of the invariant.
+- A stay is limited only by the plan's own time and the battery: a drone that drifts off starts it again, as long as there
+  is time left to approach.
+- The model has no values, so in general it proves less than the C; here it proves the same.
+- Frama-C's WP with ACSL contracts is not used: CBMC proves the properties for every path through all functions,
+  and frame conditions (what a function does not change) are part of the invariant.
 ";

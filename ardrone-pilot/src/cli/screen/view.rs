@@ -355,14 +355,15 @@ fn draw_steps(frame: &mut Frame<'_>, area: Rect, view: &View) {
 
 #[cfg(test)]
 mod tests {
-    use pid::Pose;
+    use kinematics::Pose;
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
 
     use super::*;
     use autopilot::agent::ChosenPlans;
     use autopilot::plan::Plan;
-    use autopilot::vehicle::{Airframe, Trust};
+    use autopilot::vehicle::Trust;
+    use kinematics::Airframe;
 
     #[test]
     fn the_screen_shows_the_flight() {

@@ -1,4 +1,4 @@
-//! Tags that join the state, and that leave it.
+//! Adds tags to the state and removes them.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -6,7 +6,8 @@ use super::{Filter, HEADING, MEAN_ORIENTATION_DEG, Sighted, TAGS, dot};
 
 #[expect(clippy::needless_range_loop, reason = "rows and columns of matrices")]
 impl Filter {
-    /// A tag that lies where it was seen; what is wrong with our place is wrong with its.
+    /// Adds a tag at the position where it was seen; its error is correlated with that of the drone's
+    /// position.
     pub(in crate::tags) fn begin_tag(&mut self, tag: usize, sighted: &Sighted) {
         let state = TAGS + 3 * tag;
         self.used = self.used.max(state + 3);
@@ -31,14 +32,14 @@ impl Filter {
         }
     }
 
-    /// A tag whose place is known beforehand.
+    /// Adds a tag with a known position.
     pub(in crate::tags) fn survey_tag(
         &mut self,
         tag: usize,
         place_m: Vector2<f64>,
         heading_rad: Option<f64>,
     ) {
-        /// A tape measure, and the angle of a sheet of paper.
+        /// Accuracy of a tape measure, and of the angle of a sheet of paper.
         const SURVEY_M: f64 = 0.02;
         const SURVEY_DEG: f64 = 2.0;
         let state = TAGS + 3 * tag;
@@ -54,7 +55,7 @@ impl Filter {
         }
     }
 
-    /// The direction of a tag, as it seems in the mean by our heading.
+    /// Adds the direction of a tag: its mean by the estimated heading.
     pub(in crate::tags) fn begin_heading(&mut self, tag: usize, direction_rad: f64) {
         let state = TAGS + 3 * tag + 2;
         self.forget(state, 0.0);
@@ -67,12 +68,12 @@ impl Filter {
         self.x[state] = direction_rad;
     }
 
-    /// Only so many tags are looked at.
+    /// Sets the number of tags in use.
     pub(in crate::tags) fn use_tags(&mut self, tags: usize) {
         self.used = TAGS + 3 * tags;
     }
 
-    /// A tag is no longer known.
+    /// Removes a tag.
     pub(in crate::tags) fn forget_tag(&mut self, tag: usize) {
         for axis in 0..3 {
             self.forget(TAGS + 3 * tag + axis, 0.0);

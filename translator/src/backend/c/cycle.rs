@@ -10,12 +10,12 @@ use crate::program::{External, HandlerId, Program};
 use crate::syntax::ast::{Operator, TriggerKind};
 use crate::types::CType;
 
-/// The enumerator of an event, with the prefix of the agent.
+/// Enumerator of an event, with the prefix of the agent.
 pub(super) fn event_name(names: &Names, slot: Slot, trigger: &str) -> String {
     format!("{}{}", names.interface("").to_uppercase(), event(slot, trigger))
 }
 
-/// The enumerator that stands for no event.
+/// Enumerator for no event.
 pub(super) fn no_event(names: &Names) -> String {
     format!("{}EVENT_NONE", names.interface("").to_uppercase())
 }
@@ -44,7 +44,7 @@ pub(super) fn posting(writer: &mut Writer, program: &Program, names: &Names) {
     }
 }
 
-/// The function that gives a goal its deadline.
+/// The function that sets the deadline of a goal.
 fn limiting(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId) {
     let Some((_, time)) = limits(program) else { return };
     let trigger = handler_name(program, id);
@@ -54,7 +54,7 @@ fn limiting(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId
     let limited = names.field("limited");
     let event = event_name(names, Slot::Deadline, &trigger);
     writer.line(
-        "/* What runs must end by then. A goal that posts itself again keeps its deadline. */",
+        "/* Sets the deadline of a goal. A goal that posts itself again keeps its deadline. */",
     );
     writer.open(format!("static void limit_{trigger}({})", names.parameters(&types)));
     writer.open(format!("if ({limited} != {event})"));
@@ -95,7 +95,7 @@ fn deferring(writer: &mut Writer, program: &Program, names: &Names, id: HandlerI
     writer.line("");
 }
 
-/// The function that posts a goal with `!!` where all wait in one queue, each by itself.
+/// The function that posts a goal with `!!` if all goals share one queue, each in its own element.
 fn queueing(
     writer: &mut Writer,
     program: &Program,
@@ -108,9 +108,7 @@ fn queueing(
     let (first, count) = (field("first"), field("count"));
     let external = names.field(external_count(program));
     let unhandled = names.field("unhandled");
-    writer.line(
-        "/* Behind all that waits. What finds no room is counted: no plan will handle it. */",
-    );
+    writer.line("/* Appends the goal. One that does not fit is dropped and counted. */");
     writer.open(format!("static void defer_{trigger}({})", names.parameters(types)));
     writer.open(format!("if (({count} - {external}) < {}U)", program.deferred_room));
     let slot = wrapped(&format!("{first} + {count}"), ring.length);
@@ -125,13 +123,13 @@ fn queueing(
     writer.line(format!("{unhandled} = {unhandled} + 1U;"));
     writer.close("}");
     writer.open("else");
-    writer.line("/* The count stays at its highest value. */");
+    writer.line("/* The counter saturates. */");
     writer.close("}");
     writer.close("}");
     writer.line("");
 }
 
-/// An index into a ring of `length` slots.
+/// Wraps an index into a ring of `length` elements.
 pub(super) fn wrapped(index: &str, length: usize) -> String {
     if length == 1 { "0U".to_owned() } else { format!("({index}) % {length}U") }
 }
@@ -189,7 +187,7 @@ fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
             String::new(),
             format!("    if (current_time >= {deadline})"),
             "    {".to_owned(),
-            "        /* The time of what runs is over. */".to_owned(),
+            "        /* The deadline has passed. */".to_owned(),
             format!("        event = {limited};"),
             format!("        {limited} = {none};"),
             "    }".to_owned(),
@@ -251,7 +249,7 @@ fn take_event(writer: &mut Writer, program: &Program, names: &Names) {
 }
 
 fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
-    writer.line("/* Runs one event to its end; false for a mere update of a belief. */");
+    writer.line("/* Handles one event completely; false for a mere update of a belief. */");
     let event_type = names.interface("event_t");
     let mut parameters = names.state_parameter();
     parameters.push(format!("{event_type} event"));
@@ -284,7 +282,7 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
         let values: Vec<String> = (0..belief.types.len())
             .map(|number| names.field(&belief_value(&belief.name, number)))
             .collect();
-        // What is no longer believed by now raises nothing.
+        // A belief that has been deleted meanwhile raises no event.
         writer.open(format!("if ({})", names.field(&held(&belief.name))));
         run(writer, program, names, handler, &values);
         writer.close("}");
@@ -312,7 +310,7 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
     writer.line(format!("case {}:", no_event(names)));
     writer.line("default:");
     writer.indent();
-    writer.line("/* No event is waiting. */");
+    writer.line("/* No event is pending. */");
     writer.line("break;");
     writer.dedent();
     writer.dedent();
@@ -321,7 +319,7 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
         let (posted, limited) = (names.field("posted"), names.field("limited"));
         let none = no_event(names);
         writer.open(format!("if ({posted} == {none})"));
-        writer.line("/* Nothing runs any more. */");
+        writer.line("/* No goal is active any more. */");
         writer.line(format!("{limited} = {none};"));
         writer.close("}");
     }
@@ -356,7 +354,7 @@ fn run(writer: &mut Writer, program: &Program, names: &Names, id: HandlerId, val
     let arguments = names.arguments(values.iter().cloned());
     writer.line(format!("outcome = run_{trigger}({arguments});"));
     if program.handler(id).kind == TriggerKind::Belief {
-        // A percept that no plan cares for is no failure.
+        // A percept without an applicable plan is not a failure.
         writer.open("if (outcome == OUTCOME_NOT_APPLICABLE)");
         writer.line("outcome = OUTCOME_ACHIEVED;");
         writer.close("}");
@@ -386,7 +384,7 @@ fn external_case(writer: &mut Writer, program: &Program, names: &Names, external
             .collect();
         let held = names.field(&held(&belief.name));
         if external.operator == Operator::Delete {
-            // What is not believed cannot be taken back: a mere update.
+            // Deleting a belief that is not held has no effect.
             writer.open(format!("if ({held})"));
             writer.line(format!("{held} = false;"));
             match external.handler {
@@ -431,7 +429,7 @@ fn next_step(writer: &mut Writer, program: &Program, names: &Names) {
     }
     writer.line(format!("{update}({update_arguments});"));
     if updates {
-        // Each round that handles nothing takes one event away.
+        // Each round that handles nothing removes one event.
         let rounds = program.configuration.settings.inbox as usize + watched;
         writer.open(format!(
             "for (uint32_t round = 0U; (round <= {rounds}U) && (!handled); round++)"

@@ -1,4 +1,4 @@
-//! The text of one plan while it grows: blocks that are open, locals and temporaries.
+//! Incremental output of one plan: open blocks, locals and temporaries.
 
 use super::helpers::Helpers;
 use super::locals::{Local, Locals};
@@ -8,24 +8,24 @@ use crate::backend::writer::Writer;
 use crate::program::{Plan, Program};
 use crate::types::{CType, TypeKind};
 
-/// Writes one plan. Each condition and each formula that can fail opens a block that stays open to
-/// the end of the plan, so that every variable is a constant initialised where it is bound.
+/// Writes one plan. Each condition, and each formula that can fail, opens a block that stays open to the end
+/// of the plan, so that every variable is a constant initialised where it is bound.
 pub(super) struct PlanEmitter<'a> {
     pub(super) program: &'a Program,
     pub(super) names: &'a Names,
     pub(super) helpers: &'a mut Helpers,
     pub(super) plan: &'a Plan,
     pub(super) writer: Writer,
-    /// Blocks that are open here: in the plan, or in the alternative or negation.
+    /// Number of open blocks: of the plan, or of the current alternative or negation.
     pub(super) blocks: usize,
-    /// Alternatives and negations around.
+    /// Number of enclosing alternatives and negations.
     pub(super) level: usize,
     temporaries: usize,
     locals: Locals,
 }
 
-/// So many blocks may stand inside each other before all are closed; C99 promises 127 of all kinds, of which
-/// alternatives and negations can take three each.
+/// Maximum nesting of blocks before all are closed. C99 guarantees 127 levels, of which an alternative or
+/// negation can take three.
 const MOST_BLOCKS: usize = 16;
 /// The same inside an alternative or a negation.
 const MOST_BLOCKS_WITHIN: usize = 3;
@@ -43,7 +43,7 @@ impl<'a> PlanEmitter<'a> {
         Self { program, names, helpers, plan, writer, blocks: 0, level: 0, temporaries: 0, locals }
     }
 
-    /// A block that stays open, in which a condition holds.
+    /// Opens a block with a condition.
     pub(super) fn open(&mut self, condition: &str) {
         let most = if self.level == 0 { MOST_BLOCKS } else { MOST_BLOCKS_WITHIN };
         if self.blocks >= most {
@@ -53,7 +53,7 @@ impl<'a> PlanEmitter<'a> {
         self.blocks += 1;
     }
 
-    /// Closes all blocks and goes on in one, in which all their conditions held.
+    /// Closes all blocks and continues in one block whose condition is that all conditions held.
     pub(super) fn flatten(&mut self) {
         let reached = self.temporary("reached");
         self.writer.line(format!("{reached} = true;"));
@@ -63,7 +63,7 @@ impl<'a> PlanEmitter<'a> {
         self.blocks = 1;
     }
 
-    /// A local that gets its value here and never another.
+    /// A local constant.
     pub(super) fn constant(&mut self, ctype: &CType, name: &str, value: &str) {
         let local = Local {
             name: name.to_owned(),
@@ -75,7 +75,7 @@ impl<'a> PlanEmitter<'a> {
         self.local(local);
     }
 
-    /// A local that begins so and is changed later.
+    /// A local that is changed later.
     pub(super) fn variable(&mut self, ctype: &str, name: &str, start: &str) {
         let ctype = CType { name: ctype.to_owned(), kind: TypeKind::Opaque };
         let local = Local {
@@ -104,7 +104,7 @@ impl<'a> PlanEmitter<'a> {
         format!("{stem}{}", self.temporaries)
     }
 
-    /// The text, with all blocks closed and locals declared where C99 wants them.
+    /// The text, with all blocks closed and locals declared where C99 requires it.
     pub(super) fn finish(mut self) -> String {
         self.close_blocks();
         self.locals.resolve(&self.writer.finish())

@@ -1,7 +1,7 @@
 //! Values and conditions of one plan.
 //!
-//! A condition, and a value that may have no result, opens a block that stays open to the end of
-//! the plan or of the alternative it belongs to.
+//! A condition, or a value that may have no result, opens a block that stays open to the end of the plan or
+//! of the alternative it belongs to.
 
 use super::emitter::PlanEmitter;
 use super::spelling::{conjunction, parenthesised, symbol};
@@ -38,7 +38,7 @@ impl PlanEmitter<'_> {
         }
     }
 
-    /// A variable gets its value; one that nobody uses is not generated.
+    /// Assigns a variable; an unused one is not generated.
     pub(super) fn assign(&mut self, variable: VariableId, value: &Value) {
         let plan = self.plan;
         let variable = &plan.variables[variable.0];
@@ -48,7 +48,7 @@ impl PlanEmitter<'_> {
         } else if let Value::Call(call) = value {
             self.discard(call);
         } else {
-            // Only for its failure; a call inside has been made.
+            // The value is unused, but it may fail; calls in it have been made.
             let text = self.value(value);
             self.writer.line(format!("(void)({text});"));
         }
@@ -108,7 +108,7 @@ impl PlanEmitter<'_> {
         }
         let outer_blocks = std::mem::take(&mut self.blocks);
         self.level += 1;
-        // A block of its own: what is bound here must not clash with what follows.
+        // A separate block, so that its bindings do not clash with later ones.
         self.writer.open_bare();
         self.conditions(conditions);
         let plan = self.plan;
@@ -126,13 +126,13 @@ impl PlanEmitter<'_> {
         self.blocks = outer_blocks;
     }
 
-    /// A condition that binds nothing and cannot fail, as one expression.
+    /// A condition without bindings that cannot fail, as one expression.
     fn simple(&mut self, condition: &Condition) -> Option<String> {
         match condition {
             Condition::Holds { belief, patterns } => {
                 let plan = self.plan;
                 let binds = |pattern: &Pattern| matches!(pattern, Pattern::Bind(id) if plan.variables[id.0].used);
-                // What is to be called is called only if the belief is held.
+                // A function in a pattern is called only if the belief is held.
                 let plain = |pattern: &Pattern| match pattern {
                     Pattern::Equal(value) => is_plain(value),
                     Pattern::Any | Pattern::Bind(_) => true,
@@ -188,7 +188,7 @@ impl PlanEmitter<'_> {
         }
     }
 
-    /// The conditions under which the belief matches patterns that bind nothing.
+    /// The conditions under which the belief matches patterns without bindings.
     pub(super) fn matches(&mut self, belief: BeliefId, patterns: &[Pattern]) -> Vec<String> {
         let program = self.program;
         let declared = program.belief(belief);
@@ -203,7 +203,7 @@ impl PlanEmitter<'_> {
         conditions
     }
 
-    /// Calls for the effect alone.
+    /// A call whose result is discarded.
     pub(super) fn discard(&mut self, call: &Call) {
         let void = self.program.basic(call.basic).result.name == "void";
         let call = self.call(call);
@@ -220,8 +220,8 @@ impl PlanEmitter<'_> {
         values.iter().map(|value| self.value(value)).collect()
     }
 
-    /// A value as an expression without side effects: calls are made before, in order, and what
-    /// may have no result opens a block in which it has one.
+    /// A value as an expression without side effects: calls are made before it, in order, and an operation
+    /// that may have no result opens a block in which it has one.
     pub(super) fn value(&mut self, value: &Value) -> String {
         match value {
             Value::Variable(id) => self.plan.variables[id.0].name.clone(),
@@ -235,7 +235,7 @@ impl PlanEmitter<'_> {
             }
             Value::Negate(operand) => {
                 let operand = self.value(operand);
-                // A constant may begin with a sign of its own.
+                // A constant may begin with a sign.
                 format!("(-({operand}))")
             }
             Value::Arithmetic(operation) => self.operation(operation),
@@ -278,7 +278,7 @@ impl PlanEmitter<'_> {
     }
 }
 
-/// A value that needs no statement before it.
+/// Whether a value needs no preceding statement.
 fn is_plain(value: &Value) -> bool {
     matches!(value, Value::Variable(_) | Value::Constant(..))
 }

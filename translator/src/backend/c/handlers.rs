@@ -45,7 +45,7 @@ fn handler_head(program: &Program, names: &Names, id: HandlerId, handler: &Handl
     format!("static outcome_t run_{trigger}({})", parameters(names, handler).join(", "))
 }
 
-/// The parameters of a handler and its plans: what is asked for is passed as a pointer.
+/// The parameters of a handler and its plans; queried arguments are passed as pointers.
 fn parameters(names: &Names, handler: &Handler) -> Vec<String> {
     let mut parameters = names.state_parameter();
     for (index, ctype) in handler.types.iter().enumerate() {
@@ -59,7 +59,7 @@ fn parameters(names: &Names, handler: &Handler) -> Vec<String> {
     parameters
 }
 
-/// What all functions need to be written.
+/// Common data of all functions.
 struct Emission<'a> {
     writer: &'a mut Writer,
     program: &'a Program,
@@ -75,7 +75,7 @@ impl Emission<'_> {
         let arguments = names.arguments(argument_names(&handler.types));
         let text = handler.text();
         writer.line(if handler.resumed {
-            format!("/* {text}: what is left of a plan that waits. It goes on when the time has come. */")
+            format!("/* {text}: the rest of a plan that waits. It continues when the time has passed. */")
         } else {
             format!("/* Plans of {text}, in order. */")
         });
@@ -89,7 +89,7 @@ impl Emission<'_> {
         }
         if let Some(failure) = handler.failure {
             writer.open("if (outcome != OUTCOME_ACHIEVED)");
-            // What is left of a plan that waits starts with the arguments of its goal.
+            // The rest of a plan that waits starts with the arguments of its goal.
             let types = &program.handler(failure).types;
             let arguments = names.arguments(argument_names(types));
             writer.line(format!("outcome = run_{}({arguments});", handler_name(program, failure)));
@@ -100,7 +100,7 @@ impl Emission<'_> {
         writer.line("");
     }
 
-    /// One plan; `number` is what the trace function is told.
+    /// One plan; `number` is passed to the trace function.
     fn plan(&mut self, handler: &Handler, plan: &Plan, number: usize, name: &str) {
         let Self { writer, program, names, input, helpers } = self;
         writer.line(format!("/* {}:{}", comment_safe(input), plan.lines.0));

@@ -1,9 +1,9 @@
-//! The environment of a proof: everything that an environment may do, and what must hold all the same.
+//! The environment of a proof: a nondeterministic environment, and the assertions.
 //!
-//! The agent's life is a sequence of *transitions*: the environment raises an event, sets a belief or
-//! forgets all events, or the agent takes a step. `induction()` starts in any state that satisfies the
-//! invariant, with monitors in any state that does, and makes one transition; `base()` starts where
-//! `init()` does. What both prove holds after any number of transitions.
+//! An execution is a sequence of *transitions*: the environment raises an event, sets a belief or clears all
+//! events, or the agent takes a step. `induction()` starts in any state of agent and monitors that satisfies
+//! the invariant, and makes one transition; `base()` starts in the state after `init()`. Assertions that hold
+//! in both hold after any number of transitions.
 
 mod invariant;
 
@@ -19,14 +19,14 @@ use crate::program::{External, Program};
 use crate::syntax::ast::{Name, Number, Relation};
 use crate::types::{CType, TypeKind};
 
-/// Defined as a number, the harness runs so many random transitions.
+/// If it is defined as a number, the harness runs that many random transitions.
 pub const RANDOM_TRANSITIONS: &str = "ASL2C_RANDOM";
 
-/// A trace tells so what the environment calls, with its arguments.
+/// Name in a trace for calls by the environment, with their arguments.
 pub const CALLS: &str = "calls";
-/// A trace tells so what a function returns.
+/// Name in a trace for results of functions.
 pub const ANSWERS: &str = "answers";
-/// A trace tells so that the agent takes a step.
+/// Name in a trace for steps of the agent.
 pub const STEPS: &str = "steps";
 
 /// The texts of a proof.
@@ -34,11 +34,11 @@ pub const STEPS: &str = "steps";
 pub(crate) struct Harness {
     /// The environment with the transitions; it includes the agent and `invariant.h`.
     pub(crate) source: String,
-    /// C expressions over `self` and the monitors that may be invariants.
+    /// C expressions over `self` and the monitors that are candidates for the invariant.
     pub(crate) candidates: Vec<String>,
 }
 
-/// Types whose values cannot be made up.
+/// Types without a way to create arbitrary values.
 pub(crate) fn unknown_type(program: &Program) -> Option<String> {
     let basics = &program.configuration.basics;
     let results = basics.iter().map(|basic| &basic.result);
@@ -95,8 +95,8 @@ impl Builder<'_> {
         writer.finish()
     }
 
-    /// Any value of each type. For CBMC that is what was never initialised, for analysers what is volatile,
-    /// and to run it, something random.
+    /// An arbitrary value of each type: uninitialised for CBMC, volatile for static analysers, and random for
+    /// execution.
     fn anything(&self, writer: &mut Writer) {
         let basics = &self.program.configuration.basics;
         let mut types: Vec<&str> = vec!["bool", "uint32_t"];
@@ -119,7 +119,7 @@ impl Builder<'_> {
         writer.line("#else");
         for name in &types {
             let volatile = format!("volatile_{}", name.replace(' ', "_"));
-            // A bool that were neither would be an error of its own.
+            // A bool other than 0 or 1 would be undefined behaviour.
             let (held, test) = if *name == "bool" { ("int", " != 0") } else { (*name, "") };
             writer.line(format!("static volatile {held} {volatile};"));
             writer.line(format!("static {name} {} {{ return {volatile}{test}; }}", any(name)));
@@ -142,7 +142,7 @@ impl Builder<'_> {
                 writer.line(format!("(void){argument};"));
             }
             let calls = calls(&basic.name.text);
-            // Two are already one too many: the count stays there.
+            // Saturates at two, which is already a violation.
             writer.line(format!("{calls} = ({calls} < 2U) ? ({calls} + 1U) : 2U;"));
             if basic.result.kind != TypeKind::Void {
                 let (ctype, name) = (&basic.result.name, &basic.name.text);
@@ -153,7 +153,7 @@ impl Builder<'_> {
             writer.close("}");
             writer.line("");
         }
-        writer.line("/* Beliefs are set by transitions of their own. */");
+        writer.line("/* Beliefs are set by separate transitions. */");
         let state = self.names.state_type();
         writer.open(format!("void {update}({state} *agent, void *environment)"));
         writer.line("(void)agent;");
@@ -174,7 +174,7 @@ impl Builder<'_> {
         writer.line("");
     }
 
-    /// How often one of these was called in the step, as a C expression.
+    /// Number of calls of these actions in the step, as a C expression.
     fn count(&self, actions: &[&str]) -> String {
         let classes = &self.program.configuration.classes;
         let mut counters: Vec<String> = Vec::new();
@@ -255,7 +255,7 @@ impl Builder<'_> {
         }
     }
 
-    /// An answer is due from now on, unless one is already, or something that excuses waits.
+    /// An answer is due from now on, unless one is due already, or an excusing event is pending.
     fn begin(
         &self,
         writer: &mut Writer,
@@ -271,7 +271,7 @@ impl Builder<'_> {
         writer.close("}");
     }
 
-    /// An answer is due as long as the comparison holds when steps begin.
+    /// An answer is due while the comparison holds at the start of steps.
     fn compare(
         &self,
         writer: &mut Writer,
@@ -311,7 +311,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Whether such an event waits to be handled, as a C expression.
+    /// Whether such an event is pending, as a C expression.
     fn waits(&self, event: &ExternalTrigger) -> String {
         let Some(external) = self.external(event) else { return "false".to_owned() };
         let trigger = external_name(external);
@@ -331,7 +331,7 @@ impl Builder<'_> {
 
     fn transition(&self, writer: &mut Writer) {
         let state = self.names.state_type();
-        writer.line("/* What may happen next. */");
+        writer.line("/* One nondeterministic transition. */");
         writer.open(format!("static void transition({state} *self)"));
         writer.open(format!("switch ({})", anything("uint32_t")));
         let mut case = 0_usize;
@@ -389,7 +389,7 @@ impl Builder<'_> {
 
     fn entries(&self, writer: &mut Writer) {
         let (state, init) = (self.names.state_type(), self.names.interface("init"));
-        writer.line("/* The invariant holds in the beginning. */");
+        writer.line("/* The invariant holds initially. */");
         writer.open("int base(void)");
         writer.line(format!("static {state} agent;"));
         writer.line(format!("{init}(&agent, 0);"));
@@ -397,10 +397,10 @@ impl Builder<'_> {
         writer.line("return 0;");
         writer.close("}");
         writer.line("");
-        writer.line("/* Whatever happens next keeps it, and what must hold holds. */");
+        writer.line("/* Every transition preserves it and satisfies the properties. */");
         writer.line("#ifdef __CPROVER__");
         writer.open("int induction(void)");
-        writer.line("/* CBMC lets what is not initialised have any value. */");
+        writer.line("/* For CBMC, uninitialised variables have arbitrary values. */");
         writer.line(format!("{state} agent;"));
         for property in self.properties() {
             let name = &property.name.text;
@@ -421,7 +421,7 @@ impl Builder<'_> {
         writer.close("}");
         writer.line("#endif");
         writer.line("");
-        writer.line("/* The whole life, for tools that follow loops. */");
+        writer.line("/* A complete execution, for tools that analyse loops. */");
         writer.open("int main(void)");
         writer.line(format!("{state} agent;"));
         writer.line(format!("{init}(&agent, 0);"));
@@ -438,7 +438,7 @@ impl Builder<'_> {
     }
 }
 
-/// Values of all sizes that limits may have, by Marsaglia's xorshift.
+/// Random values of all magnitudes of limits, by Marsaglia's xorshift.
 fn random(writer: &mut Writer, types: &[&str]) {
     writer.line("static uint64_t random_state = 88172645463325252ULL;");
     writer.open("static double any_number(void)");
@@ -463,8 +463,8 @@ fn occupied(ring: &str, slot: usize, length: usize) -> String {
     format!("(((({slot}U + {length}U) - self->{ring}_first) % {length}U) < self->{ring}_count)")
 }
 
-/// Opens a block in which a transition of this name begins: anything of each type is made up, and told with the name.
-/// Returns the arguments with which it is made.
+/// Opens a block for a transition of this name: creates arbitrary arguments and records them in the trace.
+/// Returns the arguments.
 fn told(writer: &mut Writer, name: &str, types: &[CType]) -> String {
     writer.open_bare();
     let arguments: Vec<String> = argument_names(types).collect();
@@ -476,12 +476,12 @@ fn told(writer: &mut Writer, name: &str, types: &[CType]) -> String {
     std::iter::once("self".to_owned()).chain(arguments).collect::<Vec<_>>().join(", ")
 }
 
-/// An expression of any value.
+/// An expression with an arbitrary value.
 fn anything(ctype: &str) -> String {
     any(ctype).replace("(void)", "()")
 }
 
-/// The function that makes any value up.
+/// The function that returns an arbitrary value.
 fn any(ctype: &str) -> String {
     format!("any_{}(void)", ctype.replace(' ', "_"))
 }

@@ -38,7 +38,7 @@ pub(super) fn agent_header(
         writer.line(format!("{prototype};"));
         writer.line("");
     };
-    declare(&mut writer, "Starts the agent anew.", init_prototype(names));
+    declare(&mut writer, "Starts the agent again.", init_prototype(names));
     let none: [CType; 0] = [];
     let empty = names.parameters(&none);
     declare(
@@ -57,12 +57,12 @@ pub(super) fn agent_header(
     }
     declare(
         &mut writer,
-        "Forgets all events, keeps the beliefs; the initial goal runs in the next step.",
+        "Drops all events, keeps the beliefs; the initial goal runs in the next step.",
         format!("void {}({empty})", names.interface("clear")),
     );
     for external in &program.external {
         let comment = if external.preemptive {
-            "Always accepted; handled in the next step, whatever runs."
+            "Always accepted; handled in the next step, whatever is running."
         } else {
             "Returns whether the event was accepted."
         };
@@ -74,7 +74,7 @@ pub(super) fn agent_header(
         let name = names.interface(&format!("set_{}", belief.name));
         let parameters = names.parameters(&belief.types);
         let comment = if belief.perceived.is_some() {
-            "Believed at once; a change raises an event, one however often it changes."
+            "Takes effect at once; any number of changes raises one event."
         } else {
             "Believed at once; no event."
         };
@@ -84,7 +84,7 @@ pub(super) fn agent_header(
     writer.finish()
 }
 
-/// The header with what the environment provides.
+/// The header that declares what the environment provides.
 pub(super) fn basics_header(program: &Program, names: &Names, input: &str) -> String {
     let settings = &program.configuration.settings;
     let mut writer = Writer::default();
@@ -119,7 +119,7 @@ pub(super) fn private_types(writer: &mut Writer, names: &Names, layout: &StateLa
         writer.line(format!("static {} agent;", names.state_type()));
         writer.line("");
     }
-    writer.line("/* How the plans of one event ended. */");
+    writer.line("/* Result of the plans of one event. */");
     writer.line("typedef enum");
     writer.line("{");
     writer.indent();
@@ -144,7 +144,7 @@ pub(super) fn init_prototype(names: &Names) -> String {
 fn state_types(writer: &mut Writer, names: &Names, layout: &StateLayout) {
     let event_type = names.interface("event_t");
     let prefix = names.interface("").to_uppercase();
-    writer.line("/* Events that wait to be handled. */");
+    writer.line("/* Pending events. */");
     writer.line("typedef enum");
     writer.line("{");
     writer.indent();
@@ -158,7 +158,7 @@ fn state_types(writer: &mut Writer, names: &Names, layout: &StateLayout) {
     writer.dedent();
     writer.line(format!("}} {event_type};"));
     writer.line("");
-    writer.line("/* Everything the agent knows between two cycles. */");
+    writer.line("/* The agent's state between two cycles. */");
     writer.line("typedef struct");
     writer.line("{");
     writer.indent();
@@ -223,8 +223,8 @@ fn open_guard(writer: &mut Writer, file: &str) -> String {
     guard
 }
 
-/// The macro that guards a file: no two files have the same. Plain names can be read in it; others are spelt
-/// besides, byte by byte.
+/// The include guard of a file, unique for each name. Plain names are readable in it; other names are also
+/// encoded byte by byte.
 fn guard(file: &str) -> String {
     let upper: String = file
         .chars()

@@ -1,5 +1,4 @@
-//! Small functions that the plans turn out to need: exact comparison, arithmetic that cannot
-//! overflow.
+//! Helper functions that plans use: exact comparison, and arithmetic without overflow.
 
 use super::spelling::{conjunction, symbol};
 use crate::backend::writer::Writer;
@@ -7,7 +6,7 @@ use crate::configuration::Struct;
 use crate::syntax::ast::Arithmetic;
 use crate::types::{CType, TypeKind};
 
-/// The helpers that are needed, each once.
+/// The helpers in use, each once.
 #[derive(Debug, Default)]
 pub(super) struct Helpers {
     equal: Vec<CType>,
@@ -30,7 +29,7 @@ impl Helpers {
         format!("equal_{}({reference}{left}, {reference}{right})", identifier(ctype))
     }
 
-    /// The name of the function that calculates if there is a result.
+    /// The name of the function for checked arithmetic.
     pub(super) fn checked(&mut self, operator: Arithmetic, ctype: &CType) -> String {
         if !self.checked.iter().any(|(other, other_type)| *other == operator && other_type == ctype)
         {
@@ -45,7 +44,7 @@ impl Helpers {
             if !self.equal.iter().any(needed) {
                 continue;
             }
-            // Its fields are compared before it.
+            // The comparisons of its fields have to precede it.
             let fields: Vec<String> = declared
                 .fields
                 .iter()
@@ -105,7 +104,7 @@ fn emit_checked(writer: &mut Writer, operator: Arithmetic, ctype: &CType) {
     writer.line("");
     writer.open("if (accepted)");
     let symbol = symbol(operator);
-    // Narrow types are promoted; said aloud, so that the only cast narrows a plain value.
+    // Narrow types are promoted; the explicit cast makes sure that the only narrowing is of a plain value.
     let wide = match ctype.integer_bits() {
         Some((8 | 16, true)) => Some("int32_t"),
         Some((8 | 16, false)) => Some("uint32_t"),
@@ -126,7 +125,7 @@ fn emit_checked(writer: &mut Writer, operator: Arithmetic, ctype: &CType) {
 /// The condition under which the operation has a result of its type.
 fn valid(operator: Arithmetic, ctype: &CType) -> String {
     let Some((bits, signed)) = ctype.integer_bits() else {
-        // Of floating-point operations only division is checked.
+        // Of the floating-point operations only division is checked.
         return "(argument2 < 0) || (argument2 > 0)".replace('0', ctype.zero().unwrap_or("0"));
     };
     if !signed {

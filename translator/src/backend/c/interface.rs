@@ -54,7 +54,7 @@ pub(super) fn interface(
     }
 }
 
-/// Drops every event; the initial goal is posted.
+/// Drops all events and posts the initial goal.
 fn forget_events(writer: &mut Writer, program: &Program, names: &Names) {
     let none: [CType; 0] = [];
     writer.open(format!("static void forget_events({})", names.parameters(&none)));
@@ -131,8 +131,7 @@ fn init(writer: &mut Writer, program: &Program, names: &Names) {
     writer.line("");
 }
 
-/// Nothing is read before it is written. Values are set all the same, so that a tool that does not
-/// see why need not.
+/// No field is read before it is written. The values are set anyway, so that tools need not infer that.
 fn nothing_is_left(writer: &mut Writer, program: &Program, names: &Names) {
     let initial = initial_fields(program);
     let fields = layout(program).fields;
@@ -179,7 +178,7 @@ fn initial_fields(program: &Program) -> HashSet<String> {
     fields
 }
 
-/// Zero of a type whose values can be written down.
+/// Zero of a type with constants.
 fn zero(ctype: &CType) -> Option<&'static str> {
     match ctype.kind {
         TypeKind::Bool => Some("false"),
@@ -193,7 +192,7 @@ fn zero(ctype: &CType) -> Option<&'static str> {
     }
 }
 
-/// Initial beliefs and goals carry constants only.
+/// Initial beliefs and goals contain only constants.
 fn constant_text(value: &Value) -> &str {
     match value {
         Value::Constant(text, _) => text,
@@ -235,7 +234,7 @@ fn raise(writer: &mut Writer, program: &Program, names: &Names, external: &Exter
         writer.line(format!("{refused} = {refused} + 1U;"));
         writer.close("}");
         writer.open("else");
-        writer.line("/* The count stays at its highest value. */");
+        writer.line("/* The counter saturates. */");
         writer.close("}");
         writer.line("return accepted;");
     }
@@ -257,7 +256,7 @@ fn set(
         .perceived
         .map(|handler| names.field(&pending(Slot::Perceived, &handler_name(program, handler))));
     if flag.is_some() {
-        // What cannot be compared always counts as changed.
+        // A belief that cannot be compared always counts as changed.
         let comparable = belief.types.iter().all(CType::has_equality);
         let condition = if comparable {
             let mut unchanged = vec![held.clone()];

@@ -1,23 +1,23 @@
 //! Locals of a plan's function.
 //!
-//! Each stands where it gets its value, so that none can be read before, unless the blocks around it are
-//! closed before its last use: then it stands at the head of the function.
+//! Each local is declared where it gets its value, so that it cannot be read before. If the blocks around it
+//! are closed before its last use it is declared at the head of the function.
 
 use std::collections::HashMap;
 
-/// Stands for a local in the text before it is known where that is declared.
+/// Placeholder for a local until the place of its declaration is known.
 const MARK: char = '\u{1}';
 
 /// A local.
 pub(super) struct Local {
     pub(super) name: String,
-    /// Its declaration where it is a constant, without its value.
+    /// Its declaration as a constant, without its value.
     pub(super) constant: String,
-    /// Its declaration elsewhere, without its value.
+    /// Its declaration as a variable, without its value.
     pub(super) plain: String,
-    /// What it begins with, if it stands elsewhere than where it gets its value.
+    /// Its initial value if it is declared at the head.
     pub(super) start: String,
-    /// The one value that it gets, unless it is changed later.
+    /// Its only value, unless it is changed later.
     pub(super) value: Option<String>,
 }
 
@@ -30,13 +30,13 @@ pub(super) struct Locals {
 }
 
 impl Locals {
-    /// The line that stands for a local.
+    /// The placeholder line of a local.
     pub(super) fn add(&mut self, local: Local) -> String {
         self.locals.push(local);
         format!("{MARK}{}", self.locals.len() - 1)
     }
 
-    /// A declaration at the head of the function, because blocks are closed.
+    /// Adds a declaration to the head of the function, because blocks are closed.
     pub(super) fn before(&mut self, declaration: String) {
         self.head.push(declaration);
     }
@@ -66,7 +66,7 @@ impl Locals {
             let statement = match (value, outside[index]) {
                 (Some(value), true) => format!("{name} = {value};"),
                 (Some(value), false) => format!("{constant} = {value};"),
-                // It begins so at the head already.
+                // It is already initialised at the head.
                 (None, true) => continue,
                 (None, false) => format!("{plain} = {start};"),
             };
@@ -78,7 +78,7 @@ impl Locals {
         out
     }
 
-    /// Which locals are used behind the block in which they get their value.
+    /// Locals that are used after the block in which they get their value.
     fn outlived(&self, text: &str) -> Vec<bool> {
         let names: HashMap<&str, usize> = self
             .locals

@@ -1,8 +1,8 @@
 //! The C back end: MISRA-style C99 without heap, recursion or unbounded loops.
 //!
-//! Each plan becomes one function, each trigger one function that tries its plans in order, and
-//! `next_step()` runs at most one event to its end. All state is in one struct: static in the C
-//! file, or passed in, as the configuration's `instance` says.
+//! Each plan becomes one function, each trigger one function that tries its plans in order, and `next_step()`
+//! handles at most one event completely. All state is in one struct: static in the C file or passed in,
+//! depending on the configuration's `instance`.
 
 mod cycle;
 mod emitter;
@@ -49,7 +49,7 @@ pub(crate) fn emit(program: &Program, input: &str) -> Files {
 }
 
 fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -> String {
-    // What plans and interface use decides which helpers are needed before them.
+    // Emitted first, because plans and interface determine the helpers.
     let mut plans = Writer::default();
     let mut helpers = handlers::handlers(&mut plans, program, names, input);
     let mut rest = Writer::default();

@@ -1,4 +1,4 @@
-//! How things are called in the generated C.
+//! Names in the generated C.
 
 use diagnostic::is_printable;
 
@@ -7,7 +7,7 @@ use crate::configuration::Instance;
 use crate::program::Program;
 use crate::types::CType;
 
-/// Spelling of everything that depends on the kind of instance.
+/// Names that depend on the kind of instance.
 pub(super) struct Names {
     instance: Instance,
     prefix: String,
@@ -45,7 +45,7 @@ impl Names {
         }
     }
 
-    /// A parameter list that starts with the agent's state where it is passed in.
+    /// A parameter list, starting with the agent's state if it is passed in.
     pub(super) fn parameters(&self, types: &[CType]) -> String {
         let mut parameters = self.state_parameter();
         parameters.extend(typed_arguments(types));
@@ -64,19 +64,18 @@ impl Names {
         environment.into_iter().chain(arguments.iter().cloned()).collect::<Vec<_>>().join(", ")
     }
 
-    /// `pilot_agent_t *self`, where the state is passed in.
+    /// `pilot_agent_t *self`, if the state is passed in.
     pub(super) fn state_parameter(&self) -> Vec<String> {
         if self.is_context() { vec![format!("{} *self", self.state_type())] } else { Vec::new() }
     }
 }
 
-/// What stands before every external symbol: with `instance = context` several agents can be
-/// linked into one program.
+/// Prefix of every external symbol: with `instance = context` several agents can be linked into one program.
 pub(crate) fn symbol_prefix(program: &Program) -> String {
     program.configuration.settings.symbol_prefix(program.instance)
 }
 
-/// The linker's name of a basic action.
+/// Linker symbol of a basic action.
 pub(crate) fn action_symbol(program: &Program, name: &str) -> String {
     format!("{}{name}", symbol_prefix(program))
 }
@@ -105,7 +104,7 @@ pub(super) fn typed(ctype: &CType, name: &str) -> String {
     }
 }
 
-/// A local that never changes: `const double x`, `const char *const x`.
+/// A local constant: `const double x`, `const char *const x`.
 pub(super) fn constant(ctype: &CType, name: &str) -> String {
     if ctype.name.ends_with('*') {
         format!("{}const {name}", ctype.name)
@@ -114,8 +113,8 @@ pub(super) fn constant(ctype: &CType, name: &str) -> String {
     }
 }
 
-/// Text that can stand inside a comment, of C or of Rust. Nothing in it can end the comment or begin another,
-/// join lines, or be shown as something else.
+/// Makes text safe for a comment of C or Rust: nothing in it can end the comment, begin another one, join
+/// lines, or be displayed as something else.
 pub(crate) fn comment_safe(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     let mut last = ' ';
@@ -127,7 +126,7 @@ pub(crate) fn comment_safe(text: &str) -> String {
             other if is_printable(other) => other,
             _ => ' ',
         };
-        // Looked at as it comes out: what is replaced can make up no pair either.
+        // Checked on the output, so that a replacement cannot create a pair either.
         if matches!((last, character), ('*' | '/', '/') | ('/', '*') | ('?', '?')) {
             safe.push(' ');
         }
@@ -137,7 +136,7 @@ pub(crate) fn comment_safe(text: &str) -> String {
     safe
 }
 
-/// The path from the folder of one output to another, as `#include` wants it.
+/// The path from the folder of one output to another, for `#include`.
 pub(super) fn include_path(from: &str, to: &str) -> String {
     let folder: Vec<&str> = from.split('/').collect();
     let folder = &folder[..folder.len() - 1];

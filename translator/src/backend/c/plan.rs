@@ -1,4 +1,4 @@
-//! What one plan does, as the body of its C function.
+//! Body of the C function of one plan.
 
 use super::emitter::PlanEmitter;
 use super::names::{argument, typed};
@@ -8,8 +8,8 @@ use crate::program::{BeliefId, Handler, HandlerId, Pattern, Raise, Step, Value, 
 use crate::types::CType;
 
 impl PlanEmitter<'_> {
-    /// The text of the function's body between its first and last line. A parameter that binds a
-    /// variable gets its name. `number` is what the trace function is told.
+    /// The text of the function's body between its first and last line. A parameter that binds a variable
+    /// gets its name. `number` is passed to the trace function.
     pub(super) fn emit(
         mut self,
         handler: &Handler,
@@ -24,7 +24,7 @@ impl PlanEmitter<'_> {
         self.finish()
     }
 
-    /// Matches the trigger's arguments; a variable's parameter carries its name.
+    /// Matches the trigger's arguments; a parameter is named like its variable.
     fn trigger(&mut self, handler: &Handler, parameters: &mut [String]) {
         let plan = self.plan;
         let first = parameters.len() - handler.types.len().min(parameters.len());
@@ -36,7 +36,7 @@ impl PlanEmitter<'_> {
                     let variable = plan.variables[id.0].name.clone();
                     parameters[first + index] = typed(ctype, &variable);
                 }
-                // The answer to what is asked for is stored at the end.
+                // Queried arguments are stored at the end.
                 Pattern::Any if plan.outputs.iter().any(|(output, _)| *output == index) => {}
                 Pattern::Bind(_) | Pattern::Any => {
                     self.writer.line(format!("(void){};", argument(index)));
@@ -51,7 +51,7 @@ impl PlanEmitter<'_> {
         }
     }
 
-    /// Tells which plan was chosen, if somebody wants to know.
+    /// Calls the trace function, if there is one, with the chosen plan.
     fn trace(&mut self, number: usize) {
         if let Some(name) = &self.program.configuration.settings.trace {
             let function = self.names.interface(&name.text);
@@ -108,7 +108,7 @@ impl PlanEmitter<'_> {
         }
     }
 
-    /// Asks the beliefs alone. In a body all arguments are evaluated first.
+    /// Queries only the beliefs. In a body all arguments are evaluated first.
     fn ask_beliefs(&mut self, belief: BeliefId, patterns: &[Pattern]) {
         let conditions = self.matches(belief, patterns);
         self.open(&conjunction(&conditions));
@@ -128,7 +128,7 @@ impl PlanEmitter<'_> {
         }
     }
 
-    /// Asks the beliefs, then the plans; goes on with the answers.
+    /// Queries the beliefs, then the plans; continues with the answers.
     fn ask(&mut self, belief: BeliefId, patterns: &[Pattern], plans: HandlerId) {
         let program = self.program;
         let declared = program.belief(belief);
@@ -254,7 +254,7 @@ impl PlanEmitter<'_> {
         }
     }
 
-    /// Gives a goal its deadline; a failure plan will need the arguments.
+    /// Sets the deadline of a goal; its arguments are stored for failure plans.
     fn limit(&mut self, handler: HandlerId, values: &[String], due: String) {
         let kept = limited_types(self.program, handler).len();
         let arguments = values[..kept].iter().cloned().chain([due]);

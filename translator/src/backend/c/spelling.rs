@@ -1,4 +1,4 @@
-//! How conditions and operators are written in C.
+//! Syntax of conditions and operators in C.
 
 use crate::syntax::ast::Arithmetic;
 
@@ -13,7 +13,7 @@ pub(super) fn symbol(operator: Arithmetic) -> &'static str {
     }
 }
 
-/// All of the conditions.
+/// Conjunction of the conditions.
 pub(super) fn conjunction(conditions: &[String]) -> String {
     match conditions {
         [only] => only.clone(),
@@ -21,7 +21,7 @@ pub(super) fn conjunction(conditions: &[String]) -> String {
     }
 }
 
-/// In parentheses, unless it already is as a whole.
+/// In parentheses, unless it already is.
 pub(super) fn parenthesised(condition: &str) -> String {
     let mut depth = 0_u32;
     let closed_early = condition.char_indices().any(|(index, character)| {

@@ -5,7 +5,7 @@ use crate::program::{BasicId, Belief, External, HandlerId, Program, trigger_name
 use crate::syntax::ast::TriggerKind;
 use crate::types::CType;
 
-/// All fields of the agent's state, in order, and the events that it can hold.
+/// All fields of the agent's state, in order, and its possible events.
 pub(crate) struct StateLayout {
     pub(crate) fields: Vec<Field>,
     /// Enumerators of the event type, behind `EVENT_NONE`.
@@ -134,7 +134,7 @@ impl StateLayout {
             let trigger = handler_name(program, *id);
             self.events.push(event(Slot::Deferred, &trigger));
             if let Some(ring) = deferred_ring(program).filter(|_| queue) {
-                // Each that waits has arguments of its own.
+                // Each queued goal has its own arguments.
                 for (index, ctype) in program.handler(*id).types.iter().enumerate() {
                     let name = slot_value(Slot::Deferred, &trigger, index);
                     self.field(name, FieldType::Value(ctype.clone()), Some(ring.length));
@@ -147,11 +147,11 @@ impl StateLayout {
     }
 }
 
-/// Events that came to nothing are counted, so that none is lost in silence.
+/// Counters of events that failed or were dropped, so that none is lost silently.
 pub(crate) struct Counter {
     /// The field; the interface has `NAME_events()`.
     pub(crate) name: &'static str,
-    /// What it counts.
+    /// Description.
     pub(crate) meaning: &'static str,
 }
 
@@ -161,7 +161,7 @@ pub(crate) fn counters(program: &Program) -> impl Iterator<Item = Counter> {
     let always = [
         Counter {
             name: "unhandled",
-            meaning: "Events since the start that no plan handled to its end.",
+            meaning: "Events since the start that no plan handled completely.",
         },
         Counter {
             name: "refused",
@@ -170,23 +170,23 @@ pub(crate) fn counters(program: &Program) -> impl Iterator<Item = Counter> {
     ];
     let aborted = Counter {
         name: "aborted",
-        meaning: "Posted events since the start that a pre-empting one took the place of.",
+        meaning: "Posted events since the start that a pre-empting one replaced.",
     };
     always.into_iter().chain(preempted.then_some(aborted))
 }
 
-/// Where an event waits.
+/// Place of a pending event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Slot {
     /// The event of the next step, posted by a plan.
     Posted,
-    /// A posted goal whose time is over.
+    /// A posted goal whose deadline has passed.
     Deadline,
     /// Raised by the environment.
     Inbox,
-    /// Raised by the environment, aborting what runs.
+    /// Raised by the environment, aborting the pending event.
     Preemptive,
-    /// A belief that was set to something else.
+    /// A changed belief.
     Perceived,
     /// Posted with `!!`.
     Deferred,
@@ -216,12 +216,12 @@ pub(super) fn limited_types(program: &Program, id: HandlerId) -> &[CType] {
     if handler.failure.is_some() { &handler.types } else { &[] }
 }
 
-/// External events that wait in the inbox.
+/// External events that use the inbox.
 pub(super) fn queued(program: &Program) -> impl Iterator<Item = &External> {
     program.external.iter().filter(|external| !external.preemptive)
 }
 
-/// Events that wait in the order in which they came.
+/// A queue of events, first in, first out.
 pub(super) struct Ring {
     name: &'static str,
     pub(super) length: usize,
@@ -234,7 +234,7 @@ impl Ring {
     }
 }
 
-/// Where external events wait; in queue mode deferred goals too.
+/// Queue of external events; in queue mode also of deferred goals.
 pub(super) fn inbox_ring(program: &Program) -> Option<Ring> {
     let settings = &program.configuration.settings;
     let external = if queued(program).next().is_some() { settings.inbox as usize } else { 0 };
@@ -243,25 +243,25 @@ pub(super) fn inbox_ring(program: &Program) -> Option<Ring> {
     (length > 0).then_some(Ring { name: "inbox", length })
 }
 
-/// Where deferred goals wait: by themselves, or in queue mode among the external events.
+/// Queue of deferred goals, which in queue mode is that of the external events.
 pub(super) fn deferred_ring(program: &Program) -> Option<Ring> {
     let own = || Some(Ring { name: "deferred", length: program.deferred.len() });
     let queue = program.configuration.settings.queue;
     (!program.deferred.is_empty()).then(|| if queue { inbox_ring(program) } else { own() })?
 }
 
-/// All rings, in the order in which they are served.
+/// All queues, in the order of service.
 pub(super) fn rings(program: &Program) -> impl Iterator<Item = Ring> {
     let own = deferred_ring(program).filter(|ring| ring.name == "deferred");
     inbox_ring(program).into_iter().chain(own)
 }
 
-/// The field that counts the external events that wait.
+/// The field that counts the queued external events.
 pub(super) fn external_count(program: &Program) -> &'static str {
     if program.configuration.settings.queue { "inbox_external" } else { "inbox_count" }
 }
 
-/// Beliefs whose change raises an event, and who handles it.
+/// Beliefs whose change raises an event, with its handler.
 pub(super) fn perceived(program: &Program) -> impl Iterator<Item = (&Belief, HandlerId)> {
     let find = |name: &str| program.beliefs.iter().find(|belief| belief.name == name);
     let names = program.configuration.perceived.iter();
@@ -271,7 +271,7 @@ pub(super) fn perceived(program: &Program) -> impl Iterator<Item = (&Belief, Han
     })
 }
 
-/// The flag that tells whether a belief is held.
+/// The flag whether a belief is held.
 pub(super) fn held(belief: &str) -> String {
     format!("belief_{belief}_held")
 }
@@ -281,23 +281,23 @@ pub(super) fn belief_value(belief: &str, index: usize) -> String {
     format!("belief_{belief}_{}", index + 1)
 }
 
-/// An argument of a waiting event.
+/// An argument of a pending event.
 pub(super) fn slot_value(slot: Slot, trigger: &str, index: usize) -> String {
     format!("{}_{trigger}_{}", slot.name(), index + 1)
 }
 
-/// The flag of an event that has a slot of its own.
+/// The flag of an event with its own slot.
 pub(super) fn pending(slot: Slot, trigger: &str) -> String {
     format!("{}_{trigger}_pending", slot.name())
 }
 
-/// The enumerator of a waiting event.
+/// The enumerator of a pending event.
 pub(super) fn event(slot: Slot, trigger: &str) -> String {
     format!("EVENT_{}_{trigger}", slot.name().to_uppercase())
 }
 
-/// `achieve_goto`; for test goals with a letter for each argument, `i` given and `o` asked for: `test_io_twice`.
-/// What is a user's comes last, so that no two triggers have one name.
+/// `achieve_goto`; for test goals with a letter for each argument, `i` given and `o` queried:
+/// `test_io_twice`. The user's name comes last, so that names are unique.
 pub(crate) fn handler_name(program: &Program, id: HandlerId) -> String {
     let handler = program.handler(id);
     if handler.kind != TriggerKind::Test {

@@ -1,4 +1,4 @@
-//! When a context can hold and when it can fail, as far as the model knows.
+//! Conditions under which a context can hold and can fail, as far as the model has that information.
 
 use super::logic::Choice;
 use super::scale::{Number, Scale};
@@ -7,15 +7,15 @@ use crate::configuration::{Cause, Comparison, Formula, Operand};
 use crate::program::{BeliefId, Condition, Pattern, Plan, Program, Value, VariableId};
 use crate::syntax::ast::Relation;
 
-/// The comparisons that properties speak of: the model remembers how they come out.
+/// The comparisons of properties, whose results the model remembers.
 pub(super) struct Comparisons {
-    /// Of two beliefs.
+    /// Comparisons of two beliefs.
     pairs: Vec<Pair>,
-    /// Of beliefs with numbers.
+    /// Comparisons of beliefs with numbers.
     scales: Vec<Scale>,
 }
 
-/// Two beliefs, and how they compare.
+/// A comparison of two beliefs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Pair {
     left: String,
@@ -32,7 +32,7 @@ impl Pair {
     }
 }
 
-/// A belief, and how it compares with a number.
+/// A comparison of a belief with a number.
 struct Marked<'a> {
     belief: &'a str,
     relation: Relation,
@@ -40,7 +40,7 @@ struct Marked<'a> {
 }
 
 impl<'a> Marked<'a> {
-    /// A comparison with a number, or with a belief that is always the same one.
+    /// A comparison with a number, or with a belief that never changes.
     fn of(program: &Program, comparison: &'a Comparison) -> Option<Self> {
         let Comparison { left, relation, right } = comparison;
         let find = |name: &str| program.beliefs.iter().position(|belief| belief.name == name);
@@ -67,7 +67,7 @@ impl<'a> Marked<'a> {
 struct Side<'a> {
     /// The belief whose only value it is.
     belief: Option<&'a str>,
-    /// The number that it always is.
+    /// Its value, if it is constant.
     number: Option<Number>,
 }
 
@@ -91,12 +91,12 @@ impl Comparisons {
         Self { pairs, scales }
     }
 
-    /// How many pairs of beliefs are compared.
+    /// Number of compared pairs of beliefs.
     pub(super) fn len(&self) -> usize {
         self.pairs.len()
     }
 
-    /// Whether a property's comparison holds, if all of it is believed.
+    /// Whether a property's comparison holds, given that its beliefs are held.
     pub(super) fn holds(&self, program: &Program, comparison: &Comparison) -> Option<String> {
         if let Some(Marked { belief, relation, mark }) = Marked::of(program, comparison) {
             return Some(self.scale(belief)?.holds(relation, mark));
@@ -106,13 +106,13 @@ impl Comparisons {
         Some(format!("compared_{index}"))
     }
 
-    /// The pairs in which a belief takes part.
+    /// The pairs that contain a belief.
     pub(super) fn of(&self, belief: &str) -> Vec<usize> {
         let about = |pair: &Pair| pair.left == belief || pair.right == belief;
         (0..self.pairs.len()).filter(|index| about(&self.pairs[*index])).collect()
     }
 
-    /// The pairs of which both beliefs are so.
+    /// The pairs in which both beliefs satisfy a predicate.
     pub(super) fn between(&self, is_so: impl Fn(&str) -> bool) -> Vec<usize> {
         let both = |pair: &Pair| is_so(&pair.left) && is_so(&pair.right);
         (0..self.pairs.len()).filter(|index| both(&self.pairs[*index])).collect()
@@ -127,7 +127,7 @@ impl Comparisons {
         self.scales.iter().find(|scale| scale.belief() == belief)
     }
 
-    /// How `left relation right` comes out.
+    /// Possible results of `left relation right`.
     fn choice(&self, left: Side<'_>, relation: Relation, right: Side<'_>, total: bool) -> Choice {
         let scaled = |side: Side<'_>, relation, other: Side<'_>| {
             let (holds, fails) = self.scale(side.belief?)?.outcomes(relation, other.number?);
@@ -139,7 +139,7 @@ impl Comparisons {
             .unwrap_or_else(Choice::free)
     }
 
-    /// How two beliefs compare. Integers that are not `<=` are `>`; numbers that are none are neither.
+    /// Comparison of two beliefs. For integers, not `<=` means `>`; with NaN both are false.
     fn paired(
         &self,
         left: Side<'_>,
@@ -184,7 +184,7 @@ fn opposite(relation: Relation) -> Relation {
     }
 }
 
-/// Reads contexts of one plan.
+/// Evaluates contexts of one plan.
 pub(super) struct Reader<'a> {
     program: &'a Program,
     comparisons: &'a Comparisons,
@@ -261,7 +261,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Values are not known: a pattern that wants one may match or not.
+/// Values are unknown: a pattern with a value may match or not.
 pub(super) fn matches(patterns: &[Pattern]) -> Choice {
     let wanted = patterns.iter().any(|pattern| matches!(pattern, Pattern::Equal(_)));
     if wanted { Choice::free() } else { Choice::certain() }

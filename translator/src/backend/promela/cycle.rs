@@ -7,7 +7,7 @@ use crate::program::{BeliefId, HandlerId};
 use crate::syntax::ast::{Operator, TriggerKind};
 
 impl Emission<'_> {
-    /// What may happen next: an event is raised, a belief is set, or the agent takes a step.
+    /// Possible transitions: an event is raised, a belief is set, or the agent takes a step.
     pub(super) fn environment(&mut self) {
         self.writer.line("if");
         for (index, external) in self.program.external.iter().enumerate() {
@@ -31,7 +31,7 @@ impl Emission<'_> {
                 continue;
             }
             let held = self.held(id);
-            // To believe it again changes nothing, unless it is watched.
+            // Setting a held belief again has no effect, unless its value is compared.
             let mut changes = vec![not(&held)];
             if belief.perceived.is_some() || !self.comparisons.of(&belief.name).is_empty() {
                 changes.push("true".to_owned());
@@ -43,7 +43,7 @@ impl Emission<'_> {
             }
             self.writer.line(format!(":: {guard} ->"));
             if belief.perceived.is_some() {
-                // The same value again is no change.
+                // The same value is not a change.
                 self.writer.line("if");
                 self.writer.line(format!(":: perceived_{index} = true"));
                 if !belief.types.is_empty() {
@@ -80,7 +80,7 @@ impl Emission<'_> {
         self.writer.line("goto finished;");
     }
 
-    /// The event that comes first.
+    /// Takes the event with the highest priority.
     fn take(&mut self) {
         self.writer.line("if");
         let mut before: Vec<String> = Vec::new();
@@ -113,7 +113,7 @@ impl Emission<'_> {
         }
         self.writer.line("if");
         self.writer.line(":: true");
-        // The clock may say that the time of a goal is over.
+        // The clock may report that the deadline of a goal has passed.
         self.writer.line(":: limited != 0 -> event = limited; limited = 0");
         self.writer.line("fi");
         before.push("posted == 0".to_owned());
@@ -136,7 +136,7 @@ impl Emission<'_> {
         self.writer.line("fi;");
     }
 
-    /// Runs the event; a mere update of a belief is followed by the next one.
+    /// Handles the event; after a mere update of a belief the next one is taken.
     fn handle(&mut self) {
         self.writer.line("if");
         for event in self.events.clone() {
@@ -202,7 +202,7 @@ impl Emission<'_> {
     fn run(&mut self, id: HandlerId) {
         self.call(id);
         if self.program.handler(id).kind == TriggerKind::Belief {
-            // A percept that no plan cares for is no failure.
+            // A percept without an applicable plan is not a failure.
             self.writer.line("if");
             self.writer.line(":: outcome == 1 -> outcome = 0");
             self.writer.line(":: else");

@@ -1,6 +1,6 @@
-//! Expressions over the state of the model, and what is left of them where something is certain.
+//! Expressions over the state of the model, simplified where an operand is constant.
 
-/// Two expressions over the state of the model. Both can be true: then it is a free choice.
+/// Two expressions over the state of the model. Both can be true: then the choice is nondeterministic.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Choice {
     pub(super) holds: String,
@@ -36,12 +36,12 @@ impl Choice {
     }
 }
 
-/// The conjunction, without what is always true.
+/// The conjunction, without operands that are always true.
 pub(super) fn and(parts: &[String]) -> String {
     joined(parts, "&&", "true", "false")
 }
 
-/// The disjunction, without what is always false.
+/// The disjunction, without operands that are always false.
 pub(super) fn or(parts: &[String]) -> String {
     joined(parts, "||", "false", "true")
 }
@@ -63,7 +63,7 @@ fn joined(parts: &[String], operator: &str, neutral: &str, decisive: &str) -> St
     }
 }
 
-/// The negation of an expression that stands for itself.
+/// The negation of an atomic or parenthesised expression.
 pub(super) fn not(condition: &str) -> String {
     match condition {
         "true" => "false".to_owned(),

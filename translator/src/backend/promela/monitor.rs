@@ -1,4 +1,4 @@
-//! What properties watch. One is checked at a time, so they share their variables.
+//! Monitors of properties. One is checked at a time, so they share their variables.
 
 use super::Emission;
 use crate::configuration::{CallBound, Cause, ExternalTrigger, Formula, Property};
@@ -7,7 +7,7 @@ use crate::syntax::ast::Name;
 use crate::types::TypeKind;
 
 impl Emission<'_> {
-    /// What an action means to each property.
+    /// The role of each action in each property.
     pub(super) fn actions(&mut self) {
         for (index, basic) in self.program.configuration.basics.iter().enumerate() {
             if !self.is_told(BasicId(index)) {
@@ -27,7 +27,7 @@ impl Emission<'_> {
                 }
                 let counter = role.counter();
                 self.writer.line("if");
-                // Two are already one too many: the count stays there.
+                // Saturates at two, which is already a violation.
                 self.writer.line(format!(
                     ":: ({}) && {counter} < 2 -> {counter}++",
                     concerned.join(" || ")
@@ -42,12 +42,12 @@ impl Emission<'_> {
         self.writer.line("");
     }
 
-    /// Whether calls are told and counted: those of actions, and of functions that properties speak of.
+    /// Whether calls are printed and counted: those of actions, and of functions in properties.
     pub(super) fn is_told(&self, id: BasicId) -> bool {
         self.program.basic(id).result.kind == TypeKind::Void || self.is_watched(id)
     }
 
-    /// Whether a property speaks of an action.
+    /// Whether a property refers to an action.
     pub(super) fn is_watched(&self, id: BasicId) -> bool {
         let name = &self.program.basic(id).name.text;
         let roles = [Role::Main, Role::Cause, Role::Until];
@@ -56,7 +56,7 @@ impl Emission<'_> {
         self.properties().iter().any(watches)
     }
 
-    /// Whether an action is one of those that a property gives a role.
+    /// Whether an action has a role in a property.
     fn plays(&self, property: &Property, role: Role, action: &str) -> bool {
         let is_one_of = |name: &str| {
             let classes = &self.program.configuration.classes;
@@ -108,7 +108,7 @@ impl Emission<'_> {
         self.of_the_checked(cases);
     }
 
-    /// An answer is due as long as a comparison holds.
+    /// An answer is due while a comparison holds.
     fn compared(&self, property: &Property) -> Vec<Case> {
         let Formula::Within { steps, cause: Cause::Comparison(comparison), unless, .. } =
             &property.formula
@@ -129,7 +129,7 @@ impl Emission<'_> {
         vec![begin, when(format!("!{holds}"), "due = 0")]
     }
 
-    /// An answer is due from now on, unless one is already, or something that excuses waits.
+    /// An answer is due from now on, unless one is due already, or an excusing event is pending.
     fn begin(&self, happened: &str, unless: &[ExternalTrigger]) -> String {
         let mut conditions = vec![happened.to_owned(), "due == 0".to_owned()];
         conditions.extend(unless.iter().map(|event| format!("!({})", self.waits(event))));
@@ -177,7 +177,7 @@ impl Emission<'_> {
         }
     }
 
-    /// What a property does here, besides which only one is checked. `cases` are in order.
+    /// The cases of the property that is checked, in order.
     fn of_the_checked(&mut self, cases: Vec<(usize, Vec<Case>)>) {
         self.writer.open_here("d_step");
         self.writer.line("if");
@@ -198,7 +198,7 @@ impl Emission<'_> {
     }
 }
 
-/// What is done where something holds.
+/// A guarded statement.
 struct Case {
     condition: String,
     then: String,
@@ -208,14 +208,14 @@ fn when(condition: impl Into<String>, then: impl Into<String>) -> Case {
     Case { condition: condition.into(), then: then.into() }
 }
 
-/// What a call of an action can mean to a property.
+/// The role of an action in a property.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
-    /// What the property is about.
+    /// The subject of the property.
     Main,
-    /// What must be answered.
+    /// The cause that requires an answer.
     Cause,
-    /// What ends a permission.
+    /// Ends a permission.
     Until,
 }
 

@@ -8,11 +8,11 @@ use crate::program::{
     BasicId, BeliefId, ContextCall, Effect, Handler, HandlerId, Placed, Plan, Raise, Step,
 };
 
-/// Plans of more than so many are tried one by one.
+/// Handlers with more plans try them one by one.
 const MOST_AT_ONCE: usize = 64;
 
 impl Emission<'_> {
-    /// All handlers, each a part that is jumped to.
+    /// All handlers, each a section that is jumped to.
     pub(super) fn handlers(&mut self) {
         let mut number = 0;
         for (id, handler) in self.program.handlers() {
@@ -42,7 +42,7 @@ impl Emission<'_> {
         }
     }
 
-    /// The first plan that applies.
+    /// Selects the first applicable plan.
     fn select(&mut self, id: HandlerId, handler: &Handler) {
         let held = |id: BeliefId| self.held(id);
         let mut reader = Reader::new(self.program, &self.comparisons, &held);
@@ -70,7 +70,7 @@ impl Emission<'_> {
         self.writer.line("fi;");
     }
 
-    /// The same for very many plans: each is tried by itself, so that the text grows with their number only.
+    /// The same for handlers with many plans: each is tried separately, so that the text grows linearly.
     fn select_one_by_one(&mut self, id: HandlerId, handler: &Handler, choices: Vec<Choice>) {
         for (index, choice) in choices.into_iter().enumerate() {
             self.writer.line("if");
@@ -83,7 +83,7 @@ impl Emission<'_> {
             self.writer.line("fi;");
         }
         if always_finds_a_plan(handler) {
-            // That none applies cannot be: what is let through instead can only break more.
+            // One of them always applies here; letting the last one through is conservative.
             self.writer.line(format!("goto plan_{}_{};", id.0, handler.plans.len() - 1));
         } else {
             self.unplanned(id);
@@ -96,7 +96,7 @@ impl Emission<'_> {
         self.writer.line(format!("outcome = 1; goto end_{}", id.0));
     }
 
-    /// A plan applies: what it asked for was called.
+    /// A plan applies: the calls in its context are made.
     fn chosen(&mut self, plan: &Plan) {
         for ContextCall { basic, certain } in plan.context_calls() {
             if certain {
@@ -107,14 +107,14 @@ impl Emission<'_> {
         }
     }
 
-    /// A plan does not apply: some of what it asks for was called.
+    /// A plan does not apply: some calls in its context are made.
     fn rejected(&mut self, plan: &Plan) {
         for ContextCall { basic, .. } in plan.context_calls() {
             self.may_act(basic, plan.lines.0);
         }
     }
 
-    /// An action or function is called.
+    /// A call of an action or function.
     pub(super) fn act(&mut self, basic: BasicId, line: usize) {
         if self.is_told(basic) {
             self.say(&format!("action {} {line}", basic.0));
@@ -133,12 +133,12 @@ impl Emission<'_> {
         }
     }
 
-    /// What evaluating the values of a formula does.
+    /// Effects of evaluating the values of a formula.
     fn effects(&mut self, id: HandlerId, step: &Step, line: usize) {
         let mut failed = false;
         for effect in step.effects() {
             match effect {
-                // To fail twice in a row is to fail once.
+                // Two failures in a row are one.
                 Effect::MayFail if failed => {}
                 Effect::MayFail => self.may_fail(id, line),
                 Effect::Call(basic) => self.act(basic, line),
@@ -152,7 +152,7 @@ impl Emission<'_> {
         let Placed { line, step, .. } = placed;
         self.effects(id, step, *line);
         match step {
-            // What they call they have called.
+            // Their calls are made by `effects`.
             Step::Action(_) | Step::Assign { .. } => {}
             Step::Add { belief, raise, .. } => self.add(id, *belief, *raise, *line),
             Step::Delete { belief, patterns, raise } => {
@@ -246,7 +246,7 @@ impl Emission<'_> {
         self.writer.line("fi;");
     }
 
-    /// The plans of a belief that has changed.
+    /// Runs or posts the plans of a changed belief.
     fn raise(&mut self, id: HandlerId, raise: Raise, line: usize) {
         match raise {
             Raise::Nothing => {}
@@ -286,13 +286,13 @@ impl Emission<'_> {
         self.writer.line(format!("goto fail_{}", id.0));
     }
 
-    /// Where each handler goes back to.
+    /// Return addresses of each handler.
     pub(super) fn returns(&mut self) {
         for (id, _) in self.program.handlers() {
             let calls = self.calls.get(&id).copied().unwrap_or_default();
             self.writer.line(format!("done_{}:", id.0));
             if calls == 0 {
-                // Nothing jumps to it: a belief that always holds is never asked of the plans.
+                // Never called: beliefs that are always held are not queried in plans.
                 self.writer.line("goto finished;");
                 continue;
             }

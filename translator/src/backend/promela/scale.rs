@@ -1,9 +1,9 @@
-//! Where the value of a belief lies among the numbers that properties compare it with.
+//! Position of a belief's value among the numbers with which properties compare it.
 //!
-//! The numbers cut the line into regions: below the first, the first itself, between the first and the second,
-//! and so on. The model remembers the region, and only while it looks at one of those properties: a comparison
-//! with one of these numbers comes out as it must, one with another number is free where the region has values on
-//! both sides of it.
+//! The numbers divide the line into regions: below the first, the first itself, between the first and the
+//! second, and so on. The model remembers the region, and only while it checks one of those properties. A
+//! comparison with one of these numbers is then determined; one with another number is nondeterministic where
+//! the region has values on both sides of it.
 
 use std::cmp::Ordering;
 use std::ops::RangeInclusive;
@@ -13,7 +13,7 @@ use crate::analysis::constants::{float, integer};
 use crate::program::Value;
 use crate::syntax::ast::Relation;
 
-/// A number, exactly. Those of one scale are of one kind.
+/// An exact number. All numbers of a scale are of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub(super) enum Number {
     Integer(i128),
@@ -21,7 +21,7 @@ pub(super) enum Number {
 }
 
 impl Number {
-    /// The number that a constant stands for.
+    /// The value of a constant.
     pub(super) fn of(value: &Value) -> Option<Self> {
         integer(value).map(Self::Integer).or_else(|| float(value).map(Self::Float))
     }
@@ -32,7 +32,7 @@ pub(super) struct Scale {
     belief: String,
     /// In ascending order.
     marks: Vec<Number>,
-    /// The numbers of these properties.
+    /// The properties with these numbers.
     properties: Vec<usize>,
 }
 
@@ -41,7 +41,7 @@ impl Scale {
         Self { belief: belief.to_owned(), marks: vec![mark], properties: vec![property] }
     }
 
-    /// Another property compares the belief.
+    /// Adds a comparison by another property.
     pub(super) fn add(&mut self, property: usize, mark: Number) {
         self.properties.push(property);
         if let Some(place) = self.marks.iter().position(|other| *other >= mark) {
@@ -69,7 +69,7 @@ impl Scale {
         format!("({})", checked.join(" || "))
     }
 
-    /// The numbers of all regions. The last is where what is no number lies.
+    /// Numbers of the regions. The last one is for NaN.
     pub(super) fn regions(&self) -> RangeInclusive<usize> {
         let numbers = 2 * self.marks.len();
         let last = if matches!(self.marks[0], Number::Float(_)) { numbers + 1 } else { numbers };
@@ -94,7 +94,7 @@ impl Scale {
         (when(true), when(false))
     }
 
-    /// When `value relation mark` holds of one of the marks, as an expression.
+    /// When `value relation mark` holds for one of the marks, as an expression.
     pub(super) fn holds(&self, relation: Relation, mark: Number) -> String {
         let holds = |region: &usize| self.orders(*region, mark).all(|o| holds(relation, o));
         or(&self.any_of(holds).collect::<Vec<_>>())
@@ -105,7 +105,7 @@ impl Scale {
         self.regions().filter(wanted).map(move |region| format!("{variable} == {region}"))
     }
 
-    /// How values of a region can compare with a number; not at all, if they are none.
+    /// Possible orders of values of a region and a number; `None` for NaN.
     fn orders(&self, region: usize, number: Number) -> impl Iterator<Item = Option<Ordering>> {
         let mark = |index: usize| self.marks.get(index).and_then(|m| m.partial_cmp(&number));
         let orders = if region > 2 * self.marks.len() {
@@ -113,7 +113,7 @@ impl Scale {
         } else if region % 2 == 1 {
             vec![mark(region / 2)]
         } else {
-            // Between the marks on both sides, without them.
+            // The open interval between two marks.
             let above = region / 2;
             let below = above.checked_sub(1).and_then(mark);
             let less = !matches!(below, Some(Ordering::Greater | Ordering::Equal));
@@ -129,7 +129,7 @@ impl Scale {
     }
 }
 
-/// Whether what compares so is in a relation; what is no number is only unequal.
+/// Whether values in this order satisfy a relation; NaN satisfies only `\==`.
 fn holds(relation: Relation, order: Option<Ordering>) -> bool {
     match relation {
         Relation::Less => order == Some(Ordering::Less),
@@ -169,7 +169,7 @@ mod tests {
         assert_eq!(at(Relation::LessOrEqual, 12), ["01", "234"]);
         assert_eq!(at(Relation::Greater, 20), ["4", "0123"]);
         assert_eq!(at(Relation::Equal, 20), ["3", "0124"]);
-        // What lies between 12 and 20 may be below 15 or not.
+        // Values between 12 and 20 may be below 15 or not.
         assert_eq!(at(Relation::Less, 15), ["012", "234"]);
         assert_eq!(at(Relation::GreaterOrEqual, 5), ["01234", "0"]);
         assert_eq!(

@@ -1,4 +1,4 @@
-//! The compiled C's side.
+//! Runs the compiled C.
 
 use std::fmt::Write as _;
 use std::process::Command as Process;
@@ -49,10 +49,10 @@ pub(super) fn run(agent: &RandomAgent, sequences: &[Vec<Command>]) -> Result<Str
     }
     let preempts = translation.files.iter().any(|file| file.text.contains("aborted_events"));
     let main = main_function(sequences, if preempts { "aborted_events()" } else { "0U" });
-    // One compilation unit: compiling is what takes the time.
+    // One compilation unit, because compilation dominates the time.
     let main = format!("#include \"agent.c\"\n{PRELUDE}{}{main}", basics());
     std::fs::write(folder.path().join("main.c"), main).map_err(|error| error.to_string())?;
-    // Another compiler may be faster, `tcc`, and know less of warnings.
+    // `tcc` is faster, but has fewer warnings.
     let compiler = std::env::var("ASL2C_CC").unwrap_or_else(|_| "cc".to_owned());
     let mut compile = Process::new(&compiler);
     if compiler == "cc" {

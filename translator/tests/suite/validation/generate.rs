@@ -1,6 +1,6 @@
 //! Random agents and event sequences.
 
-/// A list of choices; when it runs out, the simplest choice is taken.
+/// A list of choices; when it is exhausted, the simplest choice is taken.
 pub(super) struct Choices<'a> {
     bytes: &'a [u8],
 }
@@ -31,7 +31,7 @@ impl<'a> Choices<'a> {
 pub(super) struct RandomAgent {
     pub(super) text: String,
     pub(super) configuration: String,
-    /// Predicates that have a hostile name.
+    /// Number of predicates with a hostile name.
     pub(super) hostile: u32,
 }
 
@@ -68,7 +68,7 @@ pub(super) const BELIEFS: [(&str, &[Type]); 7] = [
     ("bs", &[Small]),
     ("bu", &[Unsigned, Int]),
 ];
-/// Goals; a goal's plans call later ones only, except that the first may be recursive.
+/// Goals; a goal's plans call only later ones, except that the first may be recursive.
 const RECURSIVE_GOALS: usize = 2;
 pub(super) const GOALS: [(&str, &[Type]); 6] = [
     ("g0", &[]),
@@ -103,13 +103,13 @@ pub(super) enum Command {
     Step,
     /// `achieve_`, `add_` or `del_` and the arguments.
     Raise(&'static str, &'static str, Vec<String>),
-    /// Before the next step, `b2` is set.
+    /// Sets `b2` before the next step.
     Set(String, String),
     Init,
     Clear,
 }
 
-/// What the environment can raise.
+/// Events of the environment.
 pub(super) const EXTERNAL: [(&str, &str, &[Type]); 8] = [
     ("achieve", "g0", &[]),
     ("achieve", "g1", &[Int]),
@@ -151,7 +151,7 @@ fn constant(choices: &mut Choices<'_>, ctype: Type) -> String {
 }
 
 pub(super) fn agent(choices: &mut Choices<'_>) -> RandomAgent {
-    // Chosen first: later there may be no choices left.
+    // Chosen first, because the choices may be exhausted later.
     let is_hostile = choices.chance(50);
     let names = PRIVATE.map(|name| (name, HOSTILE[choices.pick(HOSTILE.len())]));
     let mut text = String::new();
@@ -186,7 +186,7 @@ pub(super) fn agent(choices: &mut Choices<'_>) -> RandomAgent {
         }
     }
     if text.contains("[deadline(") {
-        // A goal with a deadline must be one that can take several steps.
+        // Only goals that can take several steps may have a deadline.
         text.push_str("+!g0 <- .wait(1); a0.\n+!g1(N) <- .wait(N); a1(N).\n");
     }
     let configuration = configuration(choices, &text);
@@ -199,7 +199,7 @@ pub(super) fn agent(choices: &mut Choices<'_>) -> RandomAgent {
 
 /// Beliefs and goals that the environment does not name.
 const PRIVATE: [&str; 6] = ["b0", "bb", "bs", "bu", "g2", "g3"];
-/// Names that look like those which generated code makes of the others, or needs itself.
+/// Names that look like generated ones, or that generated code needs.
 const HOSTILE: [&str; 28] = [
     "b_o",
     "b1_o",
@@ -232,7 +232,7 @@ const HOSTILE: [&str; 28] = [
 ];
 
 impl RandomAgent {
-    /// Gives a predicate another name, unless that is taken.
+    /// Renames a predicate, unless the name is taken.
     fn rename(&mut self, from: &str, to: &str) {
         if words(&self.configuration).any(|word| word == to) {
             return;
@@ -245,7 +245,7 @@ impl RandomAgent {
     }
 }
 
-/// Names, and what stands between them.
+/// Names, and the text between them.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
     text.split_inclusive(move |c| !is_name(c)).flat_map(move |part| {
@@ -298,7 +298,7 @@ enum Place {
     Test(usize),
 }
 
-/// Variables that have a value.
+/// Variables with a value.
 #[derive(Clone, Default)]
 struct Scope {
     variables: Vec<(String, Type)>,
@@ -308,7 +308,7 @@ struct Scope {
 impl Scope {
     fn fresh(&mut self) -> String {
         self.made += 1;
-        // Some look as if they were another, bound a second time.
+        // Some look like another variable that is bound a second time.
         match self.made % 4 {
             0 => format!("V{}_2", self.made - 1),
             3 => format!("Var_V{}", self.made - 2),
@@ -336,7 +336,7 @@ fn plan(choices: &mut Choices<'_>, trigger: &str, types: &[Type], place: Place) 
     text
 }
 
-/// A plan that answers whatever is asked for with another belief's values.
+/// A plan that answers a query with another belief's values.
 fn test_plan(choices: &mut Choices<'_>, operator: &str, level: usize) -> String {
     let (name, types) = BELIEFS[level];
     let mut scope = Scope::default();
@@ -446,7 +446,7 @@ fn literal(choices: &mut Choices<'_>, scope: &mut Scope, depth: usize) -> String
         6 => {
             let mut inner = scope.clone();
             let text = context(choices, &mut inner, depth - 1);
-            // What is bound in there may be bound again, or not.
+            // Variables that are bound inside may be bound again.
             if choices.chance(50) {
                 scope.made = inner.made;
             }
@@ -477,10 +477,10 @@ fn literal(choices: &mut Choices<'_>, scope: &mut Scope, depth: usize) -> String
 }
 
 fn body(choices: &mut Choices<'_>, scope: &mut Scope, place: Place) -> String {
-    // Now and then one that is longer than blocks may be nested.
+    // Occasionally longer than the maximum nesting of blocks.
     let length = if choices.chance(4) { 20 + choices.pick(20) } else { choices.pick(5) };
     let mut formulae: Vec<String> = (0..length).map(|_| formula(choices, scope, place)).collect();
-    // The first goals may wait, and lead back to each other as the last formula.
+    // The first goals may wait, and post each other as the last formula.
     if let Place::Goal(level @ 0..RECURSIVE_GOALS) = place {
         if choices.chance(30) {
             formulae.push(format!(".wait({})", value(choices, scope, Int, 1)));
@@ -507,7 +507,7 @@ fn formula(choices: &mut Choices<'_>, scope: &mut Scope, place: Place) -> String
     };
     match (choices.pick(10), place) {
         (0, _) if choices.chance(25) => {
-            // What it returns is not wanted.
+            // The result is discarded.
             let (name, types, _) = FUNCTIONS[choices.pick(FUNCTIONS.len())];
             call(name, &values(choices, scope, types))
         }
@@ -523,7 +523,7 @@ fn formula(choices: &mut Choices<'_>, scope: &mut Scope, place: Place) -> String
             format!("{variable} = {right}")
         }
         (4 | 5, Place::Goal(_) | Place::Percept(_)) => {
-            // Percepts touch later beliefs only.
+            // Percepts change later beliefs only.
             let first = if let Place::Percept(level) = place { level + 1 } else { 0 };
             let Some((name, types)) =
                 BELIEFS.get(first + choices.pick(BELIEFS.len() - first.min(6)))
@@ -544,7 +544,7 @@ fn formula(choices: &mut Choices<'_>, scope: &mut Scope, place: Place) -> String
             }
         }
         (6, _) => {
-            // Test plans ask later beliefs only.
+            // Test plans query later beliefs only.
             let first = if let Place::Test(level) = place { level + 1 } else { 0 };
             let Some((name, types)) =
                 BELIEFS.get(first + choices.pick(BELIEFS.len() - first.min(6)))

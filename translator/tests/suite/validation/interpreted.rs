@@ -1,4 +1,4 @@
-//! The reference interpreter's side.
+//! Runs the reference interpreter.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use translator::types::{CType, TypeKind};
 
 use super::generate::{BELIEFS, Command, FUNCTIONS, GOALS, RandomAgent, Type};
 
-/// The trace of all sequences; nothing if the agent does not translate.
+/// The trace of all sequences; `None` if the agent is refused.
 pub(super) fn run(agent: &RandomAgent, sequences: &[Vec<Command>]) -> Option<String> {
     let configuration = parse_configuration("agent.conf", &agent.configuration)
         .unwrap_or_else(|error| panic!("{error}"));
@@ -106,7 +106,7 @@ impl Environment for World {
     }
 }
 
-/// What functions return: it depends on the function, its arguments and how often any was called.
+/// Results of functions: a hash of the function, its arguments and the number of calls so far.
 struct Hash(u32);
 
 impl Hash {

@@ -1,8 +1,8 @@
 //! Translation validation: random agents in random environments, interpreted and compiled.
 //!
-//! Both must leave the same trace, to the last bit. An agent and its events follow from a list of
-//! choices, which is what shrinks when they don't. `ASL2C_VALIDATION=20000 cargo test --release -p
-//! translator validation` runs more agents than usual, `ASL2C_VALIDATION_SEED` other ones; `ASL2C_CC=tcc` takes
+//! Both must leave the same trace, to the last bit. An agent and its events are derived from a list of
+//! choices, which is shrunk on a failure. `ASL2C_VALIDATION=20000 cargo test --release -p translator
+//! validation` runs more agents than usual, `ASL2C_VALIDATION_SEED` other ones; `ASL2C_CC=tcc` selects
 //! another compiler, which is twenty times as fast.
 
 mod compiled;
@@ -18,7 +18,7 @@ use crate::harness::from_environment;
 const SEQUENCES: usize = 10;
 const USUAL_AGENTS: u32 = 150;
 
-/// How many agents translate, and how many of these have hostile names.
+/// Number of accepted agents, and of those with hostile names.
 #[derive(Debug, Clone, Copy, Default)]
 struct Validated {
     agents: u32,
@@ -90,13 +90,13 @@ fn validation_of_random_agents() {
     assert!(hostile * 3 > translated, "{hostile} of {translated} have hostile names");
 }
 
-/// Goals that do nothing but defer others and say that they run.
+/// Goals that only defer others and report that they run.
 const QUEUEING: &str = "+!p(N) : N > 3 <- !!z(N); !!y(N, 1); !!z(N + 1).\n+!p(N) : N > 1 <- !!y(N, 2).\n+!p(N) <- a(N, 0).\n\
     +!z(N) : N mod 3 == 0 <- !!z(N + 1); a(N, 1).\n+!z(N) <- a(N, 2).\n+!y(N, M) <- a(N, M + 2).\n";
-/// Five `!!` stand in the agent.
+/// Number of `!!` in the agent.
 const DEFERS: usize = 5;
 
-/// A queue that knows nothing of agents: what waits is a list, and the first of it is next.
+/// A reference queue without agents: a list whose first element is next.
 #[test]
 fn queues_are_first_in_first_out() {
     let cases = from_environment("ASL2C_QUEUES", 60);

@@ -1,4 +1,4 @@
-//! Guesses of what is invariant, of which a proof keeps what proves itself.
+//! Candidates for the invariant of a proof, which keeps those that are inductive.
 
 use super::{Builder, occupied};
 use crate::backend::c::cycle::{event_name, no_event};
@@ -10,7 +10,7 @@ use crate::configuration::{Cause, Formula, Property};
 use crate::program::{Belief, Value};
 
 impl Builder<'_> {
-    /// What may be invariant. Wrong guesses do no harm: they are dropped.
+    /// The candidates. Wrong ones do no harm: they are removed.
     pub(super) fn candidates(&self) -> Vec<String> {
         let mut candidates = Vec::new();
         let posted: Vec<String> = (self.program.posted.iter())
@@ -101,12 +101,12 @@ impl Builder<'_> {
             let flag = pending(Slot::Perceived, &handler_name(self.program, handler));
             waiting.push(format!("self->{flag}"));
         }
-        // By the agent alone, and with what the environment has raised.
+        // Events of the agent only, and with those of the environment.
         candidates.push(format!("({})", waiting.join(" || ")));
         if let Some(ring) = deferred_ring(self.program) {
             let count = ring.field("count");
             candidates.push(format!("((self->posted != {none}) || (self->{count} > 0U))"));
-            // What is done when nothing else is wanted waits from its first step on.
+            // A posted idle goal is pending from the first step on.
             for event in posted {
                 candidates.push(format!("((self->posted == {event}) || (self->{count} > 0U))"));
             }
@@ -126,7 +126,7 @@ impl Builder<'_> {
                     out.push(format!("((due_{name} != {due}U) || (self->posted != {none}))"));
                 }
                 if let Cause::Action(_) = cause {
-                    // The answer may follow from what the action's plan believes no more.
+                    // The answer may depend on the deletion of a belief by the action's plan.
                     let deleted = |belief: &&Belief| self.program.is_deleted(belief);
                     for belief in self.program.beliefs.iter().filter(deleted) {
                         let held = held(&belief.name);
@@ -146,7 +146,7 @@ impl Builder<'_> {
                     out.push(format!("(allowed_{name} || (self->posted != {event}))"));
                 }
                 out.push(format!("(allowed_{name} || !{})", self.waits(event)));
-                // What is remembered of the event.
+                // The belief that remembers the event.
                 let deleted = |belief: &&Belief| self.program.is_deleted(belief);
                 for belief in self.program.beliefs.iter().filter(deleted) {
                     out.push(format!("(allowed_{name} || !self->{})", held(&belief.name)));

@@ -1,0 +1,257 @@
+//! `pilot.toml`: settings for flights that need other values than the defaults.
+//!
+//! [`Settings::sample`] documents every setting. Missing settings keep their defaults; a file with an invalid
+//! one is refused as a whole, with all reasons.
+
+mod section;
+mod sections;
+mod tags;
+
+use autopilot::plan::ZOrigin;
+use autopilot::vehicle::VehicleConfig;
+use pid::Law;
+use serde::{Deserialize, Serialize};
+
+use self::section::{Comments, LawName};
+use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Fence};
+pub use self::tags::GivenTag;
+use self::tags::Tags;
+
+/// Content of a `pilot.toml`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Settings {
+    fence: Fence,
+    drone: Drone,
+    delays: Delays,
+    airframe: Airframe,
+    estimator: Estimator,
+    tags: Tags,
+    controller: Controller,
+}
+
+/// Why a `pilot.toml` cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum SettingsError {
+    /// Invalid TOML, unknown key or wrong type; with line and column.
+    #[error("{path}: {message}")]
+    Syntax {
+        /// The file.
+        path: String,
+        /// The problem and its place.
+        message: String,
+    },
+    /// Values out of range.
+    #[error("{path}: {}", .reasons.join("; "))]
+    Values {
+        /// The file.
+        path: String,
+        /// One reason for each value.
+        reasons: Vec<String>,
+    },
+}
+
+/// The sample's first lines.
+const HEADER: &str = "\
+# How ardrone-pilot flies: every setting with its default. A file of your own needs only what it
+# changes: `ardrone-pilot --config FILE`; `ardrone-pilot config --config FILE` shows the settings in effect.
+
+";
+
+/// The sections' comments.
+const COMMENTS: [Comments; 7] = [
+    Fence::COMMENTS,
+    Drone::COMMENTS,
+    Delays::COMMENTS,
+    Airframe::COMMENTS,
+    Estimator::COMMENTS,
+    Tags::COMMENTS,
+    Controller::COMMENTS,
+];
+
+impl Settings {
+    /// Parses a `pilot.toml`; `path` is for messages.
+    ///
+    /// # Errors
+    /// [`SettingsError`] with all reasons.
+    pub fn parse(path: &str, text: &str) -> Result<Self, SettingsError> {
+        let settings: Self = toml::from_str(text).map_err(|error| SettingsError::Syntax {
+            path: path.to_owned(),
+            message: error.to_string().trim_end().to_owned(),
+        })?;
+        let reasons = settings.reasons_against();
+        if reasons.is_empty() {
+            Ok(settings)
+        } else {
+            Err(SettingsError::Values { path: path.to_owned(), reasons })
+        }
+    }
+
+    /// The default `pilot.toml`, with comments.
+    ///
+    /// # Errors
+    /// As [`Settings::to_toml`].
+    pub fn sample() -> Result<String, toml::ser::Error> {
+        let mut text = HEADER.to_owned();
+        let mut values = Comments::default().1;
+        for line in Self::default().to_toml()?.lines() {
+            if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
+                let section = COMMENTS.into_iter().find(|(section, _)| *section == name);
+                values = section.map(|(_, values)| values).unwrap_or_default();
+            } else if let Some((name, _)) = line.split_once(" = ") {
+                let value = values.iter().find(|(value, _)| *value == name);
+                for comment in value.map(|(_, comments)| *comments).unwrap_or_default() {
+                    text.extend(["#", comment, "\n"]);
+                }
+            }
+            text.extend([line, "\n"]);
+        }
+        Ok(text)
+    }
+
+    /// Converts to TOML without comments.
+    ///
+    /// # Errors
+    /// Never: tables of numbers, strings and arrays of numbers can be written as TOML.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(self)
+    }
+
+    /// Selects another control law.
+    pub fn set_law(&mut self, law: Law) {
+        self.controller.law = LawName(law);
+    }
+
+    /// Uses roundels on the floor, and takes these for surveyed.
+    ///
+    /// # Errors
+    /// [`SettingsError::Values`] if they do not fit together, or with those of the settings.
+    pub fn use_tags(&mut self, surveyed: &[GivenTag]) -> Result<(), SettingsError> {
+        self.tags.detect = true;
+        for tag in surveyed {
+            self.tags.add(tag);
+        }
+        let reasons = self.tags.reasons_against();
+        if reasons.is_empty() {
+            return Ok(());
+        }
+        Err(SettingsError::Values { path: "--tag".to_owned(), reasons })
+    }
+
+    /// The tags that are used and surveyed; nothing if tags are not used.
+    pub fn surveyed_tags(&self) -> Option<Vec<GivenTag>> {
+        self.tags.detect.then(|| self.tags.surveyed().collect())
+    }
+
+    /// The vehicle's configuration.
+    pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
+        let Self { fence, drone, delays, airframe, estimator, tags, controller } = self;
+        let mut config = VehicleConfig::default();
+        config.limits.z_origin = z_origin;
+        fence.apply(&mut config);
+        drone.apply(&mut config);
+        delays.apply(&mut config);
+        airframe.apply(&mut config);
+        estimator.apply(&mut config);
+        controller.apply(&mut config);
+        config.estimator.tags = tags.config();
+        config
+    }
+
+    fn reasons_against(&self) -> Vec<String> {
+        let Self { fence, drone, delays, airframe, estimator, tags, controller } = self;
+        let mut reasons = fence.out_of_range();
+        reasons.extend(drone.out_of_range());
+        reasons.extend(delays.out_of_range());
+        reasons.extend(airframe.out_of_range());
+        reasons.extend(estimator.out_of_range());
+        reasons.extend(controller.out_of_range());
+        reasons.extend(tags.reasons_against());
+        if fence.floor_m >= fence.ceiling_m {
+            reasons.push("fence.floor_m is not below fence.ceiling_m".to_owned());
+        }
+        reasons
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The file is there to be read and linked to; the declarations are what counts.
+    #[test]
+    fn the_documented_defaults_are_the_defaults() {
+        let sample = Settings::sample().unwrap();
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/pilot.toml");
+        if std::env::var_os("UPDATE_PILOT_TOML").is_some() {
+            std::fs::write(path, &sample).unwrap();
+        }
+        let file = std::fs::read_to_string(path).unwrap();
+        assert!(file == sample, "run the test with UPDATE_PILOT_TOML=1 and look at the difference");
+        let settings = Settings::parse("pilot.toml", &sample).unwrap();
+        assert_eq!(settings, Settings::default());
+        assert_eq!(settings.pilot_config(ZOrigin::Hover), VehicleConfig::default());
+    }
+
+    /// Each setting reaches its own place: with all others at their defaults the configuration differs.
+    #[test]
+    fn no_setting_is_without_effect() {
+        let default = Settings::default().pilot_config(ZOrigin::Hover);
+        let table: toml::Table = toml::from_str(&Settings::default().to_toml().unwrap()).unwrap();
+        let mut tried = 0;
+        for (section, values) in table.iter().filter(|(section, _)| *section != "tags") {
+            for (name, value) in values.as_table().unwrap() {
+                let other = match value {
+                    toml::Value::Float(number) => (number * 1.05).into(),
+                    toml::Value::Integer(number) => (number + 1).into(),
+                    toml::Value::Boolean(on) => (!on).into(),
+                    toml::Value::Array(_) => vec![0.9, 0.8].into(),
+                    toml::Value::String(text) if text == "demo" => "full".into(),
+                    _ => toml::Value::from("tum"),
+                };
+                let mut changed = table.clone();
+                changed[section][name] = other;
+                let text = toml::to_string(&changed).unwrap();
+                let config = Settings::parse("p", &text).unwrap().pilot_config(ZOrigin::Hover);
+                assert_ne!(config, default, "{section}.{name}");
+                tried += 1;
+            }
+        }
+        assert_eq!(tried, 39);
+    }
+
+    #[test]
+    fn what_is_effective_can_be_read_back() {
+        let mut settings = Settings::parse("p", "[drone]\nclimb_max_m_s = 1.0").unwrap();
+        settings.set_law(Law::Tum);
+        assert_eq!(Settings::parse("p", &settings.to_toml().unwrap()).unwrap(), settings);
+        let config = settings.pilot_config(ZOrigin::Floor);
+        assert_eq!(config.law, Law::Tum);
+        assert!((config.estimator.limits.climb_m_s - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn mistakes_are_reported_with_their_place() {
+        for (text, said) in [
+            ("[drone]\ntilt_max = 3", "line 2, column 1"),
+            ("[drone]\ntilt_max_deg = \"much\"", "line 2, column 16"),
+            ("[drone", "line 1"),
+            ("[controller]\nlaw = \"other\"", "`cascade` or `tum`"),
+        ] {
+            let error = Settings::parse("my.toml", text).unwrap_err().to_string();
+            assert!(error.starts_with("my.toml: ") && error.contains(said), "{error}");
+        }
+    }
+
+    #[test]
+    fn values_that_no_flight_can_have_are_refused_all_at_once() {
+        let text = "[drone]\ntilt_max_deg = 90.0\n[fence]\nfloor_m = nan\n\
+                    [airframe]\nthrust_gain = [1.0, 0.0]";
+        let error = Settings::parse("my.toml", text).unwrap_err();
+        let SettingsError::Values { reasons, .. } = error else { panic!("{error}") };
+        assert_eq!(reasons.len(), 3, "{reasons:?}");
+        assert!(reasons[1].contains("drone.tilt_max_deg is 90"), "{reasons:?}");
+        let text = "[fence]\nfloor_m = 2.5\nceiling_m = 2.0";
+        assert!(Settings::parse("my.toml", text).is_err());
+    }
+}

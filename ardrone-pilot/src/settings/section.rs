@@ -1,0 +1,234 @@
+//! Declaration of settings: each value stands once, with everything that is known of it.
+
+use std::ops::RangeInclusive;
+use std::time::Duration;
+
+use autopilot::vehicle::NavdataRate;
+use nalgebra::Vector2;
+use pid::Law;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// Declares the values of a section:
+///
+/// ```text
+/// section! {
+///     struct Fence("fence") of VehicleConfig {
+///         /// Lowest and highest target. Metres above the floor.
+///         floor_m: f64 = [limits.floor_m] in 0.1..=3.0,
+///     }
+/// }
+/// ```
+///
+/// `[limits.floor_m]` is the value's place in the [`VehicleConfig`](autopilot::vehicle::VehicleConfig), whose
+/// default is the setting's default, too; a value without a place there has `[default …]`. The documentation
+/// is the comment in the default `pilot.toml`. A value without one is documented with the one before it.
+macro_rules! section {
+    (
+        $(#[$meta:meta])*
+        struct $section:ident($name:literal) of $config:ty {
+            $(
+                $(#[doc = $comment:literal])*
+                $value:ident: $kind:ty = [$($place:tt)+] $(in $range:expr)?,
+            )+
+        }
+    ) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+        #[serde(default, deny_unknown_fields)]
+        pub(super) struct $section {
+            $(pub(super) $value: $kind,)+
+        }
+
+        impl Default for $section {
+            fn default() -> Self {
+                let config = <$config>::default();
+                Self { $($value: section!(@get config, $($place)+),)+ }
+            }
+        }
+
+        impl $section {
+            /// Name, and each value's comments.
+            pub(super) const COMMENTS: $crate::settings::section::Comments =
+                ($name, &[$((stringify!($value), &[$($comment),*])),+]);
+
+            /// Puts the values into their places.
+            pub(super) fn apply(&self, config: &mut $config) {
+                $(section!(@set config, self.$value, $($place)+);)+
+            }
+
+            /// Reasons why values are out of range.
+            pub(super) fn out_of_range(&self) -> Vec<String> {
+                let mut reasons = Vec::new();
+                $($(
+                    for number in $crate::settings::section::Numbers::numbers(&self.$value) {
+                        let name = concat!($name, ".", stringify!($value));
+                        reasons.extend($crate::settings::section::outside(name, number, &$range));
+                    }
+                )?)+
+                reasons
+            }
+        }
+    };
+    (@get $config:ident, default $value:expr) => { $value };
+    (@get $config:ident, $($place:ident).+) => {
+        $crate::settings::section::Setting::of(&$config.$($place).+)
+    };
+    (@set $config:ident, $setting:expr, default $value:expr) => {};
+    (@set $config:ident, $setting:expr, $($place:ident).+) => {
+        $config.$($place).+ = $crate::settings::section::Setting::value(&$setting)
+    };
+}
+
+pub(super) use section;
+
+/// A section's name, and the comments of each of its values.
+pub(super) type Comments = (&'static str, &'static [(&'static str, &'static [&'static str])]);
+
+/// A value as it is written in the file; `T` is its type in the configuration.
+pub(super) trait Setting<T> {
+    /// The setting for a configured value.
+    fn of(value: &T) -> Self;
+    /// The configured value.
+    fn value(&self) -> T;
+}
+
+impl<T: Copy> Setting<T> for T {
+    fn of(value: &T) -> Self {
+        *value
+    }
+
+    fn value(&self) -> T {
+        *self
+    }
+}
+
+impl Setting<Vector2<f64>> for [f64; 2] {
+    fn of(value: &Vector2<f64>) -> Self {
+        (*value).into()
+    }
+
+    fn value(&self) -> Vector2<f64> {
+        (*self).into()
+    }
+}
+
+/// A duration, written as milliseconds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(super) struct Milliseconds(u32);
+
+impl Setting<Duration> for Milliseconds {
+    fn of(value: &Duration) -> Self {
+        Self(u32::try_from(value.as_millis()).unwrap_or(u32::MAX))
+    }
+
+    fn value(&self) -> Duration {
+        Duration::from_millis(self.0.into())
+    }
+}
+
+/// An angle in radians, written in degrees.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(super) struct Degrees(f64);
+
+impl Setting<f64> for Degrees {
+    fn of(value: &f64) -> Self {
+        // Rounded, because converting to radians and back does not give exactly the same number.
+        Self((value.to_degrees() * 1e9).round() / 1e9)
+    }
+
+    fn value(&self) -> f64 {
+        self.0.to_radians()
+    }
+}
+
+/// The navdata's rate, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Navdata {
+    Demo,
+    Full,
+}
+
+impl Setting<NavdataRate> for Navdata {
+    fn of(value: &NavdataRate) -> Self {
+        match value {
+            NavdataRate::Demo => Self::Demo,
+            NavdataRate::Full => Self::Full,
+        }
+    }
+
+    fn value(&self) -> NavdataRate {
+        match self {
+            Self::Demo => NavdataRate::Demo,
+            Self::Full => NavdataRate::Full,
+        }
+    }
+}
+
+/// The control law, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct LawName(pub(super) Law);
+
+impl Setting<Law> for LawName {
+    fn of(value: &Law) -> Self {
+        Self(*value)
+    }
+
+    fn value(&self) -> Law {
+        self.0
+    }
+}
+
+impl Serialize for LawName {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.0.name())
+    }
+}
+
+impl<'a> Deserialize<'a> for LawName {
+    fn deserialize<D: Deserializer<'a>>(from: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(from)?;
+        let law = Law::ALL.into_iter().find(|law| law.name() == name);
+        law.map(Self).ok_or_else(|| D::Error::unknown_variant(&name, &["cascade", "tum"]))
+    }
+}
+
+/// The numbers of a setting that has a range, which holds for each of them.
+pub(super) trait Numbers {
+    /// As they are written.
+    fn numbers(&self) -> impl Iterator<Item = f64>;
+}
+
+impl Numbers for f64 {
+    fn numbers(&self) -> impl Iterator<Item = Self> {
+        std::iter::once(*self)
+    }
+}
+
+impl Numbers for [f64; 2] {
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        self.iter().copied()
+    }
+}
+
+impl Numbers for Milliseconds {
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        std::iter::once(self.0.into())
+    }
+}
+
+impl Numbers for Degrees {
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        std::iter::once(self.0)
+    }
+}
+
+/// The reason why a number is refused, if it is.
+pub(super) fn outside(name: &str, value: f64, range: &RangeInclusive<f64>) -> Option<String> {
+    let (from, to) = (range.start(), range.end());
+    // NaN is out of range too.
+    (!range.contains(&value)).then(|| format!("{name} is {value}: it must lie in {from} to {to}"))
+}

@@ -1,0 +1,184 @@
+//! The session with the drone: what arrives goes in, its events change the phase.
+
+use std::time::Duration;
+
+use ardrone_link::configuration::Configuration;
+use ardrone_link::navdata::Navdata;
+use ardrone_link::session;
+
+use super::{Authority, FlightEvent, FlightPhase, LandingReason, Outcome, Vehicle, sample, sights};
+
+/// Time constant of the navdata rate's average, in seconds.
+const RATE_TIME_S: f64 = 1.0;
+/// Requests the drone's clock in demo mode. Some firmware lets only a custom configuration change this key,
+/// so flying does not depend on it.
+pub(super) const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
+/// What makes the drone look for roundels. A firmware may not know it, or not let the default configuration
+/// change it: the flight does not depend on it.
+pub(super) const DETECTION_SECTION: &str = "detect:";
+
+impl Vehicle {
+    pub(super) fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
+        let Some(navdata) = self.pass_on(now, session::Input::Navdata(datagram)) else { return };
+        if let Some(demo) = &navdata.demo {
+            self.flight.estimator.update(&sample(now, &navdata, demo));
+            if self.config.estimator.tags.is_some() {
+                self.flight.estimator.see(&sights(datagram));
+            }
+        }
+        self.navdata = Some(navdata);
+    }
+
+    /// Passes an input to the session and handles its outputs; returns new navdata. A datagram for the drone
+    /// waits until it is polled.
+    pub(super) fn pass_on(&mut self, now: Duration, input: session::Input<'_>) -> Option<Navdata> {
+        self.session.handle(now, input);
+        self.take_in(now)
+    }
+
+    /// Handles the session's outputs.
+    pub(super) fn take_in(&mut self, now: Duration) -> Option<Navdata> {
+        let mut received = None;
+        while let Some(output) = self.session.poll() {
+            match output {
+                session::Output::Transmit(session::Transmit::Command(_)) => {
+                    self.pending.command = true;
+                }
+                session::Output::Transmit(session::Transmit::WakeUp) => self.pending.wake_up = true,
+                session::Output::Navdata(navdata) => {
+                    self.count_packet(now);
+                    received = Some(navdata);
+                }
+                session::Output::Event(event) => self.session_event(now, event),
+                // The session counts damaged packets.
+                _ => {}
+            }
+        }
+        received
+    }
+
+    /// A request to the session. It has no outputs before the next tick.
+    pub(super) fn request(&mut self, now: Duration, request: session::Request) {
+        self.session.handle(now, session::Input::Request(request));
+    }
+
+    fn count_packet(&mut self, now: Duration) {
+        if let Some(last) = self.packet_at.replace(now) {
+            let period_s = now.saturating_sub(last).as_secs_f64().max(1e-3);
+            let share = (period_s / RATE_TIME_S).min(1.0);
+            self.navdata_hz += (1.0 / period_s - self.navdata_hz) * share;
+        }
+    }
+
+    pub(super) fn handle_control(&mut self, now: Duration, bytes: &[u8]) {
+        self.pass_on(now, session::Input::Control(bytes));
+    }
+
+    fn session_event(&mut self, now: Duration, event: session::Event) {
+        match event {
+            session::Event::Connected => {
+                if self.phase == FlightPhase::Connecting {
+                    self.found(now);
+                    self.events.push_back(FlightEvent::Connected);
+                }
+            }
+            session::Event::ConfigurationTimedOut { key } => self.setting_unconfirmed(&key),
+            session::Event::ConfigurationRead(configuration) => {
+                self.compare_configuration(&configuration);
+            }
+            session::Event::ConfigurationNotRead => {
+                self.configured.not_read = true;
+                self.events.push_back(FlightEvent::ConfigurationNotRead);
+            }
+            session::Event::Ready => {
+                if matches!(self.phase, FlightPhase::Configuring { .. }) {
+                    // In the air the drone is not level, so flat trim would set a wrong reference.
+                    if self.on_ground() {
+                        self.request(now, session::Request::FlatTrim);
+                    }
+                    let received = self.session.statistics().received;
+                    self.phase = FlightPhase::Settling { since: now, received };
+                    self.events.push_back(FlightEvent::Configured);
+                }
+            }
+            session::Event::LinkLost => self.link_lost(now),
+            session::Event::DroneRestarted => {
+                self.flight.estimator.handle_restart();
+                self.navdata = None;
+                match self.phase {
+                    FlightPhase::Flying => self.land(now, LandingReason::DroneRestarted),
+                    FlightPhase::Settling { .. } | FlightPhase::Standby { .. } => {
+                        self.begin_to_configure(now, self.authority);
+                    }
+                    _ => {}
+                }
+            }
+            session::Event::Emergency => {
+                self.events.push_back(FlightEvent::Emergency);
+                if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
+                    self.end(now, Outcome::Emergency);
+                }
+            }
+            session::Event::EmergencyCleared => {
+                self.events.push_back(FlightEvent::EmergencyCleared);
+            }
+            session::Event::Landed => self.events.push_back(FlightEvent::Landed),
+            // The agent has its own take-off timeout.
+            session::Event::Configured { .. }
+            | session::Event::Airborne
+            | session::Event::TakeOffTimedOut => {}
+        }
+    }
+
+    /// Handles the first answer of the drone.
+    fn found(&mut self, now: Duration) {
+        if self.on_ground() {
+            self.begin_to_configure(now, Authority::OnGround);
+        } else {
+            let received = self.session.statistics().received;
+            self.phase = FlightPhase::Observing { since: now, received };
+        }
+    }
+
+    fn link_lost(&mut self, now: Duration) {
+        self.events.push_back(FlightEvent::LinkLost);
+        // In flight the agent lands once navdata have been missing for too long.
+        if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
+            return;
+        }
+        self.phase = FlightPhase::Connecting;
+        self.authority = Authority::None;
+        self.navdata = None;
+        if self.departure.is_some() {
+            self.end(now, Outcome::NoDrone);
+        }
+    }
+
+    pub(super) fn compare_configuration(&mut self, configuration: &Configuration) {
+        let version = configuration.get("general:num_version_soft").map(str::to_owned);
+        self.events.push_back(FlightEvent::ConfigurationRead { version });
+        let differing: Vec<String> = self
+            .settings
+            .iter()
+            .filter(|setting| !configuration.has(setting.key(), setting.value()))
+            .map(|setting| setting.key().to_owned())
+            .collect();
+        for key in differing {
+            self.setting_unconfirmed(&key);
+        }
+    }
+
+    /// A limit that the drone has not applied forbids the flight. Without the additional navdata options the
+    /// estimator falls back to arrival times.
+    pub(super) fn setting_unconfirmed(&mut self, key: &str) {
+        if key == NAVDATA_OPTIONS_KEY {
+            self.events.push_back(FlightEvent::NoDroneClock);
+        } else if key.starts_with(DETECTION_SECTION) {
+            if !std::mem::replace(&mut self.configured.no_detection, true) {
+                self.events.push_back(FlightEvent::NoTagDetection);
+            }
+        } else if !self.configured.unconfirmed.iter().any(|other| other == key) {
+            self.configured.unconfirmed.push(key.to_owned());
+        }
+    }
+}
