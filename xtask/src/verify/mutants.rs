@@ -54,7 +54,7 @@ const fn c(
 }
 
 /// All mutants.
-pub(super) const MUTANTS: [Mutant; 64] = [
+pub(super) const MUTANTS: [Mutant; 65] = [
     agent(
         "a failure plan sends no command",
         "-!wait <- !goDown; !comeDown.",
@@ -268,8 +268,8 @@ pub(super) const MUTANTS: [Mutant; 64] = [
     ),
     agent(
         "each order to land begins a new descent",
-        "\n    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit",
-        "",
+        "\n    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit\n    & position",
+        "\n    & position",
         "a_descent_ends",
     ),
     agent(
@@ -322,8 +322,8 @@ pub(super) const MUTANTS: [Mutant; 64] = [
     ),
     agent(
         "a blind descent waits with an empty battery",
-        "<- !watch;\n     sendPause;",
-        "<- sendPause;",
+        "<- !watch;\n     sendPause;\n     !comeDown.",
+        "<- sendPause;\n     !comeDown.",
         "empty_battery_lands",
     ),
     agent(
@@ -420,6 +420,12 @@ pub(super) const MUTANTS: [Mutant; 64] = [
         "a descent onto a tag may take weeks",
         "@too_long_onto_tag[req(\"SAF-2\"), req(\"SAF-7\")]\n+!ontoTag : descendingFor(Time) & comingDownTime(Limit) & Time > Limit\n  <- -target(_, _, _, _);\n     sendLand;\n     !comeDown.\n",
         "",
+        "a_descent_ends",
+    ),
+    agent(
+        "each landing on a tag begins a new descent",
+        "\n    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit & X = landingX",
+        "\n    & X = landingX",
         "a_descent_ends",
     ),
     c(
