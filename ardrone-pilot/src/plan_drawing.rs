@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use autopilot::plan::{FlightLimits, Plan};
+use autopilot::vehicle::SurveyedTag;
 use diagnostic::printable;
 use kinematics::Pose;
 use plotters::prelude::*;
@@ -12,6 +13,7 @@ use crate::drawing::{self, Drawing, Drawn, FONT};
 const SIZE: (u32, u32) = (960, 500);
 const WAY: RGBColor = RGBColor(25, 95, 170);
 const FENCE: RGBColor = RGBColor(190, 60, 40);
+const TAG: RGBColor = RGBColor(20, 20, 20);
 const GROUND: RGBColor = RGBColor(110, 110, 110);
 
 /// Why a plan could not be drawn.
@@ -38,7 +40,7 @@ pub fn svg(name: &str, plan: &Plan, limits: &FlightLimits) -> Result<String, Pla
     let places = places(plan, limits);
     drawing::svg(SIZE, |area| {
         let (left, right) = area.split_horizontally(SIZE.1);
-        from_above(&left, name, &places, limits)?;
+        from_above(&left, name, &places, plan.tags(), limits)?;
         over_time(&right, &places, limits)
     })
     .map_err(|error| PlanDrawingError(error.to_string()))
@@ -66,7 +68,13 @@ fn places(plan: &Plan, limits: &FlightLimits) -> Vec<Place> {
 }
 
 /// Top view, with the same scale on both axes.
-fn from_above(area: &Drawing<'_>, name: &str, places: &[Place], limits: &FlightLimits) -> Drawn {
+fn from_above(
+    area: &Drawing<'_>,
+    name: &str,
+    places: &[Place],
+    tags: &[SurveyedTag],
+    limits: &FlightLimits,
+) -> Drawn {
     let extent = |value: fn(&Pose) -> f64| {
         let values = places.iter().map(|place| value(&place.pose));
         values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
@@ -100,6 +108,10 @@ fn from_above(area: &Drawing<'_>, name: &str, places: &[Place], limits: &FlightL
     let way = places.iter().map(|place| (place.pose.x_m, place.pose.y_m));
     chart.draw_series(LineSeries::new(way, WAY.stroke_width(2)))?;
     chart.draw_series([TriangleMarker::new((0.0, 0.0), 9, GROUND.filled())])?;
+    let tags = tags.iter().map(|tag| (tag.place_m.x, tag.place_m.y)).filter(|tag| inside(*tag));
+    chart.draw_series(tags.flat_map(|tag| {
+        [Circle::new(tag, 8, TAG.stroke_width(2)), Circle::new(tag, 3, TAG.filled())]
+    }))?;
     let targets = places.iter().filter_map(|place| Some((place.target?, place.pose)));
     let mut labels: Vec<(Pose, Vec<String>)> = Vec::new();
     for (number, pose) in targets {

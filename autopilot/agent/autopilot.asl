@@ -6,9 +6,11 @@
 //
 // The environment tells where the drone is and how it is (`position`, `battery`, `blindFor`,
 // `doubt`, `saturatedFor`, `wind`), for how long it has been doing the same (`takingOffFor`,
-// `approachingFor`, `stayingFor`, `descendingFor`) and how orders are to be flown (`reachDistance`,
-// `stayDistance`, `stayTime`); it orders `takeOff`, `goTo`, `newMission`, `hold`, `steer` and `land`.
-// The last four pre-empt whatever runs, but nothing ends a landing.
+// `approachingFor`, `searchingFor`, `overTagFor`, `stayingFor`, `descendingFor`), how long ago a tag on
+// the floor was seen (`tagAge`), how far it is to the fence (`fenceRoom`) and
+// how orders are to be flown (`reachDistance`, `stayDistance`, `stayTime`); it orders `takeOff`, `goTo`,
+// `findTag`, `landOnTag`, `newMission`, `hold`, `steer` and `land`. The last four pre-empt whatever runs,
+// but nothing ends a landing.
 
 // ---- Limits. Change them with care.
 
@@ -34,12 +36,39 @@ comingDownTime(8000).
 // given up. Milliseconds.
 takeOffTime(10000).
 approachTime(60000).
+// A place that is known worse than this, in metres, is a reason to look for a tag; it is looked for from
+// this height, in metres, for no longer than this, in milliseconds, and not with this charge or less, in
+// percent.
+searchDoubt(1.0).
+searchHeight(2.5).
+searchTime(30000).
+searchBattery(20).
+// Whoever found none goes on with what was ordered for this long before it looks again. Milliseconds.
+searchAgain(60000).
+// Above the tag to land on the drone settles at this height, until it is this near, in metres, and steady, for
+// no longer than this, in milliseconds; it descends by itself to the next height, until it is steady there, for no
+// longer than the last: so low the tag is not seen.
+overTagHeight(0.8).
+overTagReach(0.08).
+overTagTime(20000).
+touchDownHeight(0.3).
+ontoTagTime(4000).
+// A tag that was not seen for this long, in milliseconds, is lost, unless the drone is lower than this, in
+// metres: there it is not whole in the picture.
+tagPatience(2000).
+tagLowest(0.6).
 
-// Nothing has lasted yet.
+// Nothing has lasted yet, and nothing is known of where it could be.
 saturatedFor(0).
 takingOffFor(0).
 approachingFor(0).
+searchingFor(0).
+overTagFor(0).
 stayingFor(0).
+tagAge(0).
+searchAgo(1000000000).
+fenceRoom(0.0).
+searchFrom(0.0, 0.0, 0.0).
 descendingFor(0).
 
 !wait.
@@ -194,6 +223,15 @@ descendingFor(0).
      sendHover;
      !approach.
 
+// The place has become doubtful: look for a tag, then go on.
+@look_for_the_place
++!approach : doubt(Metres) & searchDoubt(Limit) & Metres > Limit & tagsInUse & not tagSeen
+    & searchAgo(Time) & searchAgain(Pause) & Time > Pause & position(_, _, _, _)
+  <- !watch;
+     tellSearching;
+     !lookAround;
+     !search(1).
+
 +!approach : target(X, Y, Z, Yaw) & reachDistance(Distance) & closeEnough(X, Y, Z, Yaw, Distance)
   <- !watch;
      sendStay(X, Y, Z, Yaw);
@@ -217,6 +255,15 @@ descendingFor(0).
      sendHover;
      !stay.
 
+// The place has become doubtful: look for a tag, as when approaching.
+@look_for_the_place_held
++!stay : doubt(Metres) & searchDoubt(Limit) & Metres > Limit & tagsInUse & not tagSeen
+    & searchAgo(Time) & searchAgain(Pause) & Time > Pause & position(_, _, _, _)
+  <- !watch;
+     tellSearching;
+     !lookAround;
+     !search(1).
+
 // Drifted off: approach again, and the stay begins anew. However long it was, only the time of
 // approaching counts against its limit.
 +!stay : target(X, Y, Z, Yaw) & stayDistance(Distance) & not closeEnough(X, Y, Z, Yaw, Distance)
@@ -237,6 +284,274 @@ descendingFor(0).
 
 @danger_staying[req("SAF-4"), req("SAF-5")]
 -!stay <- !goDown; !comeDown.
+
+// ---- Looking for a tag: climb where one should be, or here, then look down from places around. Whoever looks says
+// what for: 0 a tag was ordered to be found, 1 to go on approaching, 2 to land on it.
+
++!findTag : onGround
+  <- reportRefused;
+     sendStandby;
+     !!wait.
+
++!findTag : tagSeen & position(X, Y, Z, Yaw)
+  <- !watch;
+     +target(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw);
+     reportDone;
+     !!wait.
+
++!findTag : tagsInUse & position(X, Y, Z, Yaw)
+  <- !watch;
+     +target(X, Y, Z, Yaw);
+     !lookAround;
+     !search(0).
+
+// Tags are not in use, or nobody knows where the drone is.
++!findTag
+  <- !watch;
+     tellNoTag;
+     sendHover;
+     reportFailed;
+     !!wait.
+
+@danger_setting_out_to_search[req("SAF-4"), req("SAF-5")]
+-!findTag <- !goDown; !comeDown.
+
+// The first command of a search, if there may be one.
++!lookAround : searchingFor(Time) & searchTime(Limit) & Time > Limit
+    | battery(Percent) & searchBattery(Least) & Percent <= Least
+    | fenceRoom(Room) & not Room >= 0.0
+  <- sendHover.
+
++!lookAround : position(_, _, _, Yaw) & tagKnown & searchHeight(Z) & X = tagX & Y = tagY
+  <- +searchFrom(X, Y, Yaw);
+     sendSearch(X, Y, Z, Yaw).
+
++!lookAround : position(X, Y, _, Yaw) & searchHeight(Z)
+  <- +searchFrom(X, Y, Yaw);
+     sendSearch(X, Y, Z, Yaw).
+
++!lookAround
+  <- sendHover.
+
++!search(_) : onGround
+  <- sendStandby;
+     reportFailed;
+     !!wait.
+
++!search(Then) : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
+  <- !watch;
+     sendHover;
+     !search(Then).
+
++!search(0) : tagSeen & position(X, Y, Z, Yaw)
+  <- !watch;
+     +target(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw);
+     reportDone;
+     !!wait.
+
++!search(1) : tagSeen & target(X, Y, Z, Yaw)
+  <- !watch;
+     sendGotoAgain(X, Y, Z, Yaw);
+     !approach.
+
++!search(2) : tagSeen & tagKnown & position(_, _, _, Yaw) & overTagHeight(Z) & X = tagX & Y = tagY
+    & overTagFor(Time) & overTagTime(Most) & Time <= Most
+  <- !watch;
+     +target(X, Y, Z, Yaw);
+     sendOverTag(X, Y, Z, Yaw);
+     !overTag.
+
+@search_ends[req("SAF-4"), req("SAF-7")]
++!search(Then) : searchingFor(Time) & searchTime(Limit) & Time > Limit
+    | battery(Percent) & searchBattery(Least) & Percent <= Least
+    | fenceRoom(Room) & not Room >= 0.0
+  <- !watch;
+     tellNoTag;
+     sendHover;
+     !noTag(Then).
+
++!search(Then) : searchFrom(X, Y, Yaw) & searchHeight(Z) & searchingFor(Time)
+  <- !watch;
+     ?searchOffset(Time, Right, Forward);
+     sendSearch(X + Right, Y + Forward, Z, Yaw);
+     !search(Then).
+
++!search(Then)
+  <- !watch;
+     tellNoTag;
+     sendHover;
+     !noTag(Then).
+
+@danger_searching[req("SAF-4"), req("SAF-5")]
+-!search(_) <- !goDown; !comeDown.
+
+// Where to look after so much time, right and forward of where the search began: 3 s for each place,
+// half of them to look.
++?searchOffset(Time, Right, Forward) : Time < 5000 <- Right = 0.0; Forward = 0.0.
++?searchOffset(Time, Right, Forward) : Time < 8000 <- Right = 0.0; Forward = 1.4.
++?searchOffset(Time, Right, Forward) : Time < 11000 <- Right = 1.4; Forward = 1.4.
++?searchOffset(Time, Right, Forward) : Time < 14000 <- Right = 1.4; Forward = 0.0.
++?searchOffset(Time, Right, Forward) : Time < 17000 <- Right = 1.4; Forward = -1.4.
++?searchOffset(Time, Right, Forward) : Time < 20000 <- Right = 0.0; Forward = -1.4.
++?searchOffset(Time, Right, Forward) : Time < 23000 <- Right = -1.4; Forward = -1.4.
++?searchOffset(Time, Right, Forward) : Time < 26000 <- Right = -1.4; Forward = 0.0.
++?searchOffset(_, Right, Forward) <- Right = -1.4; Forward = 1.4.
+
+// None was found.
++!noTag(0) : not onGround
+  <- !watch;
+     sendHover;
+     reportFailed;
+     !!wait.
+
++!noTag(1) : not onGround & target(X, Y, Z, Yaw)
+  <- !watch;
+     sendGotoAgain(X, Y, Z, Yaw);
+     !approach.
+
+// Whoever was to land on it lands here.
++!noTag(_)
+  <- reportFailed;
+     !goDown;
+     !comeDown.
+
+@danger_without_tag[req("SAF-4"), req("SAF-5")]
+-!noTag(_) <- !goDown; !comeDown.
+
+// ---- Landing on a tag: settle above it, then descend by ourselves as long as it is seen, then by the drone.
+// Whatever goes wrong, the drone lands where it is.
+
++!landOnTag : onGround
+  <- reportRefused;
+     sendStandby;
+     !!wait.
+
++!landOnTag : tagSeen & tagKnown & position(_, _, _, Yaw) & overTagHeight(Z) & X = tagX & Y = tagY
+    & overTagFor(Time) & overTagTime(Most) & Time <= Most
+  <- !watch;
+     +target(X, Y, Z, Yaw);
+     sendOverTag(X, Y, Z, Yaw);
+     !overTag.
+
++!landOnTag : tagsInUse & position(_, _, _, _)
+  <- !watch;
+     !lookAround;
+     !search(2).
+
++!landOnTag
+  <- tellNoTag;
+     reportFailed;
+     !goDown;
+     !comeDown.
+
+@danger_before_landing_on_tag[req("SAF-4"), req("SAF-5")]
+-!landOnTag <- !goDown; !comeDown.
+
++!overTag : onGround
+  <- sendStandby;
+     reportFailed;
+     !!wait.
+
+@tag_lost_above_it[req("SAF-2")]
++!overTag : not tagKnown | tagAge(Time) & tagPatience(Limit) & Time > Limit
+  <- tellTagLost;
+     reportFailed;
+     !goDown;
+     !comeDown.
+
+@blind_above_tag[req("SAF-2")]
++!overTag : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit & overTagFor(Above) & overTagTime(Most)
+    & Above <= Most
+  <- !watch;
+     sendTagPause;
+     !overTag.
+
+// The place of the tag is known better by now.
+@above_the_tag_anew[req("SAF-2"), req("SAF-7")]
++!overTag : target(OldX, OldY, Z, Yaw) & not nearTag(OldX, OldY) & X = tagX & Y = tagY
+    & overTagFor(Time) & overTagTime(Most) & Time <= Most
+  <- !watch;
+     +target(X, Y, Z, Yaw);
+     sendOverTagAgain(X, Y, Z, Yaw);
+     !overTag.
+
+@settling_above_tag[req("SAF-2"), req("SAF-7")]
++!overTag : target(X, Y, Z, Yaw) & overTagFor(Time) & overTagTime(Most) & Time <= Most
+    & overTagReach(Near) & (not closeEnough(X, Y, Z, Yaw, Near) | not steady)
+  <- !watch;
+     sendOverTagAgain(X, Y, Z, Yaw);
+     !overTag.
+
+// Settled, or long enough: down, to a place that stays what it is: a target that moves a little in every step
+// keeps the drone from settling.
+@down_onto_tag[req("SAF-2"), req("SAF-7")]
++!overTag : target(_, _, _, Yaw) & touchDownHeight(Z)
+    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit & X = landingX & Y = landingY
+  <- +comingDown;
+     +target(X, Y, Z, Yaw);
+     sendDescent(X, Y, Z, Yaw);
+     !ontoTag.
+
++!overTag <- !goDown; !comeDown.
+
+@danger_above_tag[req("SAF-4"), req("SAF-5")]
+-!overTag <- !goDown; !comeDown.
+
+@landed_on_tag[req("SAF-2")]
++!ontoTag : onGround
+  <- -comingDown;
+     sendStandby;
+     reportDone;
+     !!wait.
+
+@too_long_onto_tag[req("SAF-2"), req("SAF-7")]
++!ontoTag : descendingFor(Time) & comingDownTime(Limit) & Time > Limit
+  <- -target(_, _, _, _);
+     sendLand;
+     !comeDown.
+
+@tag_gone_descending[req("SAF-2")]
++!ontoTag : not tagKnown
+  <- -target(_, _, _, _);
+     tellTagLost;
+     reportFailed;
+     sendLand;
+     !comeDown.
+
+@tag_lost_descending[req("SAF-2")]
++!ontoTag : tagAge(Time) & tagPatience(Limit) & Time > Limit & position(_, _, Height, _) & tagLowest(Low)
+    & Height > Low
+  <- -target(_, _, _, _);
+     tellTagLost;
+     reportFailed;
+     sendLand;
+     !comeDown.
+
+@blind_onto_tag[req("SAF-2")]
++!ontoTag : blindFor(Time) & holdWhenBlind(Patience) & Time > Patience
+  <- !watch;
+     sendPause;
+     !ontoTag.
+
+@descend_onto_tag[req("SAF-2")]
++!ontoTag : target(X, Y, Z, Yaw) & position(_, _, Height, _)
+    & (Height > Z + 0.02 | not steady) & descendingFor(Time) & ontoTagTime(Most) & Time <= Most
+  <- sendDescent(X, Y, Z, Yaw);
+     !ontoTag.
+
+@by_itself_onto_tag[req("SAF-2")]
++!ontoTag
+  <- -target(_, _, _, _);
+     sendLand;
+     !comeDown.
+
+@danger_onto_tag[req("SAF-4"), req("SAF-5")]
+-!ontoTag
+  <- -target(_, _, _, _);
+     sendLand;
+     !comeDown.
 
 // ---- A mission was loaded, replaced or cleared. What was ordered for the one before is given up:
 // hold where we are until an order of the new one comes. A landing goes on, by the drone itself.

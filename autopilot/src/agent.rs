@@ -6,6 +6,7 @@
 use kinematics::Pose;
 
 use crate::agent::bindings::{Beliefs, Environment};
+use crate::plan::FlightLimits;
 
 #[allow(
     unsafe_code,
@@ -17,10 +18,16 @@ mod bindings {
     include!(concat!(env!("OUT_DIR"), "/bindings.rs"));
 }
 
+mod activity;
 mod source;
+mod tags;
 
+pub use activity::Activity;
+use activity::Pursuit;
 pub use bindings::{Agent, PLANS, STATE_BYTES};
 pub use source::{SOURCE, plan_text};
+pub use tags::TagPercepts;
+use tags::{place_to_look_from, room_m};
 
 /// Parameters of approaching and holding a target; plans can change them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +52,11 @@ pub const LANDING_BATTERY_PERCENT: u32 = 12;
 
 /// Heading tolerance for reaching a target, in degrees.
 const REACH_ANGLE_DEG: f64 = 5.0;
+
+/// A tag whose place has turned out to be this far from where it seemed, in metres, is elsewhere.
+const NEAR_TAG_M: f64 = 0.05;
+/// Largest horizontal speed of a drone that is steady, in m/s.
+const STEADY_M_S: f64 = 0.08;
 
 /// The agent's inputs in one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +83,12 @@ pub struct Percepts {
     pub steering: bool,
     /// Parameters of approaching and holding a target.
     pub settings: ApproachSettings,
+    /// Horizontal speed in m/s.
+    pub speed_m_s: f64,
+    /// The fence, within which tags are looked for.
+    pub fence: FlightLimits,
+    /// What is known of tags; `None` if they are not in use.
+    pub tags: Option<TagPercepts>,
 }
 
 /// The agent's command to the drone.
@@ -104,7 +122,7 @@ impl AgentCommand {
     }
 }
 
-/// Reason for which the agent lands, or warns of a landing.
+/// Reason for which the agent lands, or warns of a landing, or what it has to say of tags.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Danger {
     /// The battery is nearly empty: a warning.
@@ -119,6 +137,12 @@ pub enum Danger {
     Wind,
     /// A take-off, or an approach, exceeded its time limit.
     NoProgress,
+    /// The place is doubtful, and a tag is looked for: not a danger by itself.
+    Searching,
+    /// There is no tag to be found.
+    NoTag,
+    /// The tag to land on is not seen any more.
+    TagLost,
 }
 
 impl Danger {
@@ -131,6 +155,9 @@ impl Danger {
             Self::Lost => "Lost",
             Self::Wind => "Wind",
             Self::NoProgress => "NoProgress",
+            Self::Searching => "Searching",
+            Self::NoTag => "NoTag",
+            Self::TagLost => "TagLost",
         }
     }
 }
@@ -154,50 +181,6 @@ impl Report {
             Self::Refused => "Refused",
             Self::Failed => "Failed",
         }
-    }
-}
-
-/// Activities of the drone whose duration the agent limits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Pursuit {
-    TakingOff,
-    Approaching,
-    Staying,
-    Descending,
-}
-
-/// The drone's current activity and its duration. The agent has no clock of its own and gets these durations
-/// as percepts. A hover in between does not end the activity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Activity {
-    /// The activity, and the time of its first command in milliseconds.
-    pursuit: Option<(Pursuit, i64)>,
-    /// Duration of the approach before the target was last reached. Without it, a drone that keeps reaching
-    /// its target and drifting away would never exceed the time limit.
-    approached_ms: i64,
-}
-
-impl Activity {
-    /// Duration of this activity in milliseconds; 0 if another one is current.
-    fn lasted_ms(self, pursuit: Pursuit, now_ms: i64) -> i64 {
-        let Some((current, since_ms)) = self.pursuit else { return 0 };
-        let lasted_ms = now_ms.saturating_sub(since_ms);
-        match pursuit {
-            _ if current != pursuit => 0,
-            Pursuit::Approaching => lasted_ms.saturating_add(self.approached_ms),
-            Pursuit::TakingOff | Pursuit::Staying | Pursuit::Descending => lasted_ms,
-        }
-    }
-
-    fn go_on(&mut self, pursuit: Pursuit, now_ms: i64) {
-        let current = self.pursuit.map(|(current, _)| current);
-        if current == Some(pursuit) {
-            return;
-        }
-        if current == Some(Pursuit::Approaching) {
-            self.approached_ms = self.lasted_ms(Pursuit::Approaching, now_ms);
-        }
-        self.pursuit = Some((pursuit, now_ms));
     }
 }
 
@@ -226,8 +209,8 @@ pub struct ChosenPlans {
 }
 
 impl ChosenPlans {
-    /// Capacity. A step of this agent chooses at most four plans: for its event, for watching, for
-    /// correcting, and for landing. Further ones are dropped.
+    /// Capacity. A step of this agent chooses at most five plans: for its event, for watching, for where to
+    /// search, for correcting, and for landing. Further ones are dropped.
     const MOST: usize = 8;
 
     /// Indices of the plans.
@@ -277,9 +260,17 @@ impl AgentStep {
         self.issue(command);
     }
 
+    fn nearest_tag_m(&self) -> Option<[f64; 2]> {
+        self.percepts.tags?.nearest_m
+    }
+
+    fn landing_m(&self) -> Option<[f64; 2]> {
+        self.percepts.tags?.landing_m()
+    }
+
     /// A command that ends the current activity.
     fn end(&mut self, command: AgentCommand) {
-        self.activity = Activity::default();
+        self.activity.end();
         self.issue(command);
     }
 }
@@ -288,6 +279,10 @@ impl Environment for AgentStep {
     fn update_beliefs(&mut self, beliefs: &mut Beliefs<'_>) {
         if let Some(pose) = self.percepts.pose {
             beliefs.set_position(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg);
+            beliefs.set_fence_room(room_m(&pose, &self.percepts.fence));
+        }
+        if let Some(tags) = self.percepts.tags {
+            beliefs.set_tag_age(tags.age_ms);
         }
         if let Some(percent) = self.percepts.battery_percent {
             beliefs.set_battery(percent.into());
@@ -299,6 +294,9 @@ impl Environment for AgentStep {
         let lasted_ms = |pursuit| self.activity.lasted_ms(pursuit, self.percepts.now_ms);
         beliefs.set_taking_off_for(lasted_ms(Pursuit::TakingOff));
         beliefs.set_approaching_for(lasted_ms(Pursuit::Approaching));
+        beliefs.set_search_ago(self.activity.searched_ago_ms(self.percepts.now_ms));
+        beliefs.set_searching_for(lasted_ms(Pursuit::Searching));
+        beliefs.set_over_tag_for(lasted_ms(Pursuit::OverTag));
         beliefs.set_staying_for(lasted_ms(Pursuit::Staying));
         beliefs.set_descending_for(lasted_ms(Pursuit::Descending));
         let settings = self.percepts.settings;
@@ -324,7 +322,7 @@ impl Environment for AgentStep {
     }
 
     fn send_goto(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
-        self.activity = Activity::default();
+        self.activity.end();
         self.send_goto_again(x_m, y_m, z_m, yaw_deg);
     }
 
@@ -336,6 +334,25 @@ impl Environment for AgentStep {
     fn send_stay(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
         let target = Pose { x_m, y_m, z_m, yaw_deg };
         self.pursue(Pursuit::Staying, AgentCommand::GoTo(target));
+    }
+
+    fn send_search(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
+        let place = place_to_look_from(&Pose { x_m, y_m, z_m, yaw_deg }, &self.percepts.fence);
+        self.pursue(Pursuit::Searching, AgentCommand::GoTo(place));
+    }
+
+    fn send_over_tag(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
+        self.activity.end();
+        self.send_over_tag_again(x_m, y_m, z_m, yaw_deg);
+    }
+
+    fn send_over_tag_again(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
+        let target = Pose { x_m, y_m, z_m, yaw_deg };
+        self.pursue(Pursuit::OverTag, AgentCommand::GoTo(target));
+    }
+
+    fn send_tag_pause(&mut self) {
+        self.pursue(Pursuit::OverTag, AgentCommand::Hover);
     }
 
     fn send_sticks(&mut self) {
@@ -382,6 +399,43 @@ impl Environment for AgentStep {
         })
     }
 
+    fn steady(&mut self) -> bool {
+        self.percepts.speed_m_s <= STEADY_M_S
+    }
+
+    fn tags_in_use(&mut self) -> bool {
+        self.percepts.tags.is_some()
+    }
+
+    fn tag_seen(&mut self) -> bool {
+        self.percepts.tags.is_some_and(|tags| tags.seen)
+    }
+
+    fn tag_known(&mut self) -> bool {
+        self.nearest_tag_m().is_some()
+    }
+
+    fn tag_x(&mut self) -> f64 {
+        self.nearest_tag_m().map_or(0.0, |[x_m, _]| x_m)
+    }
+
+    fn tag_y(&mut self) -> f64 {
+        self.nearest_tag_m().map_or(0.0, |[_, y_m]| y_m)
+    }
+
+    fn near_tag(&mut self, x_m: f64, y_m: f64) -> bool {
+        self.nearest_tag_m()
+            .is_some_and(|[tag_x_m, tag_y_m]| (tag_x_m - x_m).hypot(tag_y_m - y_m) <= NEAR_TAG_M)
+    }
+
+    fn landing_x(&mut self) -> f64 {
+        self.landing_m().map_or(0.0, |[x_m, _]| x_m)
+    }
+
+    fn landing_y(&mut self) -> f64 {
+        self.landing_m().map_or(0.0, |[_, y_m]| y_m)
+    }
+
     fn report_done(&mut self) {
         self.report = Some(Report::Done);
     }
@@ -416,6 +470,18 @@ impl Environment for AgentStep {
 
     fn tell_no_progress(&mut self) {
         self.danger = Some(Danger::NoProgress);
+    }
+
+    fn tell_searching(&mut self) {
+        self.danger = Some(Danger::Searching);
+    }
+
+    fn tell_no_tag(&mut self) {
+        self.danger = Some(Danger::NoTag);
+    }
+
+    fn tell_tag_lost(&mut self) {
+        self.danger = Some(Danger::TagLost);
     }
 
     fn trace_plan(&mut self, number: u32) {

@@ -3,6 +3,7 @@
 //! A mission consists of a loaded plan, of appended commands, or of both. The meaning of commands is defined
 //! in [`crate::plan`]; this module keeps track of the next one.
 
+use estimator::SurveyedTag;
 use kinematics::Pose;
 
 use crate::agent::ApproachSettings;
@@ -23,7 +24,10 @@ impl Due {
     pub fn is_corrected(&self) -> bool {
         match self.order {
             AgentOrder::GoTo(target) => target.is_corrected(),
-            AgentOrder::TakeOff | AgentOrder::Land => false,
+            AgentOrder::TakeOff
+            | AgentOrder::Land
+            | AgentOrder::FindTag
+            | AgentOrder::LandOnTag => false,
         }
     }
 }
@@ -52,6 +56,7 @@ pub struct AppendError {
 pub struct Mission {
     limits: FlightLimits,
     steps: Vec<Step>,
+    tags: Vec<SurveyedTag>,
     next: usize,
     interpreter: Interpreter,
 }
@@ -59,11 +64,18 @@ pub struct Mission {
 impl Mission {
     /// An empty mission within this fence.
     pub fn new(limits: FlightLimits) -> Self {
-        Self { limits, steps: Vec::new(), next: 0, interpreter: Interpreter::new(limits) }
+        Self {
+            limits,
+            steps: Vec::new(),
+            tags: Vec::new(),
+            next: 0,
+            interpreter: Interpreter::new(limits),
+        }
     }
 
     /// Replaces the mission by a plan. The origin of coordinates is kept while the drone is `airborne`.
     pub fn load(&mut self, plan: Plan, airborne: bool) {
+        self.tags = plan.tags().to_vec();
         self.steps = plan.into_steps();
         self.next = 0;
         self.interpreter =
@@ -111,6 +123,7 @@ impl Mission {
     /// Removes all steps. The reference and the settings are kept.
     pub fn clear(&mut self) {
         self.steps.clear();
+        self.tags.clear();
         self.next = 0;
     }
 
@@ -118,6 +131,11 @@ impl Mission {
     pub fn rewind(&mut self) {
         self.next = 0;
         self.interpreter = Interpreter::new(self.limits);
+    }
+
+    /// The tags that the loaded plan declares.
+    pub fn tags(&self) -> &[SurveyedTag] {
+        &self.tags
     }
 
     /// All steps in order.
@@ -151,6 +169,11 @@ impl Mission {
     /// The take-off has ended with the drone at `pose`. Call this before the mission advances.
     pub fn take_off_ended(&mut self, pose: &Pose) {
         self.interpreter.take_off_ended(pose);
+    }
+
+    /// A search for a tag has ended with the drone at `pose`, which is held.
+    pub fn stopped_at(&mut self, pose: &Pose) {
+        self.interpreter.stopped_at(pose);
     }
 
     /// The nearest place inside the fence, at least `by_m` from its edge.

@@ -158,14 +158,15 @@ impl Deviation {
                 self.reference = Reference::Pose(here());
                 return None;
             }
-            Command::Land => {
+            Command::Land | Command::LandOnTag => {
                 self.target.z_m = 0.0;
                 return None;
             }
             Command::SetReachDistance { .. }
             | Command::SetStayDistance { .. }
             | Command::SetStayTime { .. }
-            | Command::SetMaxControl { .. } => return None,
+            | Command::SetMaxControl { .. }
+            | Command::FindTag => return None,
         };
         let printed = expected.target.unwrap();
         assert_eq!(printed, expected.place);

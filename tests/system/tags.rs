@@ -102,8 +102,9 @@ fn it_does_so_on_a_hard_day_too() {
 
 #[test]
 fn a_tag_that_comes_back_does_not_jolt_the_drone() {
-    let (quiet, _) = hover(1, false, "");
-    let (kept, _) = hover(1, false, "+60 tag-gone 1\n+180 tag 0.05 -0.05 120");
+    let (quiet, _) = hover(6, false, "");
+    // Not for so long that it looks for it.
+    let (kept, _) = hover(6, false, "+60 tag-gone 1\n+125 tag 0.05 -0.05 120");
     assert!(kept.estimate_worst_m > 0.2, "it had drifted: {kept:?}");
     assert!(kept.jolt_m_s < quiet.jolt_m_s + 0.02, "{kept:?}, and without {quiet:?}");
 }

@@ -109,6 +109,12 @@ pub(super) struct CheckPlan {
     /// Where z = 0 of the plan is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     pub(super) z_origin: ZOrigin,
+    /// The flight will use tags
+    #[arg(long)]
+    pub(super) tags: bool,
+    /// A tag whose place is known, as when flying
+    #[arg(long, value_name = "X,Y[,HEADING]", allow_hyphen_values = true)]
+    pub(super) tag: Vec<GivenTag>,
     /// Draw the way from above and its height to this file
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,

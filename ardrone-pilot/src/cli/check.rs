@@ -3,7 +3,8 @@
 use std::fmt;
 use std::time::Duration;
 
-use autopilot::plan::{Expectation, FlightLimits, Plan, battery_percent};
+use autopilot::plan::{Expectation, FlightLimits, Plan, TagUse, battery_percent};
+use autopilot::vehicle::SurveyedTag;
 use diagnostic::{Diagnostic, Severity, Source, line_column, render_all};
 use kinematics::Pose;
 use serde_json::{Value, json};
@@ -13,16 +14,28 @@ use super::{CommandError, terminal};
 use crate::json;
 use crate::plan_drawing;
 use crate::recording::Place;
+use crate::settings::GivenTag;
 
 /// Checks a plan, prints the findings, and draws it if asked to. The exit status is 20 for a plan that cannot
 /// be flown.
 pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
-    let settings = super::read_settings(arguments.config.as_deref())?;
+    let mut settings = super::read_settings(arguments.config.as_deref())?;
+    if arguments.tags || !arguments.tag.is_empty() {
+        settings.use_tags(&arguments.tag)?;
+    }
     let limits = settings.pilot_config(arguments.z_origin.into()).limits;
     let text = super::read("the plan", &arguments.plan)?;
     let name = arguments.plan.display().to_string();
     let source = Source { name: &name, text: &text };
-    let (plan, mut diagnostics) = Plan::review(&text, &limits);
+    let surveyed = settings.surveyed_tags().map(|tags| {
+        let surveyed = |tag: &GivenTag| SurveyedTag {
+            place_m: tag.place_m.into(),
+            heading_deg: tag.heading_deg,
+        };
+        tags.iter().map(surveyed).collect::<Vec<_>>()
+    });
+    let tags = surveyed.as_deref().map_or(TagUse::Off, TagUse::On);
+    let (plan, mut diagnostics) = Plan::review_with_tags(&text, &limits, tags);
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
     let checked = plan.as_ref().map(|plan| Checked::new(plan, &limits));
     let printed = if arguments.json {

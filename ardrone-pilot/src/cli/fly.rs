@@ -27,13 +27,17 @@ use crate::settings::{GivenTag, Settings};
 use crate::timing::TimingReport;
 
 /// The simulated drone finds its tags where they are said to be, and one below its start if none is.
-fn mock_world(settings: &Settings) -> WorldConfig {
+fn mock_world(settings: &Settings, plan: Option<&Plan>) -> WorldConfig {
     let mut world = WorldConfig::default();
     let Some(surveyed) = settings.surveyed_tags() else { return world };
     for GivenTag { place_m: [x, y], heading_deg } in &surveyed {
         world.tags.push(FloorTag::new(*x, *y, heading_deg.unwrap_or(0.0)));
     }
-    if surveyed.is_empty() {
+    for tag in plan.iter().flat_map(|plan| plan.tags()) {
+        let heading_deg = tag.heading_deg.unwrap_or(0.0);
+        world.tags.push(FloorTag::new(tag.place_m.x, tag.place_m.y, heading_deg));
+    }
+    if world.tags.is_empty() {
         world.tags.push(FloorTag::new(0.0, 0.0, 0.0));
     }
     world
@@ -65,8 +69,11 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     for note in plan.iter().flat_map(Plan::notes) {
         progress.print_line(&format!("note: {note}"));
     }
+    if plan.as_ref().is_some_and(Plan::uses_tags) && settings.surveyed_tags().is_none() {
+        progress.print_line("note: the plan asks for tags, but they are not in use: add --tags");
+    }
     let mock = if arguments.mock {
-        Some(MockDrone::start(&mock_world(&settings), Ports::LOOPBACK)?)
+        Some(MockDrone::start(&mock_world(&settings, plan.as_ref()), Ports::LOOPBACK)?)
     } else {
         None
     };

@@ -13,7 +13,7 @@ const ORDERS: [&str; 12] = [
     "quit", "help",
 ];
 /// Commands of the plan language, for completion.
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 15] = [
     "takeoff",
     "goto",
     "moveBy",
@@ -23,6 +23,8 @@ const COMMANDS: [&str; 13] = [
     "setStayWithinDist",
     "setStayTime",
     "setMaxControl",
+    "findTag",
+    "landOnTag",
     "clearCommands",
     "autoInit",
     "autoTakeover",
@@ -32,7 +34,7 @@ const COMMANDS: [&str; 13] = [
 /// Summary of the orders.
 pub(super) const HELP: &str = "load FILE, start, hold, resume, clear, land, cut, recover (after an \
     emergency), release (the controls), quit; anything else is appended to the mission: takeoff, \
-    goto x y z yaw, moveBy, moveByRel, setReference, setStayTime, ...; `append land` appends a landing";
+    goto x y z yaw, moveBy, moveByRel, setReference, setStayTime, findTag, landOnTag, ...; `append land` appends a landing";
 
 /// Why a typed line was not carried out.
 #[derive(Debug, thiserror::Error)]

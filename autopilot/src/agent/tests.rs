@@ -1,6 +1,9 @@
 //! The agent's decisions, step by step.
 
+mod tags;
+
 use super::*;
+use crate::plan::ZOrigin;
 
 const GROUND: Percepts = Percepts {
     now_ms: 0,
@@ -14,12 +17,15 @@ const GROUND: Percepts = Percepts {
     wind: 0.0,
     steering: false,
     settings: ApproachSettings { reach_distance_m: 0.2, stay_distance_m: 0.5, stay_time_ms: 2000 },
+    speed_m_s: 0.0,
+    fence: FlightLimits { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover },
+    tags: None,
 };
 const HOVERING: Percepts = Percepts { on_ground: false, hovering: true, ..GROUND };
 const TARGET: Pose = Pose { x_m: 1.0, y_m: 0.0, z_m: 0.0, yaw_deg: 0.0 };
 
 /// The state is all the memory that the agent uses; this limit makes its growth visible.
-const _: () = assert!(STATE_BYTES <= 552);
+const _: () = assert!(STATE_BYTES <= 1024);
 
 /// An agent and its percepts.
 struct Bench {

@@ -125,18 +125,24 @@ struct Check<'a> {
 
 impl Check<'_> {
     fn step(&mut self, command: Command, span: &Span) {
-        if let Some(AgentOrder::GoTo(target)) = self.run.step(command) {
-            self.target(&target.wanted, span);
-        }
-    }
-
-    fn target(&mut self, target: &Pose, span: &Span) {
-        if !self.run.is_airborne() {
+        let was_airborne = self.run.is_airborne();
+        let order = self.run.step(command);
+        let flies = matches!(
+            order,
+            Some(AgentOrder::GoTo(_) | AgentOrder::FindTag | AgentOrder::LandOnTag)
+        );
+        if flies && !was_airborne {
             self.diagnostics.push(
                 Diagnostic::error("the drone is on the ground here", span.clone())
                     .help("put `takeoff` before it"),
             );
         }
+        if let Some(AgentOrder::GoTo(target)) = order {
+            self.target(&target.wanted, span);
+        }
+    }
+
+    fn target(&mut self, target: &Pose, span: &Span) {
         let away_m = target.x_m.hypot(target.y_m);
         if away_m > self.limits.radius_m + FlightLimits::TOLERANCE_M {
             self.diagnostics.push(

@@ -26,6 +26,10 @@ impl Commands {
             diagnostics
                 .push(Diagnostic::error("no command", 0..0).help("write one, as `goto 0 1 0 0`"));
         }
+        diagnostics.extend(lines.iter().filter(|line| line.tag.is_some()).map(|line| {
+            Diagnostic::error("`tag` is not a command for a flight", line.span.clone())
+                .help("put it into a plan, before its take-off")
+        }));
         if !diagnostics.is_empty() {
             return Err(PlanError::new(name, text, &diagnostics));
         }

@@ -1,6 +1,7 @@
 //! Execution of a plan without a drone.
 
 use kinematics::Pose;
+use nalgebra::Vector2;
 
 use super::interpreter::{AgentOrder, Interpreter};
 use super::{Command, FlightLimits};
@@ -12,17 +13,33 @@ pub(crate) struct DryRun {
     interpreter: Interpreter,
     place: Pose,
     airborne: bool,
+    /// Where tags lie whose place is known.
+    tags_m: Vec<Vector2<f64>>,
 }
 
 impl DryRun {
     pub(crate) fn new(limits: &FlightLimits) -> Self {
         let interpreter = Interpreter::new(*limits);
-        Self { interpreter, place: Pose::default(), airborne: false }
+        Self { interpreter, place: Pose::default(), airborne: false, tags_m: Vec::new() }
     }
 
     /// A run that continues from `place`.
     pub(crate) fn from_here(interpreter: Interpreter, place: Pose, airborne: bool) -> Self {
-        Self { interpreter, place, airborne }
+        Self { interpreter, place, airborne, tags_m: Vec::new() }
+    }
+
+    /// The same run with tags at these places, right and forward of the start.
+    #[must_use]
+    pub(super) fn with_tags(mut self, tags_m: impl IntoIterator<Item = Vector2<f64>>) -> Self {
+        self.tags_m.extend(tags_m);
+        self
+    }
+
+    /// The tag that is nearest to the drone, of those whose place is known.
+    pub(super) fn nearest_tag_m(&self) -> Option<Vector2<f64>> {
+        let here_m = Vector2::new(self.place.x_m, self.place.y_m);
+        let far = |tag_m: &Vector2<f64>| (tag_m - here_m).norm();
+        self.tags_m.iter().copied().min_by(|a, b| far(a).total_cmp(&far(b)))
     }
 
     /// Moves the drone to the end of what it is doing.
@@ -50,7 +67,14 @@ impl DryRun {
                 self.interpreter.take_off_ended(&self.place);
             }
             AgentOrder::GoTo(target) => self.place = target.pose,
-            AgentOrder::Land => {
+            // A tag is seen where the drone is.
+            AgentOrder::FindTag => self.interpreter.stopped_at(&self.place),
+            AgentOrder::Land | AgentOrder::LandOnTag => {
+                if order == AgentOrder::LandOnTag
+                    && let Some(tag_m) = self.nearest_tag_m()
+                {
+                    (self.place.x_m, self.place.y_m) = (tag_m.x, tag_m.y);
+                }
                 self.airborne = false;
                 self.place.z_m = 0.0;
             }

@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
+use estimator::SurveyedTag;
 use kinematics::{Pose, wrap_deg};
+use nalgebra::Vector2;
 
 use super::dry_run::DryRun;
 use super::interpreter::AgentOrder;
@@ -30,6 +32,10 @@ pub struct Expectation {
 const TAKE_OFF_S: f64 = 3.2;
 /// The drone's own landing: seconds before it sinks, and its rate of descent.
 const LANDING_S: f64 = 1.2;
+/// A search for a tag: it may be seen at once, or be searched for in vain.
+const SEARCH_S: f64 = 15.0;
+/// Settling above a tag before the descent.
+const SETTLING_S: f64 = 3.0;
 const LANDING_M_S: f64 = 0.45;
 /// Duration of a leg: a constant part for acceleration and braking, and a speed. Fitted to flights of the
 /// `rec` airframe over 1 to 8 m, 1 to 1.4 m up and down, 90° and 180°.
@@ -54,6 +60,17 @@ impl Expectations {
         Self { run: DryRun::new(limits) }
     }
 
+    /// The same with tags at these places.
+    #[must_use]
+    pub(super) fn with_tags(self, tags: &[SurveyedTag]) -> Self {
+        Self { run: self.run.with_tags(tags.iter().map(|tag| tag.place_m)) }
+    }
+
+    /// The tag that is nearest to the drone, of those whose place is known.
+    pub(super) fn nearest_tag_m(&self) -> Option<Vector2<f64>> {
+        self.run.nearest_tag_m()
+    }
+
     /// Pose after the last command.
     pub(super) fn place(&self) -> Pose {
         self.run.place()
@@ -74,6 +91,14 @@ impl Expectations {
             Some(AgentOrder::TakeOff) if was_airborne => (0.0, 0.0),
             Some(AgentOrder::TakeOff) => (place.z_m, TAKE_OFF_S),
             Some(AgentOrder::Land) => (before.z_m, LANDING_S + before.z_m / LANDING_M_S),
+            Some(AgentOrder::FindTag) => (0.0, SEARCH_S),
+            Some(AgentOrder::LandOnTag) => {
+                let above = Pose { z_m: before.z_m, ..place };
+                let (leg_m, time_s) = leg(&before, &above, self.run.interpreter().max_control());
+                target = Some(above);
+                let down_s = LANDING_S + before.z_m / LANDING_M_S;
+                (leg_m + before.z_m, time_s + SETTLING_S + down_s)
+            }
             Some(AgentOrder::GoTo(to)) => {
                 (target, outside) = (Some(to.pose), to.is_corrected());
                 stay_s = self.settings().stay_time_ms as f64 / 1000.0;
@@ -95,7 +120,8 @@ impl Expectations {
 impl Plan {
     /// Expected course of each step, in the order of [`Plan::steps`].
     pub fn expectations(&self, limits: &FlightLimits) -> Vec<Expectation> {
-        expectations(self.steps(), limits)
+        let mut expectations = Expectations::new(limits).with_tags(&self.tags);
+        self.steps().iter().map(|step| expectations.step(step.command)).collect()
     }
 
     /// Expected duration of the flight.

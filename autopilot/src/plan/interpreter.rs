@@ -21,6 +21,10 @@ pub enum AgentOrder {
     GoTo(Target),
     /// Land.
     Land,
+    /// Look for a tag until one is seen.
+    FindTag,
+    /// Land on the nearest tag.
+    LandOnTag,
 }
 
 /// A target of a plan, in the estimator's frame.
@@ -83,6 +87,8 @@ impl Interpreter {
         match command {
             Command::TakeOff { .. } => return Some(AgentOrder::TakeOff),
             Command::Land => return Some(AgentOrder::Land),
+            Command::FindTag => return Some(AgentOrder::FindTag),
+            Command::LandOnTag => return Some(AgentOrder::LandOnTag),
             Command::GoTo(to) => return Some(self.go_to(self.reference(), to)),
             Command::MoveBy(by) => return Some(self.go_to(self.target, by)),
             Command::MoveByRelative(by) => return Some(self.go_to(*pose, by)),
@@ -110,6 +116,11 @@ impl Interpreter {
     pub(crate) fn take_off_ended(&mut self, pose: &Pose) {
         let origin = Pose { z_m: self.limits.origin_height_m(pose.z_m), ..*pose };
         self.origin.get_or_insert(origin);
+        self.target = *pose;
+    }
+
+    /// The drone has stopped at `pose`, which is held, and from which `moveBy` counts.
+    pub(crate) fn stopped_at(&mut self, pose: &Pose) {
         self.target = *pose;
     }
 
@@ -178,8 +189,8 @@ mod tests {
                     pose = target.pose;
                     last = Some(target);
                 }
-                Some(AgentOrder::Land) => pose.z_m = 0.0,
-                None => {}
+                Some(AgentOrder::Land | AgentOrder::LandOnTag) => pose.z_m = 0.0,
+                Some(AgentOrder::FindTag) | None => {}
             }
         }
         last.unwrap()

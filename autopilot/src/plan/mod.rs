@@ -16,9 +16,11 @@ mod dry_run;
 mod expectation;
 mod interpreter;
 mod parser;
+mod tags;
 mod warnings;
 
 use diagnostic::{Diagnostic, Severity};
+use estimator::SurveyedTag;
 use kinematics::Pose;
 
 pub use check::{FlightLimits, ZOrigin};
@@ -28,6 +30,7 @@ pub(crate) use expectation::expected_time;
 pub use expectation::{Expectation, battery_percent, expectations};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::{AgentOrder, Target};
+pub use tags::{LOOK_AROUND_M, TagUse};
 
 /// A flight plan without errors.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +38,7 @@ pub struct Plan {
     name: String,
     text: String,
     steps: Vec<Step>,
+    tags: Vec<SurveyedTag>,
     notes: Vec<String>,
 }
 
@@ -59,6 +63,10 @@ pub enum Command {
     },
     /// `land`
     Land,
+    /// `findTag`: look for a tag on the floor.
+    FindTag,
+    /// `landOnTag`: land on the nearest tag.
+    LandOnTag,
     /// `goto x y z yaw`: to a pose relative to the reference.
     GoTo(Pose),
     /// `moveBy x y z yaw`: from the current target.
@@ -135,6 +143,15 @@ impl Plan {
     /// Parses a plan, refuses targets outside `limits`, and warns of what is legal but unwise. The plan is
     /// `Some` iff no finding is an error.
     pub fn review(text: &str, limits: &FlightLimits) -> (Option<Self>, Vec<Diagnostic>) {
+        Self::review_with_tags(text, limits, TagUse::Unknown)
+    }
+
+    /// As [`Plan::review`], for a flight that uses tags, or does not.
+    pub fn review_with_tags(
+        text: &str,
+        limits: &FlightLimits,
+        tags: TagUse<'_>,
+    ) -> (Option<Self>, Vec<Diagnostic>) {
         let (lines, mut diagnostics) = parser::parse(text);
         let mut notes: Vec<String> = lines.iter().filter_map(parser::note).collect();
         let mut lines = parser::clear_commands(lines);
@@ -146,16 +163,21 @@ impl Plan {
             diagnostics = check::check(&lines, text, limits);
         }
         diagnostics.extend(warnings::warnings(&lines, limits));
+        diagnostics.extend(tags::findings(&lines, limits, tags));
         if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
             return (None, diagnostics);
         }
+        let tags = lines.iter().filter_map(|line| line.tag).collect();
         let mut steps: Vec<Step> = lines.into_iter().filter_map(parser::Line::into_step).collect();
-        if steps.last().is_some_and(|step| step.command != Command::Land) {
+        if steps
+            .last()
+            .is_some_and(|step| !matches!(step.command, Command::Land | Command::LandOnTag))
+        {
             notes.push("the plan does not end with `land`: the drone will land".to_owned());
             steps.push(Step { command: Command::Land, line: 0, text: "land".to_owned() });
         }
         let (name, text) = (String::new(), text.to_owned());
-        (Some(Self { name, text, steps, notes }), diagnostics)
+        (Some(Self { name, text, steps, tags, notes }), diagnostics)
     }
 
     /// The name given to [`Plan::parse`].
@@ -171,6 +193,17 @@ impl Plan {
     /// The commands in order.
     pub fn steps(&self) -> &[Step] {
         &self.steps
+    }
+
+    /// The tags that it declares, right and forward of the start.
+    pub fn tags(&self) -> &[SurveyedTag] {
+        &self.tags
+    }
+
+    /// Whether it needs tags: it declares some, looks for one or lands on one.
+    pub fn uses_tags(&self) -> bool {
+        let needs = |step: &Step| matches!(step.command, Command::FindTag | Command::LandOnTag);
+        !self.tags.is_empty() || self.steps.iter().any(needs)
     }
 
     /// Notes for the operator before the flight.

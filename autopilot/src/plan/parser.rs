@@ -1,7 +1,9 @@
 //! Parses the lines of a plan.
 
 use diagnostic::{Diagnostic, Span, closest};
+use estimator::SurveyedTag;
 use kinematics::Pose;
+use nalgebra::Vector2;
 
 use super::{Command, Step};
 
@@ -19,6 +21,8 @@ pub(super) struct Line {
     pub(super) text: String,
     /// `None` for a keyword without effect in flight.
     pub(super) command: Option<Command>,
+    /// The tag that a `tag` declares, which is no step.
+    pub(super) tag: Option<SurveyedTag>,
     keyword: Keyword,
 }
 
@@ -47,6 +51,9 @@ enum Keyword {
     SetStayWithinDist,
     SetStayTime,
     SetMaxControl,
+    Tag,
+    FindTag,
+    LandOnTag,
     ClearCommands,
     AutoInit,
     AutoTakeover,
@@ -55,7 +62,7 @@ enum Keyword {
 
 impl Keyword {
     /// All keywords. One that is missing here is never constructed, which the compiler reports as dead code.
-    const ALL: [Self; 14] = [
+    const ALL: [Self; 17] = [
         Self::TakeOff,
         Self::Land,
         Self::GoTo,
@@ -66,6 +73,9 @@ impl Keyword {
         Self::SetStayWithinDist,
         Self::SetStayTime,
         Self::SetMaxControl,
+        Self::Tag,
+        Self::FindTag,
+        Self::LandOnTag,
         Self::ClearCommands,
         Self::AutoInit,
         Self::AutoTakeover,
@@ -85,6 +95,9 @@ impl Keyword {
             Self::SetStayWithinDist => "setStayWithinDist",
             Self::SetStayTime => "setStayTime",
             Self::SetMaxControl => "setMaxControl",
+            Self::Tag => "tag",
+            Self::FindTag => "findTag",
+            Self::LandOnTag => "landOnTag",
             Self::ClearCommands => "clearCommands",
             Self::AutoInit => "autoInit",
             Self::AutoTakeover => "autoTakeover",
@@ -95,7 +108,13 @@ impl Keyword {
     /// Its arguments, for messages.
     fn usage(self) -> &'static str {
         match self {
-            Self::TakeOff | Self::Land | Self::ClearCommands | Self::LockScaleFp => "",
+            Self::TakeOff
+            | Self::Land
+            | Self::FindTag
+            | Self::LandOnTag
+            | Self::ClearCommands
+            | Self::LockScaleFp => "",
+            Self::Tag => "x y` or `tag x y heading",
             Self::GoTo | Self::MoveBy | Self::MoveByRel => "x y z yaw",
             Self::SetReference => "x y z yaw` or `setReference $POSE$",
             Self::SetInitialReachDist | Self::SetStayWithinDist => "metres",
@@ -144,7 +163,10 @@ pub(super) fn note(line: &Line) -> Option<String> {
         | Keyword::SetInitialReachDist
         | Keyword::SetStayWithinDist
         | Keyword::SetStayTime
-        | Keyword::SetMaxControl => return None,
+        | Keyword::SetMaxControl
+        | Keyword::Tag
+        | Keyword::FindTag
+        | Keyword::LandOnTag => return None,
     };
     Some(format!("line {}: `{}` {meaning}", line.number, line.keyword.name()))
 }
@@ -173,12 +195,17 @@ fn parse_line(raw: &str, start: usize, number: usize) -> Result<Option<Line>, Di
     let known = Keyword::ALL.into_iter().find(|keyword| keyword.name() == command.text);
     let Some(keyword) = known else { return Err(unknown(&command)) };
     let end = arguments.last().map_or(command.span.end, |last| last.span.end);
-    let parsed = Arguments { keyword, command: &command, words: &arguments }.command()?;
+    let arguments = Arguments { keyword, command: &command, words: &arguments };
+    let (parsed, tag) = match keyword {
+        Keyword::Tag => (None, Some(arguments.tag()?)),
+        _ => (arguments.command()?, None),
+    };
     Ok(Some(Line {
         number,
         span: command.span.start..end,
         text: code.split_whitespace().collect::<Vec<_>>().join(" "),
         command: parsed,
+        tag,
         keyword,
     }))
 }
@@ -229,9 +256,11 @@ impl Arguments<'_> {
             Keyword::SetMaxControl => Command::SetMaxControl { fraction: self.one(0.05, 1.0)? },
             Keyword::AutoInit => self.numbers(Command::TakeOff { take_over: false })?,
             Keyword::AutoTakeover => self.numbers(Command::TakeOff { take_over: true })?,
-            // The first is handled by `clear_commands`; the second belongs to visual mapping, which is not
-            // supported.
-            Keyword::ClearCommands | Keyword::LockScaleFp => {
+            Keyword::FindTag => self.none(Command::FindTag)?,
+            Keyword::LandOnTag => self.none(Command::LandOnTag)?,
+            // A tag is no step; `clearCommands` is handled by `clear_commands`; `lockScaleFP` belongs to visual
+            // mapping, which is not supported.
+            Keyword::Tag | Keyword::ClearCommands | Keyword::LockScaleFp => {
                 self.count(0)?;
                 return Ok(None);
             }
@@ -266,6 +295,21 @@ impl Arguments<'_> {
             y_m: metres(y)?,
             z_m: metres(z)?,
             yaw_deg: self.in_range(yaw, -MAX_ANGLE_DEG, MAX_ANGLE_DEG)?,
+        })
+    }
+
+    /// Right and forward of the start, and the heading if it was measured.
+    fn tag(&self) -> Result<SurveyedTag, Diagnostic> {
+        let metres = |word| self.in_range(word, -MAX_DISTANCE_M, MAX_DISTANCE_M);
+        let (x, y, heading) = match self.words {
+            [x, y] => (x, y, None),
+            [x, y, heading] => (x, y, Some(heading)),
+            _ => return Err(self.usage_error()),
+        };
+        let degrees = heading.map(|word| self.in_range(word, -360.0, 360.0));
+        Ok(SurveyedTag {
+            place_m: Vector2::new(metres(x)?, metres(y)?),
+            heading_deg: degrees.transpose()?,
         })
     }
 

@@ -78,6 +78,8 @@ impl Review<'_> {
             | Command::SetReferenceHere
             | Command::TakeOff { .. }
             | Command::Land
+            | Command::FindTag
+            | Command::LandOnTag
             | Command::GoTo(_)
             | Command::MoveBy(_)
             | Command::MoveByRelative(_) => {}
@@ -140,7 +142,13 @@ impl Review<'_> {
         let before = self.diagnostics.len();
         for line in lines.iter().rev() {
             match line.command {
-                Some(Command::GoTo(_) | Command::MoveBy(_) | Command::MoveByRelative(_)) => break,
+                Some(
+                    Command::GoTo(_)
+                    | Command::MoveBy(_)
+                    | Command::MoveByRelative(_)
+                    | Command::FindTag
+                    | Command::LandOnTag,
+                ) => break,
                 Some(
                     Command::SetReachDistance { .. }
                     | Command::SetStayDistance { .. }

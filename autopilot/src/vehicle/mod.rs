@@ -104,6 +104,8 @@ const CONFIGURE_TIMEOUT: Duration = Duration::from_secs(25);
 const SETTLE_TIME: Duration = Duration::from_millis(500);
 /// After this time a landing is no longer awaited, and the flight ends without one.
 const LANDING_TIMEOUT: Duration = Duration::from_secs(30);
+/// Likewise for a landing on a tag, which may begin with a search of 30 s and settling above the tag for 20 s.
+const TAG_LANDING_TIMEOUT: Duration = Duration::from_secs(90);
 /// After a link loss, landing is ordered without navdata for this time.
 const BLIND_LANDING_TIME: Duration = Duration::from_secs(4);
 /// Event queue capacity; preallocated, because a tick must not allocate.
@@ -226,7 +228,7 @@ impl Vehicle {
 
     /// Resets the state of the last flight.
     fn begin_flight(&mut self, now: Duration) {
-        self.flight = Flight::new(&self.config, now);
+        self.flight = Flight::new(&self.with_mission_tags(), now);
         self.pending.waypoints = 0;
         self.pending.outcome = false;
         self.mission.rewind();

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::readiness::NotReady;
 use super::{Authority, FlightEvent, FlightPhase, LandingReason, Operator, Vehicle};
+use crate::agent::AgentCommand;
 use crate::mission::{AppendError, Underway};
 use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, Commands, Plan};
@@ -228,7 +229,14 @@ impl Vehicle {
     /// Whether the drone is landing, either by order or because the mission has reached its landing step.
     fn lands(&self) -> bool {
         let step = self.flight.due.is_some_and(|active| active.due.order == AgentOrder::Land);
-        step || matches!(self.phase, FlightPhase::Landing { .. })
+        step || self.goes_down_onto_tag() || matches!(self.phase, FlightPhase::Landing { .. })
+    }
+
+    /// Whether a landing on a tag has got to the way down: before that an operator may take it back.
+    fn goes_down_onto_tag(&self) -> bool {
+        let lands = self.decision.is_some_and(|decision| decision.wanted == AgentCommand::Land);
+        self.flight.due.is_some_and(|active| active.due.order == AgentOrder::LandOnTag)
+            && (lands || self.flight.activity.is_descending())
     }
 
     fn load(&mut self, plan: Plan) {

@@ -6,7 +6,8 @@ use std::time::Duration;
 use super::readiness::NotReady;
 use super::{
     AgentOrder, Authority, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configured,
-    Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT, SETTLE_TIME, Trust, Vehicle, Veto, session,
+    Danger, FAULT_TIME, FlightEvent, LANDING_TIMEOUT, SETTLE_TIME, TAG_LANDING_TIMEOUT, Trust,
+    Vehicle, Veto, session,
 };
 use crate::outcome::Outcome;
 
@@ -262,8 +263,12 @@ impl Vehicle {
             self.land(now, LandingReason::Distrust(trust));
         }
         if let Some(active) = self.flight.due
-            && active.due.order == AgentOrder::Land
-            && now.saturating_sub(active.since) >= LANDING_TIMEOUT
+            && let Some(limit) = match active.due.order {
+                AgentOrder::Land => Some(LANDING_TIMEOUT),
+                AgentOrder::LandOnTag => Some(TAG_LANDING_TIMEOUT),
+                AgentOrder::TakeOff | AgentOrder::GoTo(_) | AgentOrder::FindTag => None,
+            }
+            && now.saturating_sub(active.since) >= limit
         {
             self.land(now, LandingReason::StepTimedOut { step: active.due.step });
         }
@@ -302,12 +307,25 @@ impl Vehicle {
         self.end(now, Outcome::PreflightRefused { reasons });
     }
 
-    /// Handles a danger reported by the agent. Except for a warning, the agent is already landing.
+    /// Handles a danger reported by the agent. Except for warnings and what concerns tags, the agent is already
+    /// landing.
     pub(super) fn endangered(&mut self, now: Duration, danger: Danger) {
         let percent = self.demo().map_or(0, |demo| demo.battery_percent);
         let reason = match danger {
             Danger::BatteryLow => {
                 self.events.push_back(FlightEvent::BatteryLow { percent });
+                return;
+            }
+            Danger::Searching => {
+                self.events.push_back(FlightEvent::SearchingTag);
+                return;
+            }
+            Danger::NoTag => {
+                self.events.push_back(FlightEvent::NoTagFound);
+                return;
+            }
+            Danger::TagLost => {
+                self.events.push_back(FlightEvent::TagLost);
                 return;
             }
             Danger::BatteryEmpty => LandingReason::Battery { percent },

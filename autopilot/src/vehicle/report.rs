@@ -57,6 +57,12 @@ pub enum FlightEvent {
         /// Remaining charge.
         percent: u32,
     },
+    /// The place has become doubtful: a tag is looked for.
+    SearchingTag,
+    /// No tag was found.
+    NoTagFound,
+    /// The tag to land on is not seen any more: the drone lands where it is.
+    TagLost,
     /// The drone's emergency state was cleared.
     EmergencyCleared,
     /// The drone is on the ground again.
@@ -124,6 +130,9 @@ impl FlightEvent {
             | Self::LinkLost
             | Self::Emergency
             | Self::BatteryLow { .. }
+            | Self::SearchingTag
+            | Self::NoTagFound
+            | Self::TagLost
             | Self::FlownByAnother
             | Self::ControlsTaken { .. }
             | Self::CutOrdered
@@ -161,6 +170,11 @@ impl fmt::Display for FlightEvent {
             Self::LinkLost => f.write_str("link lost: ordering the landing blindly"),
             Self::Emergency => f.write_str("EMERGENCY: the drone has cut its motors"),
             Self::BatteryLow { percent } => write!(f, "battery at {percent} %: land soon"),
+            Self::SearchingTag => f.write_str("the place is doubtful: looking for a tag"),
+            Self::NoTagFound => f.write_str("no tag found"),
+            Self::TagLost => {
+                f.write_str("the tag to land on is not seen any more: landing here")
+            }
             Self::EmergencyCleared => f.write_str("emergency cleared"),
             Self::Landed => f.write_str("landed"),
             Self::FlownByAnother => f.write_str(

@@ -3,10 +3,12 @@
 use std::time::Duration;
 
 use ardrone_link::navdata::{Packet, VisionDetect};
-use estimator::{MAX_SIGHTS, Sight};
+use estimator::{MAX_SIGHTS, Prediction, Sight};
 use kinematics::Pose;
+use nalgebra::Vector2;
 
-use super::Vehicle;
+use super::{Vehicle, VehicleConfig};
+use crate::agent::TagPercepts;
 
 /// The black and white roundel, with or without its direction: `ardrone_api.h`.
 const ROUNDELS: [u32; 2] = [3, 8];
@@ -57,6 +59,14 @@ impl std::ops::Deref for Sights {
     }
 }
 
+/// A tag that was seen this recently is in view.
+const IN_VIEW: Duration = Duration::from_millis(500);
+/// Displacement during the drone's own landing from 0.3 m, for the acceleration that the wind gives to a level drone:
+/// half the square of its duration of 1.2 s, less half of that, which the drone's own hold takes back.
+const LANDING_DRIFT_S2: f64 = 0.4;
+/// Largest displacement that is compensated, in metres: the wind's estimate contains the airframe's errors.
+const LARGEST_DRIFT_M: f64 = 0.3;
+
 /// How far the drone turns to and fro to learn which way orientations count, and how long once takes.
 const SWING_DEG: f64 = 8.0;
 const SWING_S: f64 = 6.0;
@@ -69,6 +79,37 @@ pub(super) struct SignSearch {
 }
 
 impl Vehicle {
+    /// What the agent is given of tags; `None` if they are not in use.
+    pub(super) fn tag_percepts(&self, now: Duration, state: &Prediction) -> Option<TagPercepts> {
+        let status = self.flight.estimator.tag_status(now)?;
+        let age = status.seen_ago.unwrap_or(now.saturating_sub(self.flight.asked_at));
+        let here_m = state.position_m.xy();
+        let nearest = self
+            .flight
+            .estimator
+            .known_tags()
+            .map(|tag| tag.place_m)
+            .min_by(|a, b| (a - here_m).norm().total_cmp(&(b - here_m).norm()));
+        Some(TagPercepts {
+            age_ms: i64::try_from(age.as_millis()).unwrap_or(i64::MAX),
+            seen: nearest.is_some() && status.seen_ago.is_some_and(|ago| ago < IN_VIEW),
+            nearest_m: nearest.map(Into::into),
+            landing_drift_m: landing_drift_m(self.flight.wind_m_s2).into(),
+        })
+    }
+
+    /// The configuration with the tags that the mission's plan declares, where tags are in use and there is room.
+    pub(super) fn with_mission_tags(&self) -> VehicleConfig {
+        let mut config = self.config.clone();
+        if let Some(tags) = &mut config.estimator.tags {
+            let free = tags.surveyed.iter_mut().filter(|slot| slot.is_none());
+            for (slot, tag) in free.zip(self.mission.tags()) {
+                *slot = Some(*tag);
+            }
+        }
+        config
+    }
+
     /// Where the plan's coordinates begin when a take-off has ended at `pose`: there, but with tags above the
     /// start, which is where their coordinates begin.
     pub(super) fn plan_origin(&self, pose: Pose) -> Pose {
@@ -89,6 +130,11 @@ impl Vehicle {
         let swing_deg = SWING_DEG * (std::f64::consts::TAU * search.time_s / SWING_S).sin();
         Pose { yaw_deg: target.yaw_deg + swing_deg, ..*target }
     }
+}
+
+/// Displacement during the drone's own landing, in metres, under this disturbance.
+fn landing_drift_m(disturbance_m_s2: Vector2<f64>) -> Vector2<f64> {
+    (disturbance_m_s2 * LANDING_DRIFT_S2).cap_magnitude(LARGEST_DRIFT_M)
 }
 
 #[cfg(test)]

@@ -153,6 +153,9 @@ impl Vehicle {
             wind: self.wind().norm(),
             steering: self.flight.manual.sticks(now).is_some(),
             settings: self.mission.settings(),
+            speed_m_s: state.velocity_m_s.xy().norm(),
+            fence: self.config.limits,
+            tags: self.tag_percepts(now, state),
         }
     }
 
@@ -224,6 +227,8 @@ impl Vehicle {
         active.offered = match active.due.order {
             AgentOrder::TakeOff => self.flight.agent.achieve_take_off(),
             AgentOrder::Land => self.flight.agent.achieve_land(),
+            AgentOrder::FindTag => self.flight.agent.achieve_find_tag(),
+            AgentOrder::LandOnTag => self.flight.agent.achieve_land_on_tag(),
             AgentOrder::GoTo(Target { pose, .. }) => {
                 self.flight.agent.achieve_go_to(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg)
             }
@@ -283,7 +288,10 @@ impl Vehicle {
                 };
                 self.flight.report.waypoints.push(waypoint);
             }
-            AgentOrder::Land => self.flight.report.landed_at = Some(now),
+            AgentOrder::FindTag => self.mission.stopped_at(&pose),
+            AgentOrder::Land | AgentOrder::LandOnTag => {
+                self.flight.report.landed_at = Some(now);
+            }
         }
         self.events.push_back(FlightEvent::StepDone { step: active.due.step });
     }

@@ -54,7 +54,7 @@ const fn c(
 }
 
 /// All mutants.
-pub(super) const MUTANTS: [Mutant; 52] = [
+pub(super) const MUTANTS: [Mutant; 65] = [
     agent(
         "a failure plan sends no command",
         "-!wait <- !goDown; !comeDown.",
@@ -268,8 +268,8 @@ pub(super) const MUTANTS: [Mutant; 52] = [
     ),
     agent(
         "each order to land begins a new descent",
-        "\n    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit",
-        "",
+        "\n    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit\n    & position",
+        "\n    & position",
         "a_descent_ends",
     ),
     agent(
@@ -322,8 +322,8 @@ pub(super) const MUTANTS: [Mutant; 52] = [
     ),
     agent(
         "a blind descent waits with an empty battery",
-        "<- !watch;\n     sendPause;",
-        "<- sendPause;",
+        "<- !watch;\n     sendPause;\n     !comeDown.",
+        "<- sendPause;\n     !comeDown.",
         "empty_battery_lands",
     ),
     agent(
@@ -349,6 +349,84 @@ pub(super) const MUTANTS: [Mutant; 52] = [
         "@danger_taking_over[req(\"SAF-4\"), req(\"SAF-5\")]\n-!takeOff <- !goDown; !comeDown.",
         "",
         "nothing_is_lost",
+    ),
+    agent(
+        "a search may take weeks",
+        "searchTime(30000).",
+        "searchTime(2000000000).",
+        "a_search_ends",
+    ),
+    agent(
+        "a search does not look at the time",
+        "+!search(Then) : searchingFor(Time) & searchTime(Limit) & Time > Limit\n    | battery",
+        "+!search(Then) : battery",
+        "a_search_ends",
+    ),
+    agent(
+        "a search takes the reserve of charge",
+        "searchBattery(20).",
+        "searchBattery(13).",
+        "a_search_keeps_a_reserve",
+    ),
+    agent(
+        "a search begins with any charge",
+        "    | battery(Percent) & searchBattery(Least) & Percent <= Least\n    | fenceRoom(Room) & not Room >= 0.0\n  <- sendHover.",
+        "    | fenceRoom(Room) & not Room >= 0.0\n  <- sendHover.",
+        "a_search_keeps_a_reserve",
+    ),
+    agent(
+        "a search goes on outside the fence",
+        "    | fenceRoom(Room) & not Room >= 0.0\n  <- !watch;",
+        "  <- !watch;",
+        "a_search_stays_inside",
+    ),
+    agent(
+        "a search begins outside the fence",
+        "    | fenceRoom(Room) & not Room >= 0.0\n  <- sendHover.",
+        "  <- sendHover.",
+        "a_search_stays_inside",
+    ),
+    agent(
+        "a tag that is lost is waited for",
+        "  <- tellTagLost;\n     reportFailed;\n     !goDown;\n     !comeDown.",
+        "  <- tellTagLost;\n     reportFailed;\n     sendHover;\n     !!wait.",
+        "a_landing_on_a_tag_goes_on",
+    ),
+    agent(
+        "above a tag in danger it hovers",
+        "-!overTag <- !goDown; !comeDown.",
+        "-!overTag <- sendHover; !!wait.",
+        "a_landing_on_a_tag_goes_on",
+    ),
+    agent(
+        "settling above a tag may take weeks",
+        "overTagTime(20000).",
+        "overTagTime(2000000000).",
+        "settling_above_a_tag_ends",
+    ),
+    agent(
+        "a descent onto a tag climbs again when the tag is lost",
+        "     tellTagLost;\n     reportFailed;\n     sendLand;\n     !comeDown.",
+        "     tellTagLost;\n     reportFailed;\n     sendHover;\n     !!wait.",
+        "descending_goes_on",
+    ),
+    agent(
+        "a descent onto a tag is not remembered",
+        "  <- +comingDown;\n     +target(X, Y, Z, Yaw);\n     sendDescent(X, Y, Z, Yaw);",
+        "  <- +target(X, Y, Z, Yaw);\n     sendDescent(X, Y, Z, Yaw);",
+        "descending_goes_on",
+    ),
+    agent(
+        "a descent onto a tag may take weeks",
+        "@too_long_onto_tag[req(\"SAF-2\"), req(\"SAF-7\")]\n+!ontoTag : descendingFor(Time) & comingDownTime(Limit) & Time > Limit\n  <- -target(_, _, _, _);\n     sendLand;\n     !comeDown.\n",
+        "",
+        "a_descent_ends",
+    ),
+    agent(
+        "each landing on a tag begins a new descent",
+        "\n    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit & X = landingX",
+        "\n    & X = landingX",
+        "a_descent_ends",
     ),
     c(
         "the C forgets a landing order",

@@ -1,0 +1,76 @@
+//! What the drone is doing, and for how long.
+
+/// Activities of the drone whose duration the agent limits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pursuit {
+    TakingOff,
+    Approaching,
+    Searching,
+    OverTag,
+    Staying,
+    Descending,
+}
+
+/// The drone's current activity and its duration. The agent has no clock of its own and gets these durations
+/// as percepts. A hover in between does not end the activity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Activity {
+    /// The activity, and the time of its first command in milliseconds.
+    pub(super) pursuit: Option<(Pursuit, i64)>,
+    /// Duration of the approach before the target was last reached. Without it, a drone that keeps reaching
+    /// its target and drifting away would never exceed the time limit.
+    pub(super) approached_ms: i64,
+    /// Duration of the stay before it was interrupted by a search for a tag.
+    stayed_ms: i64,
+    /// Time of the last command of a search, in milliseconds.
+    searched_ms: Option<i64>,
+}
+
+impl Activity {
+    /// Duration of this activity in milliseconds; 0 if another one is current.
+    pub(super) fn lasted_ms(self, pursuit: Pursuit, now_ms: i64) -> i64 {
+        let Some((current, since_ms)) = self.pursuit else { return 0 };
+        let lasted_ms = now_ms.saturating_sub(since_ms);
+        match pursuit {
+            _ if current != pursuit => 0,
+            Pursuit::Approaching => lasted_ms.saturating_add(self.approached_ms),
+            Pursuit::Staying => lasted_ms.saturating_add(self.stayed_ms),
+            Pursuit::TakingOff | Pursuit::Searching | Pursuit::OverTag | Pursuit::Descending => {
+                lasted_ms
+            }
+        }
+    }
+
+    /// Whether the agent is coming down to land.
+    pub(crate) fn is_descending(&self) -> bool {
+        self.pursuit.is_some_and(|(pursuit, _)| pursuit == Pursuit::Descending)
+    }
+
+    /// Time since the last search for a tag in milliseconds.
+    pub(super) fn searched_ago_ms(&self, now_ms: i64) -> i64 {
+        self.searched_ms.map_or(i64::MAX, |at_ms| now_ms.saturating_sub(at_ms))
+    }
+
+    /// Ends the activity.
+    pub(super) fn end(&mut self) {
+        *self = Self { searched_ms: self.searched_ms, ..Self::default() };
+    }
+
+    pub(super) fn go_on(&mut self, pursuit: Pursuit, now_ms: i64) {
+        if pursuit == Pursuit::Searching {
+            self.searched_ms = Some(now_ms);
+        }
+        let current = self.pursuit.map(|(current, _)| current);
+        if current == Some(pursuit) {
+            return;
+        }
+        if current == Some(Pursuit::Approaching) {
+            self.approached_ms = self.lasted_ms(Pursuit::Approaching, now_ms);
+        }
+        if current == Some(Pursuit::Staying) {
+            let goes_on = pursuit == Pursuit::Searching;
+            self.stayed_ms = if goes_on { self.lasted_ms(Pursuit::Staying, now_ms) } else { 0 };
+        }
+        self.pursuit = Some((pursuit, now_ms));
+    }
+}
