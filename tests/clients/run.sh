@@ -29,15 +29,16 @@ flies() {
     wait "$drone" 2>/dev/null
 }
 
-cp fly_node.js fly_mission.js "$work"
+cp fly_node.js fly_mission.js fly_hover.js "$work"
 if command -v npm >/dev/null && (cd "$work" && npm install --no-audit --no-fund ar-drone@0.3.3 ardrone-autonomy@0.1.2) >"$work/npm.log" 2>&1; then
     flies "node-ar-drone, demo navdata" "" node "$work/fly_node.js" demo
     flies "node-ar-drone, full navdata" "" node "$work/fly_node.js" full
     flies "node-ar-drone, full navdata with GPS" "--option-27 gps" node "$work/fly_node.js" full
     flies "ardrone-autonomy, a mission" "" node "$work/fly_mission.js"
+    flies "ardrone-autonomy, a hover above a tag" "--tag 0,0,0" node "$work/fly_hover.js"
 else
     echo "skipped: npm or its registry is not there"
-    skipped=$((skipped + 4))
+    skipped=$((skipped + 5))
 fi
 if command -v python3 >/dev/null && python3 -m venv "$work/python" >"$work/pip.log" 2>&1 &&
     "$work/python/bin/pip" install pyardrone==0.6.1 >>"$work/pip.log" 2>&1; then
