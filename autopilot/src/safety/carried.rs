@@ -53,7 +53,7 @@ impl CarriedOff {
         }
         self.stops_since = None;
         if self.since.is_none() {
-            *self = Self { since: Some(now.now), away_m_s, ..Self::default() };
+            *self = Self { since: Some(now.now), ..Self::default() };
         }
         self.near_fence = motion.room_m(now, radius_m) <= motion.speed_m_s * SOON_S;
         if away_m_s < self.away_m_s - BRAKES_M_S {
@@ -202,5 +202,71 @@ mod tests {
         assert_eq!(see(TO_THE_REAR, [0.0; 3]), (false, false));
         let toward_the_far_side = [0.0, 2.0, 0.0];
         assert_eq!(see([0.0, 1.1], toward_the_far_side), (true, false), "there is time");
+    }
+
+    #[test]
+    fn the_way_to_brake_is_what_is_left_of_full_tilt() {
+        // The braking acceleration is 0.4 m/s² of tilt and 0.3 m/s² of drag, so the way is 1.5 m + 9 m² / 1.4 m.
+        let stops = |room_m: f64, wind: f64| {
+            let pose = Pose { y_m: room_m - RADIUS_M - MARGIN_M, ..FINE.pose };
+            let velocity_m_s = [0.0, -3.0, 0.0];
+            let now = Situation { pose, velocity_m_s, wind: [0.0, -wind], ..FINE };
+            Motion::of(&now).stops(&now, RADIUS_M)
+        };
+        assert!(stops(7.94, 0.8));
+        assert!(!stops(7.92, 0.8));
+        assert!(stops(0.1, STORM - 0.01), "less is no storm");
+        assert!(!stops(0.1, STORM));
+    }
+
+    #[test]
+    fn a_storm_near_the_fence_is_leant_against_at_once() {
+        let leans = |room_m: f64| {
+            let mut carried = CarriedOff::default();
+            let pose = Pose { y_m: room_m - RADIUS_M, ..FINE.pose };
+            let now = Situation { pose, velocity_m_s: [0.0, -0.5, 0.0], wind: TO_THE_REAR, ..FINE };
+            carried.see(&now, RADIUS_M);
+            carried.leans()
+        };
+        assert!(leans(0.5 * SOON_S - 0.1));
+        assert!(!leans(0.5 * SOON_S + 0.1));
+    }
+
+    #[test]
+    fn a_storm_goes_on_after_a_short_lull_only() {
+        let since_after_a_lull_of = |lull: Duration| {
+            let mut carried = CarriedOff::default();
+            let pose = Pose { y_m: 3.0 - RADIUS_M, ..FINE.pose };
+            let blows =
+                Situation { pose, velocity_m_s: [0.0, -1.0, 0.0], wind: TO_THE_REAR, ..FINE };
+            carried.see(&blows, RADIUS_M);
+            carried.see(&Situation { wind: [0.0; 2], ..blows }, RADIUS_M);
+            assert!(!carried.lasts(FINE.now + GUST), "it can brake");
+            let later = Situation { now: FINE.now + lull, ..blows };
+            carried.see(&Situation { wind: [0.0; 2], ..later }, RADIUS_M);
+            carried.see(&later, RADIUS_M);
+            carried.since()
+        };
+        assert_eq!(since_after_a_lull_of(LULL / 2), Some(FINE.now));
+        assert_eq!(since_after_a_lull_of(LULL), Some(FINE.now + LULL));
+    }
+
+    #[test]
+    fn navdata_may_be_as_old_as_those_that_are_flown_by() {
+        let carried = |blind_for| {
+            carried_off_after(|now| Situation { wind: TO_THE_REAR, blind_for, ..now }, |_| 1.0)
+        };
+        assert!(carried(crate::safety::STALE).is_some());
+        assert_eq!(carried(crate::safety::STALE + Duration::from_millis(1)), None);
+    }
+
+    #[test]
+    fn a_drone_that_lost_less_than_half_a_metre_per_second_does_not_brake() {
+        let storm = |now| Situation { wind: TO_THE_REAR, ..now };
+        let slows_by = |lost_m_s| {
+            carried_off_after(storm, move |s| if s > 1.0 { 3.0 - lost_m_s } else { 3.0 })
+        };
+        assert_eq!(slows_by(BRAKES_M_S), Some(GUST));
+        assert!(slows_by(BRAKES_M_S + 0.01) > Some(GUST));
     }
 }
