@@ -622,7 +622,11 @@ mod tests {
             let (leaning, veto) = monitor.check(command, &now);
             assert_eq!(veto, Some(Veto::AgainstWind));
             let AgentCommand::GoTo(target) = leaning else { panic!("{leaning:?}") };
-            assert!(target.y_m >= -5.0 && target.z_m < 0.5, "{target:?}");
+            let upwind = Pose { y_m: UPWIND_TARGET_M - 7.0, z_m: 0.3 + LOW_M, ..now.pose };
+            assert!(
+                (target.y_m - upwind.y_m).abs() < 1e-9 && (target.z_m - upwind.z_m).abs() < 1e-9,
+                "{target:?}"
+            );
             let calm = |now_at| Situation { wind: [0.0; 2], now: FINE.now + now_at, ..now };
             monitor.check(command, &calm(GUST / 2));
             assert_eq!(monitor.check(command, &calm(GUST)), (command, None));
@@ -674,6 +678,17 @@ mod tests {
         assert_eq!(check(moving(-1.0, 0.0)), None);
         assert_eq!(check(moving(0.4, 0.0)), None);
         assert_eq!(check(moving(0.0, 3.0)), Some(Veto::NearFence));
+    }
+
+    #[test]
+    fn only_vetoes_that_land_are_reasons_for_a_landing() {
+        use Veto::{
+            AgainstWind, Blind, CarriedOff, Emergency, Landing, NearFence, OutsideFence,
+            StaleNavdata, TargetOutside,
+        };
+        assert!([Blind, OutsideFence, CarriedOff, Landing].into_iter().all(Veto::lands));
+        let stay_up = [StaleNavdata, Emergency, TargetOutside, NearFence, AgainstWind];
+        assert!(!stay_up.into_iter().any(Veto::lands));
     }
 
     #[test]
