@@ -612,9 +612,9 @@ mod tests {
     #[test]
     fn a_storm_is_met_low_and_leaning_before_it_is_known_to_last() {
         let now = Situation {
-            pose: Pose { y_m: -7.0, z_m: 1.8, ..FINE.pose },
-            velocity_m_s: [0.0, -1.0, 0.0],
-            wind: [0.0, -1.1],
+            pose: Pose { x_m: 4.2, y_m: -5.6, z_m: 1.8, ..FINE.pose },
+            velocity_m_s: [0.6, -0.8, 0.0],
+            wind: [0.66, -0.88],
             ..FINE
         };
         for command in [GO_TO, AgentCommand::Sticks] {
@@ -622,11 +622,9 @@ mod tests {
             let (leaning, veto) = monitor.check(command, &now);
             assert_eq!(veto, Some(Veto::AgainstWind));
             let AgentCommand::GoTo(target) = leaning else { panic!("{leaning:?}") };
-            let upwind = Pose { y_m: UPWIND_TARGET_M - 7.0, z_m: 0.3 + LOW_M, ..now.pose };
-            assert!(
-                (target.y_m - upwind.y_m).abs() < 1e-9 && (target.z_m - upwind.z_m).abs() < 1e-9,
-                "{target:?}"
-            );
+            // Two of the seven metres to the centre.
+            let (across_m, low_m) = ((target.x_m - 3.0).hypot(target.y_m + 4.0), 0.3 + LOW_M);
+            assert!(across_m < 1e-9 && (target.z_m - low_m).abs() < 1e-9, "{target:?}");
             let calm = |now_at| Situation { wind: [0.0; 2], now: FINE.now + now_at, ..now };
             monitor.check(command, &calm(GUST / 2));
             assert_eq!(monitor.check(command, &calm(GUST)), (command, None));
