@@ -679,6 +679,16 @@ mod tests {
     }
 
     #[test]
+    fn a_drone_stops_after_its_reaction_and_its_braking() {
+        let pose = Pose { x_m: 1.0, y_m: 2.0, ..FINE.pose };
+        let now = Situation { pose, velocity_m_s: [1.2, -0.6, 0.3], ..FINE };
+        let Pose { x_m, y_m, z_m, .. } = stopping_place(&now);
+        for (stops_m, expected_m) in [(x_m, 2.8), (y_m, 1.4), (z_m, 1.225)] {
+            assert!((stops_m - expected_m).abs() < 1e-9, "{stops_m} {expected_m}");
+        }
+    }
+
+    #[test]
     fn only_vetoes_that_land_are_reasons_for_a_landing() {
         use Veto::{
             AgainstWind, Blind, CarriedOff, Emergency, Landing, NearFence, OutsideFence,
