@@ -33,6 +33,8 @@ pub(super) struct CarriedOff {
     brakes_until: Duration,
     /// Whether the fence is so near that the drone must lean against the wind at once.
     near_fence: bool,
+    /// Whether it has been so near since the storm began.
+    was_near: bool,
 }
 
 impl CarriedOff {
@@ -56,6 +58,7 @@ impl CarriedOff {
             *self = Self { since: Some(now.now), ..Self::default() };
         }
         self.near_fence = motion.room_m(now, radius_m) <= motion.speed_m_s * SOON_S;
+        self.was_near |= self.near_fence;
         if away_m_s < self.away_m_s - BRAKES_M_S {
             self.away_m_s = away_m_s;
             self.brakes_until = now.now + BRAKES;
@@ -73,9 +76,11 @@ impl CarriedOff {
         self.since.is_some() && self.near_fence
     }
 
-    /// Whether it has lasted longer than a gust.
+    /// Whether it has lasted longer than a gust. A storm that does not lead to the fence soon is left to the agent,
+    /// which lands when the sticks stay saturated: the gusts of a fair day are storms to a drone that hardly tilts.
     pub(super) fn lasts(&self, now: Duration) -> bool {
-        self.since.is_some_and(|since| now.saturating_sub(since) >= GUST)
+        self.was_near
+            && self.since.is_some_and(|since| now.saturating_sub(since) >= GUST)
             && now >= self.brakes_until
             && self.stops_since.is_none()
     }
@@ -230,6 +235,24 @@ mod tests {
         };
         assert!(leans(0.5 * SOON_S - 0.1));
         assert!(!leans(0.5 * SOON_S + 0.1));
+    }
+
+    #[test]
+    fn a_storm_lands_once_it_would_carry_the_drone_over_the_fence_soon() {
+        let storm = |now| Situation { wind: TO_THE_REAR, ..now };
+        // There are 3 m to the fence.
+        let slow_m_s = 3.0 / SOON_S - 0.1;
+        let fast_m_s = 3.0 / SOON_S + 0.1;
+        assert_eq!(carried_off_after(storm, move |_| slow_m_s), None);
+        let late_s = GUST.as_secs_f64() + 0.5;
+        let quickens =
+            carried_off_after(storm, move |s| if s < late_s { slow_m_s } else { fast_m_s });
+        assert!(
+            quickens >= Some(Duration::from_secs_f64(late_s)) && quickens <= Some(GUST * 2),
+            "{quickens:?}"
+        );
+        let slows = carried_off_after(storm, move |s| if s < 0.5 { fast_m_s } else { slow_m_s });
+        assert_eq!(slows, Some(GUST), "it has been near");
     }
 
     #[test]
