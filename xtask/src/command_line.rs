@@ -93,7 +93,11 @@ pub(crate) fn main() -> ExitCode {
     let start = std::time::Instant::now();
     let done = match Arguments::parse().command {
         Command::Fly { seeds, csv, plots } => fly::run(seeds, csv.as_deref(), plots.as_deref())
-            .map(|table| (table, true))
+            .map(|(table, flown)| {
+                let flown_s = flown.as_secs_f64();
+                let times = flown_s / start.elapsed().as_secs_f64();
+                (format!("{table}{flown_s:.0} s flown, {times:.0} times as fast as real\n"), true)
+            })
             .map_err(|error| error.to_string()),
         Command::Campaign { flights, first } => {
             campaign::run(flights, first).map_err(|error| error.to_string())

@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use autopilot::Plan;
 use system_tests::sim::{Moment, SimulatedFlight, SimulationError};
@@ -32,11 +33,12 @@ pub(crate) struct Job {
     pub(crate) seed: u64,
 }
 
+/// Returns the table, and the simulated time of all flights.
 pub(crate) fn run(
     seeds: u64,
     csv_path: Option<&Path>,
     plots: Option<&Path>,
-) -> Result<String, FlyError> {
+) -> Result<(String, Duration), FlyError> {
     let mut jobs = Vec::new();
     for (case, what) in CASES.iter().enumerate() {
         for law in 0..LAWS.len() {
@@ -54,7 +56,8 @@ pub(crate) fn run(
         table::write_csv(path, &flown)
             .map_err(|source| FlyError::Write { path: path.to_owned(), source })?;
     }
-    Ok(table::table(&rows))
+    let duration = flown.iter().map(|flight| flight.score.duration).sum();
+    Ok((table::table(&rows), duration))
 }
 
 fn score(job: Job) -> Result<Flown, FlyError> {
@@ -80,6 +83,6 @@ mod tests {
     /// look at it, and at the whole table (`cargo xtask fly`), before accepting it.
     #[test]
     fn the_table_is_the_same() {
-        insta::assert_snapshot!(run(3, None, None).unwrap());
+        insta::assert_snapshot!(run(3, None, None).unwrap().0);
     }
 }

@@ -40,15 +40,15 @@ pub(crate) fn map<J: Copy + Sync, R: Send, E: Send>(
 ///
 /// # Errors
 /// One of the errors, if there are any.
-pub(crate) fn both<R: Send, E: Send>(
-    one: impl Fn() -> Result<R, E> + Sync,
-    other: impl Fn() -> Result<R, E> + Sync,
-) -> Result<[R; 2], E> {
+pub(crate) fn both<A, B: Send, E: Send>(
+    one: impl FnOnce() -> Result<A, E>,
+    other: impl FnOnce() -> Result<B, E> + Send,
+) -> Result<(A, B), E> {
     std::thread::scope(|scope| {
-        let other = scope.spawn(&other);
+        let other = scope.spawn(other);
         let one = one();
         let other = other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        Ok([one?, other?])
+        Ok((one?, other?))
     })
 }
 

@@ -12,6 +12,8 @@ use system_tests::sim::{Moment, SimulatedFlight};
 pub(crate) struct Score {
     /// Whether the plan was flown to its end.
     pub(crate) completed: bool,
+    /// Simulated time of the whole flight.
+    pub(crate) duration: Duration,
     /// Targets that were reached and held for their stay time.
     pub(crate) waypoints: usize,
     /// Time from the start of the first target to the end of the last stay, without the stays.
@@ -100,6 +102,7 @@ impl Scorer {
         let stays = self.stay * u32::try_from(waypoints).unwrap_or(u32::MAX);
         let mut score = Score {
             completed: flight.outcome == Outcome::Completed,
+            duration: flight.duration,
             waypoints,
             transit_s: whole.saturating_sub(stays).as_secs_f64(),
             odometry_drift_m: self.drift_m.0,

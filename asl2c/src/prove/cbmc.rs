@@ -115,6 +115,36 @@ impl Cbmc {
         Ok((others, left))
     }
 
+    /// Whether a function of the harness can violate a property; the rest is not checked.
+    pub(super) fn violates(
+        &self,
+        folder: &Path,
+        function: &str,
+        property: &str,
+    ) -> Result<bool, ProveError> {
+        let run = |arguments: &[&str]| {
+            let output = Command::new(&self.path)
+                .args([HARNESS, "--function", function])
+                .args(options(Checks::Properties))
+                .args(arguments)
+                .current_dir(folder)
+                .output()
+                .map_err(in_file("cannot run", &self.path))?;
+            Ok::<String, ProveError>(String::from_utf8_lossy(&output.stdout).into_owned())
+        };
+        let listed = run(&["--show-properties"])?;
+        let no_result = |text: &str| ProveError::NoResult { output: end(text) };
+        let name = assertion(&listed, property).ok_or_else(|| no_result(&listed))?;
+        let text = run(&["--slice-formula", "--property", name])?;
+        if text.contains("VERIFICATION FAILED") {
+            Ok(true)
+        } else if text.contains("VERIFICATION SUCCESSFUL") {
+            Ok(false)
+        } else {
+            Err(no_result(&text))
+        }
+    }
+
     /// Searches for counterexamples from the initial state, up to this number of transitions; `None` on a
     /// timeout.
     pub(super) fn ways(
@@ -158,6 +188,19 @@ impl Cbmc {
     }
 }
 
+/// CBMC's name of a property's assertion, from its list: the name, the place and the property, a line each.
+fn assertion<'a>(listed: &'a str, property: &str) -> Option<&'a str> {
+    let mut name = None;
+    for line in listed.lines() {
+        if let Some(next) = line.strip_prefix("Property ") {
+            name = next.strip_suffix(':');
+        } else if line.trim().strip_prefix("property ") == Some(property) {
+            return name;
+        }
+    }
+    None
+}
+
 fn options(checks: Checks) -> &'static [&'static str] {
     match checks {
         Checks::Properties => &["--no-standard-checks"],
@@ -169,4 +212,18 @@ fn options(checks: Checks) -> &'static [&'static str] {
 fn end(said: &str) -> String {
     let lines: Vec<&str> = said.lines().collect();
     lines[lines.len().saturating_sub(20)..].join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_assertion_is_found_by_its_property() {
+        let listed = "\nProperty step.assertion.1:\n  file harness.c line 5 function step\n  property one\n  a == 1u\n\n\
+                      Property step.assertion.2:\n  file harness.c line 7 function step\n  property one_more\n  b == 1u\n";
+        assert_eq!(assertion(listed, "one"), Some("step.assertion.1"));
+        assert_eq!(assertion(listed, "one_more"), Some("step.assertion.2"));
+        assert_eq!(assertion(listed, "more"), None);
+    }
 }

@@ -12,6 +12,7 @@ mod search;
 mod shrink;
 mod trace;
 
+use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -108,13 +109,9 @@ pub fn prove(
     folder: &Path,
     plan: &Plan<'_>,
 ) -> Result<Proof, ProveError> {
-    std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
-    for file in &obligations.files {
-        write(folder, &file.name, &file.text)?;
-    }
+    write_files(obligations, folder)?;
     let candidates = obligations.candidates();
-    let tried = |index: &usize| plan.known.is_empty() || plan.known.contains(&candidates[*index]);
-    let tried: Vec<usize> = (0..candidates.len()).filter(tried).collect();
+    let tried = tried(obligations, plan.known);
     let check = |function: &str, chosen: &[usize], checks| {
         let invariant = obligations.invariant(chosen);
         write(folder, &invariant.name, &invariant.text)?;
@@ -139,6 +136,37 @@ pub fn prove(
     let run_time = others.map(|failure| failure.said.clone()).collect();
     let invariant = chosen.into_iter().map(|index| candidates[index].clone()).collect();
     Ok(Proof { properties, run_time, invariant, candidates: candidates.len(), open })
+}
+
+/// Whether some transition from a state that satisfies these conditions violates a property. Much faster than
+/// [`prove`], which also shows that the conditions are an invariant.
+///
+/// # Errors
+/// If a file cannot be written, there is no such property, or CBMC gives no result.
+pub fn violates(
+    obligations: &Obligations,
+    cbmc: &Cbmc,
+    folder: &Path,
+    known: &[String],
+    property: &str,
+) -> Result<bool, ProveError> {
+    write_files(obligations, folder)?;
+    let invariant = obligations.invariant(&tried(obligations, known));
+    write(folder, &invariant.name, &invariant.text)?;
+    cbmc.violates(folder, "induction", property)
+}
+
+/// Indices of the known candidates, or of all if none are known.
+fn tried(obligations: &Obligations, known: &[String]) -> Vec<usize> {
+    let known: HashSet<&String> = known.iter().collect();
+    let candidates = obligations.candidates();
+    let is_tried = |index: &usize| known.is_empty() || known.contains(&candidates[*index]);
+    (0..candidates.len()).filter(is_tried).collect()
+}
+
+fn write_files(obligations: &Obligations, folder: &Path) -> Result<(), ProveError> {
+    std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
+    obligations.files.iter().try_for_each(|file| write(folder, &file.name, &file.text))
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> Result<(), ProveError> {

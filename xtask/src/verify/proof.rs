@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use asl2c::{Cbmc, Plan, Proof};
-use translator::{obligations, parse_configuration};
+use translator::{Obligations, obligations, parse_configuration};
 
 use super::mutants::RUN_TIME;
 use super::{Agent, VerifyError};
@@ -23,6 +23,25 @@ pub(super) fn prove(
     plan: &Plan<'_>,
     change: impl Fn(&str) -> Option<String>,
 ) -> Result<Proof, VerifyError> {
+    Ok(asl2c::prove(&to_prove(agent, change)?, cbmc, folder, plan)?)
+}
+
+/// Whether some transition from a state that satisfies the invariant violates a property.
+pub(super) fn violates(
+    agent: &Agent<'_>,
+    cbmc: &Cbmc,
+    folder: &Path,
+    invariant: &[String],
+    property: &str,
+    change: impl Fn(&str) -> Option<String>,
+) -> Result<bool, VerifyError> {
+    Ok(asl2c::violates(&to_prove(agent, change)?, cbmc, folder, invariant, property)?)
+}
+
+fn to_prove(
+    agent: &Agent<'_>,
+    change: impl Fn(&str) -> Option<String>,
+) -> Result<Obligations, VerifyError> {
     let parsed = parse_configuration(agent.name, agent.configuration)?;
     let mut obligations = obligations(&parsed, agent.text)?;
     for file in &mut obligations.files {
@@ -30,5 +49,5 @@ pub(super) fn prove(
             file.text = text;
         }
     }
-    Ok(asl2c::prove(&obligations, cbmc, folder, plan)?)
+    Ok(obligations)
 }

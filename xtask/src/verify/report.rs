@@ -203,8 +203,9 @@ query. Neither proof has a bound on the length of the flight.
 - **On the generated C**: CBMC shows that one transition (an event raised, a belief set, or a step) from *any* state
   that satisfies an invariant preserves the invariant and every property, and that the initial state satisfies it. The
   invariant is found automatically: from candidates about the agent's events and beliefs, those are removed that
-  the initial state or some transition violates, until the rest is inductive. Frama-C's EVA analyses the same C from
-  `init()` on.
+  the initial state or some transition violates, until the rest is inductive. The result is kept
+  ([`autopilot.invariant`](../xtask/src/verify/autopilot.invariant)): each run shows that it still is an invariant, and
+  searches for another only if it does not prove everything. Frama-C's EVA analyses the same C from `init()` on.
 
 The properties are part of the configuration; [the language guide](agentspeak.md#properties) defines their meaning. Those
 for dangers refer to the agent's percepts and have no exceptions: a step that begins in danger commands the descent, whatever
@@ -219,7 +220,8 @@ const MUTANTS_INTRODUCTION: &str = "\
 
 Each of these mutants is the shipped agent, its configuration or its C with one mistake, and violates
 the intended property: the proof on the C fails, and on the model (unless the mistake is in the
-C) SPIN finds a counterexample.
+C) SPIN finds a counterexample. On the C, most of them violate the property in one transition from a state that satisfies
+the shipped agent's invariant; of the others, conditions are removed until the rest is inductive and the property fails.
 
 ";
 
