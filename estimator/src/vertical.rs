@@ -376,15 +376,12 @@ mod tests {
         // 0.15 m, plus 1 m/s for at most a tenth of a second.
         for (step_s, allowed_m) in [(0.05, 0.2), (0.1, 0.25), (0.5, 0.25)] {
             for sign in [-1.0, 1.0] {
-                for (off_m, echo) in [(allowed_m - 1e-3, Echo::Good), (allowed_m + 1e-3, Echo::Wrong)]
+                for (off_m, echo) in
+                    [(allowed_m - 1e-3, Echo::Good), (allowed_m + 1e-3, Echo::Wrong)]
                 {
                     let mut filter = hovering(2.0);
-                    let found = filter.correct(
-                        2.0 + sign * off_m,
-                        still(2.0),
-                        step_s,
-                        Order::ByItself,
-                    );
+                    let found =
+                        filter.correct(2.0 + sign * off_m, still(2.0), step_s, Order::ByItself);
                     assert_eq!(found, echo, "{step_s} s, {off_m} m");
                 }
             }
@@ -396,9 +393,8 @@ mod tests {
         // Half a second without heights is 0.4 s more than usual: 0.4 m beyond the usual 0.2 m.
         for (rise_m, second) in [(0.59, Echo::Good), (0.61, Echo::Wrong)] {
             let mut filter = hovering(1.0);
-            let mut next = |step_s| {
-                filter.correct(1.0 + rise_m, still(1.0), step_s, Order::ByItself)
-            };
+            let mut next =
+                |step_s| filter.correct(1.0 + rise_m, still(1.0), step_s, Order::ByItself);
             assert_eq!(next(0.5), Echo::Wrong);
             assert_eq!(next(0.05), second, "{rise_m}");
         }
@@ -421,11 +417,11 @@ mod tests {
         for (off_m, second) in [(0.11, Echo::Good), (0.09, Echo::Wrong)] {
             for sign in [-1.0, 1.0] {
                 let mut filter = hovering(2.0);
-                let believed = filter.correct(2.0 + sign * off_m, still(2.0), 0.05, Order::ByItself);
+                let believed =
+                    filter.correct(2.0 + sign * off_m, still(2.0), 0.05, Order::ByItself);
                 assert_eq!(believed, Echo::Good);
-                let mut next = || {
-                    filter.correct(2.0 - sign * 0.3, still(2.0), 0.05, Order::ByItself)
-                };
+                let mut next =
+                    || filter.correct(2.0 - sign * 0.3, still(2.0), 0.05, Order::ByItself);
                 assert_eq!(next(), Echo::Wrong);
                 assert_eq!(next(), second, "{off_m}");
             }
