@@ -221,9 +221,9 @@ mod tests {
         let aside_m = 5_f64.to_radians() * 3.0;
         let far_m = at_start_m.hypot(SCALE * 3.0).hypot(aside_m);
         assert_near(turned.horizontal_m(3.0, 0.0, 0.0), far_m);
-        // Two seconds of silence at 1 m/s: 0.15 m/s, a fifth of the speed, and 0.3 m/s² for two seconds.
-        assert_near(Uncertainty::silence_m(2.0, 1.0), (0.15 + 0.2 + 0.6) * 2.0);
-        assert_near(fresh.horizontal_m(0.0, 2.0, 1.0), FLOOR_M.hypot(1.9));
+        // Two seconds of silence at 3 m/s: 0.15 m/s, a fifth of the speed, and 0.3 m/s² for two seconds.
+        assert_near(Uncertainty::silence_m(2.0, 3.0), (0.15 + 0.6 + 0.6) * 2.0);
+        assert_near(fresh.horizontal_m(0.0, 2.0, 3.0), FLOOR_M.hypot(2.7));
     }
 
     #[test]
