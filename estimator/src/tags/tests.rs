@@ -4,6 +4,8 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::{Estimator, EstimatorConfig, Sample, Sight, SurveyedTag, TagConfig};
 
+mod frames;
+
 const PERIOD: Duration = Duration::from_micros(66_667);
 const HEIGHT_M: f64 = 1.5;
 const DELAY: Duration = Duration::from_millis(60);

@@ -151,6 +151,15 @@ fn a_rejected_velocity_leaves_the_position_in_doubt_and_does_not_move_it() {
     flight.shown.velocity_forward_m_s = 0.0;
     flight.fly(4);
     assert_near(flight.estimator.uncertainty.unmeasured_m2().sqrt(), doubt_m, 1e-9);
+    // From 0.5 m/s forward it brakes by itself within half a second, and the flow says backward.
+    let mut flight = Flight::new(unidentified());
+    flight.shown.velocity_forward_m_s = 0.5;
+    flight.fly(32);
+    flight.shown.velocity_forward_m_s = -0.5;
+    flight.fly(4);
+    let off_m = |packet: u32| 0.0625 * (0.5 + 0.5 * (-0.125 * f64::from(packet)).exp());
+    let doubt_m = flight.estimator.uncertainty.unmeasured_m2().sqrt();
+    assert_near(doubt_m, (1..=4).map(off_m).sum(), 0.005);
 }
 
 #[test]

@@ -155,23 +155,28 @@ fn a_drone_that_follows_its_sticks_does_not_scrape_along_the_floor() {
     assert_eq!(low(ON_FLOOR_M, level, true), None);
     assert_eq!(low(0.05, Order::ByItself, true), None);
     assert_eq!(low(0.05, level, false), None);
-    // For exactly this time.
-    let config = EstimatorConfig { attitude_delay: Duration::ZERO, ..EstimatorConfig::default() };
-    let mut estimator = Estimator::new(EstimatorConfig { dead_time: Duration::ZERO, ..config });
-    estimator.told(Duration::ZERO, level);
-    for tenth in 0..=4_u32 {
-        let wobble = 1e-3 * f64::from(tenth);
-        assert_eq!(estimator.trust(), Trust::Sound);
-        estimator.update(&Sample {
-            arrival: Duration::from_millis(100) * tenth,
-            altitude_m: 0.05 + wobble,
-            velocity_forward_m_s: wobble,
-            velocity_right_m_s: wobble,
-            airborne: true,
-            ..Sample::default()
-        });
+    // For exactly this time, and below exactly this height.
+    for (altitude_m, trust) in
+        [(0.05, Trust::Unresponsive(Quantity::Altitude)), (ON_FLOOR_M, Trust::Sound)]
+    {
+        let (dead_time, attitude_delay) = (Duration::ZERO, Duration::ZERO);
+        let config = EstimatorConfig { dead_time, attitude_delay, ..EstimatorConfig::default() };
+        let mut estimator = Estimator::new(config);
+        estimator.told(Duration::ZERO, level);
+        for tenth in 0..=4_u32 {
+            let wobble = 1e-3 * f64::from(tenth);
+            assert_eq!(estimator.trust(), Trust::Sound);
+            estimator.update(&Sample {
+                arrival: Duration::from_millis(100) * tenth,
+                altitude_m,
+                velocity_forward_m_s: wobble,
+                velocity_right_m_s: wobble,
+                airborne: true,
+                ..Sample::default()
+            });
+        }
+        assert_eq!(estimator.trust(), trust);
     }
-    assert_eq!(estimator.trust(), Trust::Unresponsive(Quantity::Altitude));
 }
 
 #[test]
