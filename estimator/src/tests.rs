@@ -106,9 +106,9 @@ struct Flight {
 }
 
 impl Flight {
-    fn new(config: EstimatorConfig) -> Self {
+    fn new(config: &EstimatorConfig) -> Self {
         let shown = Sample { altitude_m: 1.0, airborne: true, ..Sample::default() };
-        Self { estimator: Estimator::new(config), packet: 0, order: Order::ByItself, shown }
+        Self { estimator: Estimator::new(*config), packet: 0, order: Order::ByItself, shown }
     }
 
     fn now(&self) -> Duration {

@@ -1,3 +1,5 @@
+#![expect(clippy::float_cmp, reason = "the very same number, not a near one")]
+
 use std::time::Duration;
 
 use super::*;
@@ -10,8 +12,12 @@ fn gaz(gaz: f64) -> Order {
 
 /// Sticks in turns of 0.7 s: there and back, by different amounts.
 fn in_turns(at_s: f64, most: f64) -> f64 {
-    let turn = (at_s / 0.7) as u32 % 4;
-    [most, -most, most * 0.6, -most * 0.6][usize::try_from(turn).unwrap()]
+    match at_s % 2.8 {
+        ..0.7 => most,
+        ..1.4 => -most,
+        ..2.1 => most * 0.6,
+        _ => -most * 0.6,
+    }
 }
 
 /// Time between measurements: eight of them are exactly the window.

@@ -336,7 +336,7 @@ fn a_rejected_quantity_is_distrusted_from_its_first_packet_for_four_seconds() {
     assert_eq!(watched[7].2, Some(0.35));
     assert_eq!(watched[8].2, Some(0.0), "dated from the first wrong packet");
     // A good packet in between begins the time again.
-    let interrupted = |tick: u32| if tick != 4 { bad } else { FINE };
+    let interrupted = |tick: u32| if tick == 4 { FINE } else { bad };
     assert_eq!(first_wrong(&watch_at(0..60, flying, interrupted)), Some(5 + 8));
 }
 
@@ -372,7 +372,7 @@ fn the_drone_must_report_a_loss_for_a_while_and_only_in_flight() {
 fn three_steps_within_seconds_are_too_many_and_are_forgotten() {
     let stepping = |every: u32| {
         move |tick: u32| Verdict {
-            step: (tick % every == 0 && tick <= 2 * every).then_some(Quantity::Heading),
+            step: (tick.is_multiple_of(every) && tick <= 2 * every).then_some(Quantity::Heading),
             ..FINE
         }
     };

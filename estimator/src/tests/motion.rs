@@ -14,7 +14,7 @@ fn stick_for(m_s: f64) -> f64 {
 
 #[test]
 fn a_prediction_covers_the_age_of_each_measurement() {
-    let mut flight = Flight::new(unidentified());
+    let mut flight = Flight::new(&unidentified());
     let steady = Sticks { pitch: -stick_for(1.0), gaz: 0.5, ..Sticks::default() };
     flight.order = sticks(steady);
     let velocity_m_s = 1.0;
@@ -44,7 +44,7 @@ fn a_prediction_covers_the_age_of_each_measurement() {
 
 #[test]
 fn a_velocity_turns_by_the_heading_of_its_own_time() {
-    let mut flight = Flight::new(unidentified());
+    let mut flight = Flight::new(&unidentified());
     flight.order = sticks(Sticks { yaw: 0.3, ..Sticks::default() });
     let rate_deg_s = 0.3 * DroneLimits::default().turn_deg_s;
     for packet in 0..160 {
@@ -70,7 +70,7 @@ fn a_velocity_turns_by_the_heading_of_its_own_time() {
 #[test]
 fn on_the_ground_the_orders_move_nothing() {
     for airborne in [false, true] {
-        let mut flight = Flight::new(unidentified());
+        let mut flight = Flight::new(&unidentified());
         flight.order = sticks(Sticks { pitch: -0.5, gaz: 0.5, ..Sticks::default() });
         flight.shown.airborne = airborne;
         flight.fly(4);
@@ -89,7 +89,7 @@ fn on_the_ground_the_orders_move_nothing() {
 
 #[test]
 fn silence_and_disputed_heights_make_the_height_uncertain() {
-    let mut flight = Flight::new(unidentified());
+    let mut flight = Flight::new(&unidentified());
     flight.fly(32);
     let deviation_m = |flight: &Flight, ms| {
         flight.estimator.vertical_deviation_m(flight.now() + Duration::from_millis(ms))
@@ -108,7 +108,7 @@ fn silence_and_disputed_heights_make_the_height_uncertain() {
 
 /// A flight that hovers, then is silent, and then receives one packet.
 fn after_a_gap(gap_packets: u32, shown: Sample) -> Flight {
-    let mut flight = Flight::new(unidentified());
+    let mut flight = Flight::new(&unidentified());
     flight.order = sticks(Sticks::default());
     flight.fly(32);
     assert_near(flight.estimator.uncertainty.unmeasured_m2(), 0.0, 1e-12);
@@ -140,7 +140,7 @@ fn a_gap_beyond_the_usual_tenth_of_a_second_was_flown_unseen() {
 
 #[test]
 fn a_rejected_velocity_leaves_the_position_in_doubt_and_does_not_move_it() {
-    let mut flight = Flight::new(unidentified());
+    let mut flight = Flight::new(&unidentified());
     flight.order = sticks(Sticks::default());
     flight.fly(32);
     flight.shown.velocity_forward_m_s = 1.0;
@@ -152,7 +152,7 @@ fn a_rejected_velocity_leaves_the_position_in_doubt_and_does_not_move_it() {
     flight.fly(4);
     assert_near(flight.estimator.uncertainty.unmeasured_m2().sqrt(), doubt_m, 1e-9);
     // From 0.5 m/s forward it brakes by itself within half a second, and the flow says backward.
-    let mut flight = Flight::new(unidentified());
+    let mut flight = Flight::new(&unidentified());
     flight.shown.velocity_forward_m_s = 0.5;
     flight.fly(32);
     flight.shown.velocity_forward_m_s = -0.5;
@@ -164,7 +164,7 @@ fn a_rejected_velocity_leaves_the_position_in_doubt_and_does_not_move_it() {
 
 #[test]
 fn a_repeated_velocity_is_the_last_one_again() {
-    let mut flight = Flight::new(unidentified());
+    let mut flight = Flight::new(&unidentified());
     flight.fly(32);
     let sample = |packet, velocity_forward_m_s| Sample {
         arrival: PERIOD * packet,
@@ -173,9 +173,13 @@ fn a_repeated_velocity_is_the_last_one_again() {
     };
     let shown = [sample(33, 0.1), sample(34, 0.1), sample(35, 0.1), sample(36, 0.2)];
     let mut all = flight.estimator.clone();
-    shown.iter().for_each(|sample| all.update(sample));
+    for sample in &shown {
+        all.update(sample);
+    }
     let mut fresh = flight.estimator.clone();
-    [shown[0], shown[3]].iter().for_each(|sample| fresh.update(sample));
+    for sample in [&shown[0], &shown[3]] {
+        fresh.update(sample);
+    }
     let at = PERIOD * 36;
     assert_eq!(all.predicted(at).position_m.xy(), fresh.predicted(at).position_m.xy());
     assert_near(all.estimate().position_m.y - 0.0625 * 0.05, 0.1875 * 0.15, 0.001);
@@ -184,7 +188,7 @@ fn a_repeated_velocity_is_the_last_one_again() {
 #[test]
 fn a_drone_that_holds_its_position_shows_the_wind_by_its_tilt() {
     let disturbance = |order: Order, altitude_m: f64| {
-        let mut flight = Flight::new(unidentified());
+        let mut flight = Flight::new(&unidentified());
         flight.order = order;
         flight.shown.altitude_m = altitude_m;
         // Left side down and nose up: it leans to the left and backward.
@@ -198,7 +202,7 @@ fn a_drone_that_holds_its_position_shows_the_wind_by_its_tilt() {
     // Near the ground it does not hold its position yet, and by the sticks it need not.
     assert_near(disturbance(Order::ByItself, CLEAR_OF_GROUND_M - 3e-4).norm(), 0.0, 1e-9);
     assert_near(disturbance(sticks(Sticks::default()), 1.0).norm(), 0.0, 0.01);
-    let mut flight = Flight::new(unidentified());
+    let mut flight = Flight::new(&unidentified());
     flight.estimator.update(&Sample { altitude_m: CLEAR_OF_GROUND_M, ..flight.shown });
     flight.estimator.update(&Sample {
         arrival: PERIOD,
@@ -244,15 +248,15 @@ fn a_repeated_height_is_a_new_one_after_the_interval_of_the_ultrasound() {
 
 /// A drone with another airframe than assumed, flown by its sticks for a minute. Nothing is
 /// delayed.
-fn flown(config: EstimatorConfig, floor_steps: bool) -> Airframe {
+fn flown(config: &EstimatorConfig, floor_steps: bool) -> Airframe {
     let now = Duration::ZERO;
     let [dead_time, velocity_delay, altitude_delay, attitude_delay] = [now; 4];
-    let mut flight = Flight::new(EstimatorConfig {
+    let mut flight = Flight::new(&EstimatorConfig {
         dead_time,
         velocity_delay,
         altitude_delay,
         attitude_delay,
-        ..config
+        ..*config
     });
     let airframe = Airframe {
         tilt_gain: 0.7,
@@ -304,22 +308,22 @@ fn flown(config: EstimatorConfig, floor_steps: bool) -> Airframe {
 
 #[test]
 fn the_airframe_is_identified_in_flight() {
-    let found = flown(EstimatorConfig::default(), false);
+    let found = flown(&EstimatorConfig::default(), false);
     assert_near(found.tilt_gain, 0.7, 0.1);
     assert_near(found.climb_gain, 1.4, 0.2);
     assert_near(found.drop_gain, 0.8, 0.15);
     assert_near(found.turn_gain, 0.8, 0.1);
     assert!(found.thrust_gain.x < 0.95 && found.thrust_gain.y < 0.95, "{found:?}");
     let given = unidentified();
-    assert_eq!(flown(given, false), given.airframe, "not unless it is wanted");
-    let over_boxes = flown(EstimatorConfig::default(), true);
+    assert_eq!(flown(&given, false), given.airframe, "not unless it is wanted");
+    let over_boxes = flown(&EstimatorConfig::default(), true);
     assert_near(over_boxes.climb_gain, 1.4, 0.25);
     assert_near(over_boxes.drop_gain, 0.8, 0.2);
 }
 
 #[test]
 fn after_a_restart_the_position_goes_on_and_the_clock_and_the_compass_begin_anew() {
-    let mut flight = Flight::new(unidentified());
+    let mut flight = Flight::new(&unidentified());
     flight.shown.velocity_forward_m_s = 0.3;
     flight.shown.drone_time = None;
     flight.fly(64);

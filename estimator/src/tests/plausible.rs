@@ -12,7 +12,7 @@ fn distrusted(flight: &mut Flight, packets: u32) -> Option<(f64, Trust)> {
 }
 
 fn hovering() -> Flight {
-    let mut flight = Flight::new(EstimatorConfig::default());
+    let mut flight = Flight::new(&EstimatorConfig::default());
     flight.order = sticks(Sticks::default());
     assert_eq!(distrusted(&mut flight, 64), None);
     assert_eq!(flight.estimator.sound_at(), Some(flight.now()));
@@ -58,7 +58,7 @@ fn a_velocity_that_repeats_after_a_jump_is_still_rejected() {
         let arrival = flight.now() + PERIOD * after;
         let wobble = 1e-4 * f64::from(after % 3);
         let (yaw_deg, altitude_m) = (wobble, 1.0 + wobble);
-        let shown = Sample { arrival, yaw_deg, altitude_m, velocity_forward_m_s, ..flight.shown };
+        let shown = Sample { arrival, yaw_deg, velocity_forward_m_s, altitude_m, ..flight.shown };
         flight.estimator.update(&shown);
         flight.estimator.trust()
     };
@@ -84,7 +84,7 @@ fn a_late_packet_is_no_news_even_if_it_is_impossible() {
                 velocity_forward_m_s: 1e-6 * drone_ms as f64,
                 ..flight.shown
             });
-            flight.estimator.sound_at().unwrap() - start
+            flight.estimator.sound_at().unwrap().saturating_sub(start)
         };
         assert_eq!(show(60, 60, 1.0), Duration::from_millis(60));
         assert_eq!(show(120, 320, altitude_m), Duration::from_millis(320), "by 200 ms");
@@ -94,7 +94,7 @@ fn a_late_packet_is_no_news_even_if_it_is_impossible() {
 
 /// A drone that has taken off, whose sensors do not work yet.
 fn taking_off(order: Order, altitude_m: f64) -> Flight {
-    let mut flight = Flight::new(EstimatorConfig::default());
+    let mut flight = Flight::new(&EstimatorConfig::default());
     flight.order = order;
     flight.shown.altitude_m = altitude_m;
     flight
@@ -134,7 +134,7 @@ fn sensors_may_hang_while_a_drone_takes_off_by_itself() {
 #[test]
 fn a_drone_that_follows_its_sticks_does_not_scrape_along_the_floor() {
     let low = |altitude_m: f64, order: Order, airborne: bool| {
-        let mut flight = Flight::new(EstimatorConfig::default());
+        let mut flight = Flight::new(&EstimatorConfig::default());
         flight.shown.altitude_m = 0.5;
         flight.fly(32);
         flight.shown.airborne = airborne;

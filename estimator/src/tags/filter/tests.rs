@@ -1,4 +1,5 @@
 //! The filter against Kalman's equations, with derivatives taken numerically.
+#![expect(clippy::float_cmp, reason = "the very same number, not a near one")]
 
 use nalgebra::{DMatrix, DVector};
 
