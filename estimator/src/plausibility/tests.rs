@@ -234,6 +234,11 @@ fn a_jump_is_more_than_noise_and_a_gust_beyond_the_model() {
     // ...and a change that does not come is one.
     let mut missing = gate(0.0, false);
     assert!(!missing.admits(along(0.0), along(0.0), along(0.5), STEP_S));
+    // The limits themselves are admitted: of the difference to the model, and of its change.
+    let mut limit = gate(-1.0, false);
+    assert!(limit.admits(along(0.4), along(0.0), along(0.0), STEP_S));
+    let mut limit = gate(0.0, false);
+    assert!(limit.admits(along(0.4), along(-1.0), along(-1.0), STEP_S));
     // A velocity that jumps to where the model is has come back.
     let mut back = gate(2.0, false);
     assert!(back.admits(along(0.1), along(0.0), along(0.0), STEP_S));
@@ -242,7 +247,7 @@ fn a_jump_is_more_than_noise_and_a_gust_beyond_the_model() {
 #[test]
 fn after_a_jump_only_half_of_the_difference_is_allowed() {
     let along = |m_s: f64| Vector2::new(0.0, m_s);
-    for (m_s, fits) in [(0.19, true), (0.21, false), (-0.19, true), (-0.21, false)] {
+    for (m_s, fits) in [(0.19, true), (0.2, true), (0.21, false), (-0.19, true), (-0.21, false)] {
         let mut gate = gate(0.4, true);
         assert_eq!(gate.admits(along(m_s), along(0.0), along(0.0), 0.05), fits, "{m_s}");
     }
@@ -320,8 +325,11 @@ fn a_value_must_change_once_the_sticks_ask_for_enough() {
         assert_eq!(asked(sign * 0.051, 0.0), (Some(8), altitude));
         assert_eq!(asked(0.0, sign * 5.1), (Some(8), heading));
     }
-    // Exactly this much turn is enough.
+    // Exactly this much is enough.
     assert_eq!(asked(0.0, ASKED_TURN_DEG), (Some(8), heading));
+    let rising =
+        |tick| Verdict { asked_rise_m: if tick == 0 { 0.0 } else { ASKED_RISE_M }, ..FINE };
+    assert_eq!(first_wrong(&watch_at(0..40, still, rising)), Some(8));
 }
 
 #[test]
@@ -383,6 +391,8 @@ fn three_steps_within_seconds_are_too_many_and_are_forgotten() {
     // 3 - 0.25 * 1.8 = 2.55 is below 2.5 after 0.2 s and a little.
     assert_eq!((watched[39].1, watched[41].1), (watched[36].1, Trust::Sound));
     assert_eq!(first_wrong(&watch_at(0..200, flying, stepping(22))), None);
+    let each_second = (0..60).step_by(20);
+    assert_eq!(first_wrong(&watch_at(each_second, flying, stepping(20))), None, "just 2.5");
 }
 
 #[test]

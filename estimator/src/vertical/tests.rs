@@ -197,6 +197,18 @@ fn a_height_may_be_off_by_a_jump_and_a_changed_climb() {
 }
 
 #[test]
+fn a_limit_itself_is_within_it() {
+    let mut filter = hovering(2.0);
+    assert_eq!(filter.correct(2.25, still(2.0), 0.1, Order::ByItself), Echo::Good);
+    // Half of it is not doubtful yet, so two heights elsewhere are no correction.
+    let mut filter = hovering(2.0);
+    assert_eq!(filter.correct(2.125, still(2.0), 0.1, Order::ByItself), Echo::Good);
+    for _ in 0..2 {
+        assert_eq!(filter.correct(1.7, still(2.0), 0.05, Order::ByItself), Echo::Wrong);
+    }
+}
+
+#[test]
 fn a_gap_explains_no_more_than_a_climb_through_it() {
     // Half a second without heights is 0.4 s more than usual: 0.4 m beyond the usual 0.2 m.
     for (rise_m, second) in [(0.59, Echo::Good), (0.61, Echo::Wrong)] {

@@ -15,24 +15,24 @@ fn assert_same(vector: Vector2<f64>, expected: Vector2<f64>) {
 }
 
 /// A drone above surveyed tags, whose odometry started aside, is turned and has a bias.
-struct Drone {
-    tags: Tags,
-    now_s: f64,
-    odometry_m: Vector2<f64>,
-    place_m: Vector2<f64>,
-    velocity_m_s: Vector2<f64>,
-    height_m: f64,
-    turn_deg_s: f64,
-    airborne: bool,
-    unseen_m2: f64,
+pub(super) struct Drone {
+    pub(super) tags: Tags,
+    pub(super) now_s: f64,
+    pub(super) odometry_m: Vector2<f64>,
+    pub(super) place_m: Vector2<f64>,
+    pub(super) velocity_m_s: Vector2<f64>,
+    pub(super) height_m: f64,
+    pub(super) turn_deg_s: f64,
+    pub(super) airborne: bool,
+    pub(super) unseen_m2: f64,
 }
 
 const TURNED_DEG: f64 = 6.0;
 const YAW_DEG: f64 = 20.0;
-const STEP_S: f64 = 1.0 / 16.0;
+pub(super) const STEP_S: f64 = 1.0 / 16.0;
 const TAG: SurveyedTag = SurveyedTag { place_m: Vector2::new(0.3, 0.1), heading_deg: Some(30.0) };
 
-fn surveyed() -> TagConfig {
+pub(super) fn surveyed() -> TagConfig {
     let mut config =
         TagConfig { orientation: Some(OrientationSign::Clockwise), ..TagConfig::default() };
     config.surveyed[0] = Some(TAG);
@@ -40,7 +40,7 @@ fn surveyed() -> TagConfig {
 }
 
 impl Drone {
-    fn new(config: &TagConfig) -> Self {
+    pub(super) fn new(config: &TagConfig) -> Self {
         Self {
             tags: Tags::new(config),
             now_s: 0.0,
@@ -54,7 +54,7 @@ impl Drone {
         }
     }
 
-    fn step(&self) -> OdometryStep {
+    pub(super) fn step(&self) -> OdometryStep {
         OdometryStep {
             made_s: self.now_s,
             at_s: self.now_s - 0.06,
@@ -69,7 +69,7 @@ impl Drone {
     }
 
     /// The tag below, as the camera of the true drone sees it; `wobble` makes another picture.
-    fn sight(&self, wobble: f64) -> Sight {
+    pub(super) fn sight(&self, wobble: f64) -> Sight {
         let heading_deg = YAW_DEG + TURNED_DEG;
         let body_m = body_from_world(TAG.place_m - self.place_m, heading_deg);
         let sight = sight_at(body_m, 270.0 + heading_deg - 30.0, wobble);
@@ -83,12 +83,12 @@ impl Drone {
         }
     }
 
-    fn see(&mut self, sights: &[Sight]) {
+    pub(super) fn see(&mut self, sights: &[Sight]) {
         self.tags.see(sights, |_| YAW_DEG, self.turn_deg_s, self.airborne);
     }
 
     /// Flies one step, and sees its tag.
-    fn fly(&mut self) {
+    pub(super) fn fly(&mut self) {
         self.now_s += STEP_S;
         self.odometry_m += self.velocity_m_s * STEP_S;
         self.place_m += world_from_body(self.velocity_m_s, TURNED_DEG) * STEP_S;
@@ -99,13 +99,13 @@ impl Drone {
     }
 
     /// Hovers above its tag until it knows where it is.
-    fn settled() -> Self {
+    pub(super) fn settled() -> Self {
         let mut drone = Self::new(&surveyed());
         (0..800).for_each(|_| drone.fly());
         drone
     }
 
-    fn correction(&self) -> (Vector2<f64>, f64) {
+    pub(super) fn correction(&self) -> (Vector2<f64>, f64) {
         let correction = self.tags.filter.correction();
         (correction.place_m, correction.heading_rad)
     }
