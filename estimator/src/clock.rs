@@ -229,6 +229,12 @@ mod tests {
         // Half an interval more than usual is jitter; beyond it packets are missing.
         assert_near(smoothed_s(&[248]), 0.2 + 0.0048 + 0.15 * 0.0432, 1e-9);
         assert_near(smoothed_s(&[252]), 0.252, 1e-9);
+        // Half an interval more exactly: 131.25 ms are the interval, and 256.25 ms were expected.
+        let mut clock = SampleClock::default();
+        clock.made_s(None, MS(0));
+        clock.made_s(None, MS(125));
+        let made_s = clock.made_s(None, Duration::from_micros(312_500));
+        assert_near(made_s, 0.256_25 + 0.15 * 0.056_25, 1e-9);
         // A gap does not change the interval, so the next packet is expected as before.
         assert_near(smoothed_s(&[400, 520]), 0.502 + 0.15 * 0.018, 1e-9);
     }

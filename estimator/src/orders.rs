@@ -132,6 +132,8 @@ mod tests {
         orders.steps(1.0 - 0.5e-9, 1.005, |_, step_s, order| steps.push((step_s, order)));
         assert_eq!(steps.len(), 1, "{steps:?}");
         assert_eq!(steps[0].1, forward(0.3));
-        orders.steps(1.0 - 0.5e-9, 1.0, |_, _, _| panic!("it is the same moment"));
+        for now_s in [1.0 - 0.5e-9, 1.0 - 1e-9] {
+            orders.steps(now_s, 1.0, |_, _, _| panic!("it is the same moment"));
+        }
     }
 }

@@ -357,6 +357,12 @@ fn what_does_not_follow_is_distrusted_from_before_it_was_noticed() {
         watched.iter().filter(|(_, trust, _)| *trust != Trust::Sound).map(|w| w.0).collect();
     // Noticed after 0.4 s, and distrusted for 4 s from then.
     assert_eq!((distrusted[0], distrusted.len()), (8, 72));
+    let later = |tick: u32| if tick == 48 { bad } else { FINE };
+    let later = watch_at(0..140, flying, later);
+    assert_eq!(
+        [later[119].1, later[121].1],
+        [Trust::Unresponsive(Quantity::Altitude), Trust::Sound]
+    );
     assert_eq!(watched[8].2, Some(0.0));
 }
 
@@ -374,6 +380,9 @@ fn the_drone_must_report_a_loss_for_a_while_and_only_in_flight() {
     assert_eq!(watched[8].1, Trust::Reported(Quantity::Altitude));
     assert_eq!(watched[40].1, Trust::Sound, "it has it again");
     assert_eq!(first_wrong(&watch_at(0..60, lost(false), |_| FINE)), None);
+    let later =
+        |tick| Sample { reported_lost: (tick >= 20).then_some(Quantity::Altitude), ..flying(tick) };
+    assert_eq!(first_wrong(&watch_at(0..60, later, |_| FINE)), Some(29), "1.0 to 1.4 s");
 }
 
 #[test]
