@@ -111,7 +111,7 @@ impl Heading {
         self.turn_deg_s
     }
 
-    /// The drone's compass has restarted: its next heading continues the last one.
+    /// The drone's compass has restarted: its next heading is the new zero.
     pub(crate) fn handle_restart(&mut self) {
         self.baseline_deg = None;
         self.measured.clear();
@@ -268,7 +268,7 @@ mod tests {
 
     #[test]
     fn a_turn_that_was_asked_for_is_no_step() {
-        // Full stick for half a second: some 35 degrees, of which 0 or 70 would be as surprising.
+        // Full stick for half a second: some 35 degrees, and 36 more or less are allowed.
         for (deg, is_step) in [(35.0, false), (35.0 + 38.0, true), (35.0 - 38.0, true)] {
             let (mut heading, mut orders) = (Heading::new(), Orders::new(Duration::ZERO));
             let full = Sticks { yaw: 1.0, ..Sticks::default() };
