@@ -192,11 +192,13 @@ fn thrust_and_drag_need_a_quarter_of_a_metre_per_second() {
 
 #[test]
 fn a_window_in_which_the_drone_turns_teaches_nothing_of_thrust() {
-    // Beyond 10 degrees a new window begins, which at 20 degrees per second is never full.
+    // Beyond 10 degrees a new window begins, so at 20 degrees per second it is just full.
     let turning = |deg_s: f64| told(2.0, 0.0, move |at_s| deg_s * at_s);
     assert_eq!(turning(25.0), Airframe::default());
     assert_eq!(turning(-25.0), Airframe::default());
-    assert!(turning(16.0) != Airframe::default() && turning(-16.0) != Airframe::default());
+    for deg_s in [16.0, -16.0, 20.0, -20.0] {
+        assert!(turning(deg_s) != Airframe::default(), "{deg_s}");
+    }
 }
 
 #[test]
@@ -228,25 +230,27 @@ fn gains_stay_within_those_of_known_airframes() {
     assert_eq!([found.climb_gain, found.drop_gain, found.turn_gain], [MIN_GAIN; 3]);
 }
 
-/// Tilts of a drone that answers a stick with this gain and lag, for three seconds.
-fn tilted(roll: f64, gain: f64) -> Airframe {
-    let truth = Airframe { tilt_gain: gain, ..Airframe::default() };
-    identified(&truth, 20, |at_s| Sticks {
-        roll: if at_s % 1.4 < 0.7 { roll } else { 0.0 },
-        ..Sticks::default()
-    })
+/// The gain that is identified of a drone with gain 0.8 whose stick goes to and fro.
+fn swung(stick: f64) -> f64 {
+    let truth = Airframe { tilt_gain: 0.8, ..Airframe::default() };
+    let to_and_fro = |at_s| if at_s % 1.4 < 0.7 { stick } else { -stick };
+    let [roll, pitch] = [
+        identified(&truth, 20, |at_s| Sticks { roll: to_and_fro(at_s), ..Sticks::default() }),
+        identified(&truth, 20, |at_s| Sticks { pitch: to_and_fro(at_s), ..Sticks::default() }),
+    ]
+    .map(|found| found.tilt_gain);
+    assert_share(roll, pitch, 1e-9);
+    roll
 }
 
 #[test]
 fn a_tilt_at_the_limit_says_nothing_of_the_gain() {
-    // A drone whose gain is one saturates at full stick; until 2 % beyond it does not.
-    for sign in [-1.0, 1.0] {
-        assert!(tilted(sign, 0.8).tilt_gain < 0.95, "not saturated by what is known");
-        let saturated = tilted(sign * 1.1, 0.8);
-        let unmoved = tilted(0.0, 0.8);
-        // Half of the window the stick is back, and teaches.
-        assert!(saturated.tilt_gain <= unmoved.tilt_gain);
-    }
+    // The expected gain of one saturates beyond 2 % more than full stick.
+    let unmoved = swung(0.0);
+    assert_eq!([1.03, 1.1, -1.1].map(swung), [unmoved; 3]);
+    assert!([1.02, -1.02].map(swung).iter().all(|gain| *gain < 0.9));
+    // What is found is what saturates: at 0.9 nothing does, and the gain is found.
+    assert_share(swung(0.95), 0.8, 0.02);
 }
 
 #[test]
