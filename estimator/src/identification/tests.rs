@@ -196,6 +196,7 @@ fn a_window_in_which_the_drone_turns_teaches_nothing_of_thrust() {
     let turning = |deg_s: f64| told(2.0, 0.0, move |at_s| deg_s * at_s);
     assert_eq!(turning(25.0), Airframe::default());
     assert_eq!(turning(-25.0), Airframe::default());
+    assert!(told(2.0, 0.0, |_| 40.0) != Airframe::default(), "it may face anywhere");
     for deg_s in [16.0, -16.0, 20.0, -20.0] {
         assert!(turning(deg_s) != Airframe::default(), "{deg_s}");
     }
