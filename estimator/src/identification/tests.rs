@@ -125,7 +125,9 @@ fn tilt_and_turn_are_identified_on_their_axes() {
 
 #[test]
 fn thrust_and_drag_are_identified_for_each_axis() {
+    // By the tilt that this drone has, not an ordinary one.
     let truth = Airframe {
+        tilt_gain: 0.8,
         thrust_gain: Vector2::new(0.7, 1.2),
         drag_1_s: Vector2::new(1.4, 0.8),
         ..Airframe::default()
