@@ -113,6 +113,9 @@ fn a_sighting_is_of_the_one_tag_in_view_that_is_near() {
         assert_eq!(bench.see(1.0 + off_m, 0.5), found, "{off_m}");
         assert_eq!(bench.map.is_new(1), found.is_none(), "another tag");
     }
+    let mut bench = Bench::new(&[]);
+    bench.see(0.0, 0.0);
+    assert_eq!(bench.see(NEAR_M, 0.1), None, "exactly");
     // In view for a second.
     for (now_s, found) in [(IN_VIEW_S, Some(0)), (IN_VIEW_S + 0.01, None)] {
         let mut bench = Bench::new(&[]);
