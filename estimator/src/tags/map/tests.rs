@@ -271,3 +271,36 @@ fn a_moving_tag_is_forgotten_with_all_that_are_on_trial() {
     bench.filter.correct(&sighted, 1);
     assert!(bench.filter.correction().place_m.x < -0.1, "it corrects the drone");
 }
+
+#[test]
+fn a_mean_residual_at_the_limit_is_no_motion() {
+    // At 2 m, right below: 0.08 m.
+    for (off_m, moves) in [(8.0 * 0.08, false), (8.0 * 0.081, true)] {
+        let mut bench = Bench::with_known(&[1.0]);
+        bench.map.watch(0, at(off_m), 2.0, 0.0, 0.0);
+        assert_eq!(bench.map.moves(0), moves);
+    }
+}
+
+#[test]
+fn a_forgotten_tag_takes_no_other_out_of_use() {
+    let is_corrected = |bench: &mut Bench, tag: usize| {
+        let before_m = bench.filter.tag_place_m(tag);
+        let sighted = bench.sighted(before_m + at(0.2));
+        bench.filter.correct(&sighted, tag);
+        bench.filter.tag_place_m(tag) != before_m
+    };
+    // Every slot is taken, and the first on trial is forgotten.
+    let mut bench = Bench::with_known(&[0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0]);
+    for (right_m, now_s) in [(50.0, 0.0), (60.0, 1.5), (70.0, 1.5)] {
+        bench.see(right_m, now_s);
+    }
+    bench.map.forget_old(&mut bench.filter, 2.1);
+    assert!(!bench.map.is_new(8) && bench.map.is_new(9) && bench.map.is_new(10));
+    assert!((0..SLOTS).filter(|tag| *tag != 8).all(|tag| is_corrected(&mut bench, tag)));
+    // The last one is forgotten.
+    let mut bench = Bench::with_known(&[0.0, 5.0]);
+    bench.see(10.0, 0.0);
+    bench.map.forget_old(&mut bench.filter, 2.1);
+    assert!((0..2).all(|tag| is_corrected(&mut bench, tag)));
+}
