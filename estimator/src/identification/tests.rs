@@ -59,6 +59,15 @@ impl Truth {
 
 /// Flies a drone for some seconds, and identifies it from what it measures.
 fn identified(airframe: &Airframe, seconds: u32, sticks: impl Fn(f64) -> Sticks) -> Airframe {
+    identified_while(|_| *airframe, seconds, sticks)
+}
+
+/// The same of a drone that changes.
+fn identified_while(
+    airframe: impl Fn(f64) -> Airframe,
+    seconds: u32,
+    sticks: impl Fn(f64) -> Sticks,
+) -> Airframe {
     let mut identification = Identification::new(Airframe::default(), LIMITS);
     let (mut truth, mut orders) = (Truth::default(), Orders::new(Duration::ZERO));
     for step in 0..16 * seconds {
@@ -69,7 +78,7 @@ fn identified(airframe: &Airframe, seconds: u32, sticks: impl Fn(f64) -> Sticks)
         identification.tilt(at_s, truth.tilt_rad, &orders);
         identification.heading(at_s, 40.0 + truth.yaw_deg, &orders);
         identification.velocity(at_s, truth.velocity_m_s, 0.0, &orders);
-        truth.fly(sticks(at_s), airframe);
+        truth.fly(sticks(at_s), &airframe(at_s));
     }
     *identification.airframe()
 }
@@ -254,6 +263,21 @@ fn a_tilt_at_the_limit_says_nothing_of_the_gain() {
     assert!([1.02, -1.02].map(swung).iter().all(|gain| *gain < 0.9));
     // What is found is what saturates: at 0.9 nothing does, and the gain is found.
     assert_share(swung(0.95), 0.8, 0.02);
+    // Of a drone that tilts more, less stick saturates: its gain falls unnoticed.
+    let falling = |stick: f64| {
+        let airframe = |at_s| {
+            let tilt_gain = if at_s < 10.0 { 1.3 } else { 1.0 };
+            Airframe { tilt_gain, ..Airframe::default() }
+        };
+        let to_and_fro = |at_s| if at_s % 1.4 < 0.7 { 1.0 } else { -1.0 };
+        let found = identified_while(airframe, 60, |at_s| Sticks {
+            roll: to_and_fro(at_s) * if at_s < 10.0 { 0.5 } else { stick },
+            ..Sticks::default()
+        });
+        found.tilt_gain
+    };
+    assert_share(falling(0.9), 1.3, 0.02);
+    assert!(falling(0.5) < 1.2);
 }
 
 #[test]
