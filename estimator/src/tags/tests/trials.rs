@@ -24,6 +24,10 @@ fn a_tag_on_trial_corrects_the_position_from_its_fifth_sighting_on() {
     assert_eq!(correcting(100.0), []);
     assert_eq!(correcting(5.0 * STEP_S), (5..=12).collect::<Vec<_>>(), "just over");
     assert_eq!(correcting(6.1 * STEP_S), (7..=12).collect::<Vec<_>>());
+    // A plausible bias that it shows is kept.
+    let mut drone = Drone::new(&TagConfig::default());
+    (0..9).for_each(|_| drone.fly());
+    assert!(drone.tags.map.known() == 0 && drone.tags.filter.bias_m_s().norm() > 0.0);
     // One that is known corrects in any case.
     let mut drone = Drone::settled();
     drone.tags.cautious_until_s = f64::INFINITY;
