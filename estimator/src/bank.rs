@@ -158,4 +158,49 @@ mod tests {
             assert!((gains.x - 0.6).abs() < 0.03, "{gains}");
         }
     }
+
+    /// One gain, and as many lags, of which each has its own excitation.
+    fn small<const LAGS: usize>(lags_s: [f64; LAGS], spread: f64) -> Bank<LAGS, 1> {
+        let (gains, spreads) = ([1.0], [spread]);
+        let assumption = Assumption { gains, spreads, lag_s: 1.0, lag_spread: 0.5, noise: 0.02 };
+        Bank::new(lags_s, &assumption)
+    }
+
+    #[test]
+    fn information_is_forgotten_by_the_mean_excitation() {
+        let learnt = |causes: [f64; 2]| {
+            let mut bank = small([1.0, 1.0], 0.5);
+            bank.learn(0.0, &causes.map(SVector::<f64, 1>::new));
+            bank.hypotheses[0].information[(0, 0)]
+        };
+        // The prior is 1 / 0.5² = 4. Excitation counts in units of the noise, 0.02.
+        for (causes, keep, gained) in [
+            ([0.0, 0.0], 1.0, 0.0),
+            ([0.01, 0.01], 1.0 - FORGETTING * 0.25, 0.25),
+            ([0.01, 0.0], 1.0 - FORGETTING * 0.125, 0.25),
+            ([0.0, 0.02], 1.0 - FORGETTING * 0.5, 0.0),
+            // Full excitation.
+            ([0.2, 0.2], 1.0 - FORGETTING, 100.0),
+        ] {
+            assert!((learnt(causes) - (4.0 * keep + gained)).abs() < 1e-9, "{causes:?}");
+        }
+    }
+
+    #[test]
+    fn lags_are_weighted_by_their_probability() {
+        // A prior of two lags, one deviation of the logarithm apart on either side of the expected one.
+        let e = 0.5_f64.exp();
+        let mut bank = small([1.0 / e, 1.0, e], 1e-4);
+        let weight = (-0.5_f64).exp();
+        let expected_s = (weight / e + 1.0 + weight * e) / (1.0 + 2.0 * weight);
+        assert!((bank.estimate().0 - expected_s).abs() < 1e-9);
+        // The first lag explains the response; the residuals of the others are one and two deviations of the
+        // noise.
+        bank.learn(0.1, &[0.1, 0.08, 0.06].map(SVector::<f64, 1>::new));
+        let weights = [weight, (-0.5_f64).exp(), weight * (-2.0_f64).exp()];
+        let sum: f64 = weights.iter().sum();
+        let expected_s = (weights[0] / e + weights[1] + weights[2] * e) / sum;
+        let (lag_s, _) = bank.estimate();
+        assert!((lag_s - expected_s).abs() < 1e-5, "{lag_s}, {expected_s}");
+    }
 }

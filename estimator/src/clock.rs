@@ -168,4 +168,74 @@ mod tests {
             last = made_s;
         }
     }
+
+    #[test]
+    fn the_drones_clock_may_run_slow_by_a_thousandth_and_no_more() {
+        let mut clock = SampleClock::default();
+        assert_near(clock.made_s(Some(MS(0)), MS(0)), 0.0, 1e-12);
+        // From now on each packet is 50 ms late. As far as a clock can drift this may be its rate.
+        for i in 1..=100_u64 {
+            let made_s = clock.made_s(Some(MS(66 * i)), MS(66 * i + 50));
+            assert_near(made_s, 0.066 * i as f64 * (1.0 + CLOCK_DRIFT), 1e-9);
+        }
+        // The first that was not late sets the time again.
+        let (at, next) = (66 * 101, 66 * 102);
+        assert_near(clock.made_s(Some(MS(at)), MS(at)), 0.001 * at as f64, 1e-9);
+        let made_s = clock.made_s(Some(MS(next)), MS(next + 50));
+        assert_near(made_s, 0.001 * next as f64 + CLOCK_DRIFT * 0.066, 1e-9);
+    }
+
+    #[test]
+    fn ten_seconds_of_the_drones_clock_are_time_and_more_are_a_set_clock() {
+        for (step_ms, made_ms) in [(9_900, 9_900.0 * 1.001), (10_100, 10_500.0)] {
+            let mut clock = SampleClock::default();
+            clock.made_s(Some(MS(1_000)), MS(0));
+            let made_s = clock.made_s(Some(MS(1_000 + step_ms)), MS(10_500));
+            assert_near(made_s, made_ms / 1000.0, 1e-9);
+        }
+        // A step of this limit exactly is time.
+        let mut clock = SampleClock::default();
+        clock.made_s(Some(MS(0)), MS(0));
+        assert_near(clock.made_s(Some(MS(10_000)), MS(10_500)), 10.01, 1e-9);
+    }
+
+    #[test]
+    fn a_packet_is_under_way_for_ten_seconds_at_most() {
+        // Five seconds of the drone's clock later, by which the offset may have drifted by 5 ms.
+        for (arrival_ms, made_s) in [(14_900, 5.005), (15_100, 15.1)] {
+            let mut clock = SampleClock::default();
+            clock.made_s(Some(MS(1_000)), MS(0));
+            assert_near(clock.made_s(Some(MS(6_000)), MS(arrival_ms)), made_s, 1e-9);
+            // The next packet is dated by the clock that was found.
+            let made_s = clock.made_s(Some(MS(6_066)), MS(arrival_ms + 90));
+            assert_near(made_s, if arrival_ms < 15_000 { 5.071_066 } else { 15.166_066 }, 1e-9);
+        }
+    }
+
+    /// Arrivals after intervals of 100 ms, in milliseconds, without the drone's clock.
+    fn smoothed_s(arrivals_ms: &[u64]) -> f64 {
+        let mut clock = SampleClock::default();
+        clock.made_s(None, MS(0));
+        clock.made_s(None, MS(100));
+        arrivals_ms.iter().map(|ms| clock.made_s(None, MS(*ms))).last().unwrap()
+    }
+
+    #[test]
+    fn an_arrival_moves_the_time_by_the_gains_of_the_smoothing() {
+        // The interval becomes 104 ms, so 204 ms are expected; of the 36 ms beyond 15 % are believed.
+        assert_near(smoothed_s(&[240]), 0.2094, 1e-9);
+        // Nothing was measured after it arrived, even if the packet came early.
+        assert_near(smoothed_s(&[240, 250]), 0.25, 1e-9);
+        // Half an interval more than usual is jitter; beyond it packets are missing.
+        assert_near(smoothed_s(&[248]), 0.2 + 0.0048 + 0.15 * 0.0432, 1e-9);
+        assert_near(smoothed_s(&[252]), 0.252, 1e-9);
+        // Half an interval more exactly: 131.25 ms are the interval, and 256.25 ms were expected.
+        let mut clock = SampleClock::default();
+        clock.made_s(None, MS(0));
+        clock.made_s(None, MS(125));
+        let made_s = clock.made_s(None, Duration::from_micros(312_500));
+        assert_near(made_s, 0.256_25 + 0.15 * 0.056_25, 1e-9);
+        // A gap does not change the interval, so the next packet is expected as before.
+        assert_near(smoothed_s(&[400, 520]), 0.502 + 0.15 * 0.018, 1e-9);
+    }
 }

@@ -111,7 +111,7 @@ impl Heading {
         self.turn_deg_s
     }
 
-    /// The drone's compass has restarted: its next heading continues the last one.
+    /// The drone's compass has restarted: its next heading is the new zero.
     pub(crate) fn handle_restart(&mut self) {
         self.baseline_deg = None;
         self.measured.clear();
@@ -195,5 +195,88 @@ mod tests {
         let (heading, orders) = turning();
         let deg = heading.at(3.2, &orders, &Airframe::default(), &DroneLimits::default());
         assert!((deg - 160.0).abs() < 0.1, "{deg}");
+    }
+
+    const LIMITS: DroneLimits = DroneLimits { tilt_rad: 0.2, climb_m_s: 0.7, turn_deg_s: 100.0 };
+
+    /// A heading with these measurements, and orders that ask for nothing.
+    fn measured(measured: &[(f64, f64)]) -> (Heading, Orders, Vec<bool>) {
+        let (mut heading, orders) = (Heading::new(), Orders::new(Duration::ZERO));
+        let steps = measured
+            .iter()
+            .map(|(at_s, deg)| heading.update(*at_s, *deg, &orders, &Airframe::default(), &LIMITS))
+            .collect();
+        (heading, orders, steps)
+    }
+
+    #[test]
+    fn a_step_is_more_than_noise_and_the_fastest_turn() {
+        for sign in [-1.0, 1.0] {
+            // 6 degrees, plus 60 degrees per second.
+            for (at_s, deg, is_step) in
+                [(0.1, 11.9, false), (0.1, 12.1, true), (0.5, 35.9, false), (0.5, 36.1, true)]
+            {
+                let (heading, _, steps) = measured(&[(0.0, 0.0), (at_s, sign * deg)]);
+                assert_eq!(steps, [false, is_step], "{deg}");
+                let expected_deg = if is_step { 0.0 } else { sign * deg };
+                assert!((heading.newest_deg() - expected_deg).abs() < 1e-9);
+            }
+        }
+        assert_eq!(measured(&[(0.0, 0.0), (0.0, MAX_SURPRISE_DEG)]).2, [false, false]);
+    }
+
+    #[test]
+    fn of_two_headings_the_later_one_counts() {
+        let (heading, ..) = measured(&[(0.0, 10.0), (0.1, 12.0), (0.05, 14.0)]);
+        assert!((heading.newest_deg() - 2.0).abs() < 1e-9, "an older one is ignored");
+        let (heading, ..) = measured(&[(0.0, 10.0), (0.1, 12.0), (0.1, 14.0)]);
+        assert!((heading.newest_deg() - 4.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn it_remembers_the_newest_headings_only() {
+        let line: Vec<(f64, f64)> = (0..200).map(|i| (0.1 * f64::from(i), 0.0)).collect();
+        let (heading, ..) = measured(&line);
+        assert_eq!(heading.measured.len(), MEMORY);
+        assert!((heading.measured.back().unwrap().0 - 19.9).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_turn_follows_the_stick_with_the_airframes_gain_and_lag() {
+        let airframe = Airframe { turn_gain: 0.8, ..Airframe::default() };
+        let (mut heading, _, _) = measured(&[(0.0, 10.0)]);
+        let mut orders = Orders::new(Duration::ZERO);
+        orders.push(Duration::ZERO, Order::Sticks(Sticks { yaw: 0.5, ..Sticks::default() }));
+        orders.push(Duration::from_millis(150), Order::ByItself);
+        let lag_s = airframe.turn_lag_s;
+        let followed = 1.0 - (-1_f64).exp();
+        let rate = |at_s| heading.turn_deg_s(at_s, &orders, &airframe, &LIMITS);
+        assert!((rate(lag_s) - 40.0 * followed).abs() < 1e-6, "{}", rate(lag_s));
+        assert!((rate(2.0 * lag_s) - 40.0 * followed * (1.0 - followed)).abs() < 1e-6);
+        // The angle is the integral of the rate, here within half a step.
+        let angle_deg = 40.0 * lag_s * (1.0 - followed);
+        let deg = heading.at(lag_s, &orders, &airframe, &LIMITS);
+        assert!((angle_deg..angle_deg + 0.2).contains(&deg), "{deg}, {angle_deg}");
+        // The next heading takes the rate over.
+        assert!(!heading.update(lag_s, 10.0 + deg, &orders, &airframe, &LIMITS));
+        assert!((heading.newest_turn_deg_s() - 40.0 * followed).abs() < 1e-6);
+        heading.handle_restart();
+        assert!(heading.newest_turn_deg_s().abs() < 1e-9 && heading.newest_deg().abs() < 1e-9);
+        assert!(!heading.update(0.0, -100.0, &orders, &airframe, &LIMITS), "a new baseline");
+        assert!(heading.newest_deg().abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_turn_that_was_asked_for_is_no_step() {
+        // Full stick for half a second: some 35 degrees, and 36 more or less are allowed.
+        for (deg, is_step) in [(35.0, false), (35.0 + 38.0, true), (35.0 - 38.0, true)] {
+            let (mut heading, mut orders) = (Heading::new(), Orders::new(Duration::ZERO));
+            let full = Sticks { yaw: 1.0, ..Sticks::default() };
+            orders.push(Duration::ZERO, Order::Sticks(full));
+            let mut update =
+                |at_s, deg| heading.update(at_s, deg, &orders, &Airframe::default(), &LIMITS);
+            update(0.0, 0.0);
+            assert_eq!(update(0.5, deg), is_step, "{deg}");
+        }
     }
 }

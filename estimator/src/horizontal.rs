@@ -182,4 +182,120 @@ mod tests {
         assert_eq!(motion.measured_m_s(), Vector2::new(0.1, 0.0));
         assert_eq!(motion.position_m, place);
     }
+
+    fn assert_same(vector: Vector2<f64>, right: f64, forward: f64) {
+        let expected = Vector2::new(right, forward);
+        assert!((vector - expected).norm() < 1e-9, "{vector} is not {expected}");
+    }
+
+    /// One axis of a step of the model, in the body: tilt, and acceleration without the disturbance.
+    fn axis(tilt_rad: f64, wanted_rad: f64, speed_m_s: f64, thrust: f64, drag_1_s: f64) -> f64 {
+        // After a step of one lag.
+        let tilt_rad = tilt_rad + (wanted_rad - tilt_rad) * (1.0 - (-1_f64).exp());
+        GRAVITY_M_S2 * tilt_rad.tan() * thrust - drag_1_s * speed_m_s
+    }
+
+    #[test]
+    fn gravity_turns_tilt_into_acceleration_and_drag_slows_it() {
+        let airframe = Airframe {
+            tilt_gain: 1.2,
+            thrust_gain: Vector2::new(0.8, 0.9),
+            drag_1_s: Vector2::new(0.4, 0.7),
+            ..Airframe::default()
+        };
+        let limits = DroneLimits { tilt_rad: 0.2, ..DroneLimits::default() };
+        let mut motion = Horizontal {
+            position_m: Vector2::new(1.0, 2.0),
+            velocity_m_s: Vector2::new(0.5, -0.3),
+            disturbance_m_s2: Vector2::new(0.05, -0.04),
+            tilt_rad: Vector2::new(-0.03, 0.02),
+            ..Horizontal::default()
+        };
+        let sticks = Sticks { roll: 0.5, pitch: 0.25, ..Sticks::default() };
+        let step_s = airframe.tilt_lag_s;
+        // Facing right: the body's right is -y of the world, and its forward is x.
+        let right = axis(-0.03, 0.5 * 0.2 * 1.2, 0.3, 0.8, 0.4);
+        let forward = axis(0.02, -0.25 * 0.2 * 1.2, 0.5, 0.9, 0.7);
+        let (x_m_s2, y_m_s2) = (forward + 0.05, -right - 0.04);
+        motion.advance(step_s, Order::Sticks(sticks), 90.0, &airframe, &limits);
+        assert_same(motion.velocity_m_s, 0.5 + x_m_s2 * step_s, -0.3 + y_m_s2 * step_s);
+        let way_m = |m_s: f64, m_s2: f64| (m_s + m_s2 * step_s / 2.0) * step_s;
+        assert_same(motion.position_m, 1.0 + way_m(0.5, x_m_s2), 2.0 + way_m(-0.3, y_m_s2));
+        // By itself it levels and brakes within half a second, whatever pushes it.
+        let before = motion;
+        motion.advance(0.1, Order::ByItself, 90.0, &airframe, &limits);
+        let m_s = before.velocity_m_s;
+        assert_same(motion.velocity_m_s, m_s.x * 0.8, m_s.y * 0.8);
+        let moved_m = motion.position_m - before.position_m;
+        assert_same(moved_m, m_s.x * 0.09, m_s.y * 0.09);
+        assert_same(motion.tilt_rad, 0.0, 0.0);
+    }
+
+    #[test]
+    fn a_tilt_ends_at_the_limit_whatever_its_gain() {
+        let airframe = Airframe { tilt_gain: 2.0, ..Airframe::default() };
+        let limits = DroneLimits { tilt_rad: 0.2, ..DroneLimits::default() };
+        for (stick, tilt_rad) in [(1.0, 0.2), (-1.0, -0.2), (0.3, 0.12)] {
+            let mut motion = Horizontal::default();
+            motion.advance(10.0, forward(stick), 0.0, &airframe, &limits);
+            assert_same(motion.tilt_rad, 0.0, tilt_rad);
+        }
+    }
+
+    #[test]
+    fn a_measured_velocity_corrects_by_the_gains_within_their_limits() {
+        let order = forward(0.0);
+        let corrected = |surprise: Vector2<f64>, step_s| {
+            let mut motion = Horizontal {
+                velocity_m_s: Vector2::new(1.0, -1.0),
+                disturbance_m_s2: Vector2::new(0.1, 0.2),
+                ..Horizontal::default()
+            };
+            let measured_m_s = motion.velocity_m_s + surprise;
+            motion.correct(measured_m_s, Vector2::new(3.0, 4.0), step_s, order, &GAINS);
+            assert_same(motion.position_m, 3.0, 4.0);
+            assert_eq!(motion.measured_m_s(), measured_m_s);
+            motion
+        };
+        // A fifth of the surprise after 0.05 s; the same of the disturbance.
+        let motion = corrected(Vector2::new(0.5, -0.2), 0.05);
+        assert_same(motion.velocity_m_s, 1.0 + 0.1, -1.0 - 0.04);
+        assert_same(motion.disturbance_m_s2, 0.1 + 0.1, 0.2 - 0.04);
+        // At most 70 % of it, and a gap counts as a tenth of a second.
+        let motion = corrected(Vector2::new(0.5, -0.2), 1.0);
+        assert_same(motion.velocity_m_s, 1.0 + 0.35, -1.0 - 0.14);
+        assert_same(motion.disturbance_m_s2, 0.1 + 0.2, 0.2 - 0.08);
+        // The disturbance is limited.
+        let motion = corrected(Vector2::new(9.0, -9.0), 1.0);
+        assert_same(motion.disturbance_m_s2, 1.0, -1.0);
+    }
+
+    #[test]
+    fn the_tilt_that_holds_a_drone_shows_the_wind() {
+        let airframe = Airframe {
+            thrust_gain: Vector2::new(0.8, 0.9),
+            drag_1_s: Vector2::new(0.4, 0.7),
+            ..Airframe::default()
+        };
+        let held = |disturbance_m_s2, tilt_rad: Vector2<f64>, measured_m_s, step_s| {
+            let mut motion = Horizontal { disturbance_m_s2, measured_m_s, ..Horizontal::default() };
+            motion.learn_from_hold(tilt_rad, 90.0, step_s, &airframe, &GAINS);
+            motion.disturbance_m_s2
+        };
+        let (none, tilt_rad) = (Vector2::zeros(), Vector2::new(0.04, -0.05));
+        let right = 0.8 * GRAVITY_M_S2 * 0.04_f64.tan();
+        let forward = -0.9 * GRAVITY_M_S2 * 0.05_f64.tan();
+        // Facing right. After a second it is known; after a quarter of it a quarter.
+        assert_same(held(none, tilt_rad, none, 1.0), -forward, right);
+        assert_same(held(none, tilt_rad, none, 3.0), -forward, right);
+        assert_same(held(none, tilt_rad, none, 0.25), -forward / 4.0, right / 4.0);
+        let before = Vector2::new(0.2, 0.4);
+        let expected = before * 0.75 + Vector2::new(-forward, right) * 0.25;
+        assert_same(held(before, tilt_rad, none, 0.25), expected.x, expected.y);
+        // While it moves, part of the tilt is against the drag: at 0.5 m/s forward and 0.3 m/s to the right.
+        let (right, forward) = (right - 0.4 * 0.3, forward - 0.7 * 0.5);
+        assert_same(held(none, tilt_rad, Vector2::new(0.5, -0.3), 1.0), -forward, right);
+        // It is limited.
+        assert_same(held(none, Vector2::new(0.3, 0.3), none, 1.0), -1.0, 1.0);
+    }
 }

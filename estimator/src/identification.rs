@@ -368,3 +368,6 @@ const LEAST_SPEED_CHANGE_M_S: f64 = 0.25;
 const MIN_GAIN: f64 = 0.4;
 const MAX_GAIN: f64 = 2.5;
 const MAX_DRAG_1_S: f64 = 3.0;
+
+#[cfg(test)]
+mod tests;

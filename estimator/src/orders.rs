@@ -95,4 +95,45 @@ mod tests {
         }
         assert_eq!(orders.recent.len(), MEMORY);
     }
+
+    #[test]
+    fn an_interval_is_split_at_each_order_and_at_least_every_ten_milliseconds() {
+        let mut orders = Orders::new(Duration::ZERO);
+        orders.push(Duration::from_millis(25), forward(0.3));
+        orders.push(Duration::from_millis(60), forward(0.6));
+        let mut steps = Vec::new();
+        orders.steps(0.01, 0.065, |at_s, step_s, order| steps.push((at_s, step_s, order)));
+        let (none, slow, fast) = (Order::ByItself, forward(0.3), forward(0.6));
+        let expected = [
+            (0.01, 0.01, none),
+            (0.02, 0.005, none),
+            (0.025, 0.01, slow),
+            (0.035, 0.01, slow),
+            (0.045, 0.01, slow),
+            (0.055, 0.005, slow),
+            (0.06, 0.005, fast),
+        ];
+        assert_eq!(steps.len(), expected.len(), "{steps:?}");
+        for (step, (at_s, step_s, order)) in steps.iter().zip(expected) {
+            assert!((step.0 - at_s).abs() < 1e-9 && (step.1 - step_s).abs() < 1e-9, "{step:?}");
+            assert_eq!(step.2, order, "at {at_s}");
+        }
+        orders.steps(0.1, 0.1, |_, _, _| panic!("no time has passed"));
+    }
+
+    /// Times are sums of decimal fractions, which are not exact: a nanosecond is the same moment.
+    #[test]
+    fn an_order_acts_at_its_moment_whatever_the_rounding() {
+        let mut orders = Orders::new(Duration::ZERO);
+        orders.push(Duration::from_secs(1), forward(0.3));
+        assert_eq!(orders.at(1.0 - 0.5e-9), forward(0.3));
+        assert_eq!(orders.at(1.0 - 2e-9), Order::ByItself);
+        let mut steps = Vec::new();
+        orders.steps(1.0 - 0.5e-9, 1.005, |_, step_s, order| steps.push((step_s, order)));
+        assert_eq!(steps.len(), 1, "{steps:?}");
+        assert_eq!(steps[0].1, forward(0.3));
+        for now_s in [1.0 - 0.5e-9, 1.0 - 1e-9] {
+            orders.steps(now_s, 1.0, |_, _, _| panic!("it is the same moment"));
+        }
+    }
 }

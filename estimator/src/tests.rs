@@ -1,4 +1,8 @@
 use super::*;
+use kinematics::Sticks;
+
+mod motion;
+mod plausible;
 
 fn fly(samples: impl IntoIterator<Item = Sample>) -> Estimate {
     let mut estimator = Estimator::default();
@@ -87,4 +91,60 @@ fn a_gap_is_bridged_by_the_speeds_around_it() {
 fn a_very_long_gap_is_not_filled_with_motion() {
     let estimate = fly([sample(0, 0.0, 1.0, 0.0), sample(10_000, 0.0, 1.0, 0.0)]);
     assert!(estimate.position_m.y <= 3.0 + 1e-6);
+}
+
+const PERIOD: Duration = Duration::from_micros(62_500);
+
+/// An estimator, and the packets that it receives every sixteenth of a second. A packet shows the drone as it
+/// was when each of its sensors measured.
+struct Flight {
+    estimator: Estimator,
+    packet: u32,
+    order: Order,
+    /// What the next packets say, apart from a rattle of every sensor.
+    shown: Sample,
+}
+
+impl Flight {
+    fn new(config: &EstimatorConfig) -> Self {
+        let shown = Sample { altitude_m: 1.0, airborne: true, ..Sample::default() };
+        Self { estimator: Estimator::new(*config), packet: 0, order: Order::ByItself, shown }
+    }
+
+    fn now(&self) -> Duration {
+        PERIOD * self.packet
+    }
+
+    /// Sends the order, and receives a packet.
+    fn step(&mut self) {
+        self.packet += 1;
+        self.estimator.told(self.now(), self.order);
+        let rattle = 1e-4 * f64::from(self.packet % 3);
+        self.estimator.update(&Sample {
+            arrival: self.now(),
+            yaw_deg: self.shown.yaw_deg + rattle,
+            roll_deg: self.shown.roll_deg + rattle,
+            pitch_deg: self.shown.pitch_deg - rattle,
+            velocity_forward_m_s: self.shown.velocity_forward_m_s + rattle,
+            velocity_right_m_s: self.shown.velocity_right_m_s - rattle,
+            altitude_m: self.shown.altitude_m + rattle,
+            ..self.shown
+        });
+    }
+
+    fn fly(&mut self, packets: u32) {
+        (0..packets).for_each(|_| self.step());
+    }
+
+    fn predicted(&self) -> Prediction {
+        self.estimator.predicted(self.now())
+    }
+}
+
+fn sticks(sticks: Sticks) -> Order {
+    Order::Sticks(sticks)
+}
+
+fn assert_near(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
 }

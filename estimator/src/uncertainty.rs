@@ -182,4 +182,86 @@ mod tests {
         let silent_m = |speed_m_s| Uncertainty::default().horizontal_m(0.0, 1.0, speed_m_s);
         assert!(silent_m(2.5) > silent_m(0.0) + 0.4);
     }
+
+    fn assert_near(value: f64, expected: f64) {
+        assert!((value - expected).abs() < 1e-9, "{value} is not {expected}");
+    }
+
+    /// The deviation by the covariance of a bias that decays and is pushed at random, integrated in small
+    /// steps.
+    #[test]
+    fn the_bias_follows_its_covariance() {
+        const STEP_S: f64 = 0.01;
+        let (mut bias, mut shared, mut place) = (BIAS_M_S * BIAS_M_S, 0.0, 0.0);
+        for step in 1..=60_000_u32 {
+            place += 2.0 * shared * STEP_S;
+            shared += (bias - shared / BIAS_TIME_S) * STEP_S;
+            bias += (BIAS_WALK_M_S * BIAS_WALK_M_S - 2.0 * bias / BIAS_TIME_S) * STEP_S;
+            if [300, 3_000, 12_000, 60_000].contains(&step) {
+                let flown_s = STEP_S * f64::from(step);
+                let (m, expected_m) = (bias_m(flown_s), place.sqrt());
+                assert!((m / expected_m - 1.0).abs() < 0.003, "{flown_s} s: {m}, {expected_m}");
+            }
+        }
+    }
+
+    #[test]
+    fn each_part_adds_by_its_own_rule_and_independently() {
+        let fresh = Uncertainty::default();
+        assert_near(fresh.horizontal_m(0.0, 0.0, 0.0), FLOOR_M);
+        assert_near(fresh.horizontal_m(3.0, 0.0, 0.0), FLOOR_M.hypot(SCALE * 3.0));
+        // 100 s of drift are 3 degrees, four steps of the compass are 4: together 5 degrees.
+        let mut turned = Uncertainty::default();
+        for _ in 0..50 {
+            turned.fly(2.0);
+        }
+        (0..4).for_each(|_| turned.step_of_the_heading());
+        let at_start_m = turned.horizontal_m(0.0, 0.0, 0.0);
+        assert_near(at_start_m, FLOOR_M.hypot(bias_m(100.0)));
+        let aside_m = 5_f64.to_radians() * 3.0;
+        let far_m = at_start_m.hypot(SCALE * 3.0).hypot(aside_m);
+        assert_near(turned.horizontal_m(3.0, 0.0, 0.0), far_m);
+        // Two seconds of silence at 3 m/s: 0.15 m/s, a fifth of the speed, and 0.3 m/s² for two seconds.
+        assert_near(Uncertainty::silence_m(2.0, 3.0), (0.15 + 0.6 + 0.6) * 2.0);
+        assert_near(fresh.horizontal_m(0.0, 2.0, 3.0), FLOOR_M.hypot(2.7));
+    }
+
+    #[test]
+    fn gaps_are_independent_of_each_other_and_rejected_velocities_are_not() {
+        let unseen_m = |gap_s, before_m_s, after_m_s| {
+            let mut uncertainty = Uncertainty::default();
+            uncertainty.fly_unseen(gap_s, before_m_s, after_m_s);
+            uncertainty.unmeasured_m2().sqrt()
+        };
+        let (still, along, aside) =
+            (Vector2::zeros(), Vector2::new(2.0, 0.0), Vector2::new(0.0, 1.5));
+        assert_near(unseen_m(1.0, still, still), 0.15);
+        assert_near(unseen_m(2.0, along, along), (0.15 + 0.2 * 2.0) * 2.0);
+        assert_near(unseen_m(1.0, still, along), 0.15 + 0.2 * 2.0 + 0.25 * 2.0);
+        assert_near(unseen_m(1.0, along, aside), 0.15 + 0.2 * 2.0 + 0.25 * 2.5);
+        // After two seconds the drone is alone and drifts with half a metre per second more.
+        assert_near(unseen_m(3.0, still, still), 0.15 * 3.0 + 0.5);
+        let mut uncertainty = Uncertainty::default();
+        uncertainty.fly_unseen(1.0, still, still);
+        uncertainty.fly_unseen(2.0, still, still);
+        assert_near(uncertainty.unmeasured_m2(), 0.15_f64.powi(2) + 0.3_f64.powi(2));
+        // A rejected velocity is wrong by the same error for as long as it is rejected; above 1.2 m/s it is
+        // hardly that of a drone.
+        uncertainty.fly_disputed(0.5, 0.8);
+        uncertainty.fly_disputed(0.5, 5.0);
+        let disputed_m: f64 = 0.5 * 0.8 + 0.5 * MAX_DISPUTED_M_S;
+        let unseen_m2 = 0.15_f64.powi(2) + 0.3_f64.powi(2);
+        assert_near(uncertainty.unmeasured_m2(), unseen_m2 + disputed_m.powi(2));
+        let known_m = uncertainty.horizontal_m(0.0, 0.0, 0.0);
+        assert_near(known_m, FLOOR_M.hypot(uncertainty.unmeasured_m2().sqrt()));
+    }
+
+    #[test]
+    fn a_height_is_as_good_as_its_echo_until_the_floor_steps_or_silence_begins() {
+        let mut uncertainty = Uncertainty::default();
+        assert_near(uncertainty.vertical_m(0.0), HEIGHT_M);
+        assert_near(uncertainty.vertical_m(2.0), HEIGHT_M.hypot(0.6));
+        (0..4).for_each(|_| uncertainty.step_of_the_floor());
+        assert_near(uncertainty.vertical_m(0.0), HEIGHT_M.hypot(2.0 * FLOOR_STEP_M));
+    }
 }

@@ -56,3 +56,93 @@ impl Look {
 fn touches_rim(centre: f64, size: f64) -> bool {
     centre - size / 2.0 < 1.0 || centre + size / 2.0 > 999.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MOMENT: Moment = Moment {
+        place_m: Vector2::new(0.0, 0.0),
+        speed_m_s: 0.0,
+        yaw_deg: 0.0,
+        tilt_deg: Vector2::new(0.0, 0.0),
+        height_m: 1.5,
+    };
+
+    /// What the camera of a drone with this tilt sees of a tag at this offset.
+    fn seen(offset_m: Vector2<f64>, tilt_deg: Vector2<f64>) -> (Sight, Moment) {
+        let config = TagConfig::default();
+        let tilt_rad = tilt_deg.map(f64::to_radians);
+        let right_rad = (offset_m.x / MOMENT.height_m).atan() + tilt_rad.x;
+        let forward_rad = (offset_m.y / MOMENT.height_m).atan() - tilt_rad.y;
+        let far_m = offset_m.norm().hypot(MOMENT.height_m);
+        let width = config.focal_units[0] * config.size_m / far_m;
+        let sight = Sight {
+            x: config.centre_units[0] + config.focal_units[0] * right_rad.tan(),
+            y: config.centre_units[1] - config.focal_units[1] * forward_rad.tan(),
+            width,
+            height: width,
+            distance_m: far_m * FIRMWARE_SIZE_M / config.size_m,
+            orientation_deg: 33.0,
+        };
+        (sight, Moment { tilt_deg, ..MOMENT })
+    }
+
+    fn look(sight: &Sight) -> Option<Look> {
+        Look::new(sight, &MOMENT, &TagConfig::default())
+    }
+
+    #[test]
+    fn a_tag_is_found_where_it_lies_however_the_drone_tilts() {
+        for offset_m in [Vector2::zeros(), Vector2::new(0.3, -0.2), Vector2::new(-0.2, 0.3)] {
+            for tilt_deg in [Vector2::zeros(), Vector2::new(5.0, 0.0), Vector2::new(-3.0, 4.0)] {
+                let (sight, moment) = seen(offset_m, tilt_deg);
+                let look = Look::new(&sight, &moment, &TagConfig::default()).unwrap();
+                assert!((look.offset_m - offset_m).norm() < 1e-9, "{offset_m}, {tilt_deg}");
+                assert!((look.height_m - 1.5).abs() < 1e-9);
+                assert!((look.orientation_deg - 33.0).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn a_tag_has_the_size_and_distance_of_ours_within_two_fifths() {
+        let (sight, _) = seen(Vector2::new(0.3, -0.2), Vector2::zeros());
+        for (share, fits) in [(0.61, true), (0.59, false), (1.39, true), (1.41, false)] {
+            let near = Sight { distance_m: sight.distance_m * share, ..sight };
+            assert_eq!(look(&near).is_some(), fits, "{share}");
+            let wide = Sight { width: sight.width * share, ..sight };
+            assert_eq!(look(&wide).is_some(), fits, "{share}");
+        }
+    }
+
+    #[test]
+    fn a_tag_at_the_rim_is_not_complete() {
+        assert!(!touches_rim(500.0, 100.0));
+        for (centre, touches) in [(51.0, false), (50.9, true), (949.0, false), (949.1, true)] {
+            assert_eq!(touches_rim(centre, 100.0), touches, "{centre}");
+        }
+        let (sight, _) = seen(Vector2::zeros(), Vector2::zeros());
+        assert!(look(&sight).is_some());
+        assert!(look(&Sight { x: 20.0, ..sight }).is_none(), "left");
+        assert!(look(&Sight { y: 990.0, ..sight }).is_none(), "below");
+    }
+
+    #[test]
+    fn what_a_tilt_would_put_at_the_horizon_is_no_tag() {
+        // A tag in the centre of a picture taken at this tilt, with its size and distance.
+        let tilted = |axis: usize, rad: f64| {
+            let (mut sight, mut moment) = seen(Vector2::zeros(), Vector2::zeros());
+            moment.tilt_deg[axis] = rad.to_degrees();
+            let far_m = MOMENT.height_m / rad.cos();
+            sight.width *= MOMENT.height_m / far_m;
+            sight.distance_m *= far_m / MOMENT.height_m;
+            Look::new(&sight, &moment, &TagConfig::default()).is_some()
+        };
+        for axis in 0..2 {
+            for sign in [-1.0, 1.0] {
+                assert!(tilted(axis, sign * 0.99) && !tilted(axis, sign * 1.01));
+            }
+        }
+    }
+}

@@ -367,3 +367,6 @@ fn is_within(deviations: f64, off: Vector2<f64>, spread: Matrix2<f64>) -> bool {
 fn dot(left: &Row, right: &Row, used: usize) -> f64 {
     left.iter().zip(right).take(used).map(|(left, right)| left * right).sum()
 }
+
+#[cfg(test)]
+mod tests;

@@ -111,3 +111,76 @@ fn place_at(places: &Places, at_s: f64) -> Option<(Vector2<f64>, Vector2<f64>)> 
     let ahead_s = places.back().map_or(0.0, |(newest_s, _)| at_s - newest_s);
     Some((place_m + velocity_m_s * ahead_s.clamp(0.0, LONGEST_S), velocity_m_s))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step(at_s: f64) -> OdometryStep {
+        OdometryStep {
+            made_s: at_s + 0.06,
+            at_s,
+            place_m: Vector2::new(2.0 * at_s, -at_s),
+            velocity_m_s: Vector2::new(3.0 * at_s, 4.0 * at_s),
+            yaw_deg: 0.0,
+            tilt: (at_s + 0.04, Vector2::new(at_s, 5.0 * at_s)),
+            height: (at_s + 0.02, 1.0 + at_s),
+            airborne: true,
+            unseen_m2: 0.0,
+        }
+    }
+
+    fn assert_same(vector: Vector2<f64>, right: f64, forward: f64) {
+        let expected = Vector2::new(right, forward);
+        assert!((vector - expected).norm() < 1e-9, "{vector} is not {expected}");
+    }
+
+    #[test]
+    fn a_step_is_the_way_since_the_last_and_its_time() {
+        let mut history = History::new();
+        assert!(history.at(1.0, 0.0).is_none() && history.newest_s().is_none());
+        assert!(history.push(&step(1.0)).is_none(), "the first");
+        let (way_m, step_s) = history.push(&step(1.5)).unwrap();
+        assert_same(way_m, 1.0, -0.5);
+        assert!((step_s - 0.5).abs() < 1e-9);
+        assert!(history.push(&step(1.5)).is_none(), "the same again");
+        assert!(history.push(&step(1.2)).is_none(), "an older one");
+        // The odometry may repeat while the other sensors go on.
+        let newer = OdometryStep { made_s: 2.0, tilt: (1.9, Vector2::x()), ..step(1.5) };
+        assert!(history.push(&newer).is_none());
+        assert_eq!(history.newest_s(), Some(2.0));
+        assert_same(history.at(1.9, 0.0).unwrap().tilt_deg, 1.0, 0.0);
+    }
+
+    #[test]
+    fn each_quantity_is_read_at_its_own_time() {
+        let mut history = History::new();
+        for at_s in [1.0, 2.0, 4.0] {
+            history.push(&step(at_s));
+        }
+        let moment = history.at(2.5, 12.0).unwrap();
+        assert_same(moment.place_m, 5.0, -2.5);
+        assert!((moment.speed_m_s - 12.5).abs() < 1e-9);
+        assert_same(moment.tilt_deg, 2.46, 12.3);
+        assert!((moment.height_m - 3.48).abs() < 1e-9, "{}", moment.height_m);
+        assert!((moment.yaw_deg - 12.0).abs() < 1e-9);
+        // Before the first sample all is as then.
+        let moment = history.at(0.0, 0.0).unwrap();
+        assert_same(moment.place_m, 2.0, -1.0);
+        assert_same(moment.tilt_deg, 1.0, 5.0);
+        // Beyond the newest the drone flies on for a tenth of a second.
+        assert_same(history.at(4.05, 0.0).unwrap().place_m, 8.0 + 0.6, -4.0 + 0.8);
+        assert_same(history.at(5.0, 0.0).unwrap().place_m, 8.0 + 1.2, -4.0 + 1.6);
+        assert!((history.at(5.0, 0.0).unwrap().height_m - 5.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn only_the_newest_steps_are_kept() {
+        let mut history = History::new();
+        for i in 0..1000 {
+            history.push(&step(f64::from(i)));
+        }
+        assert_eq!(history.places.len(), MEMORY);
+        assert_same(history.at(0.0, 0.0).unwrap().place_m, 2.0 * 780.0, -780.0);
+    }
+}

@@ -295,3 +295,6 @@ fn is_known(standing: Standing) -> bool {
 fn is_on_trial(standing: Standing) -> bool {
     matches!(standing, Standing::OnTrial(_))
 }
+
+#[cfg(test)]
+mod tests;

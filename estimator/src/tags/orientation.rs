@@ -168,4 +168,119 @@ mod tests {
         }
         assert_eq!(orientation.sign(), None, "{orientation:?}");
     }
+
+    /// Sightings of tag 0 by a drone that stands, and then one after a turn.
+    fn turned(orientation: &mut Orientation, sights: u32, turn_deg: f64, told_deg: f64) -> Turned {
+        for _ in 0..sights {
+            orientation.saw(0, 20.0, 300.0);
+        }
+        orientation.saw(0, 20.0 + turn_deg, 300.0 + told_deg)
+    }
+
+    #[test]
+    fn a_direction_is_the_heading_less_the_turn_in_the_picture() {
+        let (clockwise, counter) = (OrientationSign::Clockwise, OrientationSign::CounterClockwise);
+        // Aligned with the tag, either sign says the same.
+        assert!((clockwise.direction_deg(40.0, 270.0) - 40.0).abs() < 1e-9);
+        assert!((counter.direction_deg(40.0, 270.0) - 40.0).abs() < 1e-9);
+        assert!((clockwise.direction_deg(40.0, 300.0) - 10.0).abs() < 1e-9);
+        assert!((counter.direction_deg(40.0, 300.0) - 70.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_mean_of_a_direction_remembers_forty_sightings() {
+        let mut mean = Mean::default();
+        assert!(mean.join(170.0).abs() < 1e-9);
+        assert!((mean.deg - 170.0).abs() < 1e-9);
+        // Across half a turn, the second counts as much as the first.
+        assert!((mean.join(-170.0) - 20.0).abs() < 1e-9);
+        assert!((wrap_deg(mean.deg - 180.0)).abs() < 1e-9, "{mean:?}");
+        assert!((mean.join(-174.0) - 6.0).abs() < 1e-9);
+        assert!((mean.deg + 178.0).abs() < 1e-9, "a third of it");
+        let mut mean = Mean { deg: 10.0, sights: 500 };
+        assert!((mean.join(14.0) - 4.0).abs() < 1e-9);
+        assert!((mean.deg - 10.1).abs() < 1e-9 && mean.sights == 501);
+    }
+
+    #[test]
+    fn a_turn_counts_by_how_much_better_one_sign_explains_it() {
+        // The drone has turned by 4 degrees clockwise and the orientation has grown by 3 or shrunk by 3. The
+        // clockwise sign leaves 1 degree, the other 7; or the reverse.
+        for (told_deg, off_deg) in [(3.0, [1.0_f64, 7.0]), (-3.0, [7.0, 1.0])] {
+            let mut orientation = Orientation::new(None);
+            turned(&mut orientation, 8, 4.0, told_deg);
+            let evidence = (off_deg[1].powi(2) - off_deg[0].powi(2)) / (2.0 * 8.0 * 8.0);
+            assert!((orientation.odds - evidence).abs() < 1e-9, "{}", orientation.odds);
+        }
+        // One sighting decides no more than this, for it may be of something else.
+        for (told_deg, odds) in [(20.0, 1.0), (-20.0, -1.0)] {
+            let mut orientation = Orientation::new(None);
+            turned(&mut orientation, 8, 20.0, told_deg);
+            assert!((orientation.odds - odds).abs() < 1e-9);
+        }
+        // A small turn may be noise, and a mean of few sightings too.
+        for (sights, turn_deg, counts) in
+            [(8, 1.4, false), (8, 1.6, true), (8, -1.4, false), (8, -1.6, true), (7, 4.0, false)]
+        {
+            let mut orientation = Orientation::new(None);
+            turned(&mut orientation, sights, turn_deg, turn_deg);
+            assert_eq!(orientation.odds != 0.0, counts, "{sights}, {turn_deg}");
+        }
+        let mut orientation = Orientation::new(None);
+        turned(&mut orientation, 8, LEAST_TURN_DEG, 4.0);
+        assert!(orientation.odds.abs() < 1e-9, "not more than the least turn");
+    }
+
+    #[test]
+    fn a_sign_is_decided_by_its_odds_and_changed_by_more_of_them() {
+        let mut orientation = Orientation::new(None);
+        let clockwise = |orientation: &mut Orientation, turn_deg: f64| {
+            orientation.forget(0);
+            turned(orientation, 8, turn_deg, turn_deg)
+        };
+        let counter = |orientation: &mut Orientation, turn_deg: f64| {
+            orientation.forget(0);
+            turned(orientation, 8, turn_deg, -turn_deg)
+        };
+        for i in 0..7 {
+            let turned = clockwise(&mut orientation, 20.0);
+            assert!(orientation.sign().is_none() && turned.direction_deg.is_none(), "{i}");
+        }
+        let turned = clockwise(&mut orientation, 20.0);
+        assert_eq!(orientation.sign(), Some(OrientationSign::Clockwise), "at eight");
+        assert!(!turned.sign_changed, "there was none");
+        // Heading 20 and orientation 300 are a direction of -10.
+        assert!((turned.direction_deg.unwrap() + 10.0).abs() < 1e-9);
+        assert!((turned.newest_deg.unwrap() + 10.0).abs() < 1e-9);
+        // The odds are limited, so that errors can be corrected.
+        for _ in 0..50 {
+            clockwise(&mut orientation, 20.0);
+        }
+        assert!((orientation.odds - CERTAIN).abs() < 1e-9);
+        let changes: Vec<usize> =
+            (0..50).filter(|_| counter(&mut orientation, 20.0).sign_changed).collect();
+        assert_eq!(changes, [31], "from 24 to -8");
+        assert_eq!(orientation.sign(), Some(OrientationSign::CounterClockwise));
+        assert!((orientation.odds + CERTAIN).abs() < 1e-9);
+        // A given sign is not changed.
+        let mut given = Orientation::new(Some(OrientationSign::Clockwise));
+        assert!((0..50).all(|_| !counter(&mut given, 20.0).sign_changed));
+        assert_eq!(given.sign(), Some(OrientationSign::Clockwise));
+    }
+
+    #[test]
+    fn a_direction_is_used_after_nine_sightings_of_its_tag() {
+        let mut orientation = Orientation::new(Some(OrientationSign::CounterClockwise));
+        for i in 0..9 {
+            let turned = orientation.saw(0, 20.0, 300.0);
+            assert_eq!(turned.direction_deg.is_some(), i == 8, "{i}");
+            assert_eq!(turned.newest_deg.is_some(), i == 8, "{i}");
+        }
+        let turned = orientation.saw(0, 20.0, 310.0);
+        assert!((turned.direction_deg.unwrap() - 51.0).abs() < 1e-9, "a tenth of it");
+        assert!((turned.newest_deg.unwrap() - 60.0).abs() < 1e-9);
+        assert!(orientation.saw(1, 20.0, 300.0).direction_deg.is_none(), "another tag");
+        orientation.forget(0);
+        assert!(orientation.saw(0, 20.0, 300.0).direction_deg.is_none(), "in its slot");
+    }
 }

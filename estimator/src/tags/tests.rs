@@ -4,6 +4,9 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::{Estimator, EstimatorConfig, Sample, Sight, SurveyedTag, TagConfig};
 
+mod frames;
+mod trials;
+
 const PERIOD: Duration = Duration::from_micros(66_667);
 const HEIGHT_M: f64 = 1.5;
 const DELAY: Duration = Duration::from_millis(60);

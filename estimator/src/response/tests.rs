@@ -1,0 +1,335 @@
+#![expect(clippy::float_cmp, reason = "the very same number, not a near one")]
+
+use std::time::Duration;
+
+use super::*;
+
+mod axis;
+
+const PERIOD_MS: u64 = 60;
+
+/// When a quantity is found to ignore the sticks, in seconds, within `seconds`.
+fn found(
+    sticks: Sticks,
+    seconds: u64,
+    measured: impl Fn(f64) -> Measured,
+) -> Option<(f64, Quantity)> {
+    let mut orders = Orders::new(Duration::ZERO);
+    let mut response = Response::default();
+    let limits = DroneLimits::default();
+    (0..1000 * seconds / PERIOD_MS).find_map(|i| {
+        let now = Duration::from_millis(PERIOD_MS * i);
+        orders.push(now, Order::Sticks(sticks));
+        let at_s = now.as_secs_f64();
+        response.watch(&measured(at_s), &orders, &limits).map(|quantity| (at_s, quantity))
+    })
+}
+
+fn still(at_s: f64) -> Measured {
+    Measured {
+        at_s,
+        altitude_m: 1.0,
+        yaw_deg: 0.0,
+        velocity_m_s: Vector2::zeros(),
+        tilt_rad: Vector2::zeros(),
+    }
+}
+
+#[test]
+fn a_drone_that_is_told_to_move_and_shows_no_motion_is_noticed_within_two_seconds() {
+    let none = Sticks::default();
+    let cases = [
+        (Sticks { gaz: 1.0, ..none }, Quantity::Altitude),
+        (Sticks { gaz: -1.0, ..none }, Quantity::Altitude),
+        (Sticks { yaw: -0.6, ..none }, Quantity::Heading),
+    ];
+    for (sticks, quantity) in cases {
+        let (at_s, which) = found(sticks, 5, still).unwrap();
+        assert_eq!(which, quantity);
+        assert!(at_s < 1.8, "{quantity}: {at_s}");
+    }
+    assert_eq!(found(none, 60, still), None);
+}
+
+#[test]
+fn a_drift_that_the_sticks_hide_is_noticed() {
+    // The controller holds the measured height: the drone sinks as fast as the sensor climbs.
+    let sinking = Sticks { gaz: -0.3, ..Sticks::default() };
+    let (at_s, which) = found(sinking, 10, still).unwrap();
+    assert!(which == Quantity::Altitude && at_s < 6.0, "{at_s}");
+}
+
+#[test]
+fn the_most_sluggish_airframes_are_not_accused() {
+    let up = Sticks { gaz: 1.0, roll: 1.0, yaw: 0.6, ..Sticks::default() };
+    let lag = |at_s: f64, lag_s: f64| at_s - lag_s * (1.0 - (-at_s / lag_s).exp());
+    let sluggish = |at_s: f64| Measured {
+        altitude_m: 1.0 + 0.7 * lag(at_s, 1.25),
+        yaw_deg: wrap_deg(0.7 * 60.0 * lag(at_s, 0.5)),
+        // Half of gravity's component at full tilt, and the largest drag.
+        velocity_m_s: Vector2::new(1.04 / 1.95 * (1.0 - (-1.95 * at_s).exp()), 0.0),
+        ..still(at_s)
+    };
+    assert_eq!(found(up, 20, sluggish), None);
+}
+
+#[test]
+fn a_drone_that_leans_against_a_rising_wind_is_not_accused() {
+    let leaning = Sticks { roll: 0.85, ..Sticks::default() };
+    let gently = |at_s: f64| Measured {
+        tilt_rad: Vector2::new(0.18 * (at_s / 20.0).min(1.0), 0.0),
+        ..still(at_s)
+    };
+    // A faster rise is a storm, in which the drone lands in any case.
+    assert_eq!(found(leaning, 40, gently), None);
+}
+
+#[test]
+fn a_drone_that_begins_to_lean_and_seems_to_stand_is_noticed_before_its_way_is_forgotten() {
+    const DIES_S: f64 = 6.0;
+    let flies = swinging(0.6);
+    let dies = |rattle_m_s: f64| {
+        let flies = &flies;
+        move |at_s: f64| match at_s {
+            ..DIES_S => flies(at_s),
+            _ => Measured {
+                tilt_rad: Vector2::new(0.2, 0.0),
+                velocity_m_s: Vector2::new(rattle_m_s * (31.0 * at_s).sin(), 0.0),
+                ..still(at_s)
+            },
+        }
+    };
+    // The flight before it fills the windows of three and eight seconds.
+    let (at_s, which) = found(Sticks::default(), 12, dies(0.01)).unwrap();
+    assert_eq!(which, Quantity::Velocity);
+    assert!((DIES_S + LEANS_S - 0.2..DIES_S + LEANS_S + 0.3).contains(&at_s), "{at_s}");
+}
+
+/// The tilt varies by 12 degrees, and the velocity follows with a fraction of gravity's component, plus
+/// noise.
+fn swinging(thrust: f64) -> impl Fn(f64) -> Measured {
+    move |at_s| {
+        let (sin, cos) = (2.0 * at_s).sin_cos();
+        let tilt_rad = 0.21 * cos;
+        let noise_m_s = 0.05 * (97.0 * at_s).sin();
+        let velocity_m_s = thrust * GRAVITY_M_S2 * 0.21 * sin / 2.0 + noise_m_s;
+        Measured {
+            velocity_m_s: Vector2::new(velocity_m_s, noise_m_s),
+            tilt_rad: Vector2::new(tilt_rad, 0.0),
+            ..still(at_s)
+        }
+    }
+}
+
+#[test]
+fn a_dead_flow_that_rattles_is_noticed_when_the_drone_tilts() {
+    let gently = Sticks { roll: 0.5, ..Sticks::default() };
+    let (at_s, which) = found(gently, 10, swinging(0.0)).unwrap();
+    assert!(which == Quantity::Velocity && at_s < 3.0, "{at_s}");
+    for thrust in [0.5, 0.75, 1.03] {
+        assert_eq!(found(gently, 60, swinging(thrust)), None, "{thrust}");
+    }
+}
+
+#[test]
+fn a_slow_drift_of_the_altitude_is_noticed() {
+    let sinking = Sticks { gaz: -0.15, ..Sticks::default() };
+    let (at_s, which) = found(sinking, 20, still).unwrap();
+    assert!(which == Quantity::Altitude && at_s < 9.0, "{at_s}");
+}
+
+/// The reaction is a climb too fast to be judged as a slow one.
+#[test]
+fn an_altitude_that_drifts_down_is_noticed_before_the_drone_has_climbed_a_metre() {
+    let climbing = Sticks { gaz: 0.37, ..Sticks::default() };
+    let (at_s, which) = found(climbing, 10, still).unwrap();
+    let climbed_m = 0.37 * DroneLimits::default().climb_m_s * at_s;
+    assert!(which == Quantity::Altitude && climbed_m < 1.0, "{at_s} s, {climbed_m} m");
+}
+
+#[test]
+fn a_jump_is_judged_elsewhere() {
+    let stepping = |at_s: f64| Measured {
+        altitude_m: 1.0 + 0.7 * at_s - if at_s > 1.0 { 0.8 } else { 0.0 },
+        ..still(at_s)
+    };
+    let up = Sticks { gaz: 1.0, ..Sticks::default() };
+    assert_eq!(found(up, 5, stepping), None);
+}
+
+fn assert_near(value: f64, expected: f64) {
+    assert!((value - expected).abs() < 1e-9, "{value} is not {expected}");
+}
+
+/// The way of a rate that follows a constant command with a lag.
+fn lagged(rate: f64, lag_s: f64, at_s: f64) -> f64 {
+    rate * (at_s - lag_s * (1.0 - (-at_s / lag_s).exp()))
+}
+
+#[test]
+fn what_the_sticks_ask_for_follows_with_the_lag_of_an_ordinary_airframe() {
+    let mut rate = Rate::new(CLIMB);
+    let now = 0.7 * (1.0 - (-1_f64).exp());
+    assert_near(rate.follow(0.7, 0.5, 0.5), now / 2.0 * 0.5);
+    let later = now + (0.7 - now) * (1.0 - (-1_f64).exp());
+    assert_near(rate.follow(0.7, 0.5, 0.5), f64::midpoint(now, later) * 0.5);
+    assert_near(rate.asked, now / 2.0 * 0.5 + f64::midpoint(now, later) * 0.5);
+
+    let mut orders = Orders::new(Duration::ZERO);
+    let sticks = Sticks { gaz: -1.0, yaw: 0.5, ..Sticks::default() };
+    orders.push(Duration::ZERO, Order::Sticks(sticks));
+    orders.push(Duration::from_secs(2), Order::ByItself);
+    let (limits, airframe) = (DroneLimits::default(), Airframe::default());
+    let mut response = Response::default();
+    let mut watch = |twentieths: std::ops::RangeInclusive<u32>| {
+        for at in twentieths {
+            response.watch(&still(f64::from(at) / 20.0), &orders, &limits);
+        }
+        (response.asked_rise_m(), response.asked_turn_deg())
+    };
+    let (rise_m, turn_deg) = watch(0..=39);
+    assert!((rise_m - lagged(-0.7, airframe.climb_lag_s, 1.95)).abs() < 1e-4, "{rise_m}");
+    assert!((turn_deg - lagged(50.0, airframe.turn_lag_s, 1.95)).abs() < 0.01, "{turn_deg}");
+    assert_eq!(watch(40..=60), (rise_m, turn_deg), "by itself it is asked for nothing");
+}
+
+#[test]
+fn longer_gaps_are_not_judged() {
+    let asked_m = |gap_s: f64| {
+        let mut orders = Orders::new(Duration::ZERO);
+        orders.push(Duration::ZERO, Order::Sticks(Sticks { gaz: 1.0, ..Sticks::default() }));
+        let mut response = Response::default();
+        for at_s in [0.0, gap_s] {
+            response.watch(&still(at_s), &orders, &DroneLimits::default());
+        }
+        response.asked_rise_m()
+    };
+    assert!(asked_m(MAX_GAP_S) > 0.05);
+    assert_near(asked_m(MAX_GAP_S + 0.01), 0.0);
+}
+
+#[test]
+fn what_was_missing_is_forgotten_once_the_drone_moves_by_itself() {
+    let up = Order::Sticks(Sticks { gaz: 1.0, roll: 0.5, ..Sticks::default() });
+    // For so many seconds the drone follows the sticks, and then for one it does not.
+    let first_found = |sticks_s: f64, measured: &dyn Fn(f64) -> Measured| {
+        let (mut orders, mut response) = (Orders::new(Duration::ZERO), Response::default());
+        (0..400_u64).find_map(|i| {
+            let at_s = 0.06 * i as f64;
+            let by_itself = at_s > sticks_s && at_s <= sticks_s + 1.0;
+            let order = if by_itself { Order::ByItself } else { up };
+            orders.push(Duration::from_millis(60 * i), order);
+            response.watch(&measured(at_s), &orders, &DroneLimits::default()).map(|_| at_s)
+        })
+    };
+    let climbing = |at_s: f64| Measured { altitude_m: 1.0 + lagged(0.7, 0.5, at_s), ..still(at_s) };
+    let dead_flow = |at_s: f64| Measured {
+        velocity_m_s: Vector2::zeros(),
+        altitude_m: climbing(at_s).altitude_m,
+        ..swinging(0.0)(at_s)
+    };
+    for measured in [&still as &dyn Fn(f64) -> Measured, &dead_flow] {
+        let at_once_s = first_found(100.0, measured).unwrap();
+        let interrupted_s = first_found(at_once_s - 0.1, measured).unwrap();
+        let after_s = interrupted_s - (at_once_s - 0.1 + 1.0);
+        assert!(after_s > 0.7 * at_once_s, "{at_once_s}, {interrupted_s}");
+    }
+}
+
+/// A rate with a given command, and what it is judged by.
+fn rate(now: f64) -> Rate {
+    Rate { now, last: Some(0.0), ..Rate::new(CLIMB) }
+}
+
+impl Rate {
+    /// Compares in units of a full rate of 0.7 m/s.
+    fn judge(mut self, moved: f64, asked: f64, step_s: f64) -> Self {
+        self.compare(moved, asked, step_s, 0.7, |metres| metres);
+        self
+    }
+}
+
+#[test]
+fn a_missing_response_is_what_the_weakest_airframe_would_have_shown() {
+    // 60 % of 0.05 m, less the drift of a healthy sensor, 0.03 m/s, in either direction.
+    assert_near(rate(0.0).judge(0.0, 0.05, 0.1).missing, 0.03 - 0.003);
+    assert_near(rate(0.0).judge(0.0, -0.05, 0.1).missing, 0.03 - 0.003);
+    assert_near(rate(0.0).judge(0.01, 0.05, 0.1).missing, 0.02 - 0.003);
+    assert_near(rate(0.0).judge(-0.01, -0.05, 0.1).missing, 0.02 - 0.003);
+    assert_near(rate(0.0).judge(0.04, 0.05, 0.1).missing, 0.0);
+    // It adds up, and what is old fades with ten seconds.
+    let lacking = Rate { missing: 0.2, ..rate(0.0) };
+    assert_near(lacking.judge(0.0, 0.05, 1.0).missing, 0.2 * (-0.1_f64).exp() + 0.03 - 0.03);
+}
+
+#[test]
+fn a_step_beyond_noise_and_motion_is_a_jump() {
+    // 0.1 m, plus 1 m/s for 0.05 s, around the 0.02 m that were asked for.
+    assert_near(rate(0.0).judge(-0.12, 0.02, 0.05).missing, 0.012 + 0.12 - 0.0015);
+    assert_near(rate(0.0).judge(-0.14, 0.02, 0.05).missing, 0.0);
+    assert_near(rate(0.0).judge(-CLIMB.jump, 0.0, 0.0).missing, CLIMB.jump);
+}
+
+#[test]
+fn a_drone_that_was_fast_the_other_way_may_still_be_braking() {
+    let ago = |now| Rate { fast_ago_s: [1.0; 2], ..rate(now) }.judge(0.0, 0.0, 0.05).fast_ago_s;
+    // A fifth of the full rate is fast.
+    assert_eq!(ago(-0.141), [0.0, 1.05]);
+    assert_eq!(ago(0.141), [1.05, 0.0]);
+    assert_eq!(ago(FAST_SHARE * 0.7), [1.05; 2]);
+    assert_eq!(ago(-FAST_SHARE * 0.7), [1.05; 2]);
+    // For two seconds it is not judged by what it is asked for in the other direction.
+    let lacking =
+        |fast_ago_s, asked| Rate { fast_ago_s, ..rate(0.0) }.judge(0.0, asked, 0.5).missing > 0.0;
+    for (ago_s, judged) in [(1.4, false), (1.5, true)] {
+        assert_eq!(lacking([ago_s, f64::INFINITY], 0.1), judged, "down, then up");
+        assert_eq!(lacking([f64::INFINITY, ago_s], -0.1), judged, "up, then down");
+    }
+    assert!(lacking([f64::INFINITY, 0.0], 0.1) && lacking([0.0, f64::INFINITY], -0.1));
+}
+
+#[test]
+fn a_slow_command_is_judged_after_two_seconds_by_all_of_it() {
+    let slow_for = |now| Rate { slow_for_s: 1.0, ..rate(now) }.judge(0.0, 0.0, 0.05).slow_for_s;
+    // 35 % of the full rate.
+    for (now, slow_for_s) in
+        [(0.244, 1.05), (-0.244, 1.05), (0.246, 0.0), (-0.246, 0.0), (SLOW_SHARE * 0.7, 0.0)]
+    {
+        assert_near(slow_for(now), slow_for_s);
+    }
+    let missing = |slow_for_s, moved, asked| {
+        let missing_slowly = [0.2, 0.1];
+        Rate { missing_slowly, slow_for_s, ..rate(0.1) }.judge(moved, asked, 0.5).missing_slowly
+    };
+    // What is old fades with ten seconds.
+    let old = [0.2, 0.1].map(|missing| missing * (-0.05_f64).exp());
+    assert_eq!(missing(1.5, 0.01, 0.05), old, "two seconds are not over");
+    let [ordinary, most] = missing(1.6, 0.01, 0.05);
+    assert_near(ordinary, old[0] + 0.04);
+    assert_near(most, old[1] + 0.04);
+    // Downwards the strongest airframe has 1.7 times the rate.
+    let [ordinary, most] = missing(1.6, -0.01, -0.05);
+    assert_near(ordinary, old[0] - 0.04);
+    assert_near(most, old[1] - (1.7 * 0.05 - 0.01));
+}
+
+#[test]
+fn a_response_is_missing_once_its_sum_is_too_large_for_a_while() {
+    let is_missing = |missing, missing_slowly| {
+        let before = Rate { missing, missing_slowly, missing_for_s: 0.1, ..rate(0.3) };
+        let now = before.judge(0.0, 0.0, 0.0);
+        now.missing_for_s > 0.0
+    };
+    assert!(is_missing(CLIMB.missing + 1e-3, [0.0; 2]));
+    assert!(!is_missing(CLIMB.missing, [0.0; 2]));
+    let slowly = CLIMB.missing_slowly;
+    let more = slowly + 1e-3;
+    assert!(is_missing(0.0, [more, more]) && is_missing(0.0, [-more, -more]));
+    assert!(!is_missing(0.0, [slowly, more]) && !is_missing(0.0, [more, slowly]));
+    assert!(!is_missing(0.0, [more, -more]), "a drone that drops faster than it climbs");
+    for (missing_for_s, found) in [(0.119, false), (MISSING_TIME_S, true)] {
+        assert_eq!(Rate { missing_for_s, ..rate(0.0) }.is_missing(), found);
+    }
+    let lasting = Rate { missing: 0.5, missing_for_s: 0.1, ..rate(0.3) }.judge(0.0, 0.0, 0.05);
+    assert_near(lasting.missing_for_s, 0.15);
+}

@@ -1,0 +1,285 @@
+use super::*;
+use kinematics::Sticks;
+
+fn run(filter: &mut AltitudeFilter, altitudes_m: impl IntoIterator<Item = f64>) -> Vec<Echo> {
+    let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+    let step_s = 0.066;
+    let mut echoes = Vec::new();
+    for altitude_m in altitudes_m {
+        let mut expected = filter.state();
+        expected.advance(step_s, Order::ByItself, &airframe, &limits);
+        echoes.push(filter.correct(altitude_m, expected, step_s, Order::ByItself));
+    }
+    echoes
+}
+
+#[test]
+fn a_steady_climb_is_followed_without_lag() {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, (0..100).map(|i| 0.5 * 0.066 * f64::from(i)));
+    let state = filter.state();
+    assert!((state.climb_m_s - 0.5).abs() < 0.01, "{state:?}");
+    assert!((state.height_m - 0.5 * 0.066 * 99.0).abs() < 0.01, "{state:?}");
+}
+
+#[test]
+fn what_the_sticks_do_is_known_at_once() {
+    let (airframe, limits) = (Airframe::default(), DroneLimits::default());
+    let order = Order::Sticks(Sticks { gaz: 1.0, ..Sticks::default() });
+    let (mut truth, mut filter) = (Vertical::default(), AltitudeFilter::default());
+    filter.correct(0.0, truth, 0.0, order);
+    for _ in 0..60 {
+        truth.advance(0.04, order, &airframe, &limits);
+        let mut expected = filter.state();
+        expected.advance(0.04, order, &airframe, &limits);
+        filter.correct(truth.height_m, expected, 0.04, order);
+        assert!((filter.state().climb_m_s - truth.climb_m_s).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn wrong_echoes_are_ignored() {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, [1.0; 50]);
+    let echoes = run(&mut filter, [2.5, 1.0, 0.3, 0.7, 1.0]);
+    assert_eq!(echoes, [Echo::Wrong, Echo::Good, Echo::Wrong, Echo::Wrong, Echo::Good]);
+    assert!((filter.state().height_m - 1.0).abs() < 0.01);
+}
+
+/// One echo from a filter that has received nothing for `gap_s`.
+fn after_a_gap(filter: &mut AltitudeFilter, gap_s: f64, altitude_m: f64) -> Echo {
+    let expected = filter.state();
+    filter.correct(altitude_m, expected, gap_s, Order::ByItself)
+}
+
+#[test]
+fn a_wrong_echo_behind_a_gap_is_ignored_too() {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, [1.0; 50]);
+    assert_eq!(after_a_gap(&mut filter, 0.4, 1.4), Echo::Wrong);
+    assert!((filter.disputed_m() - 0.4).abs() < 0.01, "it is still undecided");
+    assert_eq!(run(&mut filter, [1.0; 10]), [Echo::Good; 10]);
+    assert!((filter.state().height_m - 1.0).abs() < 0.01);
+    assert!(filter.disputed_m().abs() < 1e-9);
+}
+
+#[test]
+fn what_was_climbed_in_a_gap_is_believed_with_the_second_echo() {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, [1.0; 50]);
+    assert_eq!(after_a_gap(&mut filter, 0.4, 1.4), Echo::Wrong);
+    assert_eq!(run(&mut filter, [1.4; 5]), [Echo::Good; 5]);
+    let height_m = filter.state().height_m;
+    assert!((height_m - 1.4).abs() < 0.01, "{height_m}");
+    // Without a gap the same height is a step of the floor.
+    assert!(run(&mut filter, [1.8; 5]).contains(&Echo::FloorStep));
+}
+
+#[test]
+fn a_descent_that_began_in_a_gap_is_believed() {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, (0..50).map(|i| 0.5 * 0.066 * f64::from(i)));
+    let top_m = filter.state().height_m;
+    // The model climbs on; the drone has reversed and sinks.
+    let expected = Vertical { height_m: top_m + 0.2, climb_m_s: 0.5 };
+    assert_eq!(filter.correct(top_m - 0.1, expected, 0.4, Order::ByItself), Echo::Wrong);
+    let sinks = (1..20).map(|i| top_m - 0.1 - 0.4 * 0.066 * f64::from(i));
+    let echoes = run(&mut filter, sinks);
+    assert!(!echoes.contains(&Echo::FloorStep), "{echoes:?}");
+    let state = filter.state();
+    assert!((state.height_m - (top_m - 0.1 - 0.4 * 0.066 * 19.0)).abs() < 0.1, "{state:?}");
+}
+
+#[test]
+fn a_wrong_echo_that_was_believed_does_not_make_a_floor_of_the_true_ones() {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, [1.0; 50]);
+    assert_eq!(after_a_gap(&mut filter, 0.1, 1.24), Echo::Good, "just believed");
+    let expected = Vertical { height_m: 1.3, climb_m_s: 0.4 };
+    assert_eq!(filter.correct(1.0, expected, 0.1, Order::ByItself), Echo::Wrong);
+    assert_eq!(run(&mut filter, [1.0; 10]), [Echo::Good; 10]);
+    let height_m = filter.state().height_m;
+    assert!((filter.above_floor_m(height_m) - height_m).abs() < 1e-9);
+    assert!((height_m - 1.0).abs() < 0.1, "{height_m}");
+}
+
+#[test]
+fn a_wrong_echo_is_no_height_to_begin_with() {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, [0.4, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0]);
+    let height_m = filter.state().height_m;
+    assert!((height_m - 2.0).abs() < 0.05, "{height_m}");
+    assert!((filter.above_floor_m(height_m) - 2.0).abs() < 0.05);
+}
+
+#[test]
+fn over_a_table_the_height_above_the_start_goes_on() {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, [1.5; 50]);
+    let echoes = run(&mut filter, [0.8; 20]);
+    assert!(echoes.contains(&Echo::FloorStep));
+    let height_m = filter.state().height_m;
+    assert!((height_m - 1.5).abs() < 0.02, "{height_m}");
+    assert!((filter.above_floor_m(height_m) - 0.8).abs() < 0.02);
+    run(&mut filter, [1.5; 20]);
+    assert!((filter.above_floor_m(filter.state().height_m) - 1.5).abs() < 0.02);
+}
+
+fn assert_near(value: f64, expected: f64) {
+    assert!((value - expected).abs() < 1e-9, "{value} is not {expected}");
+}
+
+#[test]
+fn a_climb_follows_its_stick_with_the_gain_of_its_direction() {
+    let airframe = Airframe { climb_gain: 1.5, drop_gain: 0.8, ..Airframe::default() };
+    let limits = DroneLimits::default();
+    let (step_s, followed) = (airframe.climb_lag_s, 1.0 - (-1_f64).exp());
+    for (gaz, gain) in [(0.5, 1.5), (-0.5, 0.8)] {
+        let mut state = Vertical { height_m: 1.0, climb_m_s: 0.1 };
+        let order = Order::Sticks(Sticks { gaz, ..Sticks::default() });
+        state.advance(step_s, order, &airframe, &limits);
+        let climb_m_s = 0.1 + (gaz * limits.climb_m_s * gain - 0.1) * followed;
+        assert_near(state.climb_m_s, climb_m_s);
+        assert_near(state.height_m, 1.0 + f64::midpoint(0.1, climb_m_s) * step_s);
+    }
+    // By itself a drone goes on as it was.
+    let mut state = Vertical { height_m: 1.0, climb_m_s: 0.4 };
+    state.advance(0.5, Order::ByItself, &airframe, &limits);
+    assert_near(state.climb_m_s, 0.4);
+    assert_near(state.height_m, 1.2);
+}
+
+/// A filter that hovers at this height, all of whose heights agreed.
+fn hovering(height_m: f64) -> AltitudeFilter {
+    let mut filter = AltitudeFilter::default();
+    run(&mut filter, [height_m; 50]);
+    filter
+}
+
+fn still(height_m: f64) -> Vertical {
+    Vertical { height_m, climb_m_s: 0.0 }
+}
+
+#[test]
+fn a_height_corrects_by_the_time_constant_of_its_order() {
+    let by_sticks = Order::Sticks(Sticks::default());
+    for (order, time_constant_s) in [
+        (by_sticks, AltitudeFilter::TIME_CONSTANT_S),
+        (Order::ByItself, AltitudeFilter::TIME_CONSTANT_BY_ITSELF_S),
+    ] {
+        let mut filter = hovering(1.0);
+        // After one time constant half of the surprise is believed, and a sixth of its rate.
+        let expected = Vertical { height_m: 1.0, climb_m_s: 0.3 };
+        assert_eq!(filter.correct(1.09, expected, time_constant_s, order), Echo::Good);
+        assert_near(filter.state().height_m, 1.045);
+        assert_near(filter.state().climb_m_s, 0.3 + 0.09 / 6.0 / time_constant_s);
+    }
+    // A height of the same instant has no weight.
+    let mut filter = hovering(1.0);
+    let before = filter.state();
+    assert_eq!(filter.correct(1.1, before, 0.0, by_sticks), Echo::Good);
+    assert_near(filter.state().height_m, before.height_m);
+    assert_near(filter.state().climb_m_s, before.climb_m_s);
+}
+
+#[test]
+fn a_height_may_be_off_by_a_jump_and_a_changed_climb() {
+    // 0.15 m, plus 1 m/s for at most a tenth of a second.
+    for (step_s, allowed_m) in [(0.05, 0.2), (0.1, 0.25), (0.5, 0.25)] {
+        for sign in [-1.0, 1.0] {
+            for (off_m, echo) in [(allowed_m - 1e-3, Echo::Good), (allowed_m + 1e-3, Echo::Wrong)] {
+                let mut filter = hovering(2.0);
+                let found = filter.correct(2.0 + sign * off_m, still(2.0), step_s, Order::ByItself);
+                assert_eq!(found, echo, "{step_s} s, {off_m} m");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_limit_itself_is_within_it() {
+    let mut filter = hovering(2.0);
+    assert_eq!(filter.correct(2.25, still(2.0), 0.1, Order::ByItself), Echo::Good);
+    // Half of it is not doubtful yet, so two heights elsewhere are no correction.
+    let mut filter = hovering(2.0);
+    assert_eq!(filter.correct(2.125, still(2.0), 0.1, Order::ByItself), Echo::Good);
+    for _ in 0..2 {
+        assert_eq!(filter.correct(1.7, still(2.0), 0.05, Order::ByItself), Echo::Wrong);
+    }
+}
+
+#[test]
+fn a_gap_explains_no_more_than_a_climb_through_it() {
+    // Half a second without heights is 0.4 s more than usual: 0.4 m beyond the usual 0.2 m.
+    for (rise_m, second) in [(0.59, Echo::Good), (0.61, Echo::Wrong)] {
+        let mut filter = hovering(1.0);
+        let mut next = |step_s| filter.correct(1.0 + rise_m, still(1.0), step_s, Order::ByItself);
+        assert_eq!(next(0.5), Echo::Wrong);
+        assert_eq!(next(0.05), second, "{rise_m}");
+    }
+    // Several gaps in a row are one.
+    let mut filter = hovering(1.0);
+    assert_eq!(filter.correct(1.59, still(1.0), 0.3, Order::ByItself), Echo::Wrong);
+    assert_eq!(filter.correct(1.62, still(1.0), 0.3, Order::ByItself), Echo::Good);
+    assert_near(filter.state().height_m, 1.62);
+    // Without a gap it takes four heights to make a floor.
+    let mut filter = hovering(1.0);
+    let mut next = || filter.correct(1.59, still(1.0), 0.05, Order::ByItself);
+    let echoes = [next(), next(), next(), next()];
+    assert_eq!(echoes, [Echo::Wrong, Echo::Wrong, Echo::Wrong, Echo::FloorStep]);
+    assert_near(filter.above_floor_m(1.0), 1.59);
+}
+
+#[test]
+fn a_height_beyond_half_of_the_allowed_jump_is_doubtful() {
+    // 0.2 m are allowed. Then the heights are 0.3 m below for two echoes.
+    for (off_m, second) in [(0.11, Echo::Good), (0.09, Echo::Wrong)] {
+        for sign in [-1.0, 1.0] {
+            let mut filter = hovering(2.0);
+            let believed = filter.correct(2.0 + sign * off_m, still(2.0), 0.05, Order::ByItself);
+            assert_eq!(believed, Echo::Good);
+            let mut next = || filter.correct(2.0 - sign * 0.3, still(2.0), 0.05, Order::ByItself);
+            assert_eq!(next(), Echo::Wrong);
+            assert_eq!(next(), second, "{off_m}");
+        }
+    }
+}
+
+#[test]
+fn a_floor_is_agreed_on_by_heights_or_by_their_differences() {
+    let floor = |heights_m: [(f64, f64); 4]| {
+        let mut filter = hovering(2.0);
+        heights_m.map(|(expected_m, height_m)| {
+            filter.correct(height_m, still(expected_m), 0.05, Order::ByItself)
+        })
+    };
+    // The model climbs and the drone hovers over a table.
+    let hovers = [(2.0, 1.3), (2.2, 1.3), (2.4, 1.3), (2.6, 1.3)];
+    assert_eq!(floor(hovers)[3], Echo::FloorStep);
+    // Both climb.
+    let climbs = [(2.0, 1.3), (2.2, 1.5), (2.4, 1.7), (2.6, 1.9)];
+    assert_eq!(floor(climbs)[3], Echo::FloorStep);
+    // The heights agree with nothing.
+    let random = [(2.0, 1.3), (2.0, 1.5), (2.0, 1.3), (2.0, 1.5)];
+    assert_eq!(floor(random), [Echo::Wrong; 4]);
+    // The one that disagrees begins a new count of four.
+    let late = [(2.0, 0.6), (2.0, 1.3), (2.0, 1.3), (2.0, 1.3)];
+    assert_eq!(floor(late), [Echo::Wrong; 4]);
+    // A tenth of a metre is near enough, more is not.
+    let near = [(2.0, 1.0), (2.0, 1.09), (2.0, 1.0), (2.0, 1.09)];
+    assert_eq!(floor(near)[3], Echo::FloorStep);
+    let far = [(2.0, 1.0), (2.0, 1.11), (2.0, 1.0), (2.0, 1.11)];
+    assert_eq!(floor(far), [Echo::Wrong; 4]);
+}
+
+#[test]
+fn a_drone_that_stands_is_on_the_floor_of_the_start() {
+    let mut filter = hovering(1.5);
+    run(&mut filter, [0.8; 20]);
+    filter.correct(3.0, still(1.5), 0.4, Order::ByItself);
+    assert!(filter.disputed_m() > 0.5);
+    filter.stand();
+    assert_near(filter.above_floor_m(0.0), 0.0);
+    assert_near(filter.state().height_m, 0.0);
+    assert_near(filter.disputed_m(), 0.0);
+}
