@@ -569,7 +569,10 @@ mod tests {
         let within = |time: Option<Duration>, most: Duration| time.is_some_and(|time| time <= most);
         let tick = Duration::from_millis(30);
         assert!(within(lands_after([0.0, -1.1], 0.0), GUST + tick), "a storm");
-        assert!(!within(lands_after([0.0, -1.1], 0.0), GUST - tick), "it may be a gust");
+        assert!(
+            !within(lands_after([0.0, -1.1], 0.0), GUST.saturating_sub(tick)),
+            "it may be a gust"
+        );
         assert!(!within(lands_after([0.0, -1.1], 1.5), GUST + 5 * tick), "it was a gust");
         for bearable in [[0.0, -1.0], [0.0, 1.1], [1.1, 0.0]] {
             assert!(!within(lands_after(bearable, 0.0), GUST + 5 * tick), "{bearable:?}");
@@ -729,7 +732,7 @@ mod tests {
         let at = |time| Situation { now: FINE.now + time, ..high };
         let mut monitor = monitor();
         assert_eq!(monitor.check(GO_TO, &high).1, Some(Veto::OutsideFence));
-        let last = RETREAT - Duration::from_millis(1);
+        let last = RETREAT.saturating_sub(Duration::from_millis(1));
         assert_ne!(monitor.check(GO_TO, &at(last)).0, AgentCommand::Land);
         assert_eq!(monitor.check(GO_TO, &at(RETREAT)).0, AgentCommand::Land);
     }
@@ -753,7 +756,7 @@ mod tests {
         assert!(descends(millis(100), HIGH_M + 0.01));
         assert!(!descends(millis(100), HIGH_M), "from there it lands by itself");
         let whole = time_to_sink(1.8);
-        assert!(descends(whole - millis(1), 1.8));
+        assert!(descends(whole.saturating_sub(millis(1)), 1.8));
         assert!(!descends(whole, 1.8), "it does not sink");
     }
 

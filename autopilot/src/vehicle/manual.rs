@@ -150,7 +150,7 @@ mod tests {
     fn stick_input_expires() {
         let (sticks, since) = (Sticks { roll: 0.5, ..Sticks::default() }, Duration::from_secs(5));
         let manual = Manual { mode: Mode::Steered { sticks, since }, ..Manual::default() };
-        let last = since + STICK_TIME - Duration::from_millis(1);
+        let last = since + STICK_TIME.saturating_sub(Duration::from_millis(1));
         assert_eq!(manual.sticks(since), Some(sticks));
         assert_eq!(manual.sticks(last), Some(sticks));
         assert_eq!(manual.sticks(since + STICK_TIME), None);

@@ -1,3 +1,8 @@
+mod bench;
+mod orders;
+mod phases;
+mod ticks;
+
 use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{NavdataOption, PacketWriter};
 use bytes::BytesMut;

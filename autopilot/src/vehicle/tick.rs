@@ -181,17 +181,17 @@ impl Vehicle {
     }
 
     /// Wind disturbance as a fraction of the acceleration at full tilt.
-    fn wind(&self) -> Vector2<f64> {
+    pub(super) fn wind(&self) -> Vector2<f64> {
         self.flight.wind_m_s2 / (self.full_tilt_m_s2() * self.least_thrust())
     }
 
-    fn feel_wind(&mut self, disturbance_m_s2: Vector2<f64>, step_s: f64) {
+    pub(super) fn feel_wind(&mut self, disturbance_m_s2: Vector2<f64>, step_s: f64) {
         let disturbance_m_s2 = if self.on_ground() { Vector2::zeros() } else { disturbance_m_s2 };
         self.flight.wind_m_s2 +=
             (disturbance_m_s2 - self.flight.wind_m_s2) * (step_s / WIND_TIME_S);
     }
 
-    fn situation(&self, now: Duration, state: &Prediction) -> Situation {
+    pub(super) fn situation(&self, now: Duration, state: &Prediction) -> Situation {
         let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
         Situation {
             now,
