@@ -763,14 +763,14 @@ fn a_dump_without_an_end_is_not_collected_for_ever() {
     let mut bench = Bench::reading_back();
     bench.hear(1, DroneState::empty());
     bench.tick(FlightOrder::Land);
-    bench.handle(Input::Control(&[b'x'; 60_000]));
-    bench.handle(Input::Control(&[b'x'; 60_000]));
+    bench.handle(Input::Control(&vec![b'x'; 60_000]));
+    bench.handle(Input::Control(&vec![b'x'; 60_000]));
     bench.handle(Input::Control(b"control:outdoor = FALSE\n\0"));
     assert!(!bench.session.is_ready(), "what no drone sends is not read");
     let mut bench = Bench::reading_back();
     bench.hear(1, DroneState::empty());
     bench.tick(FlightOrder::Land);
-    bench.handle(Input::Control(&[b'x'; 60_000]));
+    bench.handle(Input::Control(&vec![b'x'; 60_000]));
     bench.handle(Input::Control(b"\ncontrol:outdoor = FALSE\n\0"));
     assert!(bench.session.is_ready());
 }

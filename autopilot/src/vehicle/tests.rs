@@ -1,6 +1,7 @@
 mod bench;
 mod orders;
 mod phases;
+mod sightings;
 mod ticks;
 
 use ardrone_link::configuration::Configuration;

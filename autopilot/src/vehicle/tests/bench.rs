@@ -1,7 +1,7 @@
 //! A vehicle with a drone that only says what a test wants it to say: it has no physics.
 
 use ardrone_link::at::{Command, ControlMode, Ref, decode};
-use ardrone_link::navdata::{NavdataOption, PacketWriter};
+use ardrone_link::navdata::{NavdataOption, PacketWriter, VisionDetect};
 use bytes::BytesMut;
 
 use super::super::*;
@@ -23,6 +23,8 @@ pub(super) struct Bench {
     /// The drone acknowledges its settings.
     pub(super) obeys: bool,
     pub(super) sequence: u32,
+    /// Its bottom camera sees a roundel below it.
+    pub(super) sees_tag: bool,
     /// The drone climbs and sinks slowly, because a jump is not plausible.
     height_m: f64,
     /// Commands of the last datagram.
@@ -51,6 +53,7 @@ impl Bench {
             is_heard: true,
             obeys: true,
             sequence: 0,
+            sees_tag: false,
             height_m: 0.0,
             commands: Vec::new(),
             events: Vec::new(),
@@ -159,8 +162,24 @@ impl Bench {
         if self.has_demo {
             packet.option(&NavdataOption::Demo(self.demo())).unwrap();
         }
+        if self.sees_tag {
+            packet.option(&NavdataOption::VisionDetect(self.sight())).unwrap();
+        }
         packet.finish();
         self.vehicle.handle(self.now, Input::Navdata(&bytes));
+    }
+
+    /// A roundel of 19 cm in the middle of the picture.
+    fn sight(&self) -> VisionDetect {
+        let height_m = self.height_m.max(0.1);
+        let size = |focal: f64| (focal * 0.19 / height_m) as u32;
+        let mut sight = VisionDetect { count: 1, ..VisionDetect::default() };
+        sight.kinds[0] = 1 << 16 | 8;
+        // Identical values would be the same picture.
+        (sight.x[0], sight.y[0]) = (500 + self.sequence % 3, 450);
+        (sight.widths[0], sight.heights[0]) = (size(1072.0), size(1452.0));
+        sight.distances_m[0] = height_m;
+        sight
     }
 
     fn demo(&self) -> Demo {

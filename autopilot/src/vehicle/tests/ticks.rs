@@ -195,3 +195,61 @@ fn a_mission_is_output_with_all_its_steps_when_it_changes() {
     assert_eq!(bench.missions, [4, 0]);
     assert_eq!(bench.vehicle.link_statistics().received, u64::from(bench.sequence));
 }
+
+#[test]
+fn each_flight_begins_anew() {
+    let mut bench = Bench::in_the_air("takeoff\nland");
+    bench.run(TICK);
+    bench.comes_down();
+    bench.until(SECOND, |bench| bench.phase() == Phase::Standby);
+    let first = bench.vehicle.report().clone();
+    assert_eq!((first.steps, first.steps_done), (2, 2));
+    bench.run(3 * SECOND);
+    let began = bench.now;
+    bench.accepted(OperatorOrder::Start { when_ready: false });
+    assert_eq!(bench.vehicle.outcome(), None);
+    let second = bench.vehicle.report();
+    assert_eq!((second.steps, second.steps_done, second.took_off_at), (2, 0, None));
+    bench.until(SECOND, |bench| bench.phase() == Phase::Flying);
+    bench.rises();
+    bench.run(3 * SECOND);
+    bench.comes_down();
+    bench.run(SECOND);
+    assert_eq!(bench.outcomes, [Outcome::Completed, Outcome::Completed]);
+    assert!(bench.vehicle.report().took_off_at.is_some_and(|at| at > began));
+}
+
+#[test]
+fn a_program_that_exits_lands_the_drone_and_says_so_in_its_datagram() {
+    let mut bench = Bench::in_the_air(STAY);
+    bench.vehicle.part(bench.now + TICK);
+    let expected = bench.vehicle.datagram().to_vec();
+    assert!(expected.starts_with(b"AT*REF="), "{expected:?}");
+    let Some(Transmit::Command { datagram, .. }) = bench.vehicle.poll_transmit() else {
+        panic!("nothing was sent")
+    };
+    assert_eq!(datagram, expected);
+    let first = ardrone_link::at::decode(datagram).next().unwrap().unwrap().1;
+    assert_eq!(first, ardrone_link::at::Command::Ref(ardrone_link::at::Ref::Land));
+}
+
+/// The drone of this test does not move.
+#[test]
+fn a_drone_that_is_sent_forward_and_does_not_come_nearer_is_saturated_until_it_holds() {
+    let mut bench = Bench::in_the_air(STAY);
+    let saturated_ms = |bench: &Bench| bench.vehicle.decision().unwrap().percepts.saturated_for_ms;
+    bench.accepted(OperatorOrder::GoTo { x_m: 0.0, y_m: 5.0 });
+    bench.run(SECOND);
+    let forward = match bench.commands[1] {
+        ardrone_link::at::Command::Pcmd(ardrone_link::at::Motion::Progressive {
+            pitch, ..
+        }) => -pitch.get(),
+        _ => 0.0,
+    };
+    assert!(forward > 0.5, "{:?}", bench.commands);
+    let most_ms = saturated_ms(&bench);
+    assert!(most_ms > 2 * 30, "more than one tick at a time: {most_ms}");
+    bench.accepted(OperatorOrder::Hold);
+    bench.run(SECOND / 2);
+    assert!(saturated_ms(&bench) < most_ms);
+}
