@@ -156,5 +156,7 @@ mod tests {
         assert_eq!(manual.sticks(since + STICK_TIME), None);
         assert_eq!(Manual::default().sticks(since), None);
         assert!(!manual.sends(), "no place was given");
+        let mode = Mode::SentTo { place: Pose::default(), offered: false };
+        assert!(Manual { mode, ..manual }.sends());
     }
 }

@@ -70,7 +70,10 @@ fn limits_that_the_drone_has_not_taken_forbid_the_flight_and_a_missing_clock_doe
     assert!(vehicle.events.contains(&FlightEvent::NoDroneClock));
     assert!(vehicle.configured.unconfirmed.is_empty());
     vehicle.compare_configuration(&taken(&vehicle, "control:altitude_max"));
-    assert_eq!(vehicle.configured.unconfirmed, ["control:altitude_max"]);
+    vehicle.setting_unconfirmed("control:altitude_max");
+    assert_eq!(vehicle.configured.unconfirmed, ["control:altitude_max"], "each key once");
+    vehicle.setting_unconfirmed("control:outdoor");
+    assert_eq!(vehicle.configured.unconfirmed, ["control:altitude_max", "control:outdoor"]);
 }
 
 /// Reasons why a vehicle that has just heard a drone on the ground does not take off.
@@ -138,8 +141,8 @@ fn a_firmware_that_does_not_look_for_tags_is_reported_and_flown() {
     let mut vehicle = Vehicle::new(&config).unwrap();
     for (key, _) in &detection {
         vehicle.setting_unconfirmed(key);
+        let said = vehicle.events.iter().filter(|event| **event == FlightEvent::NoTagDetection);
+        assert_eq!(said.count(), 1, "once for all keys");
     }
-    let told = vehicle.events.iter().filter(|event| **event == FlightEvent::NoTagDetection);
-    assert_eq!(told.count(), 1);
     assert_eq!(vehicle.configured.unconfirmed, Vec::<String>::new());
 }

@@ -23,6 +23,8 @@ pub(super) struct Bench {
     /// The drone acknowledges its settings.
     pub(super) obeys: bool,
     pub(super) sequence: u32,
+    /// It drifts to the right.
+    pub(super) drifts_m_s: f64,
     /// Its bottom camera sees a roundel below it.
     pub(super) sees_tag: bool,
     /// The drone climbs and sinks slowly, because a jump is not plausible.
@@ -53,6 +55,7 @@ impl Bench {
             is_heard: true,
             obeys: true,
             sequence: 0,
+            drifts_m_s: 0.0,
             sees_tag: false,
             height_m: 0.0,
             commands: Vec::new(),
@@ -191,7 +194,7 @@ impl Bench {
             battery_percent: self.battery_percent,
             altitude_m: self.height_m + noise,
             velocity_forward_m_s: if flies { noise } else { 0.0 },
-            velocity_right_m_s: if flies { -noise } else { 0.0 },
+            velocity_right_m_s: if flies { self.drifts_m_s - noise } else { 0.0 },
             roll_deg: 10.0 * noise,
             pitch_deg: 20.0 * noise,
             yaw_deg: 30.0 * noise,

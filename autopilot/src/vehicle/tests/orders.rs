@@ -89,13 +89,13 @@ fn a_held_mission_goes_on_when_it_is_resumed_or_started() {
         let mut bench = Bench::in_the_air(STAY);
         assert_eq!(bench.order(START), Err(Refused::Flying));
         assert_eq!(bench.order(OperatorOrder::Resume), Err(Refused::NothingHeld));
-        bench.accepted(OperatorOrder::Hold);
-        bench.accepted(OperatorOrder::Hold);
+        for _ in 0..2 {
+            bench.accepted(OperatorOrder::Hold);
+            bench.step();
+            let held = bench.events.iter().filter(|event| **event == FlightEvent::Held);
+            assert_eq!(held.count(), 1, "a second hold changes nothing");
+        }
         bench.run(5 * SECOND);
-        let held = |bench: &Bench| {
-            bench.events.iter().filter(|event| **event == FlightEvent::Held).count()
-        };
-        assert_eq!(held(&bench), 1, "a second hold changes nothing");
         assert_eq!(bench.vehicle.report().steps_done, 1);
         assert!(bench.vehicle.status(bench.now).mission_waits);
         bench.accepted(resume);
@@ -167,6 +167,7 @@ fn a_take_off_on_its_way_is_taken_back() {
         let mut bench = Bench::standing_by(PLAN);
         bench.accepted(START);
         bench.until(SECOND, |bench| bench.reference() == Some(Ref::TakeOff));
+        assert_eq!(bench.order(steer()), Err(Refused::OnGround));
         bench.accepted(order);
         bench.step();
         assert_eq!((bench.phase(), bench.reference()), (Phase::Landing, Some(Ref::Land)), "{name}");
@@ -275,6 +276,20 @@ fn a_remote_operator_has_the_controls_until_it_releases_them_or_a_local_one_take
 }
 
 #[test]
+fn a_new_mission_ends_manual_control_and_waits_if_the_last_one_was_held() {
+    let mut bench = Bench::in_the_air(STAY);
+    bench.accepted(OperatorOrder::GoTo { x_m: 0.0, y_m: 3.0 });
+    bench.accepted(plan(STAY));
+    for _ in 0..30 {
+        bench.step();
+        let status = bench.vehicle.status(bench.now);
+        assert!(status.mission_waits && status.step.is_none());
+        let target = status.target.unwrap_or_default();
+        assert!(target.y_m < 1.0, "it is not sent there any more: {target:?}");
+    }
+}
+
+#[test]
 fn a_mission_that_is_replaced_in_the_air_is_flown_at_once() {
     let mut bench = Bench::in_the_air(STAY);
     bench.accepted(plan("takeoff\ngoto 0 0 0 0\nland"));
@@ -289,6 +304,38 @@ fn a_mission_that_is_replaced_in_the_air_is_flown_at_once() {
     assert_eq!((bench.phase(), bench.reference()), (Phase::Standby, Some(Ref::Land)));
     assert_eq!(bench.outcomes, [Outcome::Completed]);
     assert_eq!(bench.vehicle.mission().len(), 4);
+}
+
+#[test]
+fn coordinates_of_a_mission_loaded_in_the_air_begin_where_the_drone_took_off() {
+    for resets in [false, true] {
+        let mut bench = Bench::in_the_air(STAY);
+        bench.accepted(OperatorOrder::Hold);
+        bench.drifts_m_s = 0.3;
+        bench.run(SECOND);
+        bench.drifts_m_s = 0.0;
+        bench.run(SECOND / 5);
+        let x_m = |bench: &Bench| bench.vehicle.status(bench.now).pose.unwrap().x_m;
+        assert!(x_m(&bench) > 0.2, "{} {:?}", x_m(&bench), bench.events);
+        assert_eq!(bench.phase(), Phase::Flying, "{:?}", bench.events);
+        if resets {
+            bench.accepted(OperatorOrder::Land);
+            bench.comes_down();
+            bench.run(SECOND);
+        }
+        bench.accepted(plan(STAY));
+        if resets {
+            bench.accepted(START);
+            bench.run(SECOND);
+            bench.rises();
+        } else {
+            bench.accepted(OperatorOrder::Resume);
+        }
+        bench.until(5 * SECOND, |bench| bench.vehicle.status(bench.now).step == Some(1));
+        bench.step();
+        let target = bench.vehicle.status(bench.now).target.unwrap();
+        assert!(target.x_m.abs() < 0.1, "the frame of a new flight begins with it: {target:?}");
+    }
 }
 
 #[test]

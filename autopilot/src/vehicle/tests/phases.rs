@@ -87,6 +87,45 @@ fn a_flight_is_refused_once_its_drone_does_not_take_the_settings_in_time() {
 }
 
 #[test]
+fn the_configuration_that_is_read_back_must_be_the_one_that_was_set() {
+    for (altered, expected) in [
+        ("", vec![]),
+        ("control:altitude_max", vec![NotReady::Settings("control:altitude_max".into())]),
+    ] {
+        let mut bench = Bench::with(&VehicleConfig::default());
+        let is_asked = |bench: &Bench| {
+            let ask = ardrone_link::at::Command::Control(
+                ardrone_link::at::ControlMode::SendConfiguration,
+            );
+            bench.commands.contains(&ask)
+        };
+        bench.until(5 * SECOND, is_asked);
+        let lines: String = bench
+            .vehicle
+            .settings
+            .iter()
+            .map(|setting| {
+                let value = if setting.key() == altered { "1" } else { setting.value() };
+                format!("{} = {value}\n", setting.key())
+            })
+            .collect();
+        let text = format!("{lines}\0");
+        bench.vehicle.handle(bench.now, Input::Control(text.as_bytes()));
+        bench.run(SECOND);
+        assert!(bench.events.contains(&FlightEvent::ConfigurationRead { version: None }));
+        assert_eq!((bench.phase(), bench.vehicle.readiness()), (Phase::Standby, &expected[..]));
+    }
+}
+
+#[test]
+fn a_configuration_that_is_never_sent_forbids_the_flight() {
+    let mut bench = Bench::with(&VehicleConfig::default());
+    bench.run(12 * SECOND);
+    assert!(bench.events.contains(&FlightEvent::ConfigurationNotRead));
+    assert_eq!(bench.vehicle.readiness(), [NotReady::SettingsNotRead]);
+}
+
+#[test]
 fn after_flat_trim_the_drone_settles_for_half_a_second() {
     let mut bench = Bench::new();
     bench.until(3 * SECOND, |bench| bench.phase() == Phase::Trimming);
@@ -366,4 +405,31 @@ fn cut_motors_end_the_flight() {
     bench.run(SECOND);
     assert!(bench.events.contains(&FlightEvent::EmergencyCleared));
     assert_eq!(bench.vehicle.readiness(), []);
+}
+
+#[test]
+fn a_refused_flight_leaves_a_drone_on_the_ground_standing_by() {
+    let mut bench = Bench::new();
+    load(&mut bench, PLAN);
+    bench.accepted(WHEN_READY);
+    bench.battery_percent = 15;
+    bench.until(5 * SECOND, |bench| !bench.outcomes.is_empty());
+    let reasons = vec!["battery at 15 %: more than 20 % are needed".to_owned()];
+    assert_eq!(bench.outcomes, [Outcome::PreflightRefused { reasons }]);
+    assert_eq!((bench.phase(), bench.reference()), (Phase::Standby, Some(Ref::Land)));
+}
+
+#[test]
+fn a_target_that_is_not_reached_in_time_is_the_operators_or_the_plans() {
+    let reason = |manual: bool| {
+        let mut bench = Bench::in_the_air("takeoff\ngoto 0 1 0 0\nland");
+        bench.until(SECOND, |bench| bench.vehicle.status(bench.now).step == Some(1));
+        if manual {
+            bench.accepted(OperatorOrder::GoTo { x_m: 0.0, y_m: 1.0 });
+        }
+        bench.vehicle.endangered(bench.now, Danger::NoProgress);
+        bench.vehicle.flight.landing
+    };
+    assert_eq!(reason(true), Some(LandingReason::ManualTargetTimedOut));
+    assert_eq!(reason(false), Some(LandingReason::StepTimedOut { step: 1 }));
 }

@@ -1,5 +1,6 @@
 //! Roundels on the floor: what the agent is given of them, and the turn that teaches how to read them.
 
+use ardrone_link::at::Ref;
 use nalgebra::Vector2;
 
 use super::bench::{Bench, SECOND, START};
@@ -7,6 +8,10 @@ use super::*;
 
 /// A vehicle above a tag at its start; another tag is two metres to the right.
 fn above_a_tag() -> Bench {
+    flying_above_a_tag("takeoff\nland")
+}
+
+fn flying_above_a_tag(plan: &str) -> Bench {
     let surveyed = |x_m| Some(SurveyedTag { place_m: Vector2::new(x_m, 0.0), heading_deg: None });
     let mut tags = TagConfig::default();
     (tags.surveyed[0], tags.surveyed[1]) = (surveyed(2.0), surveyed(0.0));
@@ -14,7 +19,7 @@ fn above_a_tag() -> Bench {
     config.estimator.tags = Some(tags);
     let mut bench = Bench::with(&config);
     bench.run(3 * SECOND);
-    bench.accepted(OperatorOrder::Load(Plan::parse("plan", "takeoff\nland").unwrap()));
+    bench.accepted(OperatorOrder::Load(Plan::parse("plan", plan).unwrap()));
     bench.accepted(START);
     bench.until(SECOND, |bench| bench.phase() == Phase::Flying);
     bench.sees_tag = true;
@@ -71,6 +76,24 @@ fn above_a_tag_of_unknown_orientation_the_drone_turns_to_and_fro() {
     let again = bench.vehicle.turned_to_learn(now, &target, 1.5);
     assert!((again.yaw_deg - 48.0).abs() < 0.01, "{again:?}");
     assert_eq!(Pose { yaw_deg: 40.0, ..again }, target);
+}
+
+#[test]
+fn a_landing_on_a_tag_may_be_taken_back_until_the_way_down() {
+    let mut bench = flying_above_a_tag("takeoff\nlandOnTag");
+    bench.drifts_m_s = 0.12;
+    bench.run(SECOND / 2);
+    bench.control_state = ControlState::Hovering;
+    bench.until(SECOND, |bench| bench.vehicle.status(bench.now).step == Some(1));
+    bench.step();
+    assert!(!bench.vehicle.lands(), "it becomes steady above the tag first");
+    bench.drifts_m_s = 0.0;
+    bench.until(30 * SECOND, |bench| bench.vehicle.flight.activity.is_descending());
+    assert!(bench.vehicle.lands());
+    assert_eq!(bench.order(OperatorOrder::Hold), Err(Refused::Landing));
+    bench.until(10 * SECOND, |bench| bench.reference() == Some(Ref::Land));
+    bench.run(SECOND);
+    assert_eq!(bench.order(OperatorOrder::Hold), Err(Refused::Landing));
 }
 
 #[test]
