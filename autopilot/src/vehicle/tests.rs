@@ -123,6 +123,32 @@ fn the_pre_flight_check_reports_every_reason() {
 }
 
 #[test]
+fn the_pre_flight_check_accepts_its_exact_limits() {
+    let control_state = ControlState::Landed;
+    let fine = Demo { battery_percent: 60, control_state, ..Demo::default() };
+    let short = "takeoff\nland";
+    let now = Duration::from_millis(60);
+    for accepted in [
+        Demo { pitch_deg: 8.0, ..fine },
+        Demo { roll_deg: -8.0, ..fine },
+        Demo { battery_percent: 21, ..fine },
+        Demo { altitude_m: 0.6, ..fine },
+    ] {
+        assert_eq!(refusals(short, accepted, 5, now), [""; 0], "{accepted:?}");
+    }
+    assert_eq!(refusals(short, fine, 5, Duration::from_millis(500)), [""; 0]);
+    assert_eq!(refusals(short, fine, 4, now).len(), 1);
+    assert_eq!(
+        refusals(short, Demo { roll_deg: -9.0, ..fine }, 15, now),
+        ["the drone is tilted by 9°: put it on level ground"]
+    );
+    for altitude_m in [0.7, -0.7] {
+        let reasons = refusals(short, Demo { altitude_m, ..fine }, 15, now);
+        assert!(reasons.len() == 1 && reasons[0].contains("altitude"), "{reasons:?}");
+    }
+}
+
+#[test]
 fn a_firmware_that_does_not_look_for_tags_is_reported_and_flown() {
     let mut config = VehicleConfig::default();
     let keys = |config: &VehicleConfig| {
