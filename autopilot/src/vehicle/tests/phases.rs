@@ -433,3 +433,38 @@ fn a_target_that_is_not_reached_in_time_is_the_operators_or_the_plans() {
     assert_eq!(reason(true), Some(LandingReason::ManualTargetTimedOut));
     assert_eq!(reason(false), Some(LandingReason::StepTimedOut { step: 1 }));
 }
+
+/// A drone that has lost its pilot sends nothing but its state until it is configured.
+#[test]
+fn a_drone_is_taken_over_without_flight_data_but_not_over_a_bad_link() {
+    for (has_demo, one_in, takes_over) in
+        [(true, 1, true), (false, 1, true), (true, 4, true), (true, 10, false)]
+    {
+        let mut bench = in_the_air_already();
+        load(&mut bench, TAKE_OVER);
+        bench.accepted(WHEN_READY);
+        bench.has_demo = has_demo;
+        for tick in 0..25 {
+            bench.is_heard = tick % one_in == 0;
+            bench.step();
+        }
+        let taken_over = bench.events.contains(&FlightEvent::TakingOver);
+        assert_eq!(taken_over, takes_over, "{has_demo} {one_in}: {:?}", bench.outcomes);
+        assert_eq!(bench.outcomes.len(), usize::from(!takes_over));
+    }
+}
+
+#[test]
+fn while_the_drone_settles_a_flight_that_is_about_to_begin_is_the_reason_not_to_start_one() {
+    for (starts, reason) in [(false, NotReady::Configuring), (true, NotReady::InFlight)] {
+        let mut bench = Bench::new();
+        load(&mut bench, PLAN);
+        if starts {
+            bench.accepted(WHEN_READY);
+        }
+        bench.step();
+        assert_eq!(bench.vehicle.not_ready(bench.now), [NotReady::Configuring]);
+        bench.until(3 * SECOND, |bench| bench.phase() == Phase::Trimming);
+        assert_eq!(bench.vehicle.not_ready(bench.now), [reason]);
+    }
+}
