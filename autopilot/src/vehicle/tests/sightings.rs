@@ -104,3 +104,33 @@ fn surveyed_tags_are_known_before_they_are_seen() {
     assert!(bench.vehicle.known_tags().all(|tag| tag.surveyed));
     assert_eq!(Vehicle::new(&VehicleConfig::default()).unwrap().known_tags().count(), 0);
 }
+
+#[test]
+fn the_nearest_tag_is_the_nearest_to_the_drone() {
+    let surveyed =
+        |x_m, y_m| Some(SurveyedTag { place_m: Vector2::new(x_m, y_m), heading_deg: None });
+    let mut tags = TagConfig::default();
+    (tags.surveyed[0], tags.surveyed[1]) = (surveyed(2.0, 0.0), surveyed(0.0, 2.0));
+    let mut config = VehicleConfig::default();
+    config.estimator.tags = Some(tags);
+    let vehicle = Vehicle::new(&config).unwrap();
+    for (here_m, nearest_m) in [([0.6, 0.5], [2.0, 0.0]), ([0.5, 0.6], [0.0, 2.0])] {
+        let position_m = nalgebra::Vector3::new(here_m[0], here_m[1], 1.0);
+        let state = Prediction { position_m, ..Prediction::default() };
+        let percepts = vehicle.tag_percepts(SECOND, &state).unwrap();
+        assert_eq!(percepts.nearest_m, Some(nearest_m), "{here_m:?}");
+        assert!(!percepts.seen, "known, but never seen");
+    }
+}
+
+#[test]
+fn a_tag_is_in_view_for_half_a_second() {
+    let bench = above_a_tag();
+    let ago = bench.vehicle.flight.estimator.tag_status(bench.now).unwrap().seen_ago.unwrap();
+    let is_seen = |ago_ms: u64| {
+        let now = bench.now + Duration::from_millis(ago_ms).saturating_sub(ago);
+        bench.vehicle.tag_percepts(now, &Prediction::default()).unwrap().seen
+    };
+    assert!(is_seen(499));
+    assert!(!is_seen(501));
+}
