@@ -114,11 +114,11 @@ fn the_wind_is_averaged_in_the_air_and_forgotten_on_the_ground() {
 fn wind_is_a_share_of_the_weakest_acceleration_at_full_tilt() {
     let mut config = VehicleConfig::default();
     config.estimator.identify = false;
-    config.estimator.limits.tilt_rad = 0.2;
+    config.estimator.limits.tilt_rad = 0.4;
     config.estimator.airframe.thrust_gain = nalgebra::Vector2::new(0.9, 0.5);
     config.estimator.airframe.drag_1_s = nalgebra::Vector2::new(0.7, 0.6);
     let mut vehicle = Vehicle::new(&config).unwrap();
-    let full_m_s2 = 0.5 * 9.806_65 * 0.2_f64.tan();
+    let full_m_s2 = 0.5 * 9.806_65 * 0.4_f64.tan();
     vehicle.flight.wind_m_s2 = nalgebra::Vector2::new(full_m_s2, 0.0);
     let wind = vehicle.wind();
     assert!((wind.x - 1.0).abs() < 0.01 && wind.y.abs() < 1e-9, "{wind}");
