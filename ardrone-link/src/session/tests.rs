@@ -401,6 +401,11 @@ fn an_emergency_stop_beats_every_order_and_is_never_left_on() {
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::ToggleEmergency);
     bench.hear(9, DroneState::empty());
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::Land);
+    assert_eq!(
+        bench.events()[2..],
+        [Event::Ready, Event::Emergency, Event::EmergencyCleared],
+        "both ends of the emergency are reported"
+    );
 }
 
 #[test]
