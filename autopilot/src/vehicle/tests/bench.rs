@@ -10,6 +10,7 @@ pub(super) const SECOND: Duration = Duration::from_secs(1);
 pub(super) const START: OperatorOrder = OperatorOrder::Start { when_ready: false };
 
 /// A drone on the ground, and a vehicle that does not read its configuration back.
+#[allow(clippy::struct_excessive_bools, reason = "each is something that the drone does or not")]
 pub(super) struct Bench {
     pub(super) vehicle: Vehicle,
     pub(super) now: Duration,
@@ -175,12 +176,14 @@ impl Bench {
     /// A roundel of 19 cm in the middle of the picture.
     fn sight(&self) -> VisionDetect {
         let height_m = self.height_m.max(0.1);
-        let size = |focal: f64| (focal * 0.19 / height_m) as u32;
+        // In whole millimetres, because the picture has whole units.
+        let height_mm = (1..10_000_u32).find(|mm| f64::from(*mm) >= height_m * 1000.0).unwrap();
+        let size = |focal: u32| focal * 190 / height_mm;
         let mut sight = VisionDetect { count: 1, ..VisionDetect::default() };
         sight.kinds[0] = 1 << 16 | 8;
         // Identical values would be the same picture.
         (sight.x[0], sight.y[0]) = (500 + self.sequence % 3, 450);
-        (sight.widths[0], sight.heights[0]) = (size(1072.0), size(1452.0));
+        (sight.widths[0], sight.heights[0]) = (size(1072), size(1452));
         sight.distances_m[0] = height_m;
         sight
     }

@@ -100,16 +100,12 @@ fn the_configuration_that_is_read_back_must_be_the_one_that_was_set() {
             bench.commands.contains(&ask)
         };
         bench.until(5 * SECOND, is_asked);
-        let lines: String = bench
-            .vehicle
-            .settings
-            .iter()
-            .map(|setting| {
-                let value = if setting.key() == altered { "1" } else { setting.value() };
-                format!("{} = {value}\n", setting.key())
-            })
-            .collect();
-        let text = format!("{lines}\0");
+        let mut text = String::new();
+        for setting in &bench.vehicle.settings {
+            let value = if setting.key() == altered { "1" } else { setting.value() };
+            text.extend([setting.key(), " = ", value, "\n"]);
+        }
+        text.push('\0');
         bench.vehicle.handle(bench.now, Input::Control(text.as_bytes()));
         bench.run(SECOND);
         assert!(bench.events.contains(&FlightEvent::ConfigurationRead { version: None }));
