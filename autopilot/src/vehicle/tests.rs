@@ -1,4 +1,5 @@
 mod bench;
+mod endings;
 mod orders;
 mod phases;
 mod sightings;
