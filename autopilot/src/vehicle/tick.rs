@@ -209,8 +209,7 @@ impl Vehicle {
 
     /// Hands the next order to the agent when the last one has ended.
     fn offer_order(&mut self, now: Duration) {
-        let waits = self.flight.landing.is_some() || self.flight.manual.pre_empts;
-        if self.phase != FlightPhase::Flying || waits {
+        if self.phase != FlightPhase::Flying || self.flight.manual.pre_empts {
             return;
         }
         if self.flight.manual.holds_mission {
