@@ -426,10 +426,15 @@ mod tests {
     #[test]
     fn only_what_moves_the_drone_needs_fresh_navdata() {
         let stale = Situation { blind_for: Duration::from_millis(301), ..FINE };
-        assert_eq!(monitor().check(GO_TO, &FINE), (GO_TO, None));
+        let just_fresh = Situation { blind_for: STALE, ..FINE };
+        for fresh in [&FINE, &just_fresh] {
+            assert_eq!(monitor().check(GO_TO, fresh), (GO_TO, None));
+        }
         let held = (AgentCommand::Hover, Some(Veto::StaleNavdata));
         assert_eq!(monitor().check(GO_TO, &stale), held);
         assert_eq!(monitor().check(AgentCommand::Sticks, &stale), held);
+        let nearly_blind = Situation { blind_for: BLIND, ..FINE };
+        assert_eq!(monitor().check(GO_TO, &nearly_blind), held);
         assert_eq!(monitor().check(AgentCommand::Land, &stale), (AgentCommand::Land, None));
     }
 
@@ -564,8 +569,12 @@ mod tests {
         let within = |time: Option<Duration>, most: Duration| time.is_some_and(|time| time <= most);
         let tick = Duration::from_millis(30);
         assert!(within(lands_after([0.0, -1.1], 0.0), GUST + tick), "a storm");
+        assert!(
+            !within(lands_after([0.0, -1.1], 0.0), GUST.saturating_sub(tick)),
+            "it may be a gust"
+        );
         assert!(!within(lands_after([0.0, -1.1], 1.5), GUST + 5 * tick), "it was a gust");
-        for bearable in [[0.0, -0.9], [0.0, 1.1], [1.1, 0.0]] {
+        for bearable in [[0.0, -1.0], [0.0, 1.1], [1.1, 0.0]] {
             assert!(!within(lands_after(bearable, 0.0), GUST + 5 * tick), "{bearable:?}");
         }
     }
@@ -659,6 +668,8 @@ mod tests {
             (floor_m - 0.1, 0.1, true),
             (ceiling_m, 0.1, false),
             (ceiling_m + 0.1, -0.1, true),
+            (floor_m - 0.1, 0.0, false),
+            (ceiling_m + 0.1, 0.0, false),
         ] {
             let pose = Pose { z_m, ..FINE.pose };
             let now = Situation { pose, velocity_m_s: [0.0, 0.0, up_m_s], ..FINE };
@@ -676,6 +687,77 @@ mod tests {
         assert_eq!(check(moving(-1.0, 0.0)), None);
         assert_eq!(check(moving(0.4, 0.0)), None);
         assert_eq!(check(moving(0.0, 3.0)), Some(Veto::NearFence));
+        // Nearer to the fence than it may rest, the drone may only come away from it.
+        let nearer = |x| Situation { pose: Pose { x_m: 9.8, ..FINE.pose }, ..moving(x, 0.0) };
+        assert_eq!(check(nearer(0.0)), Some(Veto::NearFence));
+        assert_eq!(check(nearer(-0.1)), None);
+    }
+
+    #[test]
+    fn only_what_points_away_from_the_centre_is_outward() {
+        let behind_right = Situation { pose: Pose { x_m: 6.0, y_m: -8.0, ..FINE.pose }, ..FINE };
+        for (direction, outward_m_s) in
+            [([1.2, -1.6], 2.0), ([-1.2, 1.6], -2.0), ([1.6, 1.2], 0.0), ([1.0, 0.0], 0.6)]
+        {
+            let found_m_s = outward(&behind_right, direction);
+            assert!((found_m_s - outward_m_s).abs() < 1e-12, "{direction:?}: {found_m_s}");
+        }
+        assert!(outward(&FINE, [1.0, 1.0]).abs() < 1e-12, "at the centre no direction is outward");
+    }
+
+    /// Above the ceiling but not beyond the radius the drone cannot be carried further out by holding on.
+    #[test]
+    fn a_drone_that_is_only_too_high_is_flown_down_in_any_wind() {
+        let radius_m = FlightLimits::default().radius_m;
+        for x_m in [0.0, radius_m] {
+            let mut monitor = monitor();
+            let lands = (0_u32..400).map(|tick| Duration::from_millis(30) * tick).find(|time| {
+                let now = Situation {
+                    now: FINE.now + *time,
+                    pose: Pose { x_m, z_m: 3.5, ..FINE.pose },
+                    wind: [1.1, 0.0],
+                    ..FINE
+                };
+                monitor.check(GO_TO, &now).0 == AgentCommand::Land
+            });
+            let tick = Duration::from_millis(30);
+            let at_the_end = |time| time >= RETREAT && time < RETREAT + tick;
+            assert!(lands.is_some_and(at_the_end), "{x_m}: {lands:?}");
+        }
+    }
+
+    #[test]
+    fn a_flight_back_ends_with_its_time() {
+        let high = Situation { pose: Pose { z_m: 3.5, ..FINE.pose }, ..FINE };
+        let at = |time| Situation { now: FINE.now + time, ..high };
+        let mut monitor = monitor();
+        assert_eq!(monitor.check(GO_TO, &high).1, Some(Veto::OutsideFence));
+        let last = RETREAT.saturating_sub(Duration::from_millis(1));
+        assert_ne!(monitor.check(GO_TO, &at(last)).0, AgentCommand::Land);
+        assert_eq!(monitor.check(GO_TO, &at(RETREAT)).0, AgentCommand::Land);
+    }
+
+    #[test]
+    fn a_descent_against_the_wind_ends_at_its_height_and_with_its_time() {
+        let at = |time, z_m| Situation {
+            now: FINE.now + time,
+            pose: Pose { y_m: -7.0, z_m, ..FINE.pose },
+            velocity_m_s: [0.0, -1.0, 0.0],
+            wind: [0.0, -1.1],
+            ..FINE
+        };
+        let descends = |time, z_m| {
+            let mut monitor = monitor();
+            monitor.check(GO_TO, &at(Duration::ZERO, 1.8));
+            assert_eq!(monitor.check(GO_TO, &at(GUST, 1.8)).1, Some(Veto::CarriedOff));
+            monitor.check(GO_TO, &at(GUST + time, z_m)).0 != AgentCommand::Land
+        };
+        let millis = Duration::from_millis;
+        assert!(descends(millis(100), HIGH_M + 0.01));
+        assert!(!descends(millis(100), HIGH_M), "from there it lands by itself");
+        let whole = time_to_sink(1.8);
+        assert!(descends(whole.saturating_sub(millis(1)), 1.8));
+        assert!(!descends(whole, 1.8), "it does not sink");
     }
 
     #[test]
@@ -694,9 +776,13 @@ mod tests {
             AgainstWind, Blind, CarriedOff, Emergency, Landing, NearFence, OutsideFence,
             StaleNavdata, TargetOutside,
         };
-        assert!([Blind, OutsideFence, CarriedOff, Landing].into_iter().all(Veto::lands));
+        let land = [Blind, OutsideFence, CarriedOff, Landing];
+        assert!(land.into_iter().all(Veto::lands));
         let stay_up = [StaleNavdata, Emergency, TargetOutside, NearFence, AgainstWind];
         assert!(!stay_up.into_iter().any(Veto::lands));
+        for veto in land.into_iter().chain(stay_up) {
+            assert_eq!(veto.name(), format!("{veto:?}"), "a log names the variant");
+        }
     }
 
     #[test]

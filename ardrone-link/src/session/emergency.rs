@@ -76,6 +76,24 @@ mod tests {
     }
 
     #[test]
+    fn the_bit_is_up_for_half_a_second_and_down_for_a_moment() {
+        for (elapsed_ms, is_up) in [
+            (0, true),
+            (499, true),
+            (500, false),
+            (619, false),
+            (620, true),
+            (1119, true),
+            (1120, false),
+        ] {
+            let mut switch = EmergencySwitch::default();
+            switch.request(EmergencyWish::Stop);
+            switch.level(MS(7000), false);
+            assert_eq!(switch.level(MS(7000 + elapsed_ms), false), is_up, "{elapsed_ms} ms");
+        }
+    }
+
+    #[test]
     fn a_wish_that_is_true_already_raises_nothing() {
         let mut switch = EmergencySwitch::default();
         switch.request(EmergencyWish::Reset);

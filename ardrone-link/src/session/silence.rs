@@ -74,4 +74,38 @@ mod tests {
         assert!(!heard(start).is_fresh(back));
         assert!(!returned.is_fresh(back));
     }
+
+    fn packet(sequence: u32, bootstrapping: bool) -> Navdata {
+        let bit = DroneState::NAVDATA_BOOTSTRAP;
+        let state = if bootstrapping { bit } else { DroneState::empty() };
+        let mut bytes = bytes::BytesMut::new();
+        crate::navdata::PacketWriter::new(&mut bytes, state, sequence, 0).finish();
+        Navdata::decode(&bytes).unwrap()
+    }
+
+    /// The exact limits of the numbers.
+    #[test]
+    fn a_lower_number_is_a_restart_in_bootstrap_mode_or_from_the_very_start() {
+        let at = Duration::from_secs(5);
+        for (last, was_bootstrapping, next, bootstrapping, expected) in [
+            (100, false, 50, true, true),
+            (100, false, 50, false, false),
+            (100, false, 100, true, false),
+            // At most 32 packets are overtaken by one.
+            (100, true, 68, true, false),
+            (100, true, 67, true, true),
+            // A drone counts from 1; the last number must lie clearly above.
+            (31, false, 3, false, true),
+            (31, false, 4, false, false),
+            (30, false, 3, false, false),
+            (12, false, 1, false, false),
+        ] {
+            let heard =
+                Heard { at, sequence: last, bootstrapping: was_bootstrapping, returned_at: None };
+            let next = packet(next, bootstrapping);
+            let found = heard.is_before_restart(at + UNHEARD, &next);
+            assert_eq!(found, expected, "{last} then {}, {bootstrapping}", next.sequence);
+            assert!(!heard.is_before_restart(at, &next), "without a silence there is no restart");
+        }
+    }
 }

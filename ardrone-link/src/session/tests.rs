@@ -61,6 +61,10 @@ impl Bench {
         } else {
             ControlState::Landed
         };
+        self.hear_in(sequence, state, control_state)
+    }
+
+    fn hear_in(&mut self, sequence: u32, state: DroneState, control_state: ControlState) -> bool {
         let demo = Demo { control_state, ..Demo::default() };
         let mut bytes = BytesMut::new();
         let mut packet = PacketWriter::new(&mut bytes, state, sequence, 0);
@@ -397,6 +401,11 @@ fn an_emergency_stop_beats_every_order_and_is_never_left_on() {
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::ToggleEmergency);
     bench.hear(9, DroneState::empty());
     assert_eq!(reference(&bench.tick(FlightOrder::Land)), Ref::Land);
+    assert_eq!(
+        bench.events()[2..],
+        [Event::Ready, Event::Emergency, Event::EmergencyCleared],
+        "both ends of the emergency are reported"
+    );
 }
 
 #[test]
@@ -648,4 +657,125 @@ fn the_longest_commands_of_one_tick_fit_into_its_datagram() {
     // Sequence numbers have up to ten digits.
     let digits = 10 * commands.len();
     assert!(bench.session.datagram().len() + digits <= crate::at::MAX_DATAGRAM_BYTES);
+}
+
+#[test]
+fn the_datagram_of_a_tick_stays_readable_until_the_next() {
+    let mut session = Session::new(SessionConfig::default());
+    session.handle(Duration::ZERO, Input::Tick(Order::LAND));
+    assert_eq!(session.datagram(), b"", "nothing is said to a drone that was not heard");
+    let mut bytes = BytesMut::new();
+    PacketWriter::new(&mut bytes, DroneState::FLYING, 1, 0).finish();
+    session.handle(TICK, Input::Navdata(&bytes));
+    assert_eq!(session.state(), DroneState::FLYING);
+    session.handle(TICK, Input::Tick(Order::LAND));
+    let sent = loop {
+        match session.poll() {
+            Some(Output::Transmit(Transmit::Command(datagram))) => break datagram.to_vec(),
+            Some(_) => {}
+            None => panic!("nothing was sent"),
+        }
+    };
+    assert_eq!(session.datagram(), sent);
+    session.handle(2 * TICK, Input::Listen);
+    assert_eq!(session.datagram(), b"");
+}
+
+#[test]
+fn silence_is_the_time_since_the_newest_packet() {
+    let mut bench = Bench::new(&[]);
+    assert_eq!(bench.session.silence(bench.now), None);
+    bench.hear(1, DroneState::empty());
+    bench.now += 3 * TICK;
+    assert_eq!(bench.session.silence(bench.now), Some(3 * TICK));
+}
+
+#[test]
+fn a_drone_that_is_heard_is_not_woken() {
+    let mut bench = Bench::new(&[]);
+    assert!(bench.handle(Input::Listen).1);
+    for sequence in 1..40 {
+        bench.now += TICK;
+        bench.hear(sequence, DroneState::empty());
+        assert!(!bench.handle(Input::Listen).1);
+    }
+}
+
+#[test]
+fn flat_trim_is_made_once_on_the_ground_and_never_in_the_air() {
+    let mut bench = Bench::new(&[]);
+    let trims = |bench: &mut Bench| bench.tick(FlightOrder::Land).contains(&Command::FlatTrim);
+    bench.hear(1, DroneState::empty());
+    assert!(!trims(&mut bench), "it was not requested");
+    bench.request(Request::FlatTrim);
+    assert!(trims(&mut bench));
+    assert!(!trims(&mut bench));
+    bench.hear(2, DroneState::FLYING);
+    bench.request(Request::FlatTrim);
+    assert!(!trims(&mut bench));
+    bench.hear(3, DroneState::empty());
+    assert!(!trims(&mut bench), "the request is dropped, not delayed");
+}
+
+#[test]
+fn a_take_off_that_has_happened_does_not_time_out_nor_does_one_that_was_not_ordered() {
+    for (order, state) in
+        [(FlightOrder::TakeOff, DroneState::FLYING), (FlightOrder::Land, DroneState::empty())]
+    {
+        let mut bench = Bench::new(&[]);
+        bench.hear(1, DroneState::empty());
+        bench.tick(order);
+        for sequence in 2..400 {
+            bench.hear(sequence, state);
+            let lifts = bench.tick(order)[0] == Command::Ref(Ref::TakeOff);
+            assert_eq!(lifts, order == FlightOrder::TakeOff);
+        }
+        assert!(!bench.events().contains(&Event::TakeOffTimedOut), "{order:?}");
+    }
+}
+
+#[test]
+fn a_landing_that_is_obeyed_is_not_counted_ahead() {
+    for (state, control_state) in
+        [(DroneState::FLYING, ControlState::Landing), (DroneState::empty(), ControlState::Landed)]
+    {
+        let mut bench = Bench::new(&[]);
+        bench.hear(1, DroneState::empty());
+        bench.tick(FlightOrder::TakeOff);
+        bench.hear(2, DroneState::FLYING);
+        for sequence in 3..100 {
+            bench.hear_in(sequence, state, control_state);
+            assert!(numbers(&mut bench)[0] < 1000, "{control_state:?}");
+        }
+    }
+}
+
+#[test]
+fn an_acknowledged_change_shows_that_the_drone_hears() {
+    let mut bench = Bench::new(&[]);
+    bench.hear(1, DroneState::empty());
+    assert_eq!(numbers(&mut bench), [1, 2]);
+    bench.request(Request::Setting(Config::new("control:outdoor", "TRUE").unwrap()));
+    bench.tick(FlightOrder::Land);
+    bench.hear(2, DroneState::empty());
+    assert_eq!(numbers(&mut bench)[0], 1, "not acknowledged yet");
+    bench.hear(3, DroneState::COMMAND_ACKNOWLEDGE);
+    assert!(numbers(&mut bench)[0] > 1);
+}
+
+#[test]
+fn a_dump_without_an_end_is_not_collected_for_ever() {
+    let mut bench = Bench::reading_back();
+    bench.hear(1, DroneState::empty());
+    bench.tick(FlightOrder::Land);
+    bench.handle(Input::Control(&vec![b'x'; 60_000]));
+    bench.handle(Input::Control(&vec![b'x'; 60_000]));
+    bench.handle(Input::Control(b"control:outdoor = FALSE\n\0"));
+    assert!(!bench.session.is_ready(), "what no drone sends is not read");
+    let mut bench = Bench::reading_back();
+    bench.hear(1, DroneState::empty());
+    bench.tick(FlightOrder::Land);
+    bench.handle(Input::Control(&vec![b'x'; 60_000]));
+    bench.handle(Input::Control(b"\ncontrol:outdoor = FALSE\n\0"));
+    assert!(bench.session.is_ready());
 }

@@ -116,3 +116,60 @@ fn reported_lost(state: DroneState, demo: &Demo) -> Option<Quantity> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use ardrone_link::navdata::ControlState;
+
+    use super::*;
+
+    #[test]
+    fn a_sample_is_the_packet_with_the_time_of_its_arrival() {
+        let demo = Demo {
+            yaw_deg: 1.0,
+            roll_deg: 2.0,
+            pitch_deg: 3.0,
+            velocity_forward_m_s: 4.0,
+            velocity_right_m_s: 5.0,
+            altitude_m: 6.0,
+            control_state: ControlState::Flying,
+            ..Demo::default()
+        };
+        let (arrival, drone_time) = (Duration::from_secs(7), Some(Duration::from_secs(8)));
+        let state = DroneState::FLYING;
+        let navdata = Navdata { time: drone_time, state, ..navdata() };
+        let expected = Sample {
+            arrival,
+            drone_time,
+            yaw_deg: 1.0,
+            roll_deg: 2.0,
+            pitch_deg: 3.0,
+            velocity_forward_m_s: 4.0,
+            velocity_right_m_s: 5.0,
+            altitude_m: 6.0,
+            airborne: true,
+            reported_lost: None,
+        };
+        assert_eq!(sample(arrival, &navdata, &demo), expected);
+    }
+
+    fn navdata() -> Navdata {
+        let mut bytes = bytes::BytesMut::new();
+        ardrone_link::navdata::PacketWriter::new(&mut bytes, DroneState::empty(), 1, 0).finish();
+        Navdata::decode(&bytes).unwrap()
+    }
+
+    #[test]
+    fn a_quantity_is_lost_if_either_the_state_or_the_minor_state_says_so() {
+        let flying = |control_state_minor| Demo {
+            control_state: ControlState::Flying,
+            control_state_minor,
+            ..Demo::default()
+        };
+        let (fine, deaf) = (DroneState::FLYING, DroneState::ULTRASOUND_DEAF);
+        assert_eq!(reported_lost(fine, &flying(0)), None);
+        assert_eq!(reported_lost(fine, &flying(6)), Some(Quantity::Velocity));
+        assert_eq!(reported_lost(fine, &flying(1)), Some(Quantity::Altitude));
+        assert_eq!(reported_lost(deaf, &flying(0)), Some(Quantity::Altitude));
+    }
+}

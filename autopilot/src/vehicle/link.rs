@@ -62,7 +62,7 @@ impl Vehicle {
         self.session.handle(now, session::Input::Request(request));
     }
 
-    fn count_packet(&mut self, now: Duration) {
+    pub(super) fn count_packet(&mut self, now: Duration) {
         if let Some(last) = self.packet_at.replace(now) {
             let period_s = now.saturating_sub(last).as_secs_f64().max(1e-3);
             let share = (period_s / RATE_TIME_S).min(1.0);

@@ -141,3 +141,22 @@ impl Vehicle {
         self.flight.manual.mode = Mode::None;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stick_input_expires() {
+        let (sticks, since) = (Sticks { roll: 0.5, ..Sticks::default() }, Duration::from_secs(5));
+        let manual = Manual { mode: Mode::Steered { sticks, since }, ..Manual::default() };
+        let last = since + STICK_TIME.saturating_sub(Duration::from_millis(1));
+        assert_eq!(manual.sticks(since), Some(sticks));
+        assert_eq!(manual.sticks(last), Some(sticks));
+        assert_eq!(manual.sticks(since + STICK_TIME), None);
+        assert_eq!(Manual::default().sticks(since), None);
+        assert!(!manual.sends(), "no place was given");
+        let mode = Mode::SentTo { place: Pose::default(), offered: false };
+        assert!(Manual { mode, ..manual }.sends());
+    }
+}

@@ -140,5 +140,8 @@ mod tests {
     fn operators_have_names() {
         assert_eq!(Operator::TERMINAL.to_string(), "the local terminal");
         assert_eq!(PAGE.to_string(), "the remote browser 1");
+        for station in Station::ALL {
+            assert_eq!(station.name(), format!("{station:?}").to_lowercase());
+        }
     }
 }

@@ -227,7 +227,7 @@ impl Vehicle {
     }
 
     /// Whether the drone is landing, either by order or because the mission has reached its landing step.
-    fn lands(&self) -> bool {
+    pub(super) fn lands(&self) -> bool {
         let step = self.flight.due.is_some_and(|active| active.due.order == AgentOrder::Land);
         step || self.goes_down_onto_tag() || matches!(self.phase, FlightPhase::Landing { .. })
     }

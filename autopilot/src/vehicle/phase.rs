@@ -107,10 +107,10 @@ impl fmt::Display for Phase {
 }
 
 /// Longest time for an order to reach the drone and for its effect to show in navdata.
-const ON_ITS_WAY: Duration = Duration::from_millis(600);
+pub(super) const ON_ITS_WAY: Duration = Duration::from_millis(600);
 /// A drone that rises within this time after landing follows an old order of ours. Later than that, another
 /// pilot flies it.
-const OURS: Duration = Duration::from_secs(2);
+pub(super) const OURS: Duration = Duration::from_secs(2);
 
 /// Why the drone is landed before the end of the plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -304,3 +304,55 @@ pub struct Status {
     /// The agent's command; `None` before the first navdata.
     pub command: Option<&'static str>,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_goes_wrong_warns_and_what_is_planned_does_not() {
+        let wrong = [
+            FlightEvent::LinkLost,
+            FlightEvent::Emergency,
+            FlightEvent::LandingOrdered(LandingReason::Wind),
+            FlightEvent::Veto(Veto::NearFence),
+            FlightEvent::TargetCorrected { step: 0 },
+        ];
+        assert!(wrong.iter().all(FlightEvent::warns));
+        let planned =
+            [FlightEvent::Connected, FlightEvent::StepDone { step: 0 }, FlightEvent::Landed];
+        assert!(!planned.iter().any(FlightEvent::warns));
+    }
+
+    #[test]
+    fn one_step_is_not_several() {
+        let loaded = |steps| FlightEvent::MissionLoaded { steps }.to_string();
+        assert_eq!(loaded(1), "mission loaded: 1 step");
+        assert_eq!(loaded(2), "mission loaded: 2 steps");
+        assert_eq!(loaded(0), "mission loaded: 0 steps");
+    }
+
+    #[test]
+    fn the_report_gives_the_time_in_the_air_and_the_last_distance_from_a_target() {
+        let empty = FlightReport::default();
+        assert_eq!((empty.flight_time(), empty.final_error_m()), (None, None));
+        let target = Pose { x_m: 1.0, y_m: 1.0, z_m: 1.0, yaw_deg: 90.0 };
+        let reached = |pose| Waypoint {
+            step: 0,
+            target,
+            pose,
+            horizontal_deviation_m: 0.1,
+            at: Duration::from_secs(9),
+        };
+        let near = Pose { x_m: 1.3, y_m: 0.6, ..target };
+        let report = FlightReport {
+            waypoints: vec![reached(target), reached(near)],
+            took_off_at: Some(Duration::from_secs(5)),
+            landed_at: Some(Duration::from_secs(65)),
+            ..empty
+        };
+        assert_eq!(report.flight_time(), Some(Duration::from_mins(1)));
+        let error_m = report.final_error_m().unwrap();
+        assert!((error_m - 0.5).abs() < 1e-9, "{error_m}");
+    }
+}

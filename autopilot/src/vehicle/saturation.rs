@@ -64,8 +64,8 @@ impl Way {
 }
 
 impl Saturation {
-    /// Handles one tick of flying to a target. The counter runs down as slowly as it ran up: progress now and
-    /// then is not enough to hold a position.
+    /// Handles one tick of flying to a target. The counter does not start anew with a tick of progress, but runs
+    /// down twice as fast as it ran up: progress now and then is not enough to hold a position.
     pub(super) fn watch(
         &mut self,
         demand: &Sticks,
@@ -82,14 +82,10 @@ impl Saturation {
         let away = state.position_m - Vector3::new(target.x_m, target.y_m, target.z_m);
         let across_m = away.xy().norm();
         let drift_m_s = state.velocity_m_s.xy().dot(&away.xy()) / across_m.max(f64::EPSILON);
-        let is_full = |stick: f64| stick.abs() >= FULL * limit;
-        let across = is_full(demand.roll.hypot(demand.pitch))
-            && (across_m > HERE_M && drift_m_s > DRIFT_M_S
-                || across_m > FAR_M && drift_m_s > -STILL_M_S);
         let climbs_off_m_s = state.velocity_m_s.z * away.z.signum();
-        let up = is_full(demand.gaz)
-            && (away.z.abs() > HERE_M && climbs_off_m_s > DRIFT_M_S
-                || away.z.abs() > FAR_M && climbs_off_m_s > -STILL_M_S);
+        let is_full = |stick: f64| stick.abs() >= FULL * limit;
+        let across = is_full(demand.roll.hypot(demand.pitch)) && drifts_off(across_m, drift_m_s);
+        let up = is_full(demand.gaz) && drifts_off(away.z.abs(), climbs_off_m_s);
         let blocked = self.way.is_blocked(target, away.norm(), step_s);
         let change_s = if across || up || storm || blocked { step_s } else { -2.0 * step_s };
         self.for_s = (self.for_s + change_s).max(0.0);
@@ -113,11 +109,101 @@ impl Saturation {
     }
 }
 
+/// Whether a drone at this distance from its target, which grows at this speed, does not get there.
+fn drifts_off(distance_m: f64, speed_m_s: f64) -> bool {
+    distance_m > HERE_M && speed_m_s > DRIFT_M_S || distance_m > FAR_M && speed_m_s > -STILL_M_S
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const TARGET: Pose = Pose { x_m: 0.0, y_m: 0.0, z_m: 1.0, yaw_deg: 0.0 };
+
+    #[test]
+    fn near_its_target_a_drone_may_stand_still_but_not_drift_off() {
+        for (distance_m, speed_m_s, expected) in [
+            (HERE_M, 0.5, false),
+            (0.3, 0.15, true),
+            (0.3, DRIFT_M_S, false),
+            (0.3, 0.0, false),
+            (FAR_M, 0.0, false),
+            (0.6, 0.0, true),
+            (0.6, -0.01, true),
+            (0.6, -STILL_M_S, false),
+            (0.6, -0.1, false),
+        ] {
+            let found = drifts_off(distance_m, speed_m_s);
+            assert_eq!(found, expected, "{distance_m} m, {speed_m_s} m/s");
+        }
+    }
+
+    #[test]
+    fn the_drift_is_the_speed_away_from_the_target_in_any_place() {
+        let full = Sticks { roll: -1.0, gaz: -1.0, ..Sticks::default() };
+        let is_counted = |away: [f64; 3], velocity: [f64; 3]| {
+            let target = Pose { x_m: 4.0, y_m: -3.0, z_m: 2.0, yaw_deg: 0.0 };
+            let state = Prediction {
+                position_m: Vector3::new(4.0, -3.0, 2.0) + Vector3::from(away),
+                velocity_m_s: velocity.into(),
+                ..Prediction::default()
+            };
+            let mut saturation = Saturation::default();
+            saturation.watch(&full, 1.0, &state, &target, 2.0, 0.01);
+            saturation.for_ms() > 0
+        };
+        assert!(is_counted([0.4, 0.0, 0.0], [0.15, 0.0, 0.0]));
+        assert!(!is_counted([0.4, 0.0, 0.0], [0.05, 0.5, 0.0]), "it passes by");
+        assert!(!is_counted([0.0, -3.0, 0.0], [0.0, 0.03, 0.0]), "slowly, but it comes");
+        assert!(is_counted([0.0, -3.0, 0.0], [0.0, 0.01, 0.0]));
+        assert!(is_counted([0.0, 0.0, 0.4], [0.0, 0.0, 0.15]));
+        assert!(!is_counted([0.0, 0.0, 0.4], [0.0, 0.0, -0.15]));
+        assert!(is_counted([0.0, 0.0, -0.4], [0.0, 0.0, -0.15]));
+        assert!(!is_counted([0.0, 0.0, -0.4], [0.0, 0.0, 0.15]));
+    }
+
+    #[test]
+    fn sticks_are_full_at_the_limit_of_the_plan() {
+        let right = Prediction { position_m: Vector3::new(1.0, 0.0, 1.0), ..Prediction::default() };
+        let is_full = |demand: Sticks| {
+            let mut saturation = Saturation::default();
+            saturation.watch(&demand, 0.5, &right, &TARGET, 2.0, 0.01);
+            saturation.for_ms() > 0
+        };
+        assert!(is_full(Sticks { roll: -0.48, ..Sticks::default() }));
+        assert!(!is_full(Sticks { roll: -0.47, ..Sticks::default() }));
+        assert!(is_full(Sticks { roll: -0.36, pitch: 0.36, ..Sticks::default() }), "both together");
+    }
+
+    #[test]
+    fn progress_takes_back_twice_the_time_and_rest_as_much() {
+        let full = Sticks { roll: -1.0, ..Sticks::default() };
+        let moving = |x_m_s| Prediction {
+            position_m: Vector3::new(1.0, 0.0, 1.0),
+            velocity_m_s: Vector3::new(x_m_s, 0.0, 0.0),
+            ..Prediction::default()
+        };
+        let mut saturation = Saturation { for_s: 1.0, ..Saturation::default() };
+        for _ in 0..25 {
+            saturation.watch(&full, 1.0, &moving(-0.5), &TARGET, 2.0, 0.01);
+        }
+        assert_eq!(saturation.for_ms(), 500);
+        for _ in 0..25 {
+            saturation.rest(&Prediction::default(), 0.01);
+        }
+        assert_eq!(saturation.for_ms(), 250);
+    }
+
+    #[test]
+    fn no_way_is_made_only_far_from_the_target_and_after_its_time() {
+        let ticks_until_blocked = |distance_m| {
+            let mut way = Way::default();
+            (1..100).find(|_| way.is_blocked(&TARGET, distance_m, 0.5))
+        };
+        // Exactly six seconds are twelve ticks.
+        assert_eq!(ticks_until_blocked(3.0), Some(13));
+        assert_eq!(ticks_until_blocked(FAR_M), None);
+    }
 
     fn after_a_second(demand: Sticks, position: [f64; 3], velocity: [f64; 3]) -> i64 {
         let state = Prediction {
@@ -166,6 +252,25 @@ mod tests {
         assert_eq!(lasts_ms(1.5, 1.5), 0, "it was there");
         assert_eq!(lasts_ms(0.0, 0.9), 0, "a breeze");
         assert!(lasts_ms(0.0, 1.5) > 2000);
+    }
+
+    #[test]
+    fn a_storm_is_half_of_full_tilt_averaged_over_gusts() {
+        let disturbed =
+            Prediction { disturbance_m_s2: Vector2::new(1.0, 0.0), ..Prediction::default() };
+        let here = Pose { z_m: 0.0, ..TARGET };
+        let mut saturation = Saturation::default();
+        for _ in 0..150 {
+            saturation.watch(&Sticks::default(), 1.0, &disturbed, &here, 9.0, 0.01);
+        }
+        let average_m_s2 = saturation.disturbance_m_s2.x;
+        assert!((average_m_s2 - 0.632).abs() < 0.01, "{average_m_s2}");
+        // A tick longer than a gust makes the average the newest value.
+        for (full_tilt_m_s2, storm) in [(2.0, false), (1.9, true)] {
+            let mut saturation = Saturation::default();
+            saturation.watch(&Sticks::default(), 1.0, &disturbed, &here, full_tilt_m_s2, 2.0);
+            assert_eq!(saturation.for_ms() > 0, storm, "{full_tilt_m_s2}");
+        }
     }
 
     #[test]

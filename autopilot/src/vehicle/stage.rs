@@ -31,3 +31,15 @@ impl Stage {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stages_are_named_like_their_variants() {
+        for stage in Stage::ALL {
+            assert_eq!(stage.name(), format!("{stage:?}").to_lowercase());
+        }
+    }
+}

@@ -151,4 +151,24 @@ mod tests {
         assert_eq!(x, [1.0, 3.0]);
         assert!(super::sights(b"nonsense").is_empty());
     }
+
+    #[test]
+    fn the_wind_displaces_a_landing_in_its_direction_and_only_so_far_is_compensated() {
+        let drift_m = |x, y| landing_drift_m(Vector2::new(x, y));
+        assert!((drift_m(0.5, -0.25) - Vector2::new(0.2, -0.1)).norm() < 1e-12);
+        assert!((drift_m(0.0, -3.0) - Vector2::new(0.0, -LARGEST_DRIFT_M)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn the_plan_begins_above_the_origin_of_the_tags_or_where_the_drone_took_off() {
+        let there = Pose { x_m: 1.0, y_m: 2.0, z_m: 0.8, yaw_deg: 30.0 };
+        let origin = |tags| {
+            let mut config = VehicleConfig::default();
+            config.estimator.tags = tags;
+            Vehicle::new(&config).unwrap().plan_origin(there)
+        };
+        assert_eq!(origin(None), there);
+        let above = Pose { z_m: 0.8, ..Pose::default() };
+        assert_eq!(origin(Some(super::super::TagConfig::default())), above);
+    }
 }

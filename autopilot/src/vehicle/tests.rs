@@ -1,3 +1,10 @@
+mod bench;
+mod endings;
+mod orders;
+mod phases;
+mod sightings;
+mod ticks;
+
 use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{NavdataOption, PacketWriter};
 use bytes::BytesMut;
@@ -64,7 +71,10 @@ fn limits_that_the_drone_has_not_taken_forbid_the_flight_and_a_missing_clock_doe
     assert!(vehicle.events.contains(&FlightEvent::NoDroneClock));
     assert!(vehicle.configured.unconfirmed.is_empty());
     vehicle.compare_configuration(&taken(&vehicle, "control:altitude_max"));
-    assert_eq!(vehicle.configured.unconfirmed, ["control:altitude_max"]);
+    vehicle.setting_unconfirmed("control:altitude_max");
+    assert_eq!(vehicle.configured.unconfirmed, ["control:altitude_max"], "each key once");
+    vehicle.setting_unconfirmed("control:outdoor");
+    assert_eq!(vehicle.configured.unconfirmed, ["control:altitude_max", "control:outdoor"]);
 }
 
 /// Reasons why a vehicle that has just heard a drone on the ground does not take off.
@@ -114,6 +124,32 @@ fn the_pre_flight_check_reports_every_reason() {
 }
 
 #[test]
+fn the_pre_flight_check_accepts_its_exact_limits() {
+    let control_state = ControlState::Landed;
+    let fine = Demo { battery_percent: 60, control_state, ..Demo::default() };
+    let short = "takeoff\nland";
+    let now = Duration::from_millis(60);
+    for accepted in [
+        Demo { pitch_deg: 8.0, ..fine },
+        Demo { roll_deg: -8.0, ..fine },
+        Demo { battery_percent: 21, ..fine },
+        Demo { altitude_m: 0.6, ..fine },
+    ] {
+        assert_eq!(refusals(short, accepted, 5, now), [""; 0], "{accepted:?}");
+    }
+    assert_eq!(refusals(short, fine, 5, Duration::from_millis(500)), [""; 0]);
+    assert_eq!(refusals(short, fine, 4, now).len(), 1);
+    assert_eq!(
+        refusals(short, Demo { roll_deg: -9.0, ..fine }, 15, now),
+        ["the drone is tilted by 9°: put it on level ground"]
+    );
+    for altitude_m in [0.7, -0.7] {
+        let reasons = refusals(short, Demo { altitude_m, ..fine }, 15, now);
+        assert!(reasons.len() == 1 && reasons[0].contains("altitude"), "{reasons:?}");
+    }
+}
+
+#[test]
 fn a_firmware_that_does_not_look_for_tags_is_reported_and_flown() {
     let mut config = VehicleConfig::default();
     let keys = |config: &VehicleConfig| {
@@ -132,8 +168,8 @@ fn a_firmware_that_does_not_look_for_tags_is_reported_and_flown() {
     let mut vehicle = Vehicle::new(&config).unwrap();
     for (key, _) in &detection {
         vehicle.setting_unconfirmed(key);
+        let said = vehicle.events.iter().filter(|event| **event == FlightEvent::NoTagDetection);
+        assert_eq!(said.count(), 1, "once for all keys");
     }
-    let told = vehicle.events.iter().filter(|event| **event == FlightEvent::NoTagDetection);
-    assert_eq!(told.count(), 1);
     assert_eq!(vehicle.configured.unconfirmed, Vec::<String>::new());
 }

@@ -181,17 +181,17 @@ impl Vehicle {
     }
 
     /// Wind disturbance as a fraction of the acceleration at full tilt.
-    fn wind(&self) -> Vector2<f64> {
+    pub(super) fn wind(&self) -> Vector2<f64> {
         self.flight.wind_m_s2 / (self.full_tilt_m_s2() * self.least_thrust())
     }
 
-    fn feel_wind(&mut self, disturbance_m_s2: Vector2<f64>, step_s: f64) {
+    pub(super) fn feel_wind(&mut self, disturbance_m_s2: Vector2<f64>, step_s: f64) {
         let disturbance_m_s2 = if self.on_ground() { Vector2::zeros() } else { disturbance_m_s2 };
         self.flight.wind_m_s2 +=
             (disturbance_m_s2 - self.flight.wind_m_s2) * (step_s / WIND_TIME_S);
     }
 
-    fn situation(&self, now: Duration, state: &Prediction) -> Situation {
+    pub(super) fn situation(&self, now: Duration, state: &Prediction) -> Situation {
         let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
         Situation {
             now,
@@ -209,8 +209,7 @@ impl Vehicle {
 
     /// Hands the next order to the agent when the last one has ended.
     fn offer_order(&mut self, now: Duration) {
-        let waits = self.flight.landing.is_some() || self.flight.manual.pre_empts;
-        if self.phase != FlightPhase::Flying || waits {
+        if self.phase != FlightPhase::Flying || self.flight.manual.pre_empts {
             return;
         }
         if self.flight.manual.holds_mission {
