@@ -596,12 +596,13 @@ impl Estimator {
     /// start, and silence.
     pub fn horizontal_deviation_m(&self, now: Duration) -> f64 {
         let speed_m_s = self.horizontal.measured_m_s().norm();
-        if let Some(tags) = &self.tags {
-            let known_m = tags.deviation_m(self.horizontal.position_m, self.estimate.above_floor_m);
-            return known_m.hypot(Uncertainty::silence_m(self.silence_s(now), speed_m_s));
-        }
         let distance_m = self.horizontal.position_m.norm();
-        self.uncertainty.horizontal_m(distance_m, self.silence_s(now), speed_m_s)
+        let untagged_m = self.uncertainty.horizontal_m(distance_m, self.silence_s(now), speed_m_s);
+        let Some(tags) = &self.tags else { return untagged_m };
+        let known_m = tags.deviation_m(self.horizontal.position_m, self.estimate.above_floor_m);
+        let tagged_m = known_m.hypot(Uncertainty::silence_m(self.silence_s(now), speed_m_s));
+        // Until a tag is seen, nothing more is known than without.
+        if tags.has_fix() { tagged_m } else { tagged_m.max(untagged_m) }
     }
 
     /// Standard deviation of the height.

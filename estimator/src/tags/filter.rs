@@ -51,6 +51,8 @@ const ORIENTATION_DEG: f64 = 8.0;
 const MEAN_ORIENTATION_DEG: f64 = 3.0;
 /// Gate in standard deviations, beyond which a sighting is of something else.
 const GATE: f64 = 5.0;
+/// All tags look alike: the squared deviations of a rival must be larger by the square of this.
+const CLEAR: f64 = 3.0;
 
 /// Correction to be added to the odometry.
 #[derive(Debug, Clone, Copy)]
@@ -272,11 +274,8 @@ impl Filter {
     pub(super) fn admits(&self, sighted: &Sighted, tag: usize) -> bool {
         let off = sighted.place_m - self.tag_place_m(tag);
         let (_, spread) = self.spread(&Self::tag_rows(sighted, tag));
-        is_within(
-            GATE,
-            off,
-            spread + Matrix2::identity() * (sighted.variance_m2 + sighted.scale_m2),
-        )
+        let spread = spread + Matrix2::identity() * (sighted.variance_m2 + sighted.scale_m2);
+        squared_deviations(off, spread) < GATE * GATE
     }
 
     /// Corrects the state by a sighting of a tag.
@@ -286,11 +285,22 @@ impl Filter {
         self.correct_two(&rows, off, sighted.variance_m2 + sighted.scale_m2);
     }
 
-    /// Whether two tags may be one, within a number of deviations, `way_m` from the last sighting.
+    /// Whether two tags may be one, `way_m` from the last sighting.
     pub(super) fn may_be_one(&self, one: usize, other: usize, way_m: f64) -> bool {
+        self.squared_deviations(one, other, way_m) < GATE * GATE
+    }
+
+    /// Whether a tag is this one rather than a rival, `way_m` from the last sighting.
+    pub(super) fn is_rather(&self, tag: usize, this: usize, rival: usize, way_m: f64) -> bool {
+        let off = |other: usize| self.squared_deviations(tag, other, way_m);
+        off(rival) >= off(this) + CLEAR * CLEAR
+    }
+
+    /// Square of the number of standard deviations between two tags; infinite if that is not known.
+    fn squared_deviations(&self, one: usize, other: usize, way_m: f64) -> f64 {
         let (_, spread) = self.spread(&Self::same_rows(one, other));
         let off = self.tag_place_m(one) - self.tag_place_m(other);
-        is_within(GATE, off, spread + Matrix2::identity() * same_variance_m2(way_m))
+        squared_deviations(off, spread + Matrix2::identity() * same_variance_m2(way_m))
     }
 
     /// Merges two tags that are one.
@@ -359,9 +369,8 @@ fn same_variance_m2(way_m: f64) -> f64 {
     SAME_M * SAME_M + (SCALE * way_m).powi(2)
 }
 
-fn is_within(deviations: f64, off: Vector2<f64>, spread: Matrix2<f64>) -> bool {
-    let inverse = spread.try_inverse();
-    inverse.is_some_and(|inverse| (off.transpose() * inverse * off).x < deviations * deviations)
+fn squared_deviations(off: Vector2<f64>, spread: Matrix2<f64>) -> f64 {
+    spread.try_inverse().map_or(f64::INFINITY, |inverse| (off.transpose() * inverse * off).x)
 }
 
 fn dot(left: &Row, right: &Row, used: usize) -> f64 {

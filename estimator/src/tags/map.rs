@@ -203,10 +203,10 @@ impl Map {
         let place_m = filter.tag_place_m(trial);
         let far = |tag: usize| (filter.tag_place_m(tag) - place_m).norm();
         let nearest = self.those(is_known).min_by(|a, b| far(*a).total_cmp(&far(*b)))?;
-        let alone = self
-            .those(is_known)
-            .filter(|tag| *tag != nearest)
-            .all(|tag| far(tag) >= RUNNER_UP * far(nearest));
+        // After a long drift the nearest tag may be another one.
+        let alone = self.those(is_known).filter(|tag| *tag != nearest).all(|tag| {
+            far(tag) >= RUNNER_UP * far(nearest) && filter.is_rather(trial, nearest, tag, way_m)
+        });
         let is_it = alone
             && self.is_out_of_view(nearest, now_s)
             && filter.may_be_one(trial, nearest, way_m);

@@ -127,6 +127,8 @@ pub(crate) struct Tags {
     cautious_until_s: f64,
     /// Unmeasured or disputed variance that has already been added.
     unseen_m2: f64,
+    /// It has lifted off since it last stood.
+    has_risen: bool,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -169,6 +171,7 @@ impl Tags {
             fix: None,
             cautious_until_s: f64::NEG_INFINITY,
             unseen_m2: 0.0,
+            has_risen: false,
             config: *config,
         }
     }
@@ -181,10 +184,12 @@ impl Tags {
         }
         let unseen_m2 = (step.unseen_m2 - self.unseen_m2).max(0.0);
         self.unseen_m2 = step.unseen_m2;
-        // A drone on the ground with its motors running measures nothing, and does not move.
-        if step.height.1 > STANDS_M {
+        // Before it lifts off, a drone with its motors running measures nothing, and does not move.
+        self.has_risen |= step.airborne && step.height.1 > STANDS_M;
+        if self.has_risen {
             self.filter.doubt_place(unseen_m2);
         }
+        self.has_risen &= step.airborne;
     }
 
     /// The compass made a step, which was compensated with this deviation.
@@ -314,6 +319,11 @@ impl Tags {
 
     pub(crate) fn heading_deg(&self, yaw_deg: f64) -> f64 {
         yaw_deg + self.filter.correction().heading_rad.to_degrees()
+    }
+
+    /// Whether a known tag has been seen.
+    pub(crate) fn has_fix(&self) -> bool {
+        self.fix.is_some()
     }
 
     /// Standard deviation of the position on the worse axis, at this odometry and height, without the

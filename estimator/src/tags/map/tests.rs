@@ -202,12 +202,26 @@ fn a_known_tag_that_was_out_of_view_is_recognised_by_six_sightings() {
         assert_eq!(bench.until_known(1.35, 5.0, false), Some(known), "{seen_s}");
     }
     // Neither of two that are about as near, and not one that is too far.
-    for (right_m, known) in [(1.12, (11, 2)), (1.09, (6, 0)), (2.9, (11, 2))] {
+    for (right_m, known) in [(1.12, (11, 2)), (2.9, (11, 2))] {
         let mut bench = Bench::with_known(&[1.0, 1.3]);
         assert_eq!(bench.until_known(right_m, 5.0, false), Some(known), "{right_m}");
     }
-    let mut bench = Bench::with_known(&[1.0, 1.75]);
-    assert_eq!(bench.until_known(1.25, 5.0, false), Some((6, 0)), "exactly twice as far");
+    let mut bench = Bench::with_known(&[1.0, 2.5]);
+    assert_eq!(bench.until_known(1.5, 5.0, false), Some((6, 0)), "exactly twice as far");
+}
+
+#[test]
+fn after_a_long_drift_the_nearest_tag_may_be_another() {
+    // The drone has drifted by this much, and sees a tag 0.8 m from one of two that are 3.2 m apart.
+    for (drift_m, known) in [(0.5, (6, 0)), (1.2, (11, 2))] {
+        let mut bench = Bench::with_known(&[1.0, 4.2]);
+        bench.filter.doubt_place(drift_m * drift_m);
+        assert_eq!(bench.until_known(1.8, 5.0, false), Some(known), "{drift_m}");
+    }
+    // With one tag only there is no other.
+    let mut bench = Bench::with_known(&[1.0]);
+    bench.filter.doubt_place(1.2 * 1.2);
+    assert_eq!(bench.until_known(1.8, 5.0, false), Some((6, 0)));
 }
 
 #[test]

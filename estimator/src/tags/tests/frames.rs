@@ -182,6 +182,19 @@ fn the_deviation_grows_with_the_way_since_the_tag_and_with_height() {
     assert_eq!(drone.tags.status(drone.now_s + 3.0).known, 1);
 }
 
+/// After a gap the predicted height may be below the floor.
+#[test]
+fn motion_that_was_not_measured_is_doubted_at_any_height_once_the_drone_has_risen() {
+    let mut drone = Drone::new(&surveyed());
+    drone.height_m = STANDS_M + 0.01;
+    drone.tags.fly(&drone.step());
+    let before_m2 = drone.tags.filter.place_variance_m2();
+    drone.height_m = -0.4;
+    drone.unseen_m2 = 3.4;
+    drone.tags.fly(&drone.step());
+    assert_near(drone.tags.filter.place_variance_m2(), before_m2 + 3.4);
+}
+
 #[test]
 fn motion_that_was_not_measured_is_doubted_once_and_only_in_flight() {
     for (height_m, doubted) in [(STANDS_M, 0.0), (STANDS_M + 0.01, 1.0)] {
