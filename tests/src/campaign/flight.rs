@@ -17,6 +17,7 @@ use rand::{Rng, RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
 use super::injected::Injected;
+use super::tags::Tags;
 use crate::sensors::{AIRFRAMES, Model};
 use crate::sim::Simulation;
 
@@ -35,6 +36,8 @@ pub(super) struct Flight {
     pub(super) strongest_m_s: f64,
     airframe: &'static str,
     plan_text: String,
+    /// Tags, if they are in use.
+    pub(super) tags: Option<Tags>,
 }
 
 impl Flight {
@@ -50,11 +53,20 @@ impl Flight {
         };
         let Model { name: airframe, profile } = AIRFRAMES[random.random_range(0..AIRFRAMES.len())];
         let strongest_m_s = strongest_wind_m_s(&profile());
-        let drone = drone(random, seed, profile(), strongest_m_s, &limits);
+        let mut drone = drone(random, seed, profile(), strongest_m_s, &limits);
         let link = if random.random_bool(0.3) { LinkFaults::default() } else { link(random) };
-        let injected = injected(random, strongest_m_s, drone.flies_at_m.is_some());
+        let mut injected = injected(random, strongest_m_s, drone.flies_at_m.is_some());
         let orders = orders(random);
-        let plan_text = plan(random, &limits, drone.flies_at_m.is_some());
+        let mut plan_text = plan(random, &limits, drone.flies_at_m.is_some());
+        let tags = Tags::of(seed, drone.sensors == SensorModel::hard());
+        let mut pilot = VehicleConfig { limits, ..VehicleConfig::default() };
+        if let Some(tags) = &tags {
+            drone.camera = tags.camera;
+            injected.accidents.extend(&tags.accidents);
+            injected.is_survey_wrong = tags.is_survey_wrong;
+            pilot.estimator.tags = Some(tags.config);
+            plan_text = tags.change(&plan_text);
+        }
         let plan = Plan::parse_within("campaign", &plan_text, &limits)
             .unwrap_or_else(|error| panic!("{error}"));
         let simulation = Simulation {
@@ -62,14 +74,14 @@ impl Flight {
                 drone,
                 link,
                 scenario: injected.scenario(),
-                ..WorldConfig::default()
+                tags: tags.as_ref().map(|tags| tags.laid.clone()).unwrap_or_default(),
             },
-            pilot: VehicleConfig { limits, ..VehicleConfig::default() },
+            pilot,
             orders,
             stalls: injected.stalls.clone(),
             aftermath: AFTERMATH,
         };
-        Self { simulation, plan, injected, strongest_m_s, airframe, plan_text }
+        Self { simulation, plan, injected, strongest_m_s, airframe, plan_text, tags }
     }
 
     /// Whether nothing prevents the plan from being completed.
@@ -79,6 +91,8 @@ impl Flight {
         self.injected == Injected::default()
             && *link == LinkFaults::default()
             && self.simulation.orders.is_empty()
+            // A tag may lie where no search leads.
+            && !self.tags.as_ref().is_some_and(Tags::are_sought)
             && drone.battery_percent > 60.0
             && drone.flies_at_m.is_none()
             && wind_m_s < 0.5 * self.strongest_m_s
@@ -111,6 +125,9 @@ impl Flight {
             ),
             format!("plan: {}", self.plan_text.trim().replace('\n', "; ")),
         ];
+        if let Some(tags) = &self.tags {
+            lines.extend(tags.circumstances());
+        }
         if let Some(height_m) = drone.flies_at_m {
             lines.push(format!("flies at {height_m:.2} m from the start"));
         }

@@ -13,6 +13,8 @@ pub(super) struct Injected {
     pub(super) accidents: Vec<(When, Action)>,
     /// Times and durations in which the pilot's program does not run.
     pub(super) stalls: Vec<(Duration, Duration)>,
+    /// The pilot was told wrong positions of tags.
+    pub(super) is_survey_wrong: bool,
     /// Time of the first take-off.
     take_off: Option<Duration>,
 }
@@ -108,6 +110,14 @@ impl Injected {
     /// Whether navdata have been wrong so far.
     pub(super) fn has_lied(&self, now: Duration) -> bool {
         self.begun(now).any(|(_, action)| matches!(action, Action::Sensor(..) | Action::Freeze(_)))
+    }
+
+    /// Whether navdata or tags have been wrong so far about the position.
+    pub(super) fn has_lied_of_place(&self, now: Duration) -> bool {
+        let is_moved = |action: &Action| matches!(action, Action::MoveTag(_, Some(_)));
+        self.has_lied(now)
+            || self.is_survey_wrong
+            || self.begun(now).any(|(_, action)| is_moved(action))
     }
 
     /// How far a drifting velocity has led a pilot that trusts it, including the distance until that speed is

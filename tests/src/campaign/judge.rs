@@ -159,7 +159,7 @@ impl Judge {
                 limits,
                 flight.plan.steps().len().saturating_sub(1),
             ),
-            targets: Targets::of(&flight.plan, limits),
+            targets: Targets::of(&flight.plan, limits, flight.tags.is_some()),
             dangers: [
                 Danger::Battery,
                 Danger::Blind,
@@ -335,7 +335,9 @@ impl Judge {
         };
         let (place_claimed_m, height_claimed_m) =
             (status.horizontal_deviation_m, status.vertical_deviation_m);
-        if self.place_wrong.watch(is_wrong(place_error_m, place_claimed_m)) > WRONG_FOR {
+        let place_is_wrong =
+            is_wrong(place_error_m, place_claimed_m) && !self.injected.has_lied_of_place(*now);
+        if self.place_wrong.watch(place_is_wrong) > WRONG_FOR {
             let (error_m, claimed_m) = (place_error_m, place_claimed_m);
             self.find(*now, Fault::Overconfident { vertical: false, error_m, claimed_m });
         }
@@ -409,7 +411,7 @@ impl Judge {
         }
         for (waypoint, truth) in waypoints.iter().zip(&flown.truth_at_waypoints) {
             let Some(error_m) = self.targets.error_m(waypoint.step, truth) else { continue };
-            let lied = self.injected.has_lied(waypoint.at);
+            let lied = self.injected.has_lied_of_place(waypoint.at);
             let reached_m = if lied { REACHED_LYING_M } else { REACHED_M };
             let claimed_m = DEVIATIONS * waypoint.horizontal_deviation_m + TRIFLE_M;
             if error_m > reached_m + claimed_m {

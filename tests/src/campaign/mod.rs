@@ -9,6 +9,7 @@ mod flight;
 mod injected;
 mod judge;
 mod orders;
+mod tags;
 mod targets;
 
 use std::time::Duration;

@@ -20,15 +20,23 @@ pub(super) struct Targets {
     /// End of the take-off, in the frame that healthy sensors span.
     origin_m: Vector3<f64>,
     took_off: bool,
+    /// Tags lead the pilot from the frame of the sensors to the true one.
+    has_tags: bool,
 }
 
 impl Targets {
-    pub(super) fn of(plan: &Plan, limits: FlightLimits) -> Self {
+    pub(super) fn of(plan: &Plan, limits: FlightLimits, has_tags: bool) -> Self {
         let wanted_m = plan.steps().iter().enumerate().filter_map(|(index, step)| {
             let Command::GoTo(pose) = step.command else { return None };
             Some((index, Vector3::new(pose.x_m, pose.y_m, pose.z_m)))
         });
-        Self { wanted_m: wanted_m.collect(), limits, origin_m: Vector3::zeros(), took_off: false }
+        Self {
+            wanted_m: wanted_m.collect(),
+            limits,
+            origin_m: Vector3::zeros(),
+            took_off: false,
+            has_tags,
+        }
     }
 
     /// The last tick of the take-off defines the origin of the targets.
@@ -36,7 +44,10 @@ impl Targets {
         self.took_off |= moment.status.step.is_some_and(|step| step > TAKE_OFF_STEP);
         // A take-over in the air completes its take-off within the tick.
         if moment.status.phase == Phase::Flying && !self.took_off {
-            self.origin_m = place_in_navdata_frame(&moment.truth);
+            let place_m = place_in_navdata_frame(&moment.truth);
+            // With tags, coordinates begin at the start.
+            let across_m = if self.has_tags { Vector2::zeros() } else { place_m.xy() };
+            self.origin_m = across_m.push(place_m.z);
         }
     }
 
@@ -51,6 +62,11 @@ impl Targets {
         // The drone hovers elsewhere than assumed by the check: targets outside the fence are moved inside.
         let across_m: Vector2<f64> = to_m.xy().cap_magnitude(self.limits.radius_m);
         let height_m = to_m.z.clamp(self.limits.floor_m, self.limits.ceiling_m);
-        Some((place_in_navdata_frame(truth) - across_m.push(height_m)).norm())
+        let error_m = |place_m: Vector3<f64>| (place_m - across_m.push(height_m)).norm();
+        let by_sensors_m = error_m(place_in_navdata_frame(truth));
+        // A tag that the pilot has mapped itself lies in the frame of the sensors at that time, which is between
+        // the two.
+        let by_tags_m = if self.has_tags { error_m(truth.position_m) } else { f64::INFINITY };
+        Some(by_sensors_m.min(by_tags_m))
     }
 }
