@@ -8,7 +8,7 @@ use diagnostic::is_printable;
 use serde_json::{Value, json};
 
 use crate::flight::{FinishedFlight, Message};
-use crate::recording::{Place, Recorded};
+use crate::recording::{GpsPosition, Place, Recorded};
 
 /// A value as text that is safe anywhere: on a terminal, in a page, in a script. Characters with a meaning
 /// there are written as escapes like `\u003c`, which are equivalent in JSON.
@@ -118,6 +118,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                     "heading_held": tags.heading_held,
                     "drift_m": [tags.drift_m.x, tags.drift_m.y],
                 })),
+                "gps": status.gps.map(GpsPosition::from),
                 "attitude_deg": status.attitude_deg,
                 "navdata_hz": status.navdata_hz,
                 "navdata_age_s": status.navdata_age.map(|age| age.as_secs_f64()),

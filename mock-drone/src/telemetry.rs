@@ -24,7 +24,7 @@ pub enum Tag27 {
     Absent,
     /// 12 bytes, as in older firmware; some clients then lose every packet.
     Zimmu,
-    /// 216 bytes of GPS, as in firmware 2.4; other clients then lose every packet.
+    /// 216 bytes of GPS, as in firmware 2.4 with a flight recorder; other clients then lose every packet.
     Gps,
 }
 
@@ -91,7 +91,7 @@ impl Telemetry<'_> {
             27 => match self.tag_27 {
                 Tag27::Absent => return None,
                 Tag27::Zimmu => NavdataOption::Zimmu3000(Zimmu3000::default()),
-                Tag27::Gps => NavdataOption::Gps(Gps::default()),
+                Tag27::Gps => NavdataOption::Gps(self.gps()),
             },
             // Options without a counterpart in the simulation are zero.
             4 => NavdataOption::GyroOffsets(GyroOffsets::default()),
@@ -107,6 +107,30 @@ impl Telemetry<'_> {
             26 => NavdataOption::Wifi(Wifi::default()),
             _ => return None,
         })
+    }
+
+    /// A receiver somewhere in Paris, with north where the drone looked at its start. It is exact: nothing is flown
+    /// by it.
+    fn gps(&self) -> Gps {
+        const METRES_PER_DEGREE: f64 = 111_320.0;
+        const START_DEG: [f64; 2] = [48.879_12, 2.367_77];
+        const START_M: f64 = 61.0;
+        let place_m = self.airframe.position_m();
+        let [latitude_deg, longitude_deg] = START_DEG;
+        let east_deg = place_m.x / (METRES_PER_DEGREE * latitude_deg.to_radians().cos());
+        Gps {
+            latitude_deg: latitude_deg + place_m.y / METRES_PER_DEGREE,
+            longitude_deg: longitude_deg + east_deg,
+            elevation_m: START_M + place_m.z,
+            start_latitude_deg: latitude_deg,
+            start_longitude_deg: longitude_deg,
+            horizontal_dilution: 1.0,
+            horizontal_error_m: single(3.35),
+            data_available: 7,
+            plugged: 1,
+            satellite_count: 8,
+            ..Gps::default()
+        }
     }
 
     fn demo(&self) -> Demo {

@@ -4,7 +4,7 @@ use bytes::{BufMut, BytesMut};
 use nom::number::complete::{le_u16, le_u32};
 use nom::{IResult, Parser};
 
-use super::options::{Demo, NavdataOption, Time, VisionDetect};
+use super::options::{Demo, Gps, NavdataOption, Time, VisionDetect};
 use super::state::DroneState;
 
 const MAGIC: u32 = 0x5566_7788;
@@ -134,6 +134,11 @@ impl<'a> Packet<'a> {
     /// What the cameras have found, if it is in the packet.
     pub fn vision_detect(&self) -> Option<VisionDetect> {
         self.payload(16).and_then(VisionDetect::read)
+    }
+
+    /// The flight recorder's GPS, if included.
+    pub fn gps(&self) -> Option<Gps> {
+        self.payload(27).filter(|payload| payload.len() == Gps::EXACT_BYTES).and_then(Gps::read)
     }
 
     /// The drone's clock, if included.

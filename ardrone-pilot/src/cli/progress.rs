@@ -194,6 +194,7 @@ mod tests {
             horizontal_deviation_m: 0.1,
             vertical_deviation_m: 0.02,
             tags: None,
+            gps: None,
             trust: Trust::Sound,
             airframe: Airframe::default(),
             navdata_age: Some(Duration::from_millis(40)),

@@ -1,7 +1,7 @@
 //! Messages of the flight log: JSON objects whose fields have the same names in the file and here.
 
 use ardrone_link::at::Motion;
-use ardrone_link::navdata::Navdata;
+use ardrone_link::navdata::{GpsFix, Packet};
 use ardrone_link::session::FlightOrder;
 use autopilot::vehicle::Decision;
 use kinematics::Pose;
@@ -139,6 +139,32 @@ pub struct DecodedNavdata {
     pub velocity_m_s: Option<[f64; 3]>,
     /// Roll, pitch and yaw as reported by the drone.
     pub attitude_deg: Option<[f64; 3]>,
+    /// Position by the flight recorder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gps: Option<GpsPosition>,
+}
+
+/// A position by the drone's flight recorder.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct GpsPosition {
+    /// North positive.
+    pub latitude_deg: f64,
+    /// East positive.
+    pub longitude_deg: f64,
+    /// Above the sea.
+    pub elevation_m: f64,
+    /// Error expected by the receiver, horizontal.
+    pub horizontal_error_m: f64,
+    /// Satellites in use.
+    pub satellites: u32,
+}
+
+impl From<GpsFix> for GpsPosition {
+    fn from(fix: GpsFix) -> Self {
+        let GpsFix { latitude_deg, longitude_deg, elevation_m, horizontal_error_m, satellites } =
+            fix;
+        Self { latitude_deg, longitude_deg, elevation_m, horizontal_error_m, satellites }
+    }
 }
 
 /// Bytes of a packet or of the control port, in base 64.
@@ -226,9 +252,10 @@ impl Agent {
     }
 }
 
-impl From<&Navdata> for DecodedNavdata {
-    fn from(navdata: &Navdata) -> Self {
-        let demo = navdata.demo.as_ref();
+impl From<&Packet<'_>> for DecodedNavdata {
+    fn from(navdata: &Packet<'_>) -> Self {
+        let demo = navdata.demo();
+        let demo = demo.as_ref();
         Self {
             sequence: navdata.sequence,
             state: navdata.state.bits(),
@@ -240,6 +267,7 @@ impl From<&Navdata> for DecodedNavdata {
                     .map(short)
             }),
             attitude_deg: demo.map(|demo| [demo.roll_deg, demo.pitch_deg, demo.yaw_deg].map(short)),
+            gps: navdata.gps().and_then(|gps| gps.fix()).map(GpsPosition::from),
         }
     }
 }

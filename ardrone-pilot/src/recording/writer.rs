@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 use std::time::Duration;
 
-use ardrone_link::navdata::Navdata;
+use ardrone_link::navdata::Packet;
 use autopilot::outcome::Outcome;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -99,10 +99,10 @@ impl<W: Write + Seek> LogWriter<W> {
                 let last = self.decoded.filter(|last| at.saturating_sub(*last) < DECODED_APART);
                 // A packet that cannot be decoded is recorded as bytes only.
                 if last.is_none()
-                    && let Ok(navdata) = Navdata::decode(packet)
+                    && let Ok(packet) = Packet::decode(packet)
                 {
                     self.decoded = Some(*at);
-                    self.message(topic::NAVDATA, *at, &DecodedNavdata::from(&navdata))?;
+                    self.message(topic::NAVDATA, *at, &DecodedNavdata::from(&packet))?;
                 }
                 Ok(())
             }

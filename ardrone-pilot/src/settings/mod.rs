@@ -217,7 +217,7 @@ mod tests {
                 tried += 1;
             }
         }
-        assert_eq!(tried, 39);
+        assert_eq!(tried, 40);
     }
 
     #[test]

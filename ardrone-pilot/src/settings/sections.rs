@@ -32,6 +32,8 @@ section! {
         /// Whether the drone's settings are read back over its control port before it flies. If they cannot be read it
         /// is not flown. Without reading back, its acknowledgements are trusted.
         read_back: bool = [read_back],
+        /// Whether the position by a flight recorder is asked for. It is shown and recorded; nothing is flown by it.
+        gps: bool = [gps],
     }
 }
 

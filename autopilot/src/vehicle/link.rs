@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ardrone_link::configuration::Configuration;
-use ardrone_link::navdata::Navdata;
+use ardrone_link::navdata::{Navdata, Packet};
 use ardrone_link::session;
 
 use super::{Authority, FlightEvent, FlightPhase, LandingReason, Outcome, Vehicle, sample, sights};
@@ -25,6 +25,10 @@ impl Vehicle {
             if self.config.estimator.tags.is_some() {
                 self.flight.estimator.see(&sights(datagram));
             }
+        }
+        if self.config.gps {
+            let packet = Packet::decode(datagram).ok();
+            self.gps = packet.and_then(|packet| packet.gps()?.fix());
         }
         self.navdata = Some(navdata);
     }
@@ -105,6 +109,7 @@ impl Vehicle {
             session::Event::DroneRestarted => {
                 self.flight.estimator.handle_restart();
                 self.navdata = None;
+                self.gps = None;
                 match self.phase {
                     FlightPhase::Flying => self.land(now, LandingReason::DroneRestarted),
                     FlightPhase::Settling { .. } | FlightPhase::Standby { .. } => {
@@ -149,6 +154,7 @@ impl Vehicle {
         self.phase = FlightPhase::Connecting;
         self.authority = Authority::None;
         self.navdata = None;
+        self.gps = None;
         if self.departure.is_some() {
             self.end(now, Outcome::NoDrone);
         }

@@ -25,7 +25,7 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use ardrone_link::at::Config;
-use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
+use ardrone_link::navdata::{ControlState, Demo, DroneState, GpsFix, Navdata};
 use ardrone_link::session::{self, Session, SessionConfig};
 use ardrone_link::settings::{Detection, Setting, SettingError};
 use estimator::{EstimatorConfig, Prediction};
@@ -75,6 +75,8 @@ pub struct VehicleConfig {
     pub read_back: bool,
     /// Navdata rate requested from the drone.
     pub navdata: NavdataRate,
+    /// Whether the drone is asked for the position by its flight recorder, which is only reported.
+    pub gps: bool,
     /// Control law for approaching and holding poses.
     pub law: Law,
     /// Delays and airframe parameters assumed by the estimator.
@@ -89,6 +91,7 @@ impl Default for VehicleConfig {
             limits: FlightLimits::default(),
             read_back: true,
             navdata: NavdataRate::default(),
+            gps: false,
             law: Law::default(),
             estimator: EstimatorConfig::default(),
             cascade: CascadeConfig::default(),
@@ -136,6 +139,8 @@ pub struct Vehicle {
     authority: Authority,
     flight: Flight,
     navdata: Option<Navdata>,
+    /// Position by the drone's flight recorder.
+    gps: Option<GpsFix>,
     last_tick: Option<Duration>,
     /// Navdata packets per second, low-pass filtered.
     navdata_hz: f64,
@@ -198,6 +203,7 @@ impl Vehicle {
             authority: Authority::None,
             flight: Flight::new(config, Duration::ZERO),
             navdata: None,
+            gps: None,
             last_tick: None,
             navdata_hz: 0.0,
             packet_at: None,
@@ -324,6 +330,7 @@ impl Vehicle {
             horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
             tags: self.flight.estimator.tag_status(now),
+            gps: self.gps,
             trust: self.flight.estimator.trust(),
             airframe: *self.flight.estimator.airframe(),
             navdata_age: self.session.silence(now),
@@ -361,10 +368,11 @@ fn pose(state: &Prediction) -> Pose {
 /// Settings made before each flight, because other clients may have left different values.
 fn drone_settings(config: &VehicleConfig) -> Result<Vec<Config>, SettingError> {
     let limits = &config.estimator.limits;
+    // Options demo, time and vision_detect; and the flight recorder's.
+    let options = [0, 1, 16].into_iter().chain(config.gps.then_some(27));
     let mut settings = vec![
         Setting::NavdataDemo(config.navdata == NavdataRate::Demo),
-        // Options demo, time and vision_detect.
-        Setting::NavdataOptions(vec![0, 1, 16]),
+        Setting::NavdataOptions(options.collect()),
         Setting::Outdoor(false),
         Setting::AltitudeMaxM(config.limits.ceiling_m),
         Setting::EulerAngleMaxDeg(limits.tilt_rad.to_degrees()),

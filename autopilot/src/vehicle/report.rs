@@ -3,6 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
+use ardrone_link::navdata::GpsFix;
 use diagnostic::printable;
 use estimator::{TagStatus, Trust};
 use kinematics::{Airframe, Pose};
@@ -289,6 +290,8 @@ pub struct Status {
     pub vertical_deviation_m: f64,
     /// What is known by tags, if they are used.
     pub tags: Option<TagStatus>,
+    /// Position by the drone's flight recorder, if it has one and is asked. Nothing is flown by it.
+    pub gps: Option<GpsFix>,
     /// Whether navdata are plausible.
     pub trust: Trust,
     /// Identified response of this airframe to its sticks.

@@ -84,6 +84,74 @@ option! {
     }
 }
 
+/// Where the flight recorder's receiver is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GpsFix {
+    /// North positive.
+    pub latitude_deg: f64,
+    /// East positive.
+    pub longitude_deg: f64,
+    /// Above the sea.
+    pub elevation_m: f64,
+    /// Error expected by the receiver, horizontal; metres in the open, more near walls.
+    pub horizontal_error_m: f64,
+    /// Satellites in use.
+    pub satellites: u32,
+}
+
 impl Gps {
-    pub(super) const EXACT_BYTES: usize = Self::PAYLOAD_BYTES;
+    pub(in crate::navdata) const EXACT_BYTES: usize = Self::PAYLOAD_BYTES;
+
+    /// The position, if the receiver is plugged in and knows it. Before its first fix the firmware reports zeros, or
+    /// its invalid position of 500 degrees.
+    pub fn fix(&self) -> Option<GpsFix> {
+        let fix = GpsFix {
+            latitude_deg: self.latitude_deg,
+            longitude_deg: self.longitude_deg,
+            elevation_m: self.elevation_m,
+            horizontal_error_m: self.horizontal_error_m.into(),
+            satellites: self.satellite_count,
+        };
+        let is_place = fix.latitude_deg.abs() <= 90.0
+            && fix.longitude_deg.abs() <= 180.0
+            && (fix.latitude_deg, fix.longitude_deg) != (0.0, 0.0);
+        let is_sound = fix.elevation_m.is_finite() && fix.horizontal_error_m >= 0.0;
+        let is_there = self.plugged != 0 && self.data_available != 0 && fix.satellites > 0;
+        (is_there && is_place && is_sound).then_some(fix)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_position_that_is_none_is_not_reported() {
+        let gps = Gps {
+            plugged: 1,
+            data_available: 7,
+            satellite_count: 8,
+            latitude_deg: 48.88,
+            longitude_deg: 2.37,
+            elevation_m: 61.0,
+            horizontal_error_m: 3.35,
+            ..Gps::default()
+        };
+        let fix = gps.fix().unwrap();
+        assert_eq!((fix.latitude_deg, fix.longitude_deg, fix.satellites), (48.88, 2.37, 8));
+        for none in [
+            Gps::default(),
+            Gps { plugged: 0, ..gps },
+            Gps { data_available: 0, ..gps },
+            Gps { satellite_count: 0, ..gps },
+            Gps { latitude_deg: 500.0, longitude_deg: 500.0, ..gps },
+            Gps { longitude_deg: -180.1, ..gps },
+            Gps { latitude_deg: 0.0, longitude_deg: 0.0, ..gps },
+            Gps { latitude_deg: f64::NAN, ..gps },
+            Gps { elevation_m: f64::INFINITY, ..gps },
+            Gps { horizontal_error_m: f32::NAN, ..gps },
+        ] {
+            assert_eq!(none.fix(), None, "{none:?}");
+        }
+    }
 }

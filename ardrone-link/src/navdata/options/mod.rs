@@ -15,7 +15,7 @@ use bytes::BufMut;
 
 pub use control::{Altitude, Pwm, RcReferences, References, Trims};
 pub use flight::{Demo, EulerAngles, Time};
-pub use gps::Gps;
+pub use gps::{Gps, GpsFix};
 pub use sensors::{
     GyroOffsets, KalmanPressure, Magneto, PhysicalMeasures, PressureRaw, RawMeasures, WindSpeed,
 };

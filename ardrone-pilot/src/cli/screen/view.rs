@@ -315,6 +315,12 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
     if let Some([roll_deg, pitch_deg]) = status.attitude_deg {
         lines.push(format!("tilt    {roll_deg:+.1}° right, {:+.1}° forward", -pitch_deg));
     }
+    if let Some(gps) = status.gps {
+        lines.push(format!(
+            "gps     {:.5} {:.5}, to {:.0} m",
+            gps.latitude_deg, gps.longitude_deg, gps.horizontal_error_m
+        ));
+    }
     frame.render_widget(Paragraph::new(lines.join("\n")), text);
 }
 
@@ -386,6 +392,7 @@ mod tests {
                 horizontal_deviation_m: 0.12,
                 vertical_deviation_m: 0.02,
                 tags: None,
+                gps: None,
                 trust: Trust::Sound,
                 airframe: Airframe::default(),
                 navdata_age: Some(Duration::from_millis(40)),
