@@ -9,8 +9,9 @@ use autopilot::vehicle::{
 };
 use autopilot::{Vehicle, VehicleConfig};
 use mock_drone::scenario::Scenario;
-use mock_drone::{DroneConfig, Truth, WorldConfig, firmware};
+use mock_drone::{DroneConfig, Tag27, Truth, WorldConfig, firmware};
 use system_tests::drive::{Driver, Passed};
+use system_tests::sim::{Moment, Simulation};
 use system_tests::{SQUARE, plan};
 
 const SECOND: Duration = Duration::from_secs(1);
@@ -121,6 +122,27 @@ impl Bench {
 
 fn is_flying(bench: &Bench) -> bool {
     bench.truth().phase == firmware::Phase::Flying
+}
+
+/// The position by the flight recorder is shown if it is asked for, and moves with the drone.
+#[test]
+fn the_flight_recorder_tells_where_the_drone_is() {
+    for asked in [true, false] {
+        let drone = DroneConfig { tag_27: Tag27::Gps, ..DroneConfig::default() };
+        let world = WorldConfig { drone, ..WorldConfig::default() };
+        let pilot = VehicleConfig { gps: asked, ..VehicleConfig::default() };
+        let simulation = Simulation { world, pilot, ..Simulation::default() };
+        let mut northernmost_deg = f64::NAN;
+        let watch = |moment: &Moment| {
+            if let Some(gps) = moment.status.gps {
+                northernmost_deg = gps.latitude_deg.max(northernmost_deg);
+            }
+        };
+        let flown = plan("takeoff\ngoto 0 2 0 0\nland\n");
+        assert_eq!(simulation.fly_watched(flown, watch).unwrap().outcome, Outcome::Completed);
+        let forward_m = (northernmost_deg - 48.879_12) * 111_320.0;
+        assert_eq!((1.8..2.3).contains(&forward_m), asked, "{forward_m}");
+    }
 }
 
 #[test]
