@@ -639,6 +639,7 @@ impl Estimator {
         self.velocity_told_m_s = None;
         self.velocity_gate = VelocityGate::default();
         self.altitude_at = None;
+        self.uncertainty.handle_restart();
         self.plausibility = Plausibility::default();
         self.response = Response::default();
         if let Some(tags) = &mut self.tags {

@@ -35,6 +35,9 @@ const FLOOR_M: f64 = 0.02;
 const UNSEEN_CLIMB_M_S: f64 = 0.3;
 /// Standard deviation of a height.
 const HEIGHT_M: f64 = 0.015;
+/// Standard deviation of the height after each restart: the first altitudes after it may be old, and what follows
+/// them looks like another floor.
+const RESTART_M: f64 = 0.25;
 /// Standard deviation of the height after each step of the floor.
 const FLOOR_STEP_M: f64 = 0.05;
 
@@ -46,6 +49,7 @@ pub(crate) struct Uncertainty {
     /// Distance flown if the rejected velocities were right after all.
     disputed_m: f64,
     floor_steps: u32,
+    restarts: u32,
     heading_steps: u32,
 }
 
@@ -88,6 +92,11 @@ impl Uncertainty {
         self.heading_steps += 1;
     }
 
+    /// The drone has restarted, or old packets are taken for those of a restarted one.
+    pub(crate) fn handle_restart(&mut self) {
+        self.restarts += 1;
+    }
+
     pub(crate) fn step_of_the_floor(&mut self) {
         self.floor_steps += 1;
     }
@@ -116,7 +125,8 @@ impl Uncertainty {
     /// Standard deviation of the height.
     pub(crate) fn vertical_m(&self, silence_s: f64) -> f64 {
         let steps_m = FLOOR_STEP_M * f64::from(self.floor_steps).sqrt();
-        HEIGHT_M.hypot(steps_m).hypot(UNSEEN_CLIMB_M_S * silence_s)
+        let restarts_m = RESTART_M * f64::from(self.restarts).sqrt();
+        HEIGHT_M.hypot(steps_m).hypot(restarts_m).hypot(UNSEEN_CLIMB_M_S * silence_s)
     }
 }
 
@@ -263,5 +273,8 @@ mod tests {
         assert_near(uncertainty.vertical_m(2.0), HEIGHT_M.hypot(0.6));
         (0..4).for_each(|_| uncertainty.step_of_the_floor());
         assert_near(uncertainty.vertical_m(0.0), HEIGHT_M.hypot(2.0 * FLOOR_STEP_M));
+        let mut restarted = Uncertainty::default();
+        (0..4).for_each(|_| restarted.handle_restart());
+        assert_near(restarted.vertical_m(0.0), HEIGHT_M.hypot(2.0 * RESTART_M));
     }
 }
