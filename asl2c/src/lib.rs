@@ -29,4 +29,4 @@ pub use measure::measure;
 pub use prove::{CBMC, Cbmc, Checks, Plan, Proof, ProveError, prove, violates};
 pub use run::{Replay, Session, replay};
 pub use spin::{SPIN, SpinError, Verdict};
-pub use verify::{Checked, VerifyError, verify};
+pub use verify::{Checked, VerifyError, is_refuted, verify};

@@ -74,22 +74,12 @@ pub(crate) fn check(
 ) -> Result<Vec<(Promise, Verdict)>, SpinError> {
     let folder = tempfile::tempdir().map_err(SpinError::Write)?;
     let folder = folder.path();
-    std::fs::write(folder.join("model.pml"), model.promela()).map_err(SpinError::Write)?;
-    let mut spin = Command::new(SPIN);
-    succeed(SPIN, spin.args(["-a", "model.pml"]).current_dir(folder))?;
-    let memory = format!("-DMEMLIM={MEGABYTES}");
-    let compile = |search: &Search| {
-        let mut compiler = Command::new("cc");
-        // Optimizing takes longer than most searches.
-        compiler.args(["-O0", "-w", "-DSAFETY", &memory]).args(search.options);
-        succeed("cc", compiler.args(["-o", search.program, "pan.c"]).current_dir(folder))
-    };
-    compile(&IN_DEPTH)?;
+    prepare(model, folder)?;
     let searched = in_parallel(numbers, |number| run(model, folder, number, &IN_DEPTH, DEPTH));
     let searched = searched.into_iter().map(|said| Ok(result(&said?)));
     let searched = searched.collect::<Result<Vec<Found>, SpinError>>()?;
     if searched.iter().any(|found| matches!(found, Found::Failure)) {
-        compile(&IN_BREADTH)?;
+        compile(folder, &IN_BREADTH)?;
     }
     let verdicts = numbers.iter().zip(searched);
     verdicts
@@ -106,6 +96,30 @@ pub(crate) fn check(
             Ok((promise.clone(), verdict))
         })
         .collect()
+}
+
+/// Whether a search finds a counterexample to the property with this number, which is not shown.
+pub(crate) fn is_refuted(model: &Model, number: usize) -> Result<bool, SpinError> {
+    let folder = tempfile::tempdir().map_err(SpinError::Write)?;
+    let folder = folder.path();
+    prepare(model, folder)?;
+    Ok(matches!(result(&run(model, folder, number, &IN_DEPTH, DEPTH)?), Found::Failure))
+}
+
+/// Writes and compiles a model's search in depth.
+fn prepare(model: &Model, folder: &Path) -> Result<(), SpinError> {
+    std::fs::write(folder.join("model.pml"), model.promela()).map_err(SpinError::Write)?;
+    let mut spin = Command::new(SPIN);
+    succeed(SPIN, spin.args(["-a", "model.pml"]).current_dir(folder))?;
+    compile(folder, &IN_DEPTH)
+}
+
+fn compile(folder: &Path, search: &Search) -> Result<(), SpinError> {
+    let memory = format!("-DMEMLIM={MEGABYTES}");
+    let mut compiler = Command::new("cc");
+    // Optimizing takes longer than most searches.
+    compiler.args(["-O0", "-w", "-DSAFETY", &memory]).args(search.options);
+    succeed("cc", compiler.args(["-o", search.program, "pan.c"]).current_dir(folder))
 }
 
 /// Checks one property. Each has its own folder, in which the counterexample is stored.

@@ -47,6 +47,16 @@ pub fn verify(model: &Model, only: &[&str]) -> Result<Vec<Checked>, VerifyError>
     Ok(checked.into_iter().map(|(property, verdict)| Checked { property, verdict }).collect())
 }
 
+/// Whether a property fails in some environment. Faster than [`verify`], which also shows the shortest way there.
+///
+/// # Errors
+/// If there is no such property, or a program fails.
+pub fn is_refuted(model: &Model, property: &str) -> Result<bool, VerifyError> {
+    let numbers = numbers(model, &[property])?;
+    let number = numbers.first().ok_or(VerifyError::Nothing)?;
+    Ok(spin::is_refuted(model, *number)?)
+}
+
 /// Numbers of the properties to check: all, unless some are named.
 fn numbers(model: &Model, only: &[&str]) -> Result<Vec<usize>, VerifyError> {
     if only.is_empty() {

@@ -182,7 +182,7 @@ impl Verifier {
             c.run_time.extend(alarms(folder)?);
             Ok(c)
         };
-        let (model, c) = parallel::both(|| model::check(agent, None), prove)?;
+        let (model, c) = parallel::both(|| model::check(agent), prove)?;
         Ok(Findings { model, c })
     }
 
@@ -228,15 +228,7 @@ impl Verifier {
             }
             broken(&proof).into_iter().map(str::to_owned).collect()
         };
-        let on_model =
-            if on_model {
-                let checked = model::check(&agent, Some(mutant.breaks))?;
-                Some(checked.iter().any(|found| {
-                    found.property.name == mutant.breaks && found.verdict.is_refuted()
-                }))
-            } else {
-                None
-            };
+        let on_model = on_model.then(|| model::is_refuted(&agent, mutant.breaks)).transpose()?;
         Ok(Caught { mutant, broken, on_model })
     }
 }

@@ -1,16 +1,23 @@
 //! Checks properties on a model of the agent and measures its C, using the compiler's library.
 
 use asl2c::Checked;
-use translator::{model, parse_configuration, translate};
+use translator::{Model, model, parse_configuration, translate};
 
 use super::{Agent, VerifyError};
 
-/// Checks all properties of an agent, or only one.
-pub(super) fn check(agent: &Agent<'_>, only: Option<&str>) -> Result<Vec<Checked>, VerifyError> {
+/// Checks all properties of an agent.
+pub(super) fn check(agent: &Agent<'_>) -> Result<Vec<Checked>, VerifyError> {
+    Ok(asl2c::verify(&of(agent)?, &[])?)
+}
+
+/// Whether a property of an agent fails.
+pub(super) fn is_refuted(agent: &Agent<'_>, property: &str) -> Result<bool, VerifyError> {
+    Ok(asl2c::is_refuted(&of(agent)?, property)?)
+}
+
+fn of(agent: &Agent<'_>) -> Result<Model, VerifyError> {
     let configuration = parse_configuration(agent.name, agent.configuration)?;
-    let model = model(&configuration, agent.text)?;
-    let only: Vec<&str> = only.into_iter().collect();
-    Ok(asl2c::verify(&model, &only)?)
+    Ok(model(&configuration, agent.text)?)
 }
 
 /// Cost of the agent, measured with a compiler and valgrind.
