@@ -28,6 +28,8 @@ const PHASE: &str = "autopilot/src/vehicle/phase.rs";
 const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
 const ESTIMATOR: &str = "estimator/src/lib.rs";
 const FRAME: &str = "kinematics/src/frame.rs";
+const TAGS: &str = "estimator/src/tags/mod.rs";
+const TAG_MAP: &str = "estimator/src/tags/map.rs";
 const HORIZONTAL: &str = "estimator/src/horizontal.rs";
 const TAKE_OFF: &str = "ardrone-link/src/session/take_off.rs";
 const SILENCE: &str = "ardrone-link/src/session/silence.rs";
@@ -319,6 +321,31 @@ pub(super) const MUTANTS: &[Mutant] = &[
             TAKE_OFF,
             "*self = Self::Withheld { landing_ordered: false };",
             "*self = Self::Follow { airborne: true };",
+        )],
+    ),
+    // Tags.
+    mutant(
+        "a tag that is seen again is the nearest known one, however far",
+        &[edit(
+            TAG_MAP,
+            "let is_it = alone\n            && self.is_out_of_view(nearest, now_s)\n            && filter.may_be_one(trial, nearest, way_m);",
+            "let is_it = self.is_out_of_view(nearest, now_s) && (alone || way_m < f64::MAX);",
+        )],
+    ),
+    mutant(
+        "tags leave no uncertainty",
+        &[edit(
+            TAGS,
+            "(self.filter.place_variance_m2() + squares).sqrt()",
+            "(self.filter.place_variance_m2() + squares) * 0.0",
+        )],
+    ),
+    mutant(
+        "tags correct the place twice",
+        &[edit(
+            TAGS,
+            "odometry_m + self.filter.correction().place_m",
+            "odometry_m + 2.0 * self.filter.correction().place_m",
         )],
     ),
     mutant(
