@@ -175,11 +175,13 @@ fn a_sighting_corrects_the_state_by_kalmans_equations() {
 #[test]
 fn two_tags_that_are_one_correct_each_other() {
     let before = filled();
-    let mut after = before.clone();
-    after.make_one(1, 0, 3.0);
-    let residual = |filter: &Filter| pair(filter.tag_place_m(1) - filter.tag_place_m(0));
-    let variance_m2 = 0.02_f64.powi(2) + (0.06_f64 * 3.0).powi(2);
-    assert_corrected(&after, &corrected(&before, residual, variance_m2));
+    for (one, other) in [(1, 0), (0, 1)] {
+        let mut after = before.clone();
+        after.make_one(one, other, 3.0);
+        let residual = |filter: &Filter| pair(filter.tag_place_m(one) - filter.tag_place_m(other));
+        let variance_m2 = 0.02_f64.powi(2) + (0.06_f64 * 3.0).powi(2);
+        assert_corrected(&after, &corrected(&before, residual, variance_m2));
+    }
     // They agree within the deviation of the scale on the way.
     let close = |way_m: f64| {
         let mut after = before.clone();
@@ -248,6 +250,8 @@ fn beyond_five_deviations_it_is_something_else() {
         filter.correct_heading(0, variance.sqrt() * deviations);
         assert_eq!(filter.x[HEADING] != 0.0, fits);
     }
+    // The gate itself is beyond: 5 m with a deviation of 1 m.
+    assert!(!is_within(GATE, Vector2::new(3.0, 4.0), Matrix2::identity()));
 }
 
 #[test]
