@@ -123,7 +123,8 @@ impl Orientation {
         let sign_changed = before.is_some() && before != self.sign;
         let reading = OrientationSign::BOTH.iter().position(|sign| Some(*sign) == self.sign);
         let Some(reading) = reading.filter(|_| self.means[tag][0].sights > LEAST) else {
-            return Turned { sign_changed, ..Turned::default() };
+            // The evidence that changes a sign comes from tags with a mean.
+            return Turned::default();
         };
         Turned {
             direction_deg: Some(self.means[tag][reading].deg),

@@ -5,6 +5,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::*;
 
+mod landmarks;
+
 fn assert_near(value: f64, expected: f64) {
     assert!((value - expected).abs() < 1e-9, "{value} is not {expected}");
 }
@@ -173,11 +175,13 @@ fn a_sighting_corrects_the_state_by_kalmans_equations() {
 #[test]
 fn two_tags_that_are_one_correct_each_other() {
     let before = filled();
-    let mut after = before.clone();
-    after.make_one(1, 0, 3.0);
-    let residual = |filter: &Filter| pair(filter.tag_place_m(1) - filter.tag_place_m(0));
-    let variance_m2 = 0.02_f64.powi(2) + (0.06_f64 * 3.0).powi(2);
-    assert_corrected(&after, &corrected(&before, residual, variance_m2));
+    for (one, other) in [(1, 0), (0, 1)] {
+        let mut after = before.clone();
+        after.make_one(one, other, 3.0);
+        let residual = |filter: &Filter| pair(filter.tag_place_m(one) - filter.tag_place_m(other));
+        let variance_m2 = 0.02_f64.powi(2) + (0.06_f64 * 3.0).powi(2);
+        assert_corrected(&after, &corrected(&before, residual, variance_m2));
+    }
     // They agree within the deviation of the scale on the way.
     let close = |way_m: f64| {
         let mut after = before.clone();
@@ -246,6 +250,8 @@ fn beyond_five_deviations_it_is_something_else() {
         filter.correct_heading(0, variance.sqrt() * deviations);
         assert_eq!(filter.x[HEADING] != 0.0, fits);
     }
+    // The gate itself is beyond: 5 m with a deviation of 1 m.
+    assert!(!is_within(GATE, Vector2::new(3.0, 4.0), Matrix2::identity()));
 }
 
 #[test]
@@ -307,83 +313,14 @@ fn a_tag_has_a_place_a_direction_and_a_deviation() {
 }
 
 #[test]
-fn a_new_tag_is_as_uncertain_as_the_drone_that_saw_it_and_its_sighting() {
-    let before = filled();
-    let sighted = before.sighted(&LOOK, &MOMENT, 2.0);
-    for tag in [1, 2] {
-        let mut after = before.clone();
-        after.begin_tag(tag, &sighted);
-        assert_eq!(after.used, TAGS + 3 * (tag + 1).max(2));
-        let state = TAGS + 3 * tag;
-        // The new state is a function of the old one, in which this tag has no part.
-        let mut old = before.clone();
-        old.forget_tag(tag);
-        old.used = after.used;
-        let map = derivative(&old, |filter| {
-            let mut x = self::state(filter);
-            let place_m = filter.sighted(&LOOK, &MOMENT, 2.0).place_m;
-            x.rows_mut(state, 2).copy_from_slice(place_m.as_slice());
-            x
-        });
-        let mut expected = &map * covariance(&old) * map.transpose();
-        for axis in 0..2 {
-            expected[(state + axis, state + axis)] += sighted.variance_m2;
-        }
-        assert_same(&covariance(&after), &expected);
-        assert_near((after.tag_place_m(tag) - sighted.place_m).norm(), 0.0);
-    }
-}
-
-#[test]
-fn a_surveyed_tag_is_known_to_a_tape_measure_and_its_direction_if_it_was_measured() {
-    let place_m = Vector2::new(3.0, -1.0);
-    for heading_rad in [None, Some(0.5)] {
-        let mut filter = filled();
-        filter.survey_tag(2, place_m, heading_rad);
-        assert_eq!(filter.used, TAGS + 9);
-        assert_eq!(filter.tag_place_m(2), place_m);
-        assert_near(filter.tag_deviation_m(2), 0.02);
-        assert_near(filter.tag_heading_deg(2), heading_rad.map_or(0.0, f64::to_degrees));
-        let state = TAGS + 6;
-        let mut expected = covariance(&filter);
-        for tag in state..state + 3 {
-            expected.row_mut(tag).fill(0.0);
-            expected.column_mut(tag).fill(0.0);
-        }
-        (expected[(state, state)], expected[(state + 1, state + 1)]) = (0.0004, 0.0004);
-        let direction = heading_rad.map_or(0.0, |_| 2_f64.to_radians().powi(2));
-        expected[(state + 2, state + 2)] = direction;
-        assert_same(&covariance(&filter), &expected);
-        // The first tag again does not shorten the state.
-        filter.survey_tag(0, place_m, None);
-        assert_eq!(filter.used, TAGS + 9);
-    }
-}
-
-#[test]
-fn a_direction_that_was_found_is_as_uncertain_as_the_heading_and_its_mean() {
-    let before = filled();
-    let mut after = before.clone();
-    after.begin_heading(1, 0.7);
-    let state = TAGS + 3 + 2;
-    let mut expected = covariance(&before);
-    for other in 0..before.used {
-        let covariance = if other == state { 0.0 } else { before.p[HEADING][other] };
-        (expected[(state, other)], expected[(other, state)]) = (covariance, covariance);
-    }
-    expected[(state, state)] = before.p[HEADING][HEADING] + 3_f64.to_radians().powi(2);
-    assert_same(&covariance(&after), &expected);
-    assert_near(after.tag_heading_deg(1), 0.7_f64.to_degrees());
-}
-
-#[test]
-fn a_forgotten_tag_leaves_nothing_behind() {
+fn the_worse_axis_counts() {
     let mut filter = filled();
-    filter.forget_tag(0);
-    for state in TAGS..TAGS + 3 {
-        assert!(filter.p[state].iter().all(|value| *value == 0.0));
-        assert!(filter.p.iter().all(|row| row[state] == 0.0));
+    for variances_m2 in [[0.04, 0.09], [0.09, 0.04]] {
+        for (axis, variance_m2) in variances_m2.into_iter().enumerate() {
+            filter.p[PLACE + axis][PLACE + axis] = variance_m2;
+            filter.p[TAGS + 3 + axis][TAGS + 3 + axis] = variance_m2;
+        }
+        assert_near(filter.place_variance_m2(), 0.09);
+        assert_near(filter.tag_deviation_m(1), 0.3);
     }
-    let kept = filled();
-    assert_eq!(filter.p[TAGS + 3][TAGS + 3..TAGS + 6], kept.p[TAGS + 3][TAGS + 3..TAGS + 6]);
 }

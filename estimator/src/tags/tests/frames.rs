@@ -30,7 +30,8 @@ pub(super) struct Drone {
 const TURNED_DEG: f64 = 6.0;
 const YAW_DEG: f64 = 20.0;
 pub(super) const STEP_S: f64 = 1.0 / 16.0;
-const TAG: SurveyedTag = SurveyedTag { place_m: Vector2::new(0.3, 0.1), heading_deg: Some(30.0) };
+pub(super) const TAG: SurveyedTag =
+    SurveyedTag { place_m: Vector2::new(0.3, 0.1), heading_deg: Some(30.0) };
 
 pub(super) fn surveyed() -> TagConfig {
     let mut config =
