@@ -182,7 +182,7 @@ pub struct Estimator {
     /// Time of `horizontal`.
     velocity_at_s: Option<f64>,
     /// The velocity in navdata at that time: forward and to the right.
-    velocity_told_m_s: Option<Vector2<f64>>,
+    last_velocity_m_s: Option<Vector2<f64>>,
     velocity_gate: VelocityGate,
     altitude: AltitudeFilter,
     /// Time and value of the last altitude.
@@ -233,7 +233,7 @@ impl Estimator {
             heading: Heading::new(),
             horizontal: Horizontal::default(),
             velocity_at_s: None,
-            velocity_told_m_s: None,
+            last_velocity_m_s: None,
             velocity_gate: VelocityGate::default(),
             altitude: AltitudeFilter::default(),
             altitude_at: None,
@@ -251,7 +251,7 @@ impl Estimator {
     }
 
     /// An order was sent to the drone.
-    pub fn told(&mut self, sent_at: Duration, order: Order) {
+    pub fn order_sent(&mut self, sent_at: Duration, order: Order) {
         self.orders.push(sent_at, order);
     }
 
@@ -394,7 +394,7 @@ impl Estimator {
         let body = Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s);
         // A repeated value is the last measurement again: navdata come more often than the flow measures. A
         // flow that hangs therefore leaves a gap.
-        if self.velocity_told_m_s.replace(body) == Some(body) && sample.airborne {
+        if self.last_velocity_m_s.replace(body) == Some(body) && sample.airborne {
             return !self.velocity_gate.has_jumped();
         }
         let from_s = self.velocity_at_s.replace(at_s).unwrap_or(at_s);
@@ -636,7 +636,7 @@ impl Estimator {
         self.clock = SampleClock::default();
         self.heading.handle_restart();
         self.velocity_at_s = None;
-        self.velocity_told_m_s = None;
+        self.last_velocity_m_s = None;
         self.velocity_gate = VelocityGate::default();
         self.altitude_at = None;
         self.uncertainty.handle_restart();

@@ -118,7 +118,7 @@ impl Flight {
     /// Sends the order, and receives a packet.
     fn step(&mut self) {
         self.packet += 1;
-        self.estimator.told(self.now(), self.order);
+        self.estimator.order_sent(self.now(), self.order);
         let rattle = 1e-4 * f64::from(self.packet % 3);
         self.estimator.update(&Sample {
             arrival: self.now(),

@@ -146,7 +146,7 @@ pub(crate) struct Camera {
     mount: Rotation3<f64>,
     /// 1 if orientations grow with a clockwise turn of the pattern in the picture.
     sign: f64,
-    told: DelayLine<VisionDetect>,
+    reported: DelayLine<VisionDetect>,
 }
 
 /// Published calibrations of the bottom camera, in thousandths of the whole picture.
@@ -196,8 +196,8 @@ impl Camera {
             OrientationSign::CounterClockwise => false,
         };
         let sign = if grows_clockwise { -1.0 } else { 1.0 };
-        let told = DelayLine::new(delay);
-        Self { model, random, focal_units, centre_units, mount, sign, told }
+        let reported = DelayLine::new(delay);
+        Self { model, random, focal_units, centre_units, mount, sign, reported }
     }
 
     /// Takes a picture of the floor; `detector` evaluates it.
@@ -209,12 +209,12 @@ impl Camera {
         detector: Option<Detector>,
     ) {
         let found = detector.map(|detector| self.find(airframe, tags, detector));
-        self.told.push(now, found.unwrap_or_default());
+        self.reported.push(now, found.unwrap_or_default());
     }
 
     /// Detections in navdata now: those of the newest picture that has been processed.
     pub(crate) fn read(&mut self, now: Duration) -> VisionDetect {
-        self.told.read(now)
+        self.reported.read(now)
     }
 
     fn find(&mut self, airframe: &Airframe, tags: &[FloorTag], detector: Detector) -> VisionDetect {
@@ -287,7 +287,7 @@ impl Camera {
     }
 
     fn report(&mut self, sights: &[Sight], detector: Detector) -> VisionDetect {
-        let mut told =
+        let mut reported =
             VisionDetect { count: whole(sights.len() as f64), ..VisionDetect::default() };
         for (slot, sight) in sights.iter().enumerate() {
             let noise = Vector2::new(self.gaussian(), self.gaussian()) * self.model.noise_units;
@@ -296,18 +296,18 @@ impl Camera {
             let size = sight.size_units * grown;
             let size_px = size.component_mul(&UNIT_PX).mean();
             let noise_deg = self.gaussian() * self.model.orientation_noise_deg;
-            told.kinds[slot] = detector.source << 16 | detector.kind;
-            told.cameras[slot] = detector.source;
-            told.x[slot] = whole(centre.x);
-            told.y[slot] = whole(centre.y);
-            told.widths[slot] = whole(size.x);
-            told.heights[slot] = whole(size.y);
-            told.distances_m[slot] = NOMINAL_SIZE_M * FIRMWARE_FOCAL_PX / size_px.max(1.0);
+            reported.kinds[slot] = detector.source << 16 | detector.kind;
+            reported.cameras[slot] = detector.source;
+            reported.x[slot] = whole(centre.x);
+            reported.y[slot] = whole(centre.y);
+            reported.widths[slot] = whole(size.x);
+            reported.heights[slot] = whole(size.y);
+            reported.distances_m[slot] = NOMINAL_SIZE_M * FIRMWARE_FOCAL_PX / size_px.max(1.0);
             #[allow(clippy::cast_possible_truncation, reason = "the wire carries single precision")]
             let orientation = (sight.orientation_deg + noise_deg).rem_euclid(360.0) as f32;
-            told.orientations_deg[slot] = orientation;
+            reported.orientations_deg[slot] = orientation;
         }
-        told
+        reported
     }
 
     fn gaussian(&mut self) -> f64 {

@@ -13,7 +13,7 @@ use rand_distr::{Distribution as _, Uniform};
 
 use crate::airframe::{Airframe, Profile, STEP_S};
 use crate::camera::{Camera, CameraModel, FloorTag};
-use crate::faults::{Quantity, SensorFault, SensorFaults, Told};
+use crate::faults::{Quantity, Reported, SensorFault, SensorFaults};
 use crate::firmware::{Firmware, Phase};
 use crate::sensors::{SensorModel, Sensors};
 use crate::telemetry::{Tag27, Telemetry};
@@ -291,8 +291,8 @@ impl Drone {
     /// result of the earlier ones.
     pub fn break_sensor(&mut self, quantity: Quantity, fault: SensorFault, time: Duration) {
         let now = self.time();
-        let told = self.told(now);
-        self.faults.begin(now, quantity, fault, time, &told);
+        let reported = self.reported(now);
+        self.faults.begin(now, quantity, fault, time, &reported);
     }
 
     /// Places a roundel on the floor.
@@ -396,7 +396,7 @@ impl Drone {
         let state = self.firmware.state(now) | self.claims.state();
         let mut packet = PacketWriter::new(bytes, state, self.sequence, 1);
         if !self.firmware.is_bootstrapping() {
-            let Told { reading, clock } = self.told(now);
+            let Reported { reading, clock } = self.reported(now);
             let telemetry = Telemetry {
                 reading,
                 tags: self.camera.read(now),
@@ -417,11 +417,11 @@ impl Drone {
     }
 
     /// The motion as reported in navdata, true or not.
-    fn told(&mut self, now: Duration) -> Told {
+    fn reported(&mut self, now: Duration) -> Reported {
         let clock = now.saturating_sub(self.switched_on) + CLOCK_AT_START;
-        let mut told = Told { reading: self.sensors.read(now), clock };
-        self.faults.apply(now, &self.config.sensors, &mut told);
-        told
+        let mut reported = Reported { reading: self.sensors.read(now), clock };
+        self.faults.apply(now, &self.config.sensors, &mut reported);
+        reported
     }
 }
 

@@ -90,7 +90,7 @@ pub enum SensorFault {
 
 /// The motion reported in navdata, with its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct Reported {
     pub(crate) reading: Reading,
     /// The drone's own clock.
     pub(crate) clock: Duration,
@@ -99,7 +99,7 @@ pub(crate) struct Told {
 /// Time after which the clock wraps.
 const CLOCK_WRAP_S: f64 = 2048.0;
 
-impl Told {
+impl Reported {
     fn get(&self, quantity: Quantity) -> f64 {
         let reading = &self.reading;
         match quantity {
@@ -160,17 +160,17 @@ impl SensorFaults {
         Self { random: ChaCha8Rng::seed_from_u64(seed ^ 0x6661_756c), active: Vec::new() }
     }
 
-    /// Starts a fault for a time; `told` are the values without it.
+    /// Starts a fault for a time; `reported` are the values without it.
     pub(crate) fn begin(
         &mut self,
         now: Duration,
         quantity: Quantity,
         fault: SensorFault,
         time: Duration,
-        told: &Told,
+        reported: &Reported,
     ) {
         let effect = match fault {
-            SensorFault::Stuck => Effect::StuckAt(told.get(quantity)),
+            SensorFault::Stuck => Effect::StuckAt(reported.get(quantity)),
             SensorFault::StuckAt(value) => Effect::StuckAt(value),
             SensorFault::DeadAt(value) => Effect::DeadAt(value),
             SensorFault::Offset(offset) => Effect::Offset(offset),
@@ -179,17 +179,17 @@ impl SensorFaults {
                 Effect::StuckAt(if quantity.is_float() { f64::NAN } else { 0.0 })
             }
             SensorFault::Late(delay) => {
-                Effect::Late(DelayLine::starting_at(told.get(quantity), delay))
+                Effect::Late(DelayLine::starting_at(reported.get(quantity), delay))
             }
         };
         self.active.push(ActiveFault { quantity, began: now, ends: now + time, effect });
     }
 
     /// Applies the faults to the values at `now`.
-    pub(crate) fn apply(&mut self, now: Duration, model: &SensorModel, told: &mut Told) {
+    pub(crate) fn apply(&mut self, now: Duration, model: &SensorModel, reported: &mut Reported) {
         self.active.retain(|fault| fault.ends > now);
         for ActiveFault { quantity, began, effect, .. } in &mut self.active {
-            let value = told.get(*quantity);
+            let value = reported.get(*quantity);
             let wrong = match effect {
                 Effect::StuckAt(stuck) => *stuck,
                 Effect::DeadAt(dead) => {
@@ -203,7 +203,7 @@ impl SensorFaults {
                     line.read(now)
                 }
             };
-            told.set(*quantity, wrong);
+            reported.set(*quantity, wrong);
         }
     }
 }
@@ -216,20 +216,20 @@ mod tests {
     const MODEL: fn() -> SensorModel = SensorModel::nominal;
 
     /// A quantity that reads the seconds since the start.
-    fn healthy(quantity: Quantity, now: Duration) -> Told {
-        let mut told = Told { reading: Reading::default(), clock: Duration::ZERO };
-        told.set(quantity, now.as_secs_f64());
-        told
+    fn healthy(quantity: Quantity, now: Duration) -> Reported {
+        let mut reported = Reported { reading: Reading::default(), clock: Duration::ZERO };
+        reported.set(quantity, now.as_secs_f64());
+        reported
     }
 
     /// The values at 1.5 s and at 3.5 s with a fault from 1 s to 3 s.
-    fn told(quantity: Quantity, fault: SensorFault) -> [f64; 2] {
+    fn reported(quantity: Quantity, fault: SensorFault) -> [f64; 2] {
         let mut faults = SensorFaults::new(1);
         faults.begin(SECOND, quantity, fault, 2 * SECOND, &healthy(quantity, SECOND));
         [SECOND + SECOND / 2, 3 * SECOND + SECOND / 2].map(|now| {
-            let mut told = healthy(quantity, now);
-            faults.apply(now, &MODEL(), &mut told);
-            told.get(quantity)
+            let mut reported = healthy(quantity, now);
+            faults.apply(now, &MODEL(), &mut reported);
+            reported.get(quantity)
         })
     }
 
@@ -243,11 +243,11 @@ mod tests {
                 (SensorFault::Ramp(4.0), 3.5),
                 (SensorFault::Late(SECOND), 1.0),
             ] {
-                let [then, later] = told(quantity, fault);
+                let [then, later] = reported(quantity, fault);
                 assert!((then - during).abs() < 1e-9, "{quantity:?} {fault:?}: {then}");
                 assert!((later - 3.5).abs() < 1e-9, "{quantity:?} {fault:?}: {later}");
             }
-            let [then, later] = told(quantity, SensorFault::NotANumber);
+            let [then, later] = reported(quantity, SensorFault::NotANumber);
             assert_eq!(then.is_nan(), quantity.is_float(), "{quantity:?}: {then}");
             assert!((later - 3.5).abs() < 1e-9);
         }
@@ -262,9 +262,9 @@ mod tests {
             let values: Vec<f64> = (0..500)
                 .map(|step| {
                     let now = SECOND + Duration::from_millis(step);
-                    let mut told = healthy(quantity, now);
-                    faults.apply(now, &MODEL(), &mut told);
-                    told.get(quantity) - 0.5
+                    let mut reported = healthy(quantity, now);
+                    faults.apply(now, &MODEL(), &mut reported);
+                    reported.get(quantity) - 0.5
                 })
                 .collect();
             let deviation = (values.iter().map(|value| value.powi(2)).sum::<f64>() / 500.0).sqrt();
@@ -280,11 +280,11 @@ mod tests {
         faults.begin(SECOND, Quantity::Yaw, SensorFault::Offset(170.0), SECOND, &at);
         faults.begin(SECOND, Quantity::Yaw, SensorFault::Offset(20.0), SECOND, &at);
         faults.begin(SECOND, Quantity::Clock, SensorFault::Offset(-1.0), SECOND, &at);
-        let mut told = at;
-        faults.apply(SECOND, &MODEL(), &mut told);
-        assert!((told.get(Quantity::Yaw) + 170.0).abs() < 1e-9, "headings turn round");
-        assert!((told.get(Quantity::Clock) - 2047.0).abs() < 1e-9, "and so does the clock");
-        assert!((told.get(Quantity::Roll) - 1.0).abs() < 1e-9);
+        let mut reported = at;
+        faults.apply(SECOND, &MODEL(), &mut reported);
+        assert!((reported.get(Quantity::Yaw) + 170.0).abs() < 1e-9, "headings turn round");
+        assert!((reported.get(Quantity::Clock) - 2047.0).abs() < 1e-9, "and so does the clock");
+        assert!((reported.get(Quantity::Roll) - 1.0).abs() < 1e-9);
     }
 
     #[test]
@@ -294,10 +294,13 @@ mod tests {
         faults.begin(SECOND, Quantity::Pitch, SensorFault::Late(SECOND / 2), 9 * SECOND, &at);
         for step in 0..100_u32 {
             let now = SECOND + SECOND / 10 * step;
-            let mut told = healthy(Quantity::Pitch, now);
-            faults.apply(now, &MODEL(), &mut told);
+            let mut reported = healthy(Quantity::Pitch, now);
+            faults.apply(now, &MODEL(), &mut reported);
             let expected = if step < 90 { now.saturating_sub(SECOND / 2).max(SECOND) } else { now };
-            assert!((told.get(Quantity::Pitch) - expected.as_secs_f64()).abs() < 1e-9, "{step}");
+            assert!(
+                (reported.get(Quantity::Pitch) - expected.as_secs_f64()).abs() < 1e-9,
+                "{step}"
+            );
         }
     }
 }

@@ -98,7 +98,7 @@ fn main() -> ExitCode {
         ends.flatten().min()
     });
     let completed = hunt.completed.into_inner();
-    let told = match found {
+    let text = match found {
         Some((seed, fault)) => format!("seed {seed}: {fault}"),
         None if completed < flights / ONE_OF => {
             format!("only {completed} of {flights} plans were flown to their end")
@@ -112,6 +112,6 @@ fn main() -> ExitCode {
             found
         }
     };
-    println!("{told}");
+    println!("{text}");
     ExitCode::FAILURE
 }

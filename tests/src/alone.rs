@@ -100,8 +100,8 @@ mod tests {
             assert_eq!(last.phase, Phase::Landed);
             furthest_m
         };
-        let (told, unheard_m) = (reach_m(Duration::ZERO), reach_m(Duration::MAX));
-        assert!((0.3..2.5).contains(&told), "{told}");
+        let (ordered_m, unheard_m) = (reach_m(Duration::ZERO), reach_m(Duration::MAX));
+        assert!((0.3..2.5).contains(&ordered_m), "{ordered_m}");
         assert!((4.0..8.0).contains(&unheard_m), "its last sticks for two seconds: {unheard_m}");
     }
 }

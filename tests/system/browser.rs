@@ -118,9 +118,9 @@ impl Live {
                 message => message.unwrap(),
             };
             let Message::Text(text) = message else { continue };
-            let told: Value = serde_json::from_str(&text).unwrap();
-            if told["type"] == kind {
-                return told;
+            let message: Value = serde_json::from_str(&text).unwrap();
+            if message["type"] == kind {
+                return message;
             }
         }
     }
@@ -357,7 +357,10 @@ fn a_port_in_use_is_reported_before_anything_flies() {
         .args(["--mock", "--no-log", "--ui", &address])
         .output()
         .unwrap();
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{told}");
-    assert!(told.contains(&address) && told.contains("give another address as --ui"), "{told}");
+    let printed = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{printed}");
+    assert!(
+        printed.contains(&address) && printed.contains("give another address as --ui"),
+        "{printed}"
+    );
 }

@@ -235,12 +235,12 @@ fn a_bad_plan_is_reported_to_programs_too() {
     assert_eq!(output.status.code(), Some(20));
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!(json["steps"].is_null());
-    let told = json["problems"].as_array().unwrap();
-    let told: Vec<(u64, &str)> = told
+    let problems = json["problems"].as_array().unwrap();
+    let problems: Vec<(u64, &str)> = problems
         .iter()
         .map(|problem| (problem["line"].as_u64().unwrap(), problem["message"].as_str().unwrap()))
         .collect();
-    assert_eq!(told, [(1, "the drone is on the ground here"), (2, "unknown command `fly`")]);
+    assert_eq!(problems, [(1, "the drone is on the ground here"), (2, "unknown command `fly`")]);
 }
 
 #[test]
@@ -260,15 +260,15 @@ fn programs_get_the_flight_line_by_line() {
     let output = pilot(&["--plan", plan, "--mock", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let lines = String::from_utf8_lossy(&output.stdout);
-    let told: Vec<serde_json::Value> =
+    let lines: Vec<serde_json::Value> =
         lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    let of = |kind: &str| told.iter().filter(|line| line["type"] == kind).collect::<Vec<_>>();
+    let of = |kind: &str| lines.iter().filter(|line| line["type"] == kind).collect::<Vec<_>>();
     assert!(of("status").len() > 50, "{}", of("status").len());
     assert_eq!(of("target").len(), 4);
     let started: Vec<&str> =
         of("event").iter().filter_map(|event| event["command"].as_str()).collect();
     assert!(started.contains(&"goto 1 1 0 0"));
-    let end = told.last().unwrap();
+    let end = lines.last().unwrap();
     assert_eq!((&end["type"], &end["exit_status"]), (&"end".into(), &0.into()));
 }
 

@@ -208,9 +208,9 @@ fn fly_and_compare(simulation: &Simulation, text: &str) -> usize {
     }
     assert_eq!(waypoints.next(), None, "{text}");
     let events = flown.flight.events.iter().map(|(_, event)| event.clone());
-    let told: Vec<_> =
+    let corrections: Vec<_> =
         events.filter(|event| matches!(event, FlightEvent::TargetCorrected { .. })).collect();
-    assert_eq!(told, corrected, "{text}");
+    assert_eq!(corrections, corrected, "{text}");
     corrected.len()
 }
 

@@ -60,9 +60,9 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
     assert!(tick.agent.on_ground && tick.datagram.contains("AT*REF="), "{tick:?}");
     let orders = log.entries.iter().filter(|(_, entry)| matches!(entry, Entry::Order(_)));
     assert_eq!(orders.count(), 4);
-    let told: Vec<String> = log.events().map(|(_, _, text)| text.to_owned()).collect();
+    let logged: Vec<String> = log.events().map(|(_, _, text)| text.to_owned()).collect();
     let happened: Vec<String> = flight.events.iter().map(|(_, event)| event.to_string()).collect();
-    assert_eq!(told, happened);
+    assert_eq!(logged, happened);
     assert_eq!(log.outcome(), Some((false, flight.outcome.to_string().as_str())));
     let replay = Replay::new(&log).unwrap();
     assert!(replay.is_same(), "{replay}");
@@ -141,9 +141,9 @@ fn foreign_log(
         .chunk_size(Some(4 << 20))
         .emit_message_indexes(false);
     let mut writer = options.create(Cursor::new(Vec::new())).unwrap();
-    let told = [("start_ns", "0"), ("plan", "p"), ("drone", "d"), ("version", "0")];
+    let metadata = [("start_ns", "0"), ("plan", "p"), ("drone", "d"), ("version", "0")];
     let mut metadata: std::collections::BTreeMap<String, String> =
-        told.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
+        metadata.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
     metadata.insert("z_origin".to_owned(), ZOrigin::Hover.name().to_owned());
     let metadata = mcap::records::Metadata { name: "flight".to_owned(), metadata };
     writer.write_metadata(&metadata).unwrap();
@@ -224,7 +224,7 @@ fn keeps(rules: &Value, value: &Value, path: &str) {
     for (name, part) in value.as_object().into_iter().flatten() {
         let path = format!("{path}.{name}");
         let rules = rules["properties"].get(name);
-        keeps(rules.unwrap_or_else(|| panic!("{path} is not told")), part, &path);
+        keeps(rules.unwrap_or_else(|| panic!("{path} is not documented")), part, &path);
     }
     for part in value.as_array().into_iter().flatten() {
         if let Some(rules) = rules.get("items") {
@@ -344,9 +344,9 @@ fn a_hostile_log_does_nothing_to_page_and_terminal() {
 #[test]
 fn the_drone_says_nothing_to_the_terminal() {
     let version = Some("2.4.8\x1b]0;x\x07\u{9b}2J\u{202e}\n".to_owned());
-    let told = FlightEvent::ConfigurationRead { version }.to_string();
-    assert!(told.contains("firmware 2.4.8\\u{1b}]0;x"), "{told:?}");
-    assert!(!told.contains(|c: char| c.is_control() || c == '\u{202e}'), "{told:?}");
+    let text = FlightEvent::ConfigurationRead { version }.to_string();
+    assert!(text.contains("firmware 2.4.8\\u{1b}]0;x"), "{text:?}");
+    assert!(!text.contains(|c: char| c.is_control() || c == '\u{202e}'), "{text:?}");
 }
 
 /// The size of the page is bounded by that of the log: long texts are not repeated for each moment.
@@ -380,13 +380,13 @@ fn a_report_shows_what_went_wrong() {
     let world = mock_drone::WorldConfig { scenario, ..Default::default() };
     let (_, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
     let page = report::html(&Log::read(&file).unwrap()).unwrap();
-    for told in [
+    for part in [
         "landed by a failsafe: battery",
         "landing: battery",
         "danger: BatteryEmpty",
         "@empty_battery",
     ] {
-        assert!(page.contains(told), "{told}");
+        assert!(page.contains(part), "{part}");
     }
 }
 

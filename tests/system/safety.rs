@@ -288,7 +288,7 @@ fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
         let flight = watched("", seed, plan(SQUARE), simulation, watch);
         assert_eq!(flight.outcome, Outcome::Completed);
         assert!(there_m < 0.25, "seed {seed}: {there_m:.2} m off");
-        let count = |event| flight.events.iter().filter(|(_, told)| *told == event).count();
+        let count = |event| flight.events.iter().filter(|(_, other)| *other == event).count();
         assert_eq!(count(FlightEvent::ManualTargetSet), 3);
         assert_eq!(count(FlightEvent::ManualTargetReached), 1);
     }

@@ -129,7 +129,7 @@ fn a_tag_that_is_dragged_away_does_not_take_the_drone_along() {
     assert!(kept.truth_worst_m < 3.0, "{kept:?}");
 }
 
-/// Whether the flight was told that the drone does not look for tags.
+/// Whether the flight reports that the drone does not look for tags.
 #[test]
 fn tags_are_looked_for_only_if_they_are_used() {
     let detects = |tags: Option<TagConfig>| {
@@ -148,8 +148,9 @@ fn tags_are_looked_for_only_if_they_are_used() {
             seen |= moment.status.tags.is_some_and(|tags| tags.known > 0);
         };
         let flight = simulation.fly_watched(plan("takeoff\ngoto 0 0 0.5 0\nland"), watch).unwrap();
-        let told = |wanted: fn(&FlightEvent) -> bool| flight.events.iter().any(|(_, e)| wanted(e));
-        assert!(!told(|event| *event == FlightEvent::NoTagDetection));
+        let happened =
+            |wanted: fn(&FlightEvent) -> bool| flight.events.iter().any(|(_, e)| wanted(e));
+        assert!(!happened(|event| *event == FlightEvent::NoTagDetection));
         seen
     };
     assert!(detects(Some(TagConfig::default())));

@@ -73,12 +73,12 @@ impl Model {
 
     /// Translates the replay of a counterexample to the agent's terms.
     pub fn explain(&self, replay: &str) -> Vec<Happening> {
-        let told = replay.lines().filter_map(|line| line.trim().strip_prefix(MARK));
-        let told: Vec<Vec<&str>> = told.map(|line| line.split_whitespace().collect()).collect();
+        let lines = replay.lines().filter_map(|line| line.trim().strip_prefix(MARK));
+        let lines: Vec<Vec<&str>> = lines.map(|line| line.split_whitespace().collect()).collect();
         let mut happenings: Vec<Happening> = Vec::new();
         let mut steps = 0_usize;
         let mut idle_from = None;
-        for (index, words) in told.iter().enumerate() {
+        for (index, words) in lines.iter().enumerate() {
             let Some((what, numbers)) = words.split_first() else { continue };
             let numbers: Vec<usize> = numbers.iter().filter_map(|n| n.parse().ok()).collect();
             if *what != "step" {
@@ -86,7 +86,7 @@ impl Model {
                 continue;
             }
             steps += 1;
-            let handles = told.get(index + 1).is_some_and(|next| next.first() == Some(&"event"));
+            let handles = lines.get(index + 1).is_some_and(|next| next.first() == Some(&"event"));
             let text = match idle_from.filter(|_| !handles) {
                 // Consecutive steps without an event share one line.
                 Some(first) => {
@@ -97,7 +97,7 @@ impl Model {
                 None => format!("step {steps}: no event is pending"),
             };
             happenings.push(Happening { depth: 0, line: None, text });
-            let alone = told.get(index + 1).is_none_or(|next| next.first() == Some(&"step"));
+            let alone = lines.get(index + 1).is_none_or(|next| next.first() == Some(&"step"));
             idle_from = (!handles && alone).then(|| idle_from.unwrap_or(steps));
         }
         happenings

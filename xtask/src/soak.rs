@@ -100,7 +100,7 @@ fn table(flown: &[(Script, Verdict)]) -> String {
         );
     }
     text.push_str(
-        "in the air: when the pilot was told to end or ended; until down: the longest time from then \
+        "in the air: when the pilot was ordered to end or ended; until down: the longest time from then \
          to the ground\n",
     );
     for (script, verdict) in flown.iter().filter(|(_, verdict)| !verdict.faults.is_empty()) {

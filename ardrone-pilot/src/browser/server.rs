@@ -299,7 +299,7 @@ async fn write(
 }
 
 fn accepted() -> Value {
-    json!({ "type": "told" })
+    json!({ "type": "accepted" })
 }
 
 fn refused(reason: &str) -> Value {

@@ -17,12 +17,12 @@ section! {
         surveyed: Vec<Vec<f64>> = [default Vec::new()],
         /// Diameter of the printed pattern.
         size_m: f64 = [size_m] in 0.05..=1.0,
-        /// Age of a sight when it is told.
+        /// Age of a sighting when its packet is sent.
         delay_ms: Milliseconds = [delay] in 0.0..=300.0,
         /// The bottom camera: focal length across and along, and centre, in thousandths of its picture.
         focal_units: [f64; 2] = [focal_units] in 500.0..=3000.0,
         centre_units: [f64; 2] = [centre_units] in 300.0..=700.0,
-        /// Which way the told orientation grows: "clockwise" or "counterclockwise" with the drone, or "find" it in flight, for
+        /// Direction in which the reported orientation grows: "clockwise" or "counterclockwise" with the drone, or "find" it in flight, for
         /// which the drone turns by 8 degrees to and fro above its first tag.
         orientation: Orientation = [orientation],
     }

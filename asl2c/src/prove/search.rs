@@ -86,12 +86,12 @@ pub(crate) fn search(
 fn confirm(way: Way, failure: &Failure, session: &Session) -> Found {
     let Some(property) = failure.property() else {
         // The interpreter has no run-time errors.
-        let story = told(&way, session);
+        let story = story_of(&way, session);
         return Found::Way(way, story);
     };
     match shortest(&way, property, session) {
         Some(way) => {
-            let story = told(&way, session);
+            let story = story_of(&way, session);
             Found::Way(way, story)
         }
         None => Found::Unconfirmed(way),
@@ -99,13 +99,13 @@ fn confirm(way: Way, failure: &Failure, session: &Session) -> Found {
 }
 
 /// The steps of a counterexample.
-fn told(way: &Way, session: &Session) -> Vec<Happening> {
+fn story_of(way: &Way, session: &Session) -> Vec<Happening> {
     let mut session = session.clone();
     let mut story = Vec::new();
     let mut idle_from = None;
     for line in way.lines() {
-        let told = session.told(&line);
-        let is_idle = told.len() == 1 && told[0].text.ends_with(IDLE);
+        let happened = session.happenings(&line);
+        let is_idle = happened.len() == 1 && happened[0].text.ends_with(IDLE);
         if !is_idle {
             idle_from = None;
         } else if let Some(first) = idle_from {
@@ -117,7 +117,7 @@ fn told(way: &Way, session: &Session) -> Vec<Happening> {
         } else {
             idle_from = Some(session.steps());
         }
-        story.extend(told);
+        story.extend(happened);
     }
     story
 }

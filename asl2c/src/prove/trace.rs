@@ -10,7 +10,7 @@ use translator::{ANSWERS, CALLS, STEPS};
 #[derive(Debug, Clone)]
 pub(super) struct Trace {
     pub(super) name: String,
-    told: Vec<Output>,
+    outputs: Vec<Output>,
 }
 
 /// A result of CBMC, as JSON.
@@ -56,9 +56,9 @@ pub(super) fn traces(text: &str) -> Option<Vec<Trace>> {
     let failing = checked.into_iter().filter(|checked| !checked.trace.is_empty());
     let traces = failing.map(|Checked { property, trace }| {
         let outputs = trace.into_iter().filter(|step| step.kind == "output");
-        let told =
+        let outputs =
             outputs.filter_map(|step| Some(Output { what: step.output_id?, values: step.values }));
-        Trace { name: property, told: told.collect() }
+        Trace { name: property, outputs: outputs.collect() }
     });
     Some(traces.collect())
 }
@@ -92,7 +92,7 @@ impl Way {
     pub(super) fn new(trace: &Trace, configuration: &Configuration) -> Option<Self> {
         let mut acts: Vec<Act> = Vec::new();
         let mut step: Option<usize> = None;
-        for Output { what, values } in &trace.told {
+        for Output { what, values } in &trace.outputs {
             let (kind, name) = what.split_once(' ').unwrap_or((what.as_str(), ""));
             let values = |types: &[CType]| -> Option<Vec<Value>> {
                 types.iter().zip(values).map(|(ctype, bits)| decode(&bits.binary, ctype)).collect()

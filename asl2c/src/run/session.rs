@@ -119,7 +119,7 @@ impl Session {
     }
 
     /// Executes a line, and returns it as steps of a counterexample.
-    pub(crate) fn told(&mut self, line: &str) -> Vec<Happening> {
+    pub(crate) fn happenings(&mut self, line: &str) -> Vec<Happening> {
         let parsed = parse_line(line, &self.configuration);
         let Ok(shown) = self.execute(line) else { return Vec::new() };
         let at = |depth, text: String| Happening::new(depth, None, text);

@@ -69,7 +69,7 @@ impl Vehicle {
             self.flight.safety.let_go();
         }
         let sent = sent.map_or(estimator::Order::ByItself, estimator::Order::Sticks);
-        self.flight.estimator.told(now, sent);
+        self.flight.estimator.order_sent(now, sent);
         order
     }
 

@@ -177,7 +177,7 @@ fn a_small_excitation_teaches_nothing() {
 }
 
 /// Velocities without tilt, or tilts of a drone that stands, for three seconds.
-fn told(body_m_s: f64, roll: f64, yaw_deg: impl Fn(f64) -> f64) -> Airframe {
+fn identified_by(body_m_s: f64, roll: f64, yaw_deg: impl Fn(f64) -> f64) -> Airframe {
     let mut identification = Identification::new(Airframe::default(), LIMITS);
     let mut orders = Orders::new(Duration::ZERO);
     orders.push(Duration::ZERO, Order::Sticks(Sticks { roll, ..Sticks::default() }));
@@ -193,21 +193,21 @@ fn told(body_m_s: f64, roll: f64, yaw_deg: impl Fn(f64) -> f64) -> Airframe {
 fn thrust_and_drag_need_a_quarter_of_a_metre_per_second() {
     let straight = |_| 0.0;
     // Of the way within half a second, or of the velocity that gravity gives at the tilt.
-    assert_eq!(told(0.49, 0.0, straight), Airframe::default());
-    assert!(told(0.55, 0.0, straight).drag_1_s.x != 0.5);
+    assert_eq!(identified_by(0.49, 0.0, straight), Airframe::default());
+    assert!(identified_by(0.55, 0.0, straight).drag_1_s.x != 0.5);
     let stick = |m_s2: f64| (m_s2 / GRAVITY_M_S2).atan() / LIMITS.tilt_rad;
-    assert_eq!(told(0.0, stick(0.49), straight), Airframe::default());
-    assert!(told(0.0, stick(0.51), straight).thrust_gain.x < 1.0);
-    assert!(told(0.0, -stick(0.51), straight).thrust_gain.x < 1.0);
+    assert_eq!(identified_by(0.0, stick(0.49), straight), Airframe::default());
+    assert!(identified_by(0.0, stick(0.51), straight).thrust_gain.x < 1.0);
+    assert!(identified_by(0.0, -stick(0.51), straight).thrust_gain.x < 1.0);
 }
 
 #[test]
 fn a_window_in_which_the_drone_turns_teaches_nothing_of_thrust() {
     // Beyond 10 degrees a new window begins, so at 20 degrees per second it is just full.
-    let turning = |deg_s: f64| told(2.0, 0.0, move |at_s| deg_s * at_s);
+    let turning = |deg_s: f64| identified_by(2.0, 0.0, move |at_s| deg_s * at_s);
     assert_eq!(turning(25.0), Airframe::default());
     assert_eq!(turning(-25.0), Airframe::default());
-    assert!(told(2.0, 0.0, |_| 40.0) != Airframe::default(), "it may face anywhere");
+    assert!(identified_by(2.0, 0.0, |_| 40.0) != Airframe::default(), "it may face anywhere");
     for deg_s in [16.0, -16.0, 20.0, -20.0] {
         assert!(turning(deg_s) != Airframe::default(), "{deg_s}");
     }

@@ -43,10 +43,10 @@ impl Look {
         let height_m = moment.height_m;
         let offset_m = Vector2::new(right_rad.tan(), forward_rad.tan()) * height_m;
         let far_m = offset_m.norm().hypot(height_m);
-        let told_m = sight.distance_m * config.size_m / FIRMWARE_SIZE_M;
+        let reported_m = sight.distance_m * config.size_m / FIRMWARE_SIZE_M;
         let expected_width = focal_x * config.size_m / far_m;
         let is_wrong = |share: f64| !(1.0 - WRONG_SIZE..=1.0 + WRONG_SIZE).contains(&share);
-        if is_wrong(told_m / far_m) || is_wrong(sight.width / expected_width) {
+        if is_wrong(reported_m / far_m) || is_wrong(sight.width / expected_width) {
             return None;
         }
         Some(Self { offset_m, height_m, orientation_deg: sight.orientation_deg })

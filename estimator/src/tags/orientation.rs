@@ -152,8 +152,8 @@ mod tests {
             let mut turned = Turned::default();
             for i in 0..100_u32 {
                 let heading_deg = 8.0 * (f64::from(i) * 0.07).sin();
-                let told_deg = 270.0 + sign * (heading_deg - 60.0) + noise(i);
-                turned = orientation.saw(0, heading_deg, told_deg);
+                let reported_deg = 270.0 + sign * (heading_deg - 60.0) + noise(i);
+                turned = orientation.saw(0, heading_deg, reported_deg);
             }
             assert_eq!(orientation.sign(), Some(expected));
             let direction_deg = turned.direction_deg.unwrap();
@@ -171,11 +171,16 @@ mod tests {
     }
 
     /// Sightings of tag 0 by a drone that stands, and then one after a turn.
-    fn turned(orientation: &mut Orientation, sights: u32, turn_deg: f64, told_deg: f64) -> Turned {
+    fn turned(
+        orientation: &mut Orientation,
+        sights: u32,
+        turn_deg: f64,
+        reported_deg: f64,
+    ) -> Turned {
         for _ in 0..sights {
             orientation.saw(0, 20.0, 300.0);
         }
-        orientation.saw(0, 20.0 + turn_deg, 300.0 + told_deg)
+        orientation.saw(0, 20.0 + turn_deg, 300.0 + reported_deg)
     }
 
     #[test]
@@ -207,16 +212,16 @@ mod tests {
     fn a_turn_counts_by_how_much_better_one_sign_explains_it() {
         // The drone has turned by 4 degrees clockwise and the orientation has grown by 3 or shrunk by 3. The
         // clockwise sign leaves 1 degree, the other 7; or the reverse.
-        for (told_deg, off_deg) in [(3.0, [1.0_f64, 7.0]), (-3.0, [7.0, 1.0])] {
+        for (reported_deg, off_deg) in [(3.0, [1.0_f64, 7.0]), (-3.0, [7.0, 1.0])] {
             let mut orientation = Orientation::new(None);
-            turned(&mut orientation, 8, 4.0, told_deg);
+            turned(&mut orientation, 8, 4.0, reported_deg);
             let evidence = (off_deg[1].powi(2) - off_deg[0].powi(2)) / (2.0 * 8.0 * 8.0);
             assert!((orientation.odds - evidence).abs() < 1e-9, "{}", orientation.odds);
         }
         // One sighting decides no more than this, for it may be of something else.
-        for (told_deg, odds) in [(20.0, 1.0), (-20.0, -1.0)] {
+        for (reported_deg, odds) in [(20.0, 1.0), (-20.0, -1.0)] {
             let mut orientation = Orientation::new(None);
-            turned(&mut orientation, 8, 20.0, told_deg);
+            turned(&mut orientation, 8, 20.0, reported_deg);
             assert!((orientation.odds - odds).abs() < 1e-9);
         }
         // A small turn may be noise, and a mean of few sightings too.

@@ -103,7 +103,7 @@ fn taking_off(order: Order, altitude_m: f64) -> Flight {
 /// The same packet, without any rattle, every sixteenth of a second: when it is distrusted.
 fn frozen_at_s(flight: &mut Flight) -> Option<f64> {
     (0..100_u32).find_map(|i| {
-        flight.estimator.told(flight.now(), flight.order);
+        flight.estimator.order_sent(flight.now(), flight.order);
         flight.estimator.update(&Sample { arrival: flight.now(), ..flight.shown });
         flight.packet += 1;
         (flight.estimator.trust() != Trust::Sound).then(|| 0.0625 * f64::from(i))
@@ -162,7 +162,7 @@ fn a_drone_that_follows_its_sticks_does_not_scrape_along_the_floor() {
         let (dead_time, attitude_delay) = (Duration::ZERO, Duration::ZERO);
         let config = EstimatorConfig { dead_time, attitude_delay, ..EstimatorConfig::default() };
         let mut estimator = Estimator::new(config);
-        estimator.told(Duration::ZERO, level);
+        estimator.order_sent(Duration::ZERO, level);
         for tenth in 0..=4_u32 {
             let wobble = 1e-3 * f64::from(tenth);
             assert_eq!(estimator.trust(), Trust::Sound);
@@ -191,7 +191,7 @@ fn a_height_that_does_not_follow_the_sticks_is_noticed() {
     let frozen = |flight: &mut Flight| {
         (0..40_u32).find_map(|i| {
             flight.packet += 1;
-            flight.estimator.told(flight.now(), flight.order);
+            flight.estimator.order_sent(flight.now(), flight.order);
             let wobble = 1e-4 * f64::from(i % 3);
             flight.estimator.update(&Sample {
                 arrival: flight.now(),

@@ -13,7 +13,7 @@ fn flown(demand: Attitude, height_m: f64) -> Airframe {
 }
 
 /// Reports of tags at these positions relative to the point below the drone, in its own axes.
-fn told(model: CameraModel, airframe: &Airframe, tags: &[(f64, f64, f64)]) -> VisionDetect {
+fn reported(model: CameraModel, airframe: &Airframe, tags: &[(f64, f64, f64)]) -> VisionDetect {
     let yaw_rad = airframe.yaw_rad();
     let tags: Vec<FloorTag> = tags
         .iter()
@@ -32,7 +32,7 @@ fn told(model: CameraModel, airframe: &Airframe, tags: &[(f64, f64, f64)]) -> Vi
 fn a_level_drone_sees_a_tag_where_it_lies() {
     for turn_rad_s in [0.0, 0.8] {
         let airframe = flown(Attitude { turn_rad_s, ..Attitude::default() }, 2.0);
-        let seen = told(CameraModel::perfect(), &airframe, &[(0.4, 0.2, 0.0)]);
+        let seen = reported(CameraModel::perfect(), &airframe, &[(0.4, 0.2, 0.0)]);
         assert_eq!((seen.count, seen.kinds[0], seen.cameras[0]), (1, 1 << 16 | 8, 1));
         assert!(seen.x[0].abs_diff(714) <= 1, "right: {}", seen.x[0]);
         assert!(seen.y[0].abs_diff(305) <= 1, "forward is up: {}", seen.y[0]);
@@ -47,11 +47,11 @@ fn a_level_drone_sees_a_tag_where_it_lies() {
 #[test]
 fn a_drone_that_leans_right_sees_what_is_below_further_right() {
     let airframe = flown(Attitude { roll_rad: 0.1, ..Attitude::default() }, 2.0);
-    let seen = told(CameraModel::perfect(), &airframe, &[(0.0, 0.0, 0.0)]);
+    let seen = reported(CameraModel::perfect(), &airframe, &[(0.0, 0.0, 0.0)]);
     let expected = 500.0 + 1072.0 * airframe.roll_rad().tan();
     assert!((f64::from(seen.x[0]) - expected).abs() < 3.0, "{} {expected}", seen.x[0]);
     let airframe = flown(Attitude { pitch_rad: 0.1, ..Attitude::default() }, 2.0);
-    let seen = told(CameraModel::perfect(), &airframe, &[(0.0, 0.0, 0.0)]);
+    let seen = reported(CameraModel::perfect(), &airframe, &[(0.0, 0.0, 0.0)]);
     // Nose up: the camera looks ahead, so points below appear towards the back.
     let expected = 450.0 + 1452.0 * airframe.pitch_rad().tan();
     assert!((f64::from(seen.y[0]) - expected).abs() < 3.0, "{} {expected}", seen.y[0]);
@@ -62,7 +62,7 @@ fn orientations_count_either_way_by_the_seed() {
     let airframe = flown(Attitude::default(), 1.5);
     let turned = |orientation| {
         let model = CameraModel { orientation, ..CameraModel::perfect() };
-        told(model, &airframe, &[(0.0, 0.0, -30.0)]).orientations_deg[0]
+        reported(model, &airframe, &[(0.0, 0.0, -30.0)]).orientations_deg[0]
     };
     // The tag points to the left of the drone: the drone has turned clockwise relative to it.
     assert!((turned(OrientationSign::Clockwise) - 300.0).abs() < 1.0);
@@ -72,12 +72,12 @@ fn orientations_count_either_way_by_the_seed() {
 #[test]
 fn only_whole_tags_are_seen_and_at_most_four() {
     let airframe = flown(Attitude::default(), 1.0);
-    let count = |tags: &[(f64, f64, f64)]| told(CameraModel::perfect(), &airframe, tags).count;
+    let count = |tags: &[(f64, f64, f64)]| reported(CameraModel::perfect(), &airframe, tags).count;
     assert_eq!(count(&[(0.35, 0.0, 0.0)]), 1);
     assert_eq!(count(&[(0.45, 0.0, 0.0)]), 0, "cut by the rim");
     let many: Vec<_> = (0..6).map(|i| (0.05 * f64::from(i), 0.0, 0.0)).collect();
     assert_eq!(count(&many), 4);
-    assert_eq!(told(CameraModel::perfect(), &flown(Attitude::default(), 5.0), &many).count, 0);
+    assert_eq!(reported(CameraModel::perfect(), &flown(Attitude::default(), 5.0), &many).count, 0);
 }
 
 #[test]

@@ -324,7 +324,7 @@ fn the_same_seed_flies_the_same_flight() {
 }
 
 /// Number of roundels in the newest packet.
-fn tags_told(bench: &mut Bench) -> u32 {
+fn reported_tags(bench: &mut Bench) -> u32 {
     bench.now += DEMO_PERIOD;
     bench.drone.advance(bench.now);
     let packet = std::iter::from_fn(|| bench.drone.poll_navdata()).last().unwrap();
@@ -348,9 +348,9 @@ fn roundels_are_told_only_of_a_drone_that_was_asked_to_look_for_them() {
             bench.send(&[Command::Config(Config::new(*key, *value).unwrap())]);
         }
         bench.wait(Duration::from_millis(200));
-        assert_eq!(tags_told(&mut bench), seen, "{settings:?}");
+        assert_eq!(reported_tags(&mut bench), seen, "{settings:?}");
         bench.drone.move_tag(0, None);
         bench.wait(Duration::from_millis(200));
-        assert_eq!(tags_told(&mut bench), 0, "it was removed");
+        assert_eq!(reported_tags(&mut bench), 0, "it was removed");
     }
 }

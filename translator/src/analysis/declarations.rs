@@ -355,12 +355,12 @@ fn check_types(configuration: &Configuration, instance: Instance, findings: &mut
         .predicates
         .iter()
         .flat_map(|declared| declared.parameters.iter().map(move |ctype| (ctype, &declared.span)));
-    let mut told: HashSet<&str> = HashSet::new();
+    let mut reported: HashSet<&str> = HashSet::new();
     for (ctype, span) in
         in_basics.chain(in_types).filter(|(ctype, _)| ctype.kind == TypeKind::Opaque)
     {
         let clash = ctype.name.split(' ').any(|word| own(word) || is_library(word));
-        if clash && told.insert(&ctype.name) {
+        if clash && reported.insert(&ctype.name) {
             let message = format!("the type `{}` may clash with a generated name", ctype.name);
             findings.push(Code::ReservedName.at(message, span.clone()).help(described()));
         }

@@ -71,8 +71,8 @@ pub(super) fn warn_unreachable(
 ) {
     // Unused test goals are reported elsewhere.
     let idle = |(index, handler): &(usize, &Handler)| {
-        let told = handler.resumed || handler.kind == TriggerKind::Test;
-        !told && !reached.contains(&HandlerId(*index))
+        let is_reported_elsewhere = handler.resumed || handler.kind == TriggerKind::Test;
+        !is_reported_elsewhere && !reached.contains(&HandlerId(*index))
     };
     for (_, handler) in handlers.iter().enumerate().filter(idle) {
         let text = handler.text();

@@ -20,7 +20,7 @@ pub(super) fn warn_unseen(
     findings: &mut Vec<Diagnostic>,
 ) {
     let fails = failing(handlers);
-    let mut told: HashSet<Span> = HashSet::new();
+    let mut reported: HashSet<Span> = HashSet::new();
     for handler in reached.iter().map(|id| &handlers[id.0]) {
         let is_goal = (handler.operator, handler.kind) == (Operator::Add, TriggerKind::Achieve);
         let Some(failure) = handler.failure.filter(|_| is_goal) else { continue };
@@ -28,7 +28,7 @@ pub(super) fn warn_unseen(
         for placed in handler.plans.iter().flat_map(|plan| &plan.body) {
             let Some(first) = Posted::of(&placed.step) else { continue };
             let Some(unseen) = unseen(handlers, &fails, failure, first) else { continue };
-            if !told.insert(placed.span.clone()) {
+            if !reported.insert(placed.span.clone()) {
                 continue;
             }
             let unseen = &handlers[unseen.0];

@@ -97,7 +97,7 @@ impl Interpreter {
         let arguments =
             self.evaluate_all(&atom.arguments, &basic.parameters, theta, environment)?;
         let result = environment.call(&atom.name.text, &arguments, &basic.result);
-        self.tell_call(atom, &arguments, result.as_ref(), environment);
+        self.log_call(atom, &arguments, result.as_ref(), environment);
         Some(result)
     }
 

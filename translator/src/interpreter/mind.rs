@@ -1,6 +1,6 @@
 //! Beliefs and pending events of an interpreted agent.
 
-use super::telling::{key_text, with_values};
+use super::story::{key_text, with_values};
 use super::{Interpreter, Value};
 use crate::syntax::ast::{Operator, TriggerKind};
 

@@ -8,7 +8,7 @@ mod evaluate;
 mod mind;
 mod plans;
 mod recursion;
-mod telling;
+mod story;
 mod value;
 
 use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
@@ -16,8 +16,8 @@ use std::sync::Arc;
 
 use self::evaluate::Substitution;
 use self::recursion::recursive_triggers;
-use self::telling::{Limit, Source};
-pub use self::telling::{trigger, with_values};
+use self::story::{Limit, Source};
+pub use self::story::{trigger, with_values};
 pub use self::value::Value;
 use crate::configuration::Configuration;
 use crate::syntax::ast::{Agent, Atom, Formula, Operator, Plan, Relation, Trigger, TriggerKind};
@@ -276,7 +276,7 @@ impl Interpreter {
                     continue;
                 }
             }
-            self.tell_event(&event, environment);
+            self.log_event(&event, environment);
             self.handle(event, environment);
             if self.posted.is_none() {
                 self.deadline = None;

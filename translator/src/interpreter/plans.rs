@@ -63,7 +63,7 @@ impl Interpreter {
             return Outcome::Achieved(Vec::new());
         }
         let Waiting { plan, next, theta, .. } = waiting;
-        self.tell_plan(&plan, environment);
+        self.log_plan(&plan, environment);
         let outcome = self.body(&plan, next, theta, arguments, environment);
         self.mend(key, outcome, arguments, environment)
     }
@@ -80,14 +80,14 @@ impl Interpreter {
             if !self.limit.spend() {
                 return Outcome::Failed;
             }
-            let told = self.tell_plan(plan, environment);
+            let index = self.log_plan(plan, environment);
             let Some(theta) = self.applicable(plan, arguments, &types, environment) else {
-                Self::tell_skipped(told, environment);
+                Self::log_skipped(index, environment);
                 continue;
             };
             return self.body(plan, 0, theta, arguments, environment);
         }
-        self.tell_no_plan(key, environment);
+        self.log_no_plan(key, environment);
         Outcome::NoPlan
     }
 
@@ -125,7 +125,7 @@ impl Interpreter {
         for (index, formula) in plan.body.iter().enumerate().skip(first) {
             if let Formula::Wait { duration, .. } = formula {
                 let Some(due) = self.due(duration, &theta, environment) else {
-                    self.tell_failure(formula, environment);
+                    self.log_failure(formula, environment);
                     return Outcome::Failed;
                 };
                 let waiting = Waiting { due, plan: plan.clone(), next: index + 1, theta };
@@ -138,7 +138,7 @@ impl Interpreter {
             }
             let fuel = self.limit.spend();
             if !fuel || self.formula(formula, &mut theta, environment).is_none() {
-                self.tell_failure(formula, environment);
+                self.log_failure(formula, environment);
                 return Outcome::Failed;
             }
         }
@@ -169,7 +169,7 @@ impl Interpreter {
             }
             Formula::Add(atom) => {
                 let values = self.arguments(atom, theta, environment)?;
-                self.tell_formula("+", atom, &values, environment);
+                self.log_formula("+", atom, &values, environment);
                 let name = &atom.name.text;
                 let old = self.beliefs.insert(name.clone(), values.clone());
                 let same = old.is_some_and(|old| Value::all_equal(&old, &values));
@@ -184,13 +184,13 @@ impl Interpreter {
                 if matching.is_some_and(|values| matches_given(values, &given))
                     && let Some(old) = self.beliefs.remove(name)
                 {
-                    self.tell_formula("-", atom, &old, environment);
+                    self.log_formula("-", atom, &old, environment);
                     self.percept(Operator::Delete, name, old, environment)?;
                 }
             }
             Formula::Achieve { goal, deadline } => {
                 let arguments = self.arguments(goal, theta, environment)?;
-                self.tell_formula("!", goal, &arguments, environment);
+                self.log_formula("!", goal, &arguments, environment);
                 let key = (Operator::Add, TriggerKind::Achieve, goal.name.text.clone());
                 if self.recursive.contains(&key) {
                     if let Some(deadline) = deadline {
@@ -209,7 +209,7 @@ impl Interpreter {
             }
             Formula::Defer(atom) => {
                 let arguments = self.arguments(atom, theta, environment)?;
-                self.tell_formula("!!", atom, &arguments, environment);
+                self.log_formula("!!", atom, &arguments, environment);
                 let key = (Operator::Add, TriggerKind::Achieve, atom.name.text.clone());
                 self.defer(key, arguments);
             }

@@ -349,7 +349,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         )],
     ),
     mutant(
-        "a drone that is not heard is told to fly",
+        "a drone that is not heard is ordered to fly",
         &[
             edit(
                 SILENCE,

@@ -34,7 +34,7 @@ pub(crate) struct Verdict {
     pub(crate) faults: Vec<String>,
     /// The drone was in the air at some time.
     pub(crate) flew: bool,
-    /// Time in the air after the pilot was told to end, or ended.
+    /// Time in the air after the pilot was ordered to end, or ended.
     pub(crate) until_down: Option<Duration>,
 }
 

@@ -173,7 +173,7 @@ struct Place {
 fn assign(counts: &Counts, rows: &[Row], source: &str) -> Coverage {
     let of_agent = counts.files.iter().filter(|file| file.file.ends_with("autopilot.c"));
     let counted: Vec<&LineCounts> = of_agent.flat_map(|file| &file.lines).collect();
-    let tells: Vec<bool> = source.lines().map(|line| line.contains("tracePlan(")).collect();
+    let traces: Vec<bool> = source.lines().map(|line| line.contains("tracePlan(")).collect();
     let mut plans: Vec<PlanCoverage> = Vec::new();
     let mut last = None;
     for row in rows {
@@ -191,7 +191,7 @@ fn assign(counts: &Counts, rows: &[Row], source: &str) -> Coverage {
         let mut chosen = 0;
         for line in inside {
             line.branches.iter().for_each(|branch| outcomes.count(branch.count > 0));
-            if tells.get(line.line_number - 1) == Some(&true) {
+            if traces.get(line.line_number - 1) == Some(&true) {
                 chosen = line.count;
             }
         }

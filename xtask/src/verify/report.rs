@@ -144,8 +144,8 @@ impl Report {
             _ = writeln!(text, "| `{name}` | `{formula}` | {on_model} | {on_c} |");
         }
         _ = writeln!(text, "| no error at run time | | | {} |", self.paper.run_time());
-        let told = self.paper.on_model("flying_goes_on");
-        if let Some(checked) = told.filter(|checked| checked.verdict.is_refuted()) {
+        let counterexample = self.paper.on_model("flying_goes_on");
+        if let Some(checked) = counterexample.filter(|checked| checked.verdict.is_refuted()) {
             _ = writeln!(
                 text,
                 "\nThe counterexample of `asl2c verify` to `flying_goes_on`:\n\n```text"

@@ -19,11 +19,11 @@ const SILENCE = 1000;
 const CUT_AGAIN = 2500;
 const GO_AGAIN = 8000;
 
-let flight = null; // what was told at the beginning
+let flight = null; // sent first
 let status = null;
 let readiness = null; // whether the vehicle could take off
 let socket = null;
-let heard = 0; // when something was last told
+let heard = 0; // time of the last message
 let clock = -Infinity; // the flight's clock less ours, as the fastest message had it, in milliseconds
 let behind = 0; // how much later than that the last message was
 let over = null; // how it ended
@@ -63,53 +63,53 @@ function order(request) {
   socket.send(JSON.stringify(request));
 }
 
-function take(told) {
-  switch (told.type) {
+function take(message) {
+  switch (message.type) {
     case "flight":
-      begin(told);
+      begin(message);
       break;
     case "status":
-      status = told;
-      clock = Math.max(clock, told.t_s * 1000 - performance.now());
-      behind = clock - (told.t_s * 1000 - performance.now());
-      if (told.pose) extendTrail(told.pose);
-      decide(told);
+      status = message;
+      clock = Math.max(clock, message.t_s * 1000 - performance.now());
+      behind = clock - (message.t_s * 1000 - performance.now());
+      if (message.pose) extendTrail(message.pose);
+      decide(message);
       break;
     case "event":
-      addEvent(told);
+      addEvent(message);
       break;
     case "landed":
-      addEvent({ t_s: told.t_s, text: "landed" });
+      addEvent({ t_s: message.t_s, text: "landed" });
       break;
     case "ready":
-      readiness = told;
+      readiness = message;
       break;
     case "end":
-      finish(told);
+      finish(message);
       break;
     case "armed":
       armedUntil = performance.now() + CUT_AGAIN;
       break;
     case "refused":
-      $("answer").textContent = told.reason;
+      $("answer").textContent = message.reason;
       break;
   }
 }
 
-function begin(told) {
-  flight = told;
-  trail = told.trail;
+function begin(message) {
+  flight = message;
+  trail = message.trail;
   decided = "";
-  $("plan").textContent = told.plan;
-  document.title = `${told.plan} – ardrone-pilot`;
+  $("plan").textContent = message.plan;
+  document.title = `${message.plan} – ardrone-pilot`;
   for (const id of ["steps", "events", "decisions", "targets"]) $(id).replaceChildren();
-  told.steps.forEach((step, index) => {
+  message.steps.forEach((step, index) => {
     const item = document.createElement("li");
     item.textContent = `${index + 1}  ${step.text}`;
     $("steps").append(item);
   });
   targets = [];
-  told.steps.forEach(({ target }, index) => {
+  message.steps.forEach(({ target }, index) => {
     if (!target) return;
     // Targets at one place share a mark.
     const near = (other) => Math.hypot(other.x - target.x_m, other.y - target.y_m) < 0.1;
@@ -123,21 +123,21 @@ function begin(told) {
     place.steps.push(index);
     place.mark.lastChild.textContent = place.steps.map((step) => step + 1).join(", ");
   });
-  const way = [[0, 0], ...told.steps.filter((step) => step.target).map((step) => [step.target.x_m, step.target.y_m])];
+  const way = [[0, 0], ...message.steps.filter((step) => step.target).map((step) => [step.target.x_m, step.target.y_m])];
   $("way").setAttribute("points", points(way));
-  $("fence").setAttribute("r", told.radius_m);
-  told.notes.forEach((note) => addEvent({ t_s: 0, text: `note: ${note}` }));
-  told.events.forEach(addEvent);
-  if (told.status) take(told.status);
-  readiness = told.ready;
-  if (told.end) finish(told.end);
+  $("fence").setAttribute("r", message.radius_m);
+  message.notes.forEach((note) => addEvent({ t_s: 0, text: `note: ${note}` }));
+  message.events.forEach(addEvent);
+  if (message.status) take(message.status);
+  readiness = message.ready;
+  if (message.end) finish(message.end);
 }
 
-function finish(told) {
-  over = told;
-  const steps = `${told.steps_done} of ${told.steps} steps`;
-  const log = told.log ? ` Log: ${told.log}` : "";
-  $("alarm").textContent = `Over: ${told.outcome}; ${steps}.${log}`;
+function finish(message) {
+  over = message;
+  const steps = `${message.steps_done} of ${message.steps} steps`;
+  const log = message.log ? ` Log: ${message.log}` : "";
+  $("alarm").textContent = `Over: ${message.outcome}; ${steps}.${log}`;
   $("alarm").className = "over";
   $("alarm").hidden = false;
 }
@@ -152,26 +152,26 @@ function line(list, seconds, text, ill) {
   while ($(list).childElementCount > 100) $(list).lastElementChild.remove();
 }
 
-function addEvent(told) {
-  const command = told.command ? `: ${told.command}` : "";
-  line("events", told.t_s, told.text + command, told.warning);
+function addEvent(message) {
+  const command = message.command ? `: ${message.command}` : "";
+  line("events", message.t_s, message.text + command, message.warning);
 }
 
-function decide(told) {
-  if (!told.order) return;
-  const decision = `${told.order}: ${told.plans.join(" ")}`;
+function decide(message) {
+  if (!message.order) return;
+  const decision = `${message.order}: ${message.plans.join(" ")}`;
   if (decision === decided) return;
   decided = decision;
-  decidedAt = told.t_s;
-  $("order").textContent = told.order;
-  const plans = told.plans.map((number) => {
+  decidedAt = message.t_s;
+  $("order").textContent = message.order;
+  const plans = message.plans.map((number) => {
     const text = document.createElement("pre");
     text.textContent = `${number}: ${flight.plans[number]}`;
     return text;
   });
   $("because").replaceChildren(...plans);
-  const triggers = told.plans.map((number) => trigger(flight.plans[number]));
-  line("decisions", told.t_s, `${told.order}: ${triggers.join(", ")}`);
+  const triggers = message.plans.map((number) => trigger(flight.plans[number]));
+  line("decisions", message.t_s, `${message.order}: ${triggers.join(", ")}`);
 }
 
 // "+!stay(_, Arrival)" of "+!stay(_, Arrival) : target(..) <- ..".

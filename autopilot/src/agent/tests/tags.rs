@@ -38,11 +38,11 @@ fn a_search_in_vain_is_told_and_ends() {
     let first = bench.run();
     let above = Pose { x_m: 2.0, y_m: 1.0, z_m: 2.5, yaw_deg: 0.0 };
     assert_eq!(first.command, Some(AgentCommand::GoTo(above)), "where one should be");
-    let told = std::iter::repeat_with(|| bench.run()).take(1100).position(|step| {
+    let waited = std::iter::repeat_with(|| bench.run()).take(1100).position(|step| {
         assert_eq!(step.report, None);
         step.danger == Some(Danger::NoTag)
     });
-    assert!(told.is_some_and(|step| (990..1010).contains(&step)), "after 30 s: {told:?}");
+    assert!(waited.is_some_and(|step| (990..1010).contains(&step)), "after 30 s: {waited:?}");
     assert_eq!(bench.step(), (Some(AgentCommand::Hover), Some(Report::Failed)));
 }
 

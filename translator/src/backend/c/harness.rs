@@ -343,7 +343,7 @@ impl Builder<'_> {
         for belief in self.program.beliefs.iter().filter(|belief| belief.settable) {
             writer.line(format!("case {case}U:"));
             let set = self.names.interface(&format!("set_{}", belief.name));
-            let values = told(writer, &format!("set_{}", belief.name), &belief.types);
+            let values = recorded_arguments(writer, &format!("set_{}", belief.name), &belief.types);
             writer.line(format!("{set}({values});"));
             writer.line("break;");
             writer.close("}");
@@ -360,7 +360,7 @@ impl Builder<'_> {
 
     fn raise(&self, writer: &mut Writer, external: &External) {
         let raise = self.names.interface(&external_name(external));
-        let values = told(writer, &external_name(external), &external.types);
+        let values = recorded_arguments(writer, &external_name(external), &external.types);
         writer.open(format!("if ({raise}({values}))"));
         let is_this = |event: &ExternalTrigger| {
             self.external(event).is_some_and(|e| std::ptr::eq(e, external))
@@ -465,7 +465,7 @@ fn occupied(ring: &str, slot: usize, length: usize) -> String {
 
 /// Opens a block for a transition of this name: creates arbitrary arguments and records them in the trace.
 /// Returns the arguments.
-fn told(writer: &mut Writer, name: &str, types: &[CType]) -> String {
+fn recorded_arguments(writer: &mut Writer, name: &str, types: &[CType]) -> String {
     writer.open_bare();
     let arguments: Vec<String> = argument_names(types).collect();
     for (ctype, argument) in types.iter().zip(&arguments) {

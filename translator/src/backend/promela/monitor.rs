@@ -10,7 +10,7 @@ impl Emission<'_> {
     /// The role of each action in each property.
     pub(super) fn actions(&mut self) {
         for (index, basic) in self.program.configuration.basics.iter().enumerate() {
-            if !self.is_told(BasicId(index)) {
+            if !self.is_printed(BasicId(index)) {
                 continue;
             }
             let name = &basic.name.text;
@@ -43,7 +43,7 @@ impl Emission<'_> {
     }
 
     /// Whether calls are printed and counted: those of actions, and of functions in properties.
-    pub(super) fn is_told(&self, id: BasicId) -> bool {
+    pub(super) fn is_printed(&self, id: BasicId) -> bool {
         self.program.basic(id).result.kind == TypeKind::Void || self.is_watched(id)
     }
 

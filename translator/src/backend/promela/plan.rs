@@ -116,14 +116,14 @@ impl Emission<'_> {
 
     /// A call of an action or function.
     pub(super) fn act(&mut self, basic: BasicId, line: usize) {
-        if self.is_told(basic) {
+        if self.is_printed(basic) {
             self.say(&format!("action {} {line}", basic.0));
             self.writer.line(format!("act_{}();", self.program.basic(basic).name.text));
         }
     }
 
     fn may_act(&mut self, basic: BasicId, line: usize) {
-        if self.is_told(basic) {
+        if self.is_printed(basic) {
             self.writer.line("if");
             self.writer.line(":: true ->");
             self.act(basic, line);

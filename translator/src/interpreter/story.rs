@@ -129,29 +129,25 @@ impl Interpreter {
         Some(story.len() - 1)
     }
 
-    pub(super) fn tell_event(&self, event: &Event, environment: &mut dyn Environment) {
+    pub(super) fn log_event(&self, event: &Event, environment: &mut dyn Environment) {
         self.tell(0, None, || format!("handles {}", event.text("")), environment);
     }
 
     /// Returns the index of the line in the log.
-    pub(super) fn tell_plan(
-        &self,
-        plan: &Plan,
-        environment: &mut dyn Environment,
-    ) -> Option<usize> {
+    pub(super) fn log_plan(&self, plan: &Plan, environment: &mut dyn Environment) -> Option<usize> {
         let line = self.source.line(plan.trigger.span.start);
         self.tell(0, Some(line), || format!("plan {}", self.source.head(plan)), environment)
     }
 
     /// Marks a logged plan as not applicable.
-    pub(super) fn tell_skipped(told: Option<usize>, environment: &mut dyn Environment) {
-        let story = environment.story().zip(told);
+    pub(super) fn log_skipped(index: Option<usize>, environment: &mut dyn Environment) {
+        let story = environment.story().zip(index);
         if let Some(plan) = story.and_then(|(story, index)| story.get_mut(index)) {
             plan.text = format!("does not apply: {}", plan.text);
         }
     }
 
-    pub(super) fn tell_no_plan(&self, key: &Key, environment: &mut dyn Environment) {
+    pub(super) fn log_no_plan(&self, key: &Key, environment: &mut dyn Environment) {
         // A change of a belief without plans is not logged.
         if key.1 == TriggerKind::Belief {
             return;
@@ -159,7 +155,7 @@ impl Interpreter {
         self.tell(0, None, || format!("no plan for {} applies", key_text(key)), environment);
     }
 
-    pub(super) fn tell_call(
+    pub(super) fn log_call(
         &self,
         atom: &Atom,
         arguments: &[Value],
@@ -173,7 +169,7 @@ impl Interpreter {
         self.tell(1, Some(self.source.line(atom.span.start)), text, environment);
     }
 
-    pub(super) fn tell_formula(
+    pub(super) fn log_formula(
         &self,
         sign: &str,
         atom: &Atom,
@@ -184,7 +180,7 @@ impl Interpreter {
         self.tell(1, Some(self.source.line(atom.span.start)), text, environment);
     }
 
-    pub(super) fn tell_failure(&self, formula: &Formula, environment: &mut dyn Environment) {
+    pub(super) fn log_failure(&self, formula: &Formula, environment: &mut dyn Environment) {
         let line = self.source.line(formula.span().start);
         self.tell(1, Some(line), || "fails".to_owned(), environment);
     }
