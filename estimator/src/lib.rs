@@ -401,6 +401,7 @@ impl Estimator {
         let step_s = (at_s - from_s).max(0.0);
         let order = self.orders.at(at_s);
         if !sample.airborne {
+            self.velocity_gate.rest();
             if was_airborne {
                 let before_m_s = self.horizontal.measured_m_s();
                 let unseen_s = (step_s - USUAL_STEP_S).max(0.0);

@@ -61,18 +61,29 @@ pub(crate) fn impossible(sample: &Sample) -> Option<Quantity> {
     .find_map(|(quantity, possible)| (!possible).then_some(quantity))
 }
 
+/// Longest time in which a drone that lifts off can have gained speed unseen.
+const LIFT_OFF_S: f64 = 0.1;
+
 /// Separates velocities that jump, as no drone can, from changes by gusts. (right, forward) in the world
 /// frame.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct VelocityGate {
     last_m_s: Option<Vector2<f64>>,
     jumped: bool,
+    /// The last velocity is that of a drone that stands.
+    rests: bool,
 }
 
 impl VelocityGate {
     /// Whether the newest velocity is rejected because it jumped.
     pub(crate) fn has_jumped(&self) -> bool {
         self.jumped
+    }
+
+    /// The drone stands: what it reports is compared with rest once it flies. Otherwise the first velocity of a flight
+    /// would be accepted whatever it is, and a constant error with it.
+    pub(crate) fn rest(&mut self) {
+        *self = Self { last_m_s: Some(Vector2::zeros()), jumped: false, rests: true };
     }
 
     /// Whether to accept a velocity that was measured `step_s` after the last one, while the model's velocity
@@ -85,6 +96,9 @@ impl VelocityGate {
         step_s: f64,
     ) -> bool {
         let Some(last_m_s) = self.last_m_s.replace(measured_m_s) else { return true };
+        // The flow may measure nothing new for a second while the drone lifts off, which is no time to speed up.
+        let longest_s = if std::mem::take(&mut self.rests) { LIFT_OFF_S } else { f64::INFINITY };
+        let step_s = step_s.min(longest_s);
         let allowed_m_s = JUMP_M_S + JUMP_M_S2 * step_s;
         let surprise_m_s = (measured_m_s - foreseen_m_s).norm();
         let unforeseen = (measured_m_s - last_m_s) - (foreseen_m_s - before_m_s);

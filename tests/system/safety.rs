@@ -224,6 +224,28 @@ fn a_drone_that_lies_from_the_first_packet_does_not_take_off() {
     }
 }
 
+/// An error that is there from the start does not jump in flight.
+#[test]
+fn a_velocity_that_is_wrong_before_the_take_off_does_not_carry_the_drone_away() {
+    let long = "takeoff\ngoto 0 0 0.5 0\nsetStayTime 30\ngoto 0 0 0.5 0\nland\n";
+    for profile in [Profile::rec(), Profile::tum(), Profile::tf(), Profile::leo()] {
+        for since in ["0", "+0", "+0.5"] {
+            for wrong_m_s in [1.0, 1.7, 3.0] {
+                let drone = DroneConfig { profile, ..DroneConfig::default() };
+                let text = format!("{since} lie velocity-right {wrong_m_s} for 600");
+                let scenario = Scenario::parse("wrong", &text).unwrap();
+                let world = WorldConfig { scenario, drone, ..WorldConfig::default() };
+                let simulation = Simulation { world, ..Simulation::default() };
+                let mut away_m = 0.0;
+                let flight =
+                    simulation.fly_watched(plan(long), |m| furthest_m(m, &mut away_m)).unwrap();
+                assert!(away_m < 1.5, "{text}: {away_m:.2} m, {:?}", flight.outcome);
+                assert_ne!(flight.outcome, Outcome::Completed, "{text}");
+            }
+        }
+    }
+}
+
 /// A flight of an airframe in wind, and its largest distance from the start.
 fn in_the_wind(profile: Profile, seed: u64, text: &str, wind: &str) -> (SimulatedFlight, f64) {
     let scenario = Scenario::parse("wind", wind).unwrap();

@@ -117,7 +117,7 @@ fn a_velocity_that_jumps_is_not_believed_and_one_that_a_gust_changes_is() {
     let along = |m_s: f64| Vector2::new(m_s, 0.0);
     let mut gate = VelocityGate::default();
     assert!(gate.admits(along(0.3), still, still, 0.0), "the first one");
-    let mut gate = VelocityGate { last_m_s: Some(still), jumped: false };
+    let mut gate = VelocityGate { last_m_s: Some(still), jumped: false, rests: false };
     for _ in 0..10 {
         assert!(!gate.admits(along(1.0), still, still, PERIOD_S), "as long as it lasts");
     }
@@ -132,7 +132,7 @@ fn a_velocity_that_jumps_is_not_believed_and_one_that_a_gust_changes_is() {
         model_m_s += 0.66 * (measured_m_s - model_m_s);
     }
     // After a gap large changes are possible.
-    let mut gate = VelocityGate { last_m_s: Some(still), jumped: false };
+    let mut gate = VelocityGate { last_m_s: Some(still), jumped: false, rests: false };
     assert!(gate.admits(along(2.0), still, still, 1.0));
 }
 
@@ -215,7 +215,7 @@ fn the_limits_of_an_ar_drone_are_still_possible() {
 
 /// A gate that has seen `last_m_s`.
 fn gate(last_m_s: f64, jumped: bool) -> VelocityGate {
-    VelocityGate { last_m_s: Some(Vector2::new(0.0, last_m_s)), jumped }
+    VelocityGate { last_m_s: Some(Vector2::new(0.0, last_m_s)), jumped, rests: false }
 }
 
 #[test]
@@ -411,4 +411,28 @@ fn navdata_are_fresh_up_to_the_usual_jitter() {
         let sound_at_s = watch_at(0..6, flying, late)[5].2;
         assert_eq!(sound_at_s == Some(0.25), fresh, "{lateness_s}");
     }
+}
+
+/// Whatever the time since the drone stood: the flow may measure nothing new while it lifts off.
+#[test]
+fn the_first_velocity_of_a_flight_is_compared_with_rest() {
+    let admits = |speed_m_s: f64, step_s: f64| {
+        let mut gate = VelocityGate::default();
+        gate.rest();
+        let still = Vector2::zeros();
+        gate.admits(Vector2::new(0.0, speed_m_s), still, still, step_s)
+    };
+    let allowed_m_s = JUMP_M_S + JUMP_M_S2 * LIFT_OFF_S;
+    for step_s in [LIFT_OFF_S, 2.0] {
+        assert!(admits(allowed_m_s - 0.01, step_s) && !admits(allowed_m_s + 0.01, step_s));
+    }
+    // One that is taken over in the air may have any.
+    let moving = Vector2::new(0.0, 1.4);
+    assert!(VelocityGate::default().admits(moving, Vector2::zeros(), Vector2::zeros(), 0.03));
+    // After the first velocity a gap counts in full.
+    let mut gate = VelocityGate::default();
+    gate.rest();
+    let still = Vector2::zeros();
+    assert!(gate.admits(still, still, still, 0.03));
+    assert!(gate.admits(Vector2::new(0.0, 1.0), still, still, 0.5));
 }
