@@ -189,7 +189,7 @@ fn a_busy_control_port_swallows_no_signal() {
 
 #[test]
 fn other_ends_land_as_control_c_does() {
-    let threads = ["-QUIT", "-USR1", "-ALRM"].map(|name| {
+    let threads = ["-QUIT", "-USR1", "-ALRM", "-XCPU", "-PROF"].map(|name| {
         std::thread::spawn(move || {
             let relay = Relay::start(&WorldConfig::default());
             let plan = plan_file(LONG);

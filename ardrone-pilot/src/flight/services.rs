@@ -5,6 +5,7 @@ use std::task::{Context, Poll};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use rustix::process::Signal as Os;
 use tokio::io::AsyncReadExt as _;
 use tokio::signal::unix::{Signal, SignalKind, signal};
 use tokio::sync::{mpsc, oneshot};
@@ -77,7 +78,7 @@ impl Drop for Services {
 async fn forward_signals(controls: &Controls) {
     let mut signals = EndSignals::new();
     // With SIGXFSZ caught, exceeding the file size limit ends the log, not the process.
-    let _too_large = signal(SignalKind::from_raw(rustix::process::Signal::XFSZ.as_raw()));
+    let _too_large = signal(SignalKind::from_raw(Os::XFSZ.as_raw()));
     loop {
         signals.next().await;
         controls.stop();
@@ -99,8 +100,12 @@ impl EndSignals {
             SignalKind::alarm(),
             SignalKind::user_defined1(),
             SignalKind::user_defined2(),
+            SignalKind::io(),
         ];
-        let signals: Vec<Signal> = ends.into_iter().filter_map(|kind| signal(kind).ok()).collect();
+        let others = [Os::VTALARM, Os::PROF, Os::XCPU, Os::SYS];
+        let others = others.map(|other| SignalKind::from_raw(other.as_raw()));
+        let ends = [&ends[..], &others[..]].concat();
+        let signals: Vec<Signal> = ends.iter().filter_map(|kind| signal(*kind).ok()).collect();
         if signals.len() < ends.len() {
             tracing::warn!("not all signals can be caught: Ctrl-C may not land the drone");
         }
