@@ -17,8 +17,8 @@ use nalgebra::{Vector2, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-use crate::alone;
 use crate::sim::{Simulation, SimulationError};
+use crate::{alone, place_in_navdata_frame};
 
 /// Largest allowed distance outside the fence after a single fault, in metres.
 pub const MOST_OUTSIDE_M: f64 = 3.0;
@@ -220,7 +220,7 @@ impl Excursion {
 
     fn see(&mut self, truth: &Truth, between: [Vector3<f64>; 2]) {
         // The error of healthy sensors cannot be known in flight.
-        let place_m = truth.position_m - truth.drift_m().push(0.0);
+        let place_m = place_in_navdata_frame(truth);
         let across_m = place_m.xy().norm() - FENCE.radius_m;
         self.outside_m = self.outside_m.max(across_m).max(place_m.z - FENCE.ceiling_m);
         let [from, to] = between;
