@@ -43,8 +43,14 @@ enum Command {
     /// far
     Sensors {
         /// Seeds of each failure in each situation on each airframe, from 1
-        #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..=1_000))]
+        #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(0..=1_000))]
         seeds: u64,
+        /// How many random failures besides
+        #[arg(long, value_name = "N", default_value_t = 1000)]
+        random: u64,
+        /// Number of the first random failure
+        #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+        first: u64,
     },
     /// Hover and fly over roundels on the floor, and tell how well the pilot knows where it is; fails if that is not
     /// as good as it must be
@@ -102,7 +108,10 @@ pub(crate) fn main() -> ExitCode {
         Command::Campaign { flights, first } => {
             campaign::run(flights, first).map_err(|error| error.to_string())
         }
-        Command::Sensors { seeds } => sensors::run(seeds).map_err(|error| error.to_string()),
+        Command::Sensors { seeds, random, first } => {
+            let numbers = first..first.saturating_add(random);
+            sensors::run(seeds, numbers).map_err(|error| error.to_string())
+        }
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each),
         Command::Mutants { all: true, shard, .. } => {
             mutants::all(shard.as_deref()).map_err(|error| error.to_string())

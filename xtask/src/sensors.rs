@@ -1,8 +1,11 @@
 //! One failing sensor at a time, and a table of how far the drone was led astray.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 
-use system_tests::sensors::{AIRFRAMES, Excursion, Failure, Situation, failures, fly};
+use system_tests::sensors::{
+    AIRFRAMES, Excursion, Failure, RandomFlight, Situation, failures, fly, random,
+};
 use system_tests::sim::SimulationError;
 
 use crate::parallel;
@@ -67,9 +70,40 @@ impl Row {
     }
 }
 
-/// Flies every failure in every situation on every airframe with `seeds` seeds; the second value is whether
-/// no drone was led too far.
-pub(crate) fn run(seeds: u64) -> Result<(String, bool), SimulationError> {
+/// Flies every failure in every situation on every airframe with `seeds` seeds, then random ones; the second value is
+/// whether no drone was led too far.
+pub(crate) fn run(seeds: u64, randoms: Range<u64>) -> Result<(String, bool), SimulationError> {
+    let (listed, listed_good) = run_listed(seeds)?;
+    let (randomly, randomly_good) = run_random(randoms)?;
+    Ok((listed + &randomly, listed_good && randomly_good))
+}
+
+/// Flies random failures and lists those that led too far; those that navdata cannot show are only counted.
+fn run_random(numbers: Range<u64>) -> Result<(String, bool), SimulationError> {
+    let numbers: Vec<u64> = numbers.collect();
+    let flown = parallel::map(&numbers, random)?;
+    let too_far: Vec<&RandomFlight> = flown.iter().filter(|flight| flight.is_too_far()).collect();
+    let (judged, excused): (Vec<_>, Vec<_>) = too_far.into_iter().partition(|flight| flight.shows);
+    let mut text = String::new();
+    for flight in &judged {
+        _ = writeln!(text, "{flight}");
+    }
+    let showing = flown.iter().filter(|flight| flight.shows).count();
+    _ = writeln!(
+        text,
+        "{} random failures: {} of {showing} too far, and {} of {} that navdata cannot show",
+        flown.len(),
+        judged.len(),
+        excused.len(),
+        flown.len() - showing,
+    );
+    Ok((text, judged.is_empty()))
+}
+
+fn run_listed(seeds: u64) -> Result<(String, bool), SimulationError> {
+    if seeds == 0 {
+        return Ok((String::new(), true));
+    }
     let failures = failures();
     let mut jobs = Vec::new();
     for seed in 1..=seeds {

@@ -3,6 +3,8 @@
 //! Each flight has a healthy twin with the same seed, which is identical up to the fault. The fault therefore
 //! starts at the intended moment, and the undisturbed course is known.
 
+mod random;
+
 use std::fmt;
 use std::time::Duration;
 
@@ -16,6 +18,8 @@ use mock_drone::{DroneConfig, Quantity, SensorFault, Truth, WorldConfig};
 use nalgebra::{Vector2, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
+
+pub use random::{RandomFlight, random};
 
 use crate::sim::{Simulation, SimulationError};
 use crate::{alone, place_in_navdata_frame};
@@ -79,9 +83,9 @@ impl Situation {
         [Self::Holding, Self::Moving, Self::Climbing, Self::Descending, Self::Turning];
 
     /// The plan, and start and end of the motion in its step [`STEP`].
-    fn plan(self) -> (&'static str, [Vector3<f64>; 2]) {
+    fn plan(self) -> (Plan, [Vector3<f64>; 2]) {
         let at = |right_m, up_m| Vector3::new(right_m, 0.0, HOVER_M + up_m);
-        match self {
+        let (text, between) = match self {
             Self::Holding => (
                 "takeoff\ngoto 0 0 0.5 0\nsetStayTime 30\ngoto 0 0 0.5 0\nland\n",
                 [at(0.0, 0.5), at(0.0, 0.5)],
@@ -102,7 +106,10 @@ impl Situation {
                 "takeoff\ngoto 0 0 0.5 0\nsetStayTime 10\ngoto 0 0 0.5 150\nland\n",
                 [at(0.0, 0.5), at(0.0, 0.5)],
             ),
-        }
+        };
+        let plan =
+            Plan::parse_within("sensors", text, &FENCE).unwrap_or_else(|error| panic!("{error}"));
+        (plan, between)
     }
 }
 
@@ -132,14 +139,18 @@ impl Failure {
     /// distinguished from a rising wind while the drone holds its position, and one that is late by half a
     /// second only degrades the control. How far these lead is reported but not judged.
     pub fn shows(&self) -> bool {
-        !self.faults.iter().all(|(quantity, fault)| {
-            matches!(quantity, Quantity::VelocityRight | Quantity::VelocityForward)
-                && matches!(
-                    fault,
-                    SensorFault::Ramp(_) | SensorFault::DeadAt(_) | SensorFault::Late(_)
-                )
-        })
+        self.faults.iter().any(|(quantity, fault)| shows(*quantity, *fault))
     }
+}
+
+fn shows(quantity: Quantity, fault: SensorFault) -> bool {
+    !matches!(
+        (quantity, fault),
+        (
+            Quantity::VelocityRight | Quantity::VelocityForward,
+            SensorFault::Ramp(_) | SensorFault::DeadAt(_) | SensorFault::Late(_)
+        )
+    )
 }
 
 /// Every quantity with every fault, one at a time; then all sensors frozen, with the drone's clock running
@@ -287,29 +298,17 @@ pub fn fly(
     seed: u64,
     failures: &[Failure],
 ) -> Result<Siblings, SimulationError> {
-    let (text, between) = situation.plan();
-    let plan =
-        Plan::parse_within("sensors", text, &FENCE).unwrap_or_else(|error| panic!("{error}"));
+    let (plan, between) = situation.plan();
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x7365_6e73);
     let healthy = simulation(profile, situation, seed, &mut random);
-    let began =
-        healthy.fly(plan.clone())?.events.into_iter().find_map(|(at, event)| {
-            (event == FlightEvent::StepStarted { step: STEP }).then_some(at)
-        });
-    let began = began.unwrap_or_else(|| panic!("{situation}, seed {seed}: never came so far"));
+    let began = start_of_step(&healthy, &plan)?
+        .unwrap_or_else(|| panic!("{situation}, seed {seed}: never came so far"));
     let into = match situation {
         Situation::Holding => random.random_range(3.0..6.0),
         _ => random.random_range(0.2..1.5),
     };
     let at = began + Duration::from_secs_f64(into);
-    let mut own = Excursion::default();
-    healthy.fly_in_world(plan.clone(), |moment, world| {
-        if moment.now >= at && moment.now < at + TICK {
-            alone::flies_on_and_lands(world.drone(), Duration::ZERO, |truth| {
-                own.see(truth, between);
-            });
-        }
-    })?;
+    let own = own_hover_and_landing(&healthy, &plan, at, between)?;
     let flown = failures.iter().map(|failure| {
         let mut scenario = Scenario::default();
         for (quantity, fault) in &failure.faults {
@@ -330,6 +329,33 @@ pub fn fly(
     });
     let flown = flown.collect::<Result<_, SimulationError>>()?;
     Ok(Siblings { at, own, flown })
+}
+
+/// When the healthy flight begins its step [`STEP`], if it does.
+fn start_of_step(healthy: &Simulation, plan: &Plan) -> Result<Option<Duration>, SimulationError> {
+    Ok(healthy
+        .fly(plan.clone())?
+        .events
+        .into_iter()
+        .find_map(|(at, event)| (event == FlightEvent::StepStarted { step: STEP }).then_some(at)))
+}
+
+/// How far the drone goes by itself, if it is ordered to hover at a time and to land two seconds later.
+fn own_hover_and_landing(
+    healthy: &Simulation,
+    plan: &Plan,
+    at: Duration,
+    between: [Vector3<f64>; 2],
+) -> Result<Excursion, SimulationError> {
+    let mut own = Excursion::default();
+    healthy.fly_in_world(plan.clone(), |moment, world| {
+        if moment.now >= at && moment.now < at + TICK {
+            alone::flies_on_and_lands(world.drone(), Duration::ZERO, |truth| {
+                own.see(truth, between);
+            });
+        }
+    })?;
+    Ok(own)
 }
 
 fn simulation(

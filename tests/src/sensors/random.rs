@@ -1,0 +1,199 @@
+//! Random single sensor failures: any value, at any moment from before the take-off on, lasting, passing or in
+//! pulses.
+//!
+//! [`failures`](super::failures) are few values at favourable moments. What lies between them, and a failure
+//! that comes and goes, is found here.
+
+use std::fmt;
+use std::time::Duration;
+
+use autopilot::outcome::Outcome;
+use mock_drone::firmware::Phase;
+use mock_drone::scenario::{Action, Scenario, When};
+use mock_drone::{Quantity, SensorFault};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_chacha::ChaCha8Rng;
+
+use super::{AIRFRAMES, Excursion, FOR_EVER, Situation};
+use crate::sim::SimulationError;
+
+/// Smallest error of a velocity that shows between two packets: in flight, and from before the take-off on, when
+/// it is compared with rest and must exceed the motion of the take-off.
+const SHOWS_M_S: f64 = 0.5;
+const SHOWS_AT_TAKE_OFF_M_S: f64 = 0.6;
+/// A slower drift of the altitude is not distinguished from a climb.
+const SHOWS_RAMP_M_S: f64 = 0.05;
+/// Earliest moment of a failure: the drone stands and is observed.
+const EARLIEST_S: f64 = 0.5;
+/// Latest moment, after the start of the step that is observed.
+const LATEST_S: f64 = 6.0;
+/// More pulses than a flight is long.
+const PULSES: usize = 60;
+
+/// When a failure is active.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Pattern {
+    Lasting,
+    Once { on_s: f64 },
+    Pulses { on_s: f64, off_s: f64 },
+}
+
+impl Pattern {
+    fn random(random: &mut ChaCha8Rng) -> Self {
+        match random.random_range(0..3) {
+            0 => Self::Lasting,
+            1 => Self::Once { on_s: random.random_range(0.1..8.0) },
+            _ => Self::Pulses {
+                on_s: random.random_range(0.05..1.2),
+                off_s: random.random_range(0.1..3.0),
+            },
+        }
+    }
+
+    fn scenario(self, at: Duration, quantity: Quantity, fault: SensorFault) -> Scenario {
+        let (on, every, count) = match self {
+            Self::Lasting => (FOR_EVER, FOR_EVER, 1),
+            Self::Once { on_s } => (Duration::from_secs_f64(on_s), FOR_EVER, 1),
+            Self::Pulses { on_s, off_s } => {
+                (Duration::from_secs_f64(on_s), Duration::from_secs_f64(on_s + off_s), PULSES)
+            }
+        };
+        let starts = std::iter::successors(Some(at), |start| Some(*start + every));
+        starts.take(count).fold(Scenario::default(), |scenario, start| {
+            scenario.and(When::SinceStart(start), Action::Sensor(quantity, fault, on))
+        })
+    }
+}
+
+impl fmt::Display for Pattern {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Lasting => f.write_str("from then on"),
+            Self::Once { on_s } => write!(f, "for {on_s:.2} s"),
+            Self::Pulses { on_s, off_s } => {
+                write!(f, "in pulses of {on_s:.2} s, {off_s:.2} s apart")
+            }
+        }
+    }
+}
+
+/// A flight with a random failure, and how far it led the drone astray.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RandomFlight {
+    /// The flight and its failure, for reports.
+    pub description: String,
+    /// Whether navdata can reveal the failure.
+    pub shows: bool,
+    /// The drone's own hover and landing instead: the best that can be achieved.
+    pub own: Excursion,
+    /// With the failure.
+    pub flown: Excursion,
+    /// The pilot's account of it.
+    pub outcome: Outcome,
+}
+
+impl RandomFlight {
+    /// Whether the failure led the drone too far.
+    pub fn is_too_far(&self) -> bool {
+        self.flown.is_too_far(&self.own)
+    }
+}
+
+impl fmt::Display for RandomFlight {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { description, own, flown, outcome, .. } = self;
+        write!(
+            f,
+            "{description}: {:.2} m away ({:.2} m by itself), {:.2} m outside, {:.1} s on the floor{}; {outcome}",
+            flown.away_m,
+            own.away_m,
+            flown.outside_m,
+            flown.scraping.as_secs_f64(),
+            if flown.airborne { ", still airborne" } else { "" },
+        )
+    }
+}
+
+/// Flies the random failure of this number.
+///
+/// # Errors
+/// [`SimulationError`] if the flight never ends.
+///
+/// # Panics
+/// If the healthy flight ends before the step that is observed.
+pub fn random(number: u64) -> Result<RandomFlight, SimulationError> {
+    let mut random = ChaCha8Rng::seed_from_u64(number ^ 0x7261_6e64);
+    let airframe = AIRFRAMES[random.random_range(0..AIRFRAMES.len())];
+    let situation = Situation::ALL[random.random_range(0..Situation::ALL.len())];
+    let (plan, between) = situation.plan();
+    let healthy = super::simulation((airframe.profile)(), situation, number, &mut random);
+    let began = super::start_of_step(&healthy, &plan)?
+        .unwrap_or_else(|| panic!("{situation}, number {number}: never came so far"));
+    let at_s = random.random_range(EARLIEST_S..began.as_secs_f64() + LATEST_S);
+    let at = Duration::from_secs_f64(at_s);
+    let quantity = Quantity::ALL[random.random_range(0..Quantity::ALL.len())];
+    let fault = random_fault(quantity, &mut random);
+    let pattern = Pattern::random(&mut random);
+    // Before it hovers, the drone has no motion of its own to be compared with.
+    let own = super::own_hover_and_landing(&healthy, &plan, at.max(began), between)?;
+    let mut faulty = healthy;
+    faulty.world.scenario = pattern.scenario(at, quantity, fault);
+    let mut flown = Excursion::default();
+    let flight = faulty.fly_watched(plan, |moment| {
+        if moment.now >= at {
+            flown.see(&moment.truth, between);
+        }
+    })?;
+    flown.airborne = !matches!(flight.final_truth.phase, Phase::Landed | Phase::Emergency);
+    Ok(RandomFlight {
+        description: format!(
+            "{number} {} {situation}: {quantity:?} {fault:?} at {at_s:.2} s (its step begins at {:.2} s) {pattern}",
+            airframe.name,
+            began.as_secs_f64(),
+        ),
+        shows: shows(quantity, fault, at < began),
+        own,
+        flown,
+        outcome: flight.outcome,
+    })
+}
+
+/// Values from small to large, small ones more often.
+fn random_fault(quantity: Quantity, random: &mut ChaCha8Rng) -> SensorFault {
+    let sign = if random.random_bool(0.5) { 1.0 } else { -1.0 };
+    let size: f64 = random.random_range(0.0..1.0);
+    let (offset, ramp, value) = match quantity {
+        Quantity::VelocityRight | Quantity::VelocityForward => {
+            (0.4 + 2.6 * size * size, 0.05 + size, sign * 2.0 * size)
+        }
+        Quantity::Altitude => (0.1 + 2.5 * size * size, 0.05 + size * size, 3.0 * size),
+        Quantity::Yaw => (5.0 + 175.0 * size * size, 1.0 + 60.0 * size * size, sign * 180.0 * size),
+        Quantity::Roll | Quantity::Pitch => {
+            (2.0 + 30.0 * size, 1.0 + 10.0 * size, sign * 20.0 * size)
+        }
+        Quantity::Clock => (0.1 + 50.0 * size.powi(3), 0.05 + 3.0 * size * size, 0.0),
+    };
+    let is_clock = quantity == Quantity::Clock;
+    match random.random_range(0..7) {
+        0 if !is_clock => SensorFault::StuckAt(value),
+        1 if !is_clock => SensorFault::DeadAt(value),
+        2 | 3 => SensorFault::Offset(sign * offset),
+        4 => SensorFault::Ramp(sign * ramp),
+        5 => SensorFault::Late(Duration::from_secs_f64(0.1 + 2.4 * size)),
+        6 if quantity.is_float() => SensorFault::NotANumber,
+        _ => SensorFault::Stuck,
+    }
+}
+
+/// Whether navdata can reveal a fault. Besides those of [`Failure::shows`](super::Failure::shows), a velocity that is
+/// wrong by less than noise and gusts explain is taken for a wind.
+fn shows(quantity: Quantity, fault: SensorFault, at_take_off: bool) -> bool {
+    let limit_m_s = if at_take_off { SHOWS_AT_TAKE_OFF_M_S } else { SHOWS_M_S };
+    match (quantity, fault) {
+        (Quantity::VelocityRight | Quantity::VelocityForward, SensorFault::Offset(offset)) => {
+            offset.abs() >= limit_m_s
+        }
+        (Quantity::Altitude, SensorFault::Ramp(rate)) => rate.abs() >= SHOWS_RAMP_M_S,
+        _ => super::shows(quantity, fault),
+    }
+}
