@@ -404,6 +404,50 @@ fn three_steps_within_seconds_are_too_many_and_are_forgotten() {
     assert_eq!(first_wrong(&watch_at(each_second, flying, stepping(20))), None, "just 2.5");
 }
 
+/// The trust after each packet of a flow that hangs for a second each time, with a fifth of a second between.
+fn hanging_now_and_then(times: u32) -> Vec<(f64, Trust, f64)> {
+    let sample = |step: u32| {
+        let mut sample = flying(step);
+        if step % 18 < 15 && step < 18 * times {
+            sample.velocity_forward_m_s = 0.3;
+        }
+        sample
+    };
+    watch(18 * times + 90, sample, |_| FINE)
+}
+
+#[test]
+fn a_flow_that_hangs_again_and_again_is_not_believed_in_between() {
+    let sound_between = |times| {
+        let watched = hanging_now_and_then(times);
+        (0..times)
+            .map(|time| watched[(18 * time + 17) as usize].1 == Trust::Sound)
+            .collect::<Vec<_>>()
+    };
+    // The third loss is the first one too many.
+    assert_eq!(sound_between(2), [true, true]);
+    assert_eq!(sound_between(6), [true, true, false, false, false, false]);
+    let watched = hanging_now_and_then(6);
+    let until_s = watched.iter().rev().find(|(_, trust, _)| *trust != Trust::Sound).unwrap().0;
+    let last_s = 18.0 * 5.0 * PERIOD_S + 14.0 * PERIOD_S;
+    assert!((-PERIOD_S..0.0).contains(&(until_s - last_s - DISPROVED_TIME_S)), "{until_s}");
+}
+
+#[test]
+fn a_flow_that_hangs_now_and_then_is_forgiven() {
+    // Once in ten seconds.
+    let sample = |step: u32| {
+        let mut sample = flying(step);
+        if step % 152 < 15 {
+            sample.velocity_forward_m_s = 0.3;
+        }
+        sample
+    };
+    let watched = watch(152 * 20, sample, |_| FINE);
+    assert!((1..20).all(|time| watched[152 * time - 1].1 == Trust::Sound));
+    assert!(first_distrust(&watched).is_some());
+}
+
 #[test]
 fn navdata_are_fresh_up_to_the_usual_jitter() {
     for (lateness_s, fresh) in [(0.299, true), (MAX_LATENESS_S, true), (0.301, false)] {
