@@ -3,13 +3,15 @@
 use std::time::Duration;
 
 use ardrone_link::configuration::Configuration;
-use ardrone_link::navdata::{Navdata, Packet};
+use ardrone_link::navdata::{GpsFix, Navdata, Packet};
 use ardrone_link::session;
 
 use super::{Authority, FlightEvent, FlightPhase, LandingReason, Outcome, Vehicle, sample, sights};
 
 /// Time constant of the navdata rate's average, in seconds.
 const RATE_TIME_S: f64 = 1.0;
+/// The flight recorder measures once per second.
+pub(super) const GPS_MAX_AGE: Duration = Duration::from_secs(2);
 /// Requests the drone's clock in demo mode. Some firmware lets only a custom configuration change this key,
 /// so flying does not depend on it.
 pub(super) const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
@@ -22,15 +24,31 @@ impl Vehicle {
         let Some(navdata) = self.pass_on(now, session::Input::Navdata(datagram)) else { return };
         if let Some(demo) = &navdata.demo {
             self.flight.estimator.update(&sample(now, &navdata, demo));
-            if self.config.estimator.tags.is_some() {
-                self.flight.estimator.see(&sights(datagram));
-            }
-        }
-        if self.config.gps {
-            let packet = Packet::decode(datagram).ok();
-            self.gps = packet.and_then(|packet| packet.gps()?.fix());
         }
         self.navdata = Some(navdata);
+        if (self.config.gps || self.config.estimator.tags.is_some())
+            && let Ok(packet) = Packet::decode(datagram)
+        {
+            self.handle_further_options(now, &packet);
+        }
+    }
+
+    /// What the session does not need: roundels, and the flight recorder's position, which is not in every packet.
+    fn handle_further_options(&mut self, now: Duration, packet: &Packet<'_>) {
+        if packet.demo().is_some() {
+            self.flight.estimator.see(&sights(packet));
+        }
+        if self.config.gps
+            && let Some(gps) = packet.gps()
+        {
+            self.gps = gps.fix().map(|fix| (now, fix));
+        }
+    }
+
+    /// The position by the flight recorder, if it is not older than [`GPS_MAX_AGE`].
+    pub(super) fn gps(&self, now: Duration) -> Option<GpsFix> {
+        let (at, fix) = self.gps?;
+        (now.saturating_sub(at) <= GPS_MAX_AGE).then_some(fix)
     }
 
     /// Passes an input to the session and handles its outputs; returns new navdata. A datagram for the drone

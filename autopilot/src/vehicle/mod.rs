@@ -140,7 +140,8 @@ pub struct Vehicle {
     flight: Flight,
     navdata: Option<Navdata>,
     /// Position by the drone's flight recorder.
-    gps: Option<GpsFix>,
+    /// The flight recorder's last position, and when it arrived.
+    gps: Option<(Duration, GpsFix)>,
     last_tick: Option<Duration>,
     /// Navdata packets per second, low-pass filtered.
     navdata_hz: f64,
@@ -330,7 +331,7 @@ impl Vehicle {
             horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
             tags: self.flight.estimator.tag_status(now),
-            gps: self.gps,
+            gps: self.gps(now),
             trust: self.flight.estimator.trust(),
             airframe: *self.flight.estimator.airframe(),
             navdata_age: self.session.silence(now),

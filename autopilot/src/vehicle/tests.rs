@@ -6,11 +6,12 @@ mod sightings;
 mod ticks;
 
 use ardrone_link::configuration::Configuration;
-use ardrone_link::navdata::{NavdataOption, PacketWriter};
+use ardrone_link::navdata::{Gps, NavdataOption, PacketWriter};
 use bytes::BytesMut;
 
-use super::link::{DETECTION_SECTION, NAVDATA_OPTIONS_KEY};
+use super::link::{DETECTION_SECTION, GPS_MAX_AGE, NAVDATA_OPTIONS_KEY};
 use super::*;
+use bench::{Bench, SECOND};
 
 fn vehicle(plan: &str) -> Vehicle {
     Vehicle::flying(Plan::parse("plan", plan).unwrap(), &VehicleConfig::default()).unwrap()
@@ -172,4 +173,33 @@ fn a_firmware_that_does_not_look_for_tags_is_reported_and_flown() {
         assert_eq!(said.count(), 1, "once for all keys");
     }
     assert_eq!(vehicle.configured.unconfirmed, Vec::<String>::new());
+}
+
+#[test]
+fn a_position_by_gps_stays_until_it_is_old_or_lost() {
+    let config = VehicleConfig { read_back: false, gps: true, ..VehicleConfig::default() };
+    let mut bench = Bench::with(&config);
+    bench.run(3 * SECOND);
+    let found = Gps {
+        plugged: 1,
+        data_available: 1,
+        satellite_count: 7,
+        latitude_deg: 48.9,
+        ..Gps::default()
+    };
+    let latitude_deg =
+        |bench: &Bench| bench.vehicle.status(bench.now).gps.map(|fix| fix.latitude_deg);
+    assert_eq!(latitude_deg(&bench), None);
+    bench.gps = Some(found);
+    bench.step();
+    bench.gps = None;
+    bench.run(GPS_MAX_AGE);
+    assert_eq!(latitude_deg(&bench), Some(48.9), "packets without it do not take it back");
+    bench.step();
+    assert_eq!(latitude_deg(&bench), None, "too old");
+    bench.gps = Some(found);
+    bench.step();
+    bench.gps = Some(Gps { satellite_count: 0, ..found });
+    bench.step();
+    assert_eq!(latitude_deg(&bench), None, "lost");
 }

@@ -1,7 +1,7 @@
 //! A vehicle with a drone that only says what a test wants it to say: it has no physics.
 
 use ardrone_link::at::{Command, ControlMode, Ref, decode};
-use ardrone_link::navdata::{NavdataOption, PacketWriter, VisionDetect};
+use ardrone_link::navdata::{Gps, NavdataOption, PacketWriter, VisionDetect};
 use bytes::BytesMut;
 
 use super::super::*;
@@ -28,6 +28,8 @@ pub(super) struct Bench {
     pub(super) drifts_m_s: f64,
     /// Its bottom camera sees a roundel below it.
     pub(super) sees_tag: bool,
+    /// The flight recorder's option of its next packets.
+    pub(super) gps: Option<Gps>,
     /// The drone climbs and sinks slowly, because a jump is not plausible.
     height_m: f64,
     /// Commands of the last datagram.
@@ -58,6 +60,7 @@ impl Bench {
             sequence: 0,
             drifts_m_s: 0.0,
             sees_tag: false,
+            gps: None,
             height_m: 0.0,
             commands: Vec::new(),
             events: Vec::new(),
@@ -168,6 +171,9 @@ impl Bench {
         }
         if self.sees_tag {
             packet.option(&NavdataOption::VisionDetect(self.sight())).unwrap();
+        }
+        if let Some(gps) = self.gps {
+            packet.option(&NavdataOption::Gps(gps)).unwrap();
         }
         packet.finish();
         self.vehicle.handle(self.now, Input::Navdata(&bytes));
