@@ -43,10 +43,10 @@ const DISPROVED_TIME_S: f64 = 4.0;
 /// Steps of the floor or heading that are tolerated, and the rate at which they are forgotten.
 const FORGIVEN_STEPS: f64 = 2.5;
 const FORGET_STEPS_1_S: f64 = 0.25;
-/// Losses of trust that are tolerated, and the rate at which they are forgotten. A quantity that fails again and
-/// again is no better than one that stays wrong, although each time it is sound again before the drone must land.
-const FORGIVEN_LOSSES: f64 = 2.5;
-const FORGET_LOSSES_1_S: f64 = 0.1;
+/// Stops of a value that are tolerated, and the rate at which they are forgotten. A quantity that hangs again and
+/// again is no better than one that hangs for good, although each time it moves again before the drone must land.
+const FORGIVEN_STOPS: f64 = 1.5;
+const FORGET_STOPS_1_S: f64 = 0.1;
 /// Lateness, compared with the usual, beyond which navdata are out of date.
 const MAX_LATENESS_S: f64 = 0.3;
 
@@ -147,9 +147,9 @@ pub(crate) struct Plausibility {
     /// Number of remembered steps, and the quantity of the last one.
     steps: f64,
     stepped: Option<Quantity>,
-    /// Number of remembered losses of trust, and whether one lasts.
-    losses: f64,
-    is_lost: bool,
+    /// Number of remembered stops of a value, and whether one lasts.
+    stops: f64,
+    is_stopped: bool,
     last_s: Option<f64>,
     trust: Trust,
     sound_at_s: Option<f64>,
@@ -166,7 +166,7 @@ impl Plausibility {
         let wrong = self.wrong(arrival_s, verdict);
         let reported = self.reported(arrival_s, sample);
         let unresponsive = self.unresponsive(arrival_s, verdict);
-        self.count_loss(arrival_s, step_s, frozen.map(|(quantity, _)| quantity).or(reported));
+        self.count_stop(arrival_s, step_s, frozen.map(|(quantity, _)| quantity));
         // Dated from the first wrong packet, so that a reaction does not wait for another timeout.
         let since_s = [wrong, frozen, unresponsive].map(|found| found.map(|(_, since_s)| since_s));
         self.trust = if let Some((quantity, _)) = wrong {
@@ -245,15 +245,15 @@ impl Plausibility {
         (arrival_s - last_s < DISPROVED_TIME_S).then_some((quantity, since_s))
     }
 
-    /// Counts how often trust was lost in a quantity that is `lost` now, and disproves one that is lost again and again.
-    fn count_loss(&mut self, arrival_s: f64, step_s: f64, lost: Option<Quantity>) {
-        self.losses = (self.losses - FORGET_LOSSES_1_S * step_s).max(0.0);
-        let was_lost = std::mem::replace(&mut self.is_lost, lost.is_some());
-        let Some(quantity) = lost else { return };
-        if !was_lost {
-            self.losses = (self.losses + 1.0).min(FORGIVEN_LOSSES + 1.0);
+    /// Counts how often a value has stopped, and disproves a quantity that stops again and again.
+    fn count_stop(&mut self, arrival_s: f64, step_s: f64, stopped: Option<Quantity>) {
+        self.stops = (self.stops - FORGET_STOPS_1_S * step_s).max(0.0);
+        let was_stopped = std::mem::replace(&mut self.is_stopped, stopped.is_some());
+        let Some(quantity) = stopped else { return };
+        if !was_stopped {
+            self.stops = (self.stops + 1.0).min(FORGIVEN_STOPS + 1.0);
         }
-        if self.losses > FORGIVEN_LOSSES {
+        if self.stops > FORGIVEN_STOPS {
             self.disproved = Some((quantity, arrival_s, arrival_s));
         }
     }

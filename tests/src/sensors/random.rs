@@ -17,12 +17,10 @@ use rand_chacha::ChaCha8Rng;
 use super::{AIRFRAMES, Excursion, FOR_EVER, Situation};
 use crate::sim::SimulationError;
 
-/// Smallest error of a velocity that shows between two packets: in flight, and from before the take-off on, when
-/// it is compared with rest and must exceed the motion of the take-off.
-const SHOWS_M_S: f64 = 0.5;
-const SHOWS_AT_TAKE_OFF_M_S: f64 = 0.6;
+/// Smallest error of a velocity that surely shows between two packets, or compared with rest at the take-off.
+const SHOWS_M_S: f64 = 0.6;
 /// A slower drift of the altitude is not distinguished from a climb.
-const SHOWS_RAMP_M_S: f64 = 0.05;
+const SHOWS_RAMP_M_S: f64 = 0.06;
 /// Earliest moment of a failure: the drone stands and is observed.
 const EARLIEST_S: f64 = 0.5;
 /// Latest moment, after the start of the step that is observed.
@@ -151,7 +149,7 @@ pub fn random(number: u64) -> Result<RandomFlight, SimulationError> {
             airframe.name,
             began.as_secs_f64(),
         ),
-        shows: shows(quantity, fault, at < began),
+        shows: shows(quantity, fault),
         own,
         flown,
         outcome: flight.outcome,
@@ -187,11 +185,10 @@ fn random_fault(quantity: Quantity, random: &mut ChaCha8Rng) -> SensorFault {
 
 /// Whether navdata can reveal a fault. Besides those of [`Failure::shows`](super::Failure::shows), a velocity that is
 /// wrong by less than noise and gusts explain is taken for a wind.
-fn shows(quantity: Quantity, fault: SensorFault, at_take_off: bool) -> bool {
-    let limit_m_s = if at_take_off { SHOWS_AT_TAKE_OFF_M_S } else { SHOWS_M_S };
+fn shows(quantity: Quantity, fault: SensorFault) -> bool {
     match (quantity, fault) {
         (Quantity::VelocityRight | Quantity::VelocityForward, SensorFault::Offset(offset)) => {
-            offset.abs() >= limit_m_s
+            offset.abs() >= SHOWS_M_S
         }
         (Quantity::Altitude, SensorFault::Ramp(rate)) => rate.abs() >= SHOWS_RAMP_M_S,
         _ => super::shows(quantity, fault),
