@@ -5,6 +5,7 @@
 //! its position (2) and direction. Arrays of fixed size: no allocation.
 
 mod landmarks;
+mod same;
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -51,9 +52,6 @@ const ORIENTATION_DEG: f64 = 8.0;
 const MEAN_ORIENTATION_DEG: f64 = 3.0;
 /// Gate in standard deviations, beyond which a sighting is of something else.
 const GATE: f64 = 5.0;
-/// All tags look alike: the squared deviations of a rival must be larger by the square of this.
-const CLEAR: f64 = 3.0;
-
 /// Correction to be added to the odometry.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Correction {
@@ -110,6 +108,11 @@ impl Filter {
             place_m: Vector2::new(self.x[PLACE], self.x[PLACE + 1]),
             heading_rad: self.x[HEADING],
         }
+    }
+
+    /// Standard deviation of the heading.
+    pub(super) fn heading_deviation_deg(&self) -> f64 {
+        self.p[HEADING][HEADING].sqrt().to_degrees()
     }
 
     pub(super) fn bias_m_s(&self) -> Vector2<f64> {
@@ -285,39 +288,6 @@ impl Filter {
         self.correct_two(&rows, off, sighted.variance_m2 + sighted.scale_m2);
     }
 
-    /// Whether two tags may be one, `way_m` from the last sighting.
-    pub(super) fn may_be_one(&self, one: usize, other: usize, way_m: f64) -> bool {
-        self.squared_deviations(one, other, way_m) < GATE * GATE
-    }
-
-    /// Whether a tag is this one rather than a rival, `way_m` from the last sighting.
-    pub(super) fn is_rather(&self, tag: usize, this: usize, rival: usize, way_m: f64) -> bool {
-        let off = |other: usize| self.squared_deviations(tag, other, way_m);
-        off(rival) >= off(this) + CLEAR * CLEAR
-    }
-
-    /// Square of the number of standard deviations between two tags; infinite if that is not known.
-    fn squared_deviations(&self, one: usize, other: usize, way_m: f64) -> f64 {
-        let (_, spread) = self.spread(&Self::same_rows(one, other));
-        let off = self.tag_place_m(one) - self.tag_place_m(other);
-        squared_deviations(off, spread + Matrix2::identity() * same_variance_m2(way_m))
-    }
-
-    /// Merges two tags that are one.
-    pub(super) fn make_one(&mut self, one: usize, other: usize, way_m: f64) {
-        let off = self.tag_place_m(one) - self.tag_place_m(other);
-        self.correct_two(&Self::same_rows(one, other), off, same_variance_m2(way_m));
-    }
-
-    fn same_rows(one: usize, other: usize) -> [Row; 2] {
-        let mut rows = [[0.0; STATES]; 2];
-        for (axis, row) in rows.iter_mut().enumerate() {
-            row[TAGS + 3 * one + axis] = 1.0;
-            row[TAGS + 3 * other + axis] = -1.0;
-        }
-        rows
-    }
-
     /// Corrects by two rows whose measured value should be zero and was `off`, with a variance.
     fn correct_two(&mut self, rows: &[Row; 2], off: Vector2<f64>, variance_m2: f64) {
         let (gains, spread) = self.spread(rows);
@@ -361,12 +331,6 @@ impl Filter {
             }
         }
     }
-}
-
-/// Variance that the flow's scale adds between two sightings of the same tag.
-fn same_variance_m2(way_m: f64) -> f64 {
-    const SAME_M: f64 = 0.02;
-    SAME_M * SAME_M + (SCALE * way_m).powi(2)
 }
 
 fn squared_deviations(off: Vector2<f64>, spread: Matrix2<f64>) -> f64 {

@@ -6,6 +6,7 @@
 use nalgebra::Vector2;
 
 use super::filter::{Filter, Sighted};
+use super::orientation::Orientation;
 use super::{MAX_TAGS, SLOTS};
 
 /// A tag with a measured position.
@@ -80,8 +81,16 @@ const TRIAL_S: f64 = 2.0;
 const IN_VIEW_S: f64 = 1.0;
 /// Largest correction by a single sighting.
 const NEAR_M: f64 = 0.3;
-/// A new tag within this distance of a known tag that is no longer seen is that tag after it was moved.
+/// A new tag within this distance of a known tag that is no longer seen, and cannot be where it is, is that tag
+/// after it was moved.
 const MOVED_M: f64 = 1.0;
+/// Expected number of tags per square metre that are not in the map. Where tags were surveyed, hardly one was
+/// left out.
+const OTHERS_1_M2: f64 = 0.1;
+const NOT_SURVEYED_1_M2: f64 = 0.01;
+/// Odds from which a tag on trial counts as a known one, and not as one that is not in the map yet: a wrong
+/// position is worse than a lost correction.
+const CERTAIN_ODDS: f64 = 10.0;
 
 impl Map {
     pub(super) fn new(surveyed: &[Option<SurveyedTag>; MAX_TAGS], filter: &mut Filter) -> Self {
@@ -163,6 +172,7 @@ impl Map {
     pub(super) fn saw(
         &mut self,
         filter: &mut Filter,
+        orientation: &Orientation,
         tag: usize,
         now_s: f64,
         way_m: f64,
@@ -175,7 +185,7 @@ impl Map {
         if sights < again {
             return None;
         }
-        if let Some(known) = self.recognised(filter, tag, now_s, way_m) {
+        if let Some(known) = self.recognised(filter, orientation, tag, now_s, way_m) {
             filter.make_one(tag, known, way_m);
             self.forget(filter, tag);
             self.slots[known].seen_s = now_s;
@@ -187,7 +197,8 @@ impl Map {
         let place_m = filter.tag_place_m(tag);
         for other in 0..SLOTS {
             let near = (filter.tag_place_m(other) - place_m).norm() < MOVED_M;
-            if other != tag && near && self.is_out_of_view(other, now_s) {
+            let has_moved = near && !filter.may_be_one(tag, other, way_m);
+            if other != tag && has_moved && self.is_out_of_view(other, now_s) {
                 self.forget(filter, other);
             }
         }
@@ -199,18 +210,43 @@ impl Map {
     }
 
     /// The known tag that has reappeared as this tag on trial.
-    fn recognised(&self, filter: &Filter, trial: usize, now_s: f64, way_m: f64) -> Option<usize> {
+    fn recognised(
+        &self,
+        filter: &Filter,
+        orientation: &Orientation,
+        trial: usize,
+        now_s: f64,
+        way_m: f64,
+    ) -> Option<usize> {
         let place_m = filter.tag_place_m(trial);
         let far = |tag: usize| (filter.tag_place_m(tag) - place_m).norm();
         let nearest = self.those(is_known).min_by(|a, b| far(*a).total_cmp(&far(*b)))?;
         // After a long drift the nearest tag may be another one.
-        let alone = self.those(is_known).filter(|tag| *tag != nearest).all(|tag| {
-            far(tag) >= RUNNER_UP * far(nearest) && filter.is_rather(trial, nearest, tag, way_m)
+        let has_rival = self.those(is_known).filter(|tag| *tag != nearest).any(|tag| {
+            far(tag) < RUNNER_UP * far(nearest) || !filter.is_rather(trial, nearest, tag, way_m)
         });
+        let alone = !has_rival && self.is_no_other(filter, orientation, trial, nearest, way_m);
         let is_it = alone
             && self.is_out_of_view(nearest, now_s)
             && filter.may_be_one(trial, nearest, way_m);
         is_it.then_some(nearest)
+    }
+
+    /// Whether a tag on trial is a known one, and not one that is not in the map.
+    fn is_no_other(
+        &self,
+        filter: &Filter,
+        orientation: &Orientation,
+        trial: usize,
+        known: usize,
+        way_m: f64,
+    ) -> bool {
+        let others_1_m2 = if self.slots[known].surveyed { NOT_SURVEYED_1_M2 } else { OTHERS_1_M2 };
+        let known_deg = self.has_heading(known).then(|| filter.tag_heading_deg(known));
+        let deviation_deg = filter.heading_deviation_deg();
+        let log_odds = filter.log_odds_of_one(trial, known, way_m, others_1_m2)
+            + orientation.log_odds_of_one(trial, known, known_deg, deviation_deg);
+        log_odds >= CERTAIN_ODDS.ln()
     }
 
     fn is_out_of_view(&self, tag: usize, now_s: f64) -> bool {

@@ -257,7 +257,15 @@ impl Tags {
                 self.filter.forget_bias();
             }
         }
-        let known = self.map.saw(&mut self.filter, tag, made_s, way_m, is_cautious);
+        if !self.map.is_known(tag) {
+            self.orientation.saw_on_trial(
+                tag,
+                self.heading_deg(moment.yaw_deg),
+                look.orientation_deg,
+            );
+        }
+        let Self { map, filter, orientation, .. } = self;
+        let known = map.saw(filter, orientation, tag, made_s, way_m, is_cautious);
         if let Some(tag) = known {
             seen[tag] = true;
             self.fix = Some(Fix { at_s: made_s, odometry_m: moment.place_m });

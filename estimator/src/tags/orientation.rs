@@ -44,6 +44,8 @@ const LEAST_TURN_DEG: f64 = 1.5;
 const MEMORY: f64 = 40.0;
 /// Number of sightings before a mean is used.
 const LEAST: u32 = 8;
+/// Fraction of means that say nothing about their tag: a bad picture, a firmware that reports something else.
+const WORTHLESS: f64 = 0.05;
 
 /// Result of an orientation.
 #[derive(Debug, Clone, Copy, Default)]
@@ -82,12 +84,14 @@ pub(super) struct Orientation {
     given: bool,
     /// Means by sign, in the order of [`OrientationSign::BOTH`].
     means: [[Mean; 2]; SLOTS],
+    /// The same of the sightings while a tag was on trial.
+    trials: [[Mean; 2]; SLOTS],
 }
 
 impl Orientation {
     pub(super) fn new(given: Option<OrientationSign>) -> Self {
         let means = [[Mean::default(); 2]; SLOTS];
-        Self { odds: 0.0, sign: given, given: given.is_some(), means }
+        Self { odds: 0.0, sign: given, given: given.is_some(), means, trials: means }
     }
 
     pub(super) fn sign(&self) -> Option<OrientationSign> {
@@ -97,6 +101,41 @@ impl Orientation {
     /// The slot now belongs to another tag.
     pub(super) fn forget(&mut self, tag: usize) {
         self.means[tag] = [Mean::default(); 2];
+        self.trials[tag] = [Mean::default(); 2];
+    }
+
+    /// A tag on trial was seen at a heading.
+    pub(super) fn saw_on_trial(&mut self, tag: usize, heading_deg: f64, orientation_deg: f64) {
+        for (mean, sign) in self.trials[tag].iter_mut().zip(OrientationSign::BOTH) {
+            mean.join(sign.direction_deg(heading_deg, orientation_deg));
+        }
+    }
+
+    /// Logarithm of the odds, by their directions, that a tag on trial is a known one and not another that is
+    /// turned at random. Zero if a direction is not known. `known_deg`: the known one's direction, if it was
+    /// not derived from its sightings; `deviation_deg`: standard deviation of the heading.
+    pub(super) fn log_odds_of_one(
+        &self,
+        trial: usize,
+        known: usize,
+        known_deg: Option<f64>,
+        deviation_deg: f64,
+    ) -> f64 {
+        let variance_deg2 = NOISE_DEG.powi(2) + deviation_deg.powi(2);
+        let most = 360.0 / (std::f64::consts::TAU * variance_deg2).sqrt();
+        let odds = |reading: usize| {
+            let (mean, trial) = (&self.means[known][reading], &self.trials[trial][reading]);
+            let seen_deg = (mean.sights > 0).then_some(mean.deg);
+            let off_deg = wrap_deg(known_deg.or(seen_deg)? - trial.deg);
+            let fits = most * (-off_deg.powi(2) / (2.0 * variance_deg2)).exp();
+            (trial.sights > 0).then_some(WORTHLESS + (1.0 - WORTHLESS) * fits)
+        };
+        let odds = match self.sign {
+            Some(OrientationSign::Clockwise) => odds(0),
+            Some(OrientationSign::CounterClockwise) => odds(1),
+            None => odds(0).zip(odds(1)).map(|(one, other)| f64::midpoint(one, other)),
+        };
+        odds.map_or(0.0, f64::ln)
     }
 
     /// A known tag was seen at a heading.
@@ -288,5 +327,58 @@ mod tests {
         assert!(orientation.saw(1, 20.0, 300.0).direction_deg.is_none(), "another tag");
         orientation.forget(0);
         assert!(orientation.saw(0, 20.0, 300.0).direction_deg.is_none(), "in its slot");
+    }
+
+    /// Logarithm of the odds that a tag on trial, seen by a drone with the second heading, is one that was seen
+    /// with the first, turned by this angle in the picture.
+    fn log_odds(sign: Option<OrientationSign>, heading_deg: f64, turned_deg: f64) -> f64 {
+        let mut orientation = Orientation::new(sign);
+        for _ in 0..20 {
+            orientation.saw(0, 0.0, 300.0);
+            orientation.saw_on_trial(1, heading_deg, 300.0 + turned_deg);
+        }
+        orientation.log_odds_of_one(1, 0, None, 0.0)
+    }
+
+    #[test]
+    fn a_direction_counts_for_or_against_a_known_tag() {
+        let clockwise = Some(OrientationSign::Clockwise);
+        // 360 degrees over the area of a normal distribution of 8 degrees.
+        let most = 360.0 / (std::f64::consts::TAU * 64.0).sqrt();
+        for (heading_deg, turned_deg, off_deg) in
+            [(0.0, 0.0, 0.0_f64), (0.0, 8.0, 8.0), (50.0, 50.0, 0.0), (50.0, 42.0, 8.0)]
+        {
+            let fits = 0.05 + 0.95 * most * (-off_deg.powi(2) / 128.0).exp();
+            let odds = log_odds(clockwise, heading_deg, turned_deg);
+            assert!((odds - fits.ln()).abs() < 1e-9, "{heading_deg}, {turned_deg}: {odds}");
+        }
+        // Another direction is another tag, unless the picture was bad.
+        assert!((log_odds(clockwise, 0.0, 90.0) - 0.05_f64.ln()).abs() < 1e-6);
+        assert!(
+            (log_odds(Some(OrientationSign::CounterClockwise), 50.0, 50.0) - 0.05_f64.ln()).abs()
+                < 1e-6
+        );
+        // While the sign is unknown, either may be right.
+        assert!((log_odds(None, 0.0, 0.0) - log_odds(clockwise, 0.0, 0.0)).abs() < 1e-9);
+        let either = f64::midpoint(0.05 + 0.95 * most, 0.05);
+        assert!((log_odds(None, 50.0, 50.0) - either.ln()).abs() < 1e-6);
+        assert!((log_odds(None, 50.0, -50.0) - either.ln()).abs() < 1e-6);
+    }
+
+    #[test]
+    fn an_unknown_direction_counts_neither_way() {
+        let mut orientation = Orientation::new(Some(OrientationSign::Clockwise));
+        let odds = |orientation: &Orientation, known_deg| {
+            orientation.log_odds_of_one(1, 0, known_deg, 0.0)
+        };
+        assert!(odds(&orientation, Some(-10.0)).abs() < 1e-12, "no sighting of the one on trial");
+        orientation.saw_on_trial(1, 20.0, 300.0);
+        assert!(odds(&orientation, None).abs() < 1e-12, "nor of the known one");
+        assert!(odds(&orientation, Some(-10.0)) > 2.0 && odds(&orientation, Some(80.0)) < -2.0);
+        // An uncertain heading says less.
+        let vague = orientation.log_odds_of_one(1, 0, Some(80.0), 60.0);
+        assert!((-1.0..0.5).contains(&vague), "{vague}");
+        orientation.forget(1);
+        assert!(odds(&orientation, Some(-10.0)).abs() < 1e-12, "the slot belongs to another tag");
     }
 }

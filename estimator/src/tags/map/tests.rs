@@ -8,6 +8,7 @@ const NONE: [bool; SLOTS] = [false; SLOTS];
 struct Bench {
     filter: Filter,
     map: Map,
+    orientation: Orientation,
 }
 
 fn at(right_m: f64) -> Vector2<f64> {
@@ -22,7 +23,7 @@ impl Bench {
         }
         let mut filter = Filter::new(!surveyed.is_empty());
         let map = Map::new(&slots, &mut filter);
-        Self { filter, map }
+        Self { filter, map, orientation: Orientation::new(None) }
     }
 
     /// With surveyed tags at these places.
@@ -45,7 +46,7 @@ impl Bench {
     }
 
     fn saw(&mut self, tag: usize, now_s: f64) -> Option<usize> {
-        self.map.saw(&mut self.filter, tag, now_s, 0.0, false)
+        self.map.saw(&mut self.filter, &self.orientation, tag, now_s, 0.0, false)
     }
 
     /// The number of sightings after which a new tag here counts as a known one, which is returned.
@@ -53,7 +54,8 @@ impl Bench {
         assert_eq!(self.see(right_m, now_s), None);
         let tag = (0..SLOTS).find(|tag| self.map.is_new(*tag)).unwrap();
         (1..=100).find_map(|sights| {
-            let known = self.map.saw(&mut self.filter, tag, now_s, 0.0, is_cautious);
+            let known =
+                self.map.saw(&mut self.filter, &self.orientation, tag, now_s, 0.0, is_cautious);
             known.map(|known| (sights, known))
         })
     }
@@ -206,8 +208,8 @@ fn a_known_tag_that_was_out_of_view_is_recognised_by_six_sightings() {
         let mut bench = Bench::with_known(&[1.0, 1.3]);
         assert_eq!(bench.until_known(right_m, 5.0, false), Some(known), "{right_m}");
     }
-    let mut bench = Bench::with_known(&[1.0, 2.5]);
-    assert_eq!(bench.until_known(1.5, 5.0, false), Some((6, 0)), "exactly twice as far");
+    let mut bench = Bench::with_known(&[1.0, 2.125]);
+    assert_eq!(bench.until_known(1.375, 5.0, false), Some((6, 0)), "exactly twice as far");
 }
 
 #[test]
@@ -218,10 +220,58 @@ fn after_a_long_drift_the_nearest_tag_may_be_another() {
         bench.filter.doubt_place(drift_m * drift_m);
         assert_eq!(bench.until_known(1.8, 5.0, false), Some(known), "{drift_m}");
     }
-    // With one tag only there is no other.
-    let mut bench = Bench::with_known(&[1.0]);
-    bench.filter.doubt_place(1.2 * 1.2);
-    assert_eq!(bench.until_known(1.8, 5.0, false), Some((6, 0)));
+}
+
+/// A drone with one tag that it has found by itself, as tag 0 at 0 m, and which has drifted since.
+fn with_found(drift_m: f64) -> Bench {
+    let mut bench = Bench::new(&[]);
+    assert_eq!(bench.until_known(0.0, 0.0, false), Some((11, 0)));
+    bench.filter.doubt_place(drift_m * drift_m);
+    bench
+}
+
+#[test]
+fn after_a_long_drift_the_only_known_tag_may_be_another_too() {
+    // Odds of 10 for 0.1 unknown tags per square metre: two deviations at 0.2 m of drift, none beyond 0.4 m.
+    for (drift_m, off_m, is_it) in [
+        (0.2, 0.2, true),
+        (0.2, 0.6, false),
+        (0.35, 0.1, true),
+        (0.35, 0.6, false),
+        (0.5, 0.0, false),
+    ] {
+        let mut bench = with_found(drift_m);
+        let known = if is_it { (6, 0) } else { (11, 1) };
+        assert_eq!(bench.until_known(off_m, 5.0, false), Some(known), "{drift_m}, {off_m}");
+        // What is not certain to be another one is not forgotten for it.
+        assert!(bench.map.is_known(0), "{drift_m}, {off_m}");
+    }
+    // Where tags were surveyed, others are hardly expected.
+    for (drift_m, known) in [(0.5, (6, 0)), (1.4, (11, 1))] {
+        let mut bench = Bench::with_known(&[1.0]);
+        bench.filter.doubt_place(drift_m * drift_m);
+        assert_eq!(bench.until_known(1.8, 5.0, false), Some(known), "surveyed, {drift_m}");
+    }
+}
+
+#[test]
+fn directions_distinguish_tags_that_look_alike() {
+    // The known one was seen in this direction.
+    let recognised = |drift_m: f64, direction_deg: f64| {
+        let mut bench = with_found(drift_m);
+        for _ in 0..40 {
+            bench.orientation.saw(0, 0.0, 270.0);
+        }
+        bench.orientation.saw_on_trial(1, 0.0, 270.0 + direction_deg);
+        bench.until_known(0.3, 5.0, false).unwrap().1 == 0
+    };
+    assert!(
+        recognised(0.5, 0.0) && recognised(0.5, 8.0),
+        "after a drift that position alone cannot decide"
+    );
+    assert!(!recognised(0.5, 40.0) && !recognised(0.5, 180.0));
+    assert!(recognised(0.2, 0.0) && !recognised(0.2, 90.0), "a contradiction counts as well");
+    assert!(!recognised(2.0, 0.0), "a direction may agree by chance");
 }
 
 #[test]
