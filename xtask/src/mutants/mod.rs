@@ -12,7 +12,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use self::list::{MUTANTS, Mutant};
+use self::list::{Expected, MUTANTS, Mutant};
 use self::workspace::Workspace;
 
 /// Why the mutants could not be judged.
@@ -67,7 +67,7 @@ enum End {
 }
 
 /// Flies each mutant, or those with `only` in their name, until a fault is found or `flights` were flown. The
-/// second value is whether all were caught.
+/// second value is whether the judge found in each what it must.
 pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool), MutantsError> {
     let wanted = |mutant: &&Mutant| only.is_none_or(|only| mutant.name.contains(only));
     let mutants: Vec<&Mutant> = MUTANTS.iter().filter(wanted).collect();
@@ -82,25 +82,30 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
         return Err(MutantsError::Healthy(what));
     }
     let mut text = String::new();
-    let mut survivors = 0;
+    let (mut caught, mut covered) = (0, 0);
     let mut broken = None;
     for mutant in &mutants {
         let changed = workspace.changed(mutant)?;
         workspace.put(&changed)?;
         let end = judged(&workspace, mutant.name, flights);
         workspace.restore(&changed)?;
-        let outcome = match end {
-            Ok(End::Caught(what)) => what,
-            Ok(End::Survived) => {
-                survivors += 1;
-                format!("SURVIVED {flights} flights")
+        let outcome = match (end, mutant.expected) {
+            (Ok(End::Caught(what)), Expected::Fault) => {
+                caught += 1;
+                what
             }
+            (Ok(End::Survived), Expected::Nothing) => {
+                covered += 1;
+                "covered by another layer".to_owned()
+            }
+            (Ok(End::Survived), Expected::Fault) => format!("SURVIVED {flights} flights"),
+            (Ok(End::Caught(what)), Expected::Nothing) => format!("NOT COVERED: {what}"),
             // The other mutants are still worth judging.
-            Err(error @ MutantsError::Build { .. }) => {
+            (Err(error @ MutantsError::Build { .. }), _) => {
                 broken = Some(error);
                 "DOES NOT BUILD".to_owned()
             }
-            Err(error) => return Err(error),
+            (Err(error), _) => return Err(error),
         };
         // Printed at once, because the whole run takes a while.
         let line = format!("{:<46}{outcome}", mutant.name);
@@ -110,8 +115,9 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
     if let Some(error) = broken {
         return Err(error);
     }
-    _ = writeln!(text, "{} of {} mutants caught", mutants.len() - survivors, mutants.len());
-    Ok((text, survivors == 0))
+    let all = mutants.len();
+    _ = writeln!(text, "{caught} of {all} mutants caught, {covered} covered by another layer");
+    Ok((text, caught + covered == all))
 }
 
 /// Builds the workspace and runs the judge on it.
