@@ -64,10 +64,10 @@ pub(super) fn right_again() -> Vec<Trial> {
         for steps in [3, 4] {
             let right_at = HOLDS_AT + EVERY * steps;
             let scenario = (0..steps).fold(Scenario::default(), |scenario, step| {
-                let at = HOLDS_AT + EVERY * step;
                 let more = SensorFault::Offset(STEP_M_S);
-                let action = Action::Sensor(Quantity::VelocityForward, more, right_at - at);
-                scenario.and(When::SinceStart(at), action)
+                let lasts = EVERY * (steps - step);
+                let action = Action::Sensor(Quantity::VelocityForward, more, lasts);
+                scenario.and(When::SinceStart(HOLDS_AT + EVERY * step), action)
             });
             let what = format!("{name} with a velocity right again after {steps} steps");
             let trial = Trial::new(what, HOLD, profile, scenario);

@@ -34,21 +34,19 @@ const AFTERMATH: Duration = Duration::from_secs(20);
 /// # Errors
 /// [`SimulationError`] if a flight never ends.
 pub fn broken() -> Result<Vec<String>, SimulationError> {
-    let families: [fn() -> Result<Vec<Trial>, SimulationError>; 8] = [
-        || Ok(monitor::above_the_ceiling()),
-        || Ok(monitor::blind()),
-        monitor::down_before_the_take_off,
-        || Ok(monitor::kept_away()),
-        || Ok(estimate::led_to_the_floor()),
-        || Ok(estimate::wrong_in_pulses()),
-        || Ok(estimate::right_again()),
-        || Ok(estimate::false_sights()),
+    let families = [
+        monitor::above_the_ceiling(),
+        monitor::blind(),
+        monitor::down_before_the_take_off()?,
+        monitor::kept_away(),
+        estimate::led_to_the_floor(),
+        estimate::wrong_in_pulses(),
+        estimate::right_again(),
+        estimate::false_sights(),
     ];
     let mut found = Vec::new();
-    for family in families {
-        for trial in family()? {
-            found.extend(trial.broken()?);
-        }
+    for trial in families.into_iter().flatten() {
+        found.extend(trial.broken()?);
     }
     Ok(found)
 }

@@ -4,6 +4,7 @@
 //! until a fault is found. All: the mutants that `cargo mutants` generates from the safety-critical code,
 //! against the tests in simulated time (`.cargo/mutants.toml`).
 
+mod layers;
 mod list;
 mod workspace;
 
@@ -12,7 +13,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use self::list::{Expected, MUTANTS, Mutant};
+use self::list::{Expected, Mutant};
 use self::workspace::Workspace;
 
 /// Why the mutants could not be judged.
@@ -70,7 +71,7 @@ enum End {
 /// second value is whether the judge found in each what it must.
 pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool), MutantsError> {
     let wanted = |mutant: &&Mutant| only.is_none_or(|only| mutant.name.contains(only));
-    let mutants: Vec<&Mutant> = MUTANTS.iter().filter(wanted).collect();
+    let mutants: Vec<&Mutant> = all_by_hand().filter(wanted).collect();
     if mutants.is_empty() {
         return Err(MutantsError::Unknown(only.unwrap_or_default().to_owned()));
     }
@@ -118,6 +119,11 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
     let all = mutants.len();
     _ = writeln!(text, "{caught} of {all} mutants caught, {covered} covered by another layer");
     Ok((text, caught + covered == all))
+}
+
+/// The mutants of both lists.
+fn all_by_hand() -> impl Iterator<Item = &'static Mutant> {
+    list::MUTANTS.iter().chain(layers::MUTANTS)
 }
 
 /// Builds the workspace and runs the judge on it.
@@ -215,7 +221,7 @@ mod tests {
     #[test]
     fn each_mutant_can_be_made() {
         let workspace = Workspace::here(Path::new(".."));
-        for mutant in MUTANTS {
+        for mutant in all_by_hand() {
             let changed = workspace.changed(mutant).unwrap_or_else(|error| panic!("{error}"));
             for (file, text) in changed {
                 assert_ne!(text, std::fs::read_to_string(Path::new("..").join(file)).unwrap());
