@@ -151,6 +151,8 @@ pub struct SafetyMonitor {
     carried_off: CarriedOff,
     /// Target of the descent against the wind.
     upwind: Pose,
+    /// Place inside the fence to which the drone is flown back: the nearest one, until the drone is there.
+    back_at: Pose,
     /// The drone has been ordered to land; in the air this is not taken back.
     lands: bool,
     /// The last order was to stay on the ground. If the drone is in the air all the same, it has followed an
@@ -170,6 +172,7 @@ impl SafetyMonitor {
             way_back: WayBack::default(),
             carried_off: CarriedOff::default(),
             upwind: Pose::default(),
+            back_at: Pose::default(),
             lands: false,
             stays_down: false,
             sticks: Sticks::default(),
@@ -217,11 +220,16 @@ impl SafetyMonitor {
             self.retreats_until = now.now + RETREAT;
             self.sinks_until = now.now + time_to_sink(now.pose.z_m);
             self.upwind = self.place_upwind(&now.pose);
+            self.back_at = self.fence.nearest_inside(&now.pose, INSIDE_M);
             let gust_since = self.carried_off.since().unwrap_or(now.now);
             self.way_back = WayBack::begin(now.now, gust_since);
         }
         self.way_back.see(now);
         if let Some(danger) = self.danger {
+            // Once the drone is that far inside, its target must not move with it: nothing would stop it.
+            if now.pose.x_m.hypot(now.pose.y_m) > self.fence.radius_m - INSIDE_M {
+                self.back_at = self.fence.nearest_inside(&now.pose, INSIDE_M);
+            }
             return (self.bring_down(danger, now), Some(danger));
         }
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
@@ -315,7 +323,7 @@ impl SafetyMonitor {
     /// A low place inside the fence; `None` if the drone is near it.
     fn retreat(&self, pose: &Pose) -> Option<Pose> {
         let low_m = self.fence.floor_m + LOW_M;
-        let target = Pose { z_m: low_m, ..self.fence.nearest_inside(pose, INSIDE_M) };
+        let target = Pose { z_m: low_m, ..self.back_at };
         let is_inside = pose.x_m.hypot(pose.y_m) <= self.fence.radius_m;
         let is_there = is_inside && pose.z_m <= low_m + LOW_M;
         (!is_there).then_some(target)
@@ -723,6 +731,38 @@ mod tests {
             let tick = Duration::from_millis(30);
             let at_the_end = |time| time >= RETREAT && time < RETREAT + tick;
             assert!(lands.is_some_and(at_the_end), "{x_m}: {lands:?}");
+        }
+    }
+
+    /// A target that moves with the drone leads it away by its own motion.
+    #[test]
+    fn a_drone_that_is_only_too_high_is_flown_down_where_it_was_found() {
+        let mut monitor = monitor();
+        for x_m in [0.2, 0.5, -0.4] {
+            let now = Situation { pose: Pose { x_m, z_m: 3.5, ..FINE.pose }, ..FINE };
+            let (command, veto) = monitor.check(GO_TO, &now);
+            let AgentCommand::GoTo(target) = command else { panic!("{command:?}") };
+            assert!((target.x_m - 0.2).abs() < 1e-9, "{target:?}");
+            assert_eq!(veto, Some(Veto::OutsideFence));
+        }
+    }
+
+    /// Outside the target is the nearest place inside, which the drone's drift along the fence moves.
+    #[test]
+    fn a_drone_outside_is_flown_to_the_nearest_place_inside() {
+        let FlightLimits { radius_m, .. } = FlightLimits::default();
+        let mut monitor = monitor();
+        let inside_m = radius_m - INSIDE_M;
+        for (x_m, y_m, expected) in [
+            (radius_m + 1.0, 0.0, [inside_m, 0.0]),
+            (0.0, radius_m + 1.0, [0.0, inside_m]),
+            (0.0, inside_m - 0.1, [0.0, inside_m]),
+        ] {
+            let now = Situation { pose: Pose { x_m, y_m, ..FINE.pose }, ..FINE };
+            let (command, _) = monitor.check(GO_TO, &now);
+            let AgentCommand::GoTo(Pose { x_m, y_m, .. }) = command else { panic!("{command:?}") };
+            let [right_m, forward_m] = expected;
+            assert!((x_m - right_m).hypot(y_m - forward_m) < 1e-9, "{x_m} {y_m}");
         }
     }
 

@@ -5,6 +5,7 @@ mod alone;
 pub mod campaign;
 pub mod drive;
 pub mod landings;
+pub mod rules;
 pub mod sensors;
 pub mod sim;
 

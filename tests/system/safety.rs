@@ -17,7 +17,7 @@ use mock_drone::scenario::{Action, Scenario, When};
 use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, Quantity as Sensor, SensorFault, WorldConfig};
 use system_tests::sim::{Moment, SimulatedFlight, Simulation};
-use system_tests::{SQUARE, campaign, landings, plan};
+use system_tests::{SQUARE, campaign, landings, plan, rules};
 
 const SECOND: Duration = Duration::from_secs(1);
 const NEAR: FlightLimits = FlightLimits {
@@ -63,6 +63,12 @@ fn the_same_seed_is_the_same_flight() {
 #[test]
 fn no_gap_and_no_other_order_makes_a_landing_forgotten() {
     assert_eq!(landings::forgotten().unwrap(), Vec::<String>::new());
+}
+
+/// In each of these flights a single rule keeps the drone safe, whose absence random flights do not show.
+#[test]
+fn each_rule_holds_where_no_other_does() {
+    assert_eq!(rules::broken().unwrap(), Vec::<String>::new());
 }
 
 /// A flight with a scenario; `watch` is called for every moment.

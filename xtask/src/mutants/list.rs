@@ -16,17 +16,28 @@ pub(super) struct Mutant {
     /// Description of the mistake.
     pub(super) name: &'static str,
     pub(super) edits: &'static [Edit],
+    pub(super) expected: Expected,
 }
 
-const AGENT: &str = "autopilot/agent/autopilot.asl";
+/// What the judge must find.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Expected {
+    /// A fault.
+    Fault,
+    /// None, because another layer protects against the same danger. A mutant of both layers shows that the flights
+    /// lead into the danger.
+    Nothing,
+}
+
+pub(super) const AGENT: &str = "autopilot/agent/autopilot.asl";
 const BINDING: &str = "autopilot/src/agent.rs";
-const SAFETY: &str = "autopilot/src/safety.rs";
+pub(super) const SAFETY: &str = "autopilot/src/safety.rs";
 const FLIGHT: &str = "autopilot/src/vehicle/flight.rs";
 const TICK: &str = "autopilot/src/vehicle/tick.rs";
 const CONTROL: &str = "autopilot/src/vehicle/control.rs";
 const PHASE: &str = "autopilot/src/vehicle/phase.rs";
 const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
-const ESTIMATOR: &str = "estimator/src/lib.rs";
+pub(super) const ESTIMATOR: &str = "estimator/src/lib.rs";
 const FRAME: &str = "kinematics/src/frame.rs";
 const TAGS: &str = "estimator/src/tags/mod.rs";
 const TAG_MAP: &str = "estimator/src/tags/map.rs";
@@ -34,15 +45,15 @@ const HORIZONTAL: &str = "estimator/src/horizontal.rs";
 const TAKE_OFF: &str = "ardrone-link/src/session/take_off.rs";
 const SILENCE: &str = "ardrone-link/src/session/silence.rs";
 
-const fn mutant(name: &'static str, edits: &'static [Edit]) -> Mutant {
-    Mutant { name, edits }
+pub(super) const fn mutant(name: &'static str, edits: &'static [Edit]) -> Mutant {
+    Mutant { name, edits, expected: Expected::Fault }
 }
 
-const fn edit(file: &'static str, from: &'static str, to: &'static str) -> Edit {
+pub(super) const fn edit(file: &'static str, from: &'static str, to: &'static str) -> Edit {
     Edit { file, from, to }
 }
 
-/// All mutants.
+/// Mutants that random flights, landings with gaps or single sensor faults detect.
 pub(super) const MUTANTS: &[Mutant] = &[
     // Estimation.
     mutant(

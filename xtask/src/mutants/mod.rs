@@ -4,6 +4,7 @@
 //! until a fault is found. All: the mutants that `cargo mutants` generates from the safety-critical code,
 //! against the tests in simulated time (`.cargo/mutants.toml`).
 
+mod layers;
 mod list;
 mod workspace;
 
@@ -12,7 +13,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use self::list::{MUTANTS, Mutant};
+use self::list::{Expected, Mutant};
 use self::workspace::Workspace;
 
 /// Why the mutants could not be judged.
@@ -67,10 +68,10 @@ enum End {
 }
 
 /// Flies each mutant, or those with `only` in their name, until a fault is found or `flights` were flown. The
-/// second value is whether all were caught.
+/// second value is whether the judge found in each what it must.
 pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool), MutantsError> {
     let wanted = |mutant: &&Mutant| only.is_none_or(|only| mutant.name.contains(only));
-    let mutants: Vec<&Mutant> = MUTANTS.iter().filter(wanted).collect();
+    let mutants: Vec<&Mutant> = all_by_hand().filter(wanted).collect();
     if mutants.is_empty() {
         return Err(MutantsError::Unknown(only.unwrap_or_default().to_owned()));
     }
@@ -82,25 +83,30 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
         return Err(MutantsError::Healthy(what));
     }
     let mut text = String::new();
-    let mut survivors = 0;
+    let (mut caught, mut covered) = (0, 0);
     let mut broken = None;
     for mutant in &mutants {
         let changed = workspace.changed(mutant)?;
         workspace.put(&changed)?;
         let end = judged(&workspace, mutant.name, flights);
         workspace.restore(&changed)?;
-        let outcome = match end {
-            Ok(End::Caught(what)) => what,
-            Ok(End::Survived) => {
-                survivors += 1;
-                format!("SURVIVED {flights} flights")
+        let outcome = match (end, mutant.expected) {
+            (Ok(End::Caught(what)), Expected::Fault) => {
+                caught += 1;
+                what
             }
+            (Ok(End::Survived), Expected::Nothing) => {
+                covered += 1;
+                "covered by another layer".to_owned()
+            }
+            (Ok(End::Survived), Expected::Fault) => format!("SURVIVED {flights} flights"),
+            (Ok(End::Caught(what)), Expected::Nothing) => format!("NOT COVERED: {what}"),
             // The other mutants are still worth judging.
-            Err(error @ MutantsError::Build { .. }) => {
+            (Err(error @ MutantsError::Build { .. }), _) => {
                 broken = Some(error);
                 "DOES NOT BUILD".to_owned()
             }
-            Err(error) => return Err(error),
+            (Err(error), _) => return Err(error),
         };
         // Printed at once, because the whole run takes a while.
         let line = format!("{:<46}{outcome}", mutant.name);
@@ -110,8 +116,14 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
     if let Some(error) = broken {
         return Err(error);
     }
-    _ = writeln!(text, "{} of {} mutants caught", mutants.len() - survivors, mutants.len());
-    Ok((text, survivors == 0))
+    let all = mutants.len();
+    _ = writeln!(text, "{caught} of {all} mutants caught, {covered} covered by another layer");
+    Ok((text, caught + covered == all))
+}
+
+/// The mutants of both lists.
+fn all_by_hand() -> impl Iterator<Item = &'static Mutant> {
+    list::MUTANTS.iter().chain(layers::MUTANTS)
 }
 
 /// Builds the workspace and runs the judge on it.
@@ -209,7 +221,7 @@ mod tests {
     #[test]
     fn each_mutant_can_be_made() {
         let workspace = Workspace::here(Path::new(".."));
-        for mutant in MUTANTS {
+        for mutant in all_by_hand() {
             let changed = workspace.changed(mutant).unwrap_or_else(|error| panic!("{error}"));
             for (file, text) in changed {
                 assert_ne!(text, std::fs::read_to_string(Path::new("..").join(file)).unwrap());

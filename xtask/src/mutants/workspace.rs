@@ -132,7 +132,7 @@ impl Workspace {
 
 #[cfg(test)]
 mod tests {
-    use super::super::list::Edit;
+    use super::super::list::{Edit, Expected};
     use super::*;
 
     const TWICE: Mutant = Mutant {
@@ -141,11 +141,18 @@ mod tests {
             Edit { file: "clippy.toml", from: "allow-unwrap-in-tests", to: "a" },
             Edit { file: "clippy.toml", from: "allow-expect-in-tests", to: "b" },
         ],
+        expected: Expected::Fault,
     };
-    const GONE: Mutant =
-        Mutant { name: "gone", edits: &[Edit { file: "clippy.toml", from: "no such", to: "" }] };
-    const MANY: Mutant =
-        Mutant { name: "many", edits: &[Edit { file: "clippy.toml", from: "allow-", to: "" }] };
+    const GONE: Mutant = Mutant {
+        name: "gone",
+        edits: &[Edit { file: "clippy.toml", from: "no such", to: "" }],
+        ..TWICE
+    };
+    const MANY: Mutant = Mutant {
+        name: "many",
+        edits: &[Edit { file: "clippy.toml", from: "allow-", to: "" }],
+        ..TWICE
+    };
 
     #[test]
     fn a_mutant_of_other_code_is_no_mutant() {

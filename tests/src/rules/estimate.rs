@@ -1,0 +1,102 @@
+//! Rules of the estimator.
+
+use std::time::Duration;
+
+use autopilot::vehicle::TagConfig;
+use mock_drone::airframe::Profile;
+use mock_drone::scenario::{Action, Scenario, When};
+use mock_drone::{CameraModel, FloorTag, Quantity, SensorFault};
+
+use super::must::Must;
+use super::{HOLD, HOLDS_AT, Trial};
+use crate::sensors::{AIRFRAMES, MOST_OUTSIDE_M, Model};
+
+/// An altitude that drifts too slowly to be noticed leads the drone down, and is right again near the floor: that
+/// looks like another floor. From then on the drone must not stay there.
+pub(super) fn led_to_the_floor() -> Vec<Trial> {
+    const DRIFT_M_S: f64 = 0.045;
+    const LOW_M: f64 = 0.1;
+    const MOST: Duration = Duration::from_secs(2);
+    const LOW: &str = "takeoff\ngoto 0 0 0 0\nsetStayTime 60\ngoto 0 0 0 0\nland\n";
+    let mut trials = Vec::new();
+    for Model { name, profile } in AIRFRAMES {
+        for drifts in [17, 18].map(Duration::from_secs) {
+            let drift = Action::Sensor(Quantity::Altitude, SensorFault::Ramp(DRIFT_M_S), drifts);
+            let scenario = Scenario::default().and(When::SinceStart(HOLDS_AT), drift);
+            let what = format!("{name} led to the floor for {drifts:?}");
+            let trial = Trial::new(what, LOW, profile, scenario);
+            trials.push(trial.and(Must::stay_above(LOW_M, HOLDS_AT + drifts, MOST)));
+        }
+    }
+    trials
+}
+
+/// A velocity that is no number for most of the time, but comes back again and again.
+pub(super) fn wrong_in_pulses() -> Vec<Trial> {
+    const PULSES: u32 = 30;
+    const LANDS_WITHIN: Duration = Duration::from_secs(15);
+    let mut trials = Vec::new();
+    for Model { name, profile } in AIRFRAMES {
+        for (wrong_ms, right_ms) in [(500, 300), (600, 400), (1000, 300), (1000, 500)] {
+            let wrong = Duration::from_millis(wrong_ms);
+            let every = wrong + Duration::from_millis(right_ms);
+            let pulse = Action::Sensor(Quantity::VelocityForward, SensorFault::NotANumber, wrong);
+            let scenario = (0..PULSES).fold(Scenario::default(), |scenario, pulses| {
+                scenario.and(When::SinceStart(HOLDS_AT + every * pulses), pulse)
+            });
+            let what = format!("{name} without velocity for {wrong_ms} ms in {every:?}");
+            let trial = Trial::new(what, HOLD, profile, scenario)
+                .and(Must::StayNear { m: MOST_OUTSIDE_M, by_sensors: true })
+                .and(Must::BeDown { by: HOLDS_AT + LANDS_WITHIN });
+            trials.push(trial);
+        }
+    }
+    trials
+}
+
+/// A velocity that becomes wrong in steps too small to be noticed, and right again at once: it is the right velocity
+/// that is rejected then, and the place must become uncertain by what is flown meanwhile.
+pub(super) fn right_again() -> Vec<Trial> {
+    const STEP_M_S: f64 = 0.4;
+    const EVERY: Duration = Duration::from_secs(1);
+    let mut trials = Vec::new();
+    for Model { name, profile } in AIRFRAMES {
+        for steps in [3, 4] {
+            let right_at = HOLDS_AT + EVERY * steps;
+            let scenario = (0..steps).fold(Scenario::default(), |scenario, step| {
+                let more = SensorFault::Offset(STEP_M_S);
+                let lasts = EVERY * (steps - step);
+                let action = Action::Sensor(Quantity::VelocityForward, more, lasts);
+                scenario.and(When::SinceStart(HOLDS_AT + EVERY * step), action)
+            });
+            let what = format!("{name} with a velocity right again after {steps} steps");
+            let trial = Trial::new(what, HOLD, profile, scenario);
+            trials.push(trial.and(Must::be_honest(right_at)));
+        }
+    }
+    trials
+}
+
+/// Each picture of a bad camera has a false detection besides the tag below the drone.
+pub(super) fn false_sights() -> Vec<Trial> {
+    /// As far as a tag keeps a drone on a bad day.
+    const KEPT_M: f64 = 0.4;
+    let mut trials = Vec::new();
+    for seed in 1..=6 {
+        for height_m in [-0.15, 0.0] {
+            let text = format!(
+                "takeoff\ngoto 0 0 {height_m} 0\nsetStayTime 40\ngoto 0 0 {height_m} 0\nland\n"
+            );
+            let what = format!("false sights, seed {seed}, {height_m} m");
+            let mut trial = Trial::new(what, &text, Profile::rec, Scenario::default())
+                .and(Must::StayNear { m: KEPT_M, by_sensors: false });
+            let world = &mut trial.simulation.world;
+            world.drone.seed = seed;
+            world.drone.camera = CameraModel { false_sights: 1.0, ..CameraModel::hard() };
+            world.tags = vec![FloorTag::new(0.0, 0.0, 120.0)];
+            trial.simulation.pilot.estimator.tags = Some(TagConfig::default());
+            trials.push(trial);
+        }
+    }
+    trials
+}

@@ -1,0 +1,100 @@
+//! Mutants of a layer behind others that work. Random flights do not detect them, but `system_tests::rules` has flights
+//! for each.
+
+use super::list::{AGENT, ESTIMATOR, Edit, Expected, Mutant, SAFETY, edit, mutant};
+
+const PLAUSIBILITY: &str = "estimator/src/plausibility.rs";
+const UNCERTAINTY: &str = "estimator/src/uncertainty.rs";
+const TAG_FILTER: &str = "estimator/src/tags/filter.rs";
+const SATURATION: &str = "autopilot/src/vehicle/saturation.rs";
+
+/// A mistake that another layer makes up for.
+const fn covered(name: &'static str, edits: &'static [Edit]) -> Mutant {
+    Mutant { name, edits, expected: Expected::Nothing }
+}
+
+/// All of them.
+pub(super) const MUTANTS: &[Mutant] = &[
+    // Estimation.
+    mutant(
+        "an altitude of the floor is believed",
+        &[edit(
+            ESTIMATOR,
+            "sample.airborne && sample.altitude_m < ON_FLOOR_M;",
+            "sample.airborne && sample.altitude_m + ON_FLOOR_M < f64::MIN;",
+        )],
+    ),
+    mutant(
+        "a disproved quantity is believed at once",
+        &[edit(
+            PLAUSIBILITY,
+            "arrival_s - last_s < DISPROVED_TIME_S",
+            "arrival_s - last_s < 0.001",
+        )],
+    ),
+    mutant(
+        "rejected velocities leave no uncertainty",
+        &[edit(
+            UNCERTAINTY,
+            "self.disputed_m += surprise_m_s",
+            "self.disputed_m += 0.0 * surprise_m_s",
+        )],
+    ),
+    mutant(
+        "every sighting near a tag is one of it",
+        &[edit(
+            TAG_FILTER,
+            "squared_deviations(off, spread) < GATE * GATE",
+            "squared_deviations(off, spread) < GATE * f64::INFINITY",
+        )],
+    ),
+    // The safety monitor and the flight.
+    mutant(
+        "no ceiling",
+        &[edit(
+            SAFETY,
+            "&& pose.z_m <= self.fence.ceiling_m + margin_m",
+            "&& pose.z_m <= self.fence.ceiling_m + margin_m.max(1e9)",
+        )],
+    ),
+    mutant(
+        "it is forgotten that the drone must stay down",
+        &[edit(
+            SAFETY,
+            "if self.lands || now.landing || self.stays_down {",
+            "if self.lands || now.landing || self.stays_down && self.lands {",
+        )],
+    ),
+    mutant(
+        "a drone that makes no progress flies on",
+        &[edit(
+            SATURATION,
+            "across || up || storm || blocked {",
+            "across || up || storm || blocked && step_s < 0.0 {",
+        )],
+    ),
+    // Two layers against blindness: the agent lands first.
+    covered(
+        "guard never lands blind",
+        &[edit(
+            SAFETY,
+            "if now.blind_for > BLIND {",
+            "if now.blind_for > BLIND.max(Duration::MAX) {",
+        )],
+    ),
+    mutant(
+        "guard never lands blind, agent without @blind",
+        &[
+            edit(
+                SAFETY,
+                "if now.blind_for > BLIND {",
+                "if now.blind_for > BLIND.max(Duration::MAX) {",
+            ),
+            edit(
+                AGENT,
+                "@blind[req(\"SAF-5\")]\n+!watch : ",
+                "@blind[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
+            ),
+        ],
+    ),
+];
