@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use autopilot::outcome::Outcome;
-use system_tests::sensors::{AIRFRAMES, led_astray};
+use system_tests::sensors::{self, AIRFRAMES, led_astray};
 use system_tests::sim::SimulationError;
 use system_tests::{campaign, landings, rules};
 
@@ -68,9 +68,18 @@ fn astray() -> Option<String> {
         flown.collect::<Result<Vec<_>, SimulationError>>()
     });
     match flown {
-        Ok(found) => found.into_iter().flatten().next(),
+        Ok(found) => found.into_iter().flatten().next().or_else(randomly_astray),
         Err(error) => Some(error.to_string()),
     }
+}
+
+/// The first random sensor failure that led a drone too far.
+fn randomly_astray() -> Option<String> {
+    const LAST: u64 = 200;
+    (1..=LAST).find_map(|number| match sensors::random(number) {
+        Ok(flight) => (flight.shows && flight.is_too_far()).then(|| flight.to_string()),
+        Err(error) => Some(error.to_string()),
+    })
 }
 
 /// The first landing that was not carried out, or the reason why none could be judged.
