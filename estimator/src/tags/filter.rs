@@ -52,6 +52,7 @@ const ORIENTATION_DEG: f64 = 8.0;
 const MEAN_ORIENTATION_DEG: f64 = 3.0;
 /// Gate in standard deviations, beyond which a sighting is of something else.
 const GATE: f64 = 5.0;
+
 /// Correction to be added to the odometry.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Correction {
