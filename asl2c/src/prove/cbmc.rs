@@ -81,18 +81,9 @@ impl Cbmc {
         chosen: &[usize],
         checks: Checks,
     ) -> Result<(Vec<Failure>, Vec<usize>), ProveError> {
-        let output = Command::new(&self.path)
-            .args([HARNESS, "--function", function])
-            .args(options(checks))
-            .args(if checks == Checks::All { ["--unwind", "2"].as_slice() } else { &[] })
-            .current_dir(folder)
-            .output()
-            .map_err(in_file("cannot run", &self.path))?;
-        let text = String::from_utf8_lossy(&output.stdout);
-        if !text.contains("VERIFICATION SUCCESSFUL") && !text.contains("VERIFICATION FAILED") {
-            let said = format!("{text}{}", String::from_utf8_lossy(&output.stderr));
-            return Err(ProveError::NoResult { output: end(&said) });
-        }
+        let unwinding: &[&str] = if checks == Checks::All { &["--unwind", "2"] } else { &[] };
+        let text = self.run(folder, function, checks, unwinding)?;
+        is_proved(&text)?;
         let mut others = Vec::new();
         let mut failing = Vec::new();
         for line in text.lines().filter_map(|line| line.strip_suffix(": FAILURE")) {
@@ -122,27 +113,35 @@ impl Cbmc {
         function: &str,
         property: &str,
     ) -> Result<bool, ProveError> {
-        let run = |arguments: &[&str]| {
-            let output = Command::new(&self.path)
-                .args([HARNESS, "--function", function])
-                .args(options(Checks::Properties))
-                .args(arguments)
-                .current_dir(folder)
-                .output()
-                .map_err(in_file("cannot run", &self.path))?;
-            Ok::<String, ProveError>(String::from_utf8_lossy(&output.stdout).into_owned())
-        };
+        let run = |arguments: &[&str]| self.run(folder, function, Checks::Properties, arguments);
         let listed = run(&["--show-properties"])?;
-        let no_result = |text: &str| ProveError::NoResult { output: end(text) };
-        let name = assertion(&listed, property).ok_or_else(|| no_result(&listed))?;
-        let text = run(&["--slice-formula", "--property", name])?;
-        if text.contains("VERIFICATION FAILED") {
-            Ok(true)
-        } else if text.contains("VERIFICATION SUCCESSFUL") {
-            Ok(false)
-        } else {
-            Err(no_result(&text))
-        }
+        let name = assertion(&listed, property)
+            .ok_or_else(|| ProveError::NoResult { output: end(&listed) })?;
+        Ok(!is_proved(&run(&["--slice-formula", "--property", name])?)?)
+    }
+
+    /// Its output, standard error last.
+    fn run(
+        &self,
+        folder: &Path,
+        function: &str,
+        checks: Checks,
+        arguments: &[&str],
+    ) -> Result<String, ProveError> {
+        let output = self
+            .command(folder, function, checks)
+            .args(arguments)
+            .output()
+            .map_err(in_file("cannot run", &self.path))?;
+        let mut text = String::from_utf8_lossy(&output.stdout).into_owned();
+        text.push_str(&String::from_utf8_lossy(&output.stderr));
+        Ok(text)
+    }
+
+    fn command(&self, folder: &Path, function: &str, checks: Checks) -> Command {
+        let mut command = Command::new(&self.path);
+        command.args([HARNESS, "--function", function]).args(options(checks)).current_dir(folder);
+        command
     }
 
     /// Searches for counterexamples from the initial state, up to this number of transitions; `None` on a
@@ -160,14 +159,13 @@ impl Cbmc {
         // A file, because the output may exceed the capacity of a pipe while the process is waited for.
         let mut said = tempfile::tempfile().map_err(in_file("cannot make", folder))?;
         let output = said.try_clone().map_err(in_file("cannot make", folder))?;
-        let mut child = Command::new(&self.path)
-            .args([HARNESS, "--function", "main", "--trace", "--json-ui"])
+        let mut child = self
+            .command(folder, "main", checks)
+            .args(["--trace", "--json-ui"])
             // Each transition has its own objects.
             .args(["--object-bits", "20"])
-            .args(options(checks))
             .args(["--unwindset", &format!("main.0:{transitions}"), "--no-unwinding-assertions"])
             .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]))
-            .current_dir(folder)
             .stdout(output)
             .stderr(Stdio::null())
             .spawn()
@@ -185,6 +183,17 @@ impl Cbmc {
         let read = said.rewind().and_then(|()| said.read_to_string(&mut text));
         read.map_err(in_file("cannot read the output of", &self.path))?;
         traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
+    }
+}
+
+/// Whether CBMC's output says that all assertions hold.
+fn is_proved(text: &str) -> Result<bool, ProveError> {
+    if text.contains("VERIFICATION FAILED") {
+        Ok(false)
+    } else if text.contains("VERIFICATION SUCCESSFUL") {
+        Ok(true)
+    } else {
+        Err(ProveError::NoResult { output: end(text) })
     }
 }
 
