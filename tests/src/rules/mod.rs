@@ -39,6 +39,7 @@ pub fn broken() -> Result<Vec<String>, SimulationError> {
         monitor::blind(),
         monitor::down_before_the_take_off()?,
         monitor::kept_away(),
+        monitor::slow(),
         estimate::led_to_the_floor(),
         estimate::wrong_in_pulses(),
         estimate::right_again(),

@@ -48,8 +48,8 @@ impl Must {
             Self::BeDown { by } => (now >= by && is_up)
                 .then(|| format!("in the air after {at_s:.1} s, {:?}", truth.phase)),
             Self::StayNear { m, by_sensors } => {
-                let known_m = if *by_sensors { truth.drift_m() } else { Vector2::zeros() };
-                let away_m = (truth.position_m.xy() - known_m).norm();
+                let place_m = if *by_sensors { truth.odometry_m } else { truth.position_m.xy() };
+                let away_m = place_m.norm();
                 (is_up && away_m > *m)
                     .then(|| format!("{away_m:.2} m away after {at_s:.1} s, {m:.2} m allowed"))
             }

@@ -7,6 +7,8 @@ const PLAUSIBILITY: &str = "estimator/src/plausibility.rs";
 const UNCERTAINTY: &str = "estimator/src/uncertainty.rs";
 const TAG_FILTER: &str = "estimator/src/tags/filter.rs";
 const SATURATION: &str = "autopilot/src/vehicle/saturation.rs";
+const TAKE_OFF: &str = "ardrone-link/src/session/take_off.rs";
+const SILENCE: &str = "ardrone-link/src/session/silence.rs";
 
 /// A mistake that another layer makes up for.
 const fn covered(name: &'static str, edits: &'static [Edit]) -> Mutant {
@@ -73,6 +75,10 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "across || up || storm || blocked && step_s < 0.0 {",
         )],
     ),
+    mutant(
+        "a target is approached for ever",
+        &[edit(AGENT, "approachTime(60000).", "approachTime(2000000000).")],
+    ),
     // Two layers against blindness: the agent lands first.
     covered(
         "guard never lands blind",
@@ -94,6 +100,30 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 AGENT,
                 "@blind[req(\"SAF-5\")]\n+!watch : ",
                 "@blind[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
+            ),
+        ],
+    ),
+    // Two layers against an old order to fly: what is not heard gets no order at all.
+    covered(
+        "the take-off latch is ignored",
+        &[edit(
+            TAKE_OFF,
+            "*self = Self::Withheld { landing_ordered: false };",
+            "*self = Self::Follow { airborne: true };",
+        )],
+    ),
+    mutant(
+        "a drone that is not heard is ordered to fly",
+        &[
+            edit(
+                SILENCE,
+                "self.returned_at.is_none() && now.saturating_sub(self.at) < UNHEARD",
+                "now.saturating_sub(self.at) < Duration::MAX",
+            ),
+            edit(
+                TAKE_OFF,
+                "*self = Self::Withheld { landing_ordered: false };",
+                "*self = Self::Follow { airborne: true };",
             ),
         ],
     ),

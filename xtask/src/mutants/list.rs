@@ -42,8 +42,6 @@ const FRAME: &str = "kinematics/src/frame.rs";
 const TAGS: &str = "estimator/src/tags/mod.rs";
 const TAG_MAP: &str = "estimator/src/tags/map.rs";
 const HORIZONTAL: &str = "estimator/src/horizontal.rs";
-const TAKE_OFF: &str = "ardrone-link/src/session/take_off.rs";
-const SILENCE: &str = "ardrone-link/src/session/silence.rs";
 
 pub(super) const fn mutant(name: &'static str, edits: &'static [Edit]) -> Mutant {
     Mutant { name, edits, expected: Expected::Fault }
@@ -217,10 +215,6 @@ pub(super) const MUTANTS: &[Mutant] = &[
         ],
     ),
     mutant(
-        "a target is approached for ever",
-        &[edit(AGENT, "approachTime(60000).", "approachTime(2000000000).")],
-    ),
-    mutant(
         "goals are flown 1000 m off",
         &[edit(
             BINDING,
@@ -326,14 +320,6 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "let landed = !blind;",
         )],
     ),
-    mutant(
-        "the take-off latch is ignored",
-        &[edit(
-            TAKE_OFF,
-            "*self = Self::Withheld { landing_ordered: false };",
-            "*self = Self::Follow { airborne: true };",
-        )],
-    ),
     // Tags.
     mutant(
         "a tag that is seen again is the nearest known one, however far",
@@ -358,20 +344,5 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "odometry_m + self.filter.correction().place_m",
             "odometry_m + 2.0 * self.filter.correction().place_m",
         )],
-    ),
-    mutant(
-        "a drone that is not heard is ordered to fly",
-        &[
-            edit(
-                SILENCE,
-                "self.returned_at.is_none() && now.saturating_sub(self.at) < UNHEARD",
-                "now.saturating_sub(self.at) < Duration::MAX",
-            ),
-            edit(
-                TAKE_OFF,
-                "*self = Self::Withheld { landing_ordered: false };",
-                "*self = Self::Follow { airborne: true };",
-            ),
-        ],
     ),
 ];

@@ -109,7 +109,7 @@ pub(crate) fn by_hand(flights: u64, only: Option<&str>) -> Result<(String, bool)
             (Err(error), _) => return Err(error),
         };
         // Printed at once, because the whole run takes a while.
-        let line = format!("{:<46}{outcome}", mutant.name);
+        let line = format!("{:<63} {outcome}", mutant.name);
         _ = io::Write::write_all(&mut io::stderr(), format!("{line}\n").as_bytes());
         _ = writeln!(text, "{line}");
     }
