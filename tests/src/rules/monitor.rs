@@ -120,13 +120,15 @@ pub(super) fn kept_away() -> Vec<Trial> {
 /// A target so far away, flown to so slowly, that the drone is on its way for more than a minute, and comes nearer all
 /// the time.
 pub(super) fn slow() -> Vec<Trial> {
-    const AWAY_M: f64 = 50.0;
+    const AWAY_M: f64 = 25.0;
+    const ON_ITS_WAY: Duration = Duration::from_secs(50);
     const GIVES_UP_BY: Duration = Duration::from_secs(85);
     let plan = format!("takeoff\nsetMaxControl 0.05\ngoto 0 {AWAY_M} 0 0\nland\n");
     let limits = FlightLimits { radius_m: AWAY_M + 10.0, ..FENCE };
     let trials = AIRFRAMES.map(|Model { name, profile }| {
         let what = format!("{name} slowly to {AWAY_M} m");
         let mut trial = Trial::new(what, &plan, profile, Scenario::default())
+            .and(Must::BeUp { at: ON_ITS_WAY })
             .and(Must::BeDown { by: GIVES_UP_BY });
         trial.simulation.pilot.limits = limits;
         trial

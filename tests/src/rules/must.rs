@@ -17,6 +17,8 @@ const WRONG_FOR: Duration = Duration::from_secs(1);
 /// A rule, with what it remembers of the flight.
 #[derive(Debug, Clone)]
 pub(super) enum Must {
+    /// In the air at this time, because a flight that is refused shows nothing.
+    BeUp { at: Duration },
     /// On the ground from this time on.
     BeDown { by: Duration },
     /// Never further than this from the start, horizontally, beyond the error of healthy sensors if they are all
@@ -45,6 +47,8 @@ impl Must {
         let at_s = now.as_secs_f64();
         let is_up = matches!(truth.phase, Phase::TakingOff { .. } | Phase::Flying | Phase::Landing);
         match self {
+            Self::BeUp { at } => (*now >= *at && *now < *at + TICK && !is_up)
+                .then(|| format!("not in the air after {at_s:.1} s, {:?}", truth.phase)),
             Self::BeDown { by } => (now >= by && is_up)
                 .then(|| format!("in the air after {at_s:.1} s, {:?}", truth.phase)),
             Self::StayNear { m, by_sensors } => {
