@@ -9,7 +9,13 @@ use kinematics::{Airframe, DroneLimits};
 /// A heading that differs from the prediction by more than this, plus this much per second since the last
 /// one, is a step of the compass and not a turn. The firmware has been seen to step by 160°.
 const MAX_SURPRISE_DEG: f64 = 6.0;
-const MAX_SURPRISE_DEG_S: f64 = 60.0;
+const MAX_SURPRISE_DEG_S: f64 = 20.0;
+/// A drone that does not receive its orders turns on while the prediction brakes the turn, up to twice as fast as was
+/// last asked for: that is no step. For how long it may (time constant).
+const UNHEARD_TURNS: f64 = 2.0;
+const UNHEARD_S: f64 = 1.0;
+/// A compass that repeats its value while the drone should have turned by this has measured nothing new.
+const STUCK_DEG: f64 = 0.5;
 /// Covers the delay of the velocity at 200 packets per second.
 const MEMORY: usize = 64;
 
@@ -20,11 +26,20 @@ pub(crate) struct Heading {
     measured: VecDeque<(f64, f64)>,
     /// Turn rate predicted from the sticks, at the newest measurement.
     turn_deg_s: f64,
+    /// The fastest such rate of the last second or two.
+    recent_deg_s: f64,
+    compass_deg: f64,
 }
 
 impl Heading {
     pub(crate) fn new() -> Self {
-        Self { baseline_deg: None, measured: VecDeque::with_capacity(MEMORY), turn_deg_s: 0.0 }
+        Self {
+            baseline_deg: None,
+            measured: VecDeque::with_capacity(MEMORY),
+            turn_deg_s: 0.0,
+            recent_deg_s: 0.0,
+            compass_deg: f64::NAN,
+        }
     }
 
     /// Adds a compass heading with its time of measurement. Returns whether the compass made a step; a step
@@ -47,10 +62,22 @@ impl Heading {
         if let Some((last_s, last_deg)) = last {
             let (rate_deg_s, angle_deg) =
                 turned(self.turn_deg_s, last_s, at_s, orders, airframe, limits);
+            #[allow(clippy::float_cmp, reason = "the very same number, not a near one")]
+            let repeated = compass_deg == std::mem::replace(&mut self.compass_deg, compass_deg);
+            if repeated && angle_deg.abs() > STUCK_DEG {
+                return false;
+            }
+            let step_s = at_s - last_s;
             self.turn_deg_s = rate_deg_s;
+            self.recent_deg_s *= (-step_s / UNHEARD_S).exp();
+            // In a gap it may have turned and stopped again.
+            let mean_deg_s = if step_s > 0.0 { angle_deg / step_s } else { 0.0 };
+            self.recent_deg_s = self.recent_deg_s.max(rate_deg_s.abs()).max(mean_deg_s.abs());
             let expected_deg = last_deg + angle_deg;
             let surprise_deg = wrap_deg(turned_deg - expected_deg);
-            stepped = surprise_deg.abs() > MAX_SURPRISE_DEG + MAX_SURPRISE_DEG_S * (at_s - last_s);
+            let unheard_deg_s = UNHEARD_TURNS * self.recent_deg_s;
+            stepped = surprise_deg.abs()
+                > MAX_SURPRISE_DEG + (MAX_SURPRISE_DEG_S + unheard_deg_s) * step_s;
             if stepped {
                 self.baseline_deg = Some(baseline_deg + surprise_deg);
                 deg = expected_deg;
@@ -116,6 +143,7 @@ impl Heading {
         self.baseline_deg = None;
         self.measured.clear();
         self.turn_deg_s = 0.0;
+        self.recent_deg_s = 0.0;
     }
 }
 
@@ -212,9 +240,9 @@ mod tests {
     #[test]
     fn a_step_is_more_than_noise_and_the_fastest_turn() {
         for sign in [-1.0, 1.0] {
-            // 6 degrees, plus 60 degrees per second.
+            // 6 degrees, plus 20 degrees per second.
             for (at_s, deg, is_step) in
-                [(0.1, 11.9, false), (0.1, 12.1, true), (0.5, 35.9, false), (0.5, 36.1, true)]
+                [(0.1, 7.9, false), (0.1, 8.1, true), (0.5, 15.9, false), (0.5, 16.1, true)]
             {
                 let (heading, _, steps) = measured(&[(0.0, 0.0), (at_s, sign * deg)]);
                 assert_eq!(steps, [false, is_step], "{deg}");
@@ -268,15 +296,68 @@ mod tests {
 
     #[test]
     fn a_turn_that_was_asked_for_is_no_step() {
-        // Full stick for half a second: some 35 degrees, and 36 more or less are allowed.
-        for (deg, is_step) in [(35.0, false), (35.0 + 38.0, true), (35.0 - 38.0, true)] {
-            let (mut heading, mut orders) = (Heading::new(), Orders::new(Duration::ZERO));
-            let full = Sticks { yaw: 1.0, ..Sticks::default() };
-            orders.push(Duration::ZERO, Order::Sticks(full));
-            let mut update =
-                |at_s, deg| heading.update(at_s, deg, &orders, &Airframe::default(), &LIMITS);
+        let airframe = Airframe::default();
+        let rate_deg_s = 100.0 * airframe.turn_gain * (1.0 - (-0.5 / airframe.turn_lag_s).exp());
+        // 6 degrees, and 20 degrees per second plus twice the rate, for half a second.
+        let allowed_deg = 16.0 + rate_deg_s;
+        for (off_deg, is_step) in [(-1.0, false), (1.0, true)] {
+            let (mut heading, orders) = turns_from(&[(0, 1.0)]);
+            let mut update = |at_s, deg| heading.update(at_s, deg, &orders, &airframe, &LIMITS);
             update(0.0, 0.0);
-            assert_eq!(update(0.5, deg), is_step, "{deg}");
+            let (_, angle_deg) = turned(0.0, 0.0, 0.5, &orders, &airframe, &LIMITS);
+            assert_eq!(update(0.5, angle_deg - allowed_deg - off_deg), is_step, "{off_deg}");
         }
+    }
+
+    /// Yaw sticks, each from a time in milliseconds on.
+    fn turns_from(sticks: &[(u64, f64)]) -> (Heading, Orders) {
+        let mut orders = Orders::new(Duration::ZERO);
+        for (at_ms, yaw) in sticks {
+            let sticks = Sticks { yaw: *yaw, ..Sticks::default() };
+            orders.push(Duration::from_millis(*at_ms), Order::Sticks(sticks));
+        }
+        (Heading::new(), orders)
+    }
+
+    /// The compass is right, but the drone does not do what the prediction expects.
+    #[test]
+    fn a_drone_that_does_not_hear_that_its_turn_ends_is_still_believed() {
+        let (mut heading, orders) = turns_from(&[(0, 1.0), (1000, -1.0)]);
+        let rate_deg_s = 100.0 * Airframe::default().turn_gain;
+        for packet in 0..30 {
+            let at_s = 0.066 * f64::from(packet);
+            let compass_deg = wrap_deg(rate_deg_s * at_s);
+            let stepped = heading.update(at_s, compass_deg, &orders, &Airframe::default(), &LIMITS);
+            assert!(!stepped, "{at_s}");
+        }
+        let turned_deg = rate_deg_s * 0.066 * 29.0;
+        assert!((heading.newest_deg() - turned_deg).abs() < 1e-6, "{}", heading.newest_deg());
+    }
+
+    #[test]
+    fn a_turn_that_was_not_heard_in_a_gap_is_no_step() {
+        // The turn was asked for and stopped within the gap; the drone did neither.
+        let (mut heading, orders) = turns_from(&[(1000, 1.0), (2000, 0.0)]);
+        let mut update =
+            |at_s, deg| heading.update(at_s, deg, &orders, &Airframe::default(), &LIMITS);
+        assert!(!update(0.9, 10.0));
+        assert!(!update(2.9, 12.0));
+        assert!((heading.newest_deg() - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_compass_that_hangs_in_a_turn_does_not_turn_the_world() {
+        let (mut heading, orders) = turns_from(&[(0, 1.0)]);
+        let (airframe, mut steps) = (Airframe::default(), 0);
+        let truth = |at_s| turned(0.0, 0.0, at_s, &orders, &airframe, &LIMITS).1;
+        for packet in 0..30 {
+            let at_s = 0.066 * f64::from(packet);
+            let hangs = (10..16).contains(&packet);
+            let compass_deg = wrap_deg(truth(if hangs { 0.066 * 9.0 } else { at_s }));
+            steps += u32::from(heading.update(at_s, compass_deg, &orders, &airframe, &LIMITS));
+        }
+        assert_eq!(steps, 0);
+        let error_deg = heading.newest_deg() - truth(0.066 * 29.0);
+        assert!(error_deg.abs() < 1.0, "{error_deg}");
     }
 }
