@@ -32,6 +32,12 @@ const FROZEN_PACKETS: u32 = 5;
 /// airframe that is not identified yet (m/s²).
 const JUMP_M_S: f64 = 0.2;
 const JUMP_M_S2: f64 = 4.0;
+/// These hardly last longer than this. After a longer gap, only a new disturbance adds to the difference, and a drone that
+/// has not received its orders: it may still do what was last asked for, while the prediction does the opposite.
+const BRIEF_S: f64 = 0.1;
+const DISTURBED_M_S2: f64 = 0.5;
+const UNHEARD_SHARE: f64 = 2.0;
+const UNHEARD_S: f64 = 1.0;
 /// After a jump the velocity must come back to this fraction of the allowed difference.
 const RETURN_SHARE: f64 = 0.5;
 /// Largest difference between measured and expected velocity, however it came about.
@@ -76,6 +82,8 @@ pub(crate) struct VelocityGate {
     jumped: bool,
     /// The last velocity is that of a drone that stands.
     rests: bool,
+    /// The largest predicted acceleration of the last second or two.
+    recent_m_s2: f64,
 }
 
 impl VelocityGate {
@@ -87,7 +95,7 @@ impl VelocityGate {
     /// The drone stands: what it reports is compared with rest once it flies. Otherwise the first velocity of a flight
     /// would be accepted whatever it is, and a constant error with it.
     pub(crate) fn rest(&mut self) {
-        *self = Self { last_m_s: Some(Vector2::zeros()), jumped: false, rests: true };
+        *self = Self { last_m_s: Some(Vector2::zeros()), rests: true, ..Self::default() };
     }
 
     /// Whether to accept a velocity that was measured `step_s` after the last one, while the model's velocity
@@ -103,14 +111,22 @@ impl VelocityGate {
         // The flow may measure nothing new for a second while the drone lifts off, which is no time to speed up.
         let longest_s = if std::mem::take(&mut self.rests) { LIFT_OFF_S } else { f64::INFINITY };
         let step_s = step_s.min(longest_s);
-        let allowed_m_s = JUMP_M_S + JUMP_M_S2 * step_s;
+        self.recent_m_s2 *= (-step_s / UNHEARD_S).exp();
+        if step_s > 0.0 {
+            let asked_m_s2 = (foreseen_m_s - before_m_s).norm() / step_s;
+            self.recent_m_s2 = self.recent_m_s2.max(asked_m_s2);
+        }
+        let after_gap_m_s2 = (DISTURBED_M_S2 + UNHEARD_SHARE * self.recent_m_s2).min(JUMP_M_S2);
+        let gained_m_s =
+            JUMP_M_S2 * step_s.min(BRIEF_S) + after_gap_m_s2 * (step_s - BRIEF_S).max(0.0);
+        let allowed_m_s = JUMP_M_S + gained_m_s;
         let surprise_m_s = (measured_m_s - foreseen_m_s).norm();
         let unforeseen = (measured_m_s - last_m_s) - (foreseen_m_s - before_m_s);
         let jumps = surprise_m_s > allowed_m_s && unforeseen.norm() > allowed_m_s;
         // Hysteresis: a drone that hovers meanwhile comes near any small false value.
         let lasts = self.jumped && surprise_m_s > RETURN_SHARE * allowed_m_s;
         self.jumped = jumps || lasts;
-        !self.jumped && surprise_m_s <= MAX_SURPRISE_M_S + JUMP_M_S2 * step_s
+        !self.jumped && surprise_m_s <= MAX_SURPRISE_M_S + gained_m_s
     }
 }
 
