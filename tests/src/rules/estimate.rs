@@ -2,14 +2,19 @@
 
 use std::time::Duration;
 
-use autopilot::vehicle::TagConfig;
+use autopilot::plan::FlightLimits;
+use autopilot::vehicle::{FlightEvent, TagConfig};
 use mock_drone::airframe::Profile;
-use mock_drone::scenario::{Action, Scenario, When};
+use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{CameraModel, FloorTag, Quantity, SensorFault};
 
 use super::must::Must;
-use super::{HOLD, HOLDS_AT, Trial};
+use super::{FENCE, HOLD, HOLDS_AT, Trial};
+use crate::plan;
 use crate::sensors::{AIRFRAMES, MOST_OUTSIDE_M, Model};
+use crate::sim::SimulationError;
+
+const FOR_EVER: Duration = Duration::from_mins(5);
 
 /// An altitude that drifts too slowly to be noticed leads the drone down, and is right again near the floor: that
 /// looks like another floor. From then on the drone must not stay there.
@@ -99,4 +104,68 @@ pub(super) fn false_sights() -> Vec<Trial> {
         }
     }
     trials
+}
+
+/// A velocity that is wrong from the end of a gap on: what a gap allows for must not let it in.
+pub(super) fn wrong_after_a_gap() -> Vec<Trial> {
+    const WRONG_M_S: f64 = 1.1;
+    const LANDS_WITHIN: Duration = Duration::from_secs(15);
+    let mut trials = Vec::new();
+    for Model { name, profile } in AIRFRAMES {
+        for gap in [70, 300, 600].map(Duration::from_millis) {
+            let nan = Action::Sensor(Quantity::VelocityRight, SensorFault::NotANumber, gap);
+            for (what, unseen) in
+                [("an outage", Action::Outage(Direction::Down, gap)), ("a fault", nan)]
+            {
+                let wrong = SensorFault::Offset(WRONG_M_S);
+                let wrong = Action::Sensor(Quantity::VelocityRight, wrong, FOR_EVER);
+                let scenario = Scenario::default()
+                    .and(When::SinceStart(HOLDS_AT), unseen)
+                    .and(When::SinceStart(HOLDS_AT + gap), wrong);
+                let what = format!("{name} with a wrong velocity after {what} of {gap:?}");
+                let trial = Trial::new(what, HOLD, profile, scenario)
+                    .and(Must::StayNear { m: MOST_OUTSIDE_M, by_sensors: true })
+                    .and(Must::BeDown { by: HOLDS_AT + LANDS_WITHIN });
+                trials.push(trial);
+            }
+        }
+    }
+    trials
+}
+
+/// A compass that hangs in a turn, or a drone that does not hear in a turn that it should end: neither must turn the
+/// world, which shows when the drone flies on.
+///
+/// # Errors
+/// [`SimulationError`] if a flight never ends.
+pub(super) fn disturbed_turns() -> Result<Vec<Trial>, SimulationError> {
+    const TURN: &str = "takeoff\ngoto 0 3 0.5 0\ngoto 0 3 0.5 175\ngoto 0 -3 0.5 175\nland\n";
+    const STEP: usize = 2;
+    let stuck = |ms| Action::Sensor(Quantity::Yaw, SensorFault::Stuck, Duration::from_millis(ms));
+    let unheard = |ms| Action::Outage(Direction::Up, Duration::from_millis(ms));
+    let mut trials = Vec::new();
+    for Model { name, profile } in AIRFRAMES {
+        let undisturbed = Trial::new(String::new(), TURN, profile, Scenario::default());
+        let flown = undisturbed.simulation.fly(plan(TURN))?;
+        let begins = |event: &FlightEvent| *event == FlightEvent::StepStarted { step: STEP };
+        let begun = flown.events.iter().find_map(|(at, event)| begins(event).then_some(*at));
+        let Some(begun) = begun else { continue };
+        for into in [600, 1000, 1400].map(Duration::from_millis) {
+            for (what, action) in [
+                ("stuck for 0.25 s", stuck(250)),
+                ("stuck for 0.38 s", stuck(380)),
+                ("unheard for 1.2 s", unheard(1200)),
+                ("unheard for 1.6 s", unheard(1600)),
+            ] {
+                let at = begun + into;
+                let scenario = Scenario::default().and(When::SinceStart(at), action);
+                let what = format!("{name} {what}, {into:?} into a turn");
+                let mut trial =
+                    Trial::new(what, TURN, profile, scenario).and(Must::be_honest(begun));
+                trial.simulation.pilot.limits = FlightLimits { radius_m: 8.0, ..FENCE };
+                trials.push(trial);
+            }
+        }
+    }
+    Ok(trials)
 }

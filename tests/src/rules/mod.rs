@@ -44,6 +44,8 @@ pub fn broken() -> Result<Vec<String>, SimulationError> {
         estimate::wrong_in_pulses(),
         estimate::right_again(),
         estimate::false_sights(),
+        estimate::wrong_after_a_gap(),
+        estimate::disturbed_turns()?,
     ];
     let mut found = Vec::new();
     for trial in families.into_iter().flatten() {
