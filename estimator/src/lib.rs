@@ -376,7 +376,8 @@ impl Estimator {
         let measured = Measured {
             at_s,
             altitude_m: self.altitude.above_floor_m(self.altitude.state().height_m),
-            yaw_deg: sample.yaw_deg,
+            // Without the steps of the compass.
+            yaw_deg: self.heading.newest_deg(),
             velocity_m_s: Vector2::new(sample.velocity_right_m_s, sample.velocity_forward_m_s),
             tilt_rad: Vector2::new(sample.roll_deg, -sample.pitch_deg).map(f64::to_radians),
         };

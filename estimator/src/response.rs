@@ -148,7 +148,7 @@ pub(crate) struct Measured {
     pub(crate) at_s: f64,
     /// Height above the floor, without wrong echoes.
     pub(crate) altitude_m: f64,
-    /// Compass heading; jumps at ±180.
+    /// Heading, without the steps of the compass.
     pub(crate) yaw_deg: f64,
     /// (right, forward) in the body.
     pub(crate) velocity_m_s: Vector2<f64>,
