@@ -169,3 +169,23 @@ pub(super) fn disturbed_turns() -> Result<Vec<Trial>, SimulationError> {
     }
     Ok(trials)
 }
+
+/// A velocity that is wrong from before the take-off on: nothing that the drone reports changes when it lifts off.
+pub(super) fn wrong_from_the_start() -> Vec<Trial> {
+    const WRONG_M_S: f64 = 1.0;
+    const BEGINS: Duration = Duration::from_millis(500);
+    let mut trials = Vec::new();
+    for Model { name, profile } in AIRFRAMES {
+        for quantity in [Quantity::VelocityForward, Quantity::VelocityRight] {
+            for wrong_m_s in [WRONG_M_S, -WRONG_M_S] {
+                let wrong = Action::Sensor(quantity, SensorFault::Offset(wrong_m_s), FOR_EVER);
+                let scenario = Scenario::default().and(When::SinceStart(BEGINS), wrong);
+                let what = format!("{name}, {quantity:?} wrong by {wrong_m_s} m/s from the start");
+                let trial = Trial::new(what, HOLD, profile, scenario)
+                    .and(Must::StayNear { m: MOST_OUTSIDE_M, by_sensors: true });
+                trials.push(trial);
+            }
+        }
+    }
+    trials
+}

@@ -44,6 +44,7 @@ pub fn broken() -> Result<Vec<String>, SimulationError> {
         estimate::wrong_in_pulses(),
         estimate::right_again(),
         estimate::false_sights(),
+        estimate::wrong_from_the_start(),
         estimate::wrong_after_a_gap(),
         estimate::disturbed_turns()?,
     ];

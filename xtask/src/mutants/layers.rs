@@ -4,6 +4,7 @@
 use super::list::{AGENT, ESTIMATOR, Edit, Expected, Mutant, SAFETY, edit, mutant};
 
 const PLAUSIBILITY: &str = "estimator/src/plausibility.rs";
+const HEADING: &str = "estimator/src/heading.rs";
 const UNCERTAINTY: &str = "estimator/src/uncertainty.rs";
 const TAG_FILTER: &str = "estimator/src/tags/filter.rs";
 const SATURATION: &str = "autopilot/src/vehicle/saturation.rs";
@@ -32,6 +33,26 @@ pub(super) const MUTANTS: &[Mutant] = &[
             PLAUSIBILITY,
             "arrival_s - last_s < DISPROVED_TIME_S",
             "arrival_s - last_s < 0.001",
+        )],
+    ),
+    mutant(
+        "the first velocity of a flight is any",
+        &[edit(ESTIMATOR, "            self.velocity_gate.rest();\n", "")],
+    ),
+    mutant(
+        "a gap lets any velocity in",
+        &[edit(
+            PLAUSIBILITY,
+            "(DISTURBED_M_S2 + UNHEARD_SHARE * self.recent_m_s2).min(JUMP_M_S2);",
+            "(DISTURBED_M_S2 + UNHEARD_SHARE * self.recent_m_s2).max(JUMP_M_S2);",
+        )],
+    ),
+    mutant(
+        "a compass that hangs in a turn is believed",
+        &[edit(
+            HEADING,
+            "if repeated && angle_deg.abs() > STUCK_DEG {",
+            "if repeated && angle_deg.abs() > STUCK_DEG.max(1e9) {",
         )],
     ),
     mutant(
