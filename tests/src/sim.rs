@@ -49,6 +49,14 @@ pub struct SimulatedFlight {
     pub duration: Duration,
 }
 
+impl SimulatedFlight {
+    /// When a step of its plan began.
+    pub fn start_of_step(&self, step: usize) -> Option<Duration> {
+        let begins = |event: &FlightEvent| *event == FlightEvent::StepStarted { step };
+        self.events.iter().find_map(|(at, event)| begins(event).then_some(*at))
+    }
+}
+
 /// A tick of a simulated flight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {

@@ -131,7 +131,7 @@ fn a_velocity_that_jumps_is_not_believed_and_one_that_a_gust_changes_is() {
         assert!(gate.admits(along(measured_m_s), model, model, PERIOD_S), "{step}");
         model_m_s += 0.66 * (measured_m_s - model_m_s);
     }
-    // A gap allows little more: whoever lies after one would be believed.
+    // A gap allows little more, because an error that begins in it would be believed.
     for (gap_s, allowed_m_s) in [(0.1, 0.6), (0.3, 0.7), (1.0, 1.05), (2.0, 1.55)] {
         let mut gate = VelocityGate { last_m_s: Some(still), ..VelocityGate::default() };
         assert!(!gate.clone().admits(along(allowed_m_s + 0.01), still, still, gap_s));

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{FlightEvent, TagConfig};
+use autopilot::vehicle::TagConfig;
 use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{CameraModel, FloorTag, Quantity, SensorFault};
@@ -138,36 +138,48 @@ pub(super) fn wrong_after_a_gap() -> Vec<Trial> {
 ///
 /// # Errors
 /// [`SimulationError`] if a flight never ends.
+///
+/// # Panics
+/// If the undisturbed drone does not turn: nothing would be tried then.
 pub(super) fn disturbed_turns() -> Result<Vec<Trial>, SimulationError> {
     const TURN: &str = "takeoff\ngoto 0 3 0.5 0\ngoto 0 3 0.5 175\ngoto 0 -3 0.5 175\nland\n";
     const STEP: usize = 2;
-    let stuck = |ms| Action::Sensor(Quantity::Yaw, SensorFault::Stuck, Duration::from_millis(ms));
-    let unheard = |ms| Action::Outage(Direction::Up, Duration::from_millis(ms));
+    const STUCK_AT_MS: [u64; 3] = [600, 1000, 1400];
+    const STUCK_MS: [u64; 2] = [250, 380];
+    const UNHEARD_AT_MS: [u64; 6] = [900, 1050, 1200, 1350, 1500, 1650];
+    const UNHEARD_MS: [u64; 4] = [1200, 1400, 1600, 1800];
     let mut trials = Vec::new();
     for Model { name, profile } in AIRFRAMES {
         let undisturbed = Trial::new(String::new(), TURN, profile, Scenario::default());
-        let flown = undisturbed.simulation.fly(plan(TURN))?;
-        let begins = |event: &FlightEvent| *event == FlightEvent::StepStarted { step: STEP };
-        let begun = flown.events.iter().find_map(|(at, event)| begins(event).then_some(*at));
-        let Some(begun) = begun else { continue };
-        for into in [600, 1000, 1400].map(Duration::from_millis) {
-            for (what, action) in [
-                ("stuck for 0.25 s", stuck(250)),
-                ("stuck for 0.38 s", stuck(380)),
-                ("unheard for 1.2 s", unheard(1200)),
-                ("unheard for 1.6 s", unheard(1600)),
-            ] {
-                let at = begun + into;
-                let scenario = Scenario::default().and(When::SinceStart(at), action);
-                let what = format!("{name} {what}, {into:?} into a turn");
-                let mut trial =
-                    Trial::new(what, TURN, profile, scenario).and(Must::be_honest(begun));
-                trial.simulation.pilot.limits = FlightLimits { radius_m: 8.0, ..FENCE };
-                trials.push(trial);
-            }
+        let begun = undisturbed.simulation.fly(plan(TURN))?.start_of_step(STEP);
+        let begun = begun.unwrap_or_else(|| panic!("{name} never turns"));
+        // While it turns fastest, and while it is to be braked, which the drone does not receive.
+        let stuck = disturbances(&STUCK_AT_MS, &STUCK_MS, |time| {
+            Action::Sensor(Quantity::Yaw, SensorFault::Stuck, time)
+        });
+        let unheard =
+            disturbances(&UNHEARD_AT_MS, &UNHEARD_MS, |time| Action::Outage(Direction::Up, time));
+        for (into, action) in stuck.chain(unheard) {
+            let scenario = Scenario::default().and(When::SinceStart(begun + into), action);
+            let what = format!("{name} {action:?} {into:?} into a turn");
+            let mut trial = Trial::new(what, TURN, profile, scenario).and(Must::be_honest(begun));
+            trial.simulation.pilot.limits = FlightLimits { radius_m: 8.0, ..FENCE };
+            trials.push(trial);
         }
     }
     Ok(trials)
+}
+
+/// An action at each of some times, for each of some durations.
+fn disturbances(
+    at_ms: &[u64],
+    for_ms: &[u64],
+    action: impl Fn(Duration) -> Action,
+) -> impl Iterator<Item = (Duration, Action)> {
+    at_ms.iter().flat_map(move |at_ms| {
+        let actions = for_ms.iter().map(|ms| action(Duration::from_millis(*ms)));
+        actions.map(|action| (Duration::from_millis(*at_ms), action)).collect::<Vec<_>>()
+    })
 }
 
 /// A velocity that is wrong from before the take-off on: nothing that the drone reports changes when it lifts off.

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{FlightEvent, OperatorOrder, TICK};
+use autopilot::vehicle::{OperatorOrder, TICK};
 use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{Quantity, SensorFault};
@@ -68,6 +68,9 @@ pub(super) fn blind() -> Vec<Trial> {
 ///
 /// # Errors
 /// [`SimulationError`] if a flight never ends.
+///
+/// # Panics
+/// If the undisturbed drone does not take off: nothing would be tried then.
 pub(super) fn down_before_the_take_off() -> Result<Vec<Trial>, SimulationError> {
     const TICKS: u32 = 10;
     const LANDS_WITHIN: Duration = Duration::from_secs(8);
@@ -77,10 +80,8 @@ pub(super) fn down_before_the_take_off() -> Result<Vec<Trial>, SimulationError> 
         let late = Action::Delay(delay, Duration::ZERO);
         let scenario = Scenario::default().and(When::SinceStart(Duration::ZERO), late);
         let undisturbed = Trial::new(String::new(), text, Profile::rec, scenario.clone());
-        let flown = undisturbed.simulation.fly(plan(text))?;
-        let begins = |event: &FlightEvent| *event == FlightEvent::StepStarted { step: 0 };
-        let begun = flown.events.iter().find_map(|(at, event)| begins(event).then_some(*at));
-        let Some(begun) = begun else { continue };
+        let begun = undisturbed.simulation.fly(plan(text))?.start_of_step(0);
+        let begun = begun.unwrap_or_else(|| panic!("no take-off, {delay:?} late"));
         for tick in 0..TICKS {
             let ordered = begun + TICK * tick;
             let what = format!("landing {tick} ticks after the take-off, {delay:?} late");

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use autopilot::Plan;
 use autopilot::plan::{FlightLimits, ZOrigin};
-use autopilot::vehicle::{FlightEvent, VehicleConfig};
+use autopilot::vehicle::VehicleConfig;
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
@@ -301,7 +301,9 @@ pub fn fly(
     let (plan, between) = situation.plan();
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x7365_6e73);
     let healthy = simulation(profile, situation, seed, &mut random);
-    let began = start_of_step(&healthy, &plan)?
+    let began = healthy
+        .fly(plan.clone())?
+        .start_of_step(STEP)
         .unwrap_or_else(|| panic!("{situation}, seed {seed}: never came so far"));
     let into = match situation {
         Situation::Holding => random.random_range(3.0..6.0),
@@ -329,15 +331,6 @@ pub fn fly(
     });
     let flown = flown.collect::<Result<_, SimulationError>>()?;
     Ok(Siblings { at, own, flown })
-}
-
-/// When the healthy flight begins its step [`STEP`], if it does.
-fn start_of_step(healthy: &Simulation, plan: &Plan) -> Result<Option<Duration>, SimulationError> {
-    Ok(healthy
-        .fly(plan.clone())?
-        .events
-        .into_iter()
-        .find_map(|(at, event)| (event == FlightEvent::StepStarted { step: STEP }).then_some(at)))
 }
 
 /// How far the drone goes by itself, if it is ordered to hover at a time and to land two seconds later.

@@ -14,10 +14,10 @@ use mock_drone::{Quantity, SensorFault};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-use super::{AIRFRAMES, Excursion, FOR_EVER, Situation};
+use super::{AIRFRAMES, Excursion, FOR_EVER, STEP, Situation};
 use crate::sim::SimulationError;
 
-/// Smallest error of a velocity that surely shows between two packets, or compared with rest at the take-off.
+/// Smallest error of a velocity that shows between two packets, or compared with rest at the take-off.
 const SHOWS_M_S: f64 = 0.6;
 /// A slower drift of the altitude is not distinguished from a climb.
 const SHOWS_RAMP_M_S: f64 = 0.06;
@@ -125,7 +125,9 @@ pub fn random(number: u64) -> Result<RandomFlight, SimulationError> {
     let situation = Situation::ALL[random.random_range(0..Situation::ALL.len())];
     let (plan, between) = situation.plan();
     let healthy = super::simulation((airframe.profile)(), situation, number, &mut random);
-    let began = super::start_of_step(&healthy, &plan)?
+    let began = healthy
+        .fly(plan.clone())?
+        .start_of_step(STEP)
         .unwrap_or_else(|| panic!("{situation}, number {number}: never came so far"));
     let at_s = random.random_range(EARLIEST_S..began.as_secs_f64() + LATEST_S);
     let at = Duration::from_secs_f64(at_s);

@@ -56,6 +56,14 @@ pub(super) const MUTANTS: &[Mutant] = &[
         )],
     ),
     mutant(
+        "a drone that receives nothing turns as ordered",
+        &[edit(
+            HEADING,
+            "(MAX_SURPRISE_DEG_S + unheard_deg_s) * step_s;",
+            "(3.0 * MAX_SURPRISE_DEG_S + 0.0 * unheard_deg_s) * step_s;",
+        )],
+    ),
+    mutant(
         "rejected velocities leave no uncertainty",
         &[edit(
             UNCERTAINTY,
