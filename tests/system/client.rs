@@ -2,7 +2,6 @@
 
 use std::process::{Command, Stdio};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use ardrone_link::navdata::{NavdataOption, Time};
@@ -16,7 +15,8 @@ use mock_drone::server::{MockDrone, Ports};
 use mock_drone::{DroneConfig, Tag27, WorldConfig};
 use tokio::time::{sleep, timeout};
 
-use crate::parting::{EACCES, ended_within, refuse, refusing_library, wait_until};
+use crate::lateness::Lateness;
+use crate::parting::{EACCES, FLOOD, ended_within, refuse, refusing_library, wait_until};
 use crate::relay::Relay;
 use crate::udp::address;
 
@@ -381,17 +381,12 @@ async fn a_flood_delays_no_tick_of_a_client() {
     let drone = Client::builder().address(relay.address().clone()).start().await.unwrap();
     drone.ready().await.unwrap();
     let begun = Instant::now();
-    relay.flood(1_000_000);
-    let busy = Arc::new(AtomicBool::new(true));
-    let others = std::thread::spawn({
-        let busy = Arc::clone(&busy);
-        move || lateness_until(&busy)
-    });
+    let lateness = Lateness::measure();
+    relay.flood(FLOOD);
     while relay.floods() {
         sleep(Duration::from_millis(10)).await;
     }
-    busy.store(false, Ordering::Relaxed);
-    let lateness = others.join().unwrap();
+    let lateness = lateness.worst();
     let ended = Instant::now();
     let said = relay.said();
     let meanwhile = said.windows(2).filter(|pair| pair[0].at >= begun && pair[1].at <= ended);
@@ -401,16 +396,4 @@ async fn a_flood_delays_no_tick_of_a_client() {
     // On a busy machine a thread that only sleeps wakes up late too, and both client and relay are delayed by
     // that.
     assert!(gap < Duration::from_millis(100) + 3 * lateness, "{gap:?}");
-}
-
-/// The longest delay with which a sleeping thread wakes up.
-fn lateness_until(busy: &AtomicBool) -> Duration {
-    const NAP: Duration = Duration::from_millis(10);
-    let mut worst = Duration::ZERO;
-    while busy.load(Ordering::Relaxed) {
-        let before = Instant::now();
-        std::thread::sleep(NAP);
-        worst = worst.max(before.elapsed().saturating_sub(NAP));
-    }
-    worst
 }

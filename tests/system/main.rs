@@ -13,6 +13,7 @@ mod conversation;
 mod dependencies;
 mod estimate;
 mod faults;
+mod lateness;
 mod parting;
 mod plans;
 mod ports;

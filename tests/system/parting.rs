@@ -12,12 +12,14 @@ use mock_drone::{DroneConfig, WorldConfig};
 use nalgebra::Vector2;
 use system_tests::plan;
 
+use crate::lateness::Lateness;
 use crate::processes::{plan_file, program, signal};
 use crate::relay::{Relay, Said};
 
 const LONG: &str = "takeoff\nsetStayTime 50\ngoto 0 0.5 0 0\nland\n";
 const SHORT: &str = "takeoff\nsetStayTime 2\ngoto 0 0.5 0 0\nland\n";
 const TICK: Duration = Duration::from_millis(30);
+pub(crate) const FLOOD: Duration = Duration::from_secs(4);
 
 fn breeze() -> WorldConfig {
     let drone = DroneConfig { wind_m_s: Vector2::new(0.5, 0.0), ..DroneConfig::default() };
@@ -139,8 +141,12 @@ fn leave_at(moment: Moment) {
         }
         _ => std::thread::sleep(Duration::from_millis(50)),
     }
+    let ordered = relay.said().len();
     signal(&child, "-INT");
-    assert_eq!(ended_within(child, Duration::from_secs(2)), Some(130), "{moment:?}");
+    assert_eq!(ended_within(child, Duration::from_mins(1)), Some(130), "{moment:?}");
+    // Counted in ticks, because a busy machine may delay each of them.
+    let until_the_end = relay.said().len() - ordered;
+    assert!(until_the_end < 40, "{moment:?}: {until_the_end} datagrams");
     assert_parted(&relay);
 }
 
@@ -329,20 +335,31 @@ fn a_flood_delays_no_tick_and_loses_no_tick_of_the_log() {
     let mut pilot = recording_pilot(&relay, plan.path(), &log);
     let child = pilot.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     flying(&relay);
+    let lateness = Lateness::measure();
     let begun = Instant::now();
-    relay.flood(1_000_000);
-    wait_until("the end of the flood", Duration::from_secs(30), || !relay.floods());
+    relay.flood(FLOOD);
+    wait_until("the end of the flood", Duration::from_mins(1), || !relay.floods());
     let ended = Instant::now();
+    let lateness = lateness.worst();
     let said = relay.said();
     let meanwhile = said.windows(2).filter(|pair| pair[0].at >= begun && pair[1].at <= ended);
     let gap = meanwhile.map(|pair| pair[1].at - pair[0].at).max().unwrap();
     signal(&child, "-INT");
     let output = child.wait_with_output().unwrap();
     let [summary, progress] = [&output.stdout, &output.stderr].map(|t| String::from_utf8_lossy(t));
-    println!("flooded for {:?}, worst gap {gap:?}\n{summary}", ended - begun);
+    println!(
+        "flooded for {:?}, worst gap {gap:?}, machine late by {lateness:?}\n{summary}",
+        ended - begun
+    );
     assert_eq!(relay.truth().phase, Phase::Landed);
-    assert!(progress.contains("navdata arrive faster than they can be processed"), "{progress}");
-    assert!(!summary.contains("the disk was too slow"), "{summary}");
-    // The machine may be busy.
-    assert!(gap < Duration::from_millis(100), "{gap:?}");
+    // A machine that is late by several ticks cannot receive more than the pilot can process, nor write every record.
+    if lateness < 3 * TICK {
+        assert!(
+            progress.contains("navdata arrive faster than they can be processed"),
+            "{progress}"
+        );
+        assert!(!summary.contains("the disk was too slow"), "{summary}");
+    }
+    // On a busy machine both pilot and relay are delayed as a thread that only sleeps is.
+    assert!(gap < Duration::from_millis(100) + 3 * lateness, "{gap:?}");
 }

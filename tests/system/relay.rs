@@ -3,7 +3,7 @@
 
 use std::io::Write as _;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, UdpSocket};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -46,7 +46,8 @@ struct Shared {
     said: Mutex<Vec<Said>>,
     /// Address of the pilot's navdata socket.
     pilot: Mutex<Option<SocketAddr>>,
-    flood: AtomicU64,
+    /// Until when the pilot is flooded.
+    flood: Mutex<Option<Instant>>,
     busy: AtomicBool,
     over: AtomicBool,
 }
@@ -109,12 +110,12 @@ impl Relay {
     }
 
     /// Sends the pilot invalid datagrams from the drone's address, as fast as possible.
-    pub(crate) fn flood(&self, datagrams: u64) {
-        self.shared.flood.store(datagrams, Ordering::Relaxed);
+    pub(crate) fn flood(&self, duration: Duration) {
+        *self.shared.flood.lock().unwrap() = Some(Instant::now() + duration);
     }
 
     pub(crate) fn floods(&self) -> bool {
-        self.shared.flood.load(Ordering::Relaxed) > 0
+        self.shared.flood.lock().unwrap().is_some()
     }
 
     /// From the next connection on, the control port sends data without end.
@@ -172,15 +173,15 @@ fn relay_navdata(shared: &Shared, pilot: &UdpSocket, drone: &UdpSocket) {
 
 fn flood(shared: &Shared, pilot: &UdpSocket, _: &UdpSocket) {
     while shared.goes_on() {
-        let to = *shared.pilot.lock().unwrap();
-        let (Some(to), 1..) = (to, shared.flood.load(Ordering::Relaxed)) else {
+        let (to, until) = (*shared.pilot.lock().unwrap(), *shared.flood.lock().unwrap());
+        let (Some(to), Some(until)) = (to, until) else {
             std::thread::sleep(LOOK);
             continue;
         };
-        while shared.flood.load(Ordering::Relaxed) > 0 {
+        while Instant::now() < until {
             _ = pilot.send_to(&[0x55; 400], to);
-            shared.flood.fetch_sub(1, Ordering::Relaxed);
         }
+        *shared.flood.lock().unwrap() = None;
     }
 }
 
