@@ -20,6 +20,8 @@ const LONG: &str = "takeoff\nsetStayTime 50\ngoto 0 0.5 0 0\nland\n";
 const SHORT: &str = "takeoff\nsetStayTime 2\ngoto 0 0.5 0 0\nland\n";
 const TICK: Duration = Duration::from_millis(30);
 pub(crate) const FLOOD: Duration = Duration::from_secs(4);
+/// Datagrams that the pilot handles in a tick.
+const PROCESSED_PER_TICK: u128 = 1000;
 
 fn breeze() -> WorldConfig {
     let drone = DroneConfig { wind_m_s: Vector2::new(0.5, 0.0), ..DroneConfig::default() };
@@ -153,10 +155,12 @@ fn leave_at(moment: Moment) {
 #[test]
 fn a_second_control_c_at_any_moment_leaves_with_the_landing_ordered() {
     use Moment::{Configuring, Descending, Flying, Landing, Settling, TakingOff};
-    let moments = [Configuring, Settling, TakingOff, Flying, Descending, Landing];
-    let threads = moments.map(|moment| (moment, std::thread::spawn(move || leave_at(moment))));
-    for (moment, thread) in threads {
-        assert!(thread.join().is_ok(), "{moment:?}");
+    // Two at a time: the ticks of more would leave one core no time for their signals.
+    for pair in [[Configuring, Flying], [Settling, Descending], [TakingOff, Landing]] {
+        let threads = pair.map(|moment| (moment, std::thread::spawn(move || leave_at(moment))));
+        for (moment, thread) in threads {
+            assert!(thread.join().is_ok(), "{moment:?}");
+        }
     }
 }
 
@@ -340,7 +344,7 @@ fn a_flood_delays_no_tick_and_loses_no_tick_of_the_log() {
     relay.flood(FLOOD);
     wait_until("the end of the flood", Duration::from_mins(1), || !relay.floods());
     let ended = Instant::now();
-    let lateness = lateness.worst();
+    let (lateness, flooded) = (lateness.worst(), relay.flooded());
     let said = relay.said();
     let meanwhile = said.windows(2).filter(|pair| pair[0].at >= begun && pair[1].at <= ended);
     let gap = meanwhile.map(|pair| pair[1].at - pair[0].at).max().unwrap();
@@ -348,18 +352,18 @@ fn a_flood_delays_no_tick_and_loses_no_tick_of_the_log() {
     let output = child.wait_with_output().unwrap();
     let [summary, progress] = [&output.stdout, &output.stderr].map(|t| String::from_utf8_lossy(t));
     println!(
-        "flooded for {:?}, worst gap {gap:?}, machine late by {lateness:?}\n{summary}",
+        "{flooded} datagrams in {:?}, worst gap {gap:?}, machine late by {lateness:?}\n{summary}",
         ended - begun
     );
     assert_eq!(relay.truth().phase, Phase::Landed);
-    // A machine that is late by several ticks cannot receive more than the pilot can process, nor write every record.
-    if lateness < 3 * TICK {
+    // A slow machine sends no more than the pilot can process.
+    if u128::from(flooded) > 2 * PROCESSED_PER_TICK * (FLOOD.as_millis() / TICK.as_millis()) {
         assert!(
             progress.contains("navdata arrive faster than they can be processed"),
             "{progress}"
         );
-        assert!(!summary.contains("the disk was too slow"), "{summary}");
     }
+    assert!(!summary.contains("the disk was too slow"), "{summary}");
     // On a busy machine both pilot and relay are delayed as a thread that only sleeps is.
     assert!(gap < Duration::from_millis(100) + 3 * lateness, "{gap:?}");
 }

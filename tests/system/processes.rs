@@ -244,7 +244,8 @@ fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
     // Its records up to then are in the log.
     let recorded = Log::read(&std::fs::read(&flight_log).unwrap()).unwrap();
     assert!(!recorded.complete);
-    assert!(recorded.ticks().count() > 250, "{}", recorded.ticks().count());
+    // A late tick is skipped, so a busy machine has fewer.
+    assert!(recorded.ticks().count() > 150, "{}", recorded.ticks().count());
 }
 
 #[test]

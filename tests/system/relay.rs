@@ -3,7 +3,7 @@
 
 use std::io::Write as _;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, UdpSocket};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -48,6 +48,8 @@ struct Shared {
     pilot: Mutex<Option<SocketAddr>>,
     /// Until when the pilot is flooded.
     flood: Mutex<Option<Instant>>,
+    /// Number of datagrams of the flood.
+    flooded: AtomicU64,
     busy: AtomicBool,
     over: AtomicBool,
 }
@@ -118,6 +120,11 @@ impl Relay {
         self.shared.flood.lock().unwrap().is_some()
     }
 
+    /// Number of datagrams of floods until now.
+    pub(crate) fn flooded(&self) -> u64 {
+        self.shared.flooded.load(Ordering::Relaxed)
+    }
+
     /// From the next connection on, the control port sends data without end.
     pub(crate) fn keep_control_port_busy(&self) {
         self.shared.busy.store(true, Ordering::Relaxed);
@@ -180,6 +187,7 @@ fn flood(shared: &Shared, pilot: &UdpSocket, _: &UdpSocket) {
         };
         while Instant::now() < until {
             _ = pilot.send_to(&[0x55; 400], to);
+            shared.flooded.fetch_add(1, Ordering::Relaxed);
         }
         *shared.flood.lock().unwrap() = None;
     }
