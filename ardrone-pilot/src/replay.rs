@@ -105,7 +105,10 @@ impl Replay {
                     let (by, order) = order.given(&config.limits)?;
                     vehicle.handle(*at, Input::Order(by, order));
                 }
-                Entry::Decoded(_) | Entry::Event { .. } | Entry::Outcome { .. } => {}
+                Entry::Decoded(_)
+                | Entry::Tags(_)
+                | Entry::Event { .. }
+                | Entry::Outcome { .. } => {}
                 Entry::Tick(recorded) => {
                     vehicle.tick(*at);
                     while let Some(output) = vehicle.poll() {

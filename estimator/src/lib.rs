@@ -56,7 +56,8 @@ use nalgebra::{Vector2, Vector3};
 
 pub use orders::Order;
 pub use tags::{
-    KnownTag, MAX_SIGHTS, MAX_TAGS, OrientationSign, Sight, SurveyedTag, TagConfig, TagStatus,
+    KnownTag, KnownTags, MAX_SIGHTS, MAX_TAGS, OrientationSign, Sight, SurveyedTag, TagConfig,
+    TagStatus,
 };
 pub use trust::{Quantity, Trust};
 
@@ -578,14 +579,9 @@ impl Estimator {
         }
     }
 
-    /// Status of the tags; `None` if they are not used.
+    /// The known tags and their status; `None` if tags are not used.
     pub fn tag_status(&self, now: Duration) -> Option<TagStatus> {
         self.tags.as_ref().map(|tags| tags.status(now.as_secs_f64()))
-    }
-
-    /// The known tags.
-    pub fn known_tags(&self) -> impl Iterator<Item = KnownTag> + '_ {
-        self.tags.iter().flat_map(|tags| tags.known())
     }
 
     /// Whether a tag is in view and a turn of some degrees would reveal the sign of its orientation, without

@@ -145,7 +145,7 @@ fn tags_are_looked_for_only_if_they_are_used() {
         };
         let mut seen = false;
         let watch = |moment: &Moment| {
-            seen |= moment.status.tags.is_some_and(|tags| tags.known > 0);
+            seen |= moment.status.tags.is_some_and(|tags| tags.known.count() > 0);
         };
         let flight = simulation.fly_watched(plan("takeoff\ngoto 0 0 0.5 0\nland"), watch).unwrap();
         let happened =

@@ -29,7 +29,7 @@ use ardrone_link::navdata::{ControlState, Demo, DroneState, GpsFix, Navdata};
 use ardrone_link::session::{self, Session, SessionConfig};
 use ardrone_link::settings::{Detection, Setting, SettingError};
 use estimator::{EstimatorConfig, Prediction};
-pub use estimator::{KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
+pub use estimator::{KnownTag, KnownTags, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use kinematics::Pose;
 use pid::CascadeConfig;
 pub use pid::Law;
@@ -304,11 +304,6 @@ impl Vehicle {
     /// Report of the current or last flight.
     pub fn report(&self) -> &FlightReport {
         &self.flight.report
-    }
-
-    /// The tags that are known, if they are used.
-    pub fn known_tags(&self) -> impl Iterator<Item = KnownTag> + '_ {
-        self.flight.estimator.known_tags()
     }
 
     /// A snapshot for displays.

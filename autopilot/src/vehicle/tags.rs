@@ -7,7 +7,7 @@ use estimator::{MAX_SIGHTS, Prediction, Sight};
 use kinematics::Pose;
 use nalgebra::Vector2;
 
-use super::{Vehicle, VehicleConfig};
+use super::{TagStatus, Vehicle, VehicleConfig};
 use crate::agent::TagPercepts;
 
 /// The black and white roundel, with or without its direction: `ardrone_api.h`.
@@ -78,23 +78,23 @@ pub(super) struct SignSearch {
 }
 
 impl Vehicle {
-    /// What the agent is given of tags; `None` if they are not in use.
-    pub(super) fn tag_percepts(&self, now: Duration, state: &Prediction) -> Option<TagPercepts> {
-        let status = self.flight.estimator.tag_status(now)?;
+    /// The percepts about tags.
+    pub(super) fn tag_percepts(
+        &self,
+        now: Duration,
+        state: &Prediction,
+        status: &TagStatus,
+    ) -> TagPercepts {
         let age = status.seen_ago.unwrap_or(now.saturating_sub(self.flight.asked_at));
         let here_m = state.position_m.xy();
-        let nearest = self
-            .flight
-            .estimator
-            .known_tags()
-            .map(|tag| tag.place_m)
-            .min_by(|a, b| (a - here_m).norm().total_cmp(&(b - here_m).norm()));
-        Some(TagPercepts {
+        let places_m = status.known.iter().map(|tag| tag.place_m);
+        let nearest = places_m.min_by(|a, b| (a - here_m).norm().total_cmp(&(b - here_m).norm()));
+        TagPercepts {
             age_ms: i64::try_from(age.as_millis()).unwrap_or(i64::MAX),
             seen: nearest.is_some() && status.seen_ago.is_some_and(|ago| ago < IN_VIEW),
             nearest_m: nearest.map(Into::into),
             landing_drift_m: landing_drift_m(self.flight.wind_m_s2).into(),
-        })
+        }
     }
 
     /// The configuration with the tags that the mission's plan declares, where tags are in use and there is room.

@@ -3,6 +3,8 @@
 //! A sighting where no tag is known creates a tag on trial at once, so that little of the drift before its
 //! first sighting is lost. After enough sightings it becomes known; otherwise it is forgotten.
 
+use std::time::Duration;
+
 use nalgebra::Vector2;
 
 use super::filter::{Filter, Sighted};
@@ -21,6 +23,8 @@ pub struct SurveyedTag {
 /// A known tag.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KnownTag {
+    /// Number of the tag, counted from 1 in the order in which tags became known. It is not given to another tag.
+    pub id: u32,
     /// Position relative to the start: right and forward.
     pub place_m: Vector2<f64>,
     /// Its direction, once it is known.
@@ -29,6 +33,36 @@ pub struct KnownTag {
     pub deviation_m: f64,
     /// Whether its position was given.
     pub surveyed: bool,
+    /// Time since it was last seen; `None` if it has not been seen yet.
+    pub seen_ago: Option<Duration>,
+}
+
+/// All known tags by increasing id.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct KnownTags([Option<KnownTag>; MAX_TAGS]);
+
+impl KnownTags {
+    /// The tags.
+    pub fn iter(&self) -> impl Iterator<Item = &KnownTag> {
+        self.0.iter().flatten()
+    }
+
+    /// Number of tags.
+    pub fn count(&self) -> usize {
+        self.iter().count()
+    }
+}
+
+impl FromIterator<KnownTag> for KnownTags {
+    /// At most [`MAX_TAGS`] tags; others are left out.
+    fn from_iter<T: IntoIterator<Item = KnownTag>>(tags: T) -> Self {
+        let mut known = Self::default();
+        for (slot, tag) in known.0.iter_mut().zip(tags) {
+            *slot = Some(tag);
+        }
+        known.0.sort_unstable_by_key(|slot| slot.map_or(u32::MAX, |tag| tag.id));
+        known
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,6 +77,8 @@ enum Standing {
 #[derive(Debug, Clone, Copy, Default)]
 struct Slot {
     standing: Standing,
+    /// Number of a known tag.
+    id: u32,
     surveyed: bool,
     has_heading: bool,
     seen_s: f64,
@@ -54,6 +90,8 @@ struct Slot {
 #[derive(Debug, Clone)]
 pub(super) struct Map {
     slots: [Slot; SLOTS],
+    /// Number of tags that have been known so far.
+    numbered: u32,
 }
 
 /// Minimum ratio of the distance of the second nearest tag to that of the nearest.
@@ -95,11 +133,14 @@ const CERTAIN_ODDS: f64 = 10.0;
 impl Map {
     pub(super) fn new(surveyed: &[Option<SurveyedTag>; MAX_TAGS], filter: &mut Filter) -> Self {
         let mut slots = [Slot::default(); SLOTS];
+        let mut numbered = 0;
         for (tag, surveyed) in surveyed.iter().enumerate() {
             if let Some(SurveyedTag { place_m, heading_deg }) = surveyed {
                 filter.survey_tag(tag, *place_m, heading_deg.map(f64::to_radians));
+                numbered += 1;
                 slots[tag] = Slot {
                     standing: Standing::Known,
+                    id: numbered,
                     surveyed: true,
                     has_heading: heading_deg.is_some(),
                     seen_s: f64::NEG_INFINITY,
@@ -107,7 +148,7 @@ impl Map {
                 };
             }
         }
-        Self { slots }
+        Self { slots, numbered }
     }
 
     fn those(&self, wanted: fn(Standing) -> bool) -> impl Iterator<Item = usize> + '_ {
@@ -118,13 +159,20 @@ impl Map {
         self.those(is_known).count()
     }
 
-    pub(super) fn iter<'a>(&'a self, filter: &'a Filter) -> impl Iterator<Item = KnownTag> + 'a {
-        self.those(is_known).map(|tag| KnownTag {
-            place_m: filter.tag_place_m(tag),
-            heading_deg: self.slots[tag].has_heading.then(|| filter.tag_heading_deg(tag)),
-            deviation_m: filter.tag_deviation_m(tag),
-            surveyed: self.slots[tag].surveyed,
-        })
+    /// The known tags with the time since each was seen.
+    pub(super) fn known_tags(&self, filter: &Filter, now_s: f64) -> KnownTags {
+        let known = self.those(is_known).map(|tag| {
+            let Slot { id, surveyed, has_heading, seen_s, .. } = self.slots[tag];
+            KnownTag {
+                id,
+                place_m: filter.tag_place_m(tag),
+                heading_deg: has_heading.then(|| filter.tag_heading_deg(tag)),
+                deviation_m: filter.tag_deviation_m(tag),
+                surveyed,
+                seen_ago: Duration::try_from_secs_f64((now_s - seen_s).max(0.0)).ok(),
+            }
+        });
+        known.collect()
     }
 
     /// Forgets tags on trial that were not seen again.
@@ -205,7 +253,9 @@ impl Map {
         if self.known() >= MAX_TAGS {
             return None;
         }
+        self.numbered = self.numbered.saturating_add(1);
         self.slots[tag].standing = Standing::Known;
+        self.slots[tag].id = self.numbered;
         Some(tag)
     }
 

@@ -25,7 +25,7 @@ use self::camera::Look;
 use self::filter::Filter;
 use self::history::{History, Moment};
 use self::map::Map;
-pub use self::map::{KnownTag, SurveyedTag};
+pub use self::map::{KnownTag, KnownTags, SurveyedTag};
 use self::orientation::Orientation;
 pub use self::orientation::OrientationSign;
 use self::take_back::TakeBack;
@@ -88,8 +88,8 @@ pub struct Sight {
 /// Status of the tags.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TagStatus {
-    /// Number of tags with known positions.
-    pub known: usize,
+    /// The tags with known positions.
+    pub known: KnownTags,
     /// Time since one of them was seen.
     pub seen_ago: Option<Duration>,
     /// Whether the sign of orientations is known, so that tags correct the heading too.
@@ -367,7 +367,7 @@ impl Tags {
 
     pub(crate) fn status(&self, now_s: f64) -> TagStatus {
         TagStatus {
-            known: self.map.known(),
+            known: self.map.known_tags(&self.filter, now_s),
             seen_ago: self.fix.map(|fix| Duration::from_secs_f64((now_s - fix.at_s).max(0.0))),
             heading_held: self.orientation.sign().is_some(),
             drift_m: -self.filter.correction().place_m,
@@ -378,9 +378,5 @@ impl Tags {
     pub(crate) fn would_learn_from_a_turn(&self, now_s: f64) -> bool {
         let in_view = self.fix.is_some_and(|fix| now_s - fix.at_s < IN_VIEW_S);
         in_view && self.orientation.sign().is_none()
-    }
-
-    pub(crate) fn known(&self) -> impl Iterator<Item = KnownTag> + '_ {
-        self.map.iter(&self.filter)
     }
 }

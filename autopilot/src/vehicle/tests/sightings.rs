@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 
 use super::bench::{Bench, SECOND, START};
 use super::*;
+use crate::agent::TagPercepts;
 
 /// A vehicle above a tag at its start; another tag is two metres to the right.
 fn above_a_tag() -> Bench {
@@ -29,6 +30,11 @@ fn flying_above_a_tag(plan: &str) -> Bench {
     bench
 }
 
+fn percepts(vehicle: &Vehicle, now: Duration, state: &Prediction) -> Option<TagPercepts> {
+    let status = vehicle.flight.estimator.tag_status(now)?;
+    Some(vehicle.tag_percepts(now, state, &status))
+}
+
 #[test]
 fn the_agent_is_given_the_nearest_tag_and_how_long_ago_one_was_seen() {
     let mut bench = above_a_tag();
@@ -47,12 +53,12 @@ fn the_agent_is_given_the_nearest_tag_and_how_long_ago_one_was_seen() {
 #[test]
 fn a_tag_that_was_never_seen_is_as_old_as_the_flight() {
     let mut config = VehicleConfig { read_back: false, ..VehicleConfig::default() };
-    assert_eq!(Bench::with(&config).vehicle.tag_percepts(SECOND, &Prediction::default()), None);
+    assert_eq!(percepts(&Bench::with(&config).vehicle, SECOND, &Prediction::default()), None);
     config.estimator.tags = Some(TagConfig::default());
     let mut bench = Bench::with(&config);
     bench.step();
     let later = bench.now + 5 * SECOND;
-    let percepts = bench.vehicle.tag_percepts(later, &Prediction::default()).unwrap();
+    let percepts = percepts(&bench.vehicle, later, &Prediction::default()).unwrap();
     assert_eq!((percepts.age_ms, percepts.seen, percepts.nearest_m), (5000, false, None));
 }
 
@@ -99,10 +105,10 @@ fn a_landing_on_a_tag_may_be_taken_back_until_the_way_down() {
 #[test]
 fn surveyed_tags_are_known_before_they_are_seen() {
     let bench = above_a_tag();
-    let places: Vec<_> = bench.vehicle.known_tags().map(|tag| tag.place_m.x).collect();
+    let known = bench.vehicle.status(bench.now).tags.unwrap().known;
+    let places: Vec<_> = known.iter().map(|tag| tag.place_m.x).collect();
     assert_eq!(places.len(), 2);
-    assert!(bench.vehicle.known_tags().all(|tag| tag.surveyed));
-    assert_eq!(Vehicle::new(&VehicleConfig::default()).unwrap().known_tags().count(), 0);
+    assert!(known.iter().all(|tag| tag.surveyed));
 }
 
 #[test]
@@ -117,7 +123,7 @@ fn the_nearest_tag_is_the_nearest_to_the_drone() {
     for (here_m, nearest_m) in [([0.6, 0.5], [2.0, 0.0]), ([0.5, 0.6], [0.0, 2.0])] {
         let position_m = nalgebra::Vector3::new(here_m[0], here_m[1], 1.0);
         let state = Prediction { position_m, ..Prediction::default() };
-        let percepts = vehicle.tag_percepts(SECOND, &state).unwrap();
+        let percepts = percepts(&vehicle, SECOND, &state).unwrap();
         assert_eq!(percepts.nearest_m, Some(nearest_m), "{here_m:?}");
         assert!(!percepts.seen, "known, but never seen");
     }
@@ -129,7 +135,7 @@ fn a_tag_is_in_view_for_half_a_second() {
     let ago = bench.vehicle.flight.estimator.tag_status(bench.now).unwrap().seen_ago.unwrap();
     let is_seen = |ago_ms: u64| {
         let now = bench.now + Duration::from_millis(ago_ms).saturating_sub(ago);
-        bench.vehicle.tag_percepts(now, &Prediction::default()).unwrap().seen
+        percepts(&bench.vehicle, now, &Prediction::default()).unwrap().seen
     };
     assert!(is_seen(499));
     assert!(!is_seen(501));
