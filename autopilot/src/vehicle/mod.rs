@@ -156,6 +156,17 @@ pub struct Vehicle {
     pending: Pending,
 }
 
+/// Why a vehicle cannot fly a plan.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CannotFly {
+    /// The limits cannot be encoded as drone settings.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The plan was refused.
+    #[error("the plan cannot be flown: {0}")]
+    Refused(#[from] Refused),
+}
+
 /// Settings that the drone has not applied.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 struct Configured {
@@ -219,16 +230,11 @@ impl Vehicle {
     /// A vehicle that flies `plan` as soon as the drone is ready, ordered by the terminal's operator.
     ///
     /// # Errors
-    /// See [`Vehicle::new`].
-    pub fn flying(plan: Plan, config: &VehicleConfig) -> Result<Self, SettingError> {
+    /// [`CannotFly`] if the limits cannot be encoded, or the plan does not fit the configuration.
+    pub fn flying(plan: Plan, config: &VehicleConfig) -> Result<Self, CannotFly> {
         let mut vehicle = Self::new(config)?;
         for order in [OperatorOrder::Load(plan), OperatorOrder::Start { when_ready: true }] {
-            let accepted = vehicle.order(Duration::ZERO, Operator::TERMINAL, order);
-            debug_assert_eq!(
-                accepted,
-                Ok(()),
-                "a plan takes off, and nobody else has the controls"
-            );
+            vehicle.order(Duration::ZERO, Operator::TERMINAL, order)?;
         }
         Ok(vehicle)
     }

@@ -315,12 +315,17 @@ impl Filter {
         let mut row = [0.0; STATES];
         row[HEADING] = 1.0;
         row[state] = -1.0;
-        let gain = self.gain(&row);
-        let spread = dot(&row, &gain, self.used) + ORIENTATION_DEG.to_radians().powi(2);
+        let variance = ORIENTATION_DEG.to_radians().powi(2);
         let off = wrap_rad(self.x[state] - direction_rad);
-        if off * off > GATE * GATE * spread {
-            return;
+        if off * off <= GATE * GATE * (dot(&row, &self.gain(&row), self.used) + variance) {
+            self.correct_one(&row, off, variance);
         }
+    }
+
+    /// Corrects by a row whose measured value is larger than the estimated one by `off`, with a variance.
+    fn correct_one(&mut self, row: &Row, off: f64, variance: f64) {
+        let gain = self.gain(row);
+        let spread = dot(row, &gain, self.used) + variance;
         for (value, gain) in self.x.iter_mut().zip(&gain).take(self.used) {
             *value += gain * off / spread;
         }

@@ -17,12 +17,13 @@ mod take_back;
 #[cfg(test)]
 mod tests;
 
+use std::fmt;
 use std::time::Duration;
 
 use nalgebra::Vector2;
 
 use self::camera::Look;
-use self::filter::Filter;
+use self::filter::{Correction, Filter};
 use self::history::{History, Moment};
 use self::map::Map;
 pub use self::map::{KnownTag, KnownTags, SurveyedTag};
@@ -84,6 +85,18 @@ pub struct Sight {
     /// Orientation of the pattern in the picture; 270 when the drone is aligned with it.
     pub orientation_deg: f64,
 }
+
+/// More than [`MAX_TAGS`] tags would be known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NoRoom;
+
+impl fmt::Display for NoRoom {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "more than {MAX_TAGS} tags would be known")
+    }
+}
+
+impl std::error::Error for NoRoom {}
 
 /// Status of the tags.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -176,6 +189,35 @@ impl Tags {
         }
     }
 
+    /// Adds tags that are surveyed in flight; the odometry is at `odometry_m`.
+    pub(crate) fn survey(
+        &mut self,
+        tags: &[SurveyedTag],
+        odometry_m: Vector2<f64>,
+    ) -> Result<(), NoRoom> {
+        if !self.map.has_room_for(&self.filter, tags) {
+            return Err(NoRoom);
+        }
+        let before = self.filter.correction();
+        if !tags.is_empty() && !self.map.has_surveyed() {
+            self.filter.doubt_frame(self.place_m(odometry_m));
+        }
+        for tag in tags {
+            if let Some(slot) = self.map.survey(&mut self.filter, tag) {
+                self.orientation.forget(slot);
+            }
+        }
+        self.take_back_jump(before);
+        Ok(())
+    }
+
+    /// The estimate has jumped since `before`: the reference jumps along and then moves back.
+    fn take_back_jump(&mut self, before: Correction) {
+        let after = self.filter.correction();
+        self.take_back
+            .jumped(after.place_m - before.place_m, after.heading_rad - before.heading_rad);
+    }
+
     /// The odometry has advanced.
     pub(crate) fn fly(&mut self, step: &OdometryStep) {
         if let Some((way_m, step_s)) = self.history.push(step) {
@@ -234,9 +276,7 @@ impl Tags {
                 self.take_in(&look, &moment, made_s, &mut seen);
             }
         }
-        let after = self.filter.correction();
-        self.take_back
-            .jumped(after.place_m - before.place_m, after.heading_rad - before.heading_rad);
+        self.take_back_jump(before);
     }
 
     fn take_in(&mut self, look: &Look, moment: &Moment, made_s: f64, seen: &mut [bool; SLOTS]) {

@@ -5,6 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use crate::{Estimator, EstimatorConfig, Sample, Sight, SurveyedTag, TagConfig};
 
 mod frames;
+mod surveyed_in_flight;
 mod trials;
 
 const PERIOD: Duration = Duration::from_micros(66_667);

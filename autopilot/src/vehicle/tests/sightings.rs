@@ -140,3 +140,56 @@ fn a_tag_is_in_view_for_half_a_second() {
     assert!(is_seen(499));
     assert!(!is_seen(501));
 }
+
+fn plan_with_tags(tags: &[(f64, f64)]) -> OperatorOrder {
+    let mut text: String = tags.iter().map(|(x, y)| format!("tag {x} {y}\n")).collect();
+    text += "takeoff\nlandOnTag";
+    OperatorOrder::Load(Plan::parse("plan", &text).unwrap())
+}
+
+fn known(bench: &Bench) -> Vec<KnownTag> {
+    bench.vehicle.status(bench.now).tags.unwrap().known.iter().copied().collect()
+}
+
+#[test]
+fn a_plan_that_is_loaded_in_the_air_brings_its_tags() {
+    let mut bench = above_a_tag();
+    assert_eq!(known(&bench).len(), 2);
+    bench.accepted(plan_with_tags(&[(0.1, 0.0), (5.0, 1.0)]));
+    let tags = known(&bench);
+    assert_eq!(tags.len(), 3, "one of them was known: {tags:?}");
+    assert!(tags[2].surveyed && (tags[2].place_m - Vector2::new(5.0, 1.0)).norm() < 1e-9);
+    // Six more are too many: nothing of the mission changes.
+    let (steps, row) = (bench.vehicle.mission().to_vec(), [-9.0, -7.0, -5.0, -3.0, -1.0, 1.0]);
+    let six = row.map(|x_m| (x_m, -4.0));
+    let refused = Err(Refused::TooManyTags { declared: 6, known: 3 });
+    assert_eq!(bench.order(plan_with_tags(&six)), refused);
+    assert_eq!((known(&bench), bench.vehicle.mission()), (tags, steps.as_slice()));
+    bench.accepted(plan_with_tags(&six[..5]));
+    assert_eq!(known(&bench).len(), 8);
+}
+
+#[test]
+fn more_tags_than_can_be_known_are_refused_with_the_plan() {
+    let mut config = VehicleConfig::default();
+    let mut tags = TagConfig::default();
+    let given = |x_m| Some(SurveyedTag { place_m: Vector2::new(x_m, 6.0), heading_deg: None });
+    (tags.surveyed[0], tags.surveyed[1]) = (given(-2.0), given(2.0));
+    config.estimator.tags = Some(tags);
+    let row: Vec<(f64, f64)> = (0..7).map(|i| (2.0 * f64::from(i) - 6.0, 0.0)).collect();
+    let load = |vehicle: &mut Vehicle, tags| {
+        vehicle.order(SECOND, Operator::TERMINAL, plan_with_tags(tags))
+    };
+    let mut vehicle = Vehicle::new(&config).unwrap();
+    let refused = Refused::TooManyTags { declared: 7, known: 2 };
+    assert_eq!(load(&mut vehicle, &row), Err(refused.clone()));
+    assert!(vehicle.mission().is_empty());
+    let text = refused.to_string();
+    assert!(text.contains("7 tags besides 2 others: at most 8"), "{text}");
+    assert_eq!(load(&mut vehicle, &row[..6]), Ok(()));
+    let OperatorOrder::Load(plan) = plan_with_tags(&row) else { unreachable!() };
+    let error = Vehicle::flying(plan.clone(), &config).unwrap_err();
+    assert_eq!(error, CannotFly::Refused(refused));
+    // Without tags in use there is nothing to be known.
+    assert!(Vehicle::flying(plan, &VehicleConfig::default()).is_ok());
+}
