@@ -33,6 +33,26 @@ const HALF_TAG_M: f64 = 0.1;
 /// Step along a leg in metres at which it is asked whether a tag is seen.
 const GLANCE_M: f64 = 0.1;
 
+/// Consequence of a tag beyond the fence.
+const NEVER_SEEN: &str = "the drone may never see it";
+
+/// Warnings about tags that are given by the settings, one sentence each: those beyond the fence.
+pub fn given_tag_warnings(given: &[SurveyedTag], limits: &FlightLimits) -> Vec<String> {
+    let warning = |tag: &SurveyedTag| {
+        let how = beyond_fence(tag, limits)?;
+        let SurveyedTag { place_m, .. } = tag;
+        Some(format!("the given tag {},{} is {how}: {NEVER_SEEN}", place_m.x, place_m.y))
+    };
+    given.iter().filter_map(warning).collect()
+}
+
+/// How far a tag is, if it is beyond the fence.
+fn beyond_fence(tag: &SurveyedTag, limits: &FlightLimits) -> Option<String> {
+    let (away_m, radius_m) = (tag.place_m.norm(), limits.radius_m);
+    let text = format!("{away_m:.2} m from the start, beyond the fence of {radius_m} m");
+    (away_m > radius_m).then_some(text)
+}
+
 /// All errors and warnings about tags in these lines.
 pub(super) fn findings(lines: &[Line], limits: &FlightLimits, tags: TagUse<'_>) -> Vec<Diagnostic> {
     let mut review = Review { limits, findings: Vec::new() };
@@ -76,13 +96,8 @@ impl Review<'_> {
                 let help = "they all look alike: leave 1.5 m between them";
                 self.warn(message, &line.span, help);
             }
-            let away_m = tag.place_m.norm();
-            if away_m > self.limits.radius_m {
-                let radius_m = self.limits.radius_m;
-                let message = format!(
-                    "the tag is {away_m:.2} m from the start, beyond the fence of {radius_m} m"
-                );
-                self.warn(message, &line.span, "the drone may never see it");
+            if let Some(how) = beyond_fence(&tag, self.limits) {
+                self.warn(format!("the tag is {how}"), &line.span, NEVER_SEEN);
             }
             known.push(tag);
         }
@@ -203,6 +218,20 @@ mod tests {
             let expected = (line, column, message.to_owned());
             assert!(found(text, TagUse::Unknown).contains(&expected), "{text}");
         }
+        let seven: Vec<SurveyedTag> = (0..7)
+            .map(|tag| SurveyedTag {
+                place_m: Vector2::new(2.0 * f64::from(tag) - 7.0, 5.0),
+                heading_deg: None,
+            })
+            .collect();
+        let parse = |tags: &str| {
+            let text = format!("{tags}takeoff\nfindTag\nland");
+            let limits = FlightLimits::default();
+            Plan::parse_with_tags("p", &text, &limits, TagUse::On(&seven))
+        };
+        assert!(parse("tag 0 0\n").is_ok());
+        let error = parse("tag 0 0\ntag 2 0\n").unwrap_err().to_string();
+        assert!(error.contains("more tags than can be known"), "{error}");
         let nine = (0..9).map(|tag| format!("tag {} 0", 2 * tag - 8)).collect::<Vec<_>>();
         let findings = found(&format!("{}\ntakeoff\nland", nine.join("\n")), TagUse::Unknown);
         assert_eq!(findings[0], (9, 1, "more tags than can be known".to_owned()));
@@ -251,6 +280,11 @@ mod tests {
             assert!(warned, "{text}: {findings:?}");
         }
         assert_eq!(found("takeoff\ngoto 0 3 0 0\nland", TagUse::On(&given)), []);
+        let far = SurveyedTag { place_m: Vector2::new(6.0, -8.5), heading_deg: None };
+        let warnings = given_tag_warnings(&[given[0], far], &FlightLimits::default());
+        let expected = "the given tag 6,-8.5 is 10.40 m from the start, beyond the fence of 10 m: \
+                        the drone may never see it";
+        assert_eq!(warnings, [expected]);
         assert_eq!(found("takeoff\nfindTag\nlandOnTag", TagUse::On(&[])), []);
     }
 }
