@@ -27,8 +27,10 @@ const INSIDE_M: f64 = 0.5;
 /// Tags nearer to each other than this, in metres, cannot be told apart.
 const APART_M: f64 = 1.5;
 /// Distance at which a tag is whole in the picture of a level drone, as a share of the height, less half the
-/// tag: right or left, and forward or back.
-const SIGHT: Vector2<f64> = Vector2::new(0.46, 0.34);
+/// tag: right or left, forward, and back. The camera's centre is above the middle of its picture.
+const SIGHT_ASIDE: f64 = 0.46;
+const SIGHT_FORWARD: f64 = 0.31;
+const SIGHT_BACK: f64 = 0.378;
 const HALF_TAG_M: f64 = 0.1;
 /// Step along a leg in metres at which it is asked whether a tag is seen.
 const GLANCE_M: f64 = 0.1;
@@ -126,7 +128,7 @@ impl Review<'_> {
             last = Some(line);
         }
         if let Some(last) = last.filter(|_| !sees && !known.is_empty()) {
-            let help = "a tag is seen from above, up to 0.4 of the height aside";
+            let help = "a tag is seen from above, up to 0.3 of the height ahead and 0.4 aside";
             self.warn("the drone never sees a tag on this way".to_owned(), &last.span, help);
         }
     }
@@ -158,12 +160,14 @@ fn sees_one(from: &Pose, to: &Pose, tags: &[SurveyedTag]) -> bool {
         let share = glance / glances;
         let between = |from: f64, to: f64| from + share * (to - from);
         let place_m = Vector2::new(between(from.x_m, to.x_m), between(from.y_m, to.y_m));
-        let most_m = SIGHT * between(from.z_m, to.z_m) - Vector2::repeat(HALF_TAG_M);
+        let height_m = between(from.z_m, to.z_m);
+        let [aside_m, forward_m, back_m] =
+            [SIGHT_ASIDE, SIGHT_FORWARD, SIGHT_BACK].map(|share| share * height_m - HALF_TAG_M);
         // Counter-clockwise by the heading: from the world to the body.
         let body_from_world = Rotation2::new(to.yaw_deg.to_radians());
         let sees = |tag: &SurveyedTag| {
             let off_m = body_from_world * (tag.place_m - place_m);
-            off_m.x.abs() <= most_m.x && off_m.y.abs() <= most_m.y
+            off_m.x.abs() <= aside_m && (-back_m..=forward_m).contains(&off_m.y)
         };
         if tags.iter().any(sees) {
             return true;
@@ -280,6 +284,11 @@ mod tests {
             assert!(warned, "{text}: {findings:?}");
         }
         assert_eq!(found("takeoff\ngoto 0 3 0 0\nland", TagUse::On(&given)), []);
+        // The hover is expected at 0.85 m: this is 1.5 m.
+        for (forward_m, sees) in [(0.355, true), (0.38, false), (-0.45, true), (-0.48, false)] {
+            let text = format!("tag 0 {forward_m}\ntakeoff\ngoto 0 0 0.65 0\nland");
+            assert_eq!(found(&text, TagUse::Unknown).is_empty(), sees, "{forward_m}");
+        }
         let far = SurveyedTag { place_m: Vector2::new(6.0, -8.5), heading_deg: None };
         let warnings = given_tag_warnings(&[given[0], far], &FlightLimits::default());
         let expected = "the given tag 6,-8.5 is 10.40 m from the start, beyond the fence of 10 m: \
