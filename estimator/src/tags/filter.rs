@@ -189,6 +189,17 @@ impl Filter {
         }
     }
 
+    /// The drift of the heading is unknown again, as at the start.
+    pub(super) fn forget_rate(&mut self) {
+        self.forget(RATE, RATE_DEG_S.to_radians().powi(2));
+        self.x[RATE] = 0.0;
+    }
+
+    /// Drift of the heading.
+    pub(super) fn heading_rate_deg_s(&self) -> f64 {
+        self.x[RATE].to_degrees()
+    }
+
     /// Resets a state to zero with a variance.
     fn forget(&mut self, state: usize, variance: f64) {
         for other in 0..STATES {

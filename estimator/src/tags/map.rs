@@ -3,67 +3,17 @@
 //! A sighting where no tag is known creates a tag on trial at once, so that little of the drift before its
 //! first sighting is lost. After enough sightings it becomes known; otherwise it is forgotten.
 
+mod directions;
+mod survey;
+
 use std::time::Duration;
 
 use nalgebra::Vector2;
 
+use self::directions::Direction;
 use super::filter::{Filter, Sighted};
 use super::orientation::Orientation;
-use super::{MAX_TAGS, SLOTS};
-
-/// A tag with a measured position.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurveyedTag {
-    /// Position relative to the drone's start: right and forward.
-    pub place_m: Vector2<f64>,
-    /// Direction of its pattern, clockwise from the drone's initial heading, if it was measured.
-    pub heading_deg: Option<f64>,
-}
-
-/// A known tag.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KnownTag {
-    /// Number of the tag, counted from 1 in the order in which tags became known. It is not given to another tag.
-    pub id: u32,
-    /// Position relative to the start: right and forward.
-    pub place_m: Vector2<f64>,
-    /// Its direction, once it is known.
-    pub heading_deg: Option<f64>,
-    /// Standard deviation of the position on the worse axis.
-    pub deviation_m: f64,
-    /// Whether its position was given.
-    pub surveyed: bool,
-    /// Time since it was last seen; `None` if it has not been seen yet.
-    pub seen_ago: Option<Duration>,
-}
-
-/// All known tags by increasing id.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct KnownTags([Option<KnownTag>; MAX_TAGS]);
-
-impl KnownTags {
-    /// The tags.
-    pub fn iter(&self) -> impl Iterator<Item = &KnownTag> {
-        self.0.iter().flatten()
-    }
-
-    /// Number of tags.
-    pub fn count(&self) -> usize {
-        self.iter().count()
-    }
-}
-
-impl FromIterator<KnownTag> for KnownTags {
-    /// At most [`MAX_TAGS`] tags; others are left out.
-    fn from_iter<T: IntoIterator<Item = KnownTag>>(tags: T) -> Self {
-        let mut known = Self::default();
-        for (slot, tag) in known.0.iter_mut().zip(tags) {
-            *slot = Some(tag);
-        }
-        known.0.sort_unstable_by_key(|slot| slot.map_or(u32::MAX, |tag| tag.id));
-        known
-    }
-}
+use super::{KnownTag, KnownTags, MAX_TAGS, SLOTS, SurveyedTag};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Standing {
@@ -80,11 +30,13 @@ struct Slot {
     /// Number of a known tag.
     id: u32,
     surveyed: bool,
-    has_heading: bool,
+    direction: Direction,
     seen_s: f64,
     /// Mean residual of its sightings, and whether it is too large.
     off_m: Vector2<f64>,
     moves: bool,
+    /// Mean residual of its direction.
+    turned_deg: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -122,8 +74,6 @@ const NEAR_M: f64 = 0.3;
 /// A new tag within this distance of a known tag that is no longer seen, and cannot be where it is, is that tag
 /// after it was moved.
 const MOVED_M: f64 = 1.0;
-/// A tag that is surveyed in flight is taken for a known one within half the least distance between tags.
-const SAME_M: f64 = 0.75;
 /// Expected number of tags per square metre that are not in the map. Where tags were surveyed, hardly one was
 /// left out.
 const OTHERS_1_M2: f64 = 0.1;
@@ -144,7 +94,7 @@ impl Map {
                     standing: Standing::Known,
                     id: numbered,
                     surveyed: true,
-                    has_heading: heading_deg.is_some(),
+                    direction: Direction::given(heading_deg.is_some()),
                     seen_s: f64::NEG_INFINITY,
                     ..Slot::default()
                 };
@@ -164,65 +114,17 @@ impl Map {
     /// The known tags with the time since each was seen.
     pub(super) fn known_tags(&self, filter: &Filter, now_s: f64) -> KnownTags {
         let known = self.those(is_known).map(|tag| {
-            let Slot { id, surveyed, has_heading, seen_s, .. } = self.slots[tag];
+            let Slot { id, surveyed, seen_s, .. } = self.slots[tag];
             KnownTag {
                 id,
                 place_m: filter.tag_place_m(tag),
-                heading_deg: has_heading.then(|| filter.tag_heading_deg(tag)),
+                heading_deg: self.has_heading(tag).then(|| filter.tag_heading_deg(tag)),
                 deviation_m: filter.tag_deviation_m(tag),
                 surveyed,
                 seen_ago: Duration::try_from_secs_f64((now_s - seen_s).max(0.0)).ok(),
             }
         });
         known.collect()
-    }
-
-    /// Whether a position was given for one of the known tags.
-    pub(super) fn has_surveyed(&self) -> bool {
-        self.slots.iter().any(|slot| slot.surveyed)
-    }
-
-    /// Whether there is room for tags that are surveyed in flight.
-    pub(super) fn has_room_for(&self, filter: &Filter, tags: &[SurveyedTag]) -> bool {
-        let is_new = |tag: &&SurveyedTag| self.nearest_within(filter, tag, SAME_M).is_none();
-        self.known() + tags.iter().filter(is_new).count() <= MAX_TAGS
-    }
-
-    /// Adds a tag that is surveyed in flight. A known one near it is taken to be the same: if its position was
-    /// found, it now has the surveyed one; if it was surveyed, it keeps its own. Returns its slot if it is new
-    /// there.
-    pub(super) fn survey(&mut self, filter: &mut Filter, tag: &SurveyedTag) -> Option<usize> {
-        let SurveyedTag { place_m, heading_deg } = tag;
-        let heading_rad = heading_deg.map(f64::to_radians);
-        if let Some(known) = self.nearest_within(filter, tag, SAME_M) {
-            let slot = &mut self.slots[known];
-            if !slot.surveyed {
-                filter.correct_by_survey(known, *place_m, heading_rad, slot.has_heading);
-                slot.surveyed = true;
-                slot.has_heading |= heading_rad.is_some();
-            }
-            return None;
-        }
-        let has_trial = self.those(is_on_trial).last();
-        let free = self.those(|standing| standing == Standing::Free).next().or(has_trial)?;
-        self.forget(filter, free);
-        filter.survey_tag(free, *place_m, heading_rad);
-        self.numbered = self.numbered.saturating_add(1);
-        self.slots[free] = Slot {
-            standing: Standing::Known,
-            id: self.numbered,
-            surveyed: true,
-            has_heading: heading_rad.is_some(),
-            seen_s: f64::NEG_INFINITY,
-            ..Slot::default()
-        };
-        Some(free)
-    }
-
-    fn nearest_within(&self, filter: &Filter, tag: &SurveyedTag, far_m: f64) -> Option<usize> {
-        let far = |known: usize| (filter.tag_place_m(known) - tag.place_m).norm();
-        let nearest = self.those(is_known).min_by(|a, b| far(*a).total_cmp(&far(*b)))?;
-        (far(nearest) < far_m).then_some(nearest)
     }
 
     /// Forgets tags on trial that were not seen again.
@@ -352,21 +254,6 @@ impl Map {
     fn is_out_of_view(&self, tag: usize, now_s: f64) -> bool {
         let Slot { standing, seen_s, .. } = self.slots[tag];
         is_known(standing) && now_s - seen_s > IN_VIEW_S
-    }
-
-    pub(super) fn has_heading(&self, tag: usize) -> bool {
-        self.slots[tag].has_heading
-    }
-
-    pub(super) fn learnt_heading(&mut self, tag: usize) {
-        self.slots[tag].has_heading = true;
-    }
-
-    /// The sign of orientations was wrong: discards the directions that were derived from them.
-    pub(super) fn forget_found_headings(&mut self) {
-        for slot in self.slots.iter_mut().filter(|slot| !slot.surveyed) {
-            slot.has_heading = false;
-        }
     }
 
     pub(super) fn is_known(&self, tag: usize) -> bool {

@@ -10,7 +10,9 @@
 
 mod camera;
 mod filter;
+mod heading;
 mod history;
+mod known;
 mod map;
 mod orientation;
 mod take_back;
@@ -25,8 +27,8 @@ use nalgebra::Vector2;
 use self::camera::Look;
 use self::filter::{Correction, Filter};
 use self::history::{History, Moment};
+pub use self::known::{KnownTag, KnownTags, SurveyedTag};
 use self::map::Map;
-pub use self::map::{KnownTag, KnownTags, SurveyedTag};
 use self::orientation::Orientation;
 pub use self::orientation::OrientationSign;
 use self::take_back::TakeBack;
@@ -311,23 +313,6 @@ impl Tags {
             self.fix = Some(Fix { at_s: made_s, odometry_m: moment.place_m });
             self.orient(tag, look, moment);
             self.distrust_what_moves(tag, made_s);
-        }
-    }
-
-    /// Corrects the heading by a tag's orientation, once its sign is known.
-    fn orient(&mut self, tag: usize, look: &Look, moment: &Moment) {
-        let heading_deg = moment.yaw_deg + self.filter.correction().heading_rad.to_degrees();
-        let turned = self.orientation.saw(tag, heading_deg, look.orientation_deg);
-        if turned.sign_changed {
-            self.map.forget_found_headings();
-        }
-        let Some(direction_deg) = turned.direction_deg else { return };
-        if self.map.has_heading(tag) {
-            let measured_deg = turned.newest_deg.unwrap_or(direction_deg);
-            self.filter.correct_heading(tag, measured_deg.to_radians());
-        } else {
-            self.filter.begin_heading(tag, direction_deg.to_radians());
-            self.map.learnt_heading(tag);
         }
     }
 

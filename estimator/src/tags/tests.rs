@@ -7,6 +7,7 @@ use crate::{Estimator, EstimatorConfig, Sample, Sight, SurveyedTag, TagConfig};
 mod frames;
 mod surveyed_in_flight;
 mod trials;
+mod turned;
 
 const PERIOD: Duration = Duration::from_micros(66_667);
 const HEIGHT_M: f64 = 1.5;

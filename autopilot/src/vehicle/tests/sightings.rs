@@ -142,8 +142,8 @@ fn a_tag_is_in_view_for_half_a_second() {
 }
 
 fn plan_with_tags(tags: &[(f64, f64)]) -> OperatorOrder {
-    let mut text: String = tags.iter().map(|(x, y)| format!("tag {x} {y}\n")).collect();
-    text += "takeoff\nlandOnTag";
+    let tags: Vec<String> = tags.iter().map(|(x, y)| format!("tag {x} {y}")).collect();
+    let text = format!("{}\ntakeoff\nlandOnTag", tags.join("\n"));
     OperatorOrder::Load(Plan::parse("plan", &text).unwrap())
 }
 

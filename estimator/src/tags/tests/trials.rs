@@ -149,7 +149,8 @@ fn after_a_tag_has_moved_the_next_ones_need_sixty_sightings_for_half_a_minute() 
             drone.tags.map.watch(0, Vector2::new(0.5, 0.0), 1.5, 0.0, 0.0);
         }
         drone.tags.distrust_what_moves(0, drone.now_s);
-        for _ in 0..(wait_s / STEP_S) as u32 {
+        let until_s = drone.now_s + wait_s;
+        while drone.now_s < until_s {
             drone.now_s += STEP_S;
             drone.tags.fly(&drone.step());
         }
