@@ -8,7 +8,7 @@ use diagnostic::is_printable;
 use serde_json::{Value, json};
 
 use crate::flight::{FinishedFlight, Message};
-use crate::recording::{GpsPosition, Place, Recorded};
+use crate::recording::{GpsPosition, Place, Recorded, Tags};
 
 /// A value as text that is safe anywhere: on a terminal, in a page, in a script. Characters with a meaning
 /// there are written as escapes like `\u003c`, which are equivalent in JSON.
@@ -112,8 +112,9 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "battery_percent": battery_percent,
                 "horizontal_deviation_m": status.horizontal_deviation_m,
                 "vertical_deviation_m": status.vertical_deviation_m,
-                "tags": status.tags.map(|tags| json!({
-                    "known": tags.known,
+                "tags": status.tags.as_ref().map(|tags| json!({
+                    "known": tags.known.count(),
+                    "map": Tags::from(tags).tags,
                     "seen_s": tags.seen_ago.map(|ago| ago.as_secs_f64()),
                     "heading_held": tags.heading_held,
                     "drift_m": [tags.drift_m.x, tags.drift_m.y],

@@ -9,7 +9,7 @@ use std::time::Duration;
 use ardrone_link::settings::SettingError;
 use autopilot::outcome::Outcome;
 use autopilot::plan::{Plan, PlanError};
-use autopilot::vehicle::{Input, Output, Transmit, Vehicle};
+use autopilot::vehicle::{CannotFly, Input, Output, Transmit, Vehicle};
 use diagnostic::printable;
 
 use crate::recording::{Entry, Log, OrderError, Tick, Timing};
@@ -30,6 +30,9 @@ pub enum ReplayError {
     /// Its limits cannot be encoded as drone settings.
     #[error(transparent)]
     Config(#[from] SettingError),
+    /// Its plan does not fit its settings in this version.
+    #[error(transparent)]
+    CannotFly(#[from] CannotFly),
     /// The log contains no ticks.
     #[error("the log contains no ticks: no drone answered")]
     Empty,
@@ -105,7 +108,10 @@ impl Replay {
                     let (by, order) = order.given(&config.limits)?;
                     vehicle.handle(*at, Input::Order(by, order));
                 }
-                Entry::Decoded(_) | Entry::Event { .. } | Entry::Outcome { .. } => {}
+                Entry::Decoded(_)
+                | Entry::Tags(_)
+                | Entry::Event { .. }
+                | Entry::Outcome { .. } => {}
                 Entry::Tick(recorded) => {
                     vehicle.tick(*at);
                     while let Some(output) = vehicle.poll() {

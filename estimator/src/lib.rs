@@ -56,7 +56,8 @@ use nalgebra::{Vector2, Vector3};
 
 pub use orders::Order;
 pub use tags::{
-    KnownTag, MAX_SIGHTS, MAX_TAGS, OrientationSign, Sight, SurveyedTag, TagConfig, TagStatus,
+    KnownTag, KnownTags, MAX_SIGHTS, MAX_TAGS, NoRoom, OrientationSign, Sight, SurveyedTag,
+    TagConfig, TagStatus,
 };
 pub use trust::{Quantity, Trust};
 
@@ -578,14 +579,23 @@ impl Estimator {
         }
     }
 
-    /// Status of the tags; `None` if they are not used.
-    pub fn tag_status(&self, now: Duration) -> Option<TagStatus> {
-        self.tags.as_ref().map(|tags| tags.status(now.as_secs_f64()))
+    /// Adds surveyed tags to those that are known, in flight. A known tag within 0.75 m is taken to be the same:
+    /// a found one gets the surveyed position, a surveyed one keeps its own. They are ignored without
+    /// [`EstimatorConfig::tags`].
+    ///
+    /// # Errors
+    /// [`NoRoom`] if more than [`MAX_TAGS`] tags would be known. Nothing has changed then.
+    pub fn survey(&mut self, surveyed: &[SurveyedTag]) -> Result<(), NoRoom> {
+        if let Some(tags) = &mut self.tags {
+            tags.survey(surveyed, self.horizontal.position_m)?;
+            self.move_into_world();
+        }
+        Ok(())
     }
 
-    /// The known tags.
-    pub fn known_tags(&self) -> impl Iterator<Item = KnownTag> + '_ {
-        self.tags.iter().flat_map(|tags| tags.known())
+    /// The known tags and their status; `None` if tags are not used.
+    pub fn tag_status(&self, now: Duration) -> Option<TagStatus> {
+        self.tags.as_ref().map(|tags| tags.status(now.as_secs_f64()))
     }
 
     /// Whether a tag is in view and a turn of some degrees would reveal the sign of its orientation, without

@@ -4,13 +4,12 @@
 
 use std::time::Duration;
 
-use ardrone_link::settings::SettingError;
 use ardrone_pilot::recording::{Record, Timing};
 use autopilot::outcome::Outcome;
 use autopilot::plan::Plan;
 use autopilot::vehicle::{
-    FlightEvent, FlightReport, Operator, OperatorOrder, Output, Status, TICK, Transmit, Vehicle,
-    VehicleConfig,
+    CannotFly, FlightEvent, FlightReport, Operator, OperatorOrder, Output, Status, TICK, Transmit,
+    Vehicle, VehicleConfig,
 };
 use mock_drone::{Truth, World, WorldConfig};
 
@@ -73,9 +72,9 @@ pub struct Moment {
 /// Why a flight could not be simulated.
 #[derive(Debug, thiserror::Error)]
 pub enum SimulationError {
-    /// The limits cannot be encoded as drone settings.
+    /// The plan cannot be flown with this configuration.
     #[error(transparent)]
-    Config(#[from] SettingError),
+    Config(#[from] CannotFly),
     /// The flight did not end within an hour.
     #[error("the flight did not end within {} s", .limit.as_secs())]
     Endless {

@@ -24,6 +24,7 @@ mod safety;
 mod sensors;
 mod sequence;
 mod simulated;
+mod tag_log;
 mod tag_plans;
 mod tags;
 mod udp;

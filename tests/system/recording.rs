@@ -25,7 +25,7 @@ fn header(text: &str) -> Header {
 }
 
 /// Flies in simulated time; returns the flight and its log.
-fn recorded(text: &str, simulation: &Simulation) -> (SimulatedFlight, Vec<u8>) {
+pub(crate) fn recorded(text: &str, simulation: &Simulation) -> (SimulatedFlight, Vec<u8>) {
     let mut writer = LogWriter::new(Cursor::new(Vec::new()), &header(text)).unwrap();
     let mut written = 0_u32;
     let record = |record| {
@@ -236,7 +236,7 @@ fn keeps(rules: &Value, value: &Value, path: &str) {
 /// Other tools read the log too: JSON with schemas, some of them Foxglove's.
 #[test]
 fn each_topic_has_a_schema_that_its_messages_keep() {
-    let (_, file) = recorded(SQUARE, &Simulation::default());
+    let (_, file) = recorded(SQUARE, &crate::tag_log::with_tags());
     let mut topics = std::collections::BTreeMap::new();
     for message in mcap::MessageStream::new(&file).unwrap() {
         let message = message.unwrap();
@@ -251,7 +251,9 @@ fn each_topic_has_a_schema_that_its_messages_keep() {
         keeps(&rules, &content, &schema.name);
         *topics.entry(message.channel.topic.clone()).or_insert(0) += 1;
     }
-    for topic in ["/tick", "/navdata", "/navdata/raw", "/control/raw", "/log", "/pose", "/target"] {
+    for topic in
+        ["/tick", "/navdata", "/navdata/raw", "/control/raw", "/log", "/pose", "/target", "/tags"]
+    {
         assert!(topics.contains_key(topic), "{topic}: {topics:?}");
     }
     let summary = mcap::Summary::read(&file).unwrap().unwrap();

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{FlightEvent, TagConfig, VehicleConfig};
+use autopilot::vehicle::{FlightEvent, OperatorOrder, TagConfig, VehicleConfig};
 use mock_drone::scenario::Scenario;
 use mock_drone::sensors::SensorModel;
 use mock_drone::{CameraModel, DroneConfig, FloorTag, LinkFaults, WorldConfig};
@@ -139,4 +139,29 @@ fn plans_with_tag_commands_land_where_tags_are_not_in_use() {
         assert!(flight.duration < Duration::from_secs(20), "{:?}", flight.duration);
         assert!(flight.final_truth.position_m.z < 0.01);
     }
+}
+
+#[test]
+fn a_plan_that_is_loaded_in_flight_brings_its_tags() {
+    let mut simulation = day(2, false, &[(1.5, 1.0)], "");
+    let text = "tag 1.6 1.0\ntakeoff\ngoto 1.5 0.9 0.7 0\ngoto 1.5 0.9 0.7 0\nlandOnTag\n";
+    simulation.orders = vec![(Duration::from_secs(8), OperatorOrder::Load(plan(text)))];
+    let (mut known, mut from_tag_m) = (Vec::new(), [Vector2::zeros(); 2]);
+    let watch = |moment: &Moment| {
+        known = moment.status.tags.unwrap().known.iter().copied().collect();
+        let (pose, truth_m) =
+            (moment.status.pose.unwrap_or_default(), moment.truth.position_m.xy());
+        if let [tag] = known.as_slice() {
+            let estimated_m = Vector2::new(pose.x_m, pose.y_m) - tag.place_m;
+            from_tag_m = [truth_m - Vector2::new(1.5, 1.0), estimated_m];
+        }
+    };
+    let flight = simulation
+        .fly_watched(plan("takeoff\nsetStayTime 9\ngoto 0 0 0.5 0\nland"), watch)
+        .unwrap();
+    assert_eq!(flight.outcome, Outcome::Completed, "{:?}", flight.events);
+    assert!(off_m(&flight, (1.5, 1.0)) < 0.1, "{}", off_m(&flight, (1.5, 1.0)));
+    // It was seen, and taken for the declared one, so the world counts from there.
+    assert!(known.len() == 1 && known[0].surveyed && known[0].seen_ago.is_some(), "{known:?}");
+    assert!((from_tag_m[0] - from_tag_m[1]).norm() < 0.1, "{from_tag_m:?}");
 }

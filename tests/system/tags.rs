@@ -129,6 +129,24 @@ fn a_tag_that_is_dragged_away_does_not_take_the_drone_along() {
     assert!(kept.truth_worst_m < 3.0, "{kept:?}");
 }
 
+#[test]
+fn a_tag_that_is_turned_in_place_does_not_turn_the_world() {
+    // By 30 degrees at once, and by half a degree per second for five minutes.
+    let at_once = "+90 tag-moved 1 0.05 -0.05 150".to_owned();
+    let mut slowly = String::new();
+    for step in 0..=1500 {
+        let (at_s, turned_deg) = (60.0 + 0.2 * f64::from(step), 0.1 * f64::from(step));
+        let heading_deg = wrap_deg(120.0 + turned_deg);
+        _ = writeln!(slowly, "+{at_s:.1} tag-moved 1 0.05 -0.05 {heading_deg:.1}");
+    }
+    for (scenario, most_deg) in [(at_once, 8.0), (slowly, 15.0)] {
+        let (kept, flight) = hover(1, false, &scenario);
+        assert!(flight.outcome.to_string().contains("battery"), "{}", flight.outcome);
+        assert!(kept.heading_deg < most_deg, "{kept:?}");
+        assert!(kept.truth_worst_m < 0.15 && kept.estimate_worst_m < 0.1, "{kept:?}");
+    }
+}
+
 /// Whether the flight reports that the drone does not look for tags.
 #[test]
 fn tags_are_looked_for_only_if_they_are_used() {
@@ -145,7 +163,7 @@ fn tags_are_looked_for_only_if_they_are_used() {
         };
         let mut seen = false;
         let watch = |moment: &Moment| {
-            seen |= moment.status.tags.is_some_and(|tags| tags.known > 0);
+            seen |= moment.status.tags.is_some_and(|tags| tags.known.count() > 0);
         };
         let flight = simulation.fly_watched(plan("takeoff\ngoto 0 0 0.5 0\nland"), watch).unwrap();
         let happened =

@@ -98,6 +98,16 @@ fn dragged(speed_m_s: f64, metres: u32) -> String {
     steps.collect()
 }
 
+/// Somebody turns the tag in place, half a degree a second, for five minutes.
+fn turned() -> String {
+    let steps = (0..=1500).map(|step| {
+        let (at_s, turned_deg) = (60.0 + 0.2 * f64::from(step), 0.1 * f64::from(step));
+        let heading_deg = wrap_deg(40.0 + turned_deg);
+        format!("+{at_s:.1} tag-moved 1 0.04 -0.06 {heading_deg:.1}\n")
+    });
+    steps.collect()
+}
+
 /// How far from the tag a landing on it may end, and nothing else is asked.
 const fn landing(landing_m: f64) -> Limits {
     Limits {
@@ -109,7 +119,7 @@ const fn landing(landing_m: f64) -> Limits {
     }
 }
 
-const CASES: [Case; 19] = [
+const CASES: [Case; 22] = [
     PLAIN,
     Case {
         name: "square 2 m",
@@ -183,6 +193,14 @@ const CASES: [Case; 19] = [
     Case { name: "dragged 0.04 m/s, 2 m", scenario: || dragged(0.04, 2), limits: None, ..PLAIN },
     Case { name: "dragged 0.1 m/s, 8 m", scenario: || dragged(0.1, 8), limits: None, ..PLAIN },
     Case { name: "dragged 0.5 m/s, 8 m", scenario: || dragged(0.5, 8), limits: None, ..PLAIN },
+    Case {
+        name: "turned 30° at once",
+        scenario: || "+120 tag-moved 1 0.04 -0.06 70".to_owned(),
+        limits: None,
+        ..PLAIN
+    },
+    Case { name: "turned 0.5°/s", scenario: turned, limits: None, ..PLAIN },
+    Case { name: "turned 0.5°/s, square", lap: square, scenario: turned, limits: None, ..PLAIN },
     Case {
         name: "heading jumps",
         scenario: || "+60 lie heading 160 for 3600".to_owned(),

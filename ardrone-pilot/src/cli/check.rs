@@ -3,8 +3,9 @@
 use std::fmt;
 use std::time::Duration;
 
-use autopilot::plan::{Expectation, FlightLimits, Plan, TagUse, battery_percent};
-use autopilot::vehicle::SurveyedTag;
+use autopilot::plan::{
+    Expectation, FlightLimits, Plan, TagUse, battery_percent, given_tag_warnings,
+};
 use diagnostic::{Diagnostic, Severity, Source, line_column, render_all};
 use kinematics::Pose;
 use serde_json::{Value, json};
@@ -14,7 +15,6 @@ use super::{CommandError, terminal};
 use crate::json;
 use crate::plan_drawing;
 use crate::recording::Place;
-use crate::settings::GivenTag;
 
 /// Checks a plan, prints the findings, and draws it if asked to. The exit status is 20 for a plan that cannot
 /// be flown.
@@ -27,20 +27,16 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     let text = super::read("the plan", &arguments.plan)?;
     let name = arguments.plan.display().to_string();
     let source = Source { name: &name, text: &text };
-    let surveyed = settings.surveyed_tags().map(|tags| {
-        let surveyed = |tag: &GivenTag| SurveyedTag {
-            place_m: tag.place_m.into(),
-            heading_deg: tag.heading_deg,
-        };
-        tags.iter().map(surveyed).collect::<Vec<_>>()
-    });
+    let surveyed = settings.surveyed_tags();
+    let given = given_tag_warnings(surveyed.as_deref().unwrap_or_default(), &limits);
     let tags = surveyed.as_deref().map_or(TagUse::Off, TagUse::On);
     let (plan, mut diagnostics) = Plan::review_with_tags(&text, &limits, tags);
     diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
     let checked = plan.as_ref().map(|plan| Checked::new(plan, &limits));
     let printed = if arguments.json {
-        let problems: Vec<Value> =
-            diagnostics.iter().map(|diagnostic| problem(diagnostic, &text)).collect();
+        let problems: Vec<Value> = (given.iter().map(|text| given_problem(text)))
+            .chain(diagnostics.iter().map(|diagnostic| problem(diagnostic, &text)))
+            .collect();
         let steps = checked.as_ref().map(Checked::json);
         let object = json!({ "plan": name, "steps": steps, "problems": problems });
         json::text_in_lines(&object) + "\n"
@@ -48,14 +44,15 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
         let table = checked.map(|checked| checked.to_string()).unwrap_or_default();
         let problems = render_all(&diagnostics, &source);
         let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
-        let verdict = match (errors, diagnostics.len()) {
+        let verdict = match (errors, diagnostics.len() + given.len()) {
             (0, 0) => format!("{name} can be flown"),
             (0, 1) => format!("{name} can be flown; 1 warning"),
             (0, warnings) => format!("{name} can be flown; {warnings} warnings"),
             (1, _) => format!("{name} cannot be flown: 1 error"),
             (errors, _) => format!("{name} cannot be flown: {errors} errors"),
         };
-        let parts = [table, problems, verdict];
+        let given: Vec<String> = given.iter().map(|text| format!("warning: {text}")).collect();
+        let parts = [table, given.join("\n"), problems, verdict];
         let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
         parts.join("\n\n") + "\n"
     };
@@ -86,6 +83,11 @@ fn problem(diagnostic: &Diagnostic, text: &str) -> Value {
         "message": diagnostic.message,
         "help": diagnostic.help,
     })
+}
+
+/// A warning about the settings as JSON: it has no place in the plan.
+fn given_problem(text: &str) -> Value {
+    json!({ "severity": "warning", "line": null, "column": null, "message": text, "help": null })
 }
 
 /// A plan with its expected course.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use ardrone_link::DroneAddress;
-use autopilot::plan::{FlightLimits, Plan, Step};
+use autopilot::plan::{FlightLimits, Plan, Step, TagUse, given_tag_warnings};
 use mock_drone::server::{MockDrone, Ports};
 use mock_drone::{FloorTag, WorldConfig};
 use serde_json::Value;
@@ -23,17 +23,14 @@ use crate::browser::{Browser, Listener};
 use crate::flight::{Controls, Flight, Message};
 use crate::json;
 use crate::recording::{Header, Recorder, Recording};
-use crate::settings::{GivenTag, Settings};
+use crate::settings::Settings;
 use crate::timing::TimingReport;
 
 /// The simulated drone finds its tags where they are said to be, and one below its start if none is.
 fn mock_world(settings: &Settings, plan: Option<&Plan>) -> WorldConfig {
     let mut world = WorldConfig::default();
     let Some(surveyed) = settings.surveyed_tags() else { return world };
-    for GivenTag { place_m: [x, y], heading_deg } in &surveyed {
-        world.tags.push(FloorTag::new(*x, *y, heading_deg.unwrap_or(0.0)));
-    }
-    for tag in plan.iter().flat_map(|plan| plan.tags()) {
+    for tag in surveyed.iter().chain(plan.iter().flat_map(|plan| plan.tags())) {
         let heading_deg = tag.heading_deg.unwrap_or(0.0);
         world.tags.push(FloorTag::new(tag.place_m.x, tag.place_m.y, heading_deg));
     }
@@ -53,14 +50,14 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         settings.use_tags(&arguments.tag)?;
     }
     let config = settings.pilot_config(arguments.z_origin());
+    let surveyed = settings.surveyed_tags();
     let plan = arguments.plan.as_deref().map(|path| {
         // The same text is recorded and flown.
         let text = read("the plan", path)?;
-        Ok::<_, CommandError>(Plan::parse_within(
-            &path.display().to_string(),
-            &text,
-            &config.limits,
-        )?)
+        // The note below is enough if they are not in use.
+        let tags = surveyed.as_deref().map_or(TagUse::Unknown, TagUse::On);
+        let name = path.display().to_string();
+        Ok::<_, CommandError>(Plan::parse_with_tags(&name, &text, &config.limits, tags)?)
     });
     let plan = plan.transpose()?;
     let plain = arguments.plain || !std::io::stderr().is_terminal();
@@ -69,7 +66,10 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     for note in plan.iter().flat_map(Plan::notes) {
         progress.print_line(&format!("note: {note}"));
     }
-    if plan.as_ref().is_some_and(Plan::uses_tags) && settings.surveyed_tags().is_none() {
+    for warning in given_tag_warnings(surveyed.as_deref().unwrap_or_default(), &config.limits) {
+        progress.print_line(&format!("note: {warning}"));
+    }
+    if plan.as_ref().is_some_and(Plan::uses_tags) && surveyed.is_none() {
         progress.print_line("note: the plan asks for tags, but they are not in use: add --tags");
     }
     let mock = if arguments.mock {

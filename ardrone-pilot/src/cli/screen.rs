@@ -1,5 +1,6 @@
 //! Full-screen terminal display: position, activity and decisions.
 
+mod tags;
 mod view;
 
 use std::collections::VecDeque;

@@ -38,8 +38,8 @@ use crate::timing::{TickHealth, TickRecorder, TickSummary};
 use autopilot::outcome::Outcome;
 use autopilot::plan::{Plan, Step};
 use autopilot::vehicle::{
-    FlightEvent, FlightReport, Input, NotReady, Operator, OperatorOrder, Output, Refused, Stage,
-    Status, TICK, Transmit, Vehicle, VehicleConfig, Waypoint,
+    CannotFly, FlightEvent, FlightReport, Input, NotReady, Operator, OperatorOrder, Output,
+    Refused, Stage, Status, TICK, Transmit, Vehicle, VehicleConfig, Waypoint,
 };
 
 /// Messages of a flight in progress.
@@ -117,6 +117,9 @@ pub enum FlightError {
     /// The limits cannot be encoded as drone settings.
     #[error(transparent)]
     Config(#[from] SettingError),
+    /// The plan does not fit the configuration.
+    #[error(transparent)]
+    Plan(#[from] CannotFly),
     /// The flight's thread panicked.
     #[error("internal error: the flight thread panicked; its last datagrams ordered the landing")]
     Panicked,

@@ -3,7 +3,7 @@
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::{GpsFix, Packet};
 use ardrone_link::session::FlightOrder;
-use autopilot::vehicle::Decision;
+use autopilot::vehicle::{Decision, KnownTag, TagStatus};
 use kinematics::Pose;
 use serde::{Deserialize, Serialize};
 
@@ -164,6 +164,52 @@ impl From<GpsFix> for GpsPosition {
         let GpsFix { latitude_deg, longitude_deg, elevation_m, horizontal_error_m, satellites } =
             fix;
         Self { latitude_deg, longitude_deg, elevation_m, horizontal_error_m, satellites }
+    }
+}
+
+/// All known tags.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Tags {
+    /// By increasing number.
+    pub tags: Vec<Tag>,
+}
+
+/// A known tag.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Tag {
+    /// Its number in this flight, from 1.
+    pub id: u32,
+    /// Metres to the right of the start.
+    pub x_m: f64,
+    /// Metres forward of it.
+    pub y_m: f64,
+    /// Direction of its pattern, degrees clockwise, once it is known.
+    pub heading_deg: Option<f64>,
+    /// Standard deviation of its position on the worse axis.
+    pub deviation_m: f64,
+    /// Whether its position was given, and not found in flight.
+    pub surveyed: bool,
+    /// Time since it was last seen; `None` if it has not been seen yet.
+    pub seen_s: Option<f64>,
+}
+
+impl From<&TagStatus> for Tags {
+    fn from(status: &TagStatus) -> Self {
+        Self { tags: status.known.iter().map(Tag::from).collect() }
+    }
+}
+
+impl From<&KnownTag> for Tag {
+    fn from(tag: &KnownTag) -> Self {
+        Self {
+            id: tag.id,
+            x_m: short(tag.place_m.x),
+            y_m: short(tag.place_m.y),
+            heading_deg: tag.heading_deg.map(short),
+            deviation_m: short(tag.deviation_m),
+            surveyed: tag.surveyed,
+            seen_s: tag.seen_ago.map(|ago| short(ago.as_secs_f64())),
+        }
     }
 }
 

@@ -14,7 +14,8 @@ mod writer;
 use std::time::Duration;
 
 pub use messages::{
-    Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, GpsPosition, Place, Tick, Timing,
+    Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, GpsPosition, Place, Tag, Tags,
+    Tick, Timing,
 };
 pub use order::{Order, OrderError};
 pub use reader::{Entry, LARGEST_FILE_BYTES, Log, LogError};

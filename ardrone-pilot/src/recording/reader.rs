@@ -12,7 +12,7 @@ use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOp
 use mcap::{McapError, parse_record};
 use serde::de::DeserializeOwned;
 
-use super::messages::{Bytes, DecodedNavdata, Tick};
+use super::messages::{Bytes, DecodedNavdata, Tags, Tick};
 use super::order::Order;
 use super::{AGENT_FILE, FLIGHT, FORMAT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
 
@@ -66,6 +66,8 @@ pub enum Entry {
         /// Its text.
         text: String,
     },
+    /// The known tags.
+    Tags(Tags),
     /// A tick.
     Tick(Box<Tick>),
 }
@@ -159,6 +161,14 @@ impl Log {
     pub fn ticks(&self) -> impl Iterator<Item = (Duration, &Tick)> {
         self.entries.iter().filter_map(|(at, entry)| match entry {
             Entry::Tick(tick) => Some((*at, tick.as_ref())),
+            _ => None,
+        })
+    }
+
+    /// The known tags at each time at which they were recorded.
+    pub fn tags(&self) -> impl Iterator<Item = (Duration, &Tags)> {
+        self.entries.iter().filter_map(|(at, entry)| match entry {
+            Entry::Tags(tags) => Some((*at, tags)),
             _ => None,
         })
     }
@@ -287,6 +297,7 @@ fn entry(topic: &str, data: &[u8]) -> Result<Option<Entry>, LogError> {
         _ if topic == topic::NAVDATA.name => Entry::Decoded(parse(topic, data)?),
         _ if topic == topic::CONTROL.name => Entry::Control(bytes(data)?),
         _ if topic == topic::ORDERS.name => Entry::Order(Box::new(parse(topic, data)?)),
+        _ if topic == topic::TAGS.name => Entry::Tags(parse(topic, data)?),
         _ if topic == topic::LOG.name => {
             #[derive(serde::Deserialize)]
             struct Line {

@@ -39,4 +39,8 @@ pub(super) const POSE: Topic = Topic {
 };
 pub(super) const TARGET: Topic = Topic { name: "/target", ..POSE };
 
-pub(super) const ALL: [Topic; 8] = [TICK, NAVDATA, RAW_NAVDATA, CONTROL, ORDERS, LOG, POSE, TARGET];
+pub(super) const TAGS: Topic =
+    Topic { name: "/tags", schema: "ardrone_pilot.Tags", text: include_str!("schemas/tags.json") };
+
+pub(super) const ALL: [Topic; 9] =
+    [TICK, NAVDATA, RAW_NAVDATA, CONTROL, ORDERS, LOG, POSE, TARGET, TAGS];

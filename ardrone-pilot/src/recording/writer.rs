@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use ardrone_link::navdata::Packet;
 use autopilot::outcome::Outcome;
+use autopilot::vehicle::TagStatus;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use mcap::records::{MessageHeader, Metadata};
@@ -17,7 +18,7 @@ use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
 use serde::Serialize;
 use serde_json::json;
 
-use super::messages::{Bytes, DecodedNavdata, Place, Tick};
+use super::messages::{Bytes, DecodedNavdata, Place, Tags, Tick};
 use super::order::Order;
 use super::{
     AGENT_FILE, EVENT, FLIGHT, FORMAT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE, topic,
@@ -27,6 +28,8 @@ use super::{
 const POSE_TICKS: u64 = 3;
 /// Minimum interval of decoded navdata messages; the bytes of every packet are recorded.
 const DECODED_APART: Duration = Duration::from_millis(25);
+/// Interval of the messages about tags while the same ones are known.
+const TAGS_APART: Duration = Duration::from_secs(1);
 /// Compresses an eighth better than the default level.
 const COMPRESSION_LEVEL: u32 = 6;
 /// Frame of the poses: right, forward and up from the take-off.
@@ -41,6 +44,8 @@ pub struct LogWriter<W: Write + Seek> {
     ticks: u64,
     /// Time of the last decoded navdata message.
     decoded: Option<Duration>,
+    /// Time of the last message about tags, and their numbers.
+    tags: Option<(Duration, Vec<u32>)>,
 }
 
 impl<W: Write + Seek> LogWriter<W> {
@@ -85,7 +90,7 @@ impl<W: Write + Seek> LogWriter<W> {
                 data: Cow::Borrowed(text.as_bytes()),
             })?;
         }
-        Ok(Self { writer, channels, start_ns, sequence: 0, ticks: 0, decoded: None })
+        Ok(Self { writer, channels, start_ns, sequence: 0, ticks: 0, decoded: None, tags: None })
     }
 
     /// Writes a record.
@@ -133,9 +138,25 @@ impl<W: Write + Seek> LogWriter<W> {
                     }
                 }
                 self.ticks += 1;
+                if let Some(status) = &decision.tags {
+                    self.tags(decision.at, status)?;
+                }
                 self.message(topic::TICK, decision.at, &tick)
             }
         }
+    }
+
+    /// Writes the known tags once a second, and at once when a tag becomes known or is no longer.
+    fn tags(&mut self, at: Duration, status: &TagStatus) -> Result<(), McapError> {
+        let is_same = |(last, ids): &(Duration, Vec<u32>)| {
+            at.saturating_sub(*last) < TAGS_APART
+                && status.known.iter().map(|tag| tag.id).eq(ids.iter().copied())
+        };
+        if self.tags.as_ref().is_some_and(is_same) {
+            return Ok(());
+        }
+        self.tags = Some((at, status.known.iter().map(|tag| tag.id).collect()));
+        self.message(topic::TAGS, at, &Tags::from(status))
     }
 
     /// Ensures that everything written so far survives a crash.

@@ -6,12 +6,14 @@ use autopilot::agent::plan_text;
 use diagnostic::{printable, printable_lines};
 use serde::Serialize;
 
-use crate::recording::{Log, Tick};
+use crate::recording::{Log, Tags, Tick};
 
 /// Maximum length of a plan's text and maximum number of plans. They bound the size of the page for a forged
 /// log; real agents have less.
 const LONGEST_PLAN: usize = 2000;
 const MOST_PLANS: usize = 500;
+/// Maximum number of moments with tags in the page.
+const MOST_TAG_MOMENTS: usize = 2000;
 /// Maximum length of a label.
 const LONGEST_LABEL: usize = 100;
 
@@ -28,6 +30,8 @@ pub(super) struct Flight<'a> {
     pub(super) plans: BTreeMap<u32, String>,
     /// Seconds, whether it is a warning, and text.
     pub(super) events: Vec<(f64, bool, &'a str)>,
+    /// Seconds, and the tags that were known then.
+    pub(super) tags: Vec<(f64, &'a Tags)>,
     /// Time of the last tick.
     pub(super) end_s: f64,
 }
@@ -81,6 +85,7 @@ impl<'a> Flight<'a> {
             decisions: Vec::new(),
             plans: BTreeMap::new(),
             events: Vec::new(),
+            tags: Vec::new(),
             end_s,
             ticks,
         };
@@ -93,6 +98,11 @@ impl<'a> Flight<'a> {
         }
         let events = log.events().map(|(at, warns, text)| (at.as_secs_f64(), warns, text));
         flight.events = events.collect();
+        let tags = || log.tags().map(|(at, tags)| (at.as_secs_f64(), tags));
+        let every = tags().count().div_ceil(MOST_TAG_MOMENTS).max(1);
+        // The last one is always among them.
+        let skipped = tags().count().saturating_sub(1) % every;
+        flight.tags = tags().skip(skipped).step_by(every).collect();
         Some(flight)
     }
 

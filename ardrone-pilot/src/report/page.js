@@ -1,6 +1,6 @@
 "use strict";
 // Hovering over a plot marks the time in all plots and shows the decision of that time.
-const { decisions, plans } = JSON.parse(document.getElementById("decided").textContent);
+const { decisions, plans, tags, map } = JSON.parse(document.getElementById("decided").textContent);
 const { end, width, left, right } = document.getElementById("plots").dataset;
 const plots = [...document.querySelectorAll(".plot")];
 const rows = [...document.querySelectorAll("#timeline tbody tr")];
@@ -32,8 +32,49 @@ function show(seconds) {
     element("p", `because of line ${line}`, why).className = "faint";
     element("pre", plans[line] || trigger, why);
   }
+  drawTags(seconds);
   rows.forEach((row) => row.classList.toggle("now", Number(row.dataset.index) === index));
 }
+
+// A tag that was not seen for this long is drawn faintly, in seconds.
+const STALE = 2;
+
+// The tags known at a time, on the map: roundels with their direction, number, and a circle of one standard deviation.
+function drawTags(seconds) {
+  const picture = document.querySelector(".map svg");
+  if (!picture || !map || !tags.length) return;
+  const svg = (name, attributes, parent) => {
+    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    parent.append(made);
+    return made;
+  };
+  const between = ([from, to], [low, high], value) => low + ((value - from) / (to - from)) * (high - low);
+  const across = Math.abs((map.x_px[1] - map.x_px[0]) / (map.x_m[1] - map.x_m[0]));
+  const down = Math.abs((map.y_px[1] - map.y_px[0]) / (map.y_m[1] - map.y_m[0]));
+  const later = tags.findIndex(({ at_s }) => at_s > seconds);
+  const then = tags[(later < 0 ? tags.length : later) - 1];
+  picture.querySelectorAll(".tag").forEach((old) => old.remove());
+  for (const tag of then ? then.tags : []) {
+    const seen = tag.seen_s !== null && tag.seen_s < STALE;
+    const mark = svg("g", { class: seen ? "tag" : "tag stale" }, picture);
+    const [cx, cy] = [between(map.x_m, map.x_px, tag.x_m), between(map.y_m, map.y_px, tag.y_m)];
+    svg("ellipse", { class: "spread", cx, cy, rx: tag.deviation_m * across, ry: tag.deviation_m * down }, mark);
+    if (tag.heading_deg !== null) svg("path", { class: "way", d: "M0-7V-17", transform: `translate(${cx} ${cy}) rotate(${tag.heading_deg})` }, mark);
+    svg("circle", { class: "rim", cx, cy, r: 7 }, mark);
+    svg("circle", { cx, cy, r: 2.5 }, mark);
+    svg("text", { class: "id", x: cx, y: cy + 26 }, mark).textContent = `${tag.id}${tag.surveyed ? "*" : ""}`;
+  }
+  const list = (then ? then.tags : []).map(({ id, x_m, y_m, heading_deg, deviation_m, surveyed, seen_s }) => {
+    const heading = heading_deg === null ? "" : `, ${heading_deg.toFixed(0)}°`;
+    const seen = seen_s === null ? "not seen" : `seen ${seen_s.toFixed(1)} s before`;
+    return `${id}${surveyed ? "*" : ""} at ${x_m.toFixed(2)} ${y_m.toFixed(2)} m, to ${deviation_m.toFixed(2)} m${heading}, ${seen}`;
+  });
+  const when = seconds < Number(end) ? `at ${seconds.toFixed(1)} s` : "at the end";
+  document.getElementById("tagtext").textContent = `Tags known ${when} (* surveyed; circle: one standard deviation): ${list.join("; ") || "none"}.`;
+}
+
+drawTags(Number(end));
 
 for (const plot of plots) {
   plot.addEventListener("mousemove", (event) => {

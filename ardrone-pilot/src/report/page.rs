@@ -38,25 +38,38 @@ pub(super) fn html(log: &Log, flight: &Flight<'_>, plots: &[Plot]) -> String {
              <span style=\"background:#eff5fa\">every other step of the plan</span>\
              <span style=\"background:#f9e7dc\">in the air without a step</span></p>\n";
     for plot in plots {
-        let Plot { title, over_time, legend, svg } = plot;
+        let Plot { title, over_time, legend, svg, map } = plot;
         let legend: Vec<String> = legend
             .iter()
             .map(|(name, colour)| format!("<span style=\"color:{colour}\">{name}</span>"))
             .collect();
         let legend = legend.concat();
-        let (kind, cursor) =
-            if *over_time { ("plot", "<div class=\"cursor\"></div>") } else { ("still", "") };
+        let (kind, cursor) = match map {
+            _ if *over_time => ("plot", "<div class=\"cursor\"></div>"),
+            Some(_) => ("still map", ""),
+            None => ("still", ""),
+        };
         let svg = svg.replace("<svg ", &format!("<svg role=\"img\" aria-label=\"{title}\" "));
         _ = writeln!(
             page,
             "<h2>{title} <small>{legend}</small></h2>\n<div class=\"{kind}\">{svg}{cursor}</div>"
         );
+        if map.is_some() && !flight.tags.is_empty() {
+            page += "<p class=\"faint\" id=\"tagtext\"></p>\n";
+        }
     }
     page += "</div>\n<div class=\"why\"><h2>Why?</h2>\n<div id=\"moment\"><p class=\"faint\">Move over a plot: the \
              moment, what was ordered, and the agent's plan behind it.</p></div></div>\n</div>\n";
     timeline(&mut page, flight);
     events(&mut page, flight);
-    let decided = json!({ "decisions": flight.decisions, "plans": flight.plans });
+    let tags: Vec<_> =
+        flight.tags.iter().map(|(at_s, tags)| json!({ "at_s": at_s, "tags": tags.tags })).collect();
+    let decided = json!({
+        "decisions": flight.decisions,
+        "plans": flight.plans,
+        "tags": tags,
+        "map": plots.iter().find_map(|plot| plot.map),
+    });
     _ = write!(
         page,
         "<script type=\"application/json\" id=\"decided\">{}</script>\n\

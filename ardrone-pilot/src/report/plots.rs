@@ -4,6 +4,7 @@ use std::error::Error;
 
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
+use serde::Serialize;
 
 use super::data::{Band, BandKind, Flight};
 use crate::drawing::{self, Drawing, Drawn, FONT};
@@ -35,6 +36,21 @@ pub(super) struct Plot {
     /// Name and colour of each line; dashed lines have no entry.
     pub(super) legend: Vec<(&'static str, String)>,
     pub(super) svg: String,
+    /// Position of the axes, for what the page draws into a map itself.
+    pub(super) map: Option<MapScale>,
+}
+
+/// The drawing area of a map in pixels, and the part of the floor that it shows.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct MapScale {
+    /// Left and right edge.
+    x_px: [i32; 2],
+    /// Bottom and top edge.
+    y_px: [i32; 2],
+    /// Right of the start.
+    x_m: [f64; 2],
+    /// Forward of the start.
+    y_m: [f64; 2],
 }
 
 /// A line over time.
@@ -85,13 +101,13 @@ pub(super) fn all(flight: &Flight<'_>) -> Result<Vec<Plot>, Box<dyn Error>> {
         line("late", ORANGE, |tick| Some(tick.timing.late_ms)),
         line("work", BLUE, |tick| Some(tick.timing.work_ms)),
     ];
+    let mut map = None;
+    let track = drawing::svg((560, 520), |area| {
+        map = Some(ground_track(area, flight)?);
+        Ok(())
+    })?;
     Ok(vec![
-        Plot {
-            title: "Ground track",
-            over_time: false,
-            legend: Vec::new(),
-            svg: drawing::svg((560, 520), |area| ground_track(area, flight))?,
-        },
+        Plot { title: "Ground track", over_time: false, legend: Vec::new(), svg: track, map },
         over_time(PLACE, 250, flight, &place)?,
         over_time("Height above the floor (m), dashed: the target", 180, flight, &height)?,
         over_time("Distance from the target (m)", 180, flight, &error)?,
@@ -103,6 +119,7 @@ pub(super) fn all(flight: &Flight<'_>) -> Result<Vec<Plot>, Box<dyn Error>> {
             over_time: false,
             legend: Vec::new(),
             svg: drawing::svg((560, 220), |area| histogram(area, &flight.lateness_ms()))?,
+            map: None,
         },
     ])
 }
@@ -153,7 +170,7 @@ fn over_time(
         let RGBColor(red, green, blue) = line.colour;
         (line.name, format!("rgb({red},{green},{blue})"))
     });
-    Ok(Plot { title, over_time: true, legend: legend.collect(), svg })
+    Ok(Plot { title, over_time: true, legend: legend.collect(), svg, map: None })
 }
 
 /// Sections of the flight as background.
@@ -209,7 +226,7 @@ fn draw_line(chart: &mut Chart<'_, '_>, flight: &Flight<'_>, line: &Line) -> Dra
 }
 
 /// Top view, with the same scale on both axes.
-fn ground_track(area: &Drawing<'_>, flight: &Flight<'_>) -> Drawn {
+fn ground_track(area: &Drawing<'_>, flight: &Flight<'_>) -> Result<MapScale, Box<dyn Error>> {
     let places =
         || flight.ticks.iter().filter_map(|(_, tick)| tick.estimate).map(|at| (at.x_m, at.y_m));
     let mut targets: Vec<(f64, f64)> = Vec::new();
@@ -219,7 +236,8 @@ fn ground_track(area: &Drawing<'_>, flight: &Flight<'_>) -> Drawn {
             targets.push((target.x_m, target.y_m));
         }
     }
-    let all = || places().chain(targets.iter().copied());
+    let tags = flight.tags.iter().flat_map(|(_, tags)| &tags.tags).map(|tag| (tag.x_m, tag.y_m));
+    let all = || places().chain(targets.iter().copied()).chain(tags.clone());
     let extent = |values: &mut dyn Iterator<Item = f64>| {
         values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
     };
@@ -246,7 +264,13 @@ fn ground_track(area: &Drawing<'_>, flight: &Flight<'_>) -> Drawn {
     chart.draw_series(
         targets.iter().map(|target| Circle::new(*target, 5, ORANGE.stroke_width(2))),
     )?;
-    Ok(())
+    let (across, down) = chart.plotting_area().get_pixel_range();
+    Ok(MapScale {
+        x_px: [across.start, across.end],
+        y_px: [down.end, down.start],
+        x_m: [x - half_m, x + half_m],
+        y_m: [y - half_m, y + half_m],
+    })
 }
 
 fn histogram(area: &Drawing<'_>, late_ms: &[f64]) -> Drawn {

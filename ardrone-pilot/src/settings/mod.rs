@@ -8,7 +8,7 @@ mod sections;
 mod tags;
 
 use autopilot::plan::ZOrigin;
-use autopilot::vehicle::VehicleConfig;
+use autopilot::vehicle::{SurveyedTag, VehicleConfig};
 use pid::Law;
 use serde::{Deserialize, Serialize};
 
@@ -139,8 +139,8 @@ impl Settings {
     }
 
     /// The tags that are used and surveyed; nothing if tags are not used.
-    pub fn surveyed_tags(&self) -> Option<Vec<GivenTag>> {
-        self.tags.detect.then(|| self.tags.surveyed().collect())
+    pub fn surveyed_tags(&self) -> Option<Vec<SurveyedTag>> {
+        self.tags.detect.then(|| self.tags.surveyed().map(SurveyedTag::from).collect())
     }
 
     /// The vehicle's configuration.

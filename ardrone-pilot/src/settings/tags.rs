@@ -76,6 +76,12 @@ impl GivenTag {
     }
 }
 
+impl From<GivenTag> for SurveyedTag {
+    fn from(tag: GivenTag) -> Self {
+        Self { place_m: tag.place_m.into(), heading_deg: tag.heading_deg }
+    }
+}
+
 impl FromStr for GivenTag {
     type Err = String;
 
@@ -105,8 +111,7 @@ impl Tags {
         let mut config = TagConfig::default();
         self.apply(&mut config);
         for (slot, tag) in config.surveyed.iter_mut().zip(self.surveyed()) {
-            let place_m = Vector2::from(tag.place_m);
-            *slot = Some(SurveyedTag { place_m, heading_deg: tag.heading_deg });
+            *slot = Some(tag.into());
         }
         self.detect.then_some(config)
     }

@@ -30,7 +30,7 @@ pub(crate) use expectation::expected_time;
 pub use expectation::{Expectation, battery_percent, expectations};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::{AgentOrder, Target};
-pub use tags::{LOOK_AROUND_M, TagUse};
+pub use tags::{LOOK_AROUND_M, TagUse, given_tag_warnings};
 
 /// A flight plan without errors.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,7 +126,21 @@ impl Plan {
     /// # Errors
     /// [`PlanError`] with all problems.
     pub fn parse_within(name: &str, text: &str, limits: &FlightLimits) -> Result<Self, PlanError> {
-        let (plan, mut diagnostics) = Self::review(text, limits);
+        Self::parse_with_tags(name, text, limits, TagUse::Unknown)
+    }
+
+    /// As [`Plan::parse_within`], for a flight that uses tags, or does not: refuses tags for which there is no
+    /// room besides the given ones.
+    ///
+    /// # Errors
+    /// [`PlanError`] with all problems.
+    pub fn parse_with_tags(
+        name: &str,
+        text: &str,
+        limits: &FlightLimits,
+        tags: TagUse<'_>,
+    ) -> Result<Self, PlanError> {
+        let (plan, mut diagnostics) = Self::review_with_tags(text, limits, tags);
         let Some(mut plan) = plan.map(|plan| Self { name: name.to_owned(), ..plan }) else {
             diagnostics.retain(|diagnostic| diagnostic.severity == Severity::Error);
             return Err(PlanError::new(name, text, &diagnostics));

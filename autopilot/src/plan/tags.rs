@@ -27,11 +27,33 @@ const INSIDE_M: f64 = 0.5;
 /// Tags nearer to each other than this, in metres, cannot be told apart.
 const APART_M: f64 = 1.5;
 /// Distance at which a tag is whole in the picture of a level drone, as a share of the height, less half the
-/// tag: right or left, and forward or back.
-const SIGHT: Vector2<f64> = Vector2::new(0.46, 0.34);
+/// tag: right or left, forward, and back. The camera's centre is above the middle of its picture.
+const SIGHT_ASIDE: f64 = 0.46;
+const SIGHT_FORWARD: f64 = 0.31;
+const SIGHT_BACK: f64 = 0.378;
 const HALF_TAG_M: f64 = 0.1;
 /// Step along a leg in metres at which it is asked whether a tag is seen.
 const GLANCE_M: f64 = 0.1;
+
+/// Consequence of a tag beyond the fence.
+const NEVER_SEEN: &str = "the drone may never see it";
+
+/// Warnings about tags that are given by the settings, one sentence each: those beyond the fence.
+pub fn given_tag_warnings(given: &[SurveyedTag], limits: &FlightLimits) -> Vec<String> {
+    let warning = |tag: &SurveyedTag| {
+        let how = beyond_fence(tag, limits)?;
+        let SurveyedTag { place_m, .. } = tag;
+        Some(format!("the given tag {},{} is {how}: {NEVER_SEEN}", place_m.x, place_m.y))
+    };
+    given.iter().filter_map(warning).collect()
+}
+
+/// How far a tag is, if it is beyond the fence.
+fn beyond_fence(tag: &SurveyedTag, limits: &FlightLimits) -> Option<String> {
+    let (away_m, radius_m) = (tag.place_m.norm(), limits.radius_m);
+    let text = format!("{away_m:.2} m from the start, beyond the fence of {radius_m} m");
+    (away_m > radius_m).then_some(text)
+}
 
 /// All errors and warnings about tags in these lines.
 pub(super) fn findings(lines: &[Line], limits: &FlightLimits, tags: TagUse<'_>) -> Vec<Diagnostic> {
@@ -76,13 +98,8 @@ impl Review<'_> {
                 let help = "they all look alike: leave 1.5 m between them";
                 self.warn(message, &line.span, help);
             }
-            let away_m = tag.place_m.norm();
-            if away_m > self.limits.radius_m {
-                let radius_m = self.limits.radius_m;
-                let message = format!(
-                    "the tag is {away_m:.2} m from the start, beyond the fence of {radius_m} m"
-                );
-                self.warn(message, &line.span, "the drone may never see it");
+            if let Some(how) = beyond_fence(&tag, self.limits) {
+                self.warn(format!("the tag is {how}"), &line.span, NEVER_SEEN);
             }
             known.push(tag);
         }
@@ -111,7 +128,7 @@ impl Review<'_> {
             last = Some(line);
         }
         if let Some(last) = last.filter(|_| !sees && !known.is_empty()) {
-            let help = "a tag is seen from above, up to 0.4 of the height aside";
+            let help = "a tag is seen from above, up to 0.3 of the height ahead and 0.4 aside";
             self.warn("the drone never sees a tag on this way".to_owned(), &last.span, help);
         }
     }
@@ -143,12 +160,14 @@ fn sees_one(from: &Pose, to: &Pose, tags: &[SurveyedTag]) -> bool {
         let share = glance / glances;
         let between = |from: f64, to: f64| from + share * (to - from);
         let place_m = Vector2::new(between(from.x_m, to.x_m), between(from.y_m, to.y_m));
-        let most_m = SIGHT * between(from.z_m, to.z_m) - Vector2::repeat(HALF_TAG_M);
+        let height_m = between(from.z_m, to.z_m);
+        let [aside_m, forward_m, back_m] =
+            [SIGHT_ASIDE, SIGHT_FORWARD, SIGHT_BACK].map(|share| share * height_m - HALF_TAG_M);
         // Counter-clockwise by the heading: from the world to the body.
         let body_from_world = Rotation2::new(to.yaw_deg.to_radians());
         let sees = |tag: &SurveyedTag| {
             let off_m = body_from_world * (tag.place_m - place_m);
-            off_m.x.abs() <= most_m.x && off_m.y.abs() <= most_m.y
+            off_m.x.abs() <= aside_m && (-back_m..=forward_m).contains(&off_m.y)
         };
         if tags.iter().any(sees) {
             return true;
@@ -203,6 +222,20 @@ mod tests {
             let expected = (line, column, message.to_owned());
             assert!(found(text, TagUse::Unknown).contains(&expected), "{text}");
         }
+        let seven: Vec<SurveyedTag> = (0..7)
+            .map(|tag| SurveyedTag {
+                place_m: Vector2::new(2.0 * f64::from(tag) - 7.0, 5.0),
+                heading_deg: None,
+            })
+            .collect();
+        let parse = |tags: &str| {
+            let text = format!("{tags}takeoff\nfindTag\nland");
+            let limits = FlightLimits::default();
+            Plan::parse_with_tags("p", &text, &limits, TagUse::On(&seven))
+        };
+        assert!(parse("tag 0 0\n").is_ok());
+        let error = parse("tag 0 0\ntag 2 0\n").unwrap_err().to_string();
+        assert!(error.contains("more tags than can be known"), "{error}");
         let nine = (0..9).map(|tag| format!("tag {} 0", 2 * tag - 8)).collect::<Vec<_>>();
         let findings = found(&format!("{}\ntakeoff\nland", nine.join("\n")), TagUse::Unknown);
         assert_eq!(findings[0], (9, 1, "more tags than can be known".to_owned()));
@@ -251,6 +284,16 @@ mod tests {
             assert!(warned, "{text}: {findings:?}");
         }
         assert_eq!(found("takeoff\ngoto 0 3 0 0\nland", TagUse::On(&given)), []);
+        // The hover is expected at 0.85 m: this is 1.5 m.
+        for (forward_m, sees) in [(0.355, true), (0.38, false), (-0.45, true), (-0.48, false)] {
+            let text = format!("tag 0 {forward_m}\ntakeoff\ngoto 0 0 0.65 0\nland");
+            assert_eq!(found(&text, TagUse::Unknown).is_empty(), sees, "{forward_m}");
+        }
+        let far = SurveyedTag { place_m: Vector2::new(6.0, -8.5), heading_deg: None };
+        let warnings = given_tag_warnings(&[given[0], far], &FlightLimits::default());
+        let expected = "the given tag 6,-8.5 is 10.40 m from the start, beyond the fence of 10 m: \
+                        the drone may never see it";
+        assert_eq!(warnings, [expected]);
         assert_eq!(found("takeoff\nfindTag\nlandOnTag", TagUse::On(&[])), []);
     }
 }

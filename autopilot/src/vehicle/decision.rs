@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ardrone_link::session::Order;
-use estimator::Prediction;
+use estimator::{Prediction, TagStatus};
 use kinematics::Pose;
 
 use super::Phase;
@@ -23,6 +23,8 @@ pub struct Decision {
     pub state: Prediction,
     /// Standard deviation of the height, in metres.
     pub vertical_deviation_m: f64,
+    /// The known tags and their status, if tags are used.
+    pub tags: Option<TagStatus>,
     /// Percepts given to the agent.
     pub percepts: Percepts,
     /// Agent plans chosen in this step.

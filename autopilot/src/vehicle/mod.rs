@@ -29,7 +29,7 @@ use ardrone_link::navdata::{ControlState, Demo, DroneState, GpsFix, Navdata};
 use ardrone_link::session::{self, Session, SessionConfig};
 use ardrone_link::settings::{Detection, Setting, SettingError};
 use estimator::{EstimatorConfig, Prediction};
-pub use estimator::{KnownTag, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
+pub use estimator::{KnownTag, KnownTags, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use kinematics::Pose;
 use pid::CascadeConfig;
 pub use pid::Law;
@@ -156,6 +156,17 @@ pub struct Vehicle {
     pending: Pending,
 }
 
+/// Why a vehicle cannot fly a plan.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CannotFly {
+    /// The limits cannot be encoded as drone settings.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The plan was refused.
+    #[error("the plan cannot be flown: {0}")]
+    Refused(#[from] Refused),
+}
+
 /// Settings that the drone has not applied.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 struct Configured {
@@ -219,16 +230,11 @@ impl Vehicle {
     /// A vehicle that flies `plan` as soon as the drone is ready, ordered by the terminal's operator.
     ///
     /// # Errors
-    /// See [`Vehicle::new`].
-    pub fn flying(plan: Plan, config: &VehicleConfig) -> Result<Self, SettingError> {
+    /// [`CannotFly`] if the limits cannot be encoded, or the plan does not fit the configuration.
+    pub fn flying(plan: Plan, config: &VehicleConfig) -> Result<Self, CannotFly> {
         let mut vehicle = Self::new(config)?;
         for order in [OperatorOrder::Load(plan), OperatorOrder::Start { when_ready: true }] {
-            let accepted = vehicle.order(Duration::ZERO, Operator::TERMINAL, order);
-            debug_assert_eq!(
-                accepted,
-                Ok(()),
-                "a plan takes off, and nobody else has the controls"
-            );
+            vehicle.order(Duration::ZERO, Operator::TERMINAL, order)?;
         }
         Ok(vehicle)
     }
@@ -304,11 +310,6 @@ impl Vehicle {
     /// Report of the current or last flight.
     pub fn report(&self) -> &FlightReport {
         &self.flight.report
-    }
-
-    /// The tags that are known, if they are used.
-    pub fn known_tags(&self) -> impl Iterator<Item = KnownTag> + '_ {
-        self.flight.estimator.known_tags()
     }
 
     /// A snapshot for displays.

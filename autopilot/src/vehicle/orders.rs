@@ -10,6 +10,7 @@ use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, Commands, Plan};
 use ardrone_link::navdata::DroneState;
 use ardrone_link::session::Request;
+use estimator::MAX_TAGS;
 use kinematics::Sticks;
 
 /// An order from an operator.
@@ -91,6 +92,16 @@ pub enum Refused {
     /// A command leads outside the fence, or does not fit at its position in the mission.
     #[error("{0}")]
     Command(#[from] AppendError),
+    /// The plan declares more tags than there is room for.
+    #[error(
+        "the plan declares {declared} tags besides {known} others: at most {MAX_TAGS} can be known"
+    )]
+    TooManyTags {
+        /// Tags that the plan declares.
+        declared: usize,
+        /// Tags that are given by the settings or, in a flight, known.
+        known: usize,
+    },
     /// A coordinate is not a finite number.
     #[error("this is not a place: its coordinates must be numbers")]
     NoPlace,
@@ -144,7 +155,7 @@ impl Vehicle {
     ) -> Result<(), Refused> {
         self.admit(by, &order)?;
         match order {
-            OperatorOrder::Load(plan) => self.load(plan),
+            OperatorOrder::Load(plan) => return self.load(plan),
             OperatorOrder::Append(commands) => return self.append(now, commands),
             OperatorOrder::Clear => self.clear(now),
             OperatorOrder::Start { when_ready } => return self.start(now, when_ready),
@@ -239,11 +250,13 @@ impl Vehicle {
             && (lands || self.flight.activity.is_descending())
     }
 
-    fn load(&mut self, plan: Plan) {
+    fn load(&mut self, plan: Plan) -> Result<(), Refused> {
+        self.take_tags_of(&plan)?;
         let airborne = self.phase == FlightPhase::Flying;
         self.mission.load(plan, airborne);
         self.events.push_back(FlightEvent::MissionLoaded { steps: self.mission.steps().len() });
         self.mission_replaced();
+        Ok(())
     }
 
     fn clear(&mut self, now: Duration) {

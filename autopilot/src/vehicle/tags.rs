@@ -3,12 +3,13 @@
 use std::time::Duration;
 
 use ardrone_link::navdata::{Packet, VisionDetect};
-use estimator::{MAX_SIGHTS, Prediction, Sight};
+use estimator::{MAX_SIGHTS, MAX_TAGS, NoRoom, Prediction, Sight};
 use kinematics::Pose;
 use nalgebra::Vector2;
 
-use super::{Vehicle, VehicleConfig};
+use super::{FlightPhase, Refused, TagStatus, Vehicle, VehicleConfig};
 use crate::agent::TagPercepts;
+use crate::plan::Plan;
 
 /// The black and white roundel, with or without its direction: `ardrone_api.h`.
 const ROUNDELS: [u32; 2] = [3, 8];
@@ -78,26 +79,44 @@ pub(super) struct SignSearch {
 }
 
 impl Vehicle {
-    /// What the agent is given of tags; `None` if they are not in use.
-    pub(super) fn tag_percepts(&self, now: Duration, state: &Prediction) -> Option<TagPercepts> {
-        let status = self.flight.estimator.tag_status(now)?;
+    /// The percepts about tags.
+    pub(super) fn tag_percepts(
+        &self,
+        now: Duration,
+        state: &Prediction,
+        status: &TagStatus,
+    ) -> TagPercepts {
         let age = status.seen_ago.unwrap_or(now.saturating_sub(self.flight.asked_at));
         let here_m = state.position_m.xy();
-        let nearest = self
-            .flight
-            .estimator
-            .known_tags()
-            .map(|tag| tag.place_m)
-            .min_by(|a, b| (a - here_m).norm().total_cmp(&(b - here_m).norm()));
-        Some(TagPercepts {
+        let places_m = status.known.iter().map(|tag| tag.place_m);
+        let nearest = places_m.min_by(|a, b| (a - here_m).norm().total_cmp(&(b - here_m).norm()));
+        TagPercepts {
             age_ms: i64::try_from(age.as_millis()).unwrap_or(i64::MAX),
             seen: nearest.is_some() && status.seen_ago.is_some_and(|ago| ago < IN_VIEW),
             nearest_m: nearest.map(Into::into),
             landing_drift_m: landing_drift_m(self.flight.wind_m_s2).into(),
-        })
+        }
     }
 
-    /// The configuration with the tags that the mission's plan declares, where tags are in use and there is room.
+    /// Checks that there is room for the tags that a plan declares, where tags are in use, and adds them to a
+    /// flight that has begun. A flight that begins later begins with them.
+    pub(super) fn take_tags_of(&mut self, plan: &Plan) -> Result<(), Refused> {
+        let Some(tags) = &self.config.estimator.tags else { return Ok(()) };
+        let declared = plan.tags().len();
+        let given = tags.surveyed.iter().flatten().count();
+        if given + declared > MAX_TAGS {
+            return Err(Refused::TooManyTags { declared, known: given });
+        }
+        let flies = matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. });
+        if !flies && self.departure.is_none() {
+            return Ok(());
+        }
+        let estimator = &mut self.flight.estimator;
+        let known = estimator.tag_status(Duration::ZERO).map_or(0, |status| status.known.count());
+        estimator.survey(plan.tags()).map_err(|NoRoom| Refused::TooManyTags { declared, known })
+    }
+
+    /// The configuration with the tags that the mission's plan declares, where tags are in use.
     pub(super) fn with_mission_tags(&self) -> VehicleConfig {
         let mut config = self.config.clone();
         if let Some(tags) = &mut config.estimator.tags {

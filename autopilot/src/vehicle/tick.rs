@@ -10,7 +10,8 @@ use nalgebra::Vector2;
 
 use super::{
     Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, LandingReason, NotReady,
-    Outcome, READINESS_TICKS, Report, Stage, TICK, Target, Vehicle, WIND_TIME_S, Waypoint, pose,
+    Outcome, READINESS_TICKS, Report, Stage, TICK, TagStatus, Target, Vehicle, WIND_TIME_S,
+    Waypoint, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Percepts};
 use crate::safety::Situation;
@@ -43,7 +44,8 @@ impl Vehicle {
         let prediction = self.flight.estimator.predicted(now);
         let state = if self.config.law.predicts() { prediction } else { self.measured_state() };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
-        let percepts = self.percepts(now, &state);
+        let tags = self.flight.estimator.tag_status(now);
+        let percepts = self.percepts(now, &state, tags.as_ref());
         let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, percepts);
         self.flight.manual.pre_empts = false;
         // An order that is refused because of a danger ends with that danger as its reason.
@@ -72,6 +74,7 @@ impl Vehicle {
             step: self.flight.due.as_ref().map(|active| active.due.step),
             state,
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
+            tags,
             percepts,
             plans: step.plans,
             wanted,
@@ -137,7 +140,7 @@ impl Vehicle {
         pose(&self.state(now))
     }
 
-    fn percepts(&self, now: Duration, state: &Prediction) -> Percepts {
+    fn percepts(&self, now: Duration, state: &Prediction, tags: Option<&TagStatus>) -> Percepts {
         let hovering = self.demo().is_some_and(|demo| {
             matches!(demo.control_state, ControlState::Hovering | ControlState::Flying)
         });
@@ -155,7 +158,7 @@ impl Vehicle {
             settings: self.mission.settings(),
             speed_m_s: state.velocity_m_s.xy().norm(),
             fence: self.config.limits,
-            tags: self.tag_percepts(now, state),
+            tags: tags.map(|status| self.tag_percepts(now, state, status)),
         }
     }
 

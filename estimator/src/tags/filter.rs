@@ -189,6 +189,17 @@ impl Filter {
         }
     }
 
+    /// The drift of the heading is unknown again, as at the start.
+    pub(super) fn forget_rate(&mut self) {
+        self.forget(RATE, RATE_DEG_S.to_radians().powi(2));
+        self.x[RATE] = 0.0;
+    }
+
+    /// Drift of the heading.
+    pub(super) fn heading_rate_deg_s(&self) -> f64 {
+        self.x[RATE].to_degrees()
+    }
+
     /// Resets a state to zero with a variance.
     fn forget(&mut self, state: usize, variance: f64) {
         for other in 0..STATES {
@@ -315,12 +326,17 @@ impl Filter {
         let mut row = [0.0; STATES];
         row[HEADING] = 1.0;
         row[state] = -1.0;
-        let gain = self.gain(&row);
-        let spread = dot(&row, &gain, self.used) + ORIENTATION_DEG.to_radians().powi(2);
+        let variance = ORIENTATION_DEG.to_radians().powi(2);
         let off = wrap_rad(self.x[state] - direction_rad);
-        if off * off > GATE * GATE * spread {
-            return;
+        if off * off <= GATE * GATE * (dot(&row, &self.gain(&row), self.used) + variance) {
+            self.correct_one(&row, off, variance);
         }
+    }
+
+    /// Corrects by a row whose measured value is larger than the estimated one by `off`, with a variance.
+    fn correct_one(&mut self, row: &Row, off: f64, variance: f64) {
+        let gain = self.gain(row);
+        let spread = dot(row, &gain, self.used) + variance;
         for (value, gain) in self.x.iter_mut().zip(&gain).take(self.used) {
             *value += gain * off / spread;
         }

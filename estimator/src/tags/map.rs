@@ -3,33 +3,17 @@
 //! A sighting where no tag is known creates a tag on trial at once, so that little of the drift before its
 //! first sighting is lost. After enough sightings it becomes known; otherwise it is forgotten.
 
+mod directions;
+mod survey;
+
+use std::time::Duration;
+
 use nalgebra::Vector2;
 
+use self::directions::Direction;
 use super::filter::{Filter, Sighted};
 use super::orientation::Orientation;
-use super::{MAX_TAGS, SLOTS};
-
-/// A tag with a measured position.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurveyedTag {
-    /// Position relative to the drone's start: right and forward.
-    pub place_m: Vector2<f64>,
-    /// Direction of its pattern, clockwise from the drone's initial heading, if it was measured.
-    pub heading_deg: Option<f64>,
-}
-
-/// A known tag.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KnownTag {
-    /// Position relative to the start: right and forward.
-    pub place_m: Vector2<f64>,
-    /// Its direction, once it is known.
-    pub heading_deg: Option<f64>,
-    /// Standard deviation of the position on the worse axis.
-    pub deviation_m: f64,
-    /// Whether its position was given.
-    pub surveyed: bool,
-}
+use super::{KnownTag, KnownTags, MAX_TAGS, SLOTS, SurveyedTag};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Standing {
@@ -43,17 +27,23 @@ enum Standing {
 #[derive(Debug, Clone, Copy, Default)]
 struct Slot {
     standing: Standing,
+    /// Number of a known tag.
+    id: u32,
     surveyed: bool,
-    has_heading: bool,
+    direction: Direction,
     seen_s: f64,
     /// Mean residual of its sightings, and whether it is too large.
     off_m: Vector2<f64>,
     moves: bool,
+    /// Mean residual of its direction.
+    turned_deg: f64,
 }
 
 #[derive(Debug, Clone)]
 pub(super) struct Map {
     slots: [Slot; SLOTS],
+    /// Number of tags that have been known so far.
+    numbered: u32,
 }
 
 /// Minimum ratio of the distance of the second nearest tag to that of the nearest.
@@ -95,19 +85,22 @@ const CERTAIN_ODDS: f64 = 10.0;
 impl Map {
     pub(super) fn new(surveyed: &[Option<SurveyedTag>; MAX_TAGS], filter: &mut Filter) -> Self {
         let mut slots = [Slot::default(); SLOTS];
+        let mut numbered = 0;
         for (tag, surveyed) in surveyed.iter().enumerate() {
             if let Some(SurveyedTag { place_m, heading_deg }) = surveyed {
                 filter.survey_tag(tag, *place_m, heading_deg.map(f64::to_radians));
+                numbered += 1;
                 slots[tag] = Slot {
                     standing: Standing::Known,
+                    id: numbered,
                     surveyed: true,
-                    has_heading: heading_deg.is_some(),
+                    direction: Direction::given(heading_deg.is_some()),
                     seen_s: f64::NEG_INFINITY,
                     ..Slot::default()
                 };
             }
         }
-        Self { slots }
+        Self { slots, numbered }
     }
 
     fn those(&self, wanted: fn(Standing) -> bool) -> impl Iterator<Item = usize> + '_ {
@@ -118,13 +111,20 @@ impl Map {
         self.those(is_known).count()
     }
 
-    pub(super) fn iter<'a>(&'a self, filter: &'a Filter) -> impl Iterator<Item = KnownTag> + 'a {
-        self.those(is_known).map(|tag| KnownTag {
-            place_m: filter.tag_place_m(tag),
-            heading_deg: self.slots[tag].has_heading.then(|| filter.tag_heading_deg(tag)),
-            deviation_m: filter.tag_deviation_m(tag),
-            surveyed: self.slots[tag].surveyed,
-        })
+    /// The known tags with the time since each was seen.
+    pub(super) fn known_tags(&self, filter: &Filter, now_s: f64) -> KnownTags {
+        let known = self.those(is_known).map(|tag| {
+            let Slot { id, surveyed, seen_s, .. } = self.slots[tag];
+            KnownTag {
+                id,
+                place_m: filter.tag_place_m(tag),
+                heading_deg: self.has_heading(tag).then(|| filter.tag_heading_deg(tag)),
+                deviation_m: filter.tag_deviation_m(tag),
+                surveyed,
+                seen_ago: Duration::try_from_secs_f64((now_s - seen_s).max(0.0)).ok(),
+            }
+        });
+        known.collect()
     }
 
     /// Forgets tags on trial that were not seen again.
@@ -205,7 +205,9 @@ impl Map {
         if self.known() >= MAX_TAGS {
             return None;
         }
+        self.numbered = self.numbered.saturating_add(1);
         self.slots[tag].standing = Standing::Known;
+        self.slots[tag].id = self.numbered;
         Some(tag)
     }
 
@@ -252,21 +254,6 @@ impl Map {
     fn is_out_of_view(&self, tag: usize, now_s: f64) -> bool {
         let Slot { standing, seen_s, .. } = self.slots[tag];
         is_known(standing) && now_s - seen_s > IN_VIEW_S
-    }
-
-    pub(super) fn has_heading(&self, tag: usize) -> bool {
-        self.slots[tag].has_heading
-    }
-
-    pub(super) fn learnt_heading(&mut self, tag: usize) {
-        self.slots[tag].has_heading = true;
-    }
-
-    /// The sign of orientations was wrong: discards the directions that were derived from them.
-    pub(super) fn forget_found_headings(&mut self) {
-        for slot in self.slots.iter_mut().filter(|slot| !slot.surveyed) {
-            slot.has_heading = false;
-        }
     }
 
     pub(super) fn is_known(&self, tag: usize) -> bool {

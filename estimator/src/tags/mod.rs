@@ -10,22 +10,25 @@
 
 mod camera;
 mod filter;
+mod heading;
 mod history;
+mod known;
 mod map;
 mod orientation;
 mod take_back;
 #[cfg(test)]
 mod tests;
 
+use std::fmt;
 use std::time::Duration;
 
 use nalgebra::Vector2;
 
 use self::camera::Look;
-use self::filter::Filter;
+use self::filter::{Correction, Filter};
 use self::history::{History, Moment};
+pub use self::known::{KnownTag, KnownTags, SurveyedTag};
 use self::map::Map;
-pub use self::map::{KnownTag, SurveyedTag};
 use self::orientation::Orientation;
 pub use self::orientation::OrientationSign;
 use self::take_back::TakeBack;
@@ -85,11 +88,23 @@ pub struct Sight {
     pub orientation_deg: f64,
 }
 
+/// More than [`MAX_TAGS`] tags would be known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NoRoom;
+
+impl fmt::Display for NoRoom {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "more than {MAX_TAGS} tags would be known")
+    }
+}
+
+impl std::error::Error for NoRoom {}
+
 /// Status of the tags.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TagStatus {
-    /// Number of tags with known positions.
-    pub known: usize,
+    /// The tags with known positions.
+    pub known: KnownTags,
     /// Time since one of them was seen.
     pub seen_ago: Option<Duration>,
     /// Whether the sign of orientations is known, so that tags correct the heading too.
@@ -176,6 +191,35 @@ impl Tags {
         }
     }
 
+    /// Adds tags that are surveyed in flight; the odometry is at `odometry_m`.
+    pub(crate) fn survey(
+        &mut self,
+        tags: &[SurveyedTag],
+        odometry_m: Vector2<f64>,
+    ) -> Result<(), NoRoom> {
+        if !self.map.has_room_for(&self.filter, tags) {
+            return Err(NoRoom);
+        }
+        let before = self.filter.correction();
+        if !tags.is_empty() && !self.map.has_surveyed() {
+            self.filter.doubt_frame(self.place_m(odometry_m));
+        }
+        for tag in tags {
+            if let Some(slot) = self.map.survey(&mut self.filter, tag) {
+                self.orientation.forget(slot);
+            }
+        }
+        self.take_back_jump(before);
+        Ok(())
+    }
+
+    /// The estimate has jumped since `before`: the reference jumps along and then moves back.
+    fn take_back_jump(&mut self, before: Correction) {
+        let after = self.filter.correction();
+        self.take_back
+            .jumped(after.place_m - before.place_m, after.heading_rad - before.heading_rad);
+    }
+
     /// The odometry has advanced.
     pub(crate) fn fly(&mut self, step: &OdometryStep) {
         if let Some((way_m, step_s)) = self.history.push(step) {
@@ -234,9 +278,7 @@ impl Tags {
                 self.take_in(&look, &moment, made_s, &mut seen);
             }
         }
-        let after = self.filter.correction();
-        self.take_back
-            .jumped(after.place_m - before.place_m, after.heading_rad - before.heading_rad);
+        self.take_back_jump(before);
     }
 
     fn take_in(&mut self, look: &Look, moment: &Moment, made_s: f64, seen: &mut [bool; SLOTS]) {
@@ -271,23 +313,6 @@ impl Tags {
             self.fix = Some(Fix { at_s: made_s, odometry_m: moment.place_m });
             self.orient(tag, look, moment);
             self.distrust_what_moves(tag, made_s);
-        }
-    }
-
-    /// Corrects the heading by a tag's orientation, once its sign is known.
-    fn orient(&mut self, tag: usize, look: &Look, moment: &Moment) {
-        let heading_deg = moment.yaw_deg + self.filter.correction().heading_rad.to_degrees();
-        let turned = self.orientation.saw(tag, heading_deg, look.orientation_deg);
-        if turned.sign_changed {
-            self.map.forget_found_headings();
-        }
-        let Some(direction_deg) = turned.direction_deg else { return };
-        if self.map.has_heading(tag) {
-            let measured_deg = turned.newest_deg.unwrap_or(direction_deg);
-            self.filter.correct_heading(tag, measured_deg.to_radians());
-        } else {
-            self.filter.begin_heading(tag, direction_deg.to_radians());
-            self.map.learnt_heading(tag);
         }
     }
 
@@ -367,7 +392,7 @@ impl Tags {
 
     pub(crate) fn status(&self, now_s: f64) -> TagStatus {
         TagStatus {
-            known: self.map.known(),
+            known: self.map.known_tags(&self.filter, now_s),
             seen_ago: self.fix.map(|fix| Duration::from_secs_f64((now_s - fix.at_s).max(0.0))),
             heading_held: self.orientation.sign().is_some(),
             drift_m: -self.filter.correction().place_m,
@@ -378,9 +403,5 @@ impl Tags {
     pub(crate) fn would_learn_from_a_turn(&self, now_s: f64) -> bool {
         let in_view = self.fix.is_some_and(|fix| now_s - fix.at_s < IN_VIEW_S);
         in_view && self.orientation.sign().is_none()
-    }
-
-    pub(crate) fn known(&self) -> impl Iterator<Item = KnownTag> + '_ {
-        self.map.iter(&self.filter)
     }
 }

@@ -110,3 +110,25 @@ fn no_two_cameras_are_the_same() {
     let signs: Vec<f64> = (0..20).map(|seed| Camera::new(CameraModel::hard(), seed).sign).collect();
     assert!(signs.contains(&1.0) && signs.contains(&-1.0));
 }
+
+/// The field of view in `docs/position.md`, which `check` uses too.
+#[test]
+fn a_level_drone_sees_less_ahead_than_behind() {
+    for (height_m, expected_m) in [
+        (1.0, [0.37, 0.21, 0.28]),
+        (1.5, [0.60, 0.37, 0.47]),
+        (2.0, [0.84, 0.52, 0.66]),
+        (2.5, [1.07, 0.68, 0.85]),
+    ] {
+        let level = Airframe::new(Profile::rec(), Vector2::zeros()).at_height(height_m);
+        for (way, expected_m) in [(1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].into_iter().zip(expected_m) {
+            let sees = |metres: f64| {
+                let tag = (way.0 * metres, way.1 * metres, 0.0);
+                reported(CameraModel::perfect(), &level, &[tag]).count == 1
+            };
+            let steps = (0..200_u32).take_while(|step| sees(0.01 * f64::from(*step))).count();
+            let seen_m = 0.01 * (steps as f64 - 1.0);
+            assert!((seen_m - expected_m).abs() < 0.011, "{way:?} at {height_m} m: {seen_m}");
+        }
+    }
+}

@@ -28,6 +28,7 @@ let clock = -Infinity; // the flight's clock less ours, as the fastest message h
 let behind = 0; // how much later than that the last message was
 let over = null; // how it ended
 let trail = [];
+let tags = new Map(); // marks of the known tags by their number
 let targets = []; // of the plan: { x, y, steps, mark }
 let decided = ""; // the last decision
 let decidedAt = 0;
@@ -263,6 +264,7 @@ function drawMap() {
   if (!width || !height) return;
   const places = flight.steps.filter((step) => step.target).map((step) => [step.target.x_m, step.target.y_m]);
   places.push([0, 0], [status.pose.x_m, status.pose.y_m]);
+  for (const tag of known()) places.push([tag.x_m, tag.y_m]);
   if (status.target) places.push([status.target.x_m, status.target.y_m]);
   const [xs, ys] = [0, 1].map((axis) => places.map((place) => place[axis]));
   const middle = (values) => (Math.min(...values) + Math.max(...values)) / 2;
@@ -290,10 +292,54 @@ function drawMap() {
   if (status.target) put("aim", status.target.x_m, status.target.y_m);
   $("wanted").style.display = wanted ? "" : "none";
   if (wanted) put("wanted", wanted.x, wanted.y);
+  drawTags(size);
   for (const { x, y, steps, mark } of targets) {
     mark.setAttribute("transform", `translate(${x} ${-y}) scale(${size * 0.8})`);
     mark.setAttribute("class", steps.includes(status.step) ? "now" : "");
   }
+}
+
+const known = () => (status.tags ? status.tags.map : []);
+
+// A tag that was not seen for this long is drawn faintly, in seconds.
+const STALE = 2;
+
+// Each tag as a roundel with a mark in its direction, its number, and a circle of one standard deviation.
+function drawTags(size) {
+  const map = known();
+  for (const [id, mark] of tags) {
+    if (map.some((tag) => tag.id === id)) continue;
+    mark.remove();
+    tags.delete(id);
+  }
+  for (const tag of map) {
+    if (!tags.has(tag.id)) {
+      const mark = svg("g");
+      const roundel = svg("g");
+      roundel.append(svg("path", { d: "M0-.8V-1.7" }), svg("circle", { class: "rim", r: 0.8 }), svg("circle", { class: "dot", r: 0.3 }));
+      mark.append(svg("circle", { class: "spread" }), roundel, svg("text", { "font-size": 1.2, y: 2.2 }));
+      $("tags").append(mark);
+      tags.set(tag.id, mark);
+    }
+    const mark = tags.get(tag.id);
+    const [spread, roundel, number] = mark.children;
+    spread.setAttribute("r", tag.deviation_m);
+    mark.setAttribute("transform", `translate(${tag.x_m} ${-tag.y_m})`);
+    roundel.setAttribute("transform", `scale(${size * 0.8}) rotate(${tag.heading_deg ?? 0})`);
+    roundel.firstChild.style.display = tag.heading_deg === null ? "none" : "";
+    number.setAttribute("transform", `scale(${size * 0.8})`);
+    number.textContent = `${tag.id}${tag.surveyed ? "*" : ""}`;
+    mark.setAttribute("class", tag.seen_s !== null && tag.seen_s < STALE ? "" : "stale");
+  }
+}
+
+// "2, to 0.04 m, seen 0.1 s ago": the best of them.
+function tagsText() {
+  const map = known();
+  const seen = status.tags.seen_s === null ? "none seen yet" : `seen ${status.tags.seen_s.toFixed(1)} s ago`;
+  if (!map.length) return seen;
+  const best = Math.min(...map.map((tag) => tag.deviation_m));
+  return `${map.length}, to ${best.toFixed(2)} m, ${seen}`;
 }
 
 function drawGrid(wide, high, shown) {
@@ -305,7 +351,7 @@ function drawGrid(wide, high, shown) {
   if (!$("grid").firstChild) $("grid").append(svg("path"), svg("path", { class: "axis" }));
   $("grid").firstChild.setAttribute("d", lines);
   $("grid").lastChild.setAttribute("d", `M0 ${low}V${top}M${left} 0H${right}`);
-  $("scale").textContent = `squares of ${step} m; disc: position uncertainty; dashed: the fence, ${flight.radius_m} m from the start`;
+  $("scale").textContent = `squares of ${step} m; disc: position uncertainty; dashed: the fence, ${flight.radius_m} m from the start${status.tags ? "; roundels: tags with one standard deviation, * surveyed" : ""}`;
 }
 
 function drawGauges() {
@@ -325,6 +371,8 @@ function drawGauges() {
   $("at").textContent = `${place(status.pose)} ${signed(status.pose.yaw_deg, 0)}°`;
   $("target").textContent = status.target ? place(status.target) : "–";
   $("off").textContent = status.target ? `${status.distance_m.toFixed(2)} m` : "–";
+  $("tagged").hidden = !status.tags;
+  if (status.tags) $("tagsknown").textContent = tagsText();
   $("known").textContent = `${status.horizontal_deviation_m.toFixed(2)} m`;
 }
 

@@ -15,12 +15,17 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::canvas::{Canvas, Circle, Line as Segment, Points};
 use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
 
+use super::tags;
 use crate::flight::Message;
 use crate::flown_path::FlownPath;
 use crate::timing::TickHealth;
 
 /// Capacity of the lists of messages and decisions.
 const REMEMBERED: usize = 50;
+
+/// Lines of the gauges, and the fewest lines of the mission.
+const GAUGES: u16 = 8;
+const LEAST_STEPS: u16 = 3;
 
 const HERE: Color = Color::Cyan;
 const TARGET: Color = Color::Yellow;
@@ -159,12 +164,20 @@ pub(super) fn draw(frame: &mut Frame<'_>, view: &View) {
     .areas(frame.area());
     let [map, side] =
         Layout::horizontal([Constraint::Percentage(55), Constraint::Percentage(45)]).areas(body);
-    let [gauges, steps] = Layout::vertical([Constraint::Length(8), Constraint::Min(3)]).areas(side);
+    let room = usize::from(side.height.saturating_sub(GAUGES + LEAST_STEPS));
+    let table = tags::lines(view.status.as_ref(), room);
+    let [gauges, table, steps] = Layout::vertical([
+        Constraint::Length(GAUGES),
+        Constraint::Length(u16::try_from(table).unwrap_or_default()),
+        Constraint::Min(LEAST_STEPS),
+    ])
+    .areas(side);
     let [decisions, messages] =
         Layout::horizontal([Constraint::Percentage(50), Constraint::Percentage(50)]).areas(foot);
     frame.render_widget(headline(view), head);
     draw_map(frame, map, view);
     draw_gauges(frame, gauges, view);
+    tags::draw(frame, table, view.status.as_ref());
     draw_steps(frame, steps, view);
     let shown =
         |lines: usize, area: Rect| lines.saturating_sub(usize::from(area.height.saturating_sub(2)));
@@ -237,7 +250,7 @@ fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let target = view.status.and_then(|status| status.target);
     let places = view.flown_path.places_m().chain(target.map(|target| (target.x_m, target.y_m)));
     let (mut x, mut y) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
-    for place in places {
+    for place in places.chain(tags::places_m(view.status.as_ref())) {
         x = (x.0.min(place.0), x.1.max(place.0));
         y = (y.0.min(place.1), y.1.max(place.1));
     }
@@ -257,6 +270,7 @@ fn draw_map(frame: &mut Frame<'_>, area: Rect, view: &View) {
             context.draw(&Circle { x: 0.0, y: 0.0, radius: view.limits.radius_m, color: WARNING });
             context.draw(&Points { coords: &trail, color: Color::DarkGray });
             context.print(0.0, 0.0, "·");
+            tags::mark(context, view.status.as_ref());
             if let Some(target) = target {
                 context.print(target.x_m, target.y_m, Span::styled("o", Style::new().fg(TARGET)));
             }
@@ -304,7 +318,7 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
             ),
             _ => "target  -".to_owned(),
         },
-        format!("known   to {:.2} m{}", status.horizontal_deviation_m, tags(status)),
+        format!("known   to {:.2} m{}", status.horizontal_deviation_m, last_seen(status)),
         ticks(&view.ticks),
     ];
     if !view.not_ready.is_empty() {
@@ -324,11 +338,11 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
     frame.render_widget(Paragraph::new(lines.join("\n")), text);
 }
 
-/// What the place is known by besides the flow.
-fn tags(status: &Status) -> String {
+/// Time since the last sighting of a tag, if tags are used.
+fn last_seen(status: &Status) -> String {
     let Some(tags) = &status.tags else { return String::new() };
     match tags.seen_ago {
-        Some(ago) => format!(", {} tags, seen {:.1} s ago", tags.known, ago.as_secs_f64()),
+        Some(ago) => format!(", tag {:.1} s ago", ago.as_secs_f64()),
         None => ", no tag seen yet".to_owned(),
     }
 }
@@ -368,39 +382,43 @@ mod tests {
     use super::*;
     use autopilot::agent::ChosenPlans;
     use autopilot::plan::Plan;
-    use autopilot::vehicle::Trust;
+    use autopilot::vehicle::{KnownTag, TagStatus, Trust};
     use kinematics::Airframe;
+
+    /// A drone on its way to a target, which it has flown this share of.
+    fn status(share: f64) -> Status {
+        let target = Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 };
+        Status {
+            phase: Phase::Flying,
+            step: Some(2),
+            steps: 4,
+            mission_waits: false,
+            controls: None,
+            pose: Some(Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 }),
+            target: Some(target),
+            distance_m: Some(1.0 - share),
+            battery_percent: Some(87),
+            horizontal_deviation_m: 0.12,
+            vertical_deviation_m: 0.02,
+            tags: None,
+            gps: None,
+            trust: Trust::Sound,
+            airframe: Airframe::default(),
+            navdata_age: Some(Duration::from_millis(40)),
+            navdata_hz: 15.0,
+            attitude_deg: Some([2.5, -1.0]),
+            plans: ChosenPlans::default(),
+            command: Some("Goto"),
+        }
+    }
 
     #[test]
     fn the_screen_shows_the_flight() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\ngoto 1 1 0 0\nland\n").unwrap();
         let mut view = View::new(&FlightLimits::default());
         view.take_in(&Message::Mission(plan.steps().to_vec()));
-        let target = Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 };
         for tick in 0..40_u32 {
-            let share = f64::from(tick) / 40.0;
-            let status = Status {
-                phase: Phase::Flying,
-                step: Some(2),
-                steps: 4,
-                mission_waits: false,
-                controls: None,
-                pose: Some(Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 }),
-                target: Some(target),
-                distance_m: Some(1.0 - share),
-                battery_percent: Some(87),
-                horizontal_deviation_m: 0.12,
-                vertical_deviation_m: 0.02,
-                tags: None,
-                gps: None,
-                trust: Trust::Sound,
-                airframe: Airframe::default(),
-                navdata_age: Some(Duration::from_millis(40)),
-                navdata_hz: 15.0,
-                attitude_deg: Some([2.5, -1.0]),
-                plans: ChosenPlans::default(),
-                command: Some("Goto"),
-            };
+            let status = status(f64::from(tick) / 40.0);
             let ticks = TickHealth { lateness: Duration::from_micros(230), skipped: 1 };
             let at = Duration::from_millis(u64::from(tick) * 90);
             view.take_in(&Message::Status(at, status, ticks));
@@ -416,5 +434,29 @@ mod tests {
             let mut terminal = Terminal::new(TestBackend::new(columns, rows)).unwrap();
             terminal.draw(|frame| draw(frame, &view)).unwrap();
         }
+    }
+
+    #[test]
+    fn tags_have_a_table_and_marks_on_eighty_columns() {
+        let tag = |id: u32, x_m, seen_s: Option<u64>| KnownTag {
+            id,
+            place_m: [x_m, 0.4].into(),
+            heading_deg: seen_s.map(|_| 120.0),
+            deviation_m: 0.2,
+            surveyed: id == 1,
+            seen_ago: seen_s.map(Duration::from_secs),
+        };
+        let known = [tag(1, -2.0, None), tag(2, 0.3, Some(40)), tag(3, 0.9, Some(0))];
+        let tags = TagStatus {
+            known: known.into_iter().collect(),
+            seen_ago: Some(Duration::from_millis(300)),
+            ..TagStatus::default()
+        };
+        let mut view = View::new(&FlightLimits::default());
+        let status = Status { tags: Some(tags), ..status(0.5) };
+        view.take_in(&Message::Status(Duration::from_secs(3), status, TickHealth::default()));
+        let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
+        terminal.draw(|frame| draw(frame, &view)).unwrap();
+        insta::assert_snapshot!(terminal.backend());
     }
 }

@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 
 use super::bench::{Bench, SECOND, START};
 use super::*;
+use crate::agent::TagPercepts;
 
 /// A vehicle above a tag at its start; another tag is two metres to the right.
 fn above_a_tag() -> Bench {
@@ -29,6 +30,11 @@ fn flying_above_a_tag(plan: &str) -> Bench {
     bench
 }
 
+fn percepts(vehicle: &Vehicle, now: Duration, state: &Prediction) -> Option<TagPercepts> {
+    let status = vehicle.flight.estimator.tag_status(now)?;
+    Some(vehicle.tag_percepts(now, state, &status))
+}
+
 #[test]
 fn the_agent_is_given_the_nearest_tag_and_how_long_ago_one_was_seen() {
     let mut bench = above_a_tag();
@@ -47,12 +53,12 @@ fn the_agent_is_given_the_nearest_tag_and_how_long_ago_one_was_seen() {
 #[test]
 fn a_tag_that_was_never_seen_is_as_old_as_the_flight() {
     let mut config = VehicleConfig { read_back: false, ..VehicleConfig::default() };
-    assert_eq!(Bench::with(&config).vehicle.tag_percepts(SECOND, &Prediction::default()), None);
+    assert_eq!(percepts(&Bench::with(&config).vehicle, SECOND, &Prediction::default()), None);
     config.estimator.tags = Some(TagConfig::default());
     let mut bench = Bench::with(&config);
     bench.step();
     let later = bench.now + 5 * SECOND;
-    let percepts = bench.vehicle.tag_percepts(later, &Prediction::default()).unwrap();
+    let percepts = percepts(&bench.vehicle, later, &Prediction::default()).unwrap();
     assert_eq!((percepts.age_ms, percepts.seen, percepts.nearest_m), (5000, false, None));
 }
 
@@ -99,10 +105,10 @@ fn a_landing_on_a_tag_may_be_taken_back_until_the_way_down() {
 #[test]
 fn surveyed_tags_are_known_before_they_are_seen() {
     let bench = above_a_tag();
-    let places: Vec<_> = bench.vehicle.known_tags().map(|tag| tag.place_m.x).collect();
+    let known = bench.vehicle.status(bench.now).tags.unwrap().known;
+    let places: Vec<_> = known.iter().map(|tag| tag.place_m.x).collect();
     assert_eq!(places.len(), 2);
-    assert!(bench.vehicle.known_tags().all(|tag| tag.surveyed));
-    assert_eq!(Vehicle::new(&VehicleConfig::default()).unwrap().known_tags().count(), 0);
+    assert!(known.iter().all(|tag| tag.surveyed));
 }
 
 #[test]
@@ -117,7 +123,7 @@ fn the_nearest_tag_is_the_nearest_to_the_drone() {
     for (here_m, nearest_m) in [([0.6, 0.5], [2.0, 0.0]), ([0.5, 0.6], [0.0, 2.0])] {
         let position_m = nalgebra::Vector3::new(here_m[0], here_m[1], 1.0);
         let state = Prediction { position_m, ..Prediction::default() };
-        let percepts = vehicle.tag_percepts(SECOND, &state).unwrap();
+        let percepts = percepts(&vehicle, SECOND, &state).unwrap();
         assert_eq!(percepts.nearest_m, Some(nearest_m), "{here_m:?}");
         assert!(!percepts.seen, "known, but never seen");
     }
@@ -129,8 +135,61 @@ fn a_tag_is_in_view_for_half_a_second() {
     let ago = bench.vehicle.flight.estimator.tag_status(bench.now).unwrap().seen_ago.unwrap();
     let is_seen = |ago_ms: u64| {
         let now = bench.now + Duration::from_millis(ago_ms).saturating_sub(ago);
-        bench.vehicle.tag_percepts(now, &Prediction::default()).unwrap().seen
+        percepts(&bench.vehicle, now, &Prediction::default()).unwrap().seen
     };
     assert!(is_seen(499));
     assert!(!is_seen(501));
+}
+
+fn plan_with_tags(tags: &[(f64, f64)]) -> OperatorOrder {
+    let tags: Vec<String> = tags.iter().map(|(x, y)| format!("tag {x} {y}")).collect();
+    let text = format!("{}\ntakeoff\nlandOnTag", tags.join("\n"));
+    OperatorOrder::Load(Plan::parse("plan", &text).unwrap())
+}
+
+fn known(bench: &Bench) -> Vec<KnownTag> {
+    bench.vehicle.status(bench.now).tags.unwrap().known.iter().copied().collect()
+}
+
+#[test]
+fn a_plan_that_is_loaded_in_the_air_brings_its_tags() {
+    let mut bench = above_a_tag();
+    assert_eq!(known(&bench).len(), 2);
+    bench.accepted(plan_with_tags(&[(0.1, 0.0), (5.0, 1.0)]));
+    let tags = known(&bench);
+    assert_eq!(tags.len(), 3, "one of them was known: {tags:?}");
+    assert!(tags[2].surveyed && (tags[2].place_m - Vector2::new(5.0, 1.0)).norm() < 1e-9);
+    // Six more are too many: nothing of the mission changes.
+    let (steps, row) = (bench.vehicle.mission().to_vec(), [-9.0, -7.0, -5.0, -3.0, -1.0, 1.0]);
+    let six = row.map(|x_m| (x_m, -4.0));
+    let refused = Err(Refused::TooManyTags { declared: 6, known: 3 });
+    assert_eq!(bench.order(plan_with_tags(&six)), refused);
+    assert_eq!((known(&bench), bench.vehicle.mission()), (tags, steps.as_slice()));
+    bench.accepted(plan_with_tags(&six[..5]));
+    assert_eq!(known(&bench).len(), 8);
+}
+
+#[test]
+fn more_tags_than_can_be_known_are_refused_with_the_plan() {
+    let mut config = VehicleConfig::default();
+    let mut tags = TagConfig::default();
+    let given = |x_m| Some(SurveyedTag { place_m: Vector2::new(x_m, 6.0), heading_deg: None });
+    (tags.surveyed[0], tags.surveyed[1]) = (given(-2.0), given(2.0));
+    config.estimator.tags = Some(tags);
+    let row: Vec<(f64, f64)> = (0..7).map(|i| (2.0 * f64::from(i) - 6.0, 0.0)).collect();
+    let load = |vehicle: &mut Vehicle, tags| {
+        vehicle.order(SECOND, Operator::TERMINAL, plan_with_tags(tags))
+    };
+    let mut vehicle = Vehicle::new(&config).unwrap();
+    let refused = Refused::TooManyTags { declared: 7, known: 2 };
+    assert_eq!(load(&mut vehicle, &row), Err(refused.clone()));
+    assert!(vehicle.mission().is_empty());
+    let text = refused.to_string();
+    assert!(text.contains("7 tags besides 2 others: at most 8"), "{text}");
+    assert_eq!(load(&mut vehicle, &row[..6]), Ok(()));
+    let OperatorOrder::Load(plan) = plan_with_tags(&row) else { unreachable!() };
+    let error = Vehicle::flying(plan.clone(), &config).unwrap_err();
+    assert_eq!(error, CannotFly::Refused(refused));
+    // Without tags in use there is nothing to be known.
+    assert!(Vehicle::flying(plan, &VehicleConfig::default()).is_ok());
 }

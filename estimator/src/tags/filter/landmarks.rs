@@ -2,7 +2,16 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::{Filter, HEADING, MEAN_ORIENTATION_DEG, Sighted, TAGS, dot};
+use kinematics::wrap_rad;
+
+use super::{
+    Filter, HEADING, MEAN_ORIENTATION_DEG, PLACE, Row, START_DEG, START_M, STATES, Sighted, TAGS,
+    dot,
+};
+
+/// Accuracy of a tape measure, and of the angle of a sheet of paper.
+const SURVEY_M: f64 = 0.02;
+const SURVEY_DEG: f64 = 2.0;
 
 #[expect(clippy::needless_range_loop, reason = "rows and columns of matrices")]
 impl Filter {
@@ -39,9 +48,6 @@ impl Filter {
         place_m: Vector2<f64>,
         heading_rad: Option<f64>,
     ) {
-        /// Accuracy of a tape measure, and of the angle of a sheet of paper.
-        const SURVEY_M: f64 = 0.02;
-        const SURVEY_DEG: f64 = 2.0;
         let state = TAGS + 3 * tag;
         self.used = self.used.max(state + 3);
         for axis in 0..2 {
@@ -50,8 +56,66 @@ impl Filter {
         }
         self.forget(state + 2, 0.0);
         if let Some(heading_rad) = heading_rad {
-            self.p[state + 2][state + 2] = SURVEY_DEG.to_radians().powi(2);
-            self.x[state + 2] = heading_rad;
+            self.survey_heading(tag, heading_rad);
+        }
+    }
+
+    fn survey_heading(&mut self, tag: usize, heading_rad: f64) {
+        let state = TAGS + 3 * tag + 2;
+        self.forget(state, SURVEY_DEG.to_radians().powi(2));
+        self.x[state] = heading_rad;
+    }
+
+    /// The world is now given by surveyed tags and no longer by the start of the drone, which stood there with
+    /// the accuracy of its placement: everything known may be displaced and turned together. The drone is at
+    /// `place_m`.
+    pub(in crate::tags) fn doubt_frame(&mut self, place_m: Vector2<f64>) {
+        let mut displaced = [[0.0; STATES]; 2];
+        let mut turned = [0.0; STATES];
+        // A clockwise turn about the origin moves what is forward to the right.
+        let mut moves = |state: usize, place_m: Vector2<f64>| {
+            (displaced[0][state], displaced[1][state + 1]) = (START_M, START_M);
+            turned[state] = place_m.y * START_DEG.to_radians();
+            turned[state + 1] = -place_m.x * START_DEG.to_radians();
+        };
+        moves(PLACE, place_m);
+        for tag in 0..(self.used - TAGS) / 3 {
+            moves(TAGS + 3 * tag, self.tag_place_m(tag));
+        }
+        turned[HEADING] = START_DEG.to_radians();
+        for tag in 0..(self.used - TAGS) / 3 {
+            turned[TAGS + 3 * tag + 2] = START_DEG.to_radians();
+        }
+        for way in [displaced[0], displaced[1], turned] {
+            for i in 0..self.used {
+                for j in 0..self.used {
+                    self.p[i][j] += way[i] * way[j];
+                }
+            }
+        }
+    }
+
+    /// A known tag was surveyed: corrects the state by its position and, if it was measured, its direction.
+    /// `has_heading`: whether its direction is known.
+    pub(in crate::tags) fn correct_by_survey(
+        &mut self,
+        tag: usize,
+        place_m: Vector2<f64>,
+        heading_rad: Option<f64>,
+        has_heading: bool,
+    ) {
+        let state = TAGS + 3 * tag;
+        let mut rows = [[0.0; STATES]; 2];
+        (rows[0][state], rows[1][state + 1]) = (1.0, 1.0);
+        self.correct_two(&rows, self.tag_place_m(tag) - place_m, SURVEY_M * SURVEY_M);
+        let Some(heading_rad) = heading_rad else { return };
+        if has_heading {
+            let mut row: Row = [0.0; STATES];
+            row[state + 2] = 1.0;
+            let off = wrap_rad(heading_rad - self.x[state + 2]);
+            self.correct_one(&row, off, SURVEY_DEG.to_radians().powi(2));
+        } else {
+            self.survey_heading(tag, heading_rad);
         }
     }
 

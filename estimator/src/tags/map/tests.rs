@@ -87,7 +87,8 @@ fn surveyed_tags_are_known_from_the_start() {
         SurveyedTag { place_m: Vector2::new(-3.0, 1.0), heading_deg: None },
     ];
     let mut bench = Bench::new(&surveyed);
-    let known: Vec<KnownTag> = bench.map.iter(&bench.filter).collect();
+    let known = bench.map.known_tags(&bench.filter, 0.0);
+    let known: Vec<&KnownTag> = known.iter().collect();
     assert_eq!(known.len(), 2);
     for (known, surveyed) in known.iter().zip(surveyed) {
         assert_eq!(known.place_m, surveyed.place_m);
@@ -101,7 +102,8 @@ fn surveyed_tags_are_known_from_the_start() {
     bench.until_known(5.0, 0.0, false);
     bench.map.learnt_heading(2);
     assert!(bench.map.has_heading(2));
-    assert!(!bench.map.iter(&bench.filter).last().unwrap().surveyed);
+    let known = bench.map.known_tags(&bench.filter, 0.0);
+    assert!(!known.iter().last().unwrap().surveyed);
     bench.map.forget_found_headings();
     assert!(bench.map.has_heading(0) && !bench.map.has_heading(2));
 }
@@ -367,4 +369,19 @@ fn a_forgotten_tag_takes_no_other_out_of_use() {
     bench.see(10.0, 0.0);
     bench.map.forget_old(&mut bench.filter, 2.1);
     assert!((0..2).all(|tag| is_corrected(&mut bench, tag)));
+}
+
+#[test]
+fn the_number_of_a_tag_is_not_given_to_another() {
+    let mut bench = Bench::with_known(&[0.0, 5.0]);
+    let ids = |bench: &Bench| -> Vec<u32> {
+        bench.map.known_tags(&bench.filter, 9.0).iter().map(|tag| tag.id).collect()
+    };
+    bench.map.forget_moving(&mut bench.filter, 0);
+    // It takes the free slot, before the other one.
+    assert_eq!(bench.until_known(20.0, 7.0, false), Some((11, 0)));
+    assert_eq!(ids(&bench), [2, 3]);
+    let known = bench.map.known_tags(&bench.filter, 9.5);
+    let seen_ago: Vec<_> = known.iter().map(|tag| tag.seen_ago).collect();
+    assert_eq!(seen_ago, [None, Some(Duration::from_millis(2500))]);
 }

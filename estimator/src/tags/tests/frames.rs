@@ -180,7 +180,7 @@ fn the_deviation_grows_with_the_way_since_the_tag_and_with_height() {
     assert_near(deviation_m(&drone, from_m + far, 2.0), expected_m(5.0));
     assert_near(deviation_m(&drone, from_m, 2.0), expected_m(0.0));
     assert_eq!(drone.tags.status(drone.now_s + 3.0).seen_ago, Some(Duration::from_secs(3)));
-    assert_eq!(drone.tags.status(drone.now_s + 3.0).known, 1);
+    assert_eq!(drone.tags.status(drone.now_s + 3.0).known.count(), 1);
 }
 
 /// After a gap the predicted height may be below the floor.

@@ -140,3 +140,28 @@ fn a_picture_shows_where_the_drone_was_when_it_was_taken() {
     // Along its way; aside the heading is not known yet.
     assert!(apart_m.x.abs() < 0.01, "{apart_m}");
 }
+
+#[test]
+fn after_a_tag_has_moved_the_next_ones_need_sixty_sightings_for_half_a_minute() {
+    let sights_after = |wait_s: f64| {
+        let mut drone = Drone::settled();
+        for _ in 0..20 {
+            drone.tags.map.watch(0, Vector2::new(0.5, 0.0), 1.5, 0.0, 0.0);
+        }
+        drone.tags.distrust_what_moves(0, drone.now_s);
+        let until_s = drone.now_s + wait_s;
+        while drone.now_s < until_s {
+            drone.now_s += STEP_S;
+            drone.tags.fly(&drone.step());
+        }
+        let begins_s = drone.now_s;
+        while drone.tags.map.known() == 0 && drone.now_s < begins_s + 60.0 {
+            drone.fly();
+        }
+        (drone.now_s - begins_s) / STEP_S
+    };
+    for wait_s in [0.0, 25.0] {
+        assert!((60.0..65.0).contains(&sights_after(wait_s)), "{}", sights_after(wait_s));
+    }
+    assert!((10.0..15.0).contains(&sights_after(31.0)), "{}", sights_after(31.0));
+}
