@@ -143,12 +143,16 @@ fn leave_at(moment: Moment) {
         }
         _ => std::thread::sleep(Duration::from_millis(50)),
     }
+    let lateness = Lateness::measure();
     let ordered = relay.said().len();
     signal(&child, "-INT");
     assert_eq!(ended_within(child, Duration::from_mins(1)), Some(130), "{moment:?}");
-    // Counted in ticks, because a busy machine may delay each of them.
-    let until_the_end = relay.said().len() - ordered;
-    assert!(until_the_end < 40, "{moment:?}: {until_the_end} datagrams");
+    // The ticks have real-time priority. On a machine that is late by more than one, what receives the signal,
+    // which has none, is so much later that nothing can be said.
+    if lateness.worst() < TICK {
+        let until_the_end = relay.said().len() - ordered;
+        assert!(until_the_end < 40, "{moment:?}: {until_the_end} datagrams");
+    }
     assert_parted(&relay);
 }
 
@@ -316,10 +320,9 @@ fn flown_with(text: &str, error: &str, time: Duration) -> Option<i32> {
 fn a_refused_datagram_ends_no_flight() {
     let ms = Duration::from_millis;
     let cases = [(EACCES, ms(100)), (EINVAL, ms(100)), (EACCES, ms(1000))];
-    let threads =
-        cases.map(|(error, time)| std::thread::spawn(move || flown_with(SHORT, error, time)));
-    for (thread, case) in threads.into_iter().zip(cases) {
-        assert_eq!(thread.join().unwrap(), Some(0), "{case:?}");
+    // One after another: the ticks of three would leave one core no time for their drones.
+    for (error, time) in cases {
+        assert_eq!(flown_with(SHORT, error, time), Some(0), "{error}, {time:?}");
     }
 }
 
