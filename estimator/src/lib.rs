@@ -44,6 +44,7 @@ mod identification;
 mod orders;
 mod plausibility;
 mod response;
+mod silence;
 mod tags;
 mod trust;
 mod uncertainty;
@@ -261,6 +262,7 @@ impl Estimator {
         let made_s = self.clock.made_s(sample.drone_time, sample.arrival);
         let arrival_s = sample.arrival.as_secs_f64();
         let lateness_s = arrival_s - made_s;
+        self.heading.hear(made_s);
         if let Some(quantity) = plausibility::impossible(sample) {
             let verdict = Verdict { rejected: Some(quantity), lateness_s, ..Verdict::default() };
             self.plausibility.watch(arrival_s, sample, &verdict);
