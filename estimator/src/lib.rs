@@ -53,7 +53,7 @@ mod vertical;
 
 use std::time::Duration;
 
-use kinematics::{Airframe, DroneLimits, world_from_body, wrap_deg};
+use kinematics::{Airframe, DroneLimits, GRAVITY_M_S2, world_from_body, wrap_deg};
 use nalgebra::{Vector2, Vector3};
 
 pub use orders::Order;
@@ -428,7 +428,12 @@ impl Estimator {
         let unheard_share = self.velocity_gate.unheard_share(step_s);
         let tilt_rad = Vector2::new(sample.roll_deg, -sample.pitch_deg).map(f64::to_radians);
         let unheard = self.unheard_m_s([from_s, at_s], tilt_rad, after, unheard_share);
-        let expected = Foreseen { before_m_s: before, after_m_s: after, unheard_m_s: &unheard };
+        let expected = Foreseen {
+            before_m_s: before,
+            after_m_s: after,
+            unheard_m_s: &unheard,
+            pull_m_s2: GRAVITY_M_S2 * tilt_rad.norm().tan() * unheard_share,
+        };
         let believed = self.velocity_gate.admits(measured_m_s, &expected, step_s);
         let velocity_m_s = if believed { measured_m_s } else { foreseen.velocity_m_s };
         let before_m_s = self.horizontal.measured_m_s();

@@ -38,6 +38,8 @@ const JUMP_M_S2: f64 = 4.0;
 const BRIEF_S: f64 = 0.1;
 const NEW_WIND_M_S2: f64 = 0.15;
 const MODEL_SHARE: f64 = 0.15;
+/// The thrust is known within this share; in a silence a wrong one acts for long.
+const THRUST_SHARE: f64 = 0.2;
 /// What a drone does that hovers by itself because it received nothing for long is predicted less well.
 const ALONE_M_S2: f64 = 0.5;
 /// After a jump the velocity must come back to this fraction of the allowed difference.
@@ -95,6 +97,8 @@ pub(crate) struct Foreseen<'a> {
     /// Velocities after the step of a drone that did not receive all of its orders, sorted by the time of the last one
     /// that it received, the latest first; none if packets arrived all the time.
     pub(crate) unheard_m_s: &'a [Option<Vector2<f64>>],
+    /// Acceleration by the measured tilt, if no packets arrived before; in the share of the step in which none did.
+    pub(crate) pull_m_s2: f64,
 }
 
 impl Foreseen<'_> {
@@ -164,7 +168,8 @@ impl VelocityGate {
         let step_s = step_s.min(longest_s);
         let gap_s = (step_s - BRIEF_S).max(0.0);
         let wind_m_s = NEW_WIND_M_S2 * gap_s + ALONE_M_S2 * (gap_s - KEPT_S).max(0.0);
-        let gained_m_s = JUMP_M_S2 * step_s.min(BRIEF_S) + wind_m_s;
+        let thrust_m_s = THRUST_SHARE * foreseen.pull_m_s2 * gap_s;
+        let gained_m_s = JUMP_M_S2 * step_s.min(BRIEF_S) + wind_m_s + thrust_m_s;
         let allowed_m_s = JUMP_M_S + gained_m_s;
         let share = MODEL_SHARE * gap_s / (gap_s + BRIEF_S);
         let surprise_m_s = foreseen.off_m_s(measured_m_s, share);

@@ -113,7 +113,7 @@ fn what_no_drone_does_is_impossible() {
 
 /// The model's velocity before and after a step.
 fn model(before_m_s: Vector2<f64>, after_m_s: Vector2<f64>) -> Foreseen<'static> {
-    Foreseen { before_m_s, after_m_s, unheard_m_s: &[] }
+    Foreseen { before_m_s, after_m_s, unheard_m_s: &[], pull_m_s2: 0.0 }
 }
 
 #[test]
@@ -165,6 +165,18 @@ fn a_velocity_after_a_silence_is_one_that_the_orders_explain_received_or_not() {
                 assert_eq!(admits(Vector2::new(limit_m_s, m_s)), fits, "{m_s}");
             }
         }
+    }
+}
+
+#[test]
+fn a_drone_that_leans_in_a_silence_may_have_another_thrust() {
+    let still = Vector2::zeros();
+    // 2 m/s² for half a second, of which 0.1 s count as a gust.
+    let leans = Foreseen { pull_m_s2: 2.0, ..model(still, still) };
+    let allowed_m_s = 0.6 + 0.4 * 0.15 + 0.2 * 2.0 * 0.4;
+    for (off_m_s, fits) in [(-0.01, true), (0.01, false)] {
+        let m_s = Vector2::new(0.0, allowed_m_s + off_m_s);
+        assert_eq!(gate(0.0, false).admits(m_s, &leans, 0.5), fits);
     }
 }
 
