@@ -198,7 +198,7 @@ pub(super) fn turns_in_the_wind() -> Vec<Trial> {
 pub(super) fn steps_in_a_turn() -> Result<Vec<Trial>, SimulationError> {
     /// At once, and after a heading that is no number.
     const STEPS: [(u64, f64); 5] = [(0, 18.0), (0, -18.0), (300, 30.0), (300, 60.0), (300, -60.0)];
-    const INTO: [Duration; 2] = [Duration::from_millis(600), Duration::from_millis(1000)];
+    const INTO: [Duration; 2] = [Duration::from_millis(600), Duration::from_secs(1)];
     let mut trials = Vec::new();
     for Model { name, profile } in AIRFRAMES {
         let begun = turn_begins(name, profile)?;
