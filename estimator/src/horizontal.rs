@@ -118,6 +118,11 @@ impl Horizontal {
             .map(|value| value.clamp(-most, most));
     }
 
+    /// (right, forward) in the body frame, as the sticks ask for it.
+    pub(crate) fn tilt_rad(&self) -> Vector2<f64> {
+        self.tilt_rad
+    }
+
     pub(crate) fn measured_m_s(&self) -> Vector2<f64> {
         self.measured_m_s
     }

@@ -44,14 +44,16 @@ mod identification;
 mod orders;
 mod plausibility;
 mod response;
+mod silence;
 mod tags;
 mod trust;
 mod uncertainty;
+mod unheard;
 mod vertical;
 
 use std::time::Duration;
 
-use kinematics::{Airframe, DroneLimits, world_from_body, wrap_deg};
+use kinematics::{Airframe, DroneLimits, GRAVITY_M_S2, world_from_body, wrap_deg};
 use nalgebra::{Vector2, Vector3};
 
 pub use orders::Order;
@@ -66,7 +68,7 @@ use crate::heading::Heading;
 use crate::horizontal::{Horizontal, ObserverGains};
 use crate::identification::Identification;
 use crate::orders::Orders;
-use crate::plausibility::{Plausibility, VelocityGate, Verdict};
+use crate::plausibility::{Foreseen, Plausibility, VelocityGate, Verdict};
 use crate::response::{Measured, Response};
 use crate::tags::{OdometryStep, Tags};
 use crate::uncertainty::{HEADING_STEP_DEG, Uncertainty};
@@ -262,6 +264,8 @@ impl Estimator {
         let made_s = self.clock.made_s(sample.drone_time, sample.arrival);
         let arrival_s = sample.arrival.as_secs_f64();
         let lateness_s = arrival_s - made_s;
+        self.heading.hear(made_s);
+        self.velocity_gate.hear(made_s);
         if let Some(quantity) = plausibility::impossible(sample) {
             let verdict = Verdict { rejected: Some(quantity), lateness_s, ..Verdict::default() };
             self.plausibility.watch(arrival_s, sample, &verdict);
@@ -422,7 +426,16 @@ impl Estimator {
         let measured_m_s = world_from_body(body, yaw_deg);
         let foreseen = self.horizontal_at(self.horizontal, from_s, at_s);
         let (before, after) = (self.horizontal.velocity_m_s, foreseen.velocity_m_s);
-        let believed = self.velocity_gate.admits(measured_m_s, before, after, step_s);
+        let unheard_share = self.velocity_gate.unheard_share(step_s);
+        let tilt_rad = Vector2::new(sample.roll_deg, -sample.pitch_deg).map(f64::to_radians);
+        let unheard = self.unheard_m_s([from_s, at_s], tilt_rad, after, unheard_share);
+        let expected = Foreseen {
+            before_m_s: before,
+            after_m_s: after,
+            unheard_m_s: &unheard,
+            pull_m_s2: GRAVITY_M_S2 * tilt_rad.norm().tan() * unheard_share,
+        };
+        let believed = self.velocity_gate.admits(measured_m_s, &expected, step_s);
         let velocity_m_s = if believed { measured_m_s } else { foreseen.velocity_m_s };
         let before_m_s = self.horizontal.measured_m_s();
         let mean_m_s = (before_m_s + velocity_m_s) / 2.0;
@@ -437,8 +450,6 @@ impl Estimator {
         let gains = self.observer_gains();
         self.horizontal.correct(velocity_m_s, position_m, step_s, order, &gains);
         if order == Order::ByItself && sample.altitude_m > CLEAR_OF_GROUND_M {
-            let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
-            let tilt_rad = tilt_deg.map(f64::to_radians);
             let airframe = self.identification.airframe();
             self.horizontal.learn_from_hold(tilt_rad, yaw_deg, step_s, airframe, &gains);
         }

@@ -6,6 +6,7 @@
 use nalgebra::Vector2;
 
 use crate::Sample;
+use crate::silence::{KEPT_S, Silence};
 use crate::trust::{Quantity, Trust};
 
 /// Above the top speed of an AR.Drone.
@@ -32,12 +33,15 @@ const FROZEN_PACKETS: u32 = 5;
 /// airframe that is not identified yet (m/s²).
 const JUMP_M_S: f64 = 0.2;
 const JUMP_M_S2: f64 = 4.0;
-/// These hardly last longer than this. After a longer gap, only a new disturbance adds to the difference, and a drone that
-/// has not received its orders: it may still do what was last asked for, while the prediction does the opposite.
+/// These hardly last longer than this. After a longer gap a new wind adds to the difference, and an error of the model
+/// by this share of the predicted change.
 const BRIEF_S: f64 = 0.1;
-const DISTURBED_M_S2: f64 = 0.5;
-const UNHEARD_SHARE: f64 = 2.0;
-const UNHEARD_S: f64 = 1.0;
+const NEW_WIND_M_S2: f64 = 0.15;
+const MODEL_SHARE: f64 = 0.15;
+/// The thrust is known within this share; in a silence a wrong one acts for long.
+const THRUST_SHARE: f64 = 0.2;
+/// What a drone does that hovers by itself because it received nothing for long is predicted less well.
+const ALONE_M_S2: f64 = 0.5;
 /// After a jump the velocity must come back to this fraction of the allowed difference.
 const RETURN_SHARE: f64 = 0.5;
 /// Largest difference between measured and expected velocity, however it came about.
@@ -82,8 +86,47 @@ pub(crate) struct VelocityGate {
     jumped: bool,
     /// The last velocity is that of a drone that stands.
     rests: bool,
-    /// The largest predicted acceleration of the last second or two.
-    recent_m_s2: f64,
+    silence: Silence,
+}
+
+/// The model's velocity before and after a step, (right, forward) in the world frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Foreseen<'a> {
+    pub(crate) before_m_s: Vector2<f64>,
+    pub(crate) after_m_s: Vector2<f64>,
+    /// Velocities after the step of a drone that did not receive all of its orders, sorted by the time of the last one
+    /// that it received, the latest first; none if packets arrived all the time.
+    pub(crate) unheard_m_s: &'a [Option<Vector2<f64>>],
+    /// Acceleration by the measured tilt, if no packets arrived before; in the share of the step in which none did.
+    pub(crate) pull_m_s2: f64,
+}
+
+impl Foreseen<'_> {
+    /// Distance of a velocity from the nearest that is explained by the orders, received or not: those between two
+    /// are explained too. The predicted changes may be wrong by a share.
+    fn off_m_s(&self, m_s: Vector2<f64>, share: f64) -> f64 {
+        let scaled =
+            |m_s: Vector2<f64>, scale: f64| self.before_m_s + (m_s - self.before_m_s) * scale;
+        let mut off_m_s = f64::INFINITY;
+        let mut last_m_s = self.after_m_s;
+        for after_m_s in [&self.after_m_s].into_iter().chain(self.unheard_m_s.iter().flatten()) {
+            let [less, more] = [1.0 - share, 1.0 + share].map(|scale| scaled(*after_m_s, scale));
+            off_m_s = off_m_s.min(distance_m_s(m_s, less, more));
+            for scale in [1.0 - share, 1.0, 1.0 + share] {
+                let (from, to) = (scaled(last_m_s, scale), scaled(*after_m_s, scale));
+                off_m_s = off_m_s.min(distance_m_s(m_s, from, to));
+            }
+            last_m_s = *after_m_s;
+        }
+        off_m_s
+    }
+}
+
+/// Distance of a velocity from those between two others.
+fn distance_m_s(m_s: Vector2<f64>, from_m_s: Vector2<f64>, to_m_s: Vector2<f64>) -> f64 {
+    let way = to_m_s - from_m_s;
+    let share = (m_s - from_m_s).dot(&way) / way.norm_squared().max(1e-12);
+    (m_s - from_m_s - way * share.clamp(0.0, 1.0)).norm()
 }
 
 impl VelocityGate {
@@ -92,37 +135,47 @@ impl VelocityGate {
         self.jumped
     }
 
+    /// A packet was sent at a time, in seconds, whatever is in it.
+    pub(crate) fn hear(&mut self, at_s: f64) {
+        self.silence.hear(at_s);
+    }
+
+    /// Share of the `step_s` since the last velocity in which no packets arrived, and the drone may not have received
+    /// its orders. The velocity is measured now.
+    pub(crate) fn unheard_share(&mut self, step_s: f64) -> f64 {
+        let share = self.silence.end(step_s);
+        if self.rests { 0.0 } else { share }
+    }
+
     /// The drone stands: what it reports is compared with rest once it flies. Otherwise the first velocity of a flight
     /// would be accepted whatever it is, and a constant error with it.
     pub(crate) fn rest(&mut self) {
-        *self = Self { last_m_s: Some(Vector2::zeros()), rests: true, ..Self::default() };
+        let silence = self.silence;
+        *self = Self { last_m_s: Some(Vector2::zeros()), rests: true, silence, ..Self::default() };
     }
 
-    /// Whether to accept a velocity that was measured `step_s` after the last one, while the model's velocity
-    /// went from `before` to `foreseen`. After a jump only a velocity near the model's is accepted.
+    /// Whether to accept a velocity that was measured `step_s` after the last one. After a jump only a velocity near
+    /// the model's is accepted.
     pub(crate) fn admits(
         &mut self,
         measured_m_s: Vector2<f64>,
-        before_m_s: Vector2<f64>,
-        foreseen_m_s: Vector2<f64>,
+        foreseen: &Foreseen<'_>,
         step_s: f64,
     ) -> bool {
         let Some(last_m_s) = self.last_m_s.replace(measured_m_s) else { return true };
         // The flow may measure nothing new for a second while the drone lifts off, which is no time to speed up.
         let longest_s = if std::mem::take(&mut self.rests) { LIFT_OFF_S } else { f64::INFINITY };
         let step_s = step_s.min(longest_s);
-        self.recent_m_s2 *= (-step_s / UNHEARD_S).exp();
-        if step_s > 0.0 {
-            let asked_m_s2 = (foreseen_m_s - before_m_s).norm() / step_s;
-            self.recent_m_s2 = self.recent_m_s2.max(asked_m_s2);
-        }
-        let after_gap_m_s2 = (DISTURBED_M_S2 + UNHEARD_SHARE * self.recent_m_s2).min(JUMP_M_S2);
-        let gained_m_s =
-            JUMP_M_S2 * step_s.min(BRIEF_S) + after_gap_m_s2 * (step_s - BRIEF_S).max(0.0);
+        let gap_s = (step_s - BRIEF_S).max(0.0);
+        let wind_m_s = NEW_WIND_M_S2 * gap_s + ALONE_M_S2 * (gap_s - KEPT_S).max(0.0);
+        let thrust_m_s = THRUST_SHARE * foreseen.pull_m_s2 * gap_s;
+        let gained_m_s = JUMP_M_S2 * step_s.min(BRIEF_S) + wind_m_s + thrust_m_s;
         let allowed_m_s = JUMP_M_S + gained_m_s;
-        let surprise_m_s = (measured_m_s - foreseen_m_s).norm();
-        let unforeseen = (measured_m_s - last_m_s) - (foreseen_m_s - before_m_s);
-        let jumps = surprise_m_s > allowed_m_s && unforeseen.norm() > allowed_m_s;
+        let share = MODEL_SHARE * gap_s / (gap_s + BRIEF_S);
+        let surprise_m_s = foreseen.off_m_s(measured_m_s, share);
+        let changed_m_s = foreseen.before_m_s + measured_m_s - last_m_s;
+        let unforeseen_m_s = foreseen.off_m_s(changed_m_s, share);
+        let jumps = surprise_m_s > allowed_m_s && unforeseen_m_s > allowed_m_s;
         // Hysteresis: a drone that hovers meanwhile comes near any small false value.
         let lasts = self.jumped && surprise_m_s > RETURN_SHARE * allowed_m_s;
         self.jumped = jumps || lasts;

@@ -2,9 +2,10 @@
 
 use std::time::Duration;
 
-use super::*;
+use kinematics::GRAVITY_M_S2;
 
-mod axis;
+use super::axis::LEANS_S;
+use super::*;
 
 const PERIOD_MS: u64 = 60;
 
@@ -22,6 +23,18 @@ fn found(
         orders.push(now, Order::Sticks(sticks));
         let at_s = now.as_secs_f64();
         response.watch(&measured(at_s), &orders, &limits).map(|quantity| (at_s, quantity))
+    })
+}
+
+/// Whether the velocity is found to be dead, whatever is found besides.
+fn finds_a_dead_velocity(measured: impl Fn(f64) -> Measured) -> bool {
+    let mut orders = Orders::new(Duration::ZERO);
+    orders.push(Duration::ZERO, Order::Sticks(Sticks::default()));
+    let mut response = Response::default();
+    (0..300).any(|i| {
+        let measured = measured((PERIOD_MS * i) as f64 / 1000.0);
+        let found = response.watch(&measured, &orders, &DroneLimits::default());
+        found == Some(Quantity::Velocity)
     })
 }
 
@@ -118,6 +131,44 @@ fn swinging(thrust: f64) -> impl Fn(f64) -> Measured {
             tilt_rad: Vector2::new(tilt_rad, 0.0),
             ..still(at_s)
         }
+    }
+}
+
+/// Two turns in a steady wind, against which the drone leans: its velocity is healthy and hardly changes.
+#[test]
+fn a_drone_that_turns_in_a_steady_wind_is_not_accused() {
+    for (lean_rad, turn_deg_s) in [(0.04, 60.0), (0.1, 60.0), (0.1, 90.0)] {
+        let turning = |at_s: f64| {
+            let yaw_deg = turn_deg_s * (at_s - 3.0).clamp(0.0, 540.0 / turn_deg_s);
+            let wind_rad = Vector2::new(lean_rad, 0.0);
+            Measured {
+                yaw_deg,
+                tilt_rad: kinematics::body_from_world(wind_rad, yaw_deg),
+                velocity_m_s: Vector2::new(0.01 * (31.0 * at_s).sin(), 0.01 * (29.0 * at_s).cos()),
+                ..still(at_s)
+            }
+        };
+        assert!(!finds_a_dead_velocity(turning), "{lean_rad}");
+    }
+}
+
+/// A flow that is dead while the drone swings is found although the drone turns.
+#[test]
+fn a_dead_flow_is_noticed_in_a_turn_too() {
+    for share in [0.0, 0.6] {
+        let swings = swinging(share);
+        let turning = |at_s: f64| {
+            let straight = swings(at_s);
+            let yaw_deg = 40.0 * at_s;
+            let body = |world| kinematics::body_from_world(world, yaw_deg);
+            Measured {
+                yaw_deg,
+                tilt_rad: body(straight.tilt_rad),
+                velocity_m_s: body(straight.velocity_m_s),
+                ..straight
+            }
+        };
+        assert_eq!(finds_a_dead_velocity(turning), share < 0.1, "{share}");
     }
 }
 

@@ -8,7 +8,7 @@ fn unidentified() -> EstimatorConfig {
 
 /// The stick at which drag holds a drone at this speed.
 fn stick_for(m_s: f64) -> f64 {
-    let tilt_rad = (m_s * Airframe::default().drag_1_s.y / kinematics::GRAVITY_M_S2).atan();
+    let tilt_rad = (m_s * Airframe::default().drag_1_s.y / GRAVITY_M_S2).atan();
     tilt_rad / DroneLimits::default().tilt_rad
 }
 
@@ -197,8 +197,8 @@ fn a_drone_that_holds_its_position_shows_the_wind_by_its_tilt() {
         flight.predicted().disturbance_m_s2
     };
     let wind = disturbance(Order::ByItself, 1.0);
-    assert_near(wind.x, kinematics::GRAVITY_M_S2 * 3_f64.to_radians().tan(), 0.005);
-    assert_near(wind.y, kinematics::GRAVITY_M_S2 * 2_f64.to_radians().tan(), 0.005);
+    assert_near(wind.x, GRAVITY_M_S2 * 3_f64.to_radians().tan(), 0.005);
+    assert_near(wind.y, GRAVITY_M_S2 * 2_f64.to_radians().tan(), 0.005);
     // Near the ground it does not hold its position yet, and by the sticks it need not.
     assert_near(disturbance(Order::ByItself, CLEAR_OF_GROUND_M - 3e-4).norm(), 0.0, 1e-9);
     assert_near(disturbance(sticks(Sticks::default()), 1.0).norm(), 0.0, 0.01);

@@ -7,6 +7,7 @@ use autopilot::vehicle::TagConfig;
 use mock_drone::airframe::Profile;
 use mock_drone::scenario::{Action, Direction, Scenario, When};
 use mock_drone::{CameraModel, FloorTag, Quantity, SensorFault};
+use nalgebra::Vector2;
 
 use super::must::Must;
 use super::{FENCE, HOLD, HOLDS_AT, Trial};
@@ -15,6 +16,8 @@ use crate::sensors::{AIRFRAMES, MOST_OUTSIDE_M, Model};
 use crate::sim::SimulationError;
 
 const FOR_EVER: Duration = Duration::from_mins(5);
+/// A turn before a long flight, which shows whether the world has turned with the drone.
+const TURN: &str = "takeoff\ngoto 0 3 0.5 0\ngoto 0 3 0.5 175\ngoto 0 -3 0.5 175\nland\n";
 
 /// An altitude that drifts too slowly to be noticed leads the drone down, and is right again near the floor: that
 /// looks like another floor. From then on the drone must not stay there.
@@ -112,7 +115,7 @@ pub(super) fn wrong_after_a_gap() -> Vec<Trial> {
     const LANDS_WITHIN: Duration = Duration::from_secs(15);
     let mut trials = Vec::new();
     for Model { name, profile } in AIRFRAMES {
-        for gap in [70, 300, 600].map(Duration::from_millis) {
+        for gap in [70, 300, 600, 1200].map(Duration::from_millis) {
             let nan = Action::Sensor(Quantity::VelocityRight, SensorFault::NotANumber, gap);
             for (what, unseen) in
                 [("an outage", Action::Outage(Direction::Down, gap)), ("a fault", nan)]
@@ -133,6 +136,90 @@ pub(super) fn wrong_after_a_gap() -> Vec<Trial> {
     trials
 }
 
+/// The same while the drone moves or turns. While only the velocity is missing, the drone hears its orders, and what
+/// they explain is known: in an outage it is not, so that an error must be larger there.
+pub(super) fn wrong_after_a_gap_in_motion() -> Vec<Trial> {
+    const MOVE: &str =
+        "takeoff\ngoto 0 -2 0.5 0\ngoto 0 2 0.5 0\nsetStayTime 20\ngoto 0 2 0.5 0\nland\n";
+    const TURN_AND_HOLD: &str =
+        "takeoff\ngoto 0 0 0.5 0\ngoto 0 0 0.5 175\nsetStayTime 20\ngoto 0 0 0.5 175\nland\n";
+    let gap = Duration::from_millis(380);
+    let flights = [(MOVE, 10_300, 1.2), (MOVE, 11_000, 1.5), (TURN_AND_HOLD, 9_500, 1.2)];
+    let mut trials = Vec::new();
+    for Model { name, profile } in AIRFRAMES {
+        for (plan, at_ms, wrong_m_s) in flights {
+            for quantity in [Quantity::VelocityForward, Quantity::VelocityRight] {
+                let at = Duration::from_millis(at_ms);
+                let nan = Action::Sensor(quantity, SensorFault::NotANumber, gap);
+                let wrong = Action::Sensor(quantity, SensorFault::Offset(wrong_m_s), FOR_EVER);
+                let scenario = Scenario::default()
+                    .and(When::SinceStart(at), nan)
+                    .and(When::SinceStart(at + gap), wrong);
+                let what = format!("{name}, {quantity:?} missing at {at:?}, then wrong");
+                let m = FENCE.radius_m + MOST_OUTSIDE_M;
+                let trial = Trial::new(what, plan, profile, scenario);
+                trials.push(trial.and(Must::StayNear { m, by_sensors: true }));
+            }
+        }
+    }
+    trials
+}
+
+/// Turns in a steady wind, against which the drone leans: the tilt goes round the body, and the velocity stays zero. That
+/// is no reason to distrust it.
+pub(super) fn turns_in_the_wind() -> Vec<Trial> {
+    const TURNS: &str = "takeoff\ngoto 0 0 0.5 0\nsetStayTime 2\ngoto 0 0 0.5 175\ngoto 0 0 0.5 0\n\
+                         goto 0 0 0.5 175\nsetStayTime 60\ngoto 0 0 0.5 175\nland\n";
+    /// A flight that is given up in a turn is down by then.
+    const TURNED_AT: Duration = Duration::from_secs(32);
+    let winds_m_s = [1.0, 1.0, 0.6, 0.4];
+    let mut trials = Vec::new();
+    for (Model { name, profile }, wind_m_s) in AIRFRAMES.into_iter().zip(winds_m_s) {
+        for seed in 1..=3 {
+            let what = format!("{name} turning in a wind of {wind_m_s} m/s, seed {seed}");
+            let mut trial = Trial::new(what, TURNS, profile, Scenario::default())
+                .and(Must::BeUp { at: TURNED_AT });
+            trial.simulation.world.drone.seed = seed;
+            trial.simulation.world.drone.wind_m_s = Vector2::new(wind_m_s, 0.0);
+            trials.push(trial);
+        }
+    }
+    trials
+}
+
+/// A compass that makes a step in a turn, at once or after it has shown nothing for a while: the world must not turn with
+/// it, which shows when the drone flies on.
+///
+/// # Errors
+/// [`SimulationError`] if a flight never ends.
+///
+/// # Panics
+/// If the undisturbed drone does not turn: nothing would be tried then.
+pub(super) fn steps_in_a_turn() -> Result<Vec<Trial>, SimulationError> {
+    /// At once, and after a heading that is no number.
+    const STEPS: [(u64, f64); 5] = [(0, 18.0), (0, -18.0), (300, 30.0), (300, 60.0), (300, -60.0)];
+    const INTO: [Duration; 2] = [Duration::from_millis(600), Duration::from_secs(1)];
+    let mut trials = Vec::new();
+    for Model { name, profile } in AIRFRAMES {
+        let begun = turn_begins(name, profile)?;
+        for (into, (missing_ms, deg)) in INTO.into_iter().flat_map(|into| STEPS.map(|s| (into, s)))
+        {
+            let (at, missing) = (begun + into, Duration::from_millis(missing_ms));
+            let nan = Action::Sensor(Quantity::Yaw, SensorFault::NotANumber, missing);
+            let step = Action::Sensor(Quantity::Yaw, SensorFault::Offset(deg), FOR_EVER);
+            let scenario = Scenario::default();
+            let scenario =
+                if missing_ms > 0 { scenario.and(When::SinceStart(at), nan) } else { scenario };
+            let scenario = scenario.and(When::SinceStart(at + missing), step);
+            let what = format!("{name}, a step of {deg} after {missing:?} {into:?} into a turn");
+            let mut trial = Trial::new(what, TURN, profile, scenario).and(Must::be_honest(begun));
+            trial.simulation.pilot.limits = FlightLimits { radius_m: 8.0, ..FENCE };
+            trials.push(trial);
+        }
+    }
+    Ok(trials)
+}
+
 /// A compass that hangs in a turn, or a drone that does not hear in a turn that it should end: neither must turn the
 /// world, which shows when the drone flies on.
 ///
@@ -142,17 +229,13 @@ pub(super) fn wrong_after_a_gap() -> Vec<Trial> {
 /// # Panics
 /// If the undisturbed drone does not turn: nothing would be tried then.
 pub(super) fn disturbed_turns() -> Result<Vec<Trial>, SimulationError> {
-    const TURN: &str = "takeoff\ngoto 0 3 0.5 0\ngoto 0 3 0.5 175\ngoto 0 -3 0.5 175\nland\n";
-    const STEP: usize = 2;
     const STUCK_AT_MS: [u64; 3] = [600, 1000, 1400];
     const STUCK_MS: [u64; 2] = [250, 380];
     const UNHEARD_AT_MS: [u64; 6] = [900, 1050, 1200, 1350, 1500, 1650];
     const UNHEARD_MS: [u64; 4] = [1200, 1400, 1600, 1800];
     let mut trials = Vec::new();
     for Model { name, profile } in AIRFRAMES {
-        let undisturbed = Trial::new(String::new(), TURN, profile, Scenario::default());
-        let begun = undisturbed.simulation.fly(plan(TURN))?.start_of_step(STEP);
-        let begun = begun.unwrap_or_else(|| panic!("{name} never turns"));
+        let begun = turn_begins(name, profile)?;
         // While it turns fastest, and while it is to be braked, which the drone does not receive.
         let stuck = disturbances(&STUCK_AT_MS, &STUCK_MS, |time| {
             Action::Sensor(Quantity::Yaw, SensorFault::Stuck, time)
@@ -168,6 +251,14 @@ pub(super) fn disturbed_turns() -> Result<Vec<Trial>, SimulationError> {
         }
     }
     Ok(trials)
+}
+
+/// When an undisturbed drone begins the turn of [`TURN`].
+fn turn_begins(name: &str, profile: fn() -> Profile) -> Result<Duration, SimulationError> {
+    const STEP: usize = 2;
+    let undisturbed = Trial::new(String::new(), TURN, profile, Scenario::default());
+    let begun = undisturbed.simulation.fly(plan(TURN))?.start_of_step(STEP);
+    Ok(begun.unwrap_or_else(|| panic!("{name} never turns")))
 }
 
 /// An action at each of some times, for each of some durations.

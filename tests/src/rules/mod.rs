@@ -46,7 +46,10 @@ pub fn broken() -> Result<Vec<String>, SimulationError> {
         estimate::false_sights(),
         estimate::wrong_from_the_start(),
         estimate::wrong_after_a_gap(),
+        estimate::wrong_after_a_gap_in_motion(),
         estimate::disturbed_turns()?,
+        estimate::steps_in_a_turn()?,
+        estimate::turns_in_the_wind(),
     ];
     let mut found = Vec::new();
     for trial in families.into_iter().flatten() {

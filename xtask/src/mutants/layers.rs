@@ -5,6 +5,7 @@ use super::list::{AGENT, ESTIMATOR, Edit, Expected, Mutant, SAFETY, edit, mutant
 
 const PLAUSIBILITY: &str = "estimator/src/plausibility.rs";
 const HEADING: &str = "estimator/src/heading.rs";
+const RESPONSE: &str = "estimator/src/response.rs";
 const UNCERTAINTY: &str = "estimator/src/uncertainty.rs";
 const TAG_FILTER: &str = "estimator/src/tags/filter.rs";
 const SATURATION: &str = "autopilot/src/vehicle/saturation.rs";
@@ -43,8 +44,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "a gap lets any velocity in",
         &[edit(
             PLAUSIBILITY,
-            "(DISTURBED_M_S2 + UNHEARD_SHARE * self.recent_m_s2).min(JUMP_M_S2);",
-            "(DISTURBED_M_S2 + UNHEARD_SHARE * self.recent_m_s2).max(JUMP_M_S2);",
+            "let wind_m_s = NEW_WIND_M_S2 * gap_s",
+            "let wind_m_s = (NEW_WIND_M_S2 + JUMP_M_S2) * gap_s",
         )],
     ),
     mutant(
@@ -57,10 +58,33 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "a drone that receives nothing turns as ordered",
+        &[
+            edit(
+                HEADING,
+                "let rate_deg_s = self.measured_deg_s();",
+                "let rate_deg_s = self.turn_deg_s;",
+            ),
+            edit(
+                HEADING,
+                "model.turned(self.measured_deg_s(), last_s, at_s).1;",
+                "model.turned(self.turn_deg_s, last_s, at_s).1;",
+            ),
+        ],
+    ),
+    mutant(
+        "a step of the compass in a turn is a part of it",
         &[edit(
             HEADING,
-            "(MAX_SURPRISE_DEG_S + unheard_deg_s) * step_s;",
-            "(3.0 * MAX_SURPRISE_DEG_S + 0.0 * unheard_deg_s) * step_s;",
+            "stepped = surprise_deg > MAX_SURPRISE_DEG",
+            "stepped = surprise_deg > 3.0 * angle_deg.abs() + MAX_SURPRISE_DEG",
+        )],
+    ),
+    mutant(
+        "a drone that leans and turns has a dead velocity",
+        &[edit(
+            RESPONSE,
+            "Axis::turn(right, forward, turned_deg);",
+            "Axis::turn(right, forward, 0.0 * turned_deg);",
         )],
     ),
     mutant(

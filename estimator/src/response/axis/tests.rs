@@ -4,6 +4,29 @@ use super::*;
 
 const FULL_RAD: f64 = 0.2;
 
+fn assert_near(value: f64, expected: f64) {
+    assert!((value - expected).abs() < 1e-9, "{value} is not {expected}");
+}
+
+#[test]
+fn what_is_remembered_turns_with_the_body() {
+    let (mut right, mut forward) = (axis([(0.0, 0.1, 1.0, 2.0)]), axis([(0.0, 0.2, 3.0, 4.0)]));
+    (right.least_m_s, forward.least_m_s) = (5.0, 6.0);
+    (right.measured_m_s, forward.measured_m_s) = (7.0, 8.0);
+    // A quarter to the right: what was forward is to the left now, and what was to the right is ahead.
+    Axis::turn(&mut right, &mut forward, 90.0);
+    for (axis, [tilt_rad, least_m_s, measured_m_s], now_m_s) in
+        [(&right, [-0.2, -3.0, -4.0], [-6.0, -8.0]), (&forward, [0.1, 1.0, 2.0], [5.0, 7.0])]
+    {
+        let moment = axis.recent[0];
+        assert_near(moment.tilt_rad, tilt_rad);
+        assert_near(moment.least_m_s, least_m_s);
+        assert_near(moment.measured_m_s, measured_m_s);
+        assert_near(axis.least_m_s, now_m_s[0]);
+        assert_near(axis.measured_m_s, now_m_s[1]);
+    }
+}
+
 #[test]
 fn the_weakest_airframe_accelerates_by_its_tilt_and_is_slowed_by_drag() {
     let mut axis = Axis::new();
