@@ -120,18 +120,28 @@ fn mistakes(c: &str) -> Vec<Mistake> {
     };
     let is_statement = |line: &str| {
         let line = line.trim();
-        let plain =
-            line.ends_with(';') && !line.starts_with("/*") && !line.starts_with("(void)argument");
-        plain
-            && !line.starts_with("const ")
-            && !line.starts_with("break")
-            && !line.starts_with("return")
+        let begins =
+            ["const ", "break", "return", "(void)", "bool ", "event_t ", "outcome_t ", "uint"];
+        line.ends_with(';') && !begins.iter().any(|begin| line.starts_with(begin))
     };
-    for (number, line) in lines.iter().enumerate().filter(|(_, line)| line.starts_with("    ")) {
-        if is_statement(line) && !line.contains("_t value") && !line.contains("outcome_t outcome") {
+    let is_action = |line: &str| {
+        let line = line.trim();
+        let own = ["post_", "defer_", "forget_"];
+        is_statement(line)
+            && !line.contains(" = ")
+            && !own.iter().any(|name| line.starts_with(name))
+    };
+    // `init()` sets values that are never read.
+    let ours = lines.iter().position(|line| line.starts_with("void init(")).unwrap();
+    let ours = lines.iter().enumerate().take(ours);
+    for (number, line) in ours.filter(|(_, line)| line.starts_with("    ")) {
+        if is_statement(line) {
             with("dropped", number, vec![], 1);
-            with("doubled", number, vec![(*line).to_owned(), (*line).to_owned()], 1);
-            if is_statement(lines[number + 1]) {
+            // An assignment may be doubled, or moved across a call.
+            if is_action(line) || line.contains("_count = ") {
+                with("doubled", number, vec![(*line).to_owned(), (*line).to_owned()], 1);
+            }
+            if is_action(line) && is_action(lines[number + 1]) {
                 let moved = vec![lines[number + 1].to_owned(), (*line).to_owned()];
                 with("moved down", number, moved, 2);
             }
