@@ -26,7 +26,9 @@ mod verify;
 
 pub use agent::{Agent, ReadError};
 pub use measure::measure;
-pub use prove::{CBMC, Cbmc, Checks, Plan, Proof, ProveError, prove, violates};
+pub use prove::{
+    CBMC, Cbmc, Checks, Difference, Plan, Proof, ProveError, Validated, prove, validate, violates,
+};
 pub use run::{Replay, Session, replay};
 pub use spin::{SPIN, SpinError, Verdict};
 pub use verify::{Checked, VerifyError, is_refuted, verify};

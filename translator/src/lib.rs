@@ -22,12 +22,14 @@
 mod analysis;
 mod backend;
 mod code;
+mod comparison;
 pub mod configuration;
 mod coverage;
 mod gather;
 pub mod interpreter;
 mod model;
 mod obligations;
+mod plain;
 mod program;
 mod report;
 mod reserved;
@@ -38,6 +40,7 @@ use std::collections::HashSet;
 
 use backend::rust::{camel_case, snake_case};
 pub use code::Code;
+pub use comparison::{COMPARISON, Comparison, ENOUGH_ROOM, ROOM};
 use configuration::{Configuration, Instance};
 use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
@@ -229,6 +232,26 @@ pub fn obligations(
         state_type: format!("{prefix}agent_t"),
         candidates: harness.candidates,
         properties,
+    })
+}
+
+/// The comparison of the agent's C with a second, plain translation, for a model checker.
+///
+/// # Errors
+/// As [`translate`], and if a value of a type would have to be compared that only the environment knows.
+pub fn comparison(
+    configuration: &ParsedConfiguration,
+    agent_text: &str,
+) -> Result<Comparison, TranslateError> {
+    let wanted = configuration.configuration.settings.instance;
+    let (program, _) = check(configuration, agent_text, wanted)?;
+    let mut files = c_files(&program);
+    let text = backend::c::comparison(&program);
+    files.push(GeneratedFile { name: COMPARISON.to_owned(), text, setting: "" });
+    Ok(Comparison {
+        files,
+        steps: backend::c::steps(&program),
+        unwinding: backend::c::unwinding(&program),
     })
 }
 

@@ -106,6 +106,14 @@ pub(super) enum Task {
     /// a script for `asl2c run --script`. The exit status is 0 if all is proved, 1 if there is a
     /// counterexample, and 3 if something could not be decided or a tool is missing.
     Prove(Prove),
+    /// Prove with CBMC that the agent's C does what its text says
+    ///
+    /// The text is translated a second time, into plain C by other code, and both are compared: from any two
+    /// related states, with the same answers of the environment, each call of the interface makes the same
+    /// calls in the same order and ends in related states. The exit status is 0 if that is proved, 1 if the C
+    /// differs (with the shortest way to it, saved as a script for `asl2c run --script`), and 3 if it could not
+    /// be decided or a tool is missing.
+    Validate(Validate),
     /// Check the configuration's properties with SPIN, on a model of the agent in any environment
     ///
     /// For a property that does not hold, the shortest counterexample is shown: the environment's actions,
@@ -173,6 +181,35 @@ pub(super) struct Prove {
     /// Print only what is not proved; `--json` still prints all
     #[arg(short, long)]
     pub(super) quiet: bool,
+    /// Format of errors: text, or one JSON object per line
+    #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
+    pub(super) message_format: String,
+}
+
+/// Arguments of `asl2c validate`.
+#[derive(Debug, Args)]
+pub(super) struct Validate {
+    /// The agent's configuration
+    #[arg(value_name = "AGENT.CONF")]
+    pub(super) configuration: PathBuf,
+    /// The C file to judge, with the state and interface of the generated header [default: the translation]
+    #[arg(long, value_name = "FILE")]
+    pub(super) c: Option<PathBuf>,
+    /// Folder of the script that shows a difference [default: the configuration's folder]
+    #[arg(short, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// The CBMC to use [default: that on the path]
+    #[arg(long, value_name = "PATH")]
+    pub(super) cbmc: Option<PathBuf>,
+    /// Maximum length of the way to a difference, in events, beliefs and steps
+    #[arg(long, value_name = "TRANSITIONS", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(super) length: u32,
+    /// Time limit of each proof, and of the search for a difference, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 600)]
+    pub(super) time: u64,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
     /// Format of errors: text, or one JSON object per line
     #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
     pub(super) message_format: String,

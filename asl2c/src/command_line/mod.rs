@@ -5,6 +5,7 @@ mod messages;
 mod prompt;
 mod prove;
 mod run;
+mod validate;
 mod verdicts;
 
 use std::io::Write as _;
@@ -68,6 +69,7 @@ pub fn run() -> ExitCode {
         }
         (Some(Task::Run(asked)), _) => (run::run(asked), false),
         (Some(Task::Prove(asked)), _) => (prove::run(asked), is_json(&asked.message_format)),
+        (Some(Task::Validate(asked)), _) => (validate::run(asked), is_json(&asked.message_format)),
         (Some(Task::Verify(asked)), _) => (check(asked), is_json(&asked.message_format)),
         (None, Some(configuration)) => {
             (translate_files(&arguments, configuration), is_json(&arguments.message_format))

@@ -86,20 +86,11 @@ impl Cbmc {
         is_proved(&text)?;
         let mut others = Vec::new();
         let mut failing = Vec::new();
-        for line in text.lines().filter_map(|line| line.strip_suffix(": FAILURE")) {
-            // "[induction.assertion.1] line 12 candidate 3"
-            let (name, said) = line.split_once(']').unwrap_or((line, line));
-            let said = said.trim();
-            let said = match said.strip_prefix("line ") {
-                Some(rest) => rest.split_once(' ').map_or(rest, |(_, text)| text),
-                None => said,
-            };
-            match said.strip_prefix("candidate ").and_then(|index| index.parse::<usize>().ok()) {
+        for found in text.lines().filter_map(failure) {
+            let candidate = found.said.strip_prefix("candidate ");
+            match candidate.and_then(|index| index.parse::<usize>().ok()) {
                 Some(index) => failing.push(index),
-                None => others.push(Failure {
-                    name: name.trim_start_matches('[').to_owned(),
-                    said: said.to_owned(),
-                }),
+                None => others.push(found),
             }
         }
         let left = chosen.iter().copied().filter(|index| !failing.contains(index)).collect();
@@ -139,9 +130,71 @@ impl Cbmc {
     }
 
     fn command(&self, folder: &Path, function: &str, checks: Checks) -> Command {
-        let mut command = Command::new(&self.path);
-        command.args([HARNESS, "--function", function]).args(options(checks)).current_dir(folder);
+        let mut command = self.program(folder, HARNESS, function);
+        command.args(options(checks));
         command
+    }
+
+    /// CBMC for a function of a file.
+    fn program(&self, folder: &Path, file: &str, function: &str) -> Command {
+        let mut command = Command::new(&self.path);
+        command.args([file, "--function", function]).current_dir(folder);
+        command
+    }
+
+    /// Checks all assertions, run-time errors and bounds of loops of a function, with more arguments; `None`
+    /// on a timeout.
+    pub(crate) fn failures(
+        &self,
+        folder: &Path,
+        (file, function): (&str, &str),
+        arguments: &[String],
+        until: Instant,
+    ) -> Result<Option<Vec<Failure>>, ProveError> {
+        let mut command = self.program(folder, file, function);
+        let Some(text) = self.output(command.args(arguments), until)? else { return Ok(None) };
+        is_proved(&text)?;
+        Ok(Some(text.lines().filter_map(failure).collect()))
+    }
+
+    /// The traces to all assertions of a function that fail; `None` on a timeout.
+    pub(super) fn traces(
+        &self,
+        folder: &Path,
+        (file, function): (&str, &str),
+        arguments: &[String],
+        until: Instant,
+    ) -> Result<Option<Vec<Trace>>, ProveError> {
+        let mut command = self.program(folder, file, function);
+        command.args(["--trace", "--json-ui", "--object-bits", "20"]).args(arguments);
+        let Some(text) = self.output(&mut command, until)? else { return Ok(None) };
+        traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
+    }
+
+    /// What it prints; `None` on a timeout.
+    fn output(&self, command: &mut Command, until: Instant) -> Result<Option<String>, ProveError> {
+        let no_file = |source| ProveError::Io { what: "no temporary file".to_owned(), source };
+        // A file, because the output may exceed the capacity of a pipe while the process is waited for.
+        let mut said = tempfile::tempfile().map_err(no_file)?;
+        let output = said.try_clone().map_err(no_file)?;
+        let mut child = command
+            .stdout(output)
+            .stderr(Stdio::null())
+            .spawn()
+            .map_err(in_file("cannot run", &self.path))?;
+        while child.try_wait().map_err(in_file("cannot wait for", &self.path))?.is_none() {
+            if Instant::now() >= until {
+                // It may have ended already.
+                _ = child.kill();
+                child.wait().map_err(in_file("cannot wait for", &self.path))?;
+                return Ok(None);
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let mut bytes = Vec::new();
+        let read = said.rewind().and_then(|()| said.read_to_end(&mut bytes));
+        read.map_err(in_file("cannot read the output of", &self.path))?;
+        Ok(Some(String::from_utf8_lossy(&bytes).into_owned()))
     }
 
     /// Searches for counterexamples from the initial state, up to this number of transitions; `None` on a
@@ -156,34 +209,28 @@ impl Cbmc {
         let is_property = |failure: &&Failure| failure.property().is_some();
         let only_properties = wanted.iter().all(is_property);
         let checks = if only_properties { Checks::Properties } else { Checks::All };
-        // A file, because the output may exceed the capacity of a pipe while the process is waited for.
-        let mut said = tempfile::tempfile().map_err(in_file("cannot make", folder))?;
-        let output = said.try_clone().map_err(in_file("cannot make", folder))?;
-        let mut child = self
-            .command(folder, "main", checks)
+        let mut command = self.command(folder, "main", checks);
+        command
             .args(["--trace", "--json-ui"])
             // Each transition has its own objects.
             .args(["--object-bits", "20"])
             .args(["--unwindset", &format!("main.0:{transitions}"), "--no-unwinding-assertions"])
-            .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]))
-            .stdout(output)
-            .stderr(Stdio::null())
-            .spawn()
-            .map_err(in_file("cannot run", &self.path))?;
-        while child.try_wait().map_err(in_file("cannot wait for", &self.path))?.is_none() {
-            if Instant::now() >= until {
-                // It may have ended already.
-                _ = child.kill();
-                child.wait().map_err(in_file("cannot wait for", &self.path))?;
-                return Ok(None);
-            }
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        let mut text = String::new();
-        let read = said.rewind().and_then(|()| said.read_to_string(&mut text));
-        read.map_err(in_file("cannot read the output of", &self.path))?;
+            .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]));
+        let Some(text) = self.output(&mut command, until)? else { return Ok(None) };
         traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
     }
+}
+
+/// The failure in a line of CBMC: `[induction.assertion.1] line 12 candidate 3: FAILURE`.
+fn failure(line: &str) -> Option<Failure> {
+    let line = line.strip_suffix(": FAILURE")?;
+    let (name, said) = line.split_once(']').unwrap_or((line, line));
+    let said = said.trim();
+    let said = match said.strip_prefix("line ") {
+        Some(rest) => rest.split_once(' ').map_or(rest, |(_, text)| text),
+        None => said,
+    };
+    Some(Failure { name: name.trim_start_matches('[').to_owned(), said: said.to_owned() })
 }
 
 /// Whether CBMC's output says that all assertions hold.

@@ -11,6 +11,8 @@ mod cbmc;
 mod search;
 mod shrink;
 mod trace;
+#[allow(clippy::disallowed_methods, reason = "the comparison gets a limited time")]
+mod validate;
 
 use std::collections::HashSet;
 use std::io;
@@ -21,6 +23,8 @@ use translator::{Obligations, Promise};
 pub use self::cbmc::{CBMC, Cbmc};
 pub(crate) use self::search::{Found, Limits, Searched, search};
 pub(crate) use self::trace::Way;
+pub(crate) use self::validate::difference;
+pub use self::validate::{Difference, Validated, validate};
 
 /// Errors that prevent a proof.
 #[derive(Debug, thiserror::Error)]

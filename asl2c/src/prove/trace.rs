@@ -6,10 +6,11 @@ use translator::interpreter::Value;
 use translator::types::{CType, TypeKind};
 use translator::{ANSWERS, CALLS, STEPS};
 
-/// A failing assertion: its name, and the environment's actions.
+/// A failing assertion: its name and description, and the environment's actions.
 #[derive(Debug, Clone)]
 pub(super) struct Trace {
     pub(super) name: String,
+    pub(super) said: String,
     outputs: Vec<Output>,
 }
 
@@ -22,6 +23,8 @@ struct Message {
 #[derive(Debug, Deserialize)]
 struct Checked {
     property: String,
+    #[serde(default)]
+    description: String,
     #[serde(default)]
     trace: Vec<Step>,
 }
@@ -54,11 +57,11 @@ pub(super) fn traces(text: &str) -> Option<Vec<Trace>> {
     let messages: Vec<Message> = serde_json::from_str(text).ok()?;
     let checked = messages.into_iter().find_map(|message| message.result)?;
     let failing = checked.into_iter().filter(|checked| !checked.trace.is_empty());
-    let traces = failing.map(|Checked { property, trace }| {
+    let traces = failing.map(|Checked { property, description, trace }| {
         let outputs = trace.into_iter().filter(|step| step.kind == "output");
         let outputs =
             outputs.filter_map(|step| Some(Output { what: step.output_id?, values: step.values }));
-        Trace { name: property, outputs: outputs.collect() }
+        Trace { name: property, said: description, outputs: outputs.collect() }
     });
     Some(traces.collect())
 }

@@ -11,4 +11,5 @@ mod prove;
 mod proved;
 mod run;
 mod tool;
+mod validated;
 mod verification;

@@ -6,6 +6,7 @@
 
 mod cycle;
 mod emitter;
+mod equivalence;
 mod expression;
 mod handlers;
 mod harness;
@@ -23,6 +24,8 @@ use self::state::StateLayout;
 use super::writer::Writer;
 use crate::program::Program;
 
+pub use self::equivalence::{ENOUGH_ROOM, ROOM};
+pub(crate) use self::equivalence::{comparison, steps, unwinding};
 pub(crate) use self::handlers::plan_name;
 pub use self::harness::{ANSWERS, CALLS, RANDOM_TRANSITIONS, STEPS};
 pub(crate) use self::harness::{harness, unknown_type};

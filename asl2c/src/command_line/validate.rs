@@ -1,0 +1,149 @@
+//! `asl2c validate`: the comparison of an agent's C with a second translation.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use serde_json::json;
+use translator::{Happening, comparison};
+
+use super::arguments::Validate;
+use super::{CommandError, NOT_CHECKED, print};
+use crate::agent::{Agent, read};
+use crate::prove::{Cbmc, Difference, Limits, ProveError, Validated, difference, validate};
+use crate::run::Session;
+
+/// A difference, what the agent does on the way to it, and its script.
+struct Shown {
+    difference: Difference,
+    story: Vec<Happening>,
+    path: PathBuf,
+}
+
+/// Compares, searches for a way to what differs, and saves it.
+pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
+    let agent = Agent::read(&asked.configuration)?;
+    let Agent { configuration, text, .. } = &agent;
+    let mut comparison = comparison(configuration, text)?;
+    if let Some(c) = &asked.c {
+        comparison.replace_c(read(c)?);
+    }
+    let cbmc = Cbmc::find(asked.cbmc.as_deref())?;
+    let folder = tempfile::tempdir()
+        .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;
+    let time = Duration::from_secs(asked.time);
+    let include = agent.folder();
+    let validated = validate(&comparison, &cbmc, folder.path(), include, time)?;
+    let mut shown = None;
+    if !validated.open.is_empty() {
+        let limits = Limits { transitions: asked.length, time };
+        let declared = configuration.declarations();
+        let folders = (folder.path(), include);
+        let found = difference(&comparison, declared, &cbmc, folders, validated.calls, limits)?;
+        if let Some(difference) = found {
+            let session = Session::new(configuration, text)?;
+            let output = asked.output.as_deref().unwrap_or(agent.folder());
+            shown = Some(show(difference, &session, &asked.configuration, output)?);
+        }
+    }
+    let c = match &asked.c {
+        Some(c) => c.display().to_string(),
+        None => comparison.files[0].name.clone(),
+    };
+    let text = if asked.json {
+        as_json(&c, &validated, shown.as_ref())
+    } else {
+        as_text(&c, &validated, shown.as_ref(), &agent)
+    };
+    print("the result", &text)?;
+    Ok(if shown.is_some() {
+        ExitCode::FAILURE
+    } else if validated.is_proved() {
+        ExitCode::SUCCESS
+    } else {
+        NOT_CHECKED.into()
+    })
+}
+
+/// Writes the way to a difference as a script.
+fn show(
+    difference: Difference,
+    session: &Session,
+    configuration: &Path,
+    folder: &Path,
+) -> Result<Shown, CommandError> {
+    let stem = configuration.file_stem().unwrap_or_default().to_string_lossy();
+    let path = folder.join(format!("{stem}.differs.script"));
+    let mut text = format!("// The C differs: {}\n", difference.said);
+    for line in difference.lines() {
+        // Writing to a string cannot fail.
+        _ = writeln!(text, "{line}");
+    }
+    std::fs::write(&path, text).map_err(|source| {
+        CommandError::Prove(ProveError::Io {
+            what: format!("cannot write {}", path.display()),
+            source,
+        })
+    })?;
+    let mut session = session.clone();
+    let story = difference.lines().flat_map(|line| session.happenings(&line)).collect();
+    Ok(Shown { difference, story, path })
+}
+
+fn as_text(c: &str, validated: &Validated, shown: Option<&Shown>, agent: &Agent) -> String {
+    let mut text = String::new();
+    let input = agent.configuration.input();
+    if let Some(Shown { difference, story, path }) = shown {
+        _ = writeln!(text, "{c}: DIFFERS from {input}\n  what the agent does ({input}):");
+        for happening in story {
+            _ = writeln!(text, "    {happening}");
+        }
+        _ = writeln!(text, "  in the last of these, the C differs: {}", difference.said);
+        let (agent, path) = (agent.path.display(), path.display());
+        _ = writeln!(text, "  to replay it: asl2c run {agent} --script {path}");
+    } else if validated.is_proved() {
+        _ = writeln!(text, "{c}: does what {input} says, in every environment");
+        _ = writeln!(
+            text,
+            "({} proofs, with up to {} calls in a step)",
+            validated.proofs, validated.calls
+        );
+    } else {
+        _ = writeln!(text, "{c}: NOT DECIDED");
+        for said in &validated.open {
+            _ = writeln!(text, "  in some state: {said}");
+        }
+        if validated.timeouts > 0 {
+            let Validated { timeouts, proofs, .. } = validated;
+            _ = writeln!(
+                text,
+                "  {timeouts} of {proofs} proofs were not finished in time (--time)"
+            );
+        }
+        if !validated.open.is_empty() {
+            text += "  no way from the start to such a state was found (--length, --time)\n";
+        }
+    }
+    text
+}
+
+fn as_json(c: &str, validated: &Validated, shown: Option<&Shown>) -> String {
+    let verdict = match shown {
+        Some(_) => "differs",
+        None if validated.is_proved() => "proved",
+        None => "undecided",
+    };
+    let object = json!({
+        "c": c,
+        "verdict": verdict,
+        "proofs": validated.proofs,
+        "timeouts": validated.timeouts,
+        "calls": validated.calls,
+        "open": validated.open,
+        "difference": shown.map(|shown| &shown.difference.said),
+        "trace": shown.map(|shown| &shown.story),
+        "script": shown.map(|shown| shown.path.display().to_string()),
+    });
+    format!("{object:#}\n")
+}

@@ -1,0 +1,168 @@
+//! Proves that an agent's C does what a second, plain translation of the same text does.
+
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use translator::configuration::Configuration;
+use translator::{COMPARISON, Comparison, ENOUGH_ROOM, ROOM};
+
+use super::cbmc::{Cbmc, Failure};
+use super::trace::Way;
+use super::{ProveError, in_file, write};
+
+/// First limit of the calls in a step, and the last one that is tried.
+const ROOMS: std::ops::RangeInclusive<u32> = 2..=1024;
+
+/// Result of a comparison.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Validated {
+    /// Number of proofs: the start, the calls of the environment, and each kind of step.
+    pub proofs: usize,
+    /// What differs, by CBMC's description; empty if the C is proved.
+    pub open: Vec<String>,
+    /// Proofs that reached the time limit.
+    pub timeouts: usize,
+    /// The largest number of calls in a step that had to be compared, rounded up to a power of two.
+    pub calls: u32,
+}
+
+impl Validated {
+    /// Whether the C does what the agent says, in every environment and for any number of steps.
+    pub fn is_proved(&self) -> bool {
+        self.open.is_empty() && self.timeouts == 0
+    }
+}
+
+/// An execution from the start in which the C does not do what the agent says.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Difference {
+    /// What differs, at its end.
+    pub said: String,
+    pub(crate) way: Way,
+}
+
+impl Difference {
+    /// The lines of a script for `asl2c run`.
+    pub fn lines(&self) -> impl Iterator<Item = String> {
+        self.way.lines()
+    }
+}
+
+/// Proves the comparison, with `include` as a folder of the environment's own headers. Creates `folder` for the
+/// generated files. Each proof has a limited time.
+///
+/// # Errors
+/// If a file cannot be written, or CBMC gives no result: C that cannot be compiled, for example.
+pub fn validate(
+    comparison: &Comparison,
+    cbmc: &Cbmc,
+    folder: &Path,
+    include: &Path,
+    time: Duration,
+) -> Result<Validated, ProveError> {
+    std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
+    comparison.files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
+    let steps = (0..comparison.steps).map(|step| format!("step_{step}"));
+    let functions = ["base", "cover", "interface"].map(str::to_owned).into_iter().chain(steps);
+    let functions: Vec<String> = functions.collect();
+    let next = AtomicUsize::new(0);
+    let results = Mutex::new(Vec::new());
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..workers.min(functions.len()) {
+            scope.spawn(|| {
+                while let Some(function) = functions.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let until = Instant::now() + time;
+                    let result = prove(comparison, cbmc, folder, include, function, until);
+                    if let Ok(mut results) = results.lock() {
+                        results.push(result);
+                    }
+                }
+            });
+        }
+    });
+    let results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut validated =
+        Validated { proofs: functions.len(), open: Vec::new(), timeouts: 0, calls: 0 };
+    for result in results {
+        match result? {
+            Some((failures, calls)) => {
+                validated.calls = validated.calls.max(calls);
+                validated.open.extend(failures.into_iter().map(|failure| failure.said));
+            }
+            None => validated.timeouts += 1,
+        }
+    }
+    validated.open.sort();
+    validated.open.dedup();
+    Ok(validated)
+}
+
+/// Proves one function; with more room for calls until it is sufficient. `None` on a timeout.
+fn prove(
+    comparison: &Comparison,
+    cbmc: &Cbmc,
+    folder: &Path,
+    include: &Path,
+    function: &str,
+    until: Instant,
+) -> Result<Option<(Vec<Failure>, u32)>, ProveError> {
+    let mut room = *ROOMS.start();
+    loop {
+        let arguments = arguments(comparison, include, room);
+        let found = cbmc.failures(folder, (COMPARISON, function), &arguments, until)?;
+        let Some(found) = found else { return Ok(None) };
+        if !found.iter().any(|failure| failure.said == ENOUGH_ROOM) || room >= *ROOMS.end() {
+            return Ok(Some((found, room)));
+        }
+        room *= 2;
+    }
+}
+
+fn arguments(comparison: &Comparison, include: &Path, room: u32) -> Vec<String> {
+    // Made absolute, because CBMC is run in another folder.
+    let include = std::path::absolute(include).unwrap_or_else(|_| include.to_owned());
+    vec![
+        format!("-D{ROOM}={room}"),
+        format!("-I{}", include.display()),
+        // These formulas are solved in half the time without it.
+        "--no-sat-preprocessor".to_owned(),
+        "--unwind".to_owned(),
+        comparison.unwinding.to_string(),
+    ]
+}
+
+/// Searches for the shortest execution from the start in which the two differ, of at most this number of
+/// events, beliefs and steps; [`validate`] has written the files. `None` if there is none, or not in time.
+///
+/// # Errors
+/// If CBMC gives no result.
+pub(crate) fn difference(
+    comparison: &Comparison,
+    configuration: &Configuration,
+    cbmc: &Cbmc,
+    (folder, include): (&Path, &Path),
+    calls: u32,
+    limits: super::Limits,
+) -> Result<Option<Difference>, ProveError> {
+    let until = Instant::now() + limits.time;
+    for length in 1..=limits.transitions {
+        let mut arguments = arguments(comparison, include, calls.max(*ROOMS.start()));
+        // One more than the number of rounds: the last one only leaves the loop.
+        arguments.extend(["--unwindset".to_owned(), format!("main.0:{}", length + 1)]);
+        arguments.push("--no-unwinding-assertions".to_owned());
+        let Some(traces) = cbmc.traces(folder, (COMPARISON, "main"), &arguments, until)? else {
+            return Ok(None);
+        };
+        for trace in traces {
+            if let Some(way) = Way::new(&trace, configuration) {
+                return Ok(Some(Difference { said: trace.said.clone(), way }));
+            }
+        }
+    }
+    Ok(None)
+}
