@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::plans::{believed, equal};
+use super::plans::{believed, same};
 use crate::program::{Belief, External, HandlerId, Program, Value};
 use crate::syntax::ast::{Operator, TriggerKind};
+use crate::types::CType;
 
 /// The declaration of the state `plain`. Lists begin at index 0.
 pub(super) fn state(program: &Program) -> String {
@@ -50,6 +51,7 @@ pub(super) fn state(program: &Program) -> String {
     text
 }
 
+/// Declares the arguments of a goal.
 fn arguments(text: &mut String, program: &Program, id: HandlerId, place: &str, length: &str) {
     for (index, ctype) in program.handler(id).types.iter().enumerate() {
         _ = writeln!(text, "    {} {place}_{}_{index}{length};", ctype.name, id.0);
@@ -150,12 +152,16 @@ fn defer(text: &mut String, program: &Program, id: HandlerId) {
 
 /// Parameters for the arguments of a goal, and their assignments to a place.
 fn taken(program: &Program, id: HandlerId, place: &str, at: &str) -> (String, String) {
-    let (mut parameters, mut values) = (Vec::new(), String::new());
-    for (index, ctype) in program.handler(id).types.iter().enumerate() {
-        parameters.push(format!("{} a{index}", ctype.name));
-        _ = writeln!(values, "    plain.{place}_{}_{index}{at} = a{index};", id.0);
-    }
-    (if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") }, values)
+    let types = &program.handler(id).types;
+    let values = (0..types.len()).map(|i| format!("    plain.{place}_{}_{i}{at} = a{i};\n", id.0));
+    (given(types), values.collect())
+}
+
+/// Parameters of these types.
+fn given(types: &[CType]) -> String {
+    let parameters = types.iter().enumerate().map(|(i, ctype)| format!("{} a{i}", ctype.name));
+    let parameters: Vec<String> = parameters.collect();
+    if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") }
 }
 
 /// The places of a goal's arguments.
@@ -346,11 +352,7 @@ pub(super) fn interface(program: &Program) -> String {
          for (int i = 0; i < plain.count; i++) if (plain.queue[i] < {goals}) events++;\n    return events < {inbox};\n}}\n\n"
     );
     for (number, external) in program.external.iter().enumerate() {
-        let parameters = external.types.iter().enumerate();
-        let parameters: Vec<String> =
-            parameters.map(|(index, ctype)| format!("{} a{index}", ctype.name)).collect();
-        let parameters =
-            if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
+        let parameters = given(&external.types);
         _ = writeln!(text, "static bool plain_raise_{number}({parameters})\n{{");
         let at = if external.preemptive { "" } else { "[plain.count]" };
         if !external.preemptive {
@@ -381,19 +383,12 @@ pub(super) fn interface(program: &Program) -> String {
 
 fn set(text: &mut String, belief: &Belief) {
     let name = &belief.name;
-    let parameters = belief.types.iter().enumerate();
-    let parameters: Vec<String> =
-        parameters.map(|(index, ctype)| format!("{} a{index}", ctype.name)).collect();
-    let parameters = if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
+    let parameters = given(&belief.types);
     _ = writeln!(text, "static void plain_set_{name}({parameters})\n{{");
     if belief.perceived.is_some() {
         _ = writeln!(text, "    if (!plain.held_{name}) plain.perceived_{name} = true;");
         for (index, ctype) in belief.types.iter().enumerate() {
-            let same = if ctype.has_equality() {
-                equal(ctype, &believed(name, index), &format!("a{index}"))
-            } else {
-                "false".to_owned()
-            };
+            let same = same(ctype, &believed(name, index), &format!("a{index}"));
             _ = writeln!(text, "    if (!{same}) plain.perceived_{name} = true;");
         }
     }

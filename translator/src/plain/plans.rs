@@ -68,12 +68,17 @@ fn is_asked(handler: &Handler, index: usize) -> bool {
 }
 
 /// The equality of two values of a type.
-pub(super) fn equal(ctype: &CType, left: &str, right: &str) -> String {
+fn equal(ctype: &CType, left: &str, right: &str) -> String {
     if ctype.kind == TypeKind::Struct {
         format!("plain_equal_{}({left}, {right})", ctype.name)
     } else {
         format!("({left} == {right})")
     }
+}
+
+/// Whether a value has not changed. One that cannot be compared counts as changed.
+pub(super) fn same(ctype: &CType, left: &str, right: &str) -> String {
+    if ctype.has_equality() { equal(ctype, left, right) } else { "false".to_owned() }
 }
 
 /// The place of a belief's argument.
@@ -409,12 +414,7 @@ impl<'a> Function<'a> {
         self.line(format!("{changed} = !plain.held_{};", belief.name));
         for (index, (ctype, value)) in belief.types.iter().zip(&values).enumerate() {
             let place = believed(&belief.name, index);
-            let same = if ctype.has_equality() {
-                equal(ctype, &place, value)
-            } else {
-                // What cannot be compared counts as changed.
-                "false".to_owned()
-            };
+            let same = same(ctype, &place, value);
             self.line(format!("if (!{same}) {changed} = true;"));
         }
         for (index, value) in values.iter().enumerate() {
