@@ -237,8 +237,11 @@ pub fn obligations(
 
 /// The comparison of the agent's C with a second, plain translation, for a model checker.
 ///
+/// Values of types that only the environment knows are compared with `==`; if C cannot do that, the model checker
+/// refuses the comparison.
+///
 /// # Errors
-/// As [`translate`], and if a value of a type would have to be compared that only the environment knows.
+/// As [`translate`].
 pub fn comparison(
     configuration: &ParsedConfiguration,
     agent_text: &str,
