@@ -13,7 +13,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser as _;
-use translator::{Code, Diagnostic, Diagnostics, Severity, TranslateError, translate};
+use translator::{
+    Code, Diagnostic, Diagnostics, Incomparable, Severity, TranslateError, translate,
+};
 
 use self::arguments::{Arguments, Task, Verify, is_json};
 use self::messages::{denied, error_lines, line, lines};
@@ -36,6 +38,8 @@ enum CommandError {
     Verify(#[from] VerifyError),
     #[error(transparent)]
     Prove(#[from] ProveError),
+    #[error("nothing is proved: {0}")]
+    Incomparable(#[from] Incomparable),
     #[error(transparent)]
     Output(#[from] OutputError),
     #[error(transparent)]
@@ -159,6 +163,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
             | CommandError::Output(OutputError::Write { .. })
             | CommandError::Verify(_)
             | CommandError::Prove(_)
+            | CommandError::Incomparable(_)
     );
     let prefix = if ours { "error: " } else { "" };
     complain_of(&if as_json { error_lines(error) } else { format!("{prefix}{error}") });
@@ -166,6 +171,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
         error,
         CommandError::Verify(_)
             | CommandError::Prove(_)
+            | CommandError::Incomparable(_)
             | CommandError::Translate(TranslateError::Unprovable { .. })
     );
     if nothing_known { NOT_CHECKED.into() } else { ExitCode::FAILURE }

@@ -27,7 +27,7 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let Agent { configuration, text, .. } = &agent;
     let mut comparison = comparison(configuration, text)?;
     if let Some(c) = &asked.c {
-        comparison.replace_c(read(c)?);
+        comparison.replace_c(read(c)?)?;
     }
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?;
     let folder = tempfile::tempdir()
@@ -36,7 +36,7 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let include = agent.folder();
     let validated = validate(&comparison, &cbmc, folder.path(), include, time)?;
     let mut shown = None;
-    if !validated.open.is_empty() {
+    if validated.differs() {
         let limits = Limits { transitions: asked.length, time };
         let declared = configuration.declarations();
         let folders = (folder.path(), include);
@@ -121,7 +121,7 @@ fn as_text(c: &str, validated: &Validated, shown: Option<&Shown>, agent: &Agent)
                 "  {timeouts} of {proofs} proofs were not finished in time (--time)"
             );
         }
-        if !validated.open.is_empty() {
+        if validated.differs() {
             text += "  no way from the start to such a state was found (--length, --time)\n";
         }
     }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use translator::configuration::Configuration;
-use translator::{COMPARISON, Comparison, ENOUGH_ROOM, ROOM};
+use translator::{COMPARISON, Comparison, END, ENOUGH_ROOM, ROOM};
 
 use super::cbmc::{Cbmc, Failure};
 use super::trace::Way;
@@ -14,6 +14,9 @@ use super::{ProveError, in_file, write};
 
 /// First limit of the calls in a step, and the last one that is tried.
 const ROOMS: std::ops::RangeInclusive<u32> = 2..=1024;
+
+/// Description of a function whose end is never reached.
+const ENDLESS: &str = "it does not come to an end";
 
 /// Result of a comparison.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +33,11 @@ pub struct Validated {
 }
 
 impl Validated {
+    /// Whether something was done differently: a way to it may be found. What never ends is not.
+    pub(crate) fn differs(&self) -> bool {
+        self.open.iter().any(|said| said != ENDLESS && !said.starts_with("unwinding assertion"))
+    }
+
     /// Whether the C does what the agent says, in every environment and for any number of steps.
     pub fn is_proved(&self) -> bool {
         self.open.is_empty() && self.timeouts == 0
@@ -113,9 +121,17 @@ fn prove(
 ) -> Result<Option<(Vec<Failure>, u32)>, ProveError> {
     let mut room = *ROOMS.start();
     loop {
-        let arguments = arguments(comparison, include, room);
+        let mut arguments = arguments(comparison, include, room);
+        // The relation does not know other variables than those of the state, and a loop that never ends must not be
+        // taken for one that is never entered.
+        arguments.extend(["--nondet-static", "--no-self-loops-to-assumptions"].map(str::to_owned));
         let found = cbmc.failures(folder, (COMPARISON, function), &arguments, until)?;
-        let Some(found) = found else { return Ok(None) };
+        let Some(mut found) = found else { return Ok(None) };
+        let all = found.len();
+        found.retain(|failure| failure.said != END);
+        if function != "cover" && found.len() == all {
+            found.push(Failure { name: function.to_owned(), said: ENDLESS.to_owned() });
+        }
         if !found.iter().any(|failure| failure.said == ENOUGH_ROOM) || room >= *ROOMS.end() {
             return Ok(Some((found, room)));
         }

@@ -185,7 +185,7 @@ fn c_with_a_mistake_is_not_proved() {
         let step = (found.len() * names.len() / wanted).max(1);
         for (what, c) in found.iter().step_by(step) {
             let mut compared = compared.clone();
-            compared.replace_c(c.clone());
+            compared.replace_c(c.clone()).unwrap();
             let folder = tempfile::tempdir().unwrap();
             tried += 1;
             match validate(&compared, &cbmc, folder.path(), folder.path(), TIME) {
@@ -223,6 +223,39 @@ fn a_difference_is_shown_and_can_be_replayed() {
     let mut session = Session::new(&agent.configuration, &agent.text).unwrap();
     let replayed = replay(&mut session, "way", &script);
     assert_eq!(replayed.errors, 0, "{}", replayed.shown);
+}
+
+/// C that does the same for a while, or outside of steps, or never ends.
+#[test]
+fn what_the_relation_does_not_know_is_not_proved() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    let configuration = format!("{GALLERY}/lift.conf");
+    let agent = Agent::read(Path::new(&configuration)).unwrap();
+    let c = comparison(&agent.configuration, &agent.text).unwrap().files[0].text.clone();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("wrong.c");
+    let judged = |old: &str, new: &str| {
+        assert_eq!(c.matches(old).count(), 1, "{old}");
+        std::fs::write(&file, c.replace(old, new)).unwrap();
+        let (file, path) = (file.display().to_string(), folder.path().display().to_string());
+        let output = asl2c(&[&configuration, "--c", &file, "-o", &path], &cbmc);
+        (output.status.code(), shown(&output))
+    };
+    let update = "\n    updateBeliefs();\n";
+    let late = "\n    static int steps = 0;\n    if (steps < 3) { steps++; } else { motorStop(); }\n    updateBeliefs();\n";
+    let (status, text) = judged(update, late);
+    assert!(status == Some(1) && text.contains("another call"), "{text}");
+    let raised = "bool achieve_emergency(void)\n{\n";
+    let (status, text) = judged(raised, &format!("{raised}    motorStop();\n"));
+    assert!(status == Some(1) && text.contains("raises +!emergency"), "{text}");
+    let endless = "\n    updateBeliefs();\n    while (agent.belief_stopped_held) { }\n";
+    let (status, text) = judged(update, endless);
+    assert!(status == Some(3) && text.contains("NOT DECIDED"), "{text}");
+    let (status, text) = judged(update, "\n    updateBeliefs();\n    exit(0);\n");
+    assert!(status == Some(3) && text.contains("`exit` cannot be judged"), "{text}");
 }
 
 /// What could not be compared must not look like a proof.

@@ -60,6 +60,12 @@ impl Comparison<'_> {
         self.well_formed(&mut text);
         text.push_str("static void plain_compare(void)\n{\n    struct plain_state now;\n    plain_relate(&now);\n");
         text.push_str(
+            "    __CPROVER_assert(plain_repeated == plain_made, \"another call, or none\");\n",
+        );
+        if self.names.is_context() {
+            text.push_str("    __CPROVER_assert(self->environment == &plain_token, \"another state: environment\");\n");
+        }
+        text.push_str(
             "    __CPROVER_assert(plain_well_formed(), \"another state: well-formed\");\n",
         );
         for element in relation.elements {
