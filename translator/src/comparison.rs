@@ -11,20 +11,20 @@ pub const COMPARISON: &str = "comparison.c";
 
 /// An agent's C, and a plain translation of the same agent beside it.
 ///
-/// The functions `base`, `step_N` and `interface` of [`COMPARISON`] assert that both start in related states,
-/// and that a step, or another call of the environment, from any related states makes the same calls and
-/// leads to related states; `cover` asserts that each state is one from which some `step_N` starts. `main` is
-/// an execution from the start.
+/// The functions `plain_base`, `plain_case_N` and `plain_interface` of [`COMPARISON`] assert that both start in
+/// related states, and that a step, or another call of the environment, from any related states makes the same
+/// calls and leads to related states; `plain_cover` asserts that each state is one from which some `plain_case_N`
+/// starts. `main` is an execution from the start.
 ///
 /// Other variables with static lifetime must be arbitrary in all of them but `main`, because the relation does
-/// not know them. The assertion [`END`] must fail in all but `cover`.
+/// not know them. The assertion [`END`] must fail in all but `plain_cover`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 #[must_use = "the comparison has to be proved"]
 pub struct Comparison {
     /// The C of the agent first, then its headers, then [`COMPARISON`].
     pub files: Vec<GeneratedFile>,
-    /// Number of the functions `step_0`, `step_1`, ..: one for each event that can be the next.
+    /// Number of the functions `plain_case_0`, `plain_case_1`, ..: one for each event that can be the next.
     pub steps: usize,
     /// A bound for all loops of the functions, but for that of `main`.
     pub unwinding: usize,
@@ -47,13 +47,28 @@ impl Comparison {
     /// Judges another C file in place of the translation.
     ///
     /// # Errors
-    /// If the file has preprocessor lines that the translation does not have, or names with which C ends or leaves a
-    /// program, or speaks to its compiler or to the comparison: executions that end early would not be compared.
+    /// If the file has preprocessor lines that the translation does not have, calls functions that are defined
+    /// elsewhere, or has something else by which executions could differ without being compared.
     pub fn replace_c(&mut self, text: String) -> Result<(), Incomparable> {
-        let known: HashSet<String> = words(&self.files[0].text).map(|(_, word)| word).collect();
-        for (line, found) in words(&text).filter(|(_, word)| !known.contains(word)) {
-            if let Some(reason) = objection(&found) {
-                return Err(Incomparable { line, found, reason });
+        let own = tokens(&self.files[0].text);
+        let given = tokens(&text);
+        let known: HashSet<&str> = own.iter().map(|token| token.text.as_str()).collect();
+        let defined = defined(&given);
+        let statements = statements(&own);
+        for (index, token) in given.iter().enumerate() {
+            let objection = objection(&given, index, &known, &defined);
+            if let Some(reason) = objection {
+                return Err(Incomparable { line: token.line, found: token.text.clone(), reason });
+            }
+        }
+        for statement in given.split(|token| matches!(token.text.as_str(), ";" | "{" | "}")) {
+            let mut called = calls(statement);
+            if let (Some(first), Some(_)) = (called.next(), called.next())
+                && !statements.contains(&joined(statement))
+            {
+                let reason =
+                    "C does not define in which order several calls of a statement are made";
+                return Err(Incomparable { line: first.line, found: first.text.clone(), reason });
             }
         }
         self.files[0].text = text;
@@ -61,11 +76,45 @@ impl Comparison {
     }
 }
 
-/// Why a word must not be in a C file.
-fn objection(word: &str) -> Option<&'static str> {
-    const LEAVES: [&str; 9] =
-        ["abort", "asm", "assert", "exit", "longjmp", "main", "quick_exit", "setjmp", "signal"];
+/// A name, number, literal, sign, or whole preprocessor line.
+struct Token {
+    line: usize,
+    text: String,
+}
+
+impl Token {
+    fn is_name(&self) -> bool {
+        self.text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+    }
+}
+
+/// Words that are followed by a parenthesis without being called.
+const CONTROL: [&str; 6] = ["for", "if", "return", "sizeof", "switch", "while"];
+
+/// Why a token must not be in a C file.
+fn objection(
+    tokens: &[Token],
+    index: usize,
+    known: &HashSet<&str>,
+    defined: &HashSet<&str>,
+) -> Option<&'static str> {
+    const LEAVES: [&str; 5] = ["asm", "main", "register", "volatile", "extern"];
+    let text_at = |index: usize| tokens.get(index).map_or("", |token| token.text.as_str());
+    let word = text_at(index);
+    let before = index.checked_sub(1).map_or("", text_at);
     let second = word.chars().nth(1).unwrap_or_default();
+    if word == "*" && text_at(index + 1) == ")" {
+        return Some("a cast of a pointer could change what must not change");
+    }
+    if word == "char" && before != "const" {
+        return Some("a text must be constant");
+    }
+    if word == "{" && before == ")" && is_literal(tokens, index - 1) {
+        return Some("an object without a name is not known to the comparison");
+    }
+    if known.contains(word) {
+        return None;
+    }
     if word.starts_with('#') || word == "%:" {
         Some("the preprocessor could change what is compared")
     } else if matches!(word, "\\" | "??") {
@@ -75,48 +124,113 @@ fn objection(word: &str) -> Option<&'static str> {
     } else if word.starts_with("plain_") || word == "plain" {
         Some("such names belong to the comparison")
     } else if LEAVES.contains(&word) {
-        Some("it could leave the program")
+        Some("it could do what is not compared")
+    } else if tokens[index].is_name()
+        && text_at(index + 1) == "("
+        && !CONTROL.contains(&word)
+        && !defined.contains(word)
+    {
+        Some("it is defined elsewhere")
     } else {
         None
     }
 }
 
-/// The names, preprocessor lines and suspicious signs of a C text, with their lines; comments and literals are left
-/// out.
-fn words(text: &str) -> impl Iterator<Item = (usize, String)> {
-    let mut words = Vec::new();
+/// Whether the parenthesis that closes here is that of a type in front of a literal, and not that of a function or of
+/// a control statement.
+fn is_literal(tokens: &[Token], closes: usize) -> bool {
+    let mut depth = 0_usize;
+    for (index, token) in tokens.iter().enumerate().take(closes + 1).rev() {
+        match token.text.as_str() {
+            ")" => depth += 1,
+            "(" => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            let before = index.checked_sub(1).and_then(|before| tokens.get(before));
+            return !before.is_some_and(|before| before.is_name() && before.text != "return");
+        }
+    }
+    true
+}
+
+/// Names of the functions that are defined: a body follows their parameters.
+fn defined(tokens: &[Token]) -> HashSet<&str> {
+    let mut defined = HashSet::new();
+    for (index, token) in tokens.iter().enumerate() {
+        let mut depth = 0_usize;
+        let follows = tokens[index + 1..].iter().position(|token| {
+            match token.text.as_str() {
+                "(" => depth += 1,
+                ")" => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            depth == 0
+        });
+        let body = follows.and_then(|end| tokens.get(index + end + 2));
+        let has_parameters = tokens.get(index + 1).is_some_and(|token| token.text == "(");
+        if token.is_name() && has_parameters && body.is_some_and(|body| body.text == "{") {
+            defined.insert(token.text.as_str());
+        }
+    }
+    defined
+}
+
+/// The names in a statement that are called.
+fn calls(statement: &[Token]) -> impl Iterator<Item = &Token> {
+    statement.windows(2).filter_map(|pair| {
+        let called = pair[0].is_name() && !CONTROL.contains(&pair[0].text.as_str());
+        (called && pair[1].text == "(").then_some(&pair[0])
+    })
+}
+
+fn statements(tokens: &[Token]) -> HashSet<String> {
+    tokens.split(|token| matches!(token.text.as_str(), ";" | "{" | "}")).map(joined).collect()
+}
+
+fn joined(statement: &[Token]) -> String {
+    statement.iter().map(|token| token.text.as_str()).collect::<Vec<_>>().join(" ")
+}
+
+/// The tokens of a C text, as far as they matter: comments are left out, and literals are one token.
+fn tokens(text: &str) -> Vec<Token> {
+    let mut tokens = Vec::new();
     let mut comment = false;
     for (number, line) in text.lines().enumerate() {
         let mut rest = line;
-        if !comment && line.trim_start().starts_with('#') {
-            words.push((number + 1, line.trim().to_owned()));
-            continue;
-        }
+        let mut push = |text: &str| tokens.push(Token { line: number + 1, text: text.to_owned() });
         while let Some(first) = rest.chars().next() {
             if comment {
-                let end = rest.find("*/").map_or(rest.len(), |end| end + 2);
-                comment = !rest[..end].ends_with("*/");
-                rest = &rest[end..];
+                let end = rest.find("*/");
+                comment = end.is_none();
+                rest = &rest[end.map_or(rest.len(), |end| end + 2)..];
             } else if rest.starts_with("/*") {
                 comment = true;
                 rest = &rest[2..];
             } else if rest.starts_with("//") {
                 break;
-            } else if first == '"' || first == '\'' {
-                rest = &rest[literal(rest, first)..];
-            } else if first.is_ascii_alphabetic() || first == '_' {
-                let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-                let end = end.unwrap_or(rest.len());
-                words.push((number + 1, rest[..end].to_owned()));
-                rest = &rest[end..];
+            } else if first == '#' {
+                // With all that stands before it: a comment may hide it from people.
+                push(&format!("#{}", line.trim()));
+                break;
             } else {
-                let sign = ["%:", "??", "\\"].into_iter().find(|sign| rest.starts_with(sign));
-                words.extend(sign.map(|sign| (number + 1, sign.to_owned())));
-                rest = &rest[first.len_utf8()..];
+                let sign = ["%:", "??"].into_iter().find(|sign| rest.starts_with(sign));
+                let length = match first {
+                    '"' | '\'' => literal(rest, first),
+                    _ if first.is_ascii_alphanumeric() || first == '_' => {
+                        let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+                        end.unwrap_or(rest.len())
+                    }
+                    _ => sign.map_or(first.len_utf8(), str::len),
+                };
+                if !first.is_whitespace() {
+                    push(&rest[..length]);
+                }
+                rest = &rest[length..];
             }
         }
     }
-    words.into_iter()
+    tokens
 }
 
 /// Length of a literal that begins with this quote, at most to the end of the line.
@@ -156,8 +270,16 @@ mod tests {
     fn what_could_hide_something_is_refused_with_its_line() {
         let c = lamp().files[0].text.clone();
         for (line, found) in [
-            ("#define on() ((void)0)", "#define on() ((void)0)"),
-            ("  #  include <stdlib.h>", "#  include <stdlib.h>"),
+            ("#define on() ((void)0)", "##define on() ((void)0)"),
+            ("  #  include <stdlib.h>", "##  include <stdlib.h>"),
+            ("/* x */ # /* y */ ifdef X", "#/* x */ # /* y */ ifdef X"),
+            ("/**/#include \"lamp.h\"", "#/**/#include \"lamp.h\""),
+            ("unsigned sleep(unsigned); void f(void) { sleep(1U); }", "sleep"),
+            ("void f(void) { say(g(), h()); }", "g"),
+            ("int g(void) { return 1; } void f(int x) { f(g() + g()); }", "f"),
+            ("static int *p = &(int){0};", "{"),
+            ("static const int k = 0; void f(void) { *(int *)&k = 1; }", "*"),
+            ("char *p = \"abc\";", "char"),
             ("%:define on off", "%:"),
             ("static int x; /* */ exit(0);", "exit"),
             ("__CPROVER_assume(false);", "__CPROVER_assume"),
@@ -174,9 +296,13 @@ mod tests {
             let lines = c.lines().count() + line.lines().count();
             assert_eq!(error.line, lines, "{line}");
         }
-        for harmless in
-            ["// exit(0) #", "/* __x */", "say(\"abort\");", "static int own; own = '\\'';"]
-        {
+        for harmless in [
+            "// exit(0) #",
+            "/* __x */",
+            "say(\"abort # *)\");",
+            "static int own = '\\'';",
+            "static int f(int x) { return x; } void g(void) { f(1); }",
+        ] {
             assert_eq!(lamp().replace_c(format!("{c}{harmless}\n")), Ok(()), "{harmless}");
         }
     }

@@ -10,7 +10,7 @@ use translator::{Happening, comparison};
 
 use super::arguments::Validate;
 use super::{CommandError, NOT_CHECKED, print};
-use crate::agent::{Agent, read};
+use crate::agent::Agent;
 use crate::prove::{Cbmc, Difference, Limits, ProveError, Validated, difference, validate};
 use crate::run::Session;
 
@@ -27,7 +27,11 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let Agent { configuration, text, .. } = &agent;
     let mut comparison = comparison(configuration, text)?;
     if let Some(c) = &asked.c {
-        comparison.replace_c(read(c)?)?;
+        // Not the exit status of a C file that differs.
+        let unread =
+            |source| ProveError::Io { what: format!("cannot read {}", c.display()), source };
+        let bytes = std::fs::read(c).map_err(unread)?;
+        comparison.replace_c(String::from_utf8_lossy(&bytes).into_owned())?;
     }
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?;
     let folder = tempfile::tempdir()

@@ -15,6 +15,8 @@ use super::{ProveError, in_file, write};
 /// First limit of the calls in a step, and the last one that is tried.
 const ROOMS: std::ops::RangeInclusive<u32> = 2..=1024;
 
+/// Function that only asserts that no state is left out.
+const COVER: &str = "plain_cover";
 /// Description of a function whose end is never reached.
 const ENDLESS: &str = "it does not come to an end";
 
@@ -74,8 +76,9 @@ pub fn validate(
 ) -> Result<Validated, ProveError> {
     std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
     comparison.files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
-    let steps = (0..comparison.steps).map(|step| format!("step_{step}"));
-    let functions = ["base", "cover", "interface"].map(str::to_owned).into_iter().chain(steps);
+    let steps = (0..comparison.steps).map(|step| format!("plain_case_{step}"));
+    let functions =
+        ["plain_base", COVER, "plain_interface"].map(str::to_owned).into_iter().chain(steps);
     let functions: Vec<String> = functions.collect();
     let next = AtomicUsize::new(0);
     let results = Mutex::new(Vec::new());
@@ -129,7 +132,7 @@ fn prove(
         let Some(mut found) = found else { return Ok(None) };
         let all = found.len();
         found.retain(|failure| failure.said != END);
-        if function != "cover" && found.len() == all {
+        if function != COVER && found.len() == all {
             found.push(Failure { name: function.to_owned(), said: ENDLESS.to_owned() });
         }
         if !found.iter().any(|failure| failure.said == ENOUGH_ROOM) || room >= *ROOMS.end() {
@@ -140,7 +143,8 @@ fn prove(
 }
 
 fn arguments(comparison: &Comparison, include: &Path, room: u32) -> Vec<String> {
-    // Made absolute, because CBMC is run in another folder.
+    // Made absolute, because CBMC is run in another folder. A bare file name has no folder.
+    let include = if include.as_os_str().is_empty() { Path::new(".") } else { include };
     let include = std::path::absolute(include).unwrap_or_else(|_| include.to_owned());
     vec![
         format!("-D{ROOM}={room}"),

@@ -29,7 +29,11 @@ fn the_c_of_the_gallery_does_what_its_agents_say() {
         return;
     };
     for name in ["paper", "lift", "traffic_light", "infusion", "rover", "inspection"] {
-        let output = asl2c(&["--json", &format!("{GALLERY}/{name}.conf")], &cbmc);
+        // As in the guide: from its folder.
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        let cbmc = std::path::absolute(&cbmc).unwrap();
+        command.args(["validate", "--json", &format!("{name}.conf"), "--cbmc"]).arg(cbmc);
+        let output = command.current_dir(GALLERY).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{name}: {}", shown(&output));
         let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!((&json["verdict"], &json["timeouts"]), (&"proved".into(), &0.into()));
@@ -185,9 +189,11 @@ fn c_with_a_mistake_is_not_proved() {
         let step = (found.len() * names.len() / wanted).max(1);
         for (what, c) in found.iter().step_by(step) {
             let mut compared = compared.clone();
-            compared.replace_c(c.clone()).unwrap();
-            let folder = tempfile::tempdir().unwrap();
             tried += 1;
+            if compared.replace_c(c.clone()).is_err() {
+                continue;
+            }
+            let folder = tempfile::tempdir().unwrap();
             match validate(&compared, &cbmc, folder.path(), folder.path(), TIME) {
                 Ok(result) if result.is_proved() => equal.push(format!("{name}.c:{what}")),
                 // What does not compile is no C of the agent either.
@@ -278,5 +284,5 @@ fn what_cannot_be_compared_is_no_pass() {
     assert_eq!(output.status.code(), Some(3));
     assert!(shown(&output).contains("NOT DECIDED"), "{}", shown(&output));
     let output = asl2c(&[&configuration, "--c", "no/such/file.c"], &cbmc);
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(output.status.code(), Some(3), "{}", shown(&output));
 }

@@ -21,7 +21,7 @@ use crate::types::{CType, TypeKind};
 
 /// Maximum number of calls in a step, to be defined as a number.
 pub const ROOM: &str = "PLAIN_ROOM";
-/// Assertion at the end of each function but `cover`: it must fail, because otherwise nothing was compared.
+/// Assertion at the end of each function but `plain_cover`: it must fail, because otherwise nothing was compared.
 pub const END: &str = "the end";
 /// Assertion that [`ROOM`] is sufficient.
 pub const ENOUGH_ROOM: &str = "room for the calls";
@@ -32,7 +32,7 @@ pub(crate) fn comparison(program: &Program) -> String {
     comparison.text()
 }
 
-/// Number of the functions `step_N`.
+/// Number of the functions `plain_case_N`.
 pub(crate) fn steps(program: &Program) -> usize {
     let comparison = Comparison { program, names: Names::new(program), types: types(program) };
     comparison.cases().len()
@@ -101,7 +101,7 @@ impl Comparison<'_> {
         format!("plain_any_{}()", self.index(ctype))
     }
 
-    /// Whether two values are the same, bit for bit, as an expression.
+    /// Whether two values are the same, as an expression: bit for bit, but C does not define the bits of a NaN.
     fn same(&self, ctype: &CType, left: &str, right: &str) -> String {
         format!("plain_same_{}({left}, {right})", self.index(ctype))
     }
@@ -130,7 +130,7 @@ impl Comparison<'_> {
                         if ctype.kind == TypeKind::Float32 { "uint32_t" } else { "uint64_t" };
                     format!(
                         "union {{ {name} value; {bits} bits; }} x, y; x.value = a; y.value = b; \
-                         return x.bits == y.bits;"
+                         return x.bits == y.bits || (a != a && b != b);"
                     )
                 }
                 TypeKind::Struct => {
@@ -311,7 +311,7 @@ impl Comparison<'_> {
         let init = format!("    {}({init});\n    plain_init();\n", self.names.interface("init"));
         _ = writeln!(
             text,
-            "int base(void)\n{{\n    plain_havoc();\n{init}    plain_compare();\n{end}    return 0;\n}}\n"
+            "int plain_base(void)\n{{\n    plain_havoc();\n{init}    plain_compare();\n{end}    return 0;\n}}\n"
         );
         _ = writeln!(
             text,
@@ -323,7 +323,7 @@ impl Comparison<'_> {
         self.calls_of_the_environment(text);
         _ = writeln!(
             text,
-            "int interface(void)\n{{\n    plain_start();\n    plain_call_by_environment();\n{end}    return 0;\n}}\n"
+            "int plain_interface(void)\n{{\n    plain_start();\n    plain_call_by_environment();\n{end}    return 0;\n}}\n"
         );
         _ = writeln!(
             text,
@@ -337,11 +337,11 @@ impl Comparison<'_> {
     }
 
     /// A step for each event that can be the next: with a known event, most of the code is known not to be
-    /// executed. `cover` asserts that no state is left out.
+    /// executed. `plain_cover` asserts that no state is left out.
     fn steps(&self, text: &mut String) {
         let cases = self.cases();
         for (number, case) in cases.iter().enumerate() {
-            _ = writeln!(text, "int step_{number}(void)\n{{\n    plain_havoc();");
+            _ = writeln!(text, "int plain_case_{number}(void)\n{{\n    plain_havoc();");
             for (place, value) in case {
                 _ = writeln!(text, "    {place} = {value};");
             }
@@ -352,7 +352,7 @@ impl Comparison<'_> {
             _ = writeln!(text, "    plain_both_step();\n{end}    return 0;\n}}\n");
         }
         text.push_str(
-            "int cover(void)\n{\n    plain_havoc();\n    __CPROVER_assume(plain_well_formed());\n",
+            "int plain_cover(void)\n{\n    plain_havoc();\n    __CPROVER_assume(plain_well_formed());\n",
         );
         let alternatives = cases.iter().map(|case| {
             let equal = case.iter().map(|(place, value)| format!("{place} == {value}"));
