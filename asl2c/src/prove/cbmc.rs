@@ -143,16 +143,16 @@ impl Cbmc {
     }
 
     /// Checks all assertions, run-time errors and bounds of loops of a function, with more arguments; `None`
-    /// on a timeout.
+    /// if it was given up.
     pub(crate) fn failures(
         &self,
         folder: &Path,
         (file, function): (&str, &str),
         arguments: &[String],
-        until: Instant,
+        give_up: impl Fn() -> bool,
     ) -> Result<Option<Vec<Failure>>, ProveError> {
         let mut command = self.program(folder, file, function);
-        let Some(text) = self.output(command.args(arguments), until)? else { return Ok(None) };
+        let Some(text) = self.output(command.args(arguments), give_up)? else { return Ok(None) };
         is_proved(&text)?;
         Ok(Some(text.lines().filter_map(failure).collect()))
     }
@@ -167,12 +167,17 @@ impl Cbmc {
     ) -> Result<Option<Vec<Trace>>, ProveError> {
         let mut command = self.program(folder, file, function);
         command.args(["--trace", "--json-ui", "--object-bits", "20"]).args(arguments);
-        let Some(text) = self.output(&mut command, until)? else { return Ok(None) };
+        let late = || Instant::now() >= until;
+        let Some(text) = self.output(&mut command, late)? else { return Ok(None) };
         traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
     }
 
-    /// What it prints; `None` on a timeout.
-    fn output(&self, command: &mut Command, until: Instant) -> Result<Option<String>, ProveError> {
+    /// What it prints; `None` if it was given up.
+    fn output(
+        &self,
+        command: &mut Command,
+        give_up: impl Fn() -> bool,
+    ) -> Result<Option<String>, ProveError> {
         let no_file = |source| ProveError::Io { what: "no temporary file".to_owned(), source };
         // A file, because the output may exceed the capacity of a pipe while the process is waited for.
         let mut said = tempfile::tempfile().map_err(no_file)?;
@@ -183,7 +188,7 @@ impl Cbmc {
             .spawn()
             .map_err(in_file("cannot run", &self.path))?;
         while child.try_wait().map_err(in_file("cannot wait for", &self.path))?.is_none() {
-            if Instant::now() >= until {
+            if give_up() {
                 // It may have ended already.
                 _ = child.kill();
                 child.wait().map_err(in_file("cannot wait for", &self.path))?;
@@ -216,7 +221,8 @@ impl Cbmc {
             .args(["--object-bits", "20"])
             .args(["--unwindset", &format!("main.0:{transitions}"), "--no-unwinding-assertions"])
             .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]));
-        let Some(text) = self.output(&mut command, until)? else { return Ok(None) };
+        let late = || Instant::now() >= until;
+        let Some(text) = self.output(&mut command, late)? else { return Ok(None) };
         traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use translator::configuration::Configuration;
@@ -28,7 +28,7 @@ pub struct Validated {
     pub proofs: usize,
     /// What differs, by CBMC's description; empty if the C is proved.
     pub open: Vec<String>,
-    /// Proofs that reached the time limit.
+    /// Proofs that reached the time limit; none if there is a difference, which ends the others.
     pub timeouts: usize,
     /// The largest number of calls in a step that had to be compared, rounded up to a power of two.
     pub calls: u32,
@@ -37,7 +37,7 @@ pub struct Validated {
 impl Validated {
     /// Whether something was done differently: a way to it may be found. What never ends is not.
     pub(crate) fn differs(&self) -> bool {
-        self.open.iter().any(|said| said != ENDLESS && !said.starts_with("unwinding assertion"))
+        self.open.iter().any(|said| is_difference(said))
     }
 
     /// Whether the C does what the agent says, in every environment and for any number of steps.
@@ -63,7 +63,7 @@ impl Difference {
 }
 
 /// Proves the comparison, with `include` as a folder of the environment's own headers. Creates `folder` for the
-/// generated files. Each proof has a limited time.
+/// generated files. Each proof has a limited time. Ends with the first difference.
 ///
 /// # Errors
 /// If a file cannot be written, or CBMC gives no result: C that cannot be compiled, for example.
@@ -81,6 +81,7 @@ pub fn validate(
         ["plain_base", COVER, "plain_interface"].map(str::to_owned).into_iter().chain(steps);
     let functions: Vec<String> = functions.collect();
     let next = AtomicUsize::new(0);
+    let different = AtomicBool::new(false);
     let results = Mutex::new(Vec::new());
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
@@ -88,7 +89,14 @@ pub fn validate(
             scope.spawn(|| {
                 while let Some(function) = functions.get(next.fetch_add(1, Ordering::Relaxed)) {
                     let until = Instant::now() + time;
-                    let result = prove(comparison, cbmc, folder, include, function, until);
+                    // What follows a difference tells no more, and may take long.
+                    let give_up = || different.load(Ordering::Relaxed) || Instant::now() >= until;
+                    let result = prove(comparison, cbmc, folder, include, function, give_up);
+                    if let Ok(Some((failures, _))) = &result
+                        && failures.iter().any(|failure| is_difference(&failure.said))
+                    {
+                        different.store(true, Ordering::Relaxed);
+                    }
                     if let Ok(mut results) = results.lock() {
                         results.push(result);
                     }
@@ -108,19 +116,28 @@ pub fn validate(
             None => validated.timeouts += 1,
         }
     }
+    if validated.differs() {
+        // They were given up.
+        validated.timeouts = 0;
+    }
     validated.open.sort();
     validated.open.dedup();
     Ok(validated)
 }
 
-/// Proves one function; with more room for calls until it is sufficient. `None` on a timeout.
+/// Whether a failure tells of something done differently. What never ends does nothing.
+fn is_difference(said: &str) -> bool {
+    said != ENDLESS && !said.starts_with("unwinding assertion")
+}
+
+/// Proves one function; with more room for calls until it is sufficient. `None` if it was given up.
 fn prove(
     comparison: &Comparison,
     cbmc: &Cbmc,
     folder: &Path,
     include: &Path,
     function: &str,
-    until: Instant,
+    give_up: impl Fn() -> bool,
 ) -> Result<Option<(Vec<Failure>, u32)>, ProveError> {
     let mut room = *ROOMS.start();
     loop {
@@ -128,7 +145,7 @@ fn prove(
         // The relation does not know other variables than those of the state, and a loop that never ends must not be
         // taken for one that is never entered.
         arguments.extend(["--nondet-static", "--no-self-loops-to-assumptions"].map(str::to_owned));
-        let found = cbmc.failures(folder, (COMPARISON, function), &arguments, until)?;
+        let found = cbmc.failures(folder, (COMPARISON, function), &arguments, &give_up)?;
         let Some(mut found) = found else { return Ok(None) };
         let all = found.len();
         found.retain(|failure| failure.said != END);
