@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::GeneratedFile;
 
-pub use crate::backend::c::{END, ENOUGH_ROOM, ROOM};
+pub use crate::backend::c::{ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
 
 /// The file of a comparison that includes all others.
 pub const COMPARISON: &str = "comparison.c";
@@ -17,7 +17,7 @@ pub const COMPARISON: &str = "comparison.c";
 /// starts. `main` is an execution from the start.
 ///
 /// Other variables with static lifetime must be arbitrary in all of them but `main`, because the relation does
-/// not know them. The assertion [`END`] must fail in all but `plain_cover`.
+/// not know them. With [`ONLY_END`] defined, each but `plain_cover` must fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 #[must_use = "the comparison has to be proved"]

@@ -40,7 +40,9 @@ use std::collections::HashSet;
 
 use backend::rust::{camel_case, snake_case};
 pub use code::Code;
-pub use comparison::{COMPARISON, Comparison, END, ENOUGH_ROOM, Incomparable, ROOM};
+pub use comparison::{
+    COMPARISON, Comparison, ENOUGH_ROOM, Incomparable, ONLY_END, ONLY_ROOM, ROOM,
+};
 use configuration::{Configuration, Instance};
 use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};

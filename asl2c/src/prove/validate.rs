@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use translator::configuration::Configuration;
-use translator::{COMPARISON, Comparison, END, ENOUGH_ROOM, ROOM};
+use translator::{COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
 
 use super::cbmc::{Cbmc, Failure};
 use super::trace::Way;
@@ -125,12 +125,12 @@ pub fn validate(
     Ok(validated)
 }
 
-/// Whether a failure tells of something done differently. What never ends does nothing.
+/// Whether a failure tells of something done differently, and not of a bound.
 fn is_difference(said: &str) -> bool {
-    said != ENDLESS && !said.starts_with("unwinding assertion")
+    said != ENDLESS && said != ENOUGH_ROOM && !said.starts_with("unwinding assertion")
 }
 
-/// Proves one function; with more room for calls until it is sufficient. `None` if it was given up.
+/// Proves one function; with as much room for calls as it needs. `None` if it was given up.
 fn prove(
     comparison: &Comparison,
     cbmc: &Cbmc,
@@ -139,24 +139,38 @@ fn prove(
     function: &str,
     give_up: impl Fn() -> bool,
 ) -> Result<Option<(Vec<Failure>, u32)>, ProveError> {
-    let mut room = *ROOMS.start();
-    loop {
+    let run = |room: u32, more: &[&str]| {
         let mut arguments = arguments(comparison, include, room);
         // The relation does not know other variables than those of the state, and a loop that never ends must not be
         // taken for one that is never entered.
         arguments.extend(["--nondet-static", "--no-self-loops-to-assumptions"].map(str::to_owned));
-        let found = cbmc.failures(folder, (COMPARISON, function), &arguments, &give_up)?;
-        let Some(mut found) = found else { return Ok(None) };
-        let all = found.len();
-        found.retain(|failure| failure.said != END);
-        if function != COVER && found.len() == all {
-            found.push(Failure { name: function.to_owned(), said: ENDLESS.to_owned() });
-        }
-        if !found.iter().any(|failure| failure.said == ENOUGH_ROOM) || room >= *ROOMS.end() {
-            return Ok(Some((found, room)));
+        arguments.extend(more.iter().copied().map(str::to_owned));
+        cbmc.failures(folder, (COMPARISON, function), &arguments, &give_up)
+    };
+    let only = |asked: &str, room: u32| {
+        let define = format!("-D{asked}");
+        run(
+            room,
+            &["--no-standard-checks", "--no-unwinding-assertions", "--slice-formula", &define],
+        )
+    };
+    let mut room = *ROOMS.start();
+    // A bound of the loops may be reached here, and more room be needed than is found.
+    while room < *ROOMS.end() {
+        let Some(found) = only(ONLY_ROOM, room)? else { return Ok(None) };
+        if found.is_empty() {
+            break;
         }
         room *= 2;
     }
+    let Some(mut found) = run(room, &[])? else { return Ok(None) };
+    if function != COVER && found.is_empty() {
+        let Some(reached) = only(ONLY_END, room)? else { return Ok(None) };
+        if reached.is_empty() {
+            found.push(Failure { name: function.to_owned(), said: ENDLESS.to_owned() });
+        }
+    }
+    Ok(Some((found, room)))
 }
 
 fn arguments(comparison: &Comparison, include: &Path, room: u32) -> Vec<String> {
@@ -166,8 +180,6 @@ fn arguments(comparison: &Comparison, include: &Path, room: u32) -> Vec<String> 
     vec![
         format!("-D{ROOM}={room}"),
         format!("-I{}", include.display()),
-        // These formulas are solved in half the time without it.
-        "--no-sat-preprocessor".to_owned(),
         "--unwind".to_owned(),
         comparison.unwinding.to_string(),
     ]

@@ -24,7 +24,7 @@ use self::state::StateLayout;
 use super::writer::Writer;
 use crate::program::Program;
 
-pub use self::equivalence::{END, ENOUGH_ROOM, ROOM};
+pub use self::equivalence::{ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
 pub(crate) use self::equivalence::{comparison, steps, unwinding};
 pub(crate) use self::handlers::plan_name;
 pub use self::harness::{ANSWERS, CALLS, RANDOM_TRANSITIONS, STEPS};

@@ -60,14 +60,12 @@ impl Comparison<'_> {
         self.well_formed(&mut text);
         text.push_str("static void plain_compare(void)\n{\n    struct plain_state now;\n    plain_relate(&now);\n");
         text.push_str(
-            "    __CPROVER_assert(plain_repeated == plain_made, \"another call, or none\");\n",
+            "    plain_assert(plain_repeated == plain_made, \"another call, or none\");\n",
         );
         if self.names.is_context() {
-            text.push_str("    __CPROVER_assert(self->environment == &plain_token, \"another state: environment\");\n");
+            text.push_str("    plain_assert(self->environment == &plain_token, \"another state: environment\");\n");
         }
-        text.push_str(
-            "    __CPROVER_assert(plain_well_formed(), \"another state: well-formed\");\n",
-        );
+        text.push_str("    plain_assert(plain_well_formed(), \"another state: well-formed\");\n");
         for element in relation.elements {
             let (left, right) =
                 (format!("now.{}", element.place), format!("plain.{}", element.place));
@@ -82,7 +80,7 @@ impl Comparison<'_> {
             };
             _ = writeln!(
                 text,
-                "    __CPROVER_assert({condition}, \"another state: {}\");",
+                "    plain_assert({condition}, \"another state: {}\");",
                 element.name
             );
         }
