@@ -139,7 +139,9 @@ pub enum TranslateError {
     #[error("{0}")]
     Refused(Diagnostics),
     /// A proof or a random run would need arbitrary values of a type that only the environment can create.
-    #[error("cannot create arbitrary values of type `{name}`, which a proof or random run of this agent needs")]
+    #[error(
+        "cannot create arbitrary values of type `{name}`, which a proof or random run of this agent needs"
+    )]
     Unprovable {
         /// The type.
         name: String,
@@ -275,7 +277,7 @@ pub fn exercise(
         return Err(TranslateError::Unprovable { name });
     }
     let mut files = c_files(&program);
-    let text = backend::c::exercise(&program);
+    let text = backend::c::exercise(&program, agent_text);
     files.push(GeneratedFile { name: EXERCISE.to_owned(), text, setting: "" });
     Ok(Exercise {
         files,

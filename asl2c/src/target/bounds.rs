@@ -42,7 +42,8 @@ impl<'a> Bounds<'a> {
             let instruction = self.at(address)?;
             let (followers, called) = self.followers(address, instruction)?;
             let needed = followers.iter().chain(&called);
-            let waiting: Vec<u64> = needed.copied().filter(|next| !known.contains_key(next)).collect();
+            let waiting: Vec<u64> =
+                needed.copied().filter(|next| !known.contains_key(next)).collect();
             if waiting.is_empty() {
                 let rest = followers.iter().filter_map(|next| known.get(next));
                 let rest = rest.copied().max().unwrap_or(0);
@@ -154,7 +155,9 @@ impl<'a> Bounds<'a> {
                 followers.extend(Some(target).filter(|target| own(*target)));
                 (followers, None)
             }
-            Flow::Jump(target) => (Some(target).filter(|target| own(*target)).into_iter().collect(), None),
+            Flow::Jump(target) => {
+                (Some(target).filter(|target| own(*target)).into_iter().collect(), None)
+            }
             Flow::Call(target) => (vec![next()?], Some(target).filter(|target| own(*target))),
             Flow::Return => (Vec::new(), None),
         })

@@ -13,8 +13,7 @@ use super::TargetError;
 
 const GCC: &str = "arm-none-eabi-gcc";
 const QEMU: &str = "qemu-system-arm";
-const CORE: [&str; 4] =
-    ["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"];
+const CORE: [&str; 4] = ["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"];
 const STARTUP: &str = include_str!("cortex_m4/startup.c");
 const LAYOUT: &str = include_str!("cortex_m4/image.ld");
 const HOST: &str = include_str!("cortex_m4/host.c");
@@ -90,7 +89,15 @@ impl Build<'_> {
     /// range of addresses to that file of the folder.
     pub(super) fn on_target(&self, log: Option<(&str, (u64, u64))>) -> Result<String, TargetError> {
         let mut command = Command::new(QEMU);
-        command.args(["-machine", "mps2-an386", "-nographic", "-monitor", "none", "-serial", "none"]);
+        command.args([
+            "-machine",
+            "mps2-an386",
+            "-nographic",
+            "-monitor",
+            "none",
+            "-serial",
+            "none",
+        ]);
         command.args(["-semihosting-config", "enable=on,target=native"]);
         command.args(["-kernel", "platform/image.elf"]).current_dir(self.folder);
         if let Some((file, (first, end))) = log {

@@ -6,7 +6,7 @@ mod build;
 mod code;
 mod observed;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::Path;
@@ -98,7 +98,7 @@ pub struct OnTarget {
 }
 
 /// Steps of the execution in which each instruction is counted.
-const COUNTED_STEPS: u32 = 300;
+const COUNTED_STEPS: u32 = 500;
 
 /// Compiles an agent for a Cortex-M4, derives the bounds from the code, and runs it for this number of steps there and,
 /// as `reference`, on this machine. Both are usually the same; `include` is the folder with the configuration's own
@@ -113,15 +113,12 @@ pub fn on_target(
     steps: u32,
 ) -> Result<OnTarget, TargetError> {
     let versions = versions()?;
-    let folder = tempfile::tempdir()
-        .map_err(|source| TargetError::Io { what: "no temporary folder".to_owned(), source })?;
+    let host = on_host(reference, include, steps)?;
+    let folder = temporary_folder()?;
     let include = include.canonicalize().unwrap_or_default();
     let build = Build { folder: folder.path(), include: &include };
-    build.write(reference)?;
-    let c = |exercise: &Exercise| exercise.files.first().map_or("", |file| &file.name).to_owned();
-    let host = build.on_host(&c(reference), steps)?;
     build.write(exercise)?;
-    let frames = build.compile(&c(exercise))?;
+    let frames = build.compile(c_file(exercise))?;
     build.link(exercise, steps)?;
     let target = build.on_target(None)?;
     build.link(exercise, COUNTED_STEPS.min(steps))?;
@@ -139,6 +136,27 @@ pub fn on_target(
         lines: host.lines().count(),
         difference: difference(&host, &target),
     })
+}
+
+/// The trace of an agent on this machine.
+///
+/// # Errors
+/// [`TargetError::Failed`] of `gcc` if the C does not compile, of another program if it does not end well.
+pub fn on_host(exercise: &Exercise, include: &Path, steps: u32) -> Result<String, TargetError> {
+    let folder = temporary_folder()?;
+    let include = include.canonicalize().unwrap_or_default();
+    let build = Build { folder: folder.path(), include: &include };
+    build.write(exercise)?;
+    build.on_host(c_file(exercise), steps)
+}
+
+fn temporary_folder() -> Result<tempfile::TempDir, TargetError> {
+    tempfile::tempdir()
+        .map_err(|source| TargetError::Io { what: "no temporary folder".to_owned(), source })
+}
+
+fn c_file(exercise: &Exercise) -> &str {
+    exercise.files.first().map_or("", |file| &file.name)
 }
 
 /// The code and the symbols of an image.
@@ -184,7 +202,8 @@ impl Image {
             let Some(address) = self.symbols.get(function) else { continue };
             let own = bounds.frame(*address).map_err(|reason| failed("objdump", reason))?;
             if own != *bytes {
-                let said = format!("`{function}` takes {own} bytes of stack, not {bytes} as reported");
+                let said =
+                    format!("`{function}` takes {own} bytes of stack, not {bytes} as reported");
                 return Err(failed("arm-none-eabi-gcc", said));
             }
         }
@@ -196,8 +215,13 @@ impl Image {
         let bounds = Bounds::new(&self.code, environment.copied().collect());
         let of = |function: &String| {
             let entry = self.symbol(function)?;
-            let stack = bounds.stack(entry).map_err(|reason| failed("the stack is unknown", reason))?;
-            Ok(Bound { function: function.clone(), stack, instructions: bounds.instructions(entry) })
+            let stack =
+                bounds.stack(entry).map_err(|reason| failed("the stack is unknown", reason))?;
+            Ok(Bound {
+                function: function.clone(),
+                stack,
+                instructions: bounds.instructions(entry),
+            })
         };
         exercise.interface.iter().map(of).collect()
     }

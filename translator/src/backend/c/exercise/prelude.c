@@ -18,7 +18,8 @@ static uint64_t any_below(uint64_t limit)
     return (any_bits() >> 11) % limit;
 }
 
-/* An integer: mostly in the range of usual limits, sometimes the end of a range, or anything. */
+/* An integer: mostly one of the agent's own or in the range of usual limits, sometimes the end of a range, or
+   anything. */
 static uint64_t any_integer(void)
 {
     static const uint64_t ends[8] = {
@@ -33,6 +34,8 @@ static uint64_t any_integer(void)
         value = ends[any_below(8U)] + (any_below(3U) - 1U);
     } else if (kind < 4U) {
         value = (uint64_t)0 - value;
+    } else if (kind < 10U) {
+        value = (uint64_t)own_integers[any_below(INTEGERS_COUNT)] + (any_below(3U) - 1U);
     } else {
         /* A usual one. */
     }
@@ -44,13 +47,46 @@ static bool any_bool(void)
     return any_below(2U) != 0U;
 }
 
-/* A number: mostly multiples of an eighth, sometimes any bits, among them infinity and NaN. */
+/* Calls that the environment makes at present, and answers that functions usually give: a bit each. Without some of the
+   calls, such as those that report a danger, others have effects that they would hide; and much happens only if an answer
+   stays the same for some steps. */
+static uint64_t happening = UINT64_MAX;
+static uint64_t answers;
+
+static bool happens(uint64_t call)
+{
+    return ((happening >> (call & 63U)) & 1U) != 0U;
+}
+
+static bool any_answer(uint64_t function)
+{
+    return ((answers >> (function & 63U)) & 1U) != ((any_below(16U) == 0U) ? 1U : 0U);
+}
+
+static void change_situation(void)
+{
+    if (any_below(16U) == 0U) {
+        happening = any_bits();
+    }
+    answers ^= (any_below(4U) == 0U) ? ((uint64_t)1 << any_below(64U)) : 0U;
+    if (any_below(32U) == 0U) {
+        answers = any_bits();
+    }
+}
+
+/* A number: mostly close to one of the agent's own, or a multiple of an eighth; sometimes infinity, NaN or any
+   bits. */
 static double any_double(void)
 {
     union { uint64_t bits; double value; } number;
     number.value = ((double)(int64_t)any_below(100000U) / 8.0) - 4.0;
     if (any_bool()) {
+        number.value = own_numbers[any_below(NUMBERS_COUNT)];
+        number.value += ((double)(int64_t)any_below(17U) - 8.0) / 8.0;
+    } else if (any_bool()) {
         number.value = ((double)(int64_t)any_below(100U) / 8.0) - 4.0;
+    } else {
+        /* A large one. */
     }
     if (any_below(16U) == 0U) {
         number.bits = (any_bits() << 32) ^ any_bits();
@@ -67,6 +103,9 @@ static float any_float(void)
 {
     union { uint32_t bits; float value; } number;
     number.value = ((float)(int32_t)any_below(4000U) / 8.0F) - 4.0F;
+    if (any_bool()) {
+        number.value = (float)own_numbers[any_below(NUMBERS_COUNT)];
+    }
     if (any_below(8U) == 0U) {
         number.bits = (uint32_t)any_bits();
     }
