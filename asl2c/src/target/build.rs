@@ -20,7 +20,7 @@ const HOST: &str = include_str!("cortex_m4/host.c");
 /// Seed of the random calls.
 const SEED: &str = "88172645463325252ULL";
 /// Time limit of QEMU: an execution takes a second.
-const PATIENCE: Duration = Duration::from_secs(300);
+const PATIENCE: Duration = Duration::from_mins(5);
 
 /// The folder of an exercise, and where the configuration's own headers are.
 pub(super) struct Build<'a> {

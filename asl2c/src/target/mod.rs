@@ -2,6 +2,7 @@
 //! under QEMU, compared with that on this machine.
 
 mod bounds;
+#[allow(clippy::disallowed_methods, reason = "other programs get a limited time")]
 mod build;
 mod code;
 mod observed;

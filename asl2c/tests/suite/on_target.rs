@@ -49,7 +49,7 @@ fn each_agent_does_the_same_on_the_target_within_its_bounds() {
     }
 }
 
-/// The first place at which one character is another one.
+/// The C with another character in the first such place.
 fn changed(exercise: &Exercise, from: &str, to: &str) -> Exercise {
     assert!(
         from.len() == to.len() && from.bytes().zip(to.bytes()).filter(|(a, b)| a != b).count() == 1
@@ -64,7 +64,11 @@ fn changed(exercise: &Exercise, from: &str, to: &str) -> Exercise {
 #[test]
 fn one_character_that_differs_on_one_side_is_seen() {
     let exercise = exercised(&read("translator/agents/rover.conf"));
-    for (from, to) in [("> 25.0", "> 26.0"), ("Now < var", "Now > var"), ("- ", "+ ")] {
+    for (from, to) in [
+        ("(var_Angle > 25.0)", "(var_Angle > 26.0)"),
+        ("var_Now < var_", "var_Now > var_"),
+        ("argument1 - argument2", "argument1 + argument2"),
+    ] {
         let changed = changed(&exercise, from, to);
         for (target, host) in [(&exercise, &changed), (&changed, &exercise)] {
             let Some(found) = run(target, host, 5000) else { return };

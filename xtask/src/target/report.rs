@@ -110,8 +110,8 @@ thousand times the latter. The environment's functions return random answers. It
 with all values, the bits of floating-point numbers included (only the bits of NaN are left out, which C does not
 fix). The output of QEMU (machine `mps2-an386`, semihosting) must be that of gcc's code on the translating machine, byte for byte.
 
-QEMU also logs each instruction of the agent in the first 500 steps: the costliest `next_step()` is the last but one
-column's, and must not exceed the bounds above.
+QEMU also logs each instruction of the agent in 500 steps: the costliest `next_step()` of these is in the last but one
+column, and must not exceed the bounds above.
 
 To see that the trace shows differences, one character of the C is changed: one comparison, `+` or `-`, at even
 distances in the file. Changes that are not seen are in code that the random steps do not reach, or change nothing
