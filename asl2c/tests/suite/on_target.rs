@@ -30,12 +30,10 @@ fn run(exercise: &Exercise, reference: &Exercise, steps: u32) -> Option<OnTarget
 
 #[test]
 fn each_agent_does_the_same_on_the_target_within_its_bounds() {
-    let folder = std::fs::read_dir("../translator/agents").unwrap();
-    let names = folder.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let names = names.filter(|name| name.ends_with(".conf"));
-    let mut names: Vec<String> = names.map(|name| format!("translator/agents/{name}")).collect();
+    let gallery = ["paper", "lift", "traffic_light", "infusion", "rover", "inspection"];
+    let mut names: Vec<String> =
+        gallery.iter().map(|name| format!("translator/agents/{name}.conf")).collect();
     names.push("autopilot/agent/autopilot.conf".to_owned());
-    assert_eq!(names.len(), 7);
     for name in names {
         let exercise = exercised(&read(&name));
         let Some(found) = run(&exercise, &exercise, 1000) else { return };
