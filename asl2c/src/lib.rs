@@ -22,6 +22,7 @@ mod output;
 mod prove;
 mod run;
 mod spin;
+mod target;
 mod verify;
 
 pub use agent::{Agent, ReadError};
@@ -31,4 +32,5 @@ pub use prove::{
 };
 pub use run::{Replay, Session, replay};
 pub use spin::{SPIN, SpinError, Verdict};
+pub use target::{Bound, Observed, OnTarget, TargetError, TraceDifference, on_host, on_target};
 pub use verify::{Checked, VerifyError, is_refuted, verify};

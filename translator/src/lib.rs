@@ -25,6 +25,7 @@ mod code;
 mod comparison;
 pub mod configuration;
 mod coverage;
+mod exercise;
 mod gather;
 pub mod interpreter;
 mod model;
@@ -46,6 +47,7 @@ pub use comparison::{
 use configuration::{Configuration, Instance};
 use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
+pub use exercise::{EXERCISE, EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS, Exercise};
 use gather::gather;
 pub use model::{Happening, Model};
 pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, RANDOM_TRANSITIONS, STEPS};
@@ -138,8 +140,10 @@ pub enum TranslateError {
     /// The configuration or the agent has errors, possibly followed by warnings.
     #[error("{0}")]
     Refused(Diagnostics),
-    /// A proof would need arbitrary values of a type that only the environment can create.
-    #[error("cannot create arbitrary values of type `{name}`, which a proof of this agent needs")]
+    /// A proof or a random run would need arbitrary values of a type that only the environment can create.
+    #[error(
+        "cannot create arbitrary values of type `{name}`, which a proof or random run of this agent needs"
+    )]
     Unprovable {
         /// The type.
         name: String,
@@ -257,6 +261,30 @@ pub fn comparison(
         files,
         steps: backend::c::steps(&program),
         unwinding: backend::c::unwinding(&program),
+    })
+}
+
+/// A program that makes random calls of the agent's C, as it is translated, and traces them.
+///
+/// # Errors
+/// As [`translate`], and if an arbitrary value of a type would be needed that only the environment can
+/// create.
+pub fn exercise(
+    configuration: &ParsedConfiguration,
+    agent_text: &str,
+) -> Result<Exercise, TranslateError> {
+    let wanted = configuration.configuration.settings.instance;
+    let (program, _) = check(configuration, agent_text, wanted)?;
+    if let Some(name) = backend::c::uncreatable_type(&program) {
+        return Err(TranslateError::Unprovable { name });
+    }
+    let mut files = c_files(&program);
+    let text = backend::c::exercise(&program, agent_text);
+    files.push(GeneratedFile { name: EXERCISE.to_owned(), text, setting: "" });
+    Ok(Exercise {
+        files,
+        interface: backend::c::interface_symbols(&program),
+        environment: backend::c::environment_symbols(&program),
     })
 }
 

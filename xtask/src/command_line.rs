@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::{campaign, fly, mutants, sensors, soak, tags, verify};
+use crate::{campaign, fly, mutants, sensors, soak, tags, target, verify};
 
 /// Measurements of the whole system, in simulated time.
 #[derive(Debug, Parser)]
@@ -91,6 +91,9 @@ enum Command {
         #[arg(long)]
         only_proofs: bool,
     },
+    /// Compile the gallery's agents and the shipped one for a Cortex-M4, measure that code, and compare its trace under
+    /// QEMU with this machine's; fails if one differs or exceeds its bounds
+    Target,
 }
 
 /// Runs the command and returns the exit status.
@@ -123,6 +126,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Verify { only_proofs } => {
             verify::run(only_proofs).map_err(|error| error.to_string())
         }
+        Command::Target => target::run().map_err(|error| error.to_string()),
     };
     // If printing fails there is nowhere else to report it.
     match done {

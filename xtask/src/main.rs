@@ -13,6 +13,7 @@ mod sensors;
 mod soak;
 mod table;
 mod tags;
+mod target;
 mod verify;
 
 fn main() -> std::process::ExitCode {

@@ -15,9 +15,9 @@ use translator::Code;
     version,
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
-    after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, not printed, or a \
-                  property that does not hold; 2 usage; 3 a property could not be checked because a tool, memory \
-                  or the properties are missing."
+    after_help = "Exit status: 0 translated, or every property holds; 1 refused, unreadable, not printed, a property \
+                  that does not hold, or another trace on the target; 2 usage; 3 a property or the target could \
+                  not be checked because a tool, memory or the properties are missing."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
@@ -33,6 +33,10 @@ pub(super) struct Arguments {
     /// events (callgrind)
     #[arg(long)]
     pub(super) report: bool,
+    /// With the report, also compile the C for this microcontroller: size, stack and longest path of that code,
+    /// and its trace under QEMU, which must be the same as on this machine
+    #[arg(long, value_name = "TARGET", requires = "report", value_parser = ["cortex-m4"])]
+    pub(super) target: Option<String>,
     /// Print errors only
     #[arg(short, long)]
     pub(super) quiet: bool,

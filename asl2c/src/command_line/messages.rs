@@ -30,9 +30,10 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         CommandError::Print { .. } => general("not-printed", None),
         CommandError::Typed(_) => general("not-read", None),
         CommandError::New(_) => general("not-made", None),
-        CommandError::Verify(_) | CommandError::Prove(_) | CommandError::Incomparable(_) => {
-            general("not-checked", None)
-        }
+        CommandError::Verify(_)
+        | CommandError::Prove(_)
+        | CommandError::Target(_)
+        | CommandError::Incomparable(_) => general("not-checked", None),
     }
 }
 

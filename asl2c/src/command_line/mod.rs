@@ -5,6 +5,7 @@ mod messages;
 mod prompt;
 mod prove;
 mod run;
+mod target;
 mod validate;
 mod verdicts;
 
@@ -25,6 +26,7 @@ use crate::measure::measure;
 use crate::new::{NewError, make};
 use crate::output::{self, OutputError};
 use crate::prove::ProveError;
+use crate::target::TargetError;
 use crate::verify::{VerifyError, verify};
 
 /// Errors of the program.
@@ -40,6 +42,8 @@ enum CommandError {
     Prove(#[from] ProveError),
     #[error("nothing is proved: {0}")]
     Incomparable(#[from] Incomparable),
+    #[error(transparent)]
+    Target(#[from] TargetError),
     #[error(transparent)]
     Output(#[from] OutputError),
     #[error(transparent)]
@@ -131,6 +135,11 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
         }
         print("the report", &translation.report.to_string())?;
     }
+    if arguments.target.is_some() {
+        let (text, same) = target::measured(&agent)?;
+        print("the report", &text)?;
+        return Ok(if same { ExitCode::SUCCESS } else { ExitCode::FAILURE });
+    }
     Ok(ExitCode::SUCCESS)
 }
 
@@ -163,6 +172,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
             | CommandError::Output(OutputError::Write { .. })
             | CommandError::Verify(_)
             | CommandError::Prove(_)
+            | CommandError::Target(_)
             | CommandError::Incomparable(_)
     );
     let prefix = if ours { "error: " } else { "" };
@@ -171,6 +181,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
         error,
         CommandError::Verify(_)
             | CommandError::Prove(_)
+            | CommandError::Target(_)
             | CommandError::Incomparable(_)
             | CommandError::Translate(TranslateError::Unprovable { .. })
     );

@@ -7,6 +7,7 @@ mod files;
 mod gallery;
 mod guide;
 mod harness;
+mod on_target;
 mod prove;
 mod proved;
 mod run;

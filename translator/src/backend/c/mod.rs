@@ -7,6 +7,7 @@
 mod cycle;
 mod emitter;
 mod equivalence;
+mod exercise;
 mod expression;
 mod handlers;
 mod harness;
@@ -26,6 +27,10 @@ use crate::program::Program;
 
 pub use self::equivalence::{ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
 pub(crate) use self::equivalence::{comparison, steps, unwinding};
+pub use self::exercise::{EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS};
+pub(crate) use self::exercise::{
+    environment_symbols, exercise, interface_symbols, uncreatable_type,
+};
 pub(crate) use self::handlers::plan_name;
 pub use self::harness::{ANSWERS, CALLS, RANDOM_TRANSITIONS, STEPS};
 pub(crate) use self::harness::{harness, unknown_type};
