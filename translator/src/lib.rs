@@ -25,6 +25,7 @@ mod code;
 mod comparison;
 pub mod configuration;
 mod coverage;
+mod format;
 mod gather;
 pub mod interpreter;
 mod model;
@@ -44,6 +45,7 @@ pub use comparison::{COMPARISON, Comparison, END, ENOUGH_ROOM, Incomparable, ROO
 use configuration::{Configuration, Instance};
 use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
+pub use format::format;
 use gather::gather;
 pub use model::{Happening, Model};
 pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, RANDOM_TRANSITIONS, STEPS};
