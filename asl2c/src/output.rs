@@ -69,6 +69,13 @@ pub(crate) fn write(
     replace(prepared)
 }
 
+/// Replaces the text of an existing file, completely or not at all. A link stays, and leads to the new text.
+pub(crate) fn rewrite(path: &Path, text: &str) -> Result<(), OutputError> {
+    let failed = |source| OutputError::Write { path: path.to_owned(), source };
+    let target = path.canonicalize().map_err(failed)?;
+    replace(vec![prepare(&target, text).map_err(failed)?])
+}
+
 /// The path without links, existing or not: a missing file may be in a folder that is a link.
 fn resolved(path: &Path) -> Option<PathBuf> {
     let in_folder = || Some(or_here(path.parent()?).canonicalize().ok()?.join(path.file_name()?));

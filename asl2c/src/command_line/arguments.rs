@@ -97,6 +97,10 @@ pub(super) enum Task {
         #[arg(value_name = "CODE", value_parser = any_code())]
         code: Option<String>,
     },
+    /// Format agents' texts in the canonical style
+    ///
+    /// A text that cannot be parsed is not changed, and its errors are shown; the exit status is 1 then.
+    Fmt(Fmt),
     /// Run the agent by the reference interpreter, without any C: a prompt for calls of its interface,
     /// results of its functions, steps, and its state
     ///
@@ -144,6 +148,20 @@ pub(super) struct Verify {
     /// Print only properties that do not hold; `--json` still prints all
     #[arg(short, long)]
     pub(super) quiet: bool,
+    /// Format of errors: text, or one JSON object per line
+    #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
+    pub(super) message_format: String,
+}
+
+/// Arguments of `asl2c fmt`.
+#[derive(Debug, Args)]
+pub(super) struct Fmt {
+    /// The agents' texts; `-` formats standard input to standard output
+    #[arg(value_name = "AGENT.ASL", required = true)]
+    pub(super) files: Vec<PathBuf>,
+    /// Change nothing: list the files that are not formatted, with exit status 1 if there are some
+    #[arg(long)]
+    pub(super) check: bool,
     /// Format of errors: text, or one JSON object per line
     #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
     pub(super) message_format: String,

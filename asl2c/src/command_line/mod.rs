@@ -1,6 +1,7 @@
 //! The command line: executes the arguments, prints the result and returns the exit status.
 
 mod arguments;
+mod fmt;
 mod messages;
 mod prompt;
 mod prove;
@@ -75,6 +76,7 @@ pub fn run() -> ExitCode {
             let text = explained(code.as_deref());
             (print("the explanation", &text).map(|()| ExitCode::SUCCESS), false)
         }
+        (Some(Task::Fmt(asked)), _) => (fmt::run(asked), is_json(&asked.message_format)),
         (Some(Task::Run(asked)), _) => (run::run(asked), false),
         (Some(Task::Prove(asked)), _) => (prove::run(asked), is_json(&asked.message_format)),
         (Some(Task::Validate(asked)), _) => (validate::run(asked), is_json(&asked.message_format)),

@@ -4,6 +4,7 @@
 #![allow(clippy::format_collect, reason = "tests build texts, and read better so")]
 
 mod files;
+mod fmt;
 mod gallery;
 mod guide;
 mod harness;

@@ -6,7 +6,7 @@ use crate::code::Code;
 
 /// Kind of a token.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum TokenKind {
+pub(crate) enum TokenKind {
     /// `goto`: starts with a lower-case letter.
     Atom,
     /// `X`: starts with an upper-case letter.
@@ -53,13 +53,13 @@ pub(super) enum TokenKind {
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Token {
-    pub(super) kind: TokenKind,
-    pub(super) span: Span,
+pub(crate) struct Token {
+    pub(crate) kind: TokenKind,
+    pub(crate) span: Span,
 }
 
 /// All tokens of `text`, ending with [`TokenKind::End`], and the errors.
-pub(super) fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
+pub(crate) fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
     let mut lexer = Lexer { text, position: 0, tokens: Vec::new(), diagnostics: Vec::new() };
     lexer.run();
     (lexer.tokens, lexer.diagnostics)

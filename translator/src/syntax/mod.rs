@@ -5,7 +5,7 @@
 
 pub mod ast;
 mod expression;
-mod lexer;
+pub(crate) mod lexer;
 mod parser;
 
 pub use parser::parse;

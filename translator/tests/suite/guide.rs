@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use translator::{Translation, obligations, parse_configuration, translate};
+use translator::{Translation, format, obligations, parse_configuration, translate};
 
 use crate::harness::run_program;
 
@@ -57,7 +57,10 @@ fn every_example_of_the_guide_does_what_it_says() {
     for (language, content) in blocks() {
         match language {
             "configuration" => configuration = content,
-            "agentspeak" => agent = content,
+            "agentspeak" => {
+                assert_eq!(format("a.asl", &content).unwrap(), content);
+                agent = content;
+            }
             "transcript" => {
                 let (script, expected): (Vec<&str>, Vec<&str>) =
                     content.lines().partition(|line| line.starts_with('>'));

@@ -9,6 +9,7 @@
 
 mod behaviour;
 mod conformance;
+mod format;
 mod generated;
 mod guide;
 mod harness;

@@ -33,6 +33,7 @@ fn validate(choices: &[u8]) -> Result<Validated, TestCaseError> {
     let Some(interpreted) = interpreted::run(&agent, &sequences) else {
         return Ok(Validated::default());
     };
+    crate::format::keeps_its_meaning(&agent.text);
     let compiled = compiled::run(&agent, &sequences).map_err(TestCaseError::fail)?;
     if interpreted == compiled {
         return Ok(Validated { agents: 1, hostile: u32::from(agent.hostile > 0) });

@@ -1,0 +1,61 @@
+//! `asl2c fmt`: formats the texts of agents.
+
+use std::io::Read as _;
+use std::path::Path;
+use std::process::ExitCode;
+
+use translator::format;
+
+use super::arguments::{Fmt, is_json};
+use super::{CommandError, complain, print};
+use crate::agent::ReadError;
+use crate::output::rewrite;
+
+/// Formats each file. The others are formatted if one fails.
+pub(super) fn run(asked: &Fmt) -> Result<ExitCode, CommandError> {
+    let mut fine = true;
+    let mut listed: Vec<String> = Vec::new();
+    for path in &asked.files {
+        match one(path, asked.check) {
+            Ok(true) => {}
+            Ok(false) => {
+                fine = false;
+                listed.push(format!("{}\n", path.display()));
+            }
+            Err(error) => {
+                fine = false;
+                complain(&error, is_json(&asked.message_format));
+            }
+        }
+    }
+    print("the list of files", &listed.concat())?;
+    Ok(if fine { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Formats a file, or only checks whether it is formatted. Returns `false` if it is not, and stays so.
+fn one(path: &Path, check: bool) -> Result<bool, CommandError> {
+    let piped = path == Path::new("-");
+    let text = read(path, piped)?;
+    let name = if piped { "input".to_owned() } else { path.display().to_string() };
+    let formatted = format(&name, &text)?;
+    if check {
+        return Ok(formatted == text);
+    }
+    if piped {
+        print("the text", &formatted)?;
+    } else if formatted != text {
+        rewrite(path, &formatted)?;
+    }
+    Ok(true)
+}
+
+/// Unlike for a translation, bytes that are not UTF-8 are an error: they would be lost.
+fn read(path: &Path, piped: bool) -> Result<String, ReadError> {
+    let read = if piped {
+        let mut text = String::new();
+        std::io::stdin().lock().read_to_string(&mut text).map(|_| text)
+    } else {
+        std::fs::read_to_string(path)
+    };
+    read.map_err(|source| ReadError::File { path: path.to_owned(), source })
+}
