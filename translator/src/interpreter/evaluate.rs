@@ -1,6 +1,6 @@
 //! Evaluates expressions under a substitution.
 
-use super::{Environment, Interpreter, Value};
+use super::{Decision, Environment, Interpreter, Value};
 use crate::syntax::ast::{Atom, Expression, Relation};
 use crate::types::CType;
 
@@ -197,6 +197,26 @@ impl Interpreter {
                 let holds = self.context(operand, theta, environment).is_some();
                 (!holds).then(|| theta.clone())
             }
+            Expression::Atom(atom) if !self.is_basic(&atom.name.text) => {
+                self.believed(atom, theta, environment)
+            }
+            condition => {
+                let extended = self.condition(condition, theta, environment);
+                let (place, holds) = (condition.span(), extended.is_some());
+                environment.decided(Decision::Condition { place, holds });
+                extended
+            }
+        }
+    }
+
+    /// As [`Self::context`], for a condition without parts.
+    fn condition(
+        &self,
+        expression: &Expression,
+        theta: &Substitution,
+        environment: &mut dyn Environment,
+    ) -> Option<Substitution> {
+        match expression {
             Expression::Compare { operator, left, right, .. } => {
                 let ctype = self.type_of(left, theta).or_else(|| self.type_of(right, theta))?;
                 let left = self.evaluate(left, &ctype, theta, environment)?;
@@ -210,11 +230,10 @@ impl Interpreter {
                 theta.bind(&variable.text, &ctype, value);
                 Some(theta)
             }
-            Expression::Atom(atom) if self.is_basic(&atom.name.text) => {
+            Expression::Atom(atom) => {
                 let holds = self.call(atom, theta, environment)? == Some(Value::Bool(true));
                 holds.then(|| theta.clone())
             }
-            Expression::Atom(atom) => self.believed(atom, theta, environment),
             value => {
                 let bool_type = CType::named("bool");
                 let value = self.evaluate(value, &bool_type, theta, environment);
@@ -230,7 +249,10 @@ impl Interpreter {
         theta: &Substitution,
         environment: &mut dyn Environment,
     ) -> Option<Substitution> {
-        let values = self.beliefs.get(&atom.name.text)?;
+        let values = self.beliefs.get(&atom.name.text);
+        let (place, holds) = (atom.name.span.clone(), values.is_some());
+        environment.decided(Decision::Condition { place, holds });
+        let values = values?;
         let types = self.types(&atom.name.text);
         let mut theta = theta.clone();
         for ((pattern, value), ctype) in atom.arguments.iter().zip(values).zip(&types) {
@@ -255,8 +277,11 @@ impl Interpreter {
                 Some(())
             }
             _ => {
-                let wanted = self.evaluate(pattern, ctype, theta, environment)?;
-                Value::compare(Relation::Equal, value, &wanted).then_some(())
+                let wanted = self.evaluate(pattern, ctype, theta, environment);
+                let is_equal = |wanted: &Value| Value::compare(Relation::Equal, value, wanted);
+                let (place, holds) = (pattern.span(), wanted.as_ref().is_some_and(is_equal));
+                environment.decided(Decision::Condition { place, holds });
+                holds.then_some(())
             }
         }
     }

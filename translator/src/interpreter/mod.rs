@@ -24,6 +24,7 @@ use crate::syntax::ast::{Agent, Atom, Formula, Operator, Plan, Relation, Trigger
 use crate::syntax::parse;
 use crate::types::CType;
 use crate::{Happening, ParsedConfiguration};
+use diagnostic::Span;
 
 /// The environment of an interpreted agent.
 pub trait Environment {
@@ -35,6 +36,34 @@ pub trait Environment {
     fn story(&mut self) -> Option<&mut Vec<Happening>> {
         None
     }
+    /// Called with each decision, for the measurement of coverage.
+    fn decided(&mut self, _: Decision) {}
+}
+
+/// Something that the interpreter has decided. Places are byte ranges in the agent's text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Decision {
+    /// A condition of a plan's trigger or context holds or not, or the time of `.wait` has come or not.
+    Condition {
+        /// The comparison, function, belief, pattern or formula.
+        place: Span,
+        /// Whether it holds.
+        holds: bool,
+    },
+    /// A plan is chosen, or does not apply.
+    Plan {
+        /// Its trigger.
+        place: Span,
+        /// Whether it is chosen.
+        applies: bool,
+    },
+    /// A formula of a body was executed.
+    Formula {
+        /// The formula.
+        place: Span,
+        /// Whether it succeeded.
+        succeeded: bool,
+    },
 }
 
 /// An external event that was refused because the inbox is full.

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::evaluate::Substitution;
 use super::{
-    Deadline, Environment, Event, Interpreter, Key, Origin, Outcome, Value, Waiting, key_of,
+    Deadline, Decision, Environment, Event, Interpreter, Key, Origin, Outcome, Value, Waiting,
+    key_of,
 };
 use crate::syntax::ast::{
     Arithmetic, Atom, Expression, Formula, Operator, Plan, Relation, TriggerKind,
@@ -54,7 +55,12 @@ impl Interpreter {
         arguments: &[Option<Value>],
         environment: &mut dyn Environment,
     ) -> Outcome {
-        if !Self::is_due(&self.configuration, &waiting.due, environment) {
+        let is_due = Self::is_due(&self.configuration, &waiting.due, environment);
+        if let Some(wait) = waiting.next.checked_sub(1).and_then(|wait| waiting.plan.body.get(wait))
+        {
+            environment.decided(Decision::Condition { place: wait.span(), holds: is_due });
+        }
+        if !is_due {
             self.posted = Some(Event {
                 key: key.clone(),
                 arguments: arguments.iter().flatten().cloned().collect(),
@@ -81,7 +87,10 @@ impl Interpreter {
                 return Outcome::Failed;
             }
             let index = self.log_plan(plan, environment);
-            let Some(theta) = self.applicable(plan, arguments, &types, environment) else {
+            let applicable = self.applicable(plan, arguments, &types, environment);
+            let (place, applies) = (plan.trigger.span.clone(), applicable.is_some());
+            environment.decided(Decision::Plan { place, applies });
+            let Some(theta) = applicable else {
                 Self::log_skipped(index, environment);
                 continue;
             };
@@ -124,7 +133,10 @@ impl Interpreter {
     ) -> Outcome {
         for (index, formula) in plan.body.iter().enumerate().skip(first) {
             if let Formula::Wait { duration, .. } = formula {
-                let Some(due) = self.due(duration, &theta, environment) else {
+                let due = self.due(duration, &theta, environment);
+                let (place, succeeded) = (formula.span(), due.is_some());
+                environment.decided(Decision::Formula { place, succeeded });
+                let Some(due) = due else {
                     self.log_failure(formula, environment);
                     return Outcome::Failed;
                 };
@@ -137,7 +149,9 @@ impl Interpreter {
                 return Outcome::Achieved(Vec::new());
             }
             let fuel = self.limit.spend();
-            if !fuel || self.formula(formula, &mut theta, environment).is_none() {
+            let succeeded = fuel && self.formula(formula, &mut theta, environment).is_some();
+            environment.decided(Decision::Formula { place: formula.span(), succeeded });
+            if !succeeded {
                 self.log_failure(formula, environment);
                 return Outcome::Failed;
             }
