@@ -4,14 +4,14 @@ use crate::GeneratedFile;
 
 pub use crate::backend::c::{EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS};
 
-/// The file with `void exercise(void)`.
+/// The file with `void asl2c_exercise(void)`.
 pub const EXERCISE: &str = "exercise.c";
 
 /// An agent's C as it is translated, and a program that makes random calls of its interface.
 ///
 /// The calls depend only on the seed ([`EXERCISE_SEED`]) and the number of steps ([`EXERCISE_STEPS`]), so two
 /// machines on which the C does the same leave the same trace: each call in either direction with all values.
-/// The platform defines `void trace_text(const char *)` and calls `exercise()`.
+/// The platform defines `void asl2c_trace_text(const char *)` and calls `exercise()`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Exercise {
@@ -42,11 +42,11 @@ mod tests {
         assert_eq!(exercise.environment, ["on", "updateBeliefs"]);
         let program = exercise.files.iter().find(|file| file.name == EXERCISE).unwrap();
         for part in [
-            "trace_text(\"on(\");",
-            "trace_signed(argument1.y);",
-            "trace_bool(achieve_light(argument1));",
+            "asl2c_trace_text(\"on(\");",
+            "asl2c_trace_signed(argument1.y);",
+            "asl2c_trace_bool(achieve_light(argument1));",
             "const place_t argument1 = anything_place_t();",
-            "trace_text(\"> next_step()\\n\");",
+            "asl2c_trace_text(\"> next_step()\\n\");",
         ] {
             assert!(program.text.contains(part), "{part}:\n{}", program.text);
         }

@@ -35,11 +35,13 @@ mod plain;
 mod program;
 mod report;
 mod reserved;
+mod scripted;
 pub mod syntax;
 pub mod types;
 
 use std::collections::HashSet;
 
+pub use backend::matrix::TraceRow;
 use backend::rust::{camel_case, snake_case};
 pub use code::Code;
 pub use comparison::{
@@ -52,9 +54,10 @@ pub use exercise::{EXERCISE, EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS, Exer
 pub use format::format;
 use gather::gather;
 pub use model::{Happening, Model};
-pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, RANDOM_TRANSITIONS, STEPS};
+pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, STEPS};
 pub use report::Report;
 use reserved::is_rust_word;
+pub use scripted::{Act, TESTS, traced};
 use syntax::ast::Name;
 use types::TypeKind;
 
@@ -124,7 +127,7 @@ pub struct Translation {
 }
 
 /// One generated file.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct GeneratedFile {
     /// Its name as the configuration gives it, relative to the output folder.
@@ -208,6 +211,19 @@ pub fn translate(
     Ok(Translation { files, warnings, report: Report::new(&program) })
 }
 
+/// The trace matrix of the agent's C, as it is translated: a row for each plan and requirement.
+///
+/// # Errors
+/// As [`translate`].
+pub fn trace_rows(
+    configuration: &ParsedConfiguration,
+    agent_text: &str,
+) -> Result<Vec<TraceRow>, TranslateError> {
+    let wanted = configuration.configuration.settings.instance;
+    let (program, _) = check(configuration, agent_text, wanted)?;
+    Ok(backend::matrix::rows(&program, &c_files(&program)[0].text))
+}
+
 /// Input of a model checker for proving an agent's properties on its C.
 ///
 /// The agent is translated with its state passed in, whatever the configuration says, because a proof starts
@@ -288,6 +304,29 @@ pub fn exercise(
         interface: backend::c::interface_symbols(&program),
         environment: backend::c::environment_symbols(&program),
     })
+}
+
+/// A program that runs tests of the agent's C, as it is translated, and traces them.
+///
+/// The trace of a test is `# NUMBER`, each call in either direction with all values (numbers by their bits, see
+/// [`traced`]), and at its end the answers of `can_add_event()` and of the counters.
+///
+/// # Errors
+/// As [`translate`], and if a function's result would be of a type that only the environment can create.
+pub fn scripted(
+    configuration: &ParsedConfiguration,
+    agent_text: &str,
+    tests: &[Vec<Act>],
+) -> Result<Vec<GeneratedFile>, TranslateError> {
+    let wanted = configuration.configuration.settings.instance;
+    let (program, _) = check(configuration, agent_text, wanted)?;
+    if let Some(name) = backend::c::uncreatable_type(&program) {
+        return Err(TranslateError::Unprovable { name });
+    }
+    let mut files = c_files(&program);
+    let text = backend::c::scripted(&program, tests);
+    files.push(GeneratedFile { name: TESTS.to_owned(), text, setting: "" });
+    Ok(files)
 }
 
 /// A model of the agent for SPIN, in which its properties can be checked for every environment.

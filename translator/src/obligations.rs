@@ -4,9 +4,7 @@ use std::fmt::Write as _;
 
 use crate::GeneratedFile;
 
-/// If this is defined as a number, the proof's `main` makes that many random transitions and ends; the
-/// agent's C is then compiled separately.
-pub use crate::backend::c::{ANSWERS, CALLS, RANDOM_TRANSITIONS, STEPS};
+pub use crate::backend::c::{ANSWERS, CALLS, STEPS};
 
 /// The file of a proof that includes all others.
 pub const HARNESS: &str = "harness.c";

@@ -82,15 +82,8 @@ const OWN: [&str; 9] = [
 ];
 
 /// Functions of proofs, where actions have the agent's prefix: types must not have these names.
-const PROOFS: [&str; 7] = [
-    "base",
-    "induction",
-    "step",
-    "transition",
-    "random_state",
-    "check_invariant",
-    "assume_invariant",
-];
+const PROOFS: [&str; 6] =
+    ["base", "induction", "step", "transition", "check_invariant", "assume_invariant"];
 
 /// Generated local variables; most of them are numbered.
 const LOCALS: [&str; 14] = [
@@ -110,8 +103,8 @@ const LOCALS: [&str; 14] = [
     "value",
 ];
 
-/// Prefixes of generated constants.
-const CONSTANTS: [&str; 3] = ["EVENT_", "OUTCOME_", "ASL2C_"];
+/// Prefixes of generated constants, and of names in programs that run the C.
+const CONSTANTS: [&str; 4] = ["EVENT_", "OUTCOME_", "ASL2C_", "asl2c_"];
 
 /// Whether C, its library or a compiler uses the name.
 pub(crate) fn is_c(name: &str) -> bool {

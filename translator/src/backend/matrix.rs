@@ -7,16 +7,24 @@ use serde_json::{Value, json};
 use super::c::{handler_name, plan_name};
 use crate::program::Program;
 
-/// One row of the matrix.
-struct Row {
-    requirement: String,
+/// One row of the matrix: a plan, and a requirement that it implements.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TraceRow {
+    /// The requirement; empty if the plan names none.
+    pub requirement: String,
     /// The number that is passed to the trace function.
-    plan: usize,
-    label: String,
-    trigger: String,
-    source_lines: (usize, usize),
-    function: String,
-    c_lines: (usize, usize),
+    pub plan: usize,
+    /// The plan's label; empty if it has none.
+    pub label: String,
+    /// Its triggering event.
+    pub trigger: String,
+    /// Its first and last line in the agent's text.
+    pub source_lines: (usize, usize),
+    /// Its function in the C.
+    pub function: String,
+    /// The function's first and last line.
+    pub c_lines: (usize, usize),
 }
 
 /// The matrix as CSV and as JSON.
@@ -32,7 +40,8 @@ pub(crate) fn emit(program: &Program, input: &str, source: &str) -> Result<Matri
     Ok(Matrix { csv: csv(&rows, input, output)?, json: json(&rows, input, output) })
 }
 
-fn rows(program: &Program, source: &str) -> Vec<Row> {
+/// The rows for the plans of `program`, with their functions in `source`, the generated C.
+pub(crate) fn rows(program: &Program, source: &str) -> Vec<TraceRow> {
     let functions = function_lines(source);
     let mut rows = Vec::new();
     for (plan_number, (id, number, plan)) in program.plans().enumerate() {
@@ -42,7 +51,7 @@ fn rows(program: &Program, source: &str) -> Vec<Row> {
         let untagged = [String::new()];
         let requirements =
             if plan.requirements.is_empty() { &untagged[..] } else { &plan.requirements };
-        rows.extend(requirements.iter().map(|requirement| Row {
+        rows.extend(requirements.iter().map(|requirement| TraceRow {
             requirement: requirement.clone(),
             plan: plan_number,
             label: plan.label.clone().unwrap_or_default(),
@@ -72,7 +81,7 @@ fn function_lines(source: &str) -> HashMap<&str, (usize, usize)> {
     functions
 }
 
-fn csv(rows: &[Row], input: &str, output: &str) -> Result<String, csv::Error> {
+fn csv(rows: &[TraceRow], input: &str, output: &str) -> Result<String, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record([
         "requirement",
@@ -108,7 +117,7 @@ fn csv(rows: &[Row], input: &str, output: &str) -> Result<String, csv::Error> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-fn json(rows: &[Row], input: &str, output: &str) -> String {
+fn json(rows: &[TraceRow], input: &str, output: &str) -> String {
     let rows: Vec<Value> = rows
         .iter()
         .map(|row| {

@@ -1,16 +1,16 @@
 /* The machine that translates: prints the trace. */
 #include <stdio.h>
 
-void exercise(void);
-void trace_text(const char *text);
+void asl2c_exercise(void);
+void asl2c_trace_text(const char *text);
 
-void trace_text(const char *text)
+void asl2c_trace_text(const char *text)
 {
     (void)fputs(text, stdout);
 }
 
 int main(void)
 {
-    exercise();
+    asl2c_exercise();
     return (fflush(stdout) == 0) ? 0 : 1;
 }

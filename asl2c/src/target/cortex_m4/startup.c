@@ -13,8 +13,8 @@
 #define FLOATING_POINT (0xFU << 20)
 
 extern uint32_t stack_top;
-void exercise(void);
-void trace_text(const char *text);
+void asl2c_exercise(void);
+void asl2c_trace_text(const char *text);
 void reset(void);
 void *memcpy(void *to, const void *from, size_t count);
 void *memset(void *to, int value, size_t count);
@@ -48,7 +48,7 @@ static void flush(void)
     used = 0U;
 }
 
-void trace_text(const char *text)
+void asl2c_trace_text(const char *text)
 {
     for (const char *at = text; *at != '\0'; at++) {
         if (used == sizeof buffer) {
@@ -66,7 +66,7 @@ void reset(void)
     CPACR |= FLOATING_POINT;
     __asm__ volatile("dsb\n isb");
     output = semihosting(SYS_OPEN, (uint32_t)opened);
-    exercise();
+    asl2c_exercise();
     flush();
     (void)semihosting(SYS_EXIT, APPLICATION_EXIT);
     for (;;) {

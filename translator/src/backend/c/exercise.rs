@@ -1,12 +1,13 @@
 //! A program that exercises an agent: random calls of its interface, and the trace of all calls with their values.
 //!
-//! It uses no library and prints by `trace_text()` of the platform, so that the same agent can be run on different
+//! It uses no library and prints by `asl2c_trace_text()` of the platform, so that the same agent can be run on different
 //! machines, and the traces compared.
 
 use std::collections::BTreeSet;
 
 use super::names::{Names, argument_names, typed_arguments};
 use super::state::{counters, external_name};
+use super::trace::{TRACE, trace_call, trace_value};
 use crate::backend::writer::Writer;
 use crate::configuration::{Basic, Struct};
 use crate::program::Program;
@@ -17,10 +18,10 @@ pub const EXERCISE_STEPS: &str = "ASL2C_STEPS";
 /// Defined as the seed of the random calls, which is not zero.
 pub const EXERCISE_SEED: &str = "ASL2C_SEED";
 /// Variable with the agent's state, if it is passed in.
-pub const EXERCISE_STATE: &str = "exercised_agent";
+pub const EXERCISE_STATE: &str = "asl2c_exercised_agent";
 
 /// The functions that do not depend on the agent.
-const PRELUDE: &str = include_str!("exercise/prelude.c");
+const RANDOM: &str = include_str!("exercise/random.c");
 
 /// A type whose values only the environment can create, and which the program would have to create.
 pub(crate) fn uncreatable_type(program: &Program) -> Option<String> {
@@ -51,7 +52,7 @@ pub(crate) fn environment_symbols(program: &Program) -> Vec<String> {
     basics.chain([names.interface("updateBeliefs")]).collect()
 }
 
-/// The program; its entry is `void exercise(void)`.
+/// The program; its entry is `void asl2c_exercise(void)`.
 ///
 /// Values are often close to the numbers in the agent's text, because comparisons with them decide what it does.
 pub(crate) fn exercise(program: &Program, text: &str) -> String {
@@ -65,10 +66,12 @@ pub(crate) fn exercise(program: &Program, text: &str) -> String {
     writer.line(format!("#include \"{}\"", settings.basics));
     writer.line("");
     numbers(&mut writer, text);
-    for line in PRELUDE.lines() {
-        writer.line(line);
+    for part in [RANDOM, TRACE] {
+        for line in part.lines() {
+            writer.line(line);
+        }
+        writer.line("");
     }
-    writer.line("");
     let builder = Builder { program, names: Names::new(program) };
     for declared in &program.configuration.structs {
         any_struct(&mut writer, declared);
@@ -113,7 +116,7 @@ impl Builder<'_> {
         if self.names.is_context() {
             writer.line("(void)environment;");
         }
-        self.trace_call(writer, &basic.name.text, &basic.parameters);
+        trace_call(writer, self.program, &basic.name.text, &basic.parameters);
         if basic.result.kind != TypeKind::Void {
             let basics = self.program.configuration.basics.iter();
             let index = basics.take_while(|other| !std::ptr::eq(*other, basic)).count();
@@ -125,10 +128,10 @@ impl Builder<'_> {
                 any(&basic.result)
             };
             writer.line(format!("const {ctype} result = {value};"));
-            writer.line("trace_text(\" = \");");
-            self.trace(writer, "result", &basic.result);
+            writer.line("asl2c_trace_text(\" = \");");
+            trace_value(writer, self.program, "result", &basic.result);
         }
-        writer.line("trace_text(\"\\n\");");
+        writer.line("asl2c_trace_text(\"\\n\");");
         if basic.result.kind != TypeKind::Void {
             writer.line("return result;");
         }
@@ -164,7 +167,7 @@ impl Builder<'_> {
         writer.line(
             "/* One random call by the environment, if it is one of those that happen now. */",
         );
-        writer.open(format!("static void call_anything({})", self.names.parameters(&none)));
+        writer.open(format!("static void asl2c_call_anything({})", self.names.parameters(&none)));
         // Events are raised as often as beliefs are set, however many there are.
         let (events, others) = (self.program.external.len(), calls.len());
         let others = others - events;
@@ -172,24 +175,24 @@ impl Builder<'_> {
         if events > 0 {
             writer.line(format!("choice = any_bool() ? any_below({events}U) : choice;"));
         }
-        writer.open("switch (happens(choice) ? choice : UINT64_MAX)");
+        writer.open("switch (asl2c_happens(choice) ? choice : UINT64_MAX)");
         for (case, (name, types, answers)) in calls.iter().enumerate() {
             writer.line(format!("case {case}U:"));
             writer.open_bare();
             for (ctype, argument) in types.iter().zip(argument_names(types)) {
                 writer.line(format!("const {} {argument} = {};", ctype.name, any(ctype)));
             }
-            writer.line("trace_text(\"> \");");
-            self.trace_call(writer, name, types);
+            writer.line("asl2c_trace_text(\"> \");");
+            trace_call(writer, self.program, name, types);
             let called = self.names.interface(name);
             let called = format!("{called}({})", self.names.arguments(argument_names(types)));
             if *answers {
-                writer.line("trace_text(\" = \");");
-                writer.line(format!("trace_bool({called});"));
+                writer.line("asl2c_trace_text(\" = \");");
+                writer.line(format!("asl2c_trace_bool({called});"));
             } else {
                 writer.line(format!("{called};"));
             }
-            writer.line("trace_text(\"\\n\");");
+            writer.line("asl2c_trace_text(\"\\n\");");
             writer.line("break;");
             writer.close("}");
         }
@@ -210,7 +213,7 @@ impl Builder<'_> {
         } else {
             own("init")
         };
-        writer.open("void exercise(void)");
+        writer.open("void asl2c_exercise(void)");
         if self.names.is_context() {
             let state = self.names.state_type();
             writer.line(format!("extern {state} {EXERCISE_STATE};"));
@@ -220,25 +223,25 @@ impl Builder<'_> {
         writer.open(format!("for (uint32_t left = {EXERCISE_STEPS}; left > 0U; left--)"));
         writer.open("while (any_below(3U) != 0U)");
         let arguments = self.names.arguments(std::iter::empty());
-        writer.line(format!("call_anything({arguments});"));
+        writer.line(format!("asl2c_call_anything({arguments});"));
         writer.close("}");
-        writer.line("trace_text(\"> next_step()\\n\");");
+        writer.line("asl2c_trace_text(\"> next_step()\\n\");");
         writer.line(format!("{};", own("next_step")));
-        writer.line("change_situation();");
+        writer.line("asl2c_change_situation();");
         writer.open("if (any_below(24U) == 0U)");
         for counter in counters(self.program) {
             let name = format!("{}_events", counter.name);
-            writer.line(format!("trace_text(\"> {name}() = \");"));
-            writer.line(format!("trace_unsigned({});", own(&name)));
-            writer.line("trace_text(\"\\n\");");
+            writer.line(format!("asl2c_trace_text(\"> {name}() = \");"));
+            writer.line(format!("asl2c_trace_unsigned({});", own(&name)));
+            writer.line("asl2c_trace_text(\"\\n\");");
         }
         writer.open("if (any_below(8U) != 0U)");
-        writer.line("trace_text(\"> init()\\n\");");
+        writer.line("asl2c_trace_text(\"> init()\\n\");");
         writer.line(format!("{init};"));
         writer.close("}");
         writer.line("else");
         writer.open_bare();
-        writer.line("trace_text(\"> clear()\\n\");");
+        writer.line("asl2c_trace_text(\"> clear()\\n\");");
         writer.line(format!("{};", own("clear")));
         writer.close("}");
         writer.close("}");
@@ -248,43 +251,6 @@ impl Builder<'_> {
             writer.line("");
             writer.line(format!("{} {EXERCISE_STATE};", self.names.state_type()));
         }
-    }
-
-    /// Traces a call, without its result.
-    fn trace_call(&self, writer: &mut Writer, name: &str, types: &[CType]) {
-        writer.line(format!("trace_text(\"{name}(\");"));
-        for (index, (ctype, argument)) in types.iter().zip(argument_names(types)).enumerate() {
-            if index > 0 {
-                writer.line("trace_text(\", \");");
-            }
-            self.trace(writer, &argument, ctype);
-        }
-        writer.line("trace_text(\")\");");
-    }
-
-    /// Traces a value.
-    fn trace(&self, writer: &mut Writer, value: &str, ctype: &CType) {
-        let function = match ctype.kind {
-            TypeKind::Bool => "trace_bool",
-            TypeKind::Signed { .. } => "trace_signed",
-            TypeKind::Unsigned { .. } => "trace_unsigned",
-            TypeKind::Float32 => "trace_float",
-            TypeKind::Float64 => "trace_double",
-            TypeKind::Text => "trace_text",
-            // No value of such a type is ever created.
-            TypeKind::Opaque | TypeKind::Void => return writer.line("trace_text(\"?\");"),
-            TypeKind::Struct => {
-                let structs = &self.program.configuration.structs;
-                let fields = structs.iter().filter(|declared| declared.name.text == ctype.name);
-                for (field, of) in fields.flat_map(|declared| &declared.fields) {
-                    writer.line("trace_text(\"{\");");
-                    self.trace(writer, &format!("{value}.{}", field.text), of);
-                    writer.line("trace_text(\"}\");");
-                }
-                return;
-            }
-        };
-        writer.line(format!("{function}({value});"));
     }
 }
 
@@ -304,7 +270,7 @@ fn numbers(writer: &mut Writer, text: &str) {
     for (ctype, name, values) in [("int64_t", "integers", whole), ("double", "numbers", real)] {
         let (count, values) = (values.len(), values.join(", "));
         writer.line(format!("#define {}_COUNT {count}U", name.to_uppercase()));
-        writer.line(format!("static const {ctype} own_{name}[{count}] = {{ {values} }};"));
+        writer.line(format!("static const {ctype} asl2c_own_{name}[{count}] = {{ {values} }};"));
     }
     writer.line("");
 }

@@ -17,8 +17,10 @@ mod interface;
 mod locals;
 mod names;
 mod plan;
+mod scripted;
 mod spelling;
 mod state;
+mod trace;
 
 use self::names::{Names, include_path};
 use self::state::StateLayout;
@@ -32,10 +34,12 @@ pub(crate) use self::exercise::{
     environment_symbols, exercise, interface_symbols, uncreatable_type,
 };
 pub(crate) use self::handlers::plan_name;
-pub use self::harness::{ANSWERS, CALLS, RANDOM_TRANSITIONS, STEPS};
+pub use self::harness::{ANSWERS, CALLS, STEPS};
 pub(crate) use self::harness::{harness, unknown_type};
 pub(crate) use self::names::{action_symbol, comment_safe, symbol_prefix};
+pub(crate) use self::scripted::scripted;
 pub(crate) use self::state::{Counter, Field, FieldType, counters, handler_name, layout};
+pub use self::trace::traced;
 
 /// The generated C texts.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,15 +1,12 @@
-/* Writes a part of the trace; the platform defines it. */
-void trace_text(const char *text);
-
 /* Random bits by Marsaglia's xorshift: the same on each machine. */
-static uint64_t random_state = ASL2C_SEED;
+static uint64_t asl2c_random = ASL2C_SEED;
 
 static uint64_t any_bits(void)
 {
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 7;
-    random_state ^= random_state << 17;
-    return random_state;
+    asl2c_random ^= asl2c_random << 13;
+    asl2c_random ^= asl2c_random >> 7;
+    asl2c_random ^= asl2c_random << 17;
+    return asl2c_random;
 }
 
 /* Below a limit that is not zero. */
@@ -35,7 +32,7 @@ static uint64_t any_integer(void)
     } else if (kind < 4U) {
         value = (uint64_t)0 - value;
     } else if (kind < 10U) {
-        value = (uint64_t)own_integers[any_below(INTEGERS_COUNT)] + (any_below(3U) - 1U);
+        value = (uint64_t)asl2c_own_integers[any_below(INTEGERS_COUNT)] + (any_below(3U) - 1U);
     } else {
         /* A usual one. */
     }
@@ -50,27 +47,27 @@ static bool any_bool(void)
 /* Calls that the environment makes at present, and answers that functions usually give: a bit each. Without some of the
    calls, such as those that report a danger, others have effects that they would hide; and much happens only if an answer
    stays the same for some steps. */
-static uint64_t happening = UINT64_MAX;
-static uint64_t answers;
+static uint64_t asl2c_happening = UINT64_MAX;
+static uint64_t asl2c_answers;
 
-static bool happens(uint64_t call)
+static bool asl2c_happens(uint64_t call)
 {
-    return ((happening >> (call & 63U)) & 1U) != 0U;
+    return ((asl2c_happening >> (call & 63U)) & 1U) != 0U;
 }
 
 static bool any_answer(uint64_t function)
 {
-    return ((answers >> (function & 63U)) & 1U) != ((any_below(16U) == 0U) ? 1U : 0U);
+    return ((asl2c_answers >> (function & 63U)) & 1U) != ((any_below(16U) == 0U) ? 1U : 0U);
 }
 
-static void change_situation(void)
+static void asl2c_change_situation(void)
 {
     if (any_below(16U) == 0U) {
-        happening = any_bits();
+        asl2c_happening = any_bits();
     }
-    answers ^= (any_below(4U) == 0U) ? ((uint64_t)1 << any_below(64U)) : 0U;
+    asl2c_answers ^= (any_below(4U) == 0U) ? ((uint64_t)1 << any_below(64U)) : 0U;
     if (any_below(32U) == 0U) {
-        answers = any_bits();
+        asl2c_answers = any_bits();
     }
 }
 
@@ -81,7 +78,7 @@ static double any_double(void)
     union { uint64_t bits; double value; } number;
     number.value = ((double)(int64_t)any_below(100000U) / 8.0) - 4.0;
     if (any_bool()) {
-        number.value = own_numbers[any_below(NUMBERS_COUNT)];
+        number.value = asl2c_own_numbers[any_below(NUMBERS_COUNT)];
         number.value += ((double)(int64_t)any_below(17U) - 8.0) / 8.0;
     } else if (any_bool()) {
         number.value = ((double)(int64_t)any_below(100U) / 8.0) - 4.0;
@@ -104,7 +101,7 @@ static float any_float(void)
     union { uint32_t bits; float value; } number;
     number.value = ((float)(int32_t)any_below(4000U) / 8.0F) - 4.0F;
     if (any_bool()) {
-        number.value = (float)own_numbers[any_below(NUMBERS_COUNT)];
+        number.value = (float)asl2c_own_numbers[any_below(NUMBERS_COUNT)];
     }
     if (any_below(8U) == 0U) {
         number.bits = (uint32_t)any_bits();
@@ -116,64 +113,4 @@ static const char *any_text(void)
 {
     static const char *const texts[3] = { "", "a", "b, c" };
     return texts[any_below(3U)];
-}
-
-static void trace_digits(uint64_t value, uint64_t base)
-{
-    static const char digits[] = "0123456789abcdef";
-    char text[24];
-    uint32_t at = 23U;
-    uint64_t left = value;
-    text[at] = '\0';
-    do {
-        at--;
-        text[at] = digits[left % base];
-        left /= base;
-    } while (left > 0U);
-    trace_text(&text[at]);
-}
-
-static void trace_unsigned(uint64_t value)
-{
-    trace_digits(value, 10U);
-}
-
-static void trace_signed(int64_t value)
-{
-    if (value < 0) {
-        trace_text("-");
-        trace_digits((uint64_t)0 - (uint64_t)value, 10U);
-    } else {
-        trace_digits((uint64_t)value, 10U);
-    }
-}
-
-static void trace_bool(bool value)
-{
-    trace_text(value ? "true" : "false");
-}
-
-/* The bits of a number. Those of NaN are not fixed by C. */
-static void trace_double(double value)
-{
-    union { uint64_t bits; double value; } number;
-    number.value = value;
-    if (value != value) {
-        trace_text("nan");
-    } else {
-        trace_text("0x");
-        trace_digits(number.bits, 16U);
-    }
-}
-
-static void trace_float(float value)
-{
-    union { uint32_t bits; float value; } number;
-    number.value = value;
-    if (value != value) {
-        trace_text("nan");
-    } else {
-        trace_text("0x");
-        trace_digits(number.bits, 16U);
-    }
 }
