@@ -15,7 +15,9 @@
 #![forbid(unsafe_code)]
 
 mod agent;
+mod certify;
 pub mod command_line;
+mod coverage;
 mod measure;
 mod new;
 mod output;
@@ -23,9 +25,16 @@ mod prove;
 mod run;
 mod spin;
 mod target;
+mod tool;
 mod verify;
 
 pub use agent::{Agent, ReadError};
+pub use certify::{
+    Bounds, Certified, CertifyError, Deviation, Evidence, Limits, PlanEvidence, PropertyEvidence,
+    Requirement, Status, TestEvidence, Tool, ValidationEvidence, Verdict as PropertyVerdict,
+    certify,
+};
+pub use coverage::{Counts, Coverage, CoverageError, Independence, LineCount, Share, Test, cover};
 pub use measure::measure;
 pub use prove::{
     CBMC, Cbmc, Checks, Difference, Plan, Proof, ProveError, Validated, prove, validate, violates,
@@ -33,4 +42,5 @@ pub use prove::{
 pub use run::{Replay, Session, replay};
 pub use spin::{SPIN, SpinError, Verdict};
 pub use target::{Bound, Observed, OnTarget, TargetError, TraceDifference, on_host, on_target};
+pub use tool::ToolError;
 pub use verify::{Checked, VerifyError, is_refuted, verify};

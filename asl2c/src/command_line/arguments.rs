@@ -122,6 +122,15 @@ pub(super) enum Task {
     /// differs (with the shortest way to it, saved as a script for `asl2c run --script`), and 3 if it could not
     /// be decided or a tool is missing.
     Validate(Validate),
+    /// Gather the evidence for an agent: proofs, rules, bounds and tests of its C, in a folder with a page
+    ///
+    /// The C is compared with the agent's text (`validate`), the properties and the absence of run-time errors are
+    /// proved (`prove`), the rules of MISRA C:2012 are checked with cppcheck, stack and time are measured
+    /// (`--report`), and tests that are made from the text are executed on the C, with the coverage that they reach.
+    /// `index.html` has all of it for a reviewer, `evidence.json` for programs; with the same tools the files are the
+    /// same each time. The exit status is 0 if everything is shown, 1 if something is refuted, and 3 if something
+    /// could not be decided or a tool is missing.
+    Certify(Certify),
     /// Check the configuration's properties with SPIN, on a model of the agent in any environment
     ///
     /// For a property that does not hold, the shortest counterexample is shown: the environment's actions,
@@ -232,6 +241,32 @@ pub(super) struct Validate {
     /// Print one JSON object
     #[arg(long)]
     pub(super) json: bool,
+    /// Format of errors: text, or one JSON object per line
+    #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
+    pub(super) message_format: String,
+}
+
+/// Arguments of `asl2c certify`.
+#[derive(Debug, Args)]
+pub(super) struct Certify {
+    /// The agent's configuration
+    #[arg(value_name = "AGENT.CONF")]
+    pub(super) configuration: PathBuf,
+    /// Folder of the evidence: a new or empty one, or one with earlier evidence, which is replaced
+    #[arg(short, value_name = "DIR", required = true)]
+    pub(super) output: PathBuf,
+    /// The CBMC to use [default: that on the path]
+    #[arg(long, value_name = "PATH")]
+    pub(super) cbmc: Option<PathBuf>,
+    /// Maximum length of counterexamples, in events, beliefs and steps
+    #[arg(long, value_name = "TRANSITIONS", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(super) length: u32,
+    /// Time limit of each proof of the comparison, and of the search for counterexamples, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 1800)]
+    pub(super) time: u64,
+    /// Do not print what is being done
+    #[arg(short, long)]
+    pub(super) quiet: bool,
     /// Format of errors: text, or one JSON object per line
     #[arg(long, value_name = "FORMAT", default_value = "human", value_parser = ["human", "json"])]
     pub(super) message_format: String,

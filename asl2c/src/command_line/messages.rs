@@ -7,6 +7,7 @@ use translator::{Diagnostics, Located, Severity, TranslateError};
 
 use super::CommandError;
 use crate::agent::ReadError;
+use crate::certify::CertifyError;
 use crate::output::OutputError;
 
 /// Maximum number of printed messages; each costs a scan of the text.
@@ -30,8 +31,12 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         CommandError::Print { .. } => general("not-printed", None),
         CommandError::Typed(_) => general("not-read", None),
         CommandError::New(_) => general("not-made", None),
+        CommandError::Certify(CertifyError::Io { .. } | CertifyError::Occupied { .. }) => {
+            general("not-written", None)
+        }
         CommandError::Verify(_)
         | CommandError::Prove(_)
+        | CommandError::Certify(_)
         | CommandError::Target(_)
         | CommandError::Incomparable(_) => general("not-checked", None),
     }

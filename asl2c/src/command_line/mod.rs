@@ -1,6 +1,7 @@
 //! The command line: executes the arguments, prints the result and returns the exit status.
 
 mod arguments;
+mod certify;
 mod fmt;
 mod messages;
 mod prompt;
@@ -23,6 +24,7 @@ use self::arguments::{Arguments, Task, Verify, is_json};
 use self::messages::{denied, error_lines, line, lines};
 use self::verdicts::Detail;
 use crate::agent::{Agent, ReadError};
+use crate::certify::CertifyError;
 use crate::measure::measure;
 use crate::new::{NewError, make};
 use crate::output::{self, OutputError};
@@ -44,6 +46,8 @@ enum CommandError {
     #[error("nothing is proved: {0}")]
     Incomparable(#[from] Incomparable),
     #[error(transparent)]
+    Certify(CertifyError),
+    #[error(transparent)]
     Target(#[from] TargetError),
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -57,6 +61,16 @@ enum CommandError {
     Typed(String),
     #[error("cannot print {what}: {source}")]
     Print { what: &'static str, source: std::io::Error },
+}
+
+impl From<CertifyError> for CommandError {
+    fn from(error: CertifyError) -> Self {
+        match error {
+            CertifyError::Translate(error) => error.into(),
+            CertifyError::Prove(error) => error.into(),
+            error => Self::Certify(error),
+        }
+    }
 }
 
 /// Exit status if a check has no result.
@@ -80,6 +94,7 @@ pub fn run() -> ExitCode {
         (Some(Task::Run(asked)), _) => (run::run(asked), false),
         (Some(Task::Prove(asked)), _) => (prove::run(asked), is_json(&asked.message_format)),
         (Some(Task::Validate(asked)), _) => (validate::run(asked), is_json(&asked.message_format)),
+        (Some(Task::Certify(asked)), _) => (certify::run(asked), is_json(&asked.message_format)),
         (Some(Task::Verify(asked)), _) => (check(asked), is_json(&asked.message_format)),
         (None, Some(configuration)) => {
             (translate_files(&arguments, configuration), is_json(&arguments.message_format))
@@ -174,6 +189,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
             | CommandError::Output(OutputError::Write { .. })
             | CommandError::Verify(_)
             | CommandError::Prove(_)
+            | CommandError::Certify(_)
             | CommandError::Target(_)
             | CommandError::Incomparable(_)
     );
@@ -183,6 +199,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
         error,
         CommandError::Verify(_)
             | CommandError::Prove(_)
+            | CommandError::Certify(CertifyError::Tool(_))
             | CommandError::Target(_)
             | CommandError::Incomparable(_)
             | CommandError::Translate(TranslateError::Unprovable { .. })

@@ -11,7 +11,7 @@ use translator::{ParsedConfiguration, Promise, obligations};
 use super::arguments::Prove;
 use super::{CommandError, NOT_CHECKED, print};
 use crate::agent::Agent;
-use crate::prove::{Cbmc, Found, Limits, Plan, Proof, ProveError, Searched, Way, prove, search};
+use crate::prove::{Cbmc, Found, Limits, Plan, Proof, ProveError, Searched, prove, search};
 use crate::run::Session;
 
 /// A result, with its saved counterexample.
@@ -69,11 +69,10 @@ fn save(
     configuration: &Path,
     folder: &Path,
 ) -> Result<Option<PathBuf>, CommandError> {
-    let (Found::Way(way, _) | Found::Unconfirmed(way)) = &searched.found else { return Ok(None) };
+    let Some(text) = searched.script() else { return Ok(None) };
     let stem = configuration.file_stem().unwrap_or_default().to_string_lossy();
     let what = searched.property.clone().unwrap_or_else(|| format!("run_time_{}", index + 1));
     let path = folder.join(format!("{stem}.{what}.script"));
-    let text = script(searched, way);
     std::fs::write(&path, text).map_err(|source| {
         CommandError::Prove(ProveError::Io {
             what: format!("cannot write {}", path.display()),
@@ -81,16 +80,6 @@ fn save(
         })
     })?;
     Ok(Some(path))
-}
-
-fn script(searched: &Searched, way: &Way) -> String {
-    let what = searched.property.as_deref().unwrap_or(&searched.said);
-    let mut text = format!("// Counterexample: {what}\n");
-    for line in way.lines() {
-        // Writing to a string cannot fail.
-        _ = writeln!(text, "{line}");
-    }
-    text
 }
 
 fn as_text(

@@ -1,40 +1,25 @@
 //! Instructions of the costliest step under random events and beliefs, counted by callgrind.
 
 use std::path::Path;
-use std::process::Command;
 
-use translator::{HARNESS, Obligations, RANDOM_TRANSITIONS};
+use translator::{EXERCISE, EXERCISE_SEED, EXERCISE_STEPS, Exercise};
+
+use crate::target::{HOST, SEED};
+use crate::tool::{ToolError, run, write};
 
 /// Compiler options, the same as for the upper bound.
 const OPTIMIZED: &str = "-O2";
-/// Number of transitions to try; most are steps.
-const TRANSITIONS: u32 = 4000;
+/// Number of steps to try.
+const STEPS: u32 = 4000;
 
 /// Instructions of the agent's own C in the costliest step, or the reason why they are unknown. Actions and
 /// functions of the environment do not count.
-pub(super) fn costliest(obligations: &Obligations) -> Result<u64, String> {
+pub(super) fn costliest(exercise: &Exercise) -> Result<u64, String> {
     let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
     let folder = folder.path();
-    let invariant = obligations.invariant(&[]);
-    for file in obligations.files.iter().chain([&invariant]) {
-        let path = folder.join(&file.name);
-        let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
-        made.and_then(|()| std::fs::write(&path, &file.text))
-            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
-    }
-    let agent = &obligations.files.first().ok_or("there is no C")?.name;
-    let random = format!("-D{RANDOM_TRANSITIONS}={TRANSITIONS}");
-    run(
-        folder,
-        "gcc",
-        &["-std=c99", OPTIMIZED, "-fno-jump-tables", "-g", "-w", "-c", agent, "-o", "agent.o"],
-    )?;
-    run(folder, "gcc", &["-std=c99", "-g", "-w", &random, HARNESS, "agent.o", "-o", "steps"])?;
-    let entry = &obligations.entry;
-    let toggle = format!("--toggle-collect={entry}");
-    let dump = format!("--dump-after={entry}");
-    let options = ["--tool=callgrind", "--callgrind-out-file=step", &toggle, &dump, "./steps"];
-    run(folder, "valgrind", &options)?;
+    let agent = exercise.files.first().map(|file| file.name.as_str()).ok_or("there is no C")?;
+    let entry = exercise.interface.first().ok_or("there is no interface")?;
+    profile(exercise, (agent, entry), folder).map_err(|error| error.to_string())?;
     let entries = std::fs::read_dir(folder).map_err(|error| error.to_string())?;
     let profiles = entries.filter_map(Result::ok).map(|entry| entry.path());
     let profiles = profiles
@@ -48,15 +33,25 @@ pub(super) fn costliest(obligations: &Obligations) -> Result<u64, String> {
     costs.into_iter().max().filter(|cost| *cost > 0).ok_or_else(|| "no step was counted".to_owned())
 }
 
-fn run(folder: &Path, program: &str, arguments: &[&str]) -> Result<(), String> {
-    let output = Command::new(program).args(arguments).current_dir(folder).output();
-    let output = output.map_err(|error| format!("{program} cannot be run: {error}"))?;
-    if output.status.success() {
-        return Ok(());
-    }
-    let message = String::from_utf8_lossy(&output.stderr);
-    let first = message.lines().find(|line| line.contains("rror")).unwrap_or("it failed");
-    Err(format!("{program}: {first}"))
+/// Runs the C under callgrind, which leaves a profile of each step in the folder.
+fn profile(
+    exercise: &Exercise,
+    (agent, entry): (&str, &str),
+    folder: &Path,
+) -> Result<(), ToolError> {
+    exercise.files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
+    write(folder, "host.c", HOST)?;
+    let (steps, seed) =
+        (format!("-D{EXERCISE_STEPS}={STEPS}U"), format!("-D{EXERCISE_SEED}={SEED}"));
+    let own = ["-std=c99", OPTIMIZED, "-fno-jump-tables", "-g", "-w", "-c", agent, "-o", "agent.o"];
+    run(folder, "gcc", &own)?;
+    let rest =
+        ["-std=c99", "-g", "-w", &steps, &seed, EXERCISE, "host.c", "agent.o", "-o", "steps"];
+    run(folder, "gcc", &rest)?;
+    let toggle = format!("--toggle-collect={entry}");
+    let dump = format!("--dump-after={entry}");
+    let options = ["--tool=callgrind", "--callgrind-out-file=step", &toggle, &dump, "./steps"];
+    run(folder, "valgrind", &options).map(|_| ())
 }
 
 /// The cost of the lines of one source file in a profile of callgrind (its manual, "Callgrind Format

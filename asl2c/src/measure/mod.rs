@@ -4,7 +4,7 @@ mod costliest_step;
 mod longest_path;
 mod stack;
 
-use translator::{ParsedConfiguration, Translation, obligations};
+use translator::{ParsedConfiguration, Translation, exercise};
 
 /// Adds stack, longest path and costliest step of the compiled C to a translation's report. Returns the
 /// figures that could not be measured, with the reason: one line each, without a full stop.
@@ -27,9 +27,9 @@ pub fn measure(
         Ok(instructions) => report.add_path(stack::COMPILER, instructions),
         Err(reason) => unknown.push(format!("the longest path is unknown: {reason}")),
     }
-    let costliest = obligations(configuration, agent)
+    let costliest = exercise(configuration, agent)
         .map_err(|error| error.to_string())
-        .and_then(|obligations| costliest_step::costliest(&obligations));
+        .and_then(|exercise| costliest_step::costliest(&exercise));
     match costliest {
         Ok(instructions) => report.add_costliest(instructions),
         Err(reason) => unknown.push(format!("no costliest step was found: {reason}")),

@@ -22,7 +22,6 @@ use translator::{Obligations, Promise};
 
 pub use self::cbmc::{CBMC, Cbmc};
 pub(crate) use self::search::{Found, Limits, Searched, search};
-pub(crate) use self::trace::Way;
 pub(crate) use self::validate::difference;
 pub use self::validate::{Difference, Validated, validate};
 

@@ -30,6 +30,16 @@ pub(crate) struct Searched {
     pub(crate) found: Found,
 }
 
+impl Searched {
+    /// The script of a counterexample for `asl2c run`, if there is one.
+    pub(crate) fn script(&self) -> Option<String> {
+        let (Found::Way(way, _) | Found::Unconfirmed(way)) = &self.found else { return None };
+        let what = self.property.as_deref().unwrap_or(&self.said);
+        let lines = way.lines().map(|line| format!("{line}\n"));
+        Some(std::iter::once(format!("// Counterexample: {what}\n")).chain(lines).collect())
+    }
+}
+
 /// Result of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Found {

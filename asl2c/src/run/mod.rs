@@ -8,7 +8,8 @@ mod transcript;
 mod values;
 mod world;
 
-pub(crate) use self::script::is_skipped;
+pub(crate) use self::script::{call_name, is_skipped, parameters};
 pub(crate) use self::session::IDLE;
 pub use self::session::Session;
 pub use self::transcript::{Replay, replay};
+pub(crate) use self::values::{fields, zero};

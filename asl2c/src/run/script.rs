@@ -70,7 +70,7 @@ fn raised(configuration: &Configuration) -> impl Iterator<Item = (String, &Exter
 }
 
 /// `achieve_land` for `+!land`.
-pub(super) fn call_name(event: &ExternalTrigger) -> String {
+pub(crate) fn call_name(event: &ExternalTrigger) -> String {
     let verb = match (event.operator, event.kind) {
         (Operator::Add, TriggerKind::Achieve) => "achieve",
         (Operator::Add, _) => "add",
@@ -307,7 +307,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-fn parameters<'a>(configuration: &'a Configuration, name: &str) -> &'a [CType] {
+pub(crate) fn parameters<'a>(configuration: &'a Configuration, name: &str) -> &'a [CType] {
     let declared = configuration.predicates.iter().find(|other| other.name.text == name);
     declared.map_or(&[], |declared| &declared.parameters)
 }

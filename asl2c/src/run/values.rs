@@ -5,7 +5,7 @@ use translator::interpreter::Value;
 use translator::types::{CType, TypeKind};
 
 /// The zero value of a type.
-pub(super) fn zero(ctype: &CType, configuration: &Configuration) -> Value {
+pub(crate) fn zero(ctype: &CType, configuration: &Configuration) -> Value {
     match ctype.kind {
         TypeKind::Bool => Value::Bool(false),
         TypeKind::Signed { .. } | TypeKind::Unsigned { .. } => Value::Integer(0),
@@ -19,7 +19,7 @@ pub(super) fn zero(ctype: &CType, configuration: &Configuration) -> Value {
 }
 
 /// Types of a struct's fields.
-pub(super) fn fields(ctype: &CType, configuration: &Configuration) -> Vec<CType> {
+pub(crate) fn fields(ctype: &CType, configuration: &Configuration) -> Vec<CType> {
     let declared = configuration.structs.iter().find(|other| other.name.text == ctype.name);
     declared.map_or(Vec::new(), |Struct { fields, .. }| {
         fields.iter().map(|(_, ctype)| ctype.clone()).collect()

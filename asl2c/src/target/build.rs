@@ -16,9 +16,10 @@ const QEMU: &str = "qemu-system-arm";
 const CORE: [&str; 4] = ["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"];
 const STARTUP: &str = include_str!("cortex_m4/startup.c");
 const LAYOUT: &str = include_str!("cortex_m4/image.ld");
-const HOST: &str = include_str!("cortex_m4/host.c");
+/// The program for this machine.
+pub(crate) const HOST: &str = include_str!("cortex_m4/host.c");
 /// Seed of the random calls.
-const SEED: &str = "88172645463325252ULL";
+pub(crate) const SEED: &str = "88172645463325252ULL";
 /// Time limit of QEMU: an execution takes a second.
 const PATIENCE: Duration = Duration::from_mins(5);
 

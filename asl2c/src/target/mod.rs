@@ -16,6 +16,7 @@ use translator::{EXERCISE_STATE, Exercise};
 
 use self::bounds::Bounds;
 use self::build::{Build, failed, io_error, versions};
+pub(crate) use self::build::{HOST, SEED};
 use self::code::Code;
 pub use self::observed::Observed;
 

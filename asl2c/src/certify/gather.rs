@@ -1,0 +1,325 @@
+//! Proves, checks, measures and tests an agent, and gathers the results.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::time::Duration;
+
+use translator::{
+    GeneratedFile, TraceRow, TranslateError, comparison, obligations, trace_rows, translate,
+};
+
+use super::evidence::{
+    Bounds, Evidence, PlanEvidence, PropertyEvidence, Requirement, Status, TestEvidence,
+    ValidationEvidence, Verdict,
+};
+use super::misra::deviations;
+use super::trust::{assumptions, tools};
+use crate::agent::Agent;
+use crate::coverage::{Coverage, CoverageError, cover};
+use crate::measure::measure;
+use crate::prove::{
+    Cbmc, Found, Limits as SearchLimits, Plan, ProveError, Searched, Validated, prove, search,
+    validate,
+};
+use crate::run::Session;
+use crate::tool::ToolError;
+
+/// Why there is no evidence.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CertifyError {
+    /// The agent has errors, or cannot be proved.
+    #[error(transparent)]
+    Translate(#[from] TranslateError),
+    /// CBMC is missing or gave no result.
+    #[error(transparent)]
+    Prove(#[from] ProveError),
+    /// Another tool is missing or failed.
+    #[error("nothing is certified: {0}")]
+    Tool(#[from] ToolError),
+    /// A file of the agent or the evidence.
+    #[error("{what}: {source}")]
+    Io {
+        /// The operation.
+        what: String,
+        /// The system's error.
+        source: std::io::Error,
+    },
+    /// The folder holds something else.
+    #[error(
+        "{folder} is not empty and holds no evidence, so it is not changed; `-o DIR` names another folder"
+    )]
+    Occupied {
+        /// The folder.
+        folder: String,
+    },
+}
+
+impl From<CoverageError> for CertifyError {
+    fn from(error: CoverageError) -> Self {
+        match error {
+            CoverageError::Translate(error) => error.into(),
+            CoverageError::Tool(error) => error.into(),
+        }
+    }
+}
+
+/// Limits of the proofs.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// Time of each proof of the comparison, and of the search for counterexamples.
+    pub time: Duration,
+    /// Maximum length of counterexamples: events, beliefs and steps.
+    pub transitions: u32,
+}
+
+/// The evidence, and the files that it refers to.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Certified {
+    /// The results.
+    pub evidence: Evidence,
+    /// Names and texts: the agent, its C, tests and counterexamples.
+    pub files: Vec<(String, String)>,
+}
+
+/// Folder of the agent's own files in the evidence.
+pub(super) const AGENT: &str = "agent";
+/// Folder of the generated files.
+pub(super) const C: &str = "c";
+const TESTS: &str = "tests";
+const COUNTEREXAMPLES: &str = "counterexamples";
+
+/// Gathers the evidence for an agent; `tell` hears what is being done.
+///
+/// # Errors
+/// If a tool is missing or fails, or the agent cannot be translated or proved.
+pub fn certify(
+    agent: &Agent,
+    cbmc: &Cbmc,
+    limits: Limits,
+    tell: &mut dyn FnMut(&str),
+) -> Result<Certified, CertifyError> {
+    let Agent { configuration, text, .. } = agent;
+    // A missing tool is told before an hour of proofs.
+    let tools = tools(cbmc)?;
+    let include = agent.folder();
+    let mut translation = translate(configuration, text)?;
+    tell("checks the rules of MISRA C:2012");
+    let deviations = deviations(&translation.files, include)?;
+    tell("measures stack and time");
+    let missing = measure(&mut translation, configuration, text);
+    let bounds = Bounds { report: translation.report.to_string(), missing };
+    tell("makes tests and executes them on the C");
+    let coverage = cover(agent, include)?;
+    tell("proves the properties");
+    let Proved { properties, run_time_errors, invariant, mut files } = proved(agent, cbmc, limits)?;
+    tell("compares the C with the agent's text");
+    let validation = validation(agent, cbmc, limits)?;
+
+    let c = &translation.files[0];
+    let rows = trace_rows(configuration, text)?;
+    let plans = plans(&rows, &coverage);
+    let name = |folder: &str, file: &str| format!("{folder}/{file}");
+    let tests: Vec<TestEvidence> = (1..)
+        .zip(&coverage.tests)
+        .map(|(number, test)| TestEvidence {
+            file: name(TESTS, &format!("test_{number:03}.transcript")),
+            plans: test.plans.clone(),
+            difference: test.difference.clone(),
+        })
+        .collect();
+    let whole = 1..=usize::MAX;
+    let not_reached = coverage.counts.lines.iter();
+    let not_reached = not_reached.filter(|line| line.count == 0 || !line.outcomes().is_whole());
+    let configuration_file = agent.path.file_name().unwrap_or_default().to_string_lossy();
+    let evidence = Evidence {
+        agent: name(AGENT, configuration.input()),
+        configuration: name(AGENT, &configuration_file),
+        c: name(C, &c.name),
+        requirements: requirements(&plans, &properties),
+        properties,
+        run_time_errors,
+        invariant,
+        validation,
+        deviations,
+        bounds,
+        statements: coverage.counts.statements(&whole),
+        outcomes: coverage.counts.outcomes(&whole),
+        independent: coverage.independence.conditions,
+        not_measured: coverage.independence.mixed,
+        not_reached: not_reached.map(|line| line.line).collect(),
+        plans,
+        tests,
+        tools,
+        assumptions: assumptions(),
+    };
+    files.extend(own_files(agent, &evidence)?);
+    let generated = translation.files.into_iter();
+    files.extend(generated.map(|GeneratedFile { name: file, text, .. }| (name(C, &file), text)));
+    let transcripts = evidence.tests.iter().zip(coverage.tests);
+    files.extend(transcripts.map(|(test, made)| (test.file.clone(), made.transcript)));
+    files.push((name(TESTS, &coverage.program.name), coverage.program.text));
+    Ok(Certified { evidence, files })
+}
+
+/// The texts that the agent was read from, and the headers that its configuration includes.
+fn own_files(agent: &Agent, evidence: &Evidence) -> Result<Vec<(String, String)>, CertifyError> {
+    let read = |path: &Path| {
+        std::fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).map_err(
+            |source| CertifyError::Io { what: format!("cannot read {}", path.display()), source },
+        )
+    };
+    let mut files = vec![
+        (evidence.agent.clone(), agent.text.clone()),
+        (evidence.configuration.clone(), read(&agent.path)?),
+    ];
+    for name in agent.configuration.included_files() {
+        // Most are system headers; a path that leads out of the folder stays out of the evidence.
+        let path = agent.folder().join(&name);
+        if path.is_file() && Path::new(&name).is_relative() && !name.split('/').any(|p| p == "..") {
+            files.push((format!("{C}/{name}"), read(&path)?));
+        }
+    }
+    Ok(files)
+}
+
+struct Proved {
+    properties: Vec<PropertyEvidence>,
+    run_time_errors: Vec<PropertyEvidence>,
+    invariant: Vec<String>,
+    /// The counterexamples.
+    files: Vec<(String, String)>,
+}
+
+fn proved(agent: &Agent, cbmc: &Cbmc, limits: Limits) -> Result<Proved, CertifyError> {
+    let Agent { configuration, text, .. } = agent;
+    let obligations = obligations(configuration, text)?;
+    let folder = temporary_folder()?;
+    let proof = prove(&obligations, cbmc, folder.path(), &Plan::ALL)?;
+    let mut found = Vec::new();
+    if !proof.holds() {
+        let session = Session::new(configuration, text)?;
+        let Limits { time, transitions } = limits;
+        let limits = SearchLimits { transitions, time };
+        found = search(&proof, configuration, &session, cbmc, folder.path(), limits)?;
+    }
+    let mut files = Vec::new();
+    let properties = proof.properties.iter().map(|(promise, holds)| {
+        let searched = found
+            .iter()
+            .find(|searched| !holds && searched.property.as_deref() == Some(promise.name.as_str()));
+        PropertyEvidence {
+            name: promise.name.clone(),
+            requirements: promise.requirements.clone(),
+            formula: promise.formula.clone(),
+            verdict: if *holds {
+                Verdict::Proved
+            } else {
+                verdict(searched, &promise.name, &mut files)
+            },
+        }
+    });
+    let properties = properties.collect();
+    let errors = found.iter().filter(|searched| searched.property.is_none());
+    let run_time_errors = (1..).zip(errors).map(|(number, searched)| PropertyEvidence {
+        name: searched.said.clone(),
+        requirements: Vec::new(),
+        formula: String::new(),
+        verdict: verdict(Some(searched), &format!("run_time_{number}"), &mut files),
+    });
+    let run_time_errors = run_time_errors.collect();
+    Ok(Proved { properties, run_time_errors, invariant: proof.invariant, files })
+}
+
+/// The verdict of something unproved; its counterexample becomes a file.
+fn verdict(searched: Option<&Searched>, name: &str, files: &mut Vec<(String, String)>) -> Verdict {
+    let Some(searched) = searched else { return Verdict::Undecided };
+    let (Found::Way(_, story), Some(text)) = (&searched.found, searched.script()) else {
+        return Verdict::Undecided;
+    };
+    let script = format!("{COUNTEREXAMPLES}/{name}.script");
+    files.push((script.clone(), text));
+    Verdict::Fails { story: story.iter().map(ToString::to_string).collect(), script }
+}
+
+fn validation(
+    agent: &Agent,
+    cbmc: &Cbmc,
+    limits: Limits,
+) -> Result<ValidationEvidence, CertifyError> {
+    let comparison = comparison(&agent.configuration, &agent.text)?;
+    let folder = temporary_folder()?;
+    let validated = validate(&comparison, cbmc, folder.path(), agent.folder(), limits.time)?;
+    let status = if validated.is_proved() {
+        Status::Shown
+    } else if validated.differs() {
+        Status::Refuted
+    } else {
+        Status::Undecided
+    };
+    let Validated { proofs, calls, timeouts, open } = validated;
+    Ok(ValidationEvidence { status, proofs, calls, timeouts, open })
+}
+
+/// The plans, each once, with its coverage.
+fn plans(rows: &[TraceRow], coverage: &Coverage) -> Vec<PlanEvidence> {
+    let mut plans: Vec<PlanEvidence> = Vec::new();
+    let mut last = None;
+    for row in rows {
+        let requirement = Some(row.requirement.clone()).filter(|tag| !tag.is_empty());
+        if last == Some(row.plan) {
+            if let Some(plan) = plans.last_mut() {
+                plan.requirements.extend(requirement);
+            }
+            continue;
+        }
+        last = Some(row.plan);
+        let part = row.c_lines.0..=row.c_lines.1;
+        let inside = |line: &usize| (row.source_lines.0..=row.source_lines.1).contains(line);
+        let tests = (1..).zip(&coverage.tests);
+        let tests = tests.filter(|(_, test)| test.plans.iter().any(inside));
+        plans.push(PlanEvidence {
+            lines: row.source_lines,
+            trigger: row.trigger.clone(),
+            label: row.label.clone(),
+            requirements: requirement.into_iter().collect(),
+            function: row.function.clone(),
+            c_lines: row.c_lines,
+            statements: coverage.counts.statements(&part),
+            outcomes: coverage.counts.outcomes(&part),
+            tests: tests.map(|(number, _)| number).collect(),
+        });
+    }
+    plans.sort_by_key(|plan| plan.lines);
+    plans
+}
+
+fn requirements(plans: &[PlanEvidence], properties: &[PropertyEvidence]) -> Vec<Requirement> {
+    let of_plans = plans.iter().flat_map(|plan| &plan.requirements);
+    let of_properties = properties.iter().flat_map(|property| &property.requirements);
+    let tags: BTreeSet<&String> = of_plans.chain(of_properties).collect();
+    let indices = |has: &dyn Fn(usize) -> bool, count: usize| {
+        (0..count).filter(|index| has(*index)).collect::<Vec<usize>>()
+    };
+    let requirement = |tag: &String| {
+        let of_plans = indices(&|index| plans[index].requirements.contains(tag), plans.len());
+        let tests: BTreeSet<usize> =
+            of_plans.iter().flat_map(|index| plans[*index].tests.iter().copied()).collect();
+        Requirement {
+            tag: tag.clone(),
+            properties: indices(
+                &|index| properties[index].requirements.contains(tag),
+                properties.len(),
+            ),
+            plans: of_plans,
+            tests: tests.into_iter().collect(),
+        }
+    };
+    tags.into_iter().map(requirement).collect()
+}
+
+fn temporary_folder() -> Result<tempfile::TempDir, CertifyError> {
+    tempfile::tempdir()
+        .map_err(|source| CertifyError::Io { what: "no temporary folder".to_owned(), source })
+}

@@ -1,0 +1,16 @@
+//! The evidence for an agent: what was proved, checked, measured and tested, with everything needed to do it again.
+
+mod evidence;
+mod files;
+mod gather;
+mod misra;
+mod page;
+mod trust;
+
+pub use self::evidence::{
+    Bounds, Evidence, PlanEvidence, PropertyEvidence, Requirement, Status, TestEvidence, Tool,
+    ValidationEvidence, Verdict,
+};
+pub(crate) use self::files::write;
+pub use self::gather::{Certified, CertifyError, Limits, certify};
+pub use self::misra::Deviation;

@@ -1,0 +1,344 @@
+//! The evidence as one page that needs nothing else.
+
+use std::collections::HashMap;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::evidence::{Evidence, PlanEvidence, PropertyEvidence, Status, Verdict};
+use super::files::checksum;
+use super::gather::Certified;
+
+const STYLE: &str = include_str!("page.css");
+
+/// The page.
+pub(super) fn page(certified: &Certified) -> String {
+    let Certified { evidence, files } = certified;
+    let text = |name: &str| {
+        files.iter().find(|(file, _)| file == name).map_or("", |(_, text)| text.as_str())
+    };
+    let markup = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (evidence.agent) ": evidence" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { "Evidence for " (evidence.agent) }
+                p.faint {
+                    "Made by asl2c " (env!("CARGO_PKG_VERSION")) " from " code { (evidence.configuration) } ". "
+                    "Everything here can be made again from these files by " code { "asl2c certify" }
+                    "; " code { "evidence.json" } " has it as data."
+                }
+                (summary(evidence))
+                (requirements(evidence))
+                (properties(evidence))
+                (comparison(evidence))
+                (rules(evidence))
+                h2 #bounds { "Memory and time" }
+                @for missing in &evidence.bounds.missing { p.undecided { (missing) } }
+                pre { (evidence.bounds.report) }
+                (tests(evidence))
+                (plans(evidence))
+                (trust(evidence))
+                h2 #files { "Files" }
+                p { "SHA-256 of the files; " code { "sha256sum -c SHA256SUMS" } " checks them." }
+                table {
+                    @for (name, text) in files {
+                        tr { td { a href=(name) { (name) } } td { code { (checksum(text)) } } }
+                    }
+                }
+                h2 #agent { (evidence.agent) }
+                details open { summary { "The agent's text" } (listing(text(&evidence.agent), "a", &HashMap::new())) }
+                h2 #c { (evidence.c) }
+                (c_listing(evidence, text(&evidence.c)))
+            }
+        }
+    };
+    markup.into_string()
+}
+
+fn word(status: Status) -> (&'static str, &'static str) {
+    match status {
+        Status::Shown => ("shown", "shown"),
+        Status::Undecided => ("undecided", "NOT DECIDED"),
+        Status::Refuted => ("refuted", "REFUTED"),
+    }
+}
+
+fn marked(status: Status) -> Markup {
+    let (class, word) = word(status);
+    html! { span class=(class) { (word) } }
+}
+
+fn summary(evidence: &Evidence) -> Markup {
+    let proved = evidence.properties.iter().filter(|p| p.verdict == Verdict::Proved).count();
+    let outcome = match evidence.status() {
+        Status::Shown => "All of the following is shown.",
+        Status::Undecided => "Some of the following is not decided.",
+        Status::Refuted => "Some of the following is refuted.",
+    };
+    let validation = &evidence.validation;
+    let passed = evidence.tests.iter().filter(|test| test.difference.is_none()).count();
+    html! {
+        p.outcome class=(word(evidence.status()).0) { (outcome) }
+        table {
+            tr { th { "Claim" } th { "Result" } th { "How" } }
+            tr {
+                td { a href="#comparison" { "The C does what the agent's text says" } }
+                td.short { (marked(validation.status)) }
+                td { (validation.proofs) " proofs by CBMC against a second translation: every environment, any number of steps" }
+            }
+            tr {
+                td { a href="#properties" { "The properties hold" } }
+                td.short { (marked(evidence.properties_status())) }
+                td { (proved) " of " (evidence.properties.len()) " proved by CBMC: every environment, any number of steps" }
+            }
+            tr {
+                td { a href="#properties" { "There is no error at run time" } }
+                td.short { (marked(evidence.run_time_status())) }
+                td { "CBMC: no access outside an object, no overflow, no division by zero, no conversion that loses" }
+            }
+            tr {
+                td { a href="#rules" { "The C follows MISRA C:2012" } }
+                td.short { (marked(evidence.rules_status())) }
+                td { (evidence.deviations.len()) " deviations from the rules that cppcheck checks" }
+            }
+            tr {
+                td { a href="#bounds" { "Memory and time are bounded" } }
+                td.short { (marked(evidence.bounds_status())) }
+                td { "No heap, no recursion, no unbounded loop; stack and longest path from the compiled code" }
+            }
+            tr {
+                td { a href="#tests" { "The C passes the tests that are made from the agent's text" } }
+                td.short { (marked(evidence.tests_status())) }
+                td {
+                    (passed) " of " (evidence.tests.len()) " tests; statements " (evidence.statements)
+                    ", outcomes of conditions " (evidence.outcomes) ", MC/DC " (evidence.independent)
+                }
+            }
+        }
+    }
+}
+
+fn plan_link(plan: &PlanEvidence) -> Markup {
+    let label = if plan.label.is_empty() { String::new() } else { format!(" @{}", plan.label) };
+    html! {
+        a href=(format!("#a{}", plan.lines.0)) { "line " (plan.lines.0) } " " code { (plan.trigger) (label) }
+        " → " a href=(format!("#c{}", plan.c_lines.0)) { code { (plan.function) } }
+    }
+}
+
+fn test_links(evidence: &Evidence, numbers: &[usize]) -> Markup {
+    const SHOWN: usize = 8;
+    html! {
+        @for number in numbers.iter().take(SHOWN) {
+            @if let Some(test) = evidence.tests.get(number - 1) { a href=(test.file) { (number) } " " }
+        }
+        @if numbers.len() > SHOWN { span.faint { "and " (numbers.len() - SHOWN) " more" } }
+        @if numbers.is_empty() { span.undecided { "none" } }
+    }
+}
+
+fn requirements(evidence: &Evidence) -> Markup {
+    html! {
+        h2 #requirements { "Requirements" }
+        @if evidence.requirements.is_empty() {
+            p { "Neither plans nor properties name any." }
+        } @else {
+            p.faint { "From the requirement to the plans that implement it and their C, to the properties that are proved, and to the tests in which its plans are chosen." }
+            table {
+                tr { th { "Requirement" } th { "Plans and their C" } th { "Properties" } th { "Tests" } }
+                @for requirement in &evidence.requirements {
+                    tr {
+                        td.short { (requirement.tag) }
+                        td {
+                            @for index in &requirement.plans { (plan_link(&evidence.plans[*index])) br; }
+                            @if requirement.plans.is_empty() { span.faint { "none" } }
+                        }
+                        td {
+                            @for index in &requirement.properties {
+                                @let property = &evidence.properties[*index];
+                                a href=(format!("#p-{}", property.name)) { (property.name) }
+                                " " (marked(property.verdict.status())) br;
+                            }
+                            @if requirement.properties.is_empty() { span.faint { "none" } }
+                        }
+                        td { (test_links(evidence, &requirement.tests)) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn verdict(property: &PropertyEvidence) -> Markup {
+    html! {
+        (marked(property.verdict.status()))
+        @if let Verdict::Fails { story, script } = &property.verdict {
+            details {
+                summary { "counterexample" }
+                pre { (story.join("\n")) }
+                p { "To replay it: " code { "asl2c run" } " with " a href=(script) { (script) } }
+            }
+        }
+    }
+}
+
+fn properties(evidence: &Evidence) -> Markup {
+    html! {
+        h2 #properties { "Properties" }
+        @if evidence.properties.is_empty() { p { "The configuration declares none." } }
+        table {
+            @if !evidence.properties.is_empty() {
+                tr { th { "Property" } th { "Requirement" } th { "What must hold" } th { "Result" } }
+            }
+            @for property in &evidence.properties {
+                tr id=(format!("p-{}", property.name)) {
+                    td { (property.name) }
+                    td { (property.requirements.join(", ")) }
+                    td { code { (property.formula) } }
+                    td { (verdict(property)) }
+                }
+            }
+        }
+        @for error in &evidence.run_time_errors {
+            p { "At run time: " code { (error.name) } " " (verdict(error)) }
+        }
+        details {
+            summary { "The invariant: " (evidence.invariant.len()) " conditions on the agent's state" }
+            p.faint { "The initial state satisfies it, and from any state that satisfies it each call leads to one that does." }
+            pre { (evidence.invariant.join("\n")) }
+        }
+    }
+}
+
+fn comparison(evidence: &Evidence) -> Markup {
+    let validation = &evidence.validation;
+    html! {
+        h2 #comparison { "The C and the agent's text" }
+        p {
+            (marked(validation.status)) ": the text is translated a second time, into plain C by code that shares nothing "
+            "with the back end. From any two related states, with the same answers of the environment, each call makes the "
+            "same calls in the same order and ends in related states (" (validation.proofs) " proofs, up to "
+            (validation.calls) " calls in a step)."
+        }
+        @if validation.timeouts > 0 { p.undecided { (validation.timeouts) " proofs reached their time limit." } }
+        @for said in &validation.open { p { "Open: " code { (said) } } }
+    }
+}
+
+fn rules(evidence: &Evidence) -> Markup {
+    html! {
+        h2 #rules { "MISRA C:2012" }
+        p {
+            "cppcheck and its MISRA addon find " (evidence.deviations.len()) " deviations. The addon does not check all "
+            "rules. That the interface's functions are not called in the C itself is no finding."
+        }
+        @if !evidence.deviations.is_empty() {
+            table {
+                tr { th { "Place" } th { "Rule" } th { "Finding" } }
+                @for deviation in &evidence.deviations {
+                    tr {
+                        td.short { (deviation.file) ":" (deviation.line) }
+                        td.short { (deviation.rule) }
+                        td { (deviation.said) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn tests(evidence: &Evidence) -> Markup {
+    let failed: Vec<_> = (1..)
+        .zip(&evidence.tests)
+        .filter_map(|(number, test)| Some((number, test, test.difference.as_ref()?)))
+        .collect();
+    html! {
+        h2 #tests { "Tests" }
+        p {
+            "The tests are made by running the agent's text in the reference interpreter with random calls and answers, and "
+            "keeping what reaches something new. Each is executed on the C by " code { "tests/tests.c" }
+            "; all calls in either direction must be the same, in order and with all values. "
+            (evidence.tests.len()) " tests, " (failed.len()) " differ."
+        }
+        @for (number, test, difference) in failed {
+            p.refuted { "Test " (number) " (" a href=(test.file) { (test.file) } "): " (difference) }
+        }
+        table {
+            tr { th { "Of the C" } th { "Reached" } }
+            tr { td { "Statements (lines)" } td { (evidence.statements) } }
+            tr { td { "Decisions (outcomes of conditions)" } td { (evidence.outcomes) } }
+            tr { td { "MC/DC (conditions that are shown to decide independently)" } td { (evidence.independent) } }
+        }
+        p.faint {
+            "Measured by gcov. Nearly all decisions of the C are single conditions, for which MC/DC is both outcomes; "
+            "conditions of a chain count if both outcomes of each were seen. " (evidence.not_measured)
+            " conditions in mixtures of && and || count as not shown, because the counts do not tell. "
+            "Outcomes that no execution can have are missing, too: a belief that is always held, for example."
+        }
+    }
+}
+
+fn plans(evidence: &Evidence) -> Markup {
+    html! {
+        h2 #plans { "Plans" }
+        table {
+            tr { th { "Plan" } th { "C" } th { "Statements" } th { "Outcomes" } th { "Chosen in tests" } }
+            @for plan in &evidence.plans {
+                tr {
+                    td {
+                        a href=(format!("#a{}", plan.lines.0)) { "line " (plan.lines.0) } " " code { (plan.trigger) }
+                        @if !plan.label.is_empty() { " " code { "@" (plan.label) } }
+                    }
+                    td { a href=(format!("#c{}", plan.c_lines.0)) { "lines " (plan.c_lines.0) " to " (plan.c_lines.1) } }
+                    td.short { (plan.statements) }
+                    td.short { (plan.outcomes) }
+                    td { (test_links(evidence, &plan.tests)) }
+                }
+            }
+        }
+    }
+}
+
+fn trust(evidence: &Evidence) -> Markup {
+    html! {
+        h2 #trust { "What has to be believed" }
+        table {
+            tr { th { "Program" } th { "Version" } th { "For what" } }
+            @for tool in &evidence.tools {
+                tr { td.short { (tool.name) } td { (tool.version) } td { (tool.trust) } }
+            }
+        }
+        ul { @for assumption in &evidence.assumptions { li { (assumption) } } }
+    }
+}
+
+fn c_listing(evidence: &Evidence, text: &str) -> Markup {
+    let mut classes = HashMap::new();
+    for line in &evidence.not_reached {
+        classes.insert(*line, "part");
+    }
+    html! {
+        details open {
+            summary { "The C" }
+            p.faint { "Lines in which the tests miss a statement or an outcome are coloured: " (evidence.not_reached.len()) "." }
+            (listing(text, "c", &classes))
+        }
+    }
+}
+
+/// A text with numbers of lines, to which links lead.
+fn listing(text: &str, prefix: &str, classes: &HashMap<usize, &str>) -> Markup {
+    html! {
+        pre.text {
+            @for (number, line) in (1_usize..).zip(text.lines()) {
+                span id=(format!("{prefix}{number}")) class=[classes.get(&number)] { i { (number) } (line) }
+                "\n"
+            }
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! The environment of a test: answers of functions, and the trace of all calls.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::fmt::Write as _;
+
+use translator::configuration::Configuration;
+use translator::interpreter::{Decision, Environment, Interpreter, Value};
+use translator::types::{CType, TypeKind};
+use translator::{Act, traced};
+
+use crate::run::{call_name, parameters, zero};
+
+/// Maximum number of plans and formulas that one step may try.
+const LONGEST: u32 = 100_000;
+
+/// Something that a test reaches: a decision and its outcome, or a state of the events.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Goal {
+    /// A condition at these bytes of the agent's text holds or not.
+    Condition(usize, usize, bool),
+    /// The plan with this trigger is chosen or not.
+    Plan(usize, bool),
+    /// A formula succeeds or not.
+    Formula(usize, bool),
+    /// A step begins with this event as the next one, or with none.
+    Next(String),
+    /// While this event is the next one, an event is refused, aborted, or not handled completely.
+    Counted(usize, String),
+    /// So many events wait.
+    Waiting(usize),
+    Cleared,
+}
+
+/// A test in execution.
+#[derive(Debug, Clone)]
+pub(super) struct Execution<'a> {
+    configuration: &'a Configuration,
+    agent: Interpreter,
+    world: World<'a>,
+}
+
+#[derive(Debug, Clone)]
+struct World<'a> {
+    configuration: &'a Configuration,
+    answers: BTreeMap<String, VecDeque<Value>>,
+    trace: String,
+    reached: BTreeSet<Goal>,
+}
+
+impl<'a> Execution<'a> {
+    /// Before the first act: functions return 0, `false` or the like.
+    pub(super) fn new(agent: Interpreter, configuration: &'a Configuration) -> Self {
+        let functions =
+            configuration.basics.iter().filter(|basic| basic.result.kind != TypeKind::Void);
+        let answers = functions.map(|basic| {
+            (basic.name.text.clone(), VecDeque::from([zero(&basic.result, configuration)]))
+        });
+        let answers = answers.collect();
+        let world =
+            World { configuration, answers, trace: String::new(), reached: BTreeSet::new() };
+        Self { configuration, agent, world }
+    }
+
+    /// What was reached.
+    pub(super) fn reached(&self) -> &BTreeSet<Goal> {
+        &self.world.reached
+    }
+
+    /// The trace, in the form of [`translator::scripted`], without the test's number.
+    pub(super) fn trace(&self) -> String {
+        let mut trace = self.world.trace.clone();
+        // Writing to a string cannot fail.
+        _ = writeln!(trace, "> can_add_event() = {}", self.agent.can_add_event());
+        for (name, count) in self.counts() {
+            _ = writeln!(trace, "> {name}_events() = {count}");
+        }
+        trace
+    }
+
+    /// The next answer of a function.
+    pub(super) fn answer(&self, function: &str) -> Option<&Value> {
+        self.world.answers.get(function).and_then(VecDeque::front)
+    }
+
+    fn counts(&self) -> Vec<(&'static str, u32)> {
+        let mut counts = vec![
+            ("unhandled", self.agent.unhandled_events()),
+            ("refused", self.agent.refused_events()),
+        ];
+        // Only agents with pre-empting events have the function.
+        if !self.configuration.preemptive.is_empty() {
+            counts.push(("aborted", self.agent.aborted_events()));
+        }
+        counts
+    }
+
+    /// The next event, without its values.
+    fn next(&self) -> String {
+        let mut depth = 0;
+        let mut name = self.agent.waiting().into_iter().next().unwrap_or_default();
+        name.retain(|character| {
+            depth += i32::from(character == '(') - i32::from(character == ')');
+            depth == 0 && !character.is_ascii_digit()
+        });
+        name
+    }
+
+    /// Executes an act. False if a step is too long: the state is undefined then.
+    pub(super) fn execute(&mut self, act: &Act) -> bool {
+        let trace = |values: &[Value], types: &[CType]| {
+            let values = values.iter().zip(types);
+            let values = values.map(|(value, ctype)| traced(value, ctype, self.configuration));
+            values.collect::<Vec<_>>().join(", ")
+        };
+        let before = self.counts();
+        let next = self.next();
+        match act {
+            Act::Raise(event, values) => {
+                let name = &event.name.text;
+                let values_text = trace(values, parameters(self.configuration, name));
+                let result = self.agent.raise(event.operator, event.kind, name, values.clone());
+                let accepted = result.is_ok();
+                let call = call_name(event);
+                _ = writeln!(self.world.trace, "> {call}({values_text}) = {accepted}");
+            }
+            Act::Set(belief, values) => {
+                let values_text = trace(values, parameters(self.configuration, belief));
+                _ = writeln!(self.world.trace, "> set_{belief}({values_text})");
+                self.agent.set(belief.clone(), values.clone());
+            }
+            Act::Answer(function, values) => {
+                self.world.answers.insert(function.clone(), values.iter().cloned().collect());
+            }
+            Act::Clear => {
+                self.world.trace += "> clear()\n";
+                self.world.reached.insert(Goal::Cleared);
+                self.agent.clear();
+            }
+            Act::Step => {
+                self.world.trace += "> next_step()\n";
+                self.world.reached.insert(Goal::Next(next.clone()));
+                if self.agent.next_step_within(LONGEST, &mut self.world).is_err() {
+                    return false;
+                }
+            }
+        }
+        for (index, (before, after)) in before.iter().zip(self.counts()).enumerate() {
+            if before.1 != after.1 {
+                self.world.reached.insert(Goal::Counted(index, next.clone()));
+            }
+        }
+        self.world.reached.insert(Goal::Waiting(self.agent.waiting().len()));
+        true
+    }
+}
+
+impl Environment for World<'_> {
+    fn update_beliefs(&mut self) -> Vec<(String, Vec<Value>)> {
+        Vec::new()
+    }
+
+    fn call(&mut self, name: &str, arguments: &[Value], result: &CType) -> Option<Value> {
+        let basic = self.configuration.basics.iter().find(|basic| basic.name.text == name);
+        let types = basic.map_or(&[][..], |basic| &basic.parameters);
+        let values = arguments.iter().zip(types);
+        let values: Vec<String> =
+            values.map(|(value, ctype)| traced(value, ctype, self.configuration)).collect();
+        _ = write!(self.trace, "{name}({})", values.join(", "));
+        let answer = if result.kind == TypeKind::Void {
+            None
+        } else {
+            let answers = self.answers.get_mut(name)?;
+            let answer = answers.front().cloned()?;
+            if answers.len() > 1 {
+                answers.pop_front();
+            }
+            _ = write!(self.trace, " = {}", traced(&answer, result, self.configuration));
+            Some(answer)
+        };
+        self.trace.push('\n');
+        answer
+    }
+
+    fn decided(&mut self, decision: Decision) {
+        self.reached.insert(match decision {
+            Decision::Condition { place, holds } => Goal::Condition(place.start, place.end, holds),
+            Decision::Plan { place, applies } => Goal::Plan(place.start, applies),
+            Decision::Formula { place, succeeded } => Goal::Formula(place.start, succeeded),
+        });
+    }
+}
