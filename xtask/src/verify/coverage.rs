@@ -5,39 +5,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
+use asl2c::{Counts, Share};
 use serde::Deserialize;
 
 use super::{VerifyError, folder, in_file};
 
 /// Test filters: flights in simulated time, and the agent's own tests.
 const TESTS: [&str; 5] = ["agent::", "simulated::", "safety::", "faults::", "estimate::"];
-
-/// A covered fraction.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Share {
-    /// Number covered.
-    pub(super) ran: usize,
-    /// Number in total.
-    pub(super) all: usize,
-}
-
-impl Share {
-    fn count(&mut self, ran: bool) {
-        self.ran += usize::from(ran);
-        self.all += 1;
-    }
-
-    fn add(&mut self, other: Self) {
-        self.ran += other.ran;
-        self.all += other.all;
-    }
-}
-
-impl std::fmt::Display for Share {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} of {}", self.ran, self.all)
-    }
-}
 
 /// Coverage of one plan.
 #[derive(Debug, Clone)]
@@ -108,7 +82,7 @@ pub(super) fn measure() -> Result<Coverage, VerifyError> {
         return Err(VerifyError::Tool { tool: "cargo test", output: text });
     }
     let mut gcov = Command::new("gcov");
-    gcov.args(["--json-format", "--stdout", "--branch-probabilities", "--branch-counts"]);
+    gcov.args(Counts::OPTIONS);
     let output = gcov.args(files(&counted, "gcda")?).current_dir(&counted).output();
     let output = output.map_err(in_file("cannot run", Path::new("gcov")))?;
     let read = |name: &str| {
@@ -118,7 +92,8 @@ pub(super) fn measure() -> Result<Coverage, VerifyError> {
     let odd = |tool: &'static str| {
         move |error: serde_json::Error| VerifyError::Tool { tool, output: error.to_string() }
     };
-    let counts: Counts = serde_json::from_slice(&output.stdout).map_err(odd("gcov"))?;
+    let counted_lines = String::from_utf8_lossy(&output.stdout);
+    let counts = Counts::parse(&counted_lines, "autopilot.c").map_err(odd("gcov"))?;
     let rows: Vec<Row> = serde_json::from_str(&read("trace.json")?).map_err(odd("asl2c"))?;
     Ok(assign(&counts, &rows, &read("autopilot.c")?))
 }
@@ -127,30 +102,6 @@ fn files(folder: &Path, extension: &str) -> Result<Vec<std::path::PathBuf>, Veri
     let entries = std::fs::read_dir(folder).map_err(in_file("cannot read", folder))?;
     let paths = entries.filter_map(Result::ok).map(|entry| entry.path());
     Ok(paths.filter(|path| path.extension().is_some_and(|own| own == extension)).collect())
-}
-
-/// Output of gcov.
-#[derive(Debug, Deserialize)]
-struct Counts {
-    files: Vec<FileCounts>,
-}
-
-#[derive(Debug, Deserialize)]
-struct FileCounts {
-    file: String,
-    lines: Vec<LineCounts>,
-}
-
-#[derive(Debug, Deserialize)]
-struct LineCounts {
-    line_number: usize,
-    count: u64,
-    branches: Vec<BranchCounts>,
-}
-
-#[derive(Debug, Deserialize)]
-struct BranchCounts {
-    count: u64,
 }
 
 /// A row of the trace matrix: a plan and one of its requirements.
@@ -171,8 +122,6 @@ struct Place {
 
 /// Assigns counts to plans. A plan is chosen where its function calls the trace function.
 fn assign(counts: &Counts, rows: &[Row], source: &str) -> Coverage {
-    let of_agent = counts.files.iter().filter(|file| file.file.ends_with("autopilot.c"));
-    let counted: Vec<&LineCounts> = of_agent.flat_map(|file| &file.lines).collect();
     let traces: Vec<bool> = source.lines().map(|line| line.contains("tracePlan(")).collect();
     let mut plans: Vec<PlanCoverage> = Vec::new();
     let mut last = None;
@@ -186,30 +135,20 @@ fn assign(counts: &Counts, rows: &[Row], source: &str) -> Coverage {
         }
         last = Some(row.plan);
         let [first, end] = row.c.lines;
-        let inside = counted.iter().filter(|line| (first..=end).contains(&line.line_number));
-        let mut outcomes = Share::default();
-        let mut chosen = 0;
-        for line in inside {
-            line.branches.iter().for_each(|branch| outcomes.count(branch.count > 0));
-            if traces.get(line.line_number - 1) == Some(&true) {
-                chosen = line.count;
-            }
-        }
+        let part = first..=end;
+        let inside = counts.lines.iter().filter(|line| part.contains(&line.line));
+        let chosen = inside.filter(|line| traces.get(line.line - 1) == Some(&true)).last();
         plans.push(PlanCoverage {
             line: row.source.lines[0],
             trigger: row.trigger.clone(),
             label: row.label.clone(),
             requirements: requirement.into_iter().collect(),
-            chosen,
-            outcomes,
+            chosen: chosen.map_or(0, |line| line.count),
+            outcomes: counts.outcomes(&part),
         });
     }
-    let (mut outcomes, mut lines) = (Share::default(), Share::default());
-    for line in counted {
-        lines.count(line.count > 0);
-        line.branches.iter().for_each(|branch| outcomes.count(branch.count > 0));
-    }
-    Coverage { plans, outcomes, lines }
+    let whole = 1..=usize::MAX;
+    Coverage { plans, outcomes: counts.outcomes(&whole), lines: counts.statements(&whole) }
 }
 
 #[cfg(test)]
@@ -231,7 +170,7 @@ mod tests {
         let rows = format!("[{}, {}]", row("A"), row("B"));
         let source = "f\n{ if (a)\ntracePlan(self, 0U);\n}\nif (b)\n";
         let coverage = assign(
-            &serde_json::from_str(counts).unwrap(),
+            &Counts::parse(counts, "autopilot.c").unwrap(),
             &serde_json::from_str::<Vec<Row>>(&rows).unwrap(),
             source,
         );
