@@ -276,18 +276,19 @@ const EVERYTHING: Case = Case {
 /// cppcheck's checks and its MISRA addon only report that the interface is not called.
 #[test]
 fn generated_c_passes_the_misra_addon() {
-    let autopilot = parse_configuration(
-        "autopilot.conf",
-        include_str!("../../../autopilot/agent/autopilot.conf"),
-    )
-    .unwrap();
-    let autopilot =
-        translate(&autopilot, include_str!("../../../autopilot/agent/autopilot.asl")).unwrap();
+    let gallery = ["paper", "lift", "traffic_light", "infusion", "rover", "inspection"];
+    let gallery = gallery.map(|name| format!("agents/{name}"));
+    let shipped = std::iter::once("../autopilot/agent/autopilot".to_owned());
+    let agents = gallery.into_iter().chain(shipped).map(|path| {
+        let read = |ending: &str| std::fs::read_to_string(format!("{path}.{ending}")).unwrap();
+        let configuration = parse_configuration(&path, &read("conf")).unwrap();
+        translate(&configuration, &read("asl")).unwrap()
+    });
     let others = [(LAMP, ""), (EVERYTHING, CLOCK)].into_iter().flat_map(|(case, clock)| {
         ["", "instance = context;", "inbox = 3;", "max_events = 2;"]
             .map(|settings| case.translate(&format!("{clock} {settings}")).unwrap())
     });
-    for translation in std::iter::once(autopilot).chain(others) {
+    for translation in agents.chain(others) {
         let folder = tempfile::tempdir().unwrap();
         for file in &translation.files {
             std::fs::write(folder.path().join(&file.name), &file.text).unwrap();

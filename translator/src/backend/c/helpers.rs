@@ -168,7 +168,12 @@ fn unsigned_max(bits: u32) -> String {
 }
 
 fn signed_limits(bits: u32) -> (String, String) {
-    (format!("INT{bits}_MIN"), format!("INT{bits}_MAX"))
+    let min = match bits {
+        // Checkers replace the macro by a constant without its suffix, which would violate MISRA's rule 7.2.
+        64 => "(-INT64_MAX - 1)".to_owned(),
+        bits => format!("INT{bits}_MIN"),
+    };
+    (min, format!("INT{bits}_MAX"))
 }
 
 /// A type's name as part of an identifier.
