@@ -136,8 +136,8 @@ fn assign(counts: &Counts, rows: &[Row], source: &str) -> Coverage {
         last = Some(row.plan);
         let [first, end] = row.c.lines;
         let part = first..=end;
-        let inside = counts.lines.iter().filter(|line| part.contains(&line.line));
-        let chosen = inside.filter(|line| traces.get(line.line - 1) == Some(&true)).last();
+        let mut inside = counts.lines.iter().filter(|line| part.contains(&line.line));
+        let chosen = inside.find(|line| traces.get(line.line - 1) == Some(&true));
         plans.push(PlanCoverage {
             line: row.source.lines[0],
             trigger: row.trigger.clone(),
