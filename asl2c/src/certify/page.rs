@@ -261,7 +261,8 @@ fn tests(evidence: &Evidence) -> Markup {
         h2 #tests { "Tests" }
         p {
             "The tests are made by running the agent's text in the reference interpreter with random calls and answers, and "
-            "keeping what reaches something new. Each is executed on the C by " code { "tests/tests.c" }
+            "keeping what reaches something new: a plan, an outcome of a condition, values that are less, equal or greater in a "
+            "comparison. Each is executed on the C by " code { "tests/tests.c" }
             "; all calls in either direction must be the same, in order and with all values. "
             (evidence.tests.len()) " tests, " (failed.len()) " differ."
         }

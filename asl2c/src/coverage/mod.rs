@@ -64,24 +64,32 @@ pub struct Coverage {
 /// See [`CoverageError`].
 pub fn cover(agent: &Agent, include: &Path) -> Result<Coverage, CoverageError> {
     let found = search(&agent.configuration, &agent.text)?;
-    let acts: Vec<Vec<Act>> = found.iter().map(|test| test.acts.clone()).collect();
-    let files = scripted(&agent.configuration, &agent.text, &acts)?;
+    let files = program(agent, &found)?;
     let (said, counts) = executed(&files, include)?;
-    let traces: Vec<&str> = said.split("# ").skip(1).collect();
     let mut tests = Vec::new();
-    for (index, test) in found.iter().enumerate() {
-        let number = index + 1;
-        let expected = format!("{number}\n{}", test.trace);
+    for ((number, test), difference) in (1..).zip(&found).zip(differences(&found, &said)) {
         let plans = test.plans.iter().map(|place| line(&agent.text, *place)).collect();
-        tests.push(Test {
-            transcript: transcript(agent, number, test)?,
-            plans,
-            difference: difference(&expected, traces.get(index).copied().unwrap_or_default()),
-        });
+        tests.push(Test { transcript: transcript(agent, number, test)?, plans, difference });
     }
     let independence = Independence::new(&counts, &files[0].text);
     let program = files.into_iter().rev().find(|file| file.name == TESTS).unwrap_or_default();
     Ok(Coverage { tests, program, counts, independence })
+}
+
+/// The agent's C and a program that executes the tests on it.
+fn program(agent: &Agent, tests: &[Found]) -> Result<Vec<GeneratedFile>, TranslateError> {
+    let acts: Vec<Vec<Act>> = tests.iter().map(|test| test.acts.clone()).collect();
+    scripted(&agent.configuration, &agent.text, &acts)
+}
+
+/// The first difference of each test in the trace of all.
+fn differences(tests: &[Found], said: &str) -> Vec<Option<String>> {
+    let mut traces = said.split("# ").skip(1);
+    let difference = |(number, test): (usize, &Found)| {
+        let expected = format!("{number}\n{}", test.trace);
+        difference(&expected, traces.next().unwrap_or_default())
+    };
+    (1..).zip(tests).map(difference).collect()
 }
 
 /// Compiles and runs the program. Returns its trace and the counts of the C.
@@ -149,5 +157,65 @@ fn act_line(act: &Act) -> String {
         Act::Answer(function, values) => format!("{function}_result = {};", list(values)),
         Act::Clear => "clear();".to_owned(),
         Act::Step => "next_step();".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lamp() -> Agent {
+        let configuration =
+            "settings { input = lamp.asl; output = lamp.c; header = lamp.h; basics = b.h; };
+            includes { #include <stdbool.h>
+            #include <stdint.h> };
+            basics { void shine(int32_t); void warn(void); bool dark(void); };
+            types { light(int32_t); level(int32_t); limit(int32_t); };
+            settables { level; }; triggerables { +!light; };";
+        let text = "limit(4711).\n+!light(X) : dark & level(Y) & limit(Max) & Y < Max <- shine(X); !light(Y).\n\
+            +!light(3) <- warn.\n+!light(_).\n";
+        let configuration = translator::parse_configuration("lamp.conf", configuration).unwrap();
+        Agent { configuration, text: text.to_owned(), path: "lamp.conf".into() }
+    }
+
+    #[test]
+    fn tests_reach_what_can_be_reached() {
+        let found = cover(&lamp(), Path::new(".")).unwrap();
+        assert!(found.tests.iter().all(|test| test.difference.is_none()), "{:?}", found.tests);
+        let plans: std::collections::BTreeSet<usize> =
+            found.tests.iter().flat_map(|test| test.plans.iter().copied()).collect();
+        assert_eq!(plans, [2, 3, 4].into());
+        let missed = found.counts.lines.iter().filter(|line| line.count == 0);
+        // The counters would have to overflow.
+        assert!(missed.count() <= 1, "{:?}", found.counts);
+        assert!(found.tests.iter().any(|test| test.transcript.contains("4711")));
+        // The same ones each time.
+        assert_eq!(cover(&lamp(), Path::new(".")).unwrap(), found);
+    }
+
+    #[test]
+    fn a_changed_c_fails_tests() {
+        let agent = lamp();
+        let found = search(&agent.configuration, &agent.text).unwrap();
+        let files = program(&agent, &found).unwrap();
+        let judged = |from: &str, to: &str| {
+            let mut files = files.clone();
+            let changed = files[0].text.replacen(from, to, 1);
+            assert!(from == to || changed != files[0].text, "{from}:\n{}", files[0].text);
+            files[0].text = changed;
+            let (said, _) = executed(&files, Path::new(".")).unwrap();
+            differences(&found, &said).into_iter().flatten().next()
+        };
+        assert_eq!(judged("", ""), None);
+        for (from, to) in [
+            ("var_Y < var_Max", "var_Y <= var_Max"),
+            ("value1 = dark()", "value1 = !dark()"),
+            ("warn();", ""),
+            ("shine(var_X);", "shine(var_Y);"),
+            ("agent.belief_level_1 = argument1;", ""),
+        ] {
+            let difference = judged(from, to).expect(from);
+            assert!(difference.contains("instead of"), "{difference}");
+        }
     }
 }

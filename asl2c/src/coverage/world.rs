@@ -1,5 +1,6 @@
 //! The environment of a test: answers of functions, and the trace of all calls.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt::Write as _;
 
@@ -18,6 +19,8 @@ const LONGEST: u32 = 100_000;
 pub(super) enum Goal {
     /// A condition at these bytes of the agent's text holds or not.
     Condition(usize, usize, bool),
+    /// In the comparison there the first value is less, equal or greater, or not to be compared.
+    Compared(usize, Option<Ordering>),
     /// The plan with this trigger is chosen or not.
     Plan(usize, bool),
     /// A formula succeeds or not.
@@ -184,6 +187,7 @@ impl Environment for World<'_> {
     fn decided(&mut self, decision: Decision) {
         self.reached.insert(match decision {
             Decision::Condition { place, holds } => Goal::Condition(place.start, place.end, holds),
+            Decision::Compared { place, order } => Goal::Compared(place.start, order),
             Decision::Plan { place, applies } => Goal::Plan(place.start, applies),
             Decision::Formula { place, succeeded } => Goal::Formula(place.start, succeeded),
         });

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::format_collect, reason = "tests build texts, and read better so")]
 
+mod certified;
 mod files;
 mod fmt;
 mod gallery;

@@ -217,10 +217,12 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Option<Substitution> {
         match expression {
-            Expression::Compare { operator, left, right, .. } => {
+            Expression::Compare { operator, left, right, span } => {
                 let ctype = self.type_of(left, theta).or_else(|| self.type_of(right, theta))?;
                 let left = self.evaluate(left, &ctype, theta, environment)?;
                 let right = self.evaluate(right, &ctype, theta, environment)?;
+                let (place, order) = (span.clone(), Value::order(&left, &right));
+                environment.decided(Decision::Compared { place, order });
                 Value::compare(*operator, &left, &right).then(|| theta.clone())
             }
             Expression::Bind { variable, value, .. } => {

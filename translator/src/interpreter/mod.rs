@@ -11,6 +11,7 @@ mod recursion;
 mod story;
 mod value;
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 use std::sync::Arc;
 
@@ -49,6 +50,13 @@ pub enum Decision {
         place: Span,
         /// Whether it holds.
         holds: bool,
+    },
+    /// Two values were compared.
+    Compared {
+        /// The comparison.
+        place: Span,
+        /// How the first is to the second; `None` if that is not defined, as for NaN.
+        order: Option<Ordering>,
     },
     /// A plan is chosen, or does not apply.
     Plan {

@@ -1,6 +1,6 @@
 //! Values within the range of their C type.
 
-use std::cmp::Ordering::{Equal, Greater, Less};
+use std::cmp::Ordering::{self, Equal, Greater, Less};
 use std::fmt;
 
 use crate::syntax::ast::{Arithmetic, Expression, Relation};
@@ -135,9 +135,9 @@ impl Value {
         left.iter().zip(right).all(|(left, right)| Self::compare(Relation::Equal, left, right))
     }
 
-    /// Whether two values satisfy a relation.
-    pub fn compare(relation: Relation, left: &Self, right: &Self) -> bool {
-        let order = match (left, right) {
+    /// How one value is to another; `None` if that is not defined.
+    pub(super) fn order(left: &Self, right: &Self) -> Option<Ordering> {
+        match (left, right) {
             (Self::Bool(left), Self::Bool(right)) => left.partial_cmp(right),
             (Self::Integer(left), Self::Integer(right)) => left.partial_cmp(right),
             (Self::Float(left), Self::Float(right)) => left.partial_cmp(right),
@@ -145,7 +145,12 @@ impl Value {
                 Some(Equal)
             }
             _ => None,
-        };
+        }
+    }
+
+    /// Whether two values satisfy a relation.
+    pub fn compare(relation: Relation, left: &Self, right: &Self) -> bool {
+        let order = Self::order(left, right);
         match relation {
             Relation::Less => order == Some(Less),
             Relation::LessOrEqual => matches!(order, Some(Less | Equal)),

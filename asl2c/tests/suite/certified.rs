@@ -1,0 +1,176 @@
+//! `asl2c certify`: the folder, the page, and what it says of agents that are right and wrong.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use asl2c::{Agent, cover};
+use serde_json::Value;
+
+use crate::harness::{cbmc, skip};
+
+const AGENTS: &str = "../translator/agents";
+
+/// Certifies an agent of the gallery; `None` without CBMC or another tool.
+fn certify(agent: &Path, folder: &Path) -> Option<Output> {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return None;
+    };
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    command.arg("certify").arg(agent).arg("-o").arg(folder).arg("--cbmc").arg(cbmc);
+    let output = command.output().unwrap();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    if complaint.contains("nothing is certified") {
+        skip("cppcheck, gcc or valgrind");
+        return None;
+    }
+    Some(output)
+}
+
+fn gallery(name: &str) -> PathBuf {
+    Path::new(AGENTS).join(format!("{name}.conf"))
+}
+
+/// All files of a folder and below, with their content.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in std::fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                let name = path.strip_prefix(folder).unwrap().display().to_string();
+                found.push((name, std::fs::read(&path).unwrap()));
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+fn evidence(folder: &Path) -> Value {
+    serde_json::from_slice(&std::fs::read(folder.join("evidence.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn the_evidence_is_whole_and_the_same_each_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let (first, second) = (folder.path().join("first"), folder.path().join("second"));
+    let Some(output) = certify(&gallery("lift"), &first) else { return };
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("C and text    shown (10 proofs)"), "{said}");
+    certify(&gallery("lift"), &second).unwrap();
+    assert_eq!(files(&first), files(&second));
+    // Again into the same folder: nothing of the first is left but what somebody else has put there.
+    std::fs::write(second.join("review.txt"), "seen").unwrap();
+    certify(&gallery("lift"), &second).unwrap();
+    assert_eq!(files(&second).len(), files(&first).len() + 1);
+    let checked = Command::new("sha256sum")
+        .args(["--quiet", "-c", "SHA256SUMS"])
+        .current_dir(&first)
+        .output();
+    assert!(checked.unwrap().status.success());
+    // A reader of the folder alone can run each test and make the C again.
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        command.args(arguments).current_dir(&first).output().unwrap()
+    };
+    let tests = evidence(&first)["tests"].as_array().unwrap().clone();
+    assert!(tests.len() > 3);
+    for test in tests {
+        let file = test["file"].as_str().unwrap();
+        let replayed = run(&["run", "agent/lift.conf", "--script", file]);
+        assert!(replayed.status.success(), "{}", String::from_utf8_lossy(&replayed.stdout));
+    }
+    let made = folder.path().join("made");
+    std::fs::create_dir(&made).unwrap();
+    assert!(run(&["agent/lift.conf", "-o", made.to_str().unwrap()]).status.success());
+    let read = |path: &Path| std::fs::read(path).unwrap();
+    assert_eq!(read(&made.join("lift.c")), read(&first.join("c/lift.c")));
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_counterexample() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(output) = certify(&gallery("infusion"), folder.path()) else { return };
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("properties    REFUTED (6 of 7)"), "{said}");
+    let evidence = evidence(folder.path());
+    let properties = evidence["properties"].as_array().unwrap();
+    let wrong = properties.iter().find(|property| property["name"] == "air_is_heard").unwrap();
+    let script = wrong["verdict"]["fails"]["script"].as_str().unwrap();
+    let mut replayed = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    replayed.args(["run", "agent/infusion.conf", "--script", script]).current_dir(folder.path());
+    let replayed = replayed.output().unwrap();
+    let shown = String::from_utf8_lossy(&replayed.stdout);
+    assert!(shown.contains("breaks `air_is_heard`"), "{shown}");
+    // The way from a requirement to its plans, their C, the property, and the tests.
+    let requirements = evidence["requirements"].as_array().unwrap();
+    let air = requirements.iter().find(|requirement| requirement["tag"] == "PUMP-4").unwrap();
+    assert_eq!(air["plans"].as_array().unwrap().len(), 3);
+    assert!(!air["tests"].as_array().unwrap().is_empty());
+    let page = std::fs::read_to_string(folder.path().join("index.html")).unwrap();
+    assert!(page.contains("air_is_heard") && !page.contains("http"), "{page}");
+}
+
+/// A warning of the compiler, a rule that is broken, a difference: whatever is found, is told.
+#[test]
+fn other_peoples_folders_are_not_changed() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("thesis.txt"), "ten years").unwrap();
+    let Some(output) = certify(&gallery("lift"), folder.path()) else { return };
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said.contains("is not empty and holds no evidence"), "{said}");
+    assert_eq!(files(folder.path()).len(), 1);
+}
+
+#[test]
+fn a_missing_tool_is_no_evidence() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    command.arg("certify").arg(gallery("lift")).arg("-o").arg(folder.path());
+    let output = command.args(["--cbmc", "./no-cbmc"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(3));
+    assert!(files(folder.path()).is_empty());
+    if let Some(cbmc) = cbmc() {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        command.arg("certify").arg(gallery("lift")).arg("-o").arg(folder.path());
+        // A path with gcc, which CBMC needs, but not the other tools.
+        let tools = tempfile::tempdir().unwrap();
+        for tool in ["gcc", "sh"] {
+            let found = Command::new("which").arg(tool).output().unwrap().stdout;
+            let found = String::from_utf8(found).unwrap();
+            std::os::unix::fs::symlink(found.trim(), tools.path().join(tool)).unwrap();
+        }
+        let output = command.arg("--cbmc").arg(cbmc).env("PATH", tools.path()).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{said}");
+        assert!(said.contains("apt install"), "{said}");
+        assert!(files(folder.path()).is_empty());
+    }
+}
+
+/// The tests of each agent, and of the shipped one: no difference, and hardly a line of the C that is not reached.
+#[test]
+fn generated_tests_reach_the_c() {
+    let names = ["paper", "lift", "traffic_light", "infusion", "rover", "inspection"];
+    let mut paths: Vec<PathBuf> = names.iter().map(|name| gallery(name)).collect();
+    paths.push("../autopilot/agent/autopilot.conf".into());
+    for path in paths {
+        let agent = Agent::read(&path).unwrap();
+        let Ok(found) = cover(&agent, Path::new(".")) else {
+            skip("gcc");
+            return;
+        };
+        let differences: Vec<&String> =
+            found.tests.iter().filter_map(|test| test.difference.as_ref()).collect();
+        assert!(differences.is_empty(), "{} {differences:?}", path.display());
+        let statements = found.counts.statements(&(1..=usize::MAX));
+        assert!(statements.ran * 100 >= statements.all * 96, "{} {statements}", path.display());
+    }
+}
