@@ -31,8 +31,8 @@ mod verify;
 pub use agent::{Agent, ReadError};
 pub use certify::{
     Bounds, Certified, CertifyError, Deviation, Evidence, Limits, PlanEvidence, PropertyEvidence,
-    Requirement, Status, TestEvidence, Tool, ValidationEvidence, Verdict as PropertyVerdict,
-    certify,
+    Reach, Reached, Requirement, Status, TestEvidence, Tool, ValidationEvidence,
+    Verdict as PropertyVerdict, certify,
 };
 pub use coverage::{Counts, Coverage, CoverageError, Independence, LineCount, Share, Test, cover};
 pub use measure::measure;

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::misra::Deviation;
+use super::reach::Reach;
 use crate::coverage::Share;
 
 /// Result of one kind of evidence.
@@ -173,16 +174,10 @@ pub struct Evidence {
     pub bounds: Bounds,
     /// The plans.
     pub plans: Vec<PlanEvidence>,
-    /// Executed lines of the C.
-    pub statements: Share,
-    /// Seen outcomes of its conditions.
-    pub outcomes: Share,
-    /// Conditions that are shown to decide independently (MC/DC).
-    pub independent: Share,
-    /// Of those that are not, conditions for which the tools cannot tell.
+    /// What the tests reach of the C, and what nothing can reach.
+    pub reach: Reach,
+    /// Conditions in mixtures of `&&` and `||`, of which the counts do not tell whether they decide independently.
     pub not_measured: usize,
-    /// Lines of the C that were not executed, or of which an outcome was not seen.
-    pub not_reached: Vec<usize>,
     /// The tests.
     pub tests: Vec<TestEvidence>,
     /// The programs that were used.
@@ -207,9 +202,10 @@ impl Evidence {
         if self.deviations.is_empty() { Status::Shown } else { Status::Refuted }
     }
 
-    /// Whether all tests pass. Coverage is not judged.
+    /// Whether all tests pass, and reach nothing that is proved to be unreachable. Coverage is not judged.
     pub fn tests_status(&self) -> Status {
-        let failed = self.tests.iter().any(|test| test.difference.is_some());
+        let failed = self.tests.iter().any(|test| test.difference.is_some())
+            || !self.reach.contradictions.is_empty();
         if failed { Status::Refuted } else { Status::Shown }
     }
 

@@ -13,13 +13,14 @@ use super::evidence::{
     ValidationEvidence, Verdict,
 };
 use super::misra::deviations;
+use super::reach::reach;
 use super::trust::{assumptions, tools};
 use crate::agent::Agent;
 use crate::coverage::{Coverage, CoverageError, cover};
 use crate::measure::measure;
 use crate::prove::{
-    Cbmc, Found, Limits as SearchLimits, Plan, ProveError, Searched, Validated, prove, search,
-    validate,
+    Cbmc, DeadBranches, Found, Limits as SearchLimits, Plan, ProveError, Searched, Validated,
+    dead_branches, prove, search, validate,
 };
 use crate::run::Session;
 use crate::tool::ToolError;
@@ -113,7 +114,8 @@ pub fn certify(
     tell("makes tests and executes them on the C");
     let coverage = cover(agent, include)?;
     tell("proves the properties");
-    let Proved { properties, run_time_errors, invariant, mut files } = proved(agent, cbmc, limits)?;
+    let Proved { properties, run_time_errors, invariant, mut files, c: proved_c, dead } =
+        proved(agent, cbmc, limits)?;
     tell("compares the C with the agent's text");
     let validation = validation(agent, cbmc, limits)?;
 
@@ -129,9 +131,6 @@ pub fn certify(
             difference: test.difference.clone(),
         })
         .collect();
-    let whole = 1..=usize::MAX;
-    let not_reached = coverage.counts.lines.iter();
-    let not_reached = not_reached.filter(|line| line.count == 0 || !line.outcomes().is_whole());
     let configuration_file = agent.path.file_name().unwrap_or_default().to_string_lossy();
     let evidence = Evidence {
         agent: name(AGENT, configuration.input()),
@@ -144,11 +143,8 @@ pub fn certify(
         validation,
         deviations,
         bounds,
-        statements: coverage.counts.statements(&whole),
-        outcomes: coverage.counts.outcomes(&whole),
-        independent: coverage.independence.conditions,
+        reach: reach(&c.text, &coverage.counts, &proved_c, &dead),
         not_measured: coverage.independence.mixed,
-        not_reached: not_reached.map(|line| line.line).collect(),
         plans,
         tests,
         tools,
@@ -190,6 +186,9 @@ struct Proved {
     invariant: Vec<String>,
     /// The counterexamples.
     files: Vec<(String, String)>,
+    /// The C that was proved, and its branches that nothing takes.
+    c: String,
+    dead: DeadBranches,
 }
 
 fn proved(agent: &Agent, cbmc: &Cbmc, limits: Limits) -> Result<Proved, CertifyError> {
@@ -197,6 +196,7 @@ fn proved(agent: &Agent, cbmc: &Cbmc, limits: Limits) -> Result<Proved, CertifyE
     let obligations = obligations(configuration, text)?;
     let folder = temporary_folder()?;
     let proof = prove(&obligations, cbmc, folder.path(), &Plan::ALL)?;
+    let dead = dead_branches(&obligations, cbmc, folder.path())?;
     let mut found = Vec::new();
     if !proof.holds() {
         let session = Session::new(configuration, text)?;
@@ -229,7 +229,8 @@ fn proved(agent: &Agent, cbmc: &Cbmc, limits: Limits) -> Result<Proved, CertifyE
         verdict: verdict(Some(searched), &format!("run_time_{number}"), &mut files),
     });
     let run_time_errors = run_time_errors.collect();
-    Ok(Proved { properties, run_time_errors, invariant: proof.invariant, files })
+    let c = obligations.files.into_iter().next().unwrap_or_default().text;
+    Ok(Proved { properties, run_time_errors, invariant: proof.invariant, files, c, dead })
 }
 
 /// The verdict of something unproved; its counterexample becomes a file.

@@ -2,9 +2,11 @@
 
 mod evidence;
 mod files;
+mod flow;
 mod gather;
 mod misra;
 mod page;
+mod reach;
 mod trust;
 
 pub use self::evidence::{
@@ -14,3 +16,4 @@ pub use self::evidence::{
 pub(crate) use self::files::write;
 pub use self::gather::{Certified, CertifyError, Limits, certify};
 pub use self::misra::Deviation;
+pub use self::reach::{Reach, Reached};

@@ -7,6 +7,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::evidence::{Evidence, PlanEvidence, PropertyEvidence, Status, Verdict};
 use super::files::checksum;
 use super::gather::Certified;
+use super::reach::Reached;
 
 const STYLE: &str = include_str!("page.css");
 
@@ -115,8 +116,10 @@ fn summary(evidence: &Evidence) -> Markup {
                 td { a href="#tests" { "The C passes the tests that are made from the agent's text" } }
                 td.short { (marked(evidence.tests_status())) }
                 td {
-                    (passed) " of " (evidence.tests.len()) " tests; statements " (evidence.statements)
-                    ", outcomes of conditions " (evidence.outcomes) ", MC/DC " (evidence.independent)
+                    (passed) " of " (evidence.tests.len()) " tests. They reach all "
+                    (evidence.reach.outcomes.all) " outcomes of conditions but "
+                    (evidence.reach.outcomes.unreachable) " that are proved to be unreachable and "
+                    (evidence.reach.outcomes.open()) " others"
                 }
             }
         }
@@ -270,16 +273,36 @@ fn tests(evidence: &Evidence) -> Markup {
             p.refuted { "Test " (number) " (" a href=(test.file) { (test.file) } "): " (difference) }
         }
         table {
-            tr { th { "Of the C" } th { "Reached" } }
-            tr { td { "Statements (lines)" } td { (evidence.statements) } }
-            tr { td { "Decisions (outcomes of conditions)" } td { (evidence.outcomes) } }
-            tr { td { "MC/DC (conditions that are shown to decide independently)" } td { (evidence.independent) } }
+            tr { th { "Of the C" } th { "Tested" } th { "Proved to be unreachable" } th { "Open" } th { "All" } }
+            (reached("Statements (lines)", evidence.reach.statements))
+            (reached("Decisions (outcomes of conditions)", evidence.reach.outcomes))
+            (reached("MC/DC (conditions that decide independently)", evidence.reach.conditions))
+        }
+        @for line in &evidence.reach.contradictions {
+            p.refuted {
+                "A test reaches in " a href=(format!("#c{line}")) { "line " (line) }
+                " what is proved to be unreachable: the proof or the measurement is wrong."
+            }
         }
         p.faint {
             "Measured by gcov. Nearly all decisions of the C are single conditions, for which MC/DC is both outcomes; "
-            "conditions of a chain count if both outcomes of each were seen. " (evidence.not_measured)
-            " conditions in mixtures of && and || count as not shown, because the counts do not tell. "
-            "Outcomes that no execution can have are missing, too: a belief that is always held, for example."
+            "conditions of a chain count if both outcomes of each were seen, and as unreachable if all that are missing are. "
+            (evidence.not_measured)
+            " conditions in mixtures of && and || count as open, because the counts do not tell. What is unreachable is "
+            "proved by CBMC from the invariant, for executions without a call of clear() and a second call of init(). "
+            "The overflow of a counter of events is open: it would take 4 294 967 295 events."
+        }
+    }
+}
+
+fn reached(what: &str, reached: Reached) -> Markup {
+    html! {
+        tr {
+            td { (what) }
+            td { (reached.tested) }
+            td { (reached.unreachable) }
+            td { (reached.open()) }
+            td { (reached.all) }
         }
     }
 }
@@ -320,13 +343,15 @@ fn trust(evidence: &Evidence) -> Markup {
 
 fn c_listing(evidence: &Evidence, text: &str) -> Markup {
     let mut classes = HashMap::new();
-    for line in &evidence.not_reached {
-        classes.insert(*line, "part");
-    }
+    classes.extend(evidence.reach.open_lines.iter().map(|line| (*line, "part")));
+    classes.extend(evidence.reach.unreachable_lines.iter().map(|line| (*line, "no")));
     html! {
         details open {
             summary { "The C" }
-            p.faint { "Lines in which the tests miss a statement or an outcome are coloured: " (evidence.not_reached.len()) "." }
+            p.faint {
+                span.part { (evidence.reach.open_lines.len()) " lines" } " have a statement or an outcome that no test reaches; "
+                span.no { (evidence.reach.unreachable_lines.len()) " lines" } " one that is proved to be unreachable."
+            }
             (listing(text, "c", &classes))
         }
     }

@@ -37,12 +37,14 @@ pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
 fn as_text(evidence: &Evidence) -> String {
     let proved = evidence.properties.iter().filter(|p| p.verdict == Verdict::Proved).count();
     let proved = format!("{proved} of {}", evidence.properties.len());
+    let outcomes = evidence.reach.outcomes;
     let tests = format!(
-        "{} tests; statements {}, outcomes {}, MC/DC {}",
+        "{} tests; of {} outcomes of conditions {} tested, {} unreachable, {} open",
         evidence.tests.len(),
-        evidence.statements,
-        evidence.outcomes,
-        evidence.independent
+        outcomes.all,
+        outcomes.tested,
+        outcomes.unreachable,
+        outcomes.open()
     );
     let proofs = format!("{} proofs", evidence.validation.proofs);
     let rows = [

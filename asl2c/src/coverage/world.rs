@@ -31,7 +31,6 @@ pub(super) enum Goal {
     Counted(usize, String),
     /// So many events wait.
     Waiting(usize),
-    Cleared,
 }
 
 /// A test in execution.
@@ -136,7 +135,6 @@ impl<'a> Execution<'a> {
             }
             Act::Clear => {
                 self.world.trace += "> clear()\n";
-                self.world.reached.insert(Goal::Cleared);
                 self.agent.clear();
             }
             Act::Step => {

@@ -1,5 +1,6 @@
 //! Runs CBMC, the model checker for C.
 
+use std::collections::BTreeSet;
 use std::io::{Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -202,6 +203,20 @@ impl Cbmc {
         Ok(Some(String::from_utf8_lossy(&bytes).into_owned()))
     }
 
+    /// The branches of a file that a function of the harness cannot take.
+    pub(super) fn dead(
+        &self,
+        folder: &Path,
+        function: &str,
+        file: &str,
+    ) -> Result<DeadBranches, ProveError> {
+        let text = self.run(folder, function, Checks::Properties, &["--cover", "branch"])?;
+        if !text.contains(" covered (") {
+            return Err(ProveError::NoResult { output: end(&text) });
+        }
+        Ok(dead_branches(&text, file))
+    }
+
     /// Searches for counterexamples from the initial state, up to this number of transitions; `None` on a
     /// timeout.
     pub(super) fn ways(
@@ -237,6 +252,40 @@ fn failure(line: &str) -> Option<Failure> {
         None => said,
     };
     Some(Failure { name: name.trim_start_matches('[').to_owned(), said: said.to_owned() })
+}
+
+/// Branches of the C that no execution takes.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct DeadBranches {
+    /// Functions that are never entered.
+    pub(crate) functions: BTreeSet<String>,
+    /// Lines whose condition is never true; the condition of a label is that the value is another one.
+    pub(crate) never_true: BTreeSet<usize>,
+    /// Lines whose condition is never false.
+    pub(crate) never_false: BTreeSet<usize>,
+}
+
+/// Reads the goals of `--cover branch`. Conditions are jumps over what they guard, so a branch that is taken is one whose
+/// condition is false; that of a label is a jump to what it guards.
+fn dead_branches(text: &str, file: &str) -> DeadBranches {
+    let mut dead = DeadBranches::default();
+    for line in text.lines().filter_map(|line| line.strip_suffix(": FAILED")) {
+        let Some((_, place)) = line.split_once(&format!(" file {file} line ")) else { continue };
+        let mut words = place.split(' ');
+        let (Some(number), Some("function"), Some(function)) =
+            (words.next().and_then(|word| word.parse().ok()), words.next(), words.next())
+        else {
+            continue;
+        };
+        if place.ends_with("entry point") {
+            dead.functions.insert(function.to_owned());
+        } else if place.ends_with("branch true") {
+            dead.never_false.insert(number);
+        } else if place.ends_with("branch false") {
+            dead.never_true.insert(number);
+        }
+    }
+    dead
 }
 
 /// Whether CBMC's output says that all assertions hold.
@@ -279,6 +328,18 @@ fn end(said: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_not_covered_is_dead() {
+        let text = "[f.coverage.1] file harness.c line 9 function f block 1 branch true: FAILED\n\
+            [g.coverage.1] file a.c line 3 function g entry point: FAILED\n\
+            [h.coverage.2] file a.c line 7 function h block 1 branch false: SATISFIED\n\
+            [h.coverage.3] file a.c line 7 function h block 1 branch true: FAILED\n\
+            [h.coverage.4] file a.c line 8 function h block 2 branch false: FAILED\n";
+        let dead = dead_branches(text, "a.c");
+        assert_eq!(dead.functions, ["g".to_owned()].into());
+        assert_eq!((dead.never_false, dead.never_true), ([7].into(), [8].into()));
+    }
 
     #[test]
     fn an_assertion_is_found_by_its_property() {

@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 
 use translator::{Obligations, Promise};
 
+pub(crate) use self::cbmc::DeadBranches;
 pub use self::cbmc::{CBMC, Cbmc};
 pub(crate) use self::search::{Found, Limits, Searched, search};
 pub(crate) use self::validate::difference;
@@ -157,6 +158,20 @@ pub fn violates(
     let invariant = obligations.invariant(&tried(obligations, known));
     write(folder, &invariant.name, &invariant.text)?;
     cbmc.violates(folder, "induction", property)
+}
+
+/// The branches of the agent's C that no execution takes, after a [`prove`] of all in the same folder: from no state that
+/// satisfies its invariant does a transition take them. Transitions are events, beliefs that are set, and steps.
+///
+/// # Errors
+/// If CBMC gives no result.
+pub(crate) fn dead_branches(
+    obligations: &Obligations,
+    cbmc: &Cbmc,
+    folder: &Path,
+) -> Result<DeadBranches, ProveError> {
+    let file = obligations.files.first().map_or("", |file| &file.name);
+    cbmc.dead(folder, "induction", file)
 }
 
 /// Indices of the known candidates, or of all if none are known.
