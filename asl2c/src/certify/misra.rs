@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use translator::GeneratedFile;
 
-use crate::tool::{ToolError, output, write};
+use crate::tool::{ToolError, include_option, output, write};
 
 /// A violated rule or a complaint.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -53,7 +53,7 @@ pub(super) fn deviations(
 }
 
 fn checked(folder: &Path, file: &str, include: &Path) -> Result<Vec<Deviation>, ToolError> {
-    let include = format!("-I{}", include.display());
+    let include = include_option(include);
     let options = ["--addon=misra", "--enable=all", "--std=c99", "--quiet", PARTS, &include];
     let result = output(folder, CPPCHECK, &[&options[..], &SUPPRESSED, &[file]].concat())?;
     let said = String::from_utf8_lossy(&result.stderr);

@@ -17,7 +17,7 @@ pub use self::independence::Independence;
 use self::search::{Found, search};
 use crate::agent::Agent;
 use crate::run::{Session, call_name};
-use crate::tool::{ToolError, run, write};
+use crate::tool::{ToolError, include_option, run, write};
 
 /// Why there is no coverage.
 #[derive(Debug, thiserror::Error)]
@@ -98,10 +98,7 @@ fn executed(files: &[GeneratedFile], include: &Path) -> Result<(String, Counts),
     let folder = tempfile::tempdir().map_err(no_folder)?;
     let folder = folder.path();
     files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
-    // Made absolute, because the compiler is run in another folder. A bare file name has no folder.
-    let include = if include.as_os_str().is_empty() { Path::new(".") } else { include };
-    let include = std::path::absolute(include).unwrap_or_else(|_| include.to_owned());
-    let include = format!("-I{}", include.display());
+    let include = include_option(include);
     let c = &files[0].name;
     let compiled = ["-std=c99", "-O0", "-w", "-I.", &include];
     run(folder, "gcc", &[&compiled[..], &["--coverage", "-c", c, "-o", "agent.o"]].concat())?;

@@ -5,6 +5,7 @@
 
 mod certified;
 mod files;
+mod first_agent;
 mod fmt;
 mod gallery;
 mod guide;

@@ -1,0 +1,78 @@
+//! `docs/first-agent.md` is what a newcomer sees: the test writes its files and runs its commands.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::Command;
+
+use crate::harness::{cbmc, skip};
+
+const PAGE: &str = "../docs/first-agent.md";
+
+/// What a command of the page prints; progress is on standard error.
+fn printed(command: &str, folder: &Path, cbmc: &Path) -> String {
+    let arguments = command.strip_prefix("asl2c ").unwrap().split(' ');
+    let arguments: Vec<&str> = arguments.collect();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    program.args(&arguments).current_dir(folder);
+    if ["prove", "validate", "certify"].contains(&arguments[0]) {
+        program.arg("--cbmc").arg(cbmc);
+    }
+    String::from_utf8(program.output().unwrap().stdout).unwrap()
+}
+
+/// The page with what its commands print here.
+fn followed(page: &str, folder: &Path, cbmc: &Path) -> String {
+    let mut text = String::new();
+    let mut file = None;
+    let mut lines = page.lines();
+    while let Some(line) = lines.next() {
+        writeln!(text, "{line}").unwrap();
+        let named = line.strip_prefix('`').and_then(|rest| rest.strip_suffix("`:"));
+        file = named.map(str::to_owned).or(file);
+        let Some(kind) = line.strip_prefix("```").filter(|kind| !kind.is_empty()) else { continue };
+        let block: Vec<&str> = lines.by_ref().take_while(|line| *line != "```").collect();
+        if kind == "console" {
+            let command = block[0].strip_prefix("$ ").unwrap();
+            writeln!(text, "$ {command}\n{}```", printed(command, folder, cbmc)).unwrap();
+        } else {
+            let content: String = block.iter().map(|line| format!("{line}\n")).collect();
+            writeln!(text, "{content}```").unwrap();
+            let name = file.take().expect("a file's name is before its text");
+            std::fs::write(folder.join(name), content).unwrap();
+        }
+    }
+    text
+}
+
+/// Counts of the compiled C depend on the compiler.
+fn without_counts(page: &str) -> String {
+    let lines = page.lines().map(|line| match line.split_once(" tests; of ") {
+        Some((before, _)) if line.starts_with("tests ") => before,
+        _ => line,
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// `UPDATE_PAGES=1` writes what is printed into the page.
+#[test]
+fn the_page_shows_what_a_newcomer_sees() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    for tool in ["cppcheck", "valgrind"] {
+        if Command::new(tool).arg("--version").output().is_err() {
+            skip(tool);
+            return;
+        }
+    }
+    let page = std::fs::read_to_string(PAGE).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let seen = followed(&page, folder.path(), &cbmc);
+    if std::env::var_os("UPDATE_PAGES").is_some() {
+        std::fs::write(PAGE, seen).unwrap();
+    } else {
+        assert_eq!(without_counts(&seen), without_counts(&page));
+    }
+    assert!(folder.path().join("evidence/index.html").is_file());
+}
