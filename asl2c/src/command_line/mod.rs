@@ -3,6 +3,8 @@
 mod arguments;
 mod fmt;
 mod messages;
+#[allow(clippy::disallowed_methods, reason = "people are told how long a proof takes")]
+mod progress;
 mod prompt;
 mod prove;
 mod run;
