@@ -24,8 +24,8 @@ pub const COMPARISON: &str = "comparison.c";
 pub struct Comparison {
     /// The C of the agent first, then its headers, then [`COMPARISON`].
     pub files: Vec<GeneratedFile>,
-    /// Number of the functions `plain_case_0`, `plain_case_1`, ..: one for each event that can be the next.
-    pub steps: usize,
+    /// The functions `plain_case_0`, `plain_case_1`, ..: one for each event that can be the next, which is named here.
+    pub cases: Vec<String>,
     /// A bound for all loops of the functions, but for that of `main`.
     pub unwinding: usize,
 }

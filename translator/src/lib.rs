@@ -277,7 +277,7 @@ pub fn comparison(
     files.push(GeneratedFile { name: COMPARISON.to_owned(), text, setting: "" });
     Ok(Comparison {
         files,
-        steps: backend::c::steps(&program),
+        cases: backend::c::cases(&program),
         unwinding: backend::c::unwinding(&program),
     })
 }

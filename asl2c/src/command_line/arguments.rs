@@ -238,6 +238,12 @@ pub(super) struct Validate {
     /// Time limit of each proof, and of the search for a difference, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 600)]
     pub(super) time: u64,
+    /// Time limit of all together, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 7200)]
+    pub(super) total: u64,
+    /// Do not print the progress
+    #[arg(short, long)]
+    pub(super) quiet: bool,
     /// Print one JSON object
     #[arg(long)]
     pub(super) json: bool,

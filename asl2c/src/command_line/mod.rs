@@ -4,6 +4,8 @@ mod arguments;
 mod certify;
 mod fmt;
 mod messages;
+#[allow(clippy::disallowed_methods, reason = "people are told how long a proof takes")]
+mod progress;
 mod prompt;
 mod prove;
 mod run;

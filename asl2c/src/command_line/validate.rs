@@ -8,10 +8,13 @@ use std::time::Duration;
 use serde_json::json;
 use translator::{Happening, comparison};
 
-use super::arguments::Validate;
+use super::arguments::{Validate, is_json};
+use super::progress::Progress;
 use super::{CommandError, NOT_CHECKED, print};
 use crate::agent::Agent;
-use crate::prove::{Cbmc, Difference, Limits, ProveError, Validated, difference, validate};
+use crate::prove::{
+    Budget, Cbmc, Difference, ProveError, Validated, Watch, difference, validate_watched,
+};
 use crate::run::Session;
 
 /// A difference, what the agent does on the way to it, and its script.
@@ -36,15 +39,18 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?;
     let folder = tempfile::tempdir()
         .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;
-    let time = Duration::from_secs(asked.time);
-    let include = agent.folder();
-    let validated = validate(&comparison, &cbmc, folder.path(), include, time)?;
+    let [each, total] = [asked.time, asked.total].map(Duration::from_secs);
+    let budget = Budget::begin(each, Some(total));
+    let progress = Progress::new(asked.quiet || is_json(&asked.message_format))
+        .map_err(|source| ProveError::Io { what: "cannot wait for a stop".to_owned(), source })?;
+    let folders = (folder.path(), agent.folder());
+    let validated = validate_watched(&comparison, &cbmc, folders, budget, &progress)?;
     let mut shown = None;
     if validated.differs() {
-        let limits = Limits { transitions: asked.length, time };
         let declared = configuration.declarations();
-        let folders = (folder.path(), include);
-        let found = difference(&comparison, declared, &cbmc, folders, validated.calls, limits)?;
+        let lengths = (validated.calls, asked.length);
+        let limits = (budget, &progress as &dyn Watch);
+        let found = difference(&comparison, declared, &cbmc, folders, lengths, limits)?;
         if let Some(difference) = found {
             let session = Session::new(configuration, text)?;
             let output = asked.output.as_deref().unwrap_or(agent.folder());
@@ -55,10 +61,11 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
         Some(c) => c.display().to_string(),
         None => comparison.files[0].name.clone(),
     };
+    progress.close();
     let text = if asked.json {
         as_json(&c, &validated, shown.as_ref())
     } else {
-        as_text(&c, &validated, shown.as_ref(), &agent)
+        as_text(&c, &validated, shown.as_ref(), &agent, progress.stops())
     };
     print("the result", &text)?;
     Ok(if shown.is_some() {
@@ -95,7 +102,13 @@ fn show(
     Ok(Shown { difference, story, path })
 }
 
-fn as_text(c: &str, validated: &Validated, shown: Option<&Shown>, agent: &Agent) -> String {
+fn as_text(
+    c: &str,
+    validated: &Validated,
+    shown: Option<&Shown>,
+    agent: &Agent,
+    stopped: bool,
+) -> String {
     let mut text = String::new();
     let input = agent.configuration.input();
     if let Some(Shown { difference, story, path }) = shown {
@@ -110,7 +123,7 @@ fn as_text(c: &str, validated: &Validated, shown: Option<&Shown>, agent: &Agent)
         _ = writeln!(text, "{c}: does what {input} says, in every environment");
         _ = writeln!(
             text,
-            "({} proofs, with up to {} calls in a step)",
+            "({} proofs, with up to {} answers of an action in a step)",
             validated.proofs, validated.calls
         );
     } else {
@@ -120,13 +133,12 @@ fn as_text(c: &str, validated: &Validated, shown: Option<&Shown>, agent: &Agent)
         }
         if validated.timeouts > 0 {
             let Validated { timeouts, proofs, .. } = validated;
-            _ = writeln!(
-                text,
-                "  {timeouts} of {proofs} proofs were not finished in time (--time)"
-            );
+            let why = if stopped { "before the stop" } else { "in time (--time, --total)" };
+            _ = writeln!(text, "  {timeouts} of {proofs} proofs were not finished {why}");
         }
         if validated.differs() {
-            text += "  no way from the start to such a state was found (--length, --time)\n";
+            text +=
+                "  no way from the start to such a state was found (--length, --time, --total)\n";
         }
     }
     text

@@ -158,18 +158,17 @@ impl Cbmc {
         Ok(Some(text.lines().filter_map(failure).collect()))
     }
 
-    /// The traces to all assertions of a function that fail; `None` on a timeout.
+    /// The traces to all assertions of a function that fail; `None` if it was given up.
     pub(super) fn traces(
         &self,
         folder: &Path,
         (file, function): (&str, &str),
         arguments: &[String],
-        until: Instant,
+        give_up: impl Fn() -> bool,
     ) -> Result<Option<Vec<Trace>>, ProveError> {
         let mut command = self.program(folder, file, function);
         command.args(["--trace", "--json-ui", "--object-bits", "20"]).args(arguments);
-        let late = || Instant::now() >= until;
-        let Some(text) = self.output(&mut command, late)? else { return Ok(None) };
+        let Some(text) = self.output(&mut command, give_up)? else { return Ok(None) };
         traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
     }
 

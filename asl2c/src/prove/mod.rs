@@ -13,6 +13,8 @@ mod shrink;
 mod trace;
 #[allow(clippy::disallowed_methods, reason = "the comparison gets a limited time")]
 mod validate;
+#[allow(clippy::disallowed_methods, reason = "proofs get a limited time")]
+mod watch;
 
 use std::collections::HashSet;
 use std::io;
@@ -24,7 +26,8 @@ pub(crate) use self::cbmc::DeadBranches;
 pub use self::cbmc::{CBMC, Cbmc};
 pub(crate) use self::search::{Found, Limits, Searched, search};
 pub(crate) use self::validate::difference;
-pub use self::validate::{Difference, Validated, validate};
+pub use self::validate::{Difference, Validated, validate, validate_watched};
+pub use self::watch::{Budget, End, Part, Watch};
 
 /// Errors that prevent a proof.
 #[derive(Debug, thiserror::Error)]

@@ -10,9 +10,10 @@ use translator::{COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM}
 
 use super::cbmc::{Cbmc, Failure};
 use super::trace::Way;
+use super::watch::{Budget, End, Part, Watch};
 use super::{ProveError, in_file, write};
 
-/// First limit of the calls in a step, and the last one that is tried.
+/// First limit of the answers to one action in a step, and the last one that is tried.
 const ROOMS: std::ops::RangeInclusive<u32> = 2..=1024;
 
 /// Function that only asserts that no state is left out.
@@ -28,9 +29,9 @@ pub struct Validated {
     pub proofs: usize,
     /// What differs, by CBMC's description; empty if the C is proved.
     pub open: Vec<String>,
-    /// Proofs that reached the time limit; none if there is a difference, which ends the others.
+    /// Proofs that reached a time limit or were stopped; none if there is a difference, which ends the others.
     pub timeouts: usize,
-    /// The largest number of calls in a step that had to be compared, rounded up to a power of two.
+    /// The largest number of answers of one action in a step that had to be compared, rounded up to a power of two.
     pub calls: u32,
 }
 
@@ -74,24 +75,44 @@ pub fn validate(
     include: &Path,
     time: Duration,
 ) -> Result<Validated, ProveError> {
+    validate_watched(comparison, cbmc, (folder, include), Budget::begin(time, None), &())
+}
+
+/// As [`validate`], with a limit for all proofs together, and somebody who follows them and may stop them.
+///
+/// # Errors
+/// As [`validate`].
+pub fn validate_watched(
+    comparison: &Comparison,
+    cbmc: &Cbmc,
+    (folder, include): (&Path, &Path),
+    budget: Budget,
+    watch: &dyn Watch,
+) -> Result<Validated, ProveError> {
     std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
     comparison.files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
-    let steps = (0..comparison.steps).map(|step| format!("plain_case_{step}"));
-    let functions =
-        ["plain_base", COVER, "plain_interface"].map(str::to_owned).into_iter().chain(steps);
-    let functions: Vec<String> = functions.collect();
+    let parts = parts(comparison);
     let next = AtomicUsize::new(0);
     let different = AtomicBool::new(false);
     let results = Mutex::new(Vec::new());
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
-        for _ in 0..workers.min(functions.len()) {
+        for _ in 0..workers.min(parts.len()) {
             scope.spawn(|| {
-                while let Some(function) = functions.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let until = Instant::now() + time;
+                while let Some((function, part)) = parts.get(next.fetch_add(1, Ordering::Relaxed)) {
                     // What follows a difference tells no more, and may take long.
-                    let give_up = || different.load(Ordering::Relaxed) || Instant::now() >= until;
-                    let result = prove(comparison, cbmc, folder, include, function, give_up);
+                    let needless = || different.load(Ordering::Relaxed);
+                    let result = if needless() || watch.stops() || budget.is_over() {
+                        Ok(None)
+                    } else {
+                        let begun = Instant::now();
+                        watch.begins(part);
+                        let late = budget.late(watch);
+                        let give_up = || needless() || late();
+                        let result = prove(comparison, cbmc, folder, include, function, give_up);
+                        watch.ends(part, end(&result), begun.elapsed());
+                        result
+                    };
                     if let Ok(Some((failures, _))) = &result
                         && failures.iter().any(|failure| is_difference(&failure.said))
                     {
@@ -105,15 +126,17 @@ pub fn validate(
         }
     });
     let results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let mut validated =
-        Validated { proofs: functions.len(), open: Vec::new(), timeouts: 0, calls: 0 };
+    let mut validated = Validated { proofs: parts.len(), open: Vec::new(), timeouts: 0, calls: 0 };
     for result in results {
-        match result? {
-            Some((failures, calls)) => {
+        match result {
+            Ok(Some((failures, calls))) => {
                 validated.calls = validated.calls.max(calls);
                 validated.open.extend(failures.into_iter().map(|failure| failure.said));
             }
-            None => validated.timeouts += 1,
+            Ok(None) => validated.timeouts += 1,
+            // A terminal interrupts CBMC too, which then says nothing.
+            Err(ProveError::NoResult { .. }) if watch.stops() => validated.timeouts += 1,
+            Err(error) => return Err(error),
         }
     }
     if validated.differs() {
@@ -123,6 +146,27 @@ pub fn validate(
     validated.open.sort();
     validated.open.dedup();
     Ok(validated)
+}
+
+/// The functions to prove.
+fn parts(comparison: &Comparison) -> Vec<(String, Part)> {
+    let others = [("plain_base", "the start"), (COVER, "all steps are proved")];
+    let others = others.into_iter().chain([("plain_interface", "calls of the environment")]);
+    let others = others.map(|(function, what)| (function.to_owned(), what.to_owned()));
+    let steps = comparison.cases.iter().enumerate();
+    let steps = steps.map(|(step, case)| (format!("plain_case_{step}"), format!("step: {case}")));
+    let functions: Vec<(String, String)> = others.chain(steps).collect();
+    let of = functions.len();
+    let parts = functions.into_iter().enumerate();
+    parts.map(|(number, (function, what))| (function, Part { number, of, what })).collect()
+}
+
+fn end(result: &Result<Option<(Vec<Failure>, u32)>, ProveError>) -> End {
+    match result {
+        Ok(Some((failures, _))) if failures.is_empty() => End::Proved,
+        Ok(Some(_)) => End::Open,
+        Ok(None) | Err(_) => End::GivenUp,
+    }
 }
 
 /// Whether a failure tells of something done differently, and not of a bound.
@@ -185,8 +229,8 @@ fn arguments(comparison: &Comparison, include: &Path, room: u32) -> Vec<String> 
     ]
 }
 
-/// Searches for the shortest execution from the start in which the two differ, of at most this number of
-/// events, beliefs and steps; [`validate`] has written the files. `None` if there is none, or not in time.
+/// Searches for the shortest execution from the start in which the two differ, of at most this `length` in events,
+/// beliefs and steps; [`validate`] has written the files. `None` if there is none, or not in time.
 ///
 /// # Errors
 /// If CBMC gives no result.
@@ -195,18 +239,29 @@ pub(crate) fn difference(
     configuration: &Configuration,
     cbmc: &Cbmc,
     (folder, include): (&Path, &Path),
-    calls: u32,
-    limits: super::Limits,
+    (calls, length): (u32, u32),
+    (budget, watch): (Budget, &dyn Watch),
 ) -> Result<Option<Difference>, ProveError> {
-    let until = Instant::now() + limits.time;
-    for length in 1..=limits.transitions {
+    let late = budget.late(watch);
+    let of = length as usize;
+    for length in 1..=length {
+        let what = format!("the shortest way to a difference: not within {}", length - 1);
+        let part = Part { number: length as usize - 1, of, what };
+        watch.begins(&part);
+        let begun = Instant::now();
         let mut arguments = arguments(comparison, include, calls.max(*ROOMS.start()));
         // One more than the number of rounds: the last one only leaves the loop.
         arguments.extend(["--unwindset".to_owned(), format!("main.0:{}", length + 1)]);
         arguments.push("--no-unwinding-assertions".to_owned());
-        let Some(traces) = cbmc.traces(folder, (COMPARISON, "main"), &arguments, until)? else {
-            return Ok(None);
+        let found = cbmc.traces(folder, (COMPARISON, "main"), &arguments, &late);
+        let found = if watch.stops() { Ok(None) } else { found };
+        let end = match &found {
+            Ok(Some(traces)) if traces.is_empty() => End::Proved,
+            Ok(Some(_)) => End::Open,
+            Ok(None) | Err(_) => End::GivenUp,
         };
+        watch.ends(&part, end, begun.elapsed());
+        let Some(traces) = found? else { return Ok(None) };
         for trace in traces {
             if let Some(way) = Way::new(&trace, configuration) {
                 return Ok(Some(Difference { said: trace.said.clone(), way }));

@@ -1,11 +1,11 @@
 //! `asl2c validate`: what is translated is proved, and C that does something else is not.
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
-use asl2c::{Agent, Cbmc, ProveError, Session, replay, validate};
-use translator::{Comparison, comparison, parse_configuration};
+use asl2c::{Agent, Cbmc, ProveError, Session, on_host, replay, validate};
+use translator::{Comparison, comparison, exercise, parse_configuration};
 
 use crate::harness::{cbmc, from_environment, skip};
 
@@ -38,6 +38,8 @@ fn the_c_of_the_gallery_does_what_its_agents_say() {
         let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!((&json["verdict"], &json["timeouts"]), (&"proved".into(), &0.into()));
         assert!(json["proofs"].as_u64().unwrap() >= 10, "{json}");
+        let progress = String::from_utf8_lossy(&output.stderr);
+        assert!(progress.contains("] the start: proved (") && progress.contains("] step: +!"));
     }
 }
 
@@ -170,8 +172,11 @@ fn mistakes(c: &str) -> Vec<Mistake> {
     mistakes
 }
 
-/// `ASL2C_MISTAKES` mistakes, spread over the gallery's C files. What is proved in spite of its mistake is listed:
-/// it must be the same program.
+/// Steps in which a C file that is proved in spite of its mistake is tested too.
+const TESTED: u32 = 20_000;
+
+/// `ASL2C_MISTAKES` mistakes, spread over the gallery's C files. What is proved in spite of its mistake is the same
+/// program: it is listed, and random tests must not find a difference.
 #[test]
 fn c_with_a_mistake_is_not_proved() {
     let Some(cbmc) = cbmc() else {
@@ -181,29 +186,118 @@ fn c_with_a_mistake_is_not_proved() {
     let cbmc = Cbmc::find(Some(&cbmc)).unwrap();
     let wanted = from_environment("ASL2C_MISTAKES", 12) as usize;
     let names = ["inspection", "infusion", "lift", "rover"];
-    let (mut tried, mut equal) = (0, Vec::new());
+    let (mut tried, mut refused, mut undecided, mut equal) = (0, 0, Vec::new(), Vec::new());
     for name in names {
         let agent = Agent::read(Path::new(&format!("{GALLERY}/{name}.conf"))).unwrap();
         let compared = comparison(&agent.configuration, &agent.text).unwrap();
+        let tested = exercise(&agent.configuration, &agent.text).unwrap();
+        let trace = on_host(&tested, Path::new(GALLERY), TESTED).unwrap();
         let found = mistakes(&compared.files[0].text);
         let step = (found.len() * names.len() / wanted).max(1);
         for (what, c) in found.iter().step_by(step) {
             let mut compared = compared.clone();
             tried += 1;
             if compared.replace_c(c.clone()).is_err() {
+                refused += 1;
                 continue;
             }
             let folder = tempfile::tempdir().unwrap();
-            match validate(&compared, &cbmc, folder.path(), folder.path(), TIME) {
-                Ok(result) if result.is_proved() => equal.push(format!("{name}.c:{what}")),
+            match validate(&compared, &cbmc, folder.path(), Path::new(GALLERY), TIME) {
+                Ok(result) if result.is_proved() => {
+                    let mut tested = tested.clone();
+                    tested.files[0].text.clone_from(c);
+                    let same = on_host(&tested, Path::new(GALLERY), TESTED).unwrap() == trace;
+                    assert!(same, "{name}.c:{what}: proved, but does something else");
+                    equal.push(format!("{name}.c:{what}"));
+                }
+                Ok(result) if result.open.is_empty() => undecided.push(format!("{name}.c:{what}")),
                 // What does not compile is no C of the agent either.
                 Ok(_) | Err(ProveError::NoResult { .. }) => {}
                 Err(error) => panic!("{name}.c:{what}: {error}"),
             }
         }
     }
-    println!("{tried} mistakes, {} of them without effect:\n{}", equal.len(), equal.join("\n"));
+    let caught = tried - equal.len() - undecided.len();
+    println!(
+        "{tried} mistakes, {caught} caught ({refused} of them refused), {} undecided:\n{}\n{} without effect:\n{}",
+        undecided.len(),
+        undecided.join("\n"),
+        equal.len(),
+        equal.join("\n")
+    );
+    assert!(undecided.is_empty(), "{undecided:?}");
     assert!(tried >= wanted.min(12) && equal.len() * 4 <= tried, "{tried}: {equal:?}");
+}
+
+/// The proof for a step is in parts, by the next event. A comparison that leaves one of them out is no proof.
+#[test]
+fn no_case_is_left_out() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    let cbmc = Cbmc::find(Some(&cbmc)).unwrap();
+    let agent = Agent::read(Path::new(&format!("{GALLERY}/inspection.conf"))).unwrap();
+    let compared = comparison(&agent.configuration, &agent.text).unwrap();
+    let judged = |compared: &Comparison| {
+        let folder = tempfile::tempdir().unwrap();
+        validate(compared, &cbmc, folder.path(), Path::new(GALLERY), TIME).unwrap()
+    };
+    assert!(compared.cases.iter().any(|case| case.ends_with("(slot 1, 2 waiting)")));
+    // Two events wait, from the second slot on.
+    let mut without = compared.clone();
+    let text = &mut without.files.last_mut().unwrap().text;
+    let (before, cover) = text.split_once("int plain_cover").unwrap();
+    let kept =
+        |line: &&str| !(line.contains("inbox_first == 1U && ") && line.contains("count == 2U"));
+    let kept: Vec<&str> = cover.lines().filter(kept).collect();
+    assert!(kept.len() < cover.lines().count());
+    *text = format!("{before}int plain_cover{}\n", kept.join("\n"));
+    assert!(judged(&without).open.contains(&"some case".to_owned()));
+    // A mistake in that case only.
+    let mut wrong = compared.clone();
+    let c = &mut wrong.files[0].text;
+    let update = "\n    updateBeliefs();\n";
+    assert_eq!(c.matches(update).count(), 1);
+    let mistake = "    if ((agent.inbox_first == 1U) && (agent.inbox_count == 2U)) { hover(); }\n";
+    *c = c.replace(update, &format!("{update}{mistake}"));
+    assert!(judged(&wrong).open.contains(&"another call, or none".to_owned()));
+}
+
+/// Stopped by a signal, `validate` stops CBMC too, and says that nothing is decided.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_stop_leaves_no_cbmc_behind() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let folder = tempfile::tempdir().unwrap();
+    let slow = folder.path().join("cbmc");
+    let here = folder.path().display();
+    let script = format!(
+        "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 6.0.0; exit; fi\necho $$ >>{here}/started\nexec sleep 60\n"
+    );
+    std::fs::write(&slow, script).unwrap();
+    std::fs::set_permissions(&slow, PermissionsExt::from_mode(0o755)).unwrap();
+    for signal in ["INT", "TERM"] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+        command.args(["validate", &format!("{GALLERY}/lift.conf"), "--cbmc"]).arg(&slow);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let child = command.spawn().unwrap();
+        let started = folder.path().join("started");
+        while !std::fs::read_to_string(&started).is_ok_and(|text| text.ends_with('\n')) {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let (signal, process) = (format!("-{signal}"), child.id().to_string());
+        assert!(Command::new("kill").args([signal, process]).status().unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        let text = shown(&output);
+        assert_eq!(output.status.code(), Some(3), "{text}");
+        assert!(text.contains("10 of 10 proofs were not finished before the stop"), "{text}");
+        for process in std::fs::read_to_string(&started).unwrap().lines() {
+            assert!(!Path::new(&format!("/proc/{process}")).exists(), "{process} is left");
+        }
+        std::fs::remove_file(&started).unwrap();
+    }
 }
 
 #[test]
@@ -283,6 +377,9 @@ fn what_cannot_be_compared_is_no_pass() {
     let output = asl2c(&[&configuration, "--time", "0"], &cbmc);
     assert_eq!(output.status.code(), Some(3));
     assert!(shown(&output).contains("NOT DECIDED"), "{}", shown(&output));
+    let output = asl2c(&[&configuration, "--total", "0"], &cbmc);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(shown(&output).contains("10 of 10 proofs were not finished in time"));
     let output = asl2c(&[&configuration, "--c", "no/such/file.c"], &cbmc);
     assert_eq!(output.status.code(), Some(3), "{}", shown(&output));
 }

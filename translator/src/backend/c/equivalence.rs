@@ -19,7 +19,7 @@ use crate::plain;
 use crate::program::Program;
 use crate::types::{CType, TypeKind};
 
-/// Maximum number of calls in a step, to be defined as a number.
+/// Maximum number of calls of one action in a step that are answered, to be defined as a number.
 pub const ROOM: &str = "PLAIN_ROOM";
 /// Definition that leaves one assertion: that [`ROOM`] is sufficient. It alone is checked in a fraction of the time.
 pub const ONLY_ROOM: &str = "PLAIN_ONLY_ROOM";
@@ -27,7 +27,7 @@ pub const ONLY_ROOM: &str = "PLAIN_ONLY_ROOM";
 /// otherwise nothing was compared.
 pub const ONLY_END: &str = "PLAIN_ONLY_END";
 /// Assertion that [`ROOM`] is sufficient.
-pub const ENOUGH_ROOM: &str = "room for the calls";
+pub const ENOUGH_ROOM: &str = "room for the answers";
 
 /// The C file that compares the agent's C, which it includes, with the plain translation in it.
 pub(crate) fn comparison(program: &Program) -> String {
@@ -35,10 +35,10 @@ pub(crate) fn comparison(program: &Program) -> String {
     comparison.text()
 }
 
-/// Number of the functions `plain_case_N`.
-pub(crate) fn steps(program: &Program) -> usize {
+/// What the step does in each function `plain_case_N`, for people.
+pub(crate) fn cases(program: &Program) -> Vec<String> {
     let comparison = Comparison { program, names: Names::new(program), types: types(program) };
-    comparison.cases().len()
+    comparison.cases().into_iter().map(|case| case.name).collect()
 }
 
 /// A bound for all loops of both.
@@ -169,15 +169,15 @@ impl Comparison<'_> {
         fields.map(|(field, ctype)| (field.text.as_str(), ctype))
     }
 
-    /// The calls of both: those of the C are logged, and those of the plain translation compared with them. Values
-    /// are logged and compared for one call only, which may be any: formulas are much smaller than with those of all.
+    /// The calls of both. One call of the step is watched, which may be any: what the C calls there, and with which
+    /// values, is kept, and the plain translation must do the same. Where the two first call something else, they do
+    /// so in the execution in which that call is watched, and before it they were given the same answers: the
+    /// environment gives both the same answer to their n-th call of an action. Formulas are much smaller than with
+    /// all calls in one list.
     fn calls(&self, text: &mut String) {
         text.push_str(
-            "static uint32_t plain_made;\nstatic uint32_t plain_repeated;\nstatic uint32_t plain_watched;\n",
+            "static uint32_t plain_made;\nstatic uint32_t plain_repeated;\nstatic uint32_t plain_watched;\nstatic int plain_seen;\n",
         );
-        let basics = self.program.configuration.basics.len();
-        let call = if basics < 255 { "uint8_t" } else { "uint32_t" };
-        _ = writeln!(text, "static {call} plain_log[{ROOM}];");
         for ctype in &self.types {
             let (name, index) = (&ctype.name, self.index(ctype));
             let basics = self.program.configuration.basics.iter();
@@ -187,25 +187,32 @@ impl Comparison<'_> {
             for slot in 0..slots.max().unwrap_or_default() {
                 _ = writeln!(text, "static {name} plain_log_{index}_{slot};");
             }
-            let answers = |basic: &crate::configuration::Basic| basic.result == *ctype;
-            if self.program.configuration.basics.iter().any(answers) {
-                _ = writeln!(text, "static {name} plain_answer_{index}[{ROOM}];");
+        }
+        let mut restart = String::new();
+        for (number, basic) in self.program.configuration.basics.iter().enumerate() {
+            if basic.result.kind == TypeKind::Void {
+                continue;
+            }
+            let result = &basic.result.name;
+            _ = writeln!(text, "static {result} plain_answer_{number}[{ROOM}];");
+            for counted in ["asked", "answered"] {
+                _ = writeln!(text, "static uint32_t plain_{counted}_{number};");
+                _ = writeln!(restart, "    plain_{counted}_{number} = 0;");
             }
         }
-        text.push_str(
-            "\nstatic uint32_t plain_logged(int call)\n{\n    uint32_t place = plain_made;\n",
+        _ = writeln!(
+            text,
+            "\n/* No call has been made yet. */\nstatic void plain_restart(void)\n{{\n    \
+             plain_made = 0;\n    plain_repeated = 0;\n{restart}}}\n"
         );
-        _ = writeln!(text, "    plain_assert_room(place < {ROOM}, \"{ENOUGH_ROOM}\");");
-        _ = writeln!(text, "    __CPROVER_assume(place < {ROOM});");
-        text.push_str("    plain_log[place] = call;\n    plain_made++;\n    return place;\n}\n\n");
         text.push_str(
-            "static uint32_t plain_expected(int call)\n{\n    uint32_t place = plain_repeated;\n",
+            "static bool plain_logged(int call)\n{\n    bool watched = plain_made == plain_watched;\n    \
+             if (watched) { plain_seen = call; }\n    plain_made++;\n    return watched;\n}\n\n\
+             static bool plain_expected(int call)\n{\n    bool watched = plain_repeated == plain_watched;\n    \
+             bool made = !watched || (plain_repeated < plain_made && plain_seen == call);\n    \
+             plain_assert(made, \"another call, or none\");\n    __CPROVER_assume(made);\n    \
+             plain_repeated++;\n    return watched;\n}\n\n",
         );
-        text.push_str("    bool made = place < plain_made && plain_log[place] == call;\n");
-        text.push_str(
-            "    plain_assert(made, \"another call, or none\");\n    __CPROVER_assume(made);\n",
-        );
-        text.push_str("    plain_repeated++;\n    return place;\n}\n\n");
         for number in 0..self.program.configuration.basics.len() {
             self.call(text, number);
         }
@@ -237,35 +244,39 @@ impl Comparison<'_> {
                 "    plain_assert(environment == &plain_token, \"the environment's pointer\");\n",
             );
         }
-        _ = writeln!(text, "    uint32_t place = plain_logged({});", number + 1);
+        _ = writeln!(text, "    bool watched = plain_logged({});", number + 1);
         for (_, argument, slot) in &slots {
-            _ = writeln!(text, "    if (place == plain_watched) {{ {slot} = {argument}; }}");
+            _ = writeln!(text, "    if (watched) {{ {slot} = {argument}; }}");
         }
         let answers = basic.result.kind != TypeKind::Void;
-        let answer = format!("plain_answer_{}[place]", self.index(&basic.result));
+        let answer = format!("plain_answer_{number}[place]");
         if answers {
+            _ = writeln!(text, "    uint32_t place = plain_asked_{number};");
+            _ = writeln!(text, "    plain_assert_room(place < {ROOM}, \"{ENOUGH_ROOM}\");");
+            _ = writeln!(text, "    __CPROVER_assume(place < {ROOM});");
+            _ = writeln!(text, "    plain_asked_{number}++;");
             _ = writeln!(text, "    {answer} = {};", self.any(&basic.result));
             _ = writeln!(text, "    __CPROVER_output(\"{ANSWERS} {name}\", {answer});");
+        }
+        text.push_str("    (void)watched;\n");
+        if answers {
             _ = writeln!(text, "    return {answer};");
-        } else {
-            text.push_str("    (void)place;\n");
         }
         _ = writeln!(text, "}}\nstatic {result} plain_call_{number}({plainly})\n{{");
-        _ = writeln!(text, "    uint32_t place = plain_expected({});", number + 1);
+        _ = writeln!(text, "    bool watched = plain_expected({});", number + 1);
         for (ctype, argument, slot) in &slots {
             let same = self.same(ctype, argument, slot);
             _ = writeln!(
                 text,
-                "    plain_assert(place != plain_watched || {same}, \"another value for {name}\");"
+                "    plain_assert(!watched || {same}, \"another value for {name}\");"
             );
         }
+        text.push_str("    (void)watched;\n");
         if answers {
-            _ = writeln!(text, "    return {answer};");
-        } else {
-            text.push_str(
-                "    (void)place;
-",
-            );
+            _ = writeln!(text, "    uint32_t place = plain_answered_{number};");
+            // No question is left out: the C has asked as often, or an earlier call differs.
+            _ = writeln!(text, "    __CPROVER_assume(place < {ROOM});");
+            _ = writeln!(text, "    plain_answered_{number}++;\n    return {answer};");
         }
         text.push_str("}\n\n");
     }
@@ -338,7 +349,7 @@ impl Comparison<'_> {
         );
         _ = writeln!(
             text,
-            "static void plain_both_step(void)\n{{\n    plain_made = 0;\n    plain_repeated = 0;\n    {};\n    plain_step();",
+            "static void plain_both_step(void)\n{{\n    plain_restart();\n    {};\n    plain_step();",
             self.interface_call("next_step", [])
         );
         text.push_str("    plain_compare();\n}\n\n");
@@ -366,7 +377,7 @@ impl Comparison<'_> {
         let cases = self.cases();
         for (number, case) in cases.iter().enumerate() {
             _ = writeln!(text, "int plain_case_{number}(void)\n{{\n    plain_havoc();");
-            for (place, value) in case {
+            for (place, value) in &case.fields {
                 _ = writeln!(text, "    {place} = {value};");
             }
             text.push_str(
@@ -378,7 +389,7 @@ impl Comparison<'_> {
             "int plain_cover(void)\n{\n    plain_havoc();\n    __CPROVER_assume(plain_well_formed());\n",
         );
         let alternatives = cases.iter().map(|case| {
-            let equal = case.iter().map(|(place, value)| format!("{place} == {value}"));
+            let equal = case.fields.iter().map(|(place, value)| format!("{place} == {value}"));
             format!("({})", equal.collect::<Vec<_>>().join(" && "))
         });
         let alternatives = alternatives.collect::<Vec<_>>().join("\n        || ");
@@ -413,9 +424,7 @@ impl Comparison<'_> {
             let first = self.names.field(&ring.field("first"));
             _ = writeln!(text, "    __CPROVER_assume({first} < {}U);", ring.length);
         }
-        text.push_str(
-            "    plain_searching = false;\n    plain_made = 0;\n    plain_repeated = 0;\n",
-        );
+        text.push_str("    plain_searching = false;\n    plain_restart();\n");
         _ = writeln!(text, "    plain_watched = {number};");
         text.push_str("}\n\n/* Any two related states. */\nstatic void plain_start(void)\n{\n    plain_havoc();\n");
         text.push_str(

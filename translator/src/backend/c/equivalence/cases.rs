@@ -5,87 +5,133 @@ use crate::backend::c::state::{
     Ring, Slot, deferred_ring, external_name, handler_name, inbox_ring, limits, pending,
 };
 use crate::plain;
+use crate::program::{External, HandlerId, trigger_text};
 
-/// Fields of the C's state, and their values.
-type Case = Vec<(String, String)>;
+/// States in which a step handles the same event.
+pub(super) struct Case {
+    /// What the step does, for people.
+    pub(super) name: String,
+    /// Fields of the C's state, and their values.
+    pub(super) fields: Fields,
+}
 
-/// With longer lists, the place of the first element stays unknown.
+type Fields = Vec<(String, String)>;
+
+/// An event: what it is to the C, and to people.
+type Event = (String, String);
+
+/// With longer lists, the place of the first element and the number of elements stay unknown.
 const LONGEST: usize = 4;
 
 impl Comparison<'_> {
     /// All cases; each state is in one of them.
     pub(super) fn cases(&self) -> Vec<Case> {
         let program = self.program;
+        let text = |id: HandlerId| program.handler(id).text();
         let none = self.nothing();
         let mut cases = Vec::new();
         // What is served before, and is not pending.
-        let mut before: Case = Vec::new();
+        let mut before = Fields::new();
         for external in plain::preempting(program).map(|(_, external)| external) {
             let flag = self.names.field(&pending(Slot::Preemptive, &external_name(external)));
-            cases.push(with(&before, [(flag.clone(), "true".to_owned())]));
+            let fields = with(&before, [(flag.clone(), "true".to_owned())]);
+            cases.push(Case { name: format!("{} pre-empts", written(external)), fields });
             before.push((flag, "false".to_owned()));
         }
         let posted = self.names.field("posted");
         for id in &program.posted {
             let event = self.event(Slot::Posted, &handler_name(program, *id));
-            let case = with(&before, [(posted.clone(), event)]);
+            let fields = with(&before, [(posted.clone(), event)]);
+            let name = format!("{} goes on", text(*id));
             if limits(program).is_none() {
-                cases.push(case);
+                cases.push(Case { name, fields });
                 continue;
             }
             let limited = self.names.field("limited");
-            let limits = program.limited.iter();
-            let limits = limits.map(|id| self.event(Slot::Deadline, &handler_name(program, *id)));
-            for limit in limits.chain([none.clone()]) {
-                cases.push(with(&case, [(limited.clone(), limit)]));
+            for limit in &program.limited {
+                let event = self.event(Slot::Deadline, &handler_name(program, *limit));
+                cases.push(Case {
+                    name: format!("{name}, with a deadline of {}", text(*limit)),
+                    fields: with(&fields, [(limited.clone(), event)]),
+                });
             }
+            cases.push(Case { name, fields: with(&fields, [(limited, none.clone())]) });
         }
         before.push((posted, none));
-        for (_, handler) in plain::perceived(program) {
+        for (belief, handler) in plain::perceived(program) {
             let flag = pending(Slot::Perceived, &handler_name(program, handler));
             let flag = self.names.field(&flag);
-            cases.push(with(&before, [(flag.clone(), "true".to_owned())]));
+            let fields = with(&before, [(flag.clone(), "true".to_owned())]);
+            cases.push(Case { name: format!("+{} is perceived", belief.name), fields });
             before.push((flag, "false".to_owned()));
         }
         if let Some(ring) = inbox_ring(program) {
-            self.first(&ring, &self.listed(), &mut before, &mut cases);
+            self.first(&ring, &self.listed_events(), &mut before, &mut cases);
         }
         if let Some(ring) = deferred_ring(program).filter(|_| !plain::is_queue(program)) {
-            self.first(&ring, &self.goal_events(), &mut before, &mut cases);
+            self.first(&ring, &self.deferred_events(), &mut before, &mut cases);
         }
-        cases.push(before);
+        cases.push(Case { name: "nothing happens".to_owned(), fields: before });
         cases
     }
 
-    /// Cases by the first event of a list.
-    fn first(
-        &self,
-        ring: &Ring,
-        events: &[(String, usize)],
-        before: &mut Case,
-        cases: &mut Vec<Case>,
-    ) {
+    /// The events of the list, as in [`Self::listed`].
+    fn listed_events(&self) -> Vec<Event> {
+        let program = self.program;
+        let external = program.external.iter().filter(|external| !external.preemptive);
+        let mut texts: Vec<String> = external.map(written).collect();
+        if plain::is_queue(program) {
+            texts.extend(program.deferred.iter().map(|id| program.handler(*id).text()));
+        }
+        self.listed().into_iter().map(|(event, _)| event).zip(texts).collect()
+    }
+
+    fn deferred_events(&self) -> Vec<Event> {
+        let texts = self.program.deferred.iter().map(|id| self.program.handler(*id).text());
+        self.goal_events().into_iter().map(|(event, _)| event).zip(texts).collect()
+    }
+
+    /// Cases by the first event of a list, its place and the number of elements. If one of them is unknown, the C's
+    /// event depends on more than constants, and CBMC executes the plans of all events instead of one's.
+    fn first(&self, ring: &Ring, events: &[Event], before: &mut Fields, cases: &mut Vec<Case>) {
         let [first, count, queue] =
             ["first", "count", "queue"].map(|part| self.names.field(&ring.field(part)));
-        for (event, _) in events {
+        for (event, text) in events {
             if ring.length > LONGEST {
-                cases.push(with(before, [(format!("{queue}[{first}]"), event.clone())]));
+                let fields = with(before, [(format!("{queue}[{first}]"), event.clone())]);
+                cases.push(Case { name: format!("{text} is next"), fields });
                 continue;
             }
-            for slot in 0..ring.length {
-                cases.push(with(
+            for (slot, elements) in places(ring.length) {
+                let mut name = format!("{text} is next");
+                if ring.length > 1 {
+                    name += &format!(" (slot {slot}, {elements} waiting)");
+                }
+                let fields = with(
                     before,
                     [
                         (first.clone(), format!("{slot}U")),
+                        (count.clone(), format!("{elements}U")),
                         (format!("{queue}[{slot}]"), event.clone()),
                     ],
-                ));
+                );
+                cases.push(Case { name, fields });
             }
         }
         before.push((count, "0U".to_owned()));
     }
 }
 
-fn with<const N: usize>(case: &Case, more: [(String, String); N]) -> Case {
-    case.iter().cloned().chain(more).collect()
+/// All places of the first element, each with all numbers of elements.
+fn places(length: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..length).flat_map(move |slot| (1..=length).map(move |elements| (slot, elements)))
+}
+
+fn with<const N: usize>(fields: &Fields, more: [(String, String); N]) -> Fields {
+    fields.iter().cloned().chain(more).collect()
+}
+
+/// An event in AgentSpeak.
+fn written(external: &External) -> String {
+    trigger_text(external.operator, external.kind, &external.name)
 }
