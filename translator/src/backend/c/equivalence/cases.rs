@@ -105,7 +105,7 @@ impl Comparison<'_> {
             for (slot, elements) in places(ring.length) {
                 let mut name = format!("{text} is next");
                 if ring.length > 1 {
-                    name += &format!(" (slot {slot}, {elements} waiting)");
+                    name = format!("{name} (slot {slot}, {elements} waiting)");
                 }
                 let fields = with(
                     before,
