@@ -41,7 +41,7 @@ pub(super) fn page(certified: &Certified) -> String {
                 h2 #bounds { "Memory and time" }
                 @for missing in &evidence.bounds.missing { p.undecided { (missing) } }
                 pre { (evidence.bounds.report) }
-                (tests(evidence))
+                (tests(evidence, text(&evidence.c)))
                 (plans(evidence))
                 (trust(evidence))
                 h2 #files { "Files" }
@@ -255,7 +255,8 @@ fn rules(evidence: &Evidence) -> Markup {
     }
 }
 
-fn tests(evidence: &Evidence) -> Markup {
+fn tests(evidence: &Evidence, c: &str) -> Markup {
+    let lines: Vec<&str> = c.lines().collect();
     let failed: Vec<_> = (1..)
         .zip(&evidence.tests)
         .filter_map(|(number, test)| Some((number, test, test.difference.as_ref()?)))
@@ -291,6 +292,15 @@ fn tests(evidence: &Evidence) -> Markup {
             " conditions in mixtures of && and || count as open, because the counts do not tell. What is unreachable is "
             "proved by CBMC from the invariant, for executions without a call of clear() and a second call of init(). "
             "The overflow of a counter of events is open: it would take 4 294 967 295 events."
+        }
+        @if !evidence.reach.open_lines.is_empty() {
+            details {
+                summary { (evidence.reach.open_lines.len()) " lines with something open" }
+                @for number in &evidence.reach.open_lines {
+                    a href=(format!("#c{number}")) { "line " (number) } " "
+                    code { (lines.get(number - 1).map_or("", |line| line.trim())) } br;
+                }
+            }
         }
     }
 }
