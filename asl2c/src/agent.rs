@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use translator::{ParsedConfiguration, TranslateError, parse_configuration};
+use translator::{GeneratedFile, ParsedConfiguration, TranslateError, parse_configuration};
 
 /// Errors on reading an agent.
 #[derive(Debug, thiserror::Error)]
@@ -47,6 +47,23 @@ impl Agent {
     /// The configuration's folder.
     pub(crate) fn folder(&self) -> &Path {
         folder(&self.path)
+    }
+
+    /// The headers that the configuration includes and that are in its folder or below: C that is compiled elsewhere
+    /// needs them beside it.
+    pub(crate) fn own_headers(&self) -> Vec<GeneratedFile> {
+        let names = self.configuration.included_files();
+        let names = names.filter(|name| {
+            Path::new(name).is_relative() && !name.split('/').any(|part| part == "..")
+        });
+        // Most of the names are those of system headers.
+        let headers = names.filter_map(|name| {
+            let mut header = GeneratedFile::default();
+            header.text = read(&self.folder().join(&name)).ok()?;
+            header.name = name;
+            Some(header)
+        });
+        headers.collect()
     }
 
     /// The files that it was read from.

@@ -253,6 +253,7 @@ pub fn obligations(
     Ok(Obligations {
         files,
         entry: format!("{prefix}next_step"),
+        unwinding: backend::c::unwinding(&program),
         state_type: format!("{prefix}agent_t"),
         candidates: harness.candidates,
         properties,

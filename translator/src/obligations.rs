@@ -21,6 +21,8 @@ pub struct Obligations {
     pub files: Vec<GeneratedFile>,
     /// Linker symbol of `next_step()` with the state passed in.
     pub entry: String,
+    /// A bound for all loops of the C.
+    pub unwinding: usize,
     pub(crate) state_type: String,
     pub(crate) candidates: Vec<String>,
     /// The properties: each has an assertion `property NAME`.

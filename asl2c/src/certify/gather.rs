@@ -5,7 +5,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use translator::{
-    GeneratedFile, TraceRow, TranslateError, comparison, obligations, trace_rows, translate,
+    GeneratedFile, Obligations, TraceRow, TranslateError, comparison, obligations, trace_rows,
+    translate,
 };
 
 use super::evidence::{
@@ -106,6 +107,11 @@ pub fn certify(
     let tools = tools(cbmc)?;
     let include = agent.folder();
     let mut translation = translate(configuration, text)?;
+    // So is an agent that cannot be proved.
+    let mut obligations = obligations(configuration, text)?;
+    let own = agent.own_headers();
+    translation.files.extend(own.iter().cloned());
+    obligations.files.extend(own);
     tell("checks the rules of MISRA C:2012");
     let deviations = deviations(&translation.files, include)?;
     tell("measures stack and time");
@@ -115,7 +121,7 @@ pub fn certify(
     let coverage = cover(agent, include)?;
     tell("proves the properties");
     let Proved { properties, run_time_errors, invariant, mut files, c: proved_c, dead } =
-        proved(agent, cbmc, limits)?;
+        proved(agent, obligations, cbmc, limits)?;
     tell("compares the C with the agent's text");
     let validation = validation(agent, cbmc, limits)?;
 
@@ -159,24 +165,17 @@ pub fn certify(
     Ok(Certified { evidence, files })
 }
 
-/// The texts that the agent was read from, and the headers that its configuration includes.
+/// The texts that the agent was read from.
 fn own_files(agent: &Agent, evidence: &Evidence) -> Result<Vec<(String, String)>, CertifyError> {
     let read = |path: &Path| {
         std::fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).map_err(
             |source| CertifyError::Io { what: format!("cannot read {}", path.display()), source },
         )
     };
-    let mut files = vec![
+    let files = vec![
         (evidence.agent.clone(), agent.text.clone()),
         (evidence.configuration.clone(), read(&agent.path)?),
     ];
-    for name in agent.configuration.included_files() {
-        // Most are system headers; a path that leads out of the folder stays out of the evidence.
-        let path = agent.folder().join(&name);
-        if path.is_file() && Path::new(&name).is_relative() && !name.split('/').any(|p| p == "..") {
-            files.push((format!("{C}/{name}"), read(&path)?));
-        }
-    }
     Ok(files)
 }
 
@@ -191,9 +190,13 @@ struct Proved {
     dead: DeadBranches,
 }
 
-fn proved(agent: &Agent, cbmc: &Cbmc, limits: Limits) -> Result<Proved, CertifyError> {
+fn proved(
+    agent: &Agent,
+    obligations: Obligations,
+    cbmc: &Cbmc,
+    limits: Limits,
+) -> Result<Proved, CertifyError> {
     let Agent { configuration, text, .. } = agent;
-    let obligations = obligations(configuration, text)?;
     let folder = temporary_folder()?;
     let proof = prove(&obligations, cbmc, folder.path(), &Plan::ALL)?;
     let dead = dead_branches(&obligations, cbmc, folder.path())?;

@@ -145,6 +145,7 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
         complain_of(&if json { lines(&warnings) } else { warnings.to_string() });
     }
     if arguments.report {
+        translation.files.extend(agent.own_headers());
         for unknown in measure(&mut translation, &agent.configuration, &agent.text) {
             complain_of(&if json {
                 line("warning", "not-measured", &unknown, None)

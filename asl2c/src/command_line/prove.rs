@@ -26,7 +26,8 @@ struct Saved {
 pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     let agent = Agent::read(&asked.configuration)?;
     let Agent { configuration, text, .. } = &agent;
-    let obligations = obligations(configuration, text)?;
+    let mut obligations = obligations(configuration, text)?;
+    obligations.files.extend(agent.own_headers());
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?;
     let folder = tempfile::tempdir()
         .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;

@@ -79,7 +79,9 @@ pub fn cover(agent: &Agent, include: &Path) -> Result<Coverage, CoverageError> {
 /// The agent's C and a program that executes the tests on it.
 fn program(agent: &Agent, tests: &[Found]) -> Result<Vec<GeneratedFile>, TranslateError> {
     let acts: Vec<Vec<Act>> = tests.iter().map(|test| test.acts.clone()).collect();
-    scripted(&agent.configuration, &agent.text, &acts)
+    let mut files = scripted(&agent.configuration, &agent.text, &acts)?;
+    files.extend(agent.own_headers());
+    Ok(files)
 }
 
 /// The first difference of each test in the trace of all.

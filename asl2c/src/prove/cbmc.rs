@@ -79,11 +79,12 @@ impl Cbmc {
         &self,
         folder: &Path,
         function: &str,
-        chosen: &[usize],
+        (chosen, unwinding): (&[usize], usize),
         checks: Checks,
     ) -> Result<(Vec<Failure>, Vec<usize>), ProveError> {
-        let unwinding: &[&str] = if checks == Checks::All { &["--unwind", "2"] } else { &[] };
-        let text = self.run(folder, function, checks, unwinding)?;
+        let unwinding = unwinding.to_string();
+        let bound: &[&str] = if checks == Checks::All { &["--unwind", &unwinding] } else { &[] };
+        let text = self.run(folder, function, checks, bound)?;
         is_proved(&text)?;
         let mut others = Vec::new();
         let mut failing = Vec::new();

@@ -122,7 +122,7 @@ pub fn prove(
     let check = |function: &str, chosen: &[usize], checks| {
         let invariant = obligations.invariant(chosen);
         write(folder, &invariant.name, &invariant.text)?;
-        cbmc.check(folder, function, chosen, checks)
+        cbmc.check(folder, function, (chosen, obligations.unwinding), checks)
     };
     let mut chosen = check("base", &tried, Checks::Properties)?.1;
     let mut open = loop {

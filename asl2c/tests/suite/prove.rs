@@ -76,6 +76,30 @@ fn what_only_the_environment_knows_is_undecided() {
     assert!(text.contains("cannot create arbitrary values"), "{text}");
 }
 
+/// Each of the waiting beliefs is one more round of the step's loop; the C includes a header of its own.
+#[test]
+fn longer_inboxes_and_own_headers_are_proved() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    let text = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; inbox = 3; };\n\
+        includes { #include <stdbool.h>\n#include <stdint.h>\n#include \"own.h\" };\n\
+        basics { void on(void); }; types { light(void); level(int32_t); };\n\
+        triggerables { +!light; +level; -level; };\nproperties { p: at_most_one(on); };\n";
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in
+        [("a.conf", text), ("a.asl", "+!light : level(_) <- on.\n+!light.\n"), ("own.h", "\n")]
+    {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let output = asl2c(folder.path(), &cbmc, &[]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{text}{said}");
+    assert!(text.contains("no error at run time: holds"), "{text}");
+}
+
 #[test]
 fn each_end_has_its_status() {
     let Some(cbmc) = cbmc() else {
