@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::format_collect, reason = "tests build texts, and read better so")]
+#![allow(clippy::disallowed_methods, reason = "tests wait for programs and time them")]
 
 mod certified;
 mod files;

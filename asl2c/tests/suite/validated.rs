@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use asl2c::{Agent, Cbmc, ProveError, Session, on_host, replay, validate};
 use translator::{Comparison, comparison, exercise, parse_configuration};
@@ -86,14 +86,21 @@ fn programs_of_the_conformance_suite_are_proved() {
     let every = from_environment("ASL2C_VALIDATE_EVERY", 8) as usize;
     // A product of two unknown numbers, divided and multiplied: too hard for the solver.
     let hard = "variables are taken along, and the context is not asked again";
+    let mut times = Vec::new();
     for (title, comparison) in programs.iter().step_by(every) {
         if title.ends_with(hard) {
             continue;
         }
         let folder = tempfile::tempdir().unwrap();
+        let begun = Instant::now();
         let result = validate(comparison, &cbmc, folder.path(), folder.path(), TIME).unwrap();
+        times.push((begun.elapsed().as_secs_f64(), title));
         assert!(result.is_proved(), "{title}: {result:?}");
     }
+    times.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let sum: f64 = times.iter().map(|(time, _)| time).sum();
+    let (median, longest) = (times[times.len() / 2].0, times[times.len() - 1]);
+    println!("{} programs in {sum:.0} s; median {median:.1} s, longest {longest:?}", times.len());
 }
 
 /// A mistake in the C: its description, and the C with it.
@@ -227,6 +234,42 @@ fn c_with_a_mistake_is_not_proved() {
     );
     assert!(undecided.is_empty(), "{undecided:?}");
     assert!(tried >= wanted.min(12) && equal.len() * 4 <= tried, "{tried}: {equal:?}");
+}
+
+/// Faults of a back end: what it would write wrong, wherever it writes it.
+const FAULTS: [(&str, &str, &str); 7] = [
+    ("less is less or equal", "(var_Pole < ", "(var_Pole <= "),
+    ("the list takes one event too many", "agent.inbox_count < 2U", "agent.inbox_count <= 2U"),
+    ("a deferred goal is not known to wait", "wait_pending = true;", "wait_pending = false;"),
+    ("an event's values are those of the first slot", "[agent.inbox_taken]", "[0]"),
+    ("the next event is not found behind the list's end", "first + 1U) % 2U", "first) % 2U"),
+    (
+        "a pre-empted goal goes on",
+        "        agent.posted = EVENT_NONE;\n    }\n    else",
+        "    }\n    else",
+    ),
+    ("an added belief is not held", "agent.belief_last_held = true;", ""),
+];
+
+#[test]
+fn a_fault_of_the_back_end_is_caught() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    let cbmc = Cbmc::find(Some(&cbmc)).unwrap();
+    let agent = Agent::read(Path::new(&format!("{GALLERY}/inspection.conf"))).unwrap();
+    let compared = comparison(&agent.configuration, &agent.text).unwrap();
+    for (fault, right, wrong) in FAULTS {
+        let mut faulty = compared.clone();
+        let c = &mut faulty.files[0].text;
+        assert!(c.contains(right), "{fault}");
+        *c = c.replace(right, wrong);
+        let folder = tempfile::tempdir().unwrap();
+        let result = validate(&faulty, &cbmc, folder.path(), Path::new(GALLERY), TIME).unwrap();
+        let differs = result.open.iter().any(|said| said.starts_with("another "));
+        assert!(differs, "{fault}: {result:?}");
+    }
 }
 
 /// The proof for a step is in parts, by the next event. A comparison that leaves one of them out is no proof.

@@ -103,10 +103,11 @@ impl Comparison<'_> {
                 continue;
             }
             for (slot, elements) in places(ring.length) {
-                let mut name = format!("{text} is next");
-                if ring.length > 1 {
-                    name = format!("{name} (slot {slot}, {elements} waiting)");
-                }
+                let name = if ring.length == 1 {
+                    format!("{text} is next")
+                } else {
+                    format!("{text} is next (slot {slot}, {elements} waiting)")
+                };
                 let fields = with(
                     before,
                     [
