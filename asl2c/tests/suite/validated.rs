@@ -251,6 +251,12 @@ const FAULTS: [(&str, &str, &str); 7] = [
     ("an added belief is not held", "agent.belief_last_held = true;", ""),
 ];
 
+/// What would be faults elsewhere: here `Pole < Last` holds, so that `Pole + 1` never overflows.
+const WITHOUT_EFFECT: [(&str, &str, &str); 2] = [
+    ("an overflow of 16 bits is not seen", "(UINT16_MAX - ", "(UINT32_MAX - "),
+    ("a plan that fails looks inapplicable", "= OUTCOME_FAILED;", "= OUTCOME_NOT_APPLICABLE;"),
+];
+
 #[test]
 fn a_fault_of_the_back_end_is_caught() {
     let Some(cbmc) = cbmc() else {
@@ -260,15 +266,30 @@ fn a_fault_of_the_back_end_is_caught() {
     let cbmc = Cbmc::find(Some(&cbmc)).unwrap();
     let agent = Agent::read(Path::new(&format!("{GALLERY}/inspection.conf"))).unwrap();
     let compared = comparison(&agent.configuration, &agent.text).unwrap();
-    for (fault, right, wrong) in FAULTS {
+    let tested = exercise(&agent.configuration, &agent.text).unwrap();
+    let traced = |c: &str| {
+        let mut tested = tested.clone();
+        c.clone_into(&mut tested.files[0].text);
+        on_host(&tested, Path::new(GALLERY), TESTED).unwrap()
+    };
+    let judged = |(fault, right, wrong): (&str, &str, &str)| {
         let mut faulty = compared.clone();
         let c = &mut faulty.files[0].text;
         assert!(c.contains(right), "{fault}");
         *c = c.replace(right, wrong);
+        let same = traced(c) == traced(&compared.files[0].text);
         let folder = tempfile::tempdir().unwrap();
         let result = validate(&faulty, &cbmc, folder.path(), Path::new(GALLERY), TIME).unwrap();
+        (result, same)
+    };
+    for fault in FAULTS {
+        let (result, _) = judged(fault);
         let differs = result.open.iter().any(|said| said.starts_with("another "));
-        assert!(differs, "{fault}: {result:?}");
+        assert!(differs, "{}: {result:?}", fault.0);
+    }
+    for none in WITHOUT_EFFECT {
+        let (result, same) = judged(none);
+        assert!(result.is_proved() && same, "{}: {same}, {result:?}", none.0);
     }
 }
 

@@ -261,6 +261,7 @@ const LIMITS: &str = "
 
 - The C is translated with the agent's state passed in, as the autopilot uses it. For `instance = static` the
   proofs cover the same plans and cycle, but not the other access to the state.
+- That the C does what the agent's text says is proved too, by `asl2c validate` ([validation.md](validation.md)).
 - CBMC, Frama-C, SPIN, the C compiler and the Rust code around the agent are trusted. The effect of an
   AT command is not part of the proof: it depends on the safety monitor, the session and the drone
   ([safety.md](safety.md)), and is tested.
