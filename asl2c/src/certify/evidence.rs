@@ -68,7 +68,7 @@ pub struct ValidationEvidence {
     pub status: Status,
     /// Number of proofs.
     pub proofs: usize,
-    /// Largest number of calls in a step that was compared.
+    /// Largest number of answers of one action in a step that was compared.
     pub calls: u32,
     /// Proofs that reached their time limit.
     pub timeouts: usize,

@@ -226,7 +226,7 @@ fn comparison(evidence: &Evidence) -> Markup {
             (marked(validation.status)) ": the text is translated a second time, into plain C by code that shares nothing "
             "with the back end. From any two related states, with the same answers of the environment, each call makes the "
             "same calls in the same order and ends in related states (" (validation.proofs) " proofs, up to "
-            (validation.calls) " calls in a step)."
+            (validation.calls) " answers of an action in a step)."
         }
         @if validation.timeouts > 0 { p.undecided { (validation.timeouts) " proofs reached their time limit." } }
         @for said in &validation.open { p { "Open: " code { (said) } } }
