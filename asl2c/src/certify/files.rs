@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
 
-use sha2::{Digest as _, Sha256};
-
+use super::checksum::checksum;
 use super::gather::{Certified, CertifyError};
 use super::page::page;
 
@@ -48,16 +47,6 @@ pub(crate) fn write(certified: &Certified, folder: &Path) -> Result<(), CertifyE
     Ok(())
 }
 
-/// SHA-256, as hexadecimal digits.
-pub(super) fn checksum(text: &str) -> String {
-    let mut digits = String::new();
-    for byte in Sha256::digest(text.as_bytes()) {
-        // Writing to a string cannot fail.
-        _ = write!(digits, "{byte:02x}");
-    }
-    digits
-}
-
 /// Removes an earlier evidence: the files that its checksums name.
 fn clear(folder: &Path) -> Result<(), CertifyError> {
     let failed =
@@ -82,15 +71,4 @@ fn clear(folder: &Path) -> Result<(), CertifyError> {
         }
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::checksum;
-
-    #[test]
-    fn checksums_are_those_of_sha256sum() {
-        let of_abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        assert_eq!(checksum("abc"), of_abc);
-    }
 }

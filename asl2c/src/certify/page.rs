@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use super::checksum::checksum;
 use super::evidence::{Evidence, PlanEvidence, PropertyEvidence, Status, Verdict};
-use super::files::checksum;
 use super::gather::Certified;
 use super::reach::Reached;
 
