@@ -58,7 +58,8 @@ pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, STEPS};
 pub use report::Report;
 use reserved::is_rust_word;
 pub use scripted::{Act, TESTS, traced};
-use syntax::ast::Name;
+use syntax::Document;
+use syntax::ast::{Agent, Name};
 use types::TypeKind;
 
 /// A configuration without errors.
@@ -355,32 +356,51 @@ fn c_files(program: &program::Program) -> Vec<GeneratedFile> {
     ]
 }
 
+/// All findings in a configuration and its agent: those of [`translate`].
+pub fn findings(configuration: &ParsedConfiguration, agent: &Document) -> Diagnostics {
+    let instance = configuration.configuration.settings.instance;
+    let tree = (agent.agent(), agent.errors());
+    match check_tree(configuration, tree, agent.text(), instance) {
+        Ok((_, found)) | Err(found) => found,
+    }
+}
+
 /// The checked program for a form of the C, and the warnings.
 fn check(
     configuration: &ParsedConfiguration,
     agent_text: &str,
     instance: Instance,
 ) -> Result<(program::Program, Diagnostics), TranslateError> {
+    let (agent, errors) = syntax::parse(agent_text);
+    check_tree(configuration, (&agent, errors), agent_text, instance)
+        .map_err(TranslateError::Refused)
+}
+
+/// The checked program of a syntax tree, and the warnings; or the errors.
+fn check_tree(
+    configuration: &ParsedConfiguration,
+    (agent, diagnostics): (&Agent, Vec<Diagnostic>),
+    agent_text: &str,
+    instance: Instance,
+) -> Result<(program::Program, Diagnostics), Diagnostics> {
     let ParsedConfiguration { name, text, configuration } = configuration;
     let input = configuration.settings.input.clone();
     let configuration_source = Source { name, text };
     let agent_source = Source { name: &input, text: agent_text };
 
     let boundary = check_rust_boundary(configuration);
-    let (agent, diagnostics) = syntax::parse(agent_text);
     if diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error) {
         // A text that cannot be parsed cannot be checked either.
-        let found = gather([(diagnostics, agent_source), (boundary, configuration_source)]);
-        return Err(TranslateError::Refused(found));
+        return Err(gather([(diagnostics, agent_source), (boundary, configuration_source)]));
     }
     let (program, mut findings) =
-        analysis::analyse(configuration.clone(), instance, &agent, agent_text);
+        analysis::analyse(configuration.clone(), instance, agent, agent_text);
     findings.configuration.extend(boundary);
     let found =
         gather([(findings.configuration, configuration_source), (findings.agent, agent_source)]);
     match program.filter(|_| !found.has_errors()) {
         Some(program) => Ok((program, found)),
-        None => Err(TranslateError::Refused(found)),
+        None => Err(found),
     }
 }
 

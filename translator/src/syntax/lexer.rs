@@ -4,6 +4,8 @@ use diagnostic::{Diagnostic, Span};
 
 use crate::code::Code;
 
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
 /// Kind of a token.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum TokenKind {
@@ -60,36 +62,51 @@ pub(crate) struct Token {
 
 /// All tokens of `text`, ending with [`TokenKind::End`], and the errors.
 pub(crate) fn tokenize(text: &str) -> (Vec<Token>, Vec<Diagnostic>) {
-    let mut lexer = Lexer { text, position: 0, tokens: Vec::new(), diagnostics: Vec::new() };
-    lexer.run();
-    (lexer.tokens, lexer.diagnostics)
+    let mut lexer = Lexer::at(text, 0);
+    let mut tokens = vec![lexer.token()];
+    while tokens.last().is_some_and(|token| token.kind != TokenKind::End) {
+        tokens.push(lexer.token());
+    }
+    (tokens, lexer.diagnostics)
 }
 
-struct Lexer<'a> {
+/// Reads one token after the other.
+pub(super) struct Lexer<'a> {
     text: &'a str,
     position: usize,
-    tokens: Vec<Token>,
-    diagnostics: Vec<Diagnostic>,
+    /// The errors, in the order of the text.
+    pub(super) diagnostics: Vec<Diagnostic>,
 }
 
-impl Lexer<'_> {
-    fn run(&mut self) {
-        while let Some(character) = self.peek() {
+impl<'a> Lexer<'a> {
+    /// A lexer that begins in the middle of a text: between two tokens, outside of comments.
+    pub(super) fn at(text: &'a str, position: usize) -> Self {
+        Self { text, position, diagnostics: Vec::new() }
+    }
+
+    /// The next token; [`TokenKind::End`] at the end, however often it is asked for.
+    pub(super) fn token(&mut self) -> Token {
+        loop {
             let start = self.position;
+            let Some(character) = self.peek() else { return self.made(TokenKind::End, start) };
             match character {
                 c if c.is_whitespace() => self.advance(),
                 '/' if self.rest().starts_with("//") => self.take_while(|c| c != '\n'),
-                '/' if self.rest().starts_with("/*") => self.block_comment(start),
-                '"' => self.string(start),
-                c if c.is_ascii_digit() => self.number(start),
-                c if c.is_ascii_alphabetic() || c == '_' => self.word(start),
-                _ => self.symbol(start),
+                '/' if self.rest().starts_with("/*") => {
+                    if !self.block_comment(start) {
+                        return self.made(TokenKind::Invalid, start);
+                    }
+                }
+                '"' => return self.string(start),
+                c if c.is_ascii_digit() => return self.number(start),
+                c if c.is_ascii_alphabetic() || c == '_' => return self.word(start),
+                BYTE_ORDER_MARK if start == 0 => self.advance(),
+                _ => return self.symbol(start),
             }
         }
-        self.push(TokenKind::End, self.text.len());
     }
 
-    fn rest(&self) -> &str {
+    fn rest(&self) -> &'a str {
         &self.text[self.position..]
     }
 
@@ -107,16 +124,18 @@ impl Lexer<'_> {
         }
     }
 
-    fn push(&mut self, kind: TokenKind, start: usize) {
-        self.tokens.push(Token { kind, span: start..self.position });
+    fn made(&self, kind: TokenKind, start: usize) -> Token {
+        Token { kind, span: start..self.position }
     }
 
     fn error(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
 
-    fn block_comment(&mut self, start: usize) {
-        if let Some(length) = self.rest()[2..].find("*/") {
+    /// Skips a comment. Returns `false` if it is never closed.
+    fn block_comment(&mut self, start: usize) -> bool {
+        let length = self.rest()[2..].find("*/");
+        if let Some(length) = length {
             self.position += 2 + length + 2;
         } else {
             self.position = self.text.len();
@@ -126,11 +145,11 @@ impl Lexer<'_> {
                     .label("opened here")
                     .help("close it with `*/`"),
             );
-            self.push(TokenKind::Invalid, start);
         }
+        length.is_some()
     }
 
-    fn word(&mut self, start: usize) {
+    fn word(&mut self, start: usize) -> Token {
         self.take_while(|c| c.is_ascii_alphanumeric() || c == '_');
         let kind = match &self.text[start..self.position] {
             "true" => TokenKind::True,
@@ -141,10 +160,10 @@ impl Lexer<'_> {
             word if word.starts_with(|c: char| c.is_ascii_uppercase()) => TokenKind::Variable,
             _ => TokenKind::Atom,
         };
-        self.push(kind, start);
+        self.made(kind, start)
     }
 
-    fn number(&mut self, start: usize) {
+    fn number(&mut self, start: usize) -> Token {
         self.take_while(|c| c.is_ascii_digit());
         let mut after_dot = self.rest().strip_prefix('.').into_iter().flat_map(str::chars);
         if after_dot.next().is_some_and(|c| c.is_ascii_digit()) {
@@ -159,10 +178,9 @@ impl Lexer<'_> {
                     .at("malformed number", start..self.position)
                     .help("numbers are decimal: `12`, `0.5`, `1e-3`"),
             );
-            self.push(TokenKind::Invalid, start);
-            return;
+            return self.made(TokenKind::Invalid, start);
         }
-        self.push(TokenKind::Number, start);
+        self.made(TokenKind::Number, start)
     }
 
     fn exponent(&mut self) {
@@ -175,7 +193,7 @@ impl Lexer<'_> {
         }
     }
 
-    fn string(&mut self, start: usize) {
+    fn string(&mut self, start: usize) -> Token {
         self.advance();
         let mut text = String::new();
         loop {
@@ -218,10 +236,10 @@ impl Lexer<'_> {
                 other => text.push(other),
             }
         }
-        self.push(TokenKind::Text(text), start);
+        self.made(TokenKind::Text(text), start)
     }
 
-    fn symbol(&mut self, start: usize) {
+    fn symbol(&mut self, start: usize) -> Token {
         const SYMBOLS: [(&str, TokenKind); 26] = [
             ("<-", TokenKind::Arrow),
             ("<=", TokenKind::LessOrEqual),
@@ -250,21 +268,16 @@ impl Lexer<'_> {
             ("[", TokenKind::LeftBracket),
             ("]", TokenKind::RightBracket),
         ];
-        const BYTE_ORDER_MARK: char = '\u{feff}';
-        if start == 0 && self.peek() == Some(BYTE_ORDER_MARK) {
-            self.advance();
-            return;
-        }
         match SYMBOLS.iter().find(|(symbol, _)| self.rest().starts_with(symbol)) {
             Some((symbol, kind)) => {
                 self.position += symbol.len();
-                self.push(kind.clone(), start);
+                self.made(kind.clone(), start)
             }
             None => self.unknown_symbol(start),
         }
     }
 
-    fn unknown_symbol(&mut self, start: usize) {
+    fn unknown_symbol(&mut self, start: usize) -> Token {
         let character = self.peek().unwrap_or(' ');
         self.advance();
         let help = match character {
@@ -281,7 +294,7 @@ impl Lexer<'_> {
                 )
                 .help(help),
         );
-        self.push(TokenKind::Invalid, start);
+        self.made(TokenKind::Invalid, start)
     }
 }
 

@@ -4,8 +4,11 @@
 //! error. A tree with errors must not be translated.
 
 pub mod ast;
+mod document;
 mod expression;
 pub(crate) mod lexer;
 mod parser;
+mod shift;
 
+pub use document::Document;
 pub use parser::parse;

@@ -1,4 +1,4 @@
-//! Recursive-descent parser with one token of look-ahead.
+//! Recursive-descent parser of one statement after the other, with one token of look-ahead.
 //!
 //! After an error the parser continues behind the next full stop, so that one run reports all errors of a
 //! file.
@@ -6,22 +6,43 @@
 use diagnostic::{Diagnostic, Span};
 
 use super::ast::{Agent, Atom, Formula, Name, Operator, Plan, Trigger, TriggerKind};
-use super::lexer::{Token, TokenKind, tokenize};
+use super::document::Document;
+use super::lexer::{Lexer, Token, TokenKind};
 use crate::code::Code;
 
 /// The syntax tree of `text` and all errors.
 pub fn parse(text: &str) -> (Agent, Vec<Diagnostic>) {
-    let (tokens, diagnostics) = tokenize(text);
-    let mut parser = Parser { text, tokens, position: 0, diagnostics };
-    let agent = parser.agent();
-    (agent, parser.diagnostics)
+    Document::new(text.to_owned()).into_parts()
+}
+
+/// What one statement of an agent is.
+pub(super) enum Statement {
+    Belief(Atom),
+    /// The initial goal, and its place with the `!`.
+    Goal(Atom, Span),
+    Plan(Plan),
+    /// Text with an error.
+    Unknown,
+}
+
+/// A statement with its errors.
+pub(super) struct Parsing {
+    pub(super) statement: Statement,
+    /// Its end in the text, behind the full stop.
+    pub(super) end: usize,
+    /// Errors in its characters.
+    pub(super) lexical: Vec<Diagnostic>,
+    /// Its other error.
+    pub(super) error: Option<Diagnostic>,
 }
 
 pub(super) struct Parser<'a> {
     pub(super) text: &'a str,
-    tokens: Vec<Token>,
-    position: usize,
-    diagnostics: Vec<Diagnostic>,
+    lexer: Lexer<'a>,
+    current: Token,
+    following: Token,
+    /// End of the last token that was taken.
+    end: usize,
 }
 
 pub(super) type Parsed<T> = Result<T, Diagnostic>;
@@ -29,32 +50,40 @@ pub(super) type Parsed<T> = Result<T, Diagnostic>;
 /// A plan's label and its requirement tags.
 type Annotations = (Option<Name>, Vec<String>);
 
-impl Parser<'_> {
-    fn agent(&mut self) -> Agent {
-        let mut agent = Agent::default();
-        while self.peek() != &TokenKind::End {
-            if let Err(diagnostic) = self.statement(&mut agent) {
-                // The lexer has reported it.
-                if self.peek() != &TokenKind::Invalid {
-                    self.diagnostics.push(diagnostic);
-                }
-                self.recover();
-            }
-        }
-        if agent.plans.is_empty() && self.diagnostics.is_empty() {
-            let end = self.text.len();
-            self.diagnostics.push(
-                Code::NoPlans
-                    .at("the agent has no plans", end..end)
-                    .help("add at least one plan: `+!goal : context <- body.`"),
-            );
-        }
-        agent
+impl<'a> Parser<'a> {
+    /// A parser that begins behind a statement, or at the begin of the text.
+    pub(super) fn at(text: &'a str, position: usize) -> Self {
+        let mut lexer = Lexer::at(text, position);
+        let (current, following) = (lexer.token(), lexer.token());
+        Self { text, lexer, current, following, end: position }
     }
 
-    fn statement(&mut self, agent: &mut Agent) -> Parsed<()> {
+    /// The next statement; `None` at the end of the text.
+    pub(super) fn next_statement(&mut self) -> Option<Parsing> {
+        if self.peek() == &TokenKind::End {
+            return None;
+        }
+        let (statement, error) = match self.statement() {
+            Ok(statement) => (statement, None),
+            Err(diagnostic) => {
+                // The lexer has reported it.
+                let said = self.peek() == &TokenKind::Invalid;
+                self.recover();
+                (Statement::Unknown, Some(diagnostic).filter(|_| !said))
+            }
+        };
+        // A statement without a full stop depends on everything behind it.
+        let open = matches!(statement, Statement::Unknown) && self.peek() == &TokenKind::End;
+        let end = if open { self.text.len() } else { self.end };
+        let found = &mut self.lexer.diagnostics;
+        let own = found.partition_point(|diagnostic| diagnostic.span.start < end);
+        let lexical = found.drain(..own).collect();
+        Some(Parsing { statement, end, lexical, error })
+    }
+
+    fn statement(&mut self) -> Parsed<Statement> {
         match self.peek() {
-            TokenKind::Plus | TokenKind::Minus | TokenKind::At => agent.plans.push(self.plan()?),
+            TokenKind::Plus | TokenKind::Minus | TokenKind::At => Ok(Statement::Plan(self.plan()?)),
             TokenKind::Bang => {
                 let start = self.next().span.start;
                 let goal = self.atom(0)?;
@@ -67,13 +96,7 @@ impl Parser<'_> {
                     return Err(if plan { error.help(help) } else { error });
                 }
                 let span = start..goal.span.end;
-                if agent.goal.is_some() {
-                    return Err(Code::DeclaredTwice
-                        .at("a second initial goal", span)
-                        .help("an agent has at most one; let its plan call the other goals"));
-                }
-                self.refuse_after_plans(agent, span, "the initial goal");
-                agent.goal = Some(goal);
+                Ok(Statement::Goal(goal, span))
             }
             TokenKind::Atom => {
                 let belief = self.atom(0)?;
@@ -85,23 +108,9 @@ impl Parser<'_> {
                     );
                     return Err(if plan { error.help(help) } else { error });
                 }
-                self.refuse_after_plans(agent, belief.span.clone(), "an initial belief");
-                agent.beliefs.push(belief);
+                Ok(Statement::Belief(belief))
             }
-            _ => {
-                return Err(self.unexpected("an initial belief, an initial goal or a plan"));
-            }
-        }
-        Ok(())
-    }
-
-    fn refuse_after_plans(&mut self, agent: &Agent, span: Span, what: &str) {
-        if !agent.plans.is_empty() {
-            self.diagnostics.push(
-                Code::Syntax
-                    .at(format!("{what} after a plan"), span)
-                    .help("the order is: initial beliefs, initial goal, plans"),
-            );
+            _ => Err(self.unexpected("an initial belief, an initial goal or a plan")),
         }
     }
 
@@ -303,29 +312,24 @@ impl Parser<'_> {
         Name { text: self.text[span.clone()].to_owned(), span }
     }
 
-    fn token(&self) -> &Token {
-        // `tokenize` ends with `End`, and `next` never moves past it.
-        &self.tokens[self.position.min(self.tokens.len() - 1)]
-    }
-
     pub(super) fn peek(&self) -> &TokenKind {
-        &self.token().kind
+        &self.current.kind
     }
 
     /// The token behind the current one.
     fn following(&self) -> &TokenKind {
-        &self.tokens[(self.position + 1).min(self.tokens.len() - 1)].kind
+        &self.following.kind
     }
 
     pub(super) fn span(&self) -> Span {
-        self.token().span.clone()
+        self.current.span.clone()
     }
 
+    /// Takes the current token.
     pub(super) fn next(&mut self) -> Token {
-        let token = self.token().clone();
-        if token.kind != TokenKind::End {
-            self.position += 1;
-        }
+        let following = std::mem::replace(&mut self.following, self.lexer.token());
+        let token = std::mem::replace(&mut self.current, following);
+        self.end = token.span.end;
         token
     }
 
