@@ -30,6 +30,7 @@ mod format;
 mod gather;
 pub mod interpreter;
 mod model;
+pub mod names;
 mod obligations;
 mod plain;
 mod program;
