@@ -179,14 +179,16 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (line, before[line_start..].chars().count() + 1)
 }
 
-/// The candidate most similar to `name`, if any is similar enough to suggest a typing error.
+/// The candidate most similar to `name`, if any is similar enough to suggest a typing error; of several the first
+/// in the alphabet, in whatever order they are given.
 pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = (name.chars().count() / 3).max(1);
+    let length = name.chars().count();
+    let limit = (length / 3).max(1);
     candidates
         .into_iter()
         .map(|candidate| (edit_distance(name, candidate), candidate))
-        .filter(|(distance, _)| *distance <= limit)
-        .min_by_key(|(distance, _)| *distance)
+        .filter(|(distance, _)| *distance <= limit && *distance < length)
+        .min()
         .map(|(_, candidate)| candidate)
 }
 
@@ -252,6 +254,9 @@ mod tests {
         assert_eq!(closest("takeof", commands), Some("takeoff"));
         assert_eq!(closest("GOTO", commands), Some("goto"));
         assert_eq!(closest("hover", commands), None);
+        assert_eq!(closest("tip", ["top", "tap"]), closest("tip", ["tap", "top"]));
+        // Every other letter is as similar.
+        assert_eq!(closest("k", ["d", "h"]), None);
     }
 
     #[test]
