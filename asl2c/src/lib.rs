@@ -18,6 +18,7 @@ mod agent;
 mod certify;
 pub mod command_line;
 mod coverage;
+mod lsp;
 mod measure;
 mod new;
 mod output;

@@ -357,14 +357,32 @@ fn c_files(program: &program::Program) -> Vec<GeneratedFile> {
     ]
 }
 
-/// All findings in a configuration and its agent: those of [`translate`].
-pub fn findings(configuration: &ParsedConfiguration, agent: &Document) -> Diagnostics {
-    let instance = configuration.configuration.settings.instance;
-    let tree = (agent.agent(), agent.errors());
-    match check_tree(configuration, tree, agent.text(), instance) {
-        Ok((_, found)) | Err(found) => found,
-    }
+/// All findings in a configuration and its agent, those of [`translate`], by text and importance.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Findings {
+    /// Those in the configuration.
+    pub configuration: Vec<Diagnostic>,
+    /// Those in the agent.
+    pub agent: Vec<Diagnostic>,
 }
+
+/// Checks an agent without translating it.
+pub fn findings(configuration: &ParsedConfiguration, agent: &Document) -> Findings {
+    let instance = configuration.configuration.settings.instance;
+    let errors = agent.errors();
+    // Errors of the syntax come before all others.
+    let agent_source = if errors.is_empty() { AGENT_SOURCE } else { 0 };
+    let found = match check_tree(configuration, (agent.agent(), errors), agent.text(), instance) {
+        Ok((_, found)) | Err(found) => found,
+    };
+    let (agent, configuration) =
+        found.into_vec().into_iter().partition(|diagnostic| diagnostic.source == agent_source);
+    Findings { configuration, agent }
+}
+
+/// Index of the agent among the sources of diagnostics, if it can be parsed.
+const AGENT_SOURCE: usize = 1;
 
 /// The checked program for a form of the C, and the warnings.
 fn check(

@@ -101,6 +101,16 @@ pub(super) enum Task {
     ///
     /// A text that cannot be parsed is not changed, and its errors are shown; the exit status is 1 then.
     Fmt(Fmt),
+    /// Serve an editor by the Language Server Protocol, over standard input and output
+    ///
+    /// Diagnostics of agents and their configurations while typing, types and what events lead to, definitions,
+    /// references, renaming, completion, formatting, outlines and colours. The exit status is 0 if the editor shut the
+    /// server down before it left, otherwise 1.
+    Lsp {
+        /// As editors pass it: there is no other transport
+        #[arg(long)]
+        stdio: bool,
+    },
     /// Run the agent by the reference interpreter, without any C: a prompt for calls of its interface,
     /// results of its functions, steps, and its state
     ///

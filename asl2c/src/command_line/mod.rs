@@ -27,6 +27,7 @@ use self::messages::{denied, error_lines, line, lines};
 use self::verdicts::Detail;
 use crate::agent::{Agent, ReadError};
 use crate::certify::CertifyError;
+use crate::lsp;
 use crate::measure::measure;
 use crate::new::{NewError, make};
 use crate::output::{self, OutputError};
@@ -93,6 +94,7 @@ pub fn run() -> ExitCode {
             (print("the explanation", &text).map(|()| ExitCode::SUCCESS), false)
         }
         (Some(Task::Fmt(asked)), _) => (fmt::run(asked), is_json(&asked.message_format)),
+        (Some(Task::Lsp { .. }), _) => (serve_editor(), false),
         (Some(Task::Run(asked)), _) => (run::run(asked), false),
         (Some(Task::Prove(asked)), _) => (prove::run(asked), is_json(&asked.message_format)),
         (Some(Task::Validate(asked)), _) => (validate::run(asked), is_json(&asked.message_format)),
@@ -114,6 +116,13 @@ fn explained(code: Option<&str>) -> String {
     };
     let severity = if code.severity() == Severity::Error { "error" } else { "warning" };
     format!("{severity} `{}`: {}\n\n{}\n", code.name(), code.meaning(), code.explanation())
+}
+
+/// Serves an editor until it leaves.
+fn serve_editor() -> Result<ExitCode, CommandError> {
+    let ended = lsp::serve(std::io::stdin(), &mut std::io::stdout().lock());
+    let orderly = ended.map_err(|source| CommandError::Print { what: "an answer", source })?;
+    Ok(if orderly { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 fn check(asked: &Verify) -> Result<ExitCode, CommandError> {

@@ -11,6 +11,7 @@ mod fmt;
 mod gallery;
 mod guide;
 mod harness;
+mod lsp;
 mod on_target;
 mod prove;
 mod proved;

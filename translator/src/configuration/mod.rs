@@ -30,8 +30,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use diagnostic::Span;
 
-pub use parser::parse;
+pub use parser::{SECTIONS, parse};
 pub use properties::{CallBound, Cause, Comparison, Formula, Operand, Property};
+pub use settings::SETTINGS;
 
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 use crate::types::CType;

@@ -8,7 +8,8 @@ use super::{Configuration, ExternalTrigger};
 use crate::code::Code;
 use crate::syntax::ast::{Name, Operator, TriggerKind};
 
-const SECTIONS: [&str; 11] = [
+/// The sections of a configuration.
+pub const SECTIONS: [&str; 11] = [
     "settings",
     "includes",
     "structs",
@@ -21,6 +22,7 @@ const SECTIONS: [&str; 11] = [
     "preemptive",
     "properties",
 ];
+
 /// Parses `text`. Returns the configuration and all errors.
 pub fn parse(text: &str) -> (Configuration, Vec<Diagnostic>) {
     const BYTE_ORDER_MARK: char = '\u{feff}';

@@ -6,7 +6,8 @@ use super::scanner::{Parsed, advice};
 use crate::code::Code;
 use crate::syntax::ast::Name;
 
-const SETTINGS: [&str; 11] = [
+/// The settings of a configuration.
+pub const SETTINGS: [&str; 11] = [
     "trace",
     "clock",
     "input",

@@ -10,5 +10,11 @@ pub(crate) mod lexer;
 mod parser;
 mod shift;
 
+use diagnostic::Diagnostic;
+
 pub use document::Document;
-pub use parser::parse;
+
+/// The syntax tree of `text` and all errors.
+pub fn parse(text: &str) -> (ast::Agent, Vec<Diagnostic>) {
+    Document::new(text.to_owned()).into_parts()
+}

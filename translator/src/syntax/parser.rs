@@ -5,15 +5,9 @@
 
 use diagnostic::{Diagnostic, Span};
 
-use super::ast::{Agent, Atom, Formula, Name, Operator, Plan, Trigger, TriggerKind};
-use super::document::Document;
+use super::ast::{Atom, Formula, Name, Operator, Plan, Trigger, TriggerKind};
 use super::lexer::{Lexer, Token, TokenKind};
 use crate::code::Code;
-
-/// The syntax tree of `text` and all errors.
-pub fn parse(text: &str) -> (Agent, Vec<Diagnostic>) {
-    Document::new(text.to_owned()).into_parts()
-}
 
 /// What one statement of an agent is.
 pub(super) enum Statement {
@@ -361,8 +355,8 @@ impl<'a> Parser<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::syntax::ast::Expression;
+    use crate::syntax::parse;
 
     fn messages(text: &str) -> Vec<String> {
         parse(text).1.into_iter().map(|diagnostic| diagnostic.message).collect()

@@ -1,0 +1,285 @@
+//! Completion: names that fit before the cursor.
+
+use std::collections::BTreeSet;
+
+use gen_lsp_types::{CompletionItem, CompletionItemKind, CompletionParams};
+use serde_json::{Value, json};
+use translator::configuration::{Configuration, SECTIONS, SETTINGS};
+use translator::types::{CType, TypeKind};
+
+use super::answers::{Answer, parameters, result};
+use super::files::{Content, File};
+use super::places::related;
+use super::server::Server;
+
+pub(super) fn complete(server: &mut Server, params: Value) -> Answer {
+    let params: CompletionParams = parameters(params)?;
+    let at = params.text_document_position_params;
+    let (path, ..) = server.cursor(&at)?;
+    let texts = related(&mut server.files, &path);
+    let (_, file, offset) = server.cursor(&at)?;
+    let mut items = Items::default();
+    match &file.content {
+        Content::Agent(document) => {
+            let mut texts = texts.iter().filter_map(|path| server.files.get(path));
+            let configuration = texts.find_map(File::configuration).map(|text| &text.tree);
+            let statement = &document.text()[document.statement_start(offset)..offset];
+            in_agent(statement, configuration, &mut items);
+        }
+        Content::Configuration(text) => in_section(&file.text()[..offset], &text.tree, &mut items),
+    }
+    result(json!({ "isIncomplete": false, "items": items.list }))
+}
+
+#[derive(Default)]
+struct Items {
+    list: Vec<CompletionItem>,
+    known: BTreeSet<String>,
+}
+
+impl Items {
+    fn add(&mut self, label: &str, kind: CompletionItemKind, detail: &str) {
+        if self.known.insert(label.to_owned()) {
+            self.list.push(CompletionItem {
+                label: label.to_owned(),
+                kind: Some(kind),
+                detail: Some(detail.to_owned()).filter(|detail| !detail.is_empty()),
+                ..CompletionItem::default()
+            });
+        }
+    }
+
+    fn beliefs_and_goals(&mut self, configuration: &Configuration, kind: CompletionItemKind) {
+        for predicate in &configuration.predicates {
+            let name = &predicate.name.text;
+            self.add(name, kind, &format!("{name}({})", types(&predicate.parameters)));
+        }
+    }
+
+    fn basics(&mut self, configuration: &Configuration, fits: impl Fn(TypeKind) -> bool) {
+        for basic in configuration.basics.iter().filter(|basic| fits(basic.result.kind)) {
+            let name = &basic.name.text;
+            let detail = format!("{} {name}({})", basic.result.name, types(&basic.parameters));
+            self.add(name, CompletionItemKind::Function, &detail);
+        }
+    }
+
+    /// The variables of a statement.
+    fn variables(&mut self, statement: &str) {
+        for word in statement.split(|c: char| !is_word(c)) {
+            if word.starts_with(|c: char| c.is_ascii_uppercase()) {
+                self.add(word, CompletionItemKind::Variable, "");
+            }
+        }
+    }
+}
+
+fn is_word(character: char) -> bool {
+    character.is_ascii_alphanumeric() || character == '_'
+}
+
+fn types(parameters: &[CType]) -> String {
+    let names: Vec<&str> = parameters.iter().map(|ctype| ctype.name.as_str()).collect();
+    if names.is_empty() { "void".to_owned() } else { names.join(", ") }
+}
+
+/// Part of a statement in which the cursor is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    /// A trigger, or an initial belief.
+    Head,
+    /// Behind `:`
+    Context,
+    /// Where a formula begins.
+    Formula,
+    /// An argument or another value.
+    Value,
+}
+
+/// Names that can follow `statement`, the begin of a statement of an agent.
+fn in_agent(statement: &str, configuration: Option<&Configuration>, items: &mut Items) {
+    let before = statement.trim_end_matches(is_word);
+    let typed = &statement[before.len()..];
+    if typed.starts_with(|c: char| c.is_ascii_digit()) || is_quoted(before) {
+        return;
+    }
+    let before = before.trim_end();
+    if before.ends_with('@') {
+        return;
+    }
+    if let Some(formulae) = before.strip_suffix('.') {
+        // Otherwise it is the full stop of the statement.
+        if formulae.trim_end().ends_with([';', '-']) {
+            items.add("wait", CompletionItemKind::Keyword, ".wait(milliseconds)");
+        }
+        return;
+    }
+    // Without the word that is being typed.
+    items.variables(before);
+    let Some(configuration) = configuration else { return };
+    let part = part_of(before);
+    let value = |kind: TypeKind| kind != TypeKind::Void;
+    let goals = before.ends_with('!');
+    let is_changed = before.ends_with(['?', '+', '-']) && !before.ends_with("<-");
+    if goals || (is_changed && matches!(part, Part::Head | Part::Formula)) {
+        let kind = if goals { CompletionItemKind::Event } else { CompletionItemKind::Property };
+        items.beliefs_and_goals(configuration, kind);
+        return;
+    }
+    match part {
+        Part::Head => items.beliefs_and_goals(configuration, CompletionItemKind::Property),
+        Part::Formula => items.basics(configuration, |_| true),
+        Part::Value => items.basics(configuration, value),
+        Part::Context => {
+            items.beliefs_and_goals(configuration, CompletionItemKind::Property);
+            items.basics(configuration, value);
+            for word in ["not", "true", "false"] {
+                items.add(word, CompletionItemKind::Keyword, "");
+            }
+        }
+    }
+}
+
+/// Whether the end of a text is in a string or a comment of its last line.
+fn is_quoted(text: &str) -> bool {
+    let line = text.rsplit('\n').next().unwrap_or_default();
+    let quotes = line.replace("\\\"", "").matches('"').count();
+    quotes % 2 == 1 || line.contains("//")
+}
+
+fn part_of(before: &str) -> Part {
+    let (head, body) = before.split_once("<-").map_or((before, None), |(h, b)| (h, Some(b)));
+    let text = body.unwrap_or(head);
+    let depth = text.matches('(').count().saturating_sub(text.matches(')').count());
+    match body {
+        _ if depth > 0 && (body.is_some() || !head.contains(':')) => Part::Value,
+        Some(body) => {
+            let sign = ['!', '?', '+', '-'];
+            let formula = body.rsplit(';').next().unwrap_or_default().trim();
+            if formula.trim_end_matches(sign).is_empty() { Part::Formula } else { Part::Value }
+        }
+        None if head.contains(':') => Part::Context,
+        None => Part::Head,
+    }
+}
+
+/// Names that can follow `before` in a configuration.
+fn in_section(before: &str, configuration: &Configuration, items: &mut Items) {
+    let opened = before.rfind('{').filter(|open| !before[*open..].contains('}'));
+    let Some(open) = opened else {
+        for section in SECTIONS {
+            items.add(section, CompletionItemKind::Keyword, "section");
+        }
+        return;
+    };
+    let head = before[..open].trim_end();
+    let section = &head[head.trim_end_matches(is_word).len()..];
+    let entry = before[open + 1..].rsplit(';').next().unwrap_or_default();
+    let actions = |items: &mut Items| items.basics(configuration, |_| true);
+    let beliefs =
+        |items: &mut Items| items.beliefs_and_goals(configuration, CompletionItemKind::Property);
+    match section {
+        "settings" => match entry.split_once('=').map(|(setting, _)| setting.trim()) {
+            None => {
+                for setting in SETTINGS {
+                    items.add(setting, CompletionItemKind::Property, "setting");
+                }
+            }
+            Some("instance") => {
+                for form in ["static", "context"] {
+                    items.add(form, CompletionItemKind::Value, "");
+                }
+            }
+            Some("clock") => items.basics(configuration, |kind| kind != TypeKind::Void),
+            Some(_) => {}
+        },
+        "classes" if entry.contains(':') => actions(items),
+        "settables" | "perceived" | "triggerables" | "preemptive" => beliefs(items),
+        "properties" if entry.contains('(') => {
+            actions(items);
+            beliefs(items);
+            for class in &configuration.classes {
+                items.add(&class.name.text, CompletionItemKind::Class, "class");
+            }
+            for word in ["unless", "until"] {
+                items.add(word, CompletionItemKind::Keyword, "");
+            }
+        }
+        "properties" if entry.contains(':') => {
+            for formula in [
+                "exactly_one",
+                "at_most_one",
+                "at_least_one",
+                "never",
+                "within",
+                "only_after",
+                "all_handled",
+            ] {
+                items.add(formula, CompletionItemKind::Keyword, "");
+            }
+        }
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(statement: &str) -> String {
+        let (configuration, _) = translator::configuration::parse(
+            "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
+            basics { void act(int); int count(void); }; types { go(int); level(int); };",
+        );
+        let mut items = Items::default();
+        in_agent(statement, Some(&configuration), &mut items);
+        items.list.iter().map(|item| item.label.as_str()).collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn what_fits_before_the_cursor_is_offered() {
+        for (statement, expected) in [
+            ("", "go level"),
+            ("+!", "go level"),
+            ("\n@l[req(\"a\")] +", "go level"),
+            ("+!go(X) : ", "X go level count not true false"),
+            ("+!go(X) : level(Y) & not l", "X Y go level count not true false"),
+            ("+!go(X) : level(", "X go level count not true false"),
+            ("+!go(X) <- ", "X act count"),
+            ("+!go(X) <- a", "X act count"),
+            ("+!go(X) <- act(", "X count"),
+            ("+!go(X) <- act(X); !", "X go level"),
+            ("+!go(X) <- act(X); -l", "X go level"),
+            ("+!go(X) <- Y = X - c", "X Y count"),
+            ("+!go(X) <- .w", "wait"),
+            ("+!go(X) <- act(X); .", "wait"),
+            ("+!go(X) <- act(X).", ""),
+            ("+!go(X) <- act(3", ""),
+            ("+!go(X) <- say(\"a", ""),
+            ("// go", ""),
+            ("@", ""),
+        ] {
+            assert_eq!(labels(statement), expected, "{statement}");
+        }
+    }
+
+    #[test]
+    fn sections_and_their_entries_are_offered() {
+        let (configuration, _) = translator::configuration::parse(
+            "basics { void act(int); }; classes { c: act; }; types { go(int); };",
+        );
+        let labels = |before: &str| {
+            let mut items = Items::default();
+            in_section(before, &configuration, &mut items);
+            items.list.into_iter().map(|item| item.label).collect::<Vec<_>>().join(" ")
+        };
+        assert!(labels("").contains("triggerables"));
+        assert!(labels("settings { input = a; o").contains("output"));
+        assert_eq!(labels("settings { instance = "), "static context");
+        assert_eq!(labels("classes { a: "), "act");
+        assert_eq!(labels("triggerables { +!"), "go");
+        assert!(labels("properties { p: ").contains("within"));
+        assert_eq!(labels("properties { p: never("), "act go c unless until");
+        assert_eq!(labels("types { "), "");
+    }
+}
