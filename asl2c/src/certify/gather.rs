@@ -112,18 +112,21 @@ pub fn certify(
     let own = agent.own_headers();
     translation.files.extend(own.iter().cloned());
     obligations.files.extend(own);
-    tell("checks the rules of MISRA C:2012");
+    let mut tell = |doing: &str| cbmc.check_stop().map(|()| tell(doing));
+    tell("checks the rules of MISRA C:2012")?;
     let deviations = deviations(&translation.files, include)?;
-    tell("measures stack and time");
+    tell("measures stack and time")?;
     let missing = measure(&mut translation, configuration, text);
     let bounds = Bounds { report: translation.report.to_string(), missing };
-    tell("makes tests and executes them on the C");
+    tell("makes tests and executes them on the C")?;
     let coverage = cover(agent, include)?;
-    tell("proves the properties");
+    tell("proves the properties")?;
     let Proved { properties, run_time_errors, invariant, mut files, c: proved_c, dead } =
         proved(agent, obligations, cbmc, limits)?;
-    tell("compares the C with the agent's text");
+    tell("compares the C with the agent's text")?;
     let validation = validation(agent, cbmc, limits)?;
+    // Proofs that were ended are no result.
+    cbmc.check_stop()?;
 
     let c = &translation.files[0];
     let rows = trace_rows(configuration, text)?;

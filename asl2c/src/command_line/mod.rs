@@ -9,6 +9,7 @@ mod progress;
 mod prompt;
 mod prove;
 mod run;
+mod stop;
 mod target;
 mod validate;
 mod verdicts;

@@ -1,11 +1,9 @@
-//! What is printed while proofs run, and the stop of all by a signal.
+//! What is printed while proofs run.
 
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-
-use signal_hook::consts::TERM_SIGNALS;
 
 use crate::prove::{End, Part, Watch};
 
@@ -37,13 +35,8 @@ struct State {
 }
 
 impl Progress {
-    /// From now on an interrupt (Ctrl-C) or a request to end stops the proofs instead of the program, which has to
-    /// end the provers and to remove its files.
-    pub(super) fn new(quiet: bool) -> std::io::Result<Self> {
-        let stopped = Arc::new(AtomicBool::new(false));
-        for signal in TERM_SIGNALS {
-            signal_hook::flag::register(*signal, Arc::clone(&stopped))?;
-        }
+    /// `stopped` is the flag of [`super::stop::flag`].
+    pub(super) fn new(quiet: bool, stopped: Arc<AtomicBool>) -> Self {
         let shown = match (quiet, std::io::stderr().is_terminal()) {
             (true, _) => Shown::Nothing,
             (false, true) => Shown::Line,
@@ -51,7 +44,7 @@ impl Progress {
         };
         let now = Instant::now();
         let state = State { begun: now, updated: now, ended: 0, of: 0, running: Vec::new() };
-        Ok(Self { shown, state: Mutex::new(state), stopped })
+        Self { shown, state: Mutex::new(state), stopped }
     }
 
     /// Removes the line.

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use translator::{ParsedConfiguration, Promise, obligations};
 
 use super::arguments::Prove;
-use super::{CommandError, NOT_CHECKED, print};
+use super::{CommandError, NOT_CHECKED, print, stop};
 use crate::agent::Agent;
 use crate::prove::{Cbmc, Found, Limits, Plan, Proof, ProveError, Searched, prove, search};
 use crate::run::Session;
@@ -28,7 +28,7 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     let Agent { configuration, text, .. } = &agent;
     let mut obligations = obligations(configuration, text)?;
     obligations.files.extend(agent.own_headers());
-    let cbmc = Cbmc::find(asked.cbmc.as_deref())?;
+    let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
     let folder = tempfile::tempdir()
         .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;
     let proof = prove(&obligations, &cbmc, folder.path(), &Plan::ALL)?;

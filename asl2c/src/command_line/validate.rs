@@ -10,7 +10,7 @@ use translator::{Happening, comparison};
 
 use super::arguments::{Validate, is_json};
 use super::progress::Progress;
-use super::{CommandError, NOT_CHECKED, print};
+use super::{CommandError, NOT_CHECKED, print, stop};
 use crate::agent::Agent;
 use crate::prove::{
     Budget, Cbmc, Difference, ProveError, Validated, Watch, difference, validate_watched,
@@ -41,8 +41,8 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
         .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;
     let [each, total] = [asked.time, asked.total].map(Duration::from_secs);
     let budget = Budget::begin(each, Some(total));
-    let progress = Progress::new(asked.quiet || is_json(&asked.message_format))
-        .map_err(|source| ProveError::Io { what: "cannot wait for a stop".to_owned(), source })?;
+    let quiet = asked.quiet || is_json(&asked.message_format);
+    let progress = Progress::new(quiet, stop::flag()?);
     let folders = (folder.path(), agent.folder());
     let validated = validate_watched(&comparison, &cbmc, folders, budget, &progress)?;
     let mut shown = None;

@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::io::{Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use translator::HARNESS;
@@ -21,6 +23,7 @@ const OLDEST: u32 = 6;
 pub struct Cbmc {
     path: PathBuf,
     version: String,
+    stop: Arc<AtomicBool>,
 }
 
 /// An assertion that is not proved.
@@ -37,6 +40,15 @@ impl Failure {
     pub(crate) fn property(&self) -> Option<&str> {
         self.said.strip_prefix("property ")
     }
+}
+
+/// What of CBMC's output is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Said {
+    /// Only standard output.
+    Output,
+    /// Also standard error.
+    All,
 }
 
 impl Cbmc {
@@ -65,7 +77,22 @@ impl Cbmc {
                 "gcc, which CBMC uses as its preprocessor, cannot be run".to_owned(),
             ));
         }
-        Ok(Self { path, version })
+        Ok(Self { path, version, stop: Arc::default() })
+    }
+
+    /// Ends all proofs once the flag is set: a program that is asked to end leaves no CBMC behind.
+    #[must_use]
+    pub fn stopped_by(mut self, stop: Arc<AtomicBool>) -> Self {
+        self.stop = stop;
+        self
+    }
+
+    /// Whether the proofs were ended.
+    ///
+    /// # Errors
+    /// [`ProveError::Stopped`].
+    pub fn check_stop(&self) -> Result<(), ProveError> {
+        if self.stop.load(Ordering::Relaxed) { Err(ProveError::Stopped) } else { Ok(()) }
     }
 
     /// Its version.
@@ -113,7 +140,7 @@ impl Cbmc {
         Ok(!is_proved(&run(&["--slice-formula", "--property", name])?)?)
     }
 
-    /// Its output, standard error last.
+    /// Its output and errors.
     fn run(
         &self,
         folder: &Path,
@@ -121,14 +148,9 @@ impl Cbmc {
         checks: Checks,
         arguments: &[&str],
     ) -> Result<String, ProveError> {
-        let output = self
-            .command(folder, function, checks)
-            .args(arguments)
-            .output()
-            .map_err(in_file("cannot run", &self.path))?;
-        let mut text = String::from_utf8_lossy(&output.stdout).into_owned();
-        text.push_str(&String::from_utf8_lossy(&output.stderr));
-        Ok(text)
+        let mut command = self.command(folder, function, checks);
+        let text = self.output(command.args(arguments), Said::All, || false)?;
+        text.ok_or(ProveError::Stopped)
     }
 
     fn command(&self, folder: &Path, function: &str, checks: Checks) -> Command {
@@ -154,7 +176,9 @@ impl Cbmc {
         give_up: impl Fn() -> bool,
     ) -> Result<Option<Vec<Failure>>, ProveError> {
         let mut command = self.program(folder, file, function);
-        let Some(text) = self.output(command.args(arguments), give_up)? else { return Ok(None) };
+        let Some(text) = self.output(command.args(arguments), Said::Output, give_up)? else {
+            return Ok(None);
+        };
         is_proved(&text)?;
         Ok(Some(text.lines().filter_map(failure).collect()))
     }
@@ -169,27 +193,32 @@ impl Cbmc {
     ) -> Result<Option<Vec<Trace>>, ProveError> {
         let mut command = self.program(folder, file, function);
         command.args(["--trace", "--json-ui", "--object-bits", "20"]).args(arguments);
-        let Some(text) = self.output(&mut command, give_up)? else { return Ok(None) };
+        let Some(text) = self.output(&mut command, Said::Output, give_up)? else { return Ok(None) };
         traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
     }
 
-    /// What it prints; `None` if it was given up.
+    /// What it prints; `None` if it was given up, or all proofs were ended.
     fn output(
         &self,
         command: &mut Command,
+        said: Said,
         give_up: impl Fn() -> bool,
     ) -> Result<Option<String>, ProveError> {
         let no_file = |source| ProveError::Io { what: "no temporary file".to_owned(), source };
         // A file, because the output may exceed the capacity of a pipe while the process is waited for.
-        let mut said = tempfile::tempfile().map_err(no_file)?;
-        let output = said.try_clone().map_err(no_file)?;
+        let mut printed = tempfile::tempfile().map_err(no_file)?;
+        let output = || printed.try_clone().map_err(no_file);
+        let errors = match said {
+            Said::All => output()?.into(),
+            Said::Output => Stdio::null(),
+        };
         let mut child = command
-            .stdout(output)
-            .stderr(Stdio::null())
+            .stdout(output()?)
+            .stderr(errors)
             .spawn()
             .map_err(in_file("cannot run", &self.path))?;
         while child.try_wait().map_err(in_file("cannot wait for", &self.path))?.is_none() {
-            if give_up() {
+            if give_up() || self.check_stop().is_err() {
                 // It may have ended already.
                 _ = child.kill();
                 child.wait().map_err(in_file("cannot wait for", &self.path))?;
@@ -198,7 +227,7 @@ impl Cbmc {
             std::thread::sleep(Duration::from_millis(5));
         }
         let mut bytes = Vec::new();
-        let read = said.rewind().and_then(|()| said.read_to_end(&mut bytes));
+        let read = printed.rewind().and_then(|()| printed.read_to_end(&mut bytes));
         read.map_err(in_file("cannot read the output of", &self.path))?;
         Ok(Some(String::from_utf8_lossy(&bytes).into_owned()))
     }
@@ -224,7 +253,7 @@ impl Cbmc {
         folder: &Path,
         wanted: &[&Failure],
         transitions: u32,
-        until: Instant,
+        until: Option<Instant>,
     ) -> Result<Option<Vec<Trace>>, ProveError> {
         let is_property = |failure: &&Failure| failure.property().is_some();
         let only_properties = wanted.iter().all(is_property);
@@ -236,8 +265,10 @@ impl Cbmc {
             .args(["--object-bits", "20"])
             .args(["--unwindset", &format!("main.0:{transitions}"), "--no-unwinding-assertions"])
             .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]));
-        let late = || Instant::now() >= until;
-        let Some(text) = self.output(&mut command, late)? else { return Ok(None) };
+        let late = || until.is_some_and(|until| Instant::now() >= until);
+        let Some(text) = self.output(&mut command, Said::Output, late)? else {
+            return self.check_stop().map(|()| None);
+        };
         traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
     }
 }

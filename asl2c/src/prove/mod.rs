@@ -50,6 +50,9 @@ pub enum ProveError {
         /// The system's error.
         source: io::Error,
     },
+    /// Stopped by [`Cbmc::stopped_by`].
+    #[error("nothing is proved: stopped")]
+    Stopped,
     /// CBMC printed no result.
     #[error("CBMC gave no result:\n{output}")]
     NoResult {

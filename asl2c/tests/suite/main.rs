@@ -16,6 +16,8 @@ mod on_target;
 mod prove;
 mod proved;
 mod run;
+#[cfg(target_os = "linux")]
+mod stopped;
 mod tool;
 mod validated;
 mod verification;

@@ -1,7 +1,7 @@
 //! `asl2c validate`: what is translated is proved, and C that does something else is not.
 
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
 use asl2c::{Agent, Cbmc, ProveError, Session, on_host, replay, validate};
@@ -326,42 +326,6 @@ fn no_case_is_left_out() {
     let mistake = "    if ((agent.inbox_first == 1U) && (agent.inbox_count == 2U)) { hover(); }\n";
     *c = c.replace(update, &format!("{update}{mistake}"));
     assert!(judged(&wrong).open.contains(&"another call, or none".to_owned()));
-}
-
-/// Stopped by a signal, `validate` stops CBMC too, and says that nothing is decided.
-#[cfg(target_os = "linux")]
-#[test]
-fn a_stop_leaves_no_cbmc_behind() {
-    use std::os::unix::fs::PermissionsExt;
-
-    let folder = tempfile::tempdir().unwrap();
-    let slow = folder.path().join("cbmc");
-    let here = folder.path().display();
-    let script = format!(
-        "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 6.0.0; exit; fi\necho $$ >>{here}/started\nexec sleep 60\n"
-    );
-    std::fs::write(&slow, script).unwrap();
-    std::fs::set_permissions(&slow, PermissionsExt::from_mode(0o755)).unwrap();
-    for signal in ["INT", "TERM"] {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
-        command.args(["validate", &format!("{GALLERY}/lift.conf"), "--cbmc"]).arg(&slow);
-        command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        let child = command.spawn().unwrap();
-        let started = folder.path().join("started");
-        while !std::fs::read_to_string(&started).is_ok_and(|text| text.ends_with('\n')) {
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        let (signal, process) = (format!("-{signal}"), child.id().to_string());
-        assert!(Command::new("kill").args([signal, process]).status().unwrap().success());
-        let output = child.wait_with_output().unwrap();
-        let text = shown(&output);
-        assert_eq!(output.status.code(), Some(3), "{text}");
-        assert!(text.contains("10 of 10 proofs were not finished before the stop"), "{text}");
-        for process in std::fs::read_to_string(&started).unwrap().lines() {
-            assert!(!Path::new(&format!("/proc/{process}")).exists(), "{process} is left");
-        }
-        std::fs::remove_file(&started).unwrap();
-    }
 }
 
 #[test]
