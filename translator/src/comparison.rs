@@ -50,6 +50,9 @@ impl Comparison {
     /// If the file has preprocessor lines that the translation does not have, calls functions that are defined
     /// elsewhere, or has something else by which executions could differ without being compared.
     pub fn replace_c(&mut self, text: String) -> Result<(), Incomparable> {
+        if let Some(found) = trigraph(&text) {
+            return Err(found);
+        }
         let own = tokens(&self.files[0].text);
         let given = tokens(&text);
         let known: HashSet<&str> = own.iter().map(|token| token.text.as_str()).collect();
@@ -91,6 +94,63 @@ impl Token {
 /// Words that are followed by a parenthesis without being called.
 const CONTROL: [&str; 6] = ["for", "if", "return", "sizeof", "switch", "while"];
 
+/// Words whose meaning is left to the compiler and the processor: sizes, ranges, signs, the place of bytes.
+const VARYING: [&str; 8] =
+    ["alignof", "enum", "long", "short", "signed", "sizeof", "union", "unsigned"];
+const COMPILER: &str = "its meaning is left to the compiler and the processor";
+
+/// Two question marks and a third character stand for another character, also in comments, but only in standard C.
+fn trigraph(text: &str) -> Option<Incomparable> {
+    const THIRD: [char; 9] = ['=', '/', '\'', '(', ')', '!', '<', '>', '-'];
+    for (number, line) in text.lines().enumerate() {
+        for (start, mark) in line.match_indices("??") {
+            let third = line[start + mark.len()..].chars().next();
+            if let Some(third) = third.filter(|third| THIRD.contains(third)) {
+                let reason =
+                    "in standard C it is another character, which could hide what is compiled";
+                return Some(Incomparable {
+                    line: number + 1,
+                    found: format!("??{third}"),
+                    reason,
+                });
+            }
+        }
+    }
+    None
+}
+
+/// Whether a number of bits begins here, in the declaration of a field.
+fn is_bit_field(tokens: &[Token], index: usize) -> bool {
+    let text_at = |index: usize| tokens.get(index).map_or("", |token| token.text.as_str());
+    let is_number = text_at(index + 1).starts_with(|c: char| c.is_ascii_digit());
+    let ends = matches!(text_at(index + 2), ";" | ",");
+    let mut before = tokens[..index].iter().rev().map(|token| token.text.as_str());
+    let is_choice = before
+        .by_ref()
+        .take_while(|word| !matches!(*word, ";" | "{" | "}"))
+        .any(|word| matches!(word, "?" | "case"));
+    text_at(index) == ":" && is_number && ends && !is_choice
+}
+
+/// Whether a text is more than an argument or a value: compared, or the begin of a sum.
+fn is_operand(tokens: &[Token], index: usize) -> bool {
+    let word = |token: Option<&Token>| token.map_or(String::new(), |token| token.text.clone());
+    let behind = word(tokens[index + 1..].iter().find(|token| token.text != ")"));
+    let before = word(tokens[..index].iter().rev().find(|token| token.text != "("));
+    let is_place = |text: &str| text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    let begins =
+        matches!(before.as_str(), "," | "=" | "{" | ";" | "" | "?" | ":") || is_place(&before);
+    let is_compared = before == "="
+        && tokens[..index]
+            .iter()
+            .rev()
+            .filter(|token| token.text != "(")
+            .nth(1)
+            .is_some_and(|token| matches!(token.text.as_str(), "=" | "!" | "<" | ">"));
+    let ends = matches!(behind.as_str(), "," | ";" | "}" | ":" | "");
+    !begins || is_compared || !ends
+}
+
 /// Why a token must not be in a C file.
 fn objection(
     tokens: &[Token],
@@ -112,6 +172,12 @@ fn objection(
     if word == "{" && before == ")" && is_literal(tokens, index - 1) {
         return Some("an object without a name is not known to the comparison");
     }
+    if is_bit_field(tokens, index) || (word == ">" && before == ">") {
+        return Some(COMPILER);
+    }
+    if word.starts_with('"') && is_operand(tokens, index) {
+        return Some("whether equal texts are the same object is left to the compiler");
+    }
     if known.contains(word) {
         return None;
     }
@@ -125,6 +191,13 @@ fn objection(
         Some("such names belong to the comparison")
     } else if LEAVES.contains(&word) {
         Some("it could do what is not compared")
+    } else if VARYING.contains(&word)
+        || word.starts_with('\'')
+        || matches!(text_at(index + 1).chars().next(), Some('"' | '\''))
+            && tokens[index].is_name()
+            && word != "return"
+    {
+        Some(COMPILER)
     } else if tokens[index].is_name()
         && text_at(index + 1) == "("
         && !CONTROL.contains(&word)
@@ -274,7 +347,7 @@ mod tests {
             ("  #  include <stdlib.h>", "##  include <stdlib.h>"),
             ("/* x */ # /* y */ ifdef X", "#/* x */ # /* y */ ifdef X"),
             ("/**/#include \"lamp.h\"", "#/**/#include \"lamp.h\""),
-            ("unsigned sleep(unsigned); void f(void) { sleep(1U); }", "sleep"),
+            ("int sleep(int); void f(void) { sleep(1); }", "sleep"),
             ("void f(void) { say(g(), h()); }", "g"),
             ("int g(void) { return 1; } void f(int x) { f(g() + g()); }", "f"),
             ("static int *p = &(int){0};", "{"),
@@ -289,6 +362,18 @@ mod tests {
             ("x = 1 \\", "\\"),
             ("/* a comment\nthat ends */ abort();", "abort"),
             ("say(\"\\\"\"); asm(\"hlt\");", "asm"),
+            ("// why ??/", "??/"),
+            ("int x = '\\xff' < 0;", "'\\xff'"),
+            ("int x = L'\\xffff' == 65535;", "L"),
+            ("const char *p = L\"x\";", "L"),
+            ("int x = sizeof(int);", "sizeof"),
+            ("unsigned long x;", "unsigned"),
+            ("union u { int a; };", "union"),
+            ("int x = -1 >> 1;", ">"),
+            ("struct s { int a : 3; };", ":"),
+            ("int x = \"x\" == \"x\";", "\"x\""),
+            ("int x = (\"x\") != p;", "\"x\""),
+            ("int x = p == \"x\";", "\"x\""),
         ] {
             let text = format!("{c}{line}\n");
             let error = lamp().replace_c(text).unwrap_err();
@@ -300,7 +385,9 @@ mod tests {
             "// exit(0) #",
             "/* __x */",
             "say(\"abort # *)\");",
-            "static int own = '\\'';",
+            "static int own = 3 > 2 ? 1 : 3;",
+            "// why ?? so",
+            "static const char *text = (\"abort\");",
             "static int f(int x) { return x; } void g(void) { f(1); }",
         ] {
             assert_eq!(lamp().replace_c(format!("{c}{harmless}\n")), Ok(()), "{harmless}");

@@ -47,21 +47,33 @@ pub(crate) fn write(certified: &Certified, folder: &Path) -> Result<(), CertifyE
     Ok(())
 }
 
-/// Removes an earlier evidence: the files that its checksums name.
-fn clear(folder: &Path) -> Result<(), CertifyError> {
+/// Checks that evidence can be written to a folder: it is not there yet, empty, or holds evidence. Its checksums are
+/// returned, if it has any.
+///
+/// # Errors
+/// If it holds something else, or is no folder.
+pub(crate) fn check_folder(folder: &Path) -> Result<Option<String>, CertifyError> {
     let failed =
         |source| CertifyError::Io { what: format!("cannot use {}", folder.display()), source };
     let mut entries = match std::fs::read_dir(folder) {
         Ok(entries) => entries,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(failed(error)),
     };
     if entries.next().is_none() {
-        return Ok(());
+        return Ok(None);
     }
-    let Ok(checksums) = std::fs::read_to_string(folder.join(CHECKSUMS)) else {
-        return Err(CertifyError::Occupied { folder: folder.display().to_string() });
-    };
+    match std::fs::read_to_string(folder.join(CHECKSUMS)) {
+        Ok(checksums) => Ok(Some(checksums)),
+        Err(_) => Err(CertifyError::Occupied { folder: folder.display().to_string() }),
+    }
+}
+
+/// Removes an earlier evidence: the files that its checksums name.
+fn clear(folder: &Path) -> Result<(), CertifyError> {
+    let failed =
+        |source| CertifyError::Io { what: format!("cannot use {}", folder.display()), source };
+    let Some(checksums) = check_folder(folder)? else { return Ok(()) };
     let names = checksums.lines().filter_map(|line| line.split_once("  ")).map(|(_, name)| name);
     // Files that somebody has added stay, and are not in the new checksums.
     for name in names.filter(|name| !name.split('/').any(|part| part == ".." || part.is_empty())) {

@@ -7,12 +7,14 @@ use std::time::Duration;
 use super::arguments::Certify;
 use super::{CommandError, NOT_CHECKED, complain_of, print, stop};
 use crate::agent::Agent;
-use crate::certify::{Evidence, Limits, Status, Verdict, certify, write};
+use crate::certify::{Evidence, Limits, Status, Verdict, certify, check_folder, write};
 use crate::prove::Cbmc;
 
 /// Gathers the evidence, writes it and prints a summary.
 pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
     let agent = Agent::read(&asked.configuration)?;
+    // Not after an hour of proofs.
+    check_folder(&asked.output)?;
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
     let limits = Limits { time: Duration::from_secs(asked.time), transitions: asked.length };
     let mut tell = |doing: &str| {

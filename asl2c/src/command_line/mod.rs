@@ -106,7 +106,15 @@ pub fn run() -> ExitCode {
         }
         (None, None) => unreachable!("clap asks for the configuration"),
     };
-    done.unwrap_or_else(|error| complain(&error, json))
+    // Status 1 of these says that something is wrong with the agent's behaviour, which an error does not show.
+    let judges = matches!(
+        arguments.command,
+        Some(Task::Prove(_) | Task::Validate(_) | Task::Certify(_) | Task::Verify(_))
+    );
+    done.unwrap_or_else(|error| {
+        let status = complain(&error, json);
+        if judges { NOT_CHECKED.into() } else { status }
+    })
 }
 
 /// The explanation of a kind of error or warning, or all codes.

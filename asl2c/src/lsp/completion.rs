@@ -98,13 +98,15 @@ enum Part {
 
 /// Names that can follow `statement`, the begin of a statement of an agent.
 fn in_agent(statement: &str, configuration: Option<&Configuration>, items: &mut Items) {
+    let Some(statement) = without_comments(statement) else { return };
     let before = statement.trim_end_matches(is_word);
     let typed = &statement[before.len()..];
-    if typed.starts_with(|c: char| c.is_ascii_digit()) || is_quoted(before) {
+    let before = before.trim_end();
+    if typed.starts_with(|c: char| c.is_ascii_digit()) || before.ends_with('@') {
         return;
     }
-    let before = before.trim_end();
-    if before.ends_with('@') {
+    if is_in_label(before) {
+        items.add("req", CompletionItemKind::Keyword, "req(\"REQUIREMENT\")");
         return;
     }
     if let Some(formulae) = before.strip_suffix('.') {
@@ -114,22 +116,30 @@ fn in_agent(statement: &str, configuration: Option<&Configuration>, items: &mut 
         }
         return;
     }
-    // Without the word that is being typed.
-    items.variables(before);
-    let Some(configuration) = configuration else { return };
     let part = part_of(before);
+    let is_argument = is_argument(before);
     let value = |kind: TypeKind| kind != TypeKind::Void;
     let goals = before.ends_with('!');
     let is_changed = before.ends_with(['?', '+', '-']) && !before.ends_with("<-");
-    if goals || (is_changed && matches!(part, Part::Head | Part::Formula)) {
+    if goals || (is_changed && !is_argument && matches!(part, Part::Head | Part::Formula)) {
         let kind = if goals { CompletionItemKind::Event } else { CompletionItemKind::Property };
-        items.beliefs_and_goals(configuration, kind);
+        if let Some(configuration) = configuration {
+            items.beliefs_and_goals(configuration, kind);
+        }
         return;
     }
+    let is_head = !before.contains(':') && !before.contains("<-");
+    if !is_head || is_argument {
+        items.variables(before);
+    }
+    let Some(configuration) = configuration else { return };
     match part {
+        // A trigger has only variables and constants.
+        _ if is_head && is_argument => {}
         Part::Head => items.beliefs_and_goals(configuration, CompletionItemKind::Property),
         Part::Formula => items.basics(configuration, |_| true),
         Part::Value => items.basics(configuration, value),
+        Part::Context if is_argument => items.basics(configuration, value),
         Part::Context => {
             items.beliefs_and_goals(configuration, CompletionItemKind::Property);
             items.basics(configuration, value);
@@ -140,11 +150,52 @@ fn in_agent(statement: &str, configuration: Option<&Configuration>, items: &mut 
     }
 }
 
-/// Whether the end of a text is in a string or a comment of its last line.
-fn is_quoted(text: &str) -> bool {
-    let line = text.rsplit('\n').next().unwrap_or_default();
-    let quotes = line.replace("\\\"", "").matches('"').count();
-    quotes % 2 == 1 || line.contains("//")
+/// A text with blanks in place of comments and strings; `None` if its end is in one.
+fn without_comments(text: &str) -> Option<String> {
+    let mut plain = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let end = if rest.starts_with("//") {
+            rest.find('\n')?
+        } else if rest.starts_with("/*") {
+            rest.find("*/")? + 2
+        } else if first == '"' {
+            let mut escaped = false;
+            let closes = |(_, c): &(usize, char)| {
+                let closes = *c == '"' && !escaped;
+                escaped = *c == '\\' && !escaped;
+                closes
+            };
+            rest.char_indices().skip(1).find(closes).map(|(index, _)| index + 1)?
+        } else {
+            plain.push(first);
+            rest = &rest[first.len_utf8()..];
+            continue;
+        };
+        plain.push(' ');
+        rest = &rest[end..];
+    }
+    Some(plain)
+}
+
+/// Whether the end of a text is in the brackets of a label.
+fn is_in_label(text: &str) -> bool {
+    let open = text.rfind('[').filter(|open| !text[*open..].contains(']'));
+    open.is_some_and(|open| text[..open].trim_end_matches(is_word).ends_with('@'))
+}
+
+/// Whether the end of a text is among the arguments of a name, not in parentheses that group.
+fn is_argument(text: &str) -> bool {
+    let mut depth = 0_usize;
+    for (index, character) in text.char_indices().rev() {
+        match character {
+            ')' => depth += 1,
+            '(' if depth == 0 => return text[..index].ends_with(is_word),
+            '(' => depth -= 1,
+            _ => {}
+        }
+    }
+    false
 }
 
 fn part_of(before: &str) -> Part {
@@ -244,12 +295,19 @@ mod tests {
             ("\n@l[req(\"a\")] +", "go level"),
             ("+!go(X) : ", "X go level count not true false"),
             ("+!go(X) : level(Y) & not l", "X Y go level count not true false"),
-            ("+!go(X) : level(", "X go level count not true false"),
+            ("+!go(X) : level(", "X count"),
+            ("+!go(X) : not (lev", "X go level count not true false"),
+            ("+!go(", ""),
+            ("+!go(X) <- act(X); !!", "go level"),
+            ("// Some Words.\n+!go(X) /* More */ <- say(\"Text\"); ", "X act count"),
+            ("+!go(X) <- act(X); // No", ""),
+            ("@l[", "req"),
+            ("@l[req(\"a\"), r", "req"),
             ("+!go(X) <- ", "X act count"),
             ("+!go(X) <- a", "X act count"),
             ("+!go(X) <- act(", "X count"),
-            ("+!go(X) <- act(X); !", "X go level"),
-            ("+!go(X) <- act(X); -l", "X go level"),
+            ("+!go(X) <- act(X); !", "go level"),
+            ("+!go(X) <- act(X); -l", "go level"),
             ("+!go(X) <- Y = X - c", "X Y count"),
             ("+!go(X) <- .w", "wait"),
             ("+!go(X) <- act(X); .", "wait"),

@@ -100,6 +100,10 @@ impl Server {
         self.files.forget();
         let is_agent = is_agent(&path) || language_id.to_string() == "agentspeak";
         self.files.open(&path, is_agent, text, Open { uri: uri.0, version });
+        if !is_agent {
+            // It may name another agent than on disk.
+            self.look_at_all();
+        }
         self.changed.insert(path);
         Ok(())
     }

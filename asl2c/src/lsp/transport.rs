@@ -17,6 +17,9 @@ pub(super) enum Incoming {
 
 /// Messages that wait to be handled. An editor that writes more than this waits for the server.
 const QUEUE: usize = 1024;
+/// Maximum length of a message and of the lines before it.
+const LONGEST_MESSAGE: u64 = 256 << 20;
+const LONGEST_HEAD: u64 = 4096;
 
 /// Reads messages in a thread. The channel is closed at the end of the stream.
 ///
@@ -36,12 +39,37 @@ pub(super) fn read_messages(stream: impl Read + Send + 'static) -> Receiver<Inco
 
 /// The next message; `None` at the end of the stream, or if it cannot be read.
 fn next(stream: &mut impl BufRead) -> Option<Incoming> {
-    match Message::read(stream) {
+    let head = head(stream)?;
+    match Message::read(&mut head.as_bytes().chain(stream)) {
         Ok(message) => message.map(Incoming::Message),
         Err(error) if error.kind() == ErrorKind::InvalidData => {
             Some(Incoming::Malformed(shortened(&error.to_string())))
         }
         Err(_) => None,
+    }
+}
+
+/// The lines before a message, to the empty one; `None` at the end of the stream, or if there is no end of them, or if they
+/// announce more than any message has: the memory for it is taken before it comes.
+fn head(stream: &mut impl BufRead) -> Option<String> {
+    let mut head = String::new();
+    loop {
+        let start = head.len();
+        let length = stream.take(LONGEST_HEAD).read_line(&mut head).ok()?;
+        if length == 0 || head.len() as u64 > LONGEST_HEAD {
+            return None;
+        }
+        let line = head[start..].trim();
+        if line.is_empty() {
+            return Some(head);
+        }
+        let (name, value) = line.split_once(':').unwrap_or_default();
+        let announced = value.trim().parse::<u64>();
+        if name.eq_ignore_ascii_case("content-length")
+            && announced.is_ok_and(|bytes| bytes > LONGEST_MESSAGE)
+        {
+            return None;
+        }
     }
 }
 

@@ -124,7 +124,7 @@ fn other_peoples_folders_are_not_changed() {
     std::fs::write(folder.path().join("thesis.txt"), "ten years").unwrap();
     let Some(output) = certify(&gallery("lift"), folder.path()) else { return };
     let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(output.status.code(), Some(3));
     assert!(said.contains("is not empty and holds no evidence"), "{said}");
     assert_eq!(files(folder.path()).len(), 1);
 }

@@ -344,7 +344,7 @@ fn what_cannot_be_checked_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let output = run(folder.path(), &[]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("cannot read a.conf"));
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(output.status.code(), Some(3));
     let text = configuration("", "", WAITING, "within(1, level <= flag, on)");
     let error = model(&parse_configuration("a.conf", &text).unwrap(), WAITING).unwrap_err();
     let places: Vec<String> =

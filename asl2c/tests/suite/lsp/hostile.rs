@@ -98,6 +98,12 @@ fn the_exit_status_says_whether_the_client_left_in_order() {
     let mut client = Client::with_files(&[]);
     client.write(b"no header at all\r\n\r\n");
     assert_eq!(client.wait(), 1);
+    // More than there is memory for, and lines without an end.
+    for begin in ["Content-Length: 99999999999999\r\n\r\n{}".to_owned(), "x".repeat(10_000)] {
+        let mut client = Client::with_files(&[]);
+        client.write(begin.as_bytes());
+        assert_eq!(client.wait(), 1);
+    }
 }
 
 /// A text that is not open, or is no file, has diagnostics as well.

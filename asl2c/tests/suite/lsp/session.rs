@@ -144,6 +144,14 @@ fn a_configuration_is_checked_with_its_agent() {
     assert!(found[0]["message"].as_str().unwrap().starts_with("cannot read "));
 }
 
+/// What the editor has counts, also for an agent that was open before.
+#[test]
+fn a_configuration_that_is_opened_counts_at_once() {
+    let (mut client, _) = rover();
+    client.open(ROVER[0], &gallery(ROVER[0]).replace("rover.asl", "other.asl"));
+    assert_eq!(codes(&client.diagnostics(ROVER[1], Some(1))), ["no-configuration"]);
+}
+
 #[test]
 fn hover_says_what_a_name_means() {
     let (mut client, text) = rover();
