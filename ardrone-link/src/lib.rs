@@ -6,6 +6,7 @@
 //! - [`settings`]: configuration keys with their types, units and ranges.
 //! - [`session`]: the client's side of the protocol as a pure state machine: wake-up, configuration with
 //!   acknowledgement, sequence numbers, watchdogs, loss and restart of the drone.
+//! - [`video`]: the live video (TCP 5555): pictures from the stream, without decoding them.
 //! - [`health`]: evaluation of socket errors.
 //!
 //! - `net`, with the feature of that name: a client on real sockets, using tokio.
@@ -38,6 +39,7 @@ pub mod navdata;
 pub mod net;
 pub mod session;
 pub mod settings;
+pub mod video;
 
 pub use at::{Identity, Motion};
 pub use configuration::Configuration;
