@@ -47,7 +47,7 @@ pub use navdata::{ControlState, Demo, DroneState, Navdata, NavdataOption, Packet
 #[cfg(feature = "net")]
 pub use net::{
     Client, ClientBuilder, ClientError, ConfigureError, Events, FlightError, Packets, ReadyError,
-    Refusal, StartError, Steering, WaitError,
+    Refusal, StartError, Steering, VideoNews, VideoStream, WaitError,
 };
 pub use session::{Event, FlightOrder, Input, Order, Output, Session, SessionConfig};
 pub use settings::{NavdataMode, Setting, SettingError};

@@ -16,7 +16,8 @@
 //! # }
 //! ```
 //!
-//! [`ClientBuilder`] configures a client, [`Client`] flies, [`Events`] and [`Packets`] are its subscriptions.
+//! [`ClientBuilder`] configures a client, [`Client`] flies, [`Events`] and [`Packets`] are its subscriptions;
+//! [`VideoStream`] is the live video, which needs no client.
 //! Internally, `link` is the task with the sockets (`wire`); its decisions are made in `orders` and
 //! `readiness`, which use neither sockets nor clocks.
 
@@ -29,6 +30,7 @@ mod listen;
 mod orders;
 mod readiness;
 mod steering;
+mod video;
 mod wire;
 
 pub use builder::ClientBuilder;
@@ -39,6 +41,7 @@ pub use error::{
 pub use limits::{CONFIGURE_LIMIT, EMERGENCY_LIMIT};
 pub use listen::{Events, Packets};
 pub use steering::Steering;
+pub use video::{VideoNews, VideoStream};
 
 #[cfg(test)]
 mod tests;
