@@ -150,7 +150,7 @@ pub(crate) struct Camera {
 }
 
 /// Published calibrations of the bottom camera, in thousandths of the whole picture.
-const FOCAL_UNITS: Vector2<f64> = Vector2::new(1072.0, 1452.0);
+pub(crate) const FOCAL_UNITS: Vector2<f64> = Vector2::new(1072.0, 1452.0);
 const CENTRE_UNITS: Vector2<f64> = Vector2::new(500.0, 450.0);
 /// Pixels per unit: the picture is 320 by 240.
 const UNIT_PX: Vector2<f64> = Vector2::new(0.32, 0.24);

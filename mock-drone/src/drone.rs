@@ -300,6 +300,18 @@ impl Drone {
         self.tags.push(tag);
     }
 
+    /// From where the chosen camera sees.
+    #[cfg(feature = "video")]
+    pub fn view(&self) -> crate::video::View {
+        crate::video::View {
+            position_m: self.airframe.position_m(),
+            yaw_rad: self.airframe.yaw_rad(),
+            pitch_rad: self.airframe.pitch_rad(),
+            roll_rad: self.airframe.roll_rad(),
+            is_bottom: self.firmware.shows_bottom(),
+        }
+    }
+
     /// The roundels on the floor, in the order of their placement.
     pub fn tags(&self) -> &[FloorTag] {
         &self.tags

@@ -52,6 +52,12 @@ pub enum Phase {
     Emergency,
 }
 
+/// The key of the camera that the video shows, and its values.
+const VIDEO_CHANNEL: &str = "video:video_channel";
+const FRONT: &str = "0";
+const BOTTOM: &str = "1";
+const NEXT_CAMERA: &str = "4";
+
 /// The firmware of one drone.
 #[derive(Debug, Clone)]
 #[expect(clippy::struct_excessive_bools, reason = "they are bits of the drone's state word")]
@@ -213,7 +219,14 @@ impl Firmware {
                 if config.key() == "general:navdata_demo" {
                     self.bootstrapping = false;
                 }
-                self.configuration.set(config.key(), config.value());
+                let is_next = config.key() == VIDEO_CHANNEL && config.value() == NEXT_CAMERA;
+                let is_bottom = self.configuration.text(VIDEO_CHANNEL) == Some(BOTTOM);
+                let value = match (is_next, is_bottom) {
+                    (false, _) => config.value(),
+                    (true, true) => FRONT,
+                    (true, false) => BOTTOM,
+                };
+                self.configuration.set(config.key(), value);
             }
             Command::Control(ControlMode::ClearAcknowledge) => self.acknowledge = false,
             Command::Control(ControlMode::SendConfiguration) => {
@@ -453,6 +466,12 @@ impl Firmware {
     }
 
     /// The roundel detector, if the configuration enables it.
+    /// Whether the video shows the bottom camera.
+    #[cfg(feature = "video")]
+    pub(crate) fn shows_bottom(&self) -> bool {
+        self.configuration.text(VIDEO_CHANNEL) == Some(BOTTOM)
+    }
+
     pub(crate) fn detector(&self) -> Option<Detector> {
         /// The black and white oriented roundel, as a kind and as a selection bit.
         const ROUNDEL: u32 = 8;

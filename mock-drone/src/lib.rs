@@ -33,6 +33,8 @@ pub mod sensors;
 pub mod server;
 mod telemetry;
 mod truth_log;
+#[cfg(feature = "video")]
+pub mod video;
 mod wind;
 mod world;
 

@@ -129,6 +129,12 @@ impl World {
         self.drone.truth()
     }
 
+    /// Fraction of the drone's datagrams that are lost, and whether all are.
+    #[cfg(feature = "video")]
+    pub(crate) fn link_state(&self) -> (f64, bool) {
+        (self.down.faults.loss, self.down.out)
+    }
+
     /// The drone.
     pub fn drone(&self) -> &Drone {
         &self.drone

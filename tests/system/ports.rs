@@ -4,6 +4,7 @@ use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
 use std::time::Duration;
 
+use ardrone_link::video::Reader;
 use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports};
 
@@ -53,14 +54,33 @@ fn the_firmwares_version_is_read_over_ftp() {
 }
 
 #[test]
-fn video_and_presence_are_answered_and_kept_open() {
+fn presence_is_answered_and_kept_open() {
     let mock = mock();
-    for port in [mock.ports().video, mock.ports().presence] {
-        let mut stream = connect(&mock, port);
-        stream.set_read_timeout(Some(Duration::from_millis(200))).unwrap();
-        let error = stream.read(&mut [0; 16]).unwrap_err();
-        let silent =
-            matches!(error.kind(), std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut);
-        assert!(silent, "open and silent: {error}");
+    let mut stream = connect(&mock, mock.ports().presence);
+    stream.set_read_timeout(Some(Duration::from_millis(200))).unwrap();
+    let error = stream.read(&mut [0; 16]).unwrap_err();
+    let silent =
+        matches!(error.kind(), std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut);
+    assert!(silent, "open and silent: {error}");
+}
+
+/// Each client gets pictures from a key picture on, also beside one that reads nothing; a fifth is refused.
+#[test]
+fn video_is_sent_to_four_clients() {
+    let mock = mock();
+    let silent = connect(&mock, mock.ports().video);
+    let mut clients: Vec<_> = (0..4).map(|_| connect(&mock, mock.ports().video)).collect();
+    for (number, stream) in clients.iter_mut().enumerate() {
+        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        let (mut reader, mut buffer) = (Reader::default(), [0; 4096]);
+        let picture = loop {
+            let Ok(length @ 1..) = stream.read(&mut buffer) else { break None };
+            reader.push(&buffer[..length]);
+            if let Some(picture) = reader.next() {
+                break Some(picture);
+            }
+        };
+        assert_eq!(picture.map(|picture| picture.is_entry()), (number < 3).then_some(true));
     }
+    drop(silent);
 }

@@ -20,6 +20,10 @@ pub(super) struct Arguments {
     pub(super) drone: DroneArguments,
     #[command(flatten)]
     pub(super) faults: FaultArguments,
+    /// Draw the time since 1970 into each picture of the video, to measure how late it is shown: the lowest 32 bits of the
+    /// milliseconds, as black and white blocks along its lower edge
+    #[arg(long)]
+    pub(super) video_clock: bool,
     /// Write the true state to this CSV file
     #[arg(long, value_name = "FILE")]
     pub(super) truth: Option<PathBuf>,
@@ -80,7 +84,7 @@ pub(super) struct PortArguments {
     /// TCP port for FTP, which serves the firmware's version
     #[arg(long, value_name = "PORT", default_value_t = FTP_PORT)]
     pub(super) ftp_port: u16,
-    /// TCP port for video; connections stay open, no picture is sent
+    /// TCP port for video
     #[arg(long, value_name = "PORT", default_value_t = VIDEO_PORT)]
     pub(super) video_port: u16,
     /// TCP port that some clients probe to detect the drone; the real one has 21

@@ -74,6 +74,9 @@ fn serve(arguments: &Arguments) -> Result<(), CommandError> {
         if let Some(log) = log {
             server.log_truth(log);
         }
+        if arguments.video_clock {
+            server.show_video_clock();
+        }
         let bound = server.ports().map_err(ServerError::Start)?;
         tracing::info!(
             "mock drone on {}: AT {}/udp, navdata {}/udp, configuration {}/tcp",

@@ -2,6 +2,8 @@
 //! as far as clients need them to connect.
 
 mod ftp;
+#[cfg(feature = "video")]
+mod video;
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -35,7 +37,7 @@ pub struct Ports {
     pub control: u16,
     /// TCP, FTP with the firmware's version; `None` disables it.
     pub ftp: Option<u16>,
-    /// TCP, video: connections stay open without data.
+    /// TCP, video; without the feature `video` connections stay open without data.
     pub video: Option<u16>,
     /// TCP, a port that some clients probe to detect the drone. The real drone has 21.
     pub presence: Option<u16>,
@@ -100,6 +102,8 @@ pub struct Server {
     truth: Arc<Mutex<Truth>>,
     log: Option<TruthLog<File>>,
     next_flush: Duration,
+    #[cfg(feature = "video")]
+    video_clock: bool,
 }
 
 /// Simulation step: interval between readings of the clock.
@@ -149,6 +153,8 @@ impl Server {
             truth,
             log: None,
             next_flush: Duration::ZERO,
+            #[cfg(feature = "video")]
+            video_clock: false,
         })
     }
 
@@ -189,6 +195,8 @@ impl Server {
         let mut reader: Option<TcpStream> = None;
         let mut visitors = Visitors::default();
         let mut clock = tokio::time::interval(PERIOD);
+        #[cfg(feature = "video")]
+        let video = video::VideoServer::start(start, self.sight(), self.video_clock)?;
         loop {
             tokio::select! {
                 received = self.at.recv_from(&mut at_buffer) => {
@@ -220,12 +228,21 @@ impl Server {
                         }
                     });
                 }
-                Some(stream) = accept(self.video.as_ref()) => visitors.keep(stream),
+                Some(stream) = accept(self.video.as_ref()) => {
+                    #[cfg(feature = "video")]
+                    video.connect(stream);
+                    #[cfg(not(feature = "video"))]
+                    visitors.keep(stream);
+                }
                 Some(stream) = accept(self.presence.as_ref()) => visitors.keep(stream),
                 _ = clock.tick() => {}
             }
             let now = start.elapsed();
             self.world.advance(now);
+            #[cfg(feature = "video")]
+            if video.is_watched() {
+                video.see(self.sight());
+            }
             while let Some(message) = self.world.receive(now) {
                 match message {
                     Message::Navdata(packet) => {
@@ -252,6 +269,21 @@ impl Server {
             }
             *self.truth.lock().unwrap_or_else(PoisonError::into_inner) = self.world.truth();
         }
+    }
+}
+
+#[cfg(feature = "video")]
+impl Server {
+    /// Draws the time since 1970 into each picture, along its lower edge: see [`crate::video::VideoEncoder::new`].
+    pub fn show_video_clock(&mut self) {
+        self.video_clock = true;
+    }
+
+    fn sight(&self) -> video::Sight {
+        let drone = self.world.drone();
+        let scene = crate::video::Scene { tags: drone.tags().to_vec() };
+        let (loss, is_out) = self.world.link_state();
+        video::Sight { view: drone.view(), scene, loss, is_out }
     }
 }
 

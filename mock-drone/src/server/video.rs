@@ -1,0 +1,165 @@
+//! Video for clients: pictures are rendered and encoded on a thread of their own, and only while somebody watches.
+
+use std::io;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use rand::{RngExt as _, SeedableRng as _};
+use rand_chacha::ChaCha8Rng;
+use tokio::io::AsyncWriteExt as _;
+use tokio::net::TcpStream;
+use tokio::sync::broadcast;
+use tokio::sync::broadcast::error::RecvError;
+use tokio::time::Instant;
+use tracing::{debug, info, warn};
+
+use crate::video::{EncodedPicture, Scene, VideoEncoder, View};
+
+/// Interval of the pictures.
+const INTERVAL: Duration = Duration::from_micros(33_333);
+/// Maximum number of clients; further ones are refused.
+const CLIENTS: usize = 4;
+/// Pictures that a client may fall behind before it loses all up to the next key picture.
+const BEHIND: usize = 8;
+/// A client that reads nothing for this time is disconnected.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Content of a TCP segment on Wi-Fi, and the time after which a lost one is sent again.
+const SEGMENT_BYTES: usize = 1400;
+const SENT_AGAIN: Duration = Duration::from_millis(200);
+/// Interval at which a client looks whether the link is back.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// What the camera sees now, and how good the link is.
+#[derive(Debug, Clone)]
+pub(super) struct Sight {
+    pub(super) view: View,
+    pub(super) scene: Scene,
+    /// Fraction of packets that are lost.
+    pub(super) loss: f64,
+    /// Nothing arrives.
+    pub(super) is_out: bool,
+}
+
+/// Sends the video to its clients.
+#[derive(Debug)]
+pub(super) struct VideoServer {
+    sight: Arc<Mutex<Sight>>,
+    pictures: broadcast::Sender<Arc<EncodedPicture>>,
+    stop: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl VideoServer {
+    /// Starts the thread; the stream's time stamps count from `start`.
+    pub(super) fn start(start: Instant, sight: Sight, shows_clock: bool) -> io::Result<Self> {
+        let mut encoder =
+            VideoEncoder::new(shows_clock.then(|| unix_ms(start))).map_err(io::Error::other)?;
+        let sight = Arc::new(Mutex::new(sight));
+        let pictures = broadcast::Sender::new(BEHIND);
+        let (stop, stopped) = channel();
+        let (seen, sender) = (Arc::clone(&sight), pictures.clone());
+        let film = move || {
+            let mut due = start.elapsed();
+            loop {
+                due = (due + INTERVAL).max(start.elapsed());
+                match stopped.recv_timeout(due.saturating_sub(start.elapsed())) {
+                    Err(RecvTimeoutError::Timeout) => {}
+                    Ok(()) | Err(RecvTimeoutError::Disconnected) => return,
+                }
+                if sender.receiver_count() == 0 {
+                    continue;
+                }
+                let Sight { view, scene, .. } = lock(&seen).clone();
+                match encoder.encode(start.elapsed(), &scene, &view) {
+                    // A client may have gone meanwhile.
+                    Ok(picture) => _ = sender.send(Arc::new(picture)),
+                    Err(error) => return warn!("no more video: {error}"),
+                }
+            }
+        };
+        let thread = std::thread::Builder::new().name("mock-video".to_owned()).spawn(film)?;
+        Ok(Self { sight, pictures, stop: Some(stop), thread: Some(thread) })
+    }
+
+    /// Whether somebody watches, so that [`Self::see`] has to be called.
+    pub(super) fn is_watched(&self) -> bool {
+        self.pictures.receiver_count() > 0
+    }
+
+    /// What the camera sees from now on.
+    pub(super) fn see(&self, sight: Sight) {
+        *lock(&self.sight) = sight;
+    }
+
+    /// Takes a client.
+    pub(super) fn connect(&self, stream: TcpStream) {
+        if self.pictures.receiver_count() >= CLIENTS {
+            return info!("a video client is refused: there are {CLIENTS} already");
+        }
+        let (pictures, sight) = (self.pictures.subscribe(), Arc::clone(&self.sight));
+        tokio::spawn(async move {
+            if let Err(error) = send(stream, pictures, &sight).await {
+                debug!("video client disconnected: {error}");
+            }
+        });
+    }
+}
+
+impl Drop for VideoServer {
+    fn drop(&mut self) {
+        drop(self.stop.take());
+        if let Some(thread) = self.thread.take()
+            && thread.join().is_err()
+        {
+            tracing::error!("the thread of the mock video panicked");
+        }
+    }
+}
+
+/// The time at `start` since 1970, of which a picture shows the lowest 32 bits.
+#[allow(clippy::cast_possible_truncation, reason = "the highest bits are cut off")]
+fn unix_ms(start: Instant) -> u32 {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    now.saturating_sub(start.elapsed()).as_millis() as u32
+}
+
+fn lock(sight: &Mutex<Sight>) -> std::sync::MutexGuard<'_, Sight> {
+    sight.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Sends pictures from the next key picture on.
+async fn send(
+    mut stream: TcpStream,
+    mut pictures: broadcast::Receiver<Arc<EncodedPicture>>,
+    sight: &Mutex<Sight>,
+) -> io::Result<()> {
+    let mut random = ChaCha8Rng::seed_from_u64(0);
+    let mut joined = false;
+    loop {
+        let picture = match pictures.recv().await {
+            Ok(picture) => picture,
+            Err(RecvError::Lagged(_)) => {
+                joined = false;
+                continue;
+            }
+            Err(RecvError::Closed) => return Ok(()),
+        };
+        joined |= picture.is_entry;
+        if !joined {
+            continue;
+        }
+        // TCP loses nothing: what is lost on the air comes late.
+        while lock(sight).is_out {
+            tokio::time::sleep(LOOK).await;
+        }
+        let loss = lock(sight).loss.clamp(0.0, 0.9);
+        for _ in 0..picture.bytes.len().div_ceil(SEGMENT_BYTES) {
+            if random.random_bool(loss) {
+                tokio::time::sleep(SENT_AGAIN).await;
+            }
+        }
+        tokio::time::timeout(PATIENCE, stream.write_all(&picture.bytes)).await??;
+    }
+}
