@@ -10,13 +10,14 @@ use crate::outcome::Outcome;
 use crate::plan::{AgentOrder, Commands, Plan};
 use ardrone_link::navdata::DroneState;
 use ardrone_link::session::Request;
+use ardrone_link::settings::{Camera, Setting};
 use estimator::MAX_TAGS;
 use kinematics::Sticks;
 
 /// An order from an operator.
 ///
-/// Anyone may give [`Hold`](Self::Hold), [`Land`](Self::Land) and [`Cut`](Self::Cut); every other order needs
-/// the controls, see [`Operator`].
+/// Anyone may give [`Hold`](Self::Hold), [`Land`](Self::Land) and [`Cut`](Self::Cut); every other order but
+/// [`Camera`](Self::Camera) needs the controls, see [`Operator`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum OperatorOrder {
     /// Replace the mission. On the ground the new mission waits for [`Start`](Self::Start). In the air the
@@ -54,6 +55,9 @@ pub enum OperatorOrder {
     /// Clear the drone's emergency state so that it can fly again. The operator must have inspected the
     /// drone.
     Recover,
+    /// Show this camera in the video. It takes no controls; a remote operator must not switch the picture of somebody
+    /// else who has them.
+    Camera(Camera),
     /// Release the controls.
     Release,
 }
@@ -136,6 +140,7 @@ impl OperatorOrder {
             Self::Land => "land",
             Self::Cut => "cut",
             Self::Recover => "recover",
+            Self::Camera(_) => "camera",
             Self::Release => "release",
         }
     }
@@ -177,6 +182,7 @@ impl Vehicle {
                 self.request(now, Request::EmergencyStop);
             }
             OperatorOrder::Recover => return self.recover(now),
+            OperatorOrder::Camera(camera) => return self.show_camera(now, by, camera),
             OperatorOrder::Release => self.controls.release(by),
             // Before the drone has left the ground a hold keeps it there.
             OperatorOrder::Hold if self.is_about_to_fly() => {
@@ -204,7 +210,7 @@ impl Vehicle {
         let before = self.controls.holder();
         if order.is_for_anyone() {
             self.controls.admit_any(by);
-        } else if !matches!(order, OperatorOrder::Release) {
+        } else if !matches!(order, OperatorOrder::Release | OperatorOrder::Camera(_)) {
             self.controls.admit(by).map_err(Refused::ControlsHeld)?;
         }
         if before.is_some_and(|before| self.controls.holder() != Some(before)) {
@@ -331,6 +337,20 @@ impl Vehicle {
             self.begin_flight(now);
         }
         self.departure = Some(now);
+        Ok(())
+    }
+
+    fn show_camera(&mut self, now: Duration, by: Operator, camera: Camera) -> Result<(), Refused> {
+        match self.controls.holder() {
+            Some(holder) if holder != by && !by.local => {
+                return Err(Refused::ControlsHeld(holder));
+            }
+            _ if self.is_foreign() => return Err(Refused::FlownByAnother),
+            _ => {}
+        }
+        if let Ok(config) = Setting::VideoChannel(camera).config() {
+            self.request(now, Request::Setting(config));
+        }
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! Orders of operators: which are accepted when, and what they change.
 
-use ardrone_link::at::{Motion, Ref};
+use ardrone_link::at::{Command, Motion, Ref};
+use ardrone_link::settings::Camera;
 use kinematics::Sticks;
 
 use super::bench::{Bench, SECOND, START};
@@ -41,6 +42,7 @@ fn orders_are_named_like_their_variants_and_three_are_for_anyone() {
         OperatorOrder::Land,
         OperatorOrder::Cut,
         OperatorOrder::Recover,
+        OperatorOrder::Camera(Camera::Bottom),
         OperatorOrder::Release,
     ];
     for order in &orders {
@@ -50,6 +52,23 @@ fn orders_are_named_like_their_variants_and_three_are_for_anyone() {
     let for_anyone: Vec<_> =
         orders.iter().filter(|order| order.is_for_anyone()).map(OperatorOrder::name).collect();
     assert_eq!(for_anyone, ["hold", "land", "cut"]);
+}
+
+/// It takes no controls, and no remote operator switches the picture of whoever flies.
+#[test]
+fn the_camera_is_chosen_by_whoever_flies() {
+    const BOTTOM: OperatorOrder = OperatorOrder::Camera(Camera::Bottom);
+    let mut bench = Bench::in_the_air(STAY);
+    let refused = Err(Refused::ControlsHeld(Operator::TERMINAL));
+    assert_eq!(bench.vehicle.order(bench.now, REMOTE, BOTTOM), refused);
+    bench.accepted(BOTTOM);
+    bench.until(SECOND, |bench| {
+        let is_camera = |command: &Command| matches!(command, Command::Config(config) if config.key() == "video:video_channel" && config.value() == "1");
+        bench.commands.iter().any(is_camera)
+    });
+    bench.accepted(OperatorOrder::Release);
+    assert_eq!(bench.vehicle.order(bench.now, REMOTE, BOTTOM), Ok(()));
+    assert_eq!(bench.vehicle.order(bench.now, OTHER, steer()), Ok(()));
 }
 
 #[test]
