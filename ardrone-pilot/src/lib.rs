@@ -4,6 +4,7 @@
 //!   [`timing`] measures the ticks.
 //! - [`recording`] is the flight log, [`replay`] replays a log, [`report`] makes a page of it,
 //!   [`plan_drawing`] draws a plan.
+//! - [`video`] passes on what the camera sees.
 //! - [`browser`] shows the flight in a browser, [`cli`] in the terminal.
 //! - [`settings`] reads `pilot.toml`.
 #![forbid(unsafe_code)]
@@ -13,6 +14,7 @@
 )]
 
 pub mod browser;
+mod camera;
 pub mod cli;
 mod drawing;
 pub mod flight;
@@ -25,3 +27,4 @@ pub mod replay;
 pub mod report;
 pub mod settings;
 pub mod timing;
+pub mod video;

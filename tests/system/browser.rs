@@ -187,6 +187,7 @@ fn the_picture_of_the_page() {
     let flown = Flown { child, host: printed.replace('/', ""), _plan: None };
     let tab = chromium.open(&flown.url());
     chromium.wait(&tab, "!!status && status.step === 5 && status.distance_m < 0.6");
+    chromium.wait(&tab, "window.video.drawn > 20");
     chromium.click(&tab, "#map", [90.0, -60.0]);
     chromium.wait(&tab, "!document.querySelector('#go').hidden");
     chromium.screenshot(&tab, Path::new("../docs/browser.png"));

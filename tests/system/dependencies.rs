@@ -17,9 +17,9 @@ const ALLOWED: [&str; 9] = [
     "Zlib",
 ];
 
-/// Crates that are compiled in two versions, for the log format (mcap) and the page's connection (axum,
-/// tungstenite), whose dependencies are older. Review a new one before adding it.
-const TWICE: [&str; 9] = [
+/// Crates that are compiled in two versions, for the log format (mcap), the page's connection (axum, tungstenite) and
+/// the mock drone's video (`rusty_h264`), whose dependencies are older. Review a new one before adding it.
+const TWICE: [&str; 11] = [
     "cpufeatures",
     "darling",
     "darling_core",
@@ -28,7 +28,9 @@ const TWICE: [&str; 9] = [
     "rand",
     "rand_chacha",
     "rand_core",
+    "safe_arch",
     "syn",
+    "wide",
 ];
 
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";

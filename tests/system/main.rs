@@ -29,3 +29,4 @@ mod tag_plans;
 mod tags;
 mod udp;
 mod vehicle;
+mod video;

@@ -18,6 +18,6 @@ mod session;
 mod watching;
 
 pub use header::{Codec, HEADER_BYTES, Header, LONGEST_PAYLOAD, PictureKind, SIGNATURE, Size};
-pub use reader::{Picture, Reader};
+pub use reader::{Picture, Reader, is_entry};
 pub use session::{Input, Output, VideoEvent, VideoSession};
 pub use watching::Watching;

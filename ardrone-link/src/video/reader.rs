@@ -18,14 +18,17 @@ pub struct Picture {
 impl Picture {
     /// Whether a decoder can begin with it: a key picture with its parameter sets.
     pub fn is_entry(&self) -> bool {
-        // The start code and the type of a sequence parameter set.
-        const PARAMETERS: [u8; 4] = [0, 0, 0, 1];
-        const SPS: u8 = 7;
-        const KIND: u8 = 0x1f;
-        let is_sps = |rest: &[u8]| rest.first().is_some_and(|kind| kind & KIND == SPS);
-        self.header.kind == PictureKind::Key
-            && self.payload.strip_prefix(&PARAMETERS).is_some_and(is_sps)
+        self.header.kind == PictureKind::Key && is_entry(&self.payload)
     }
+}
+
+/// Whether an encoded picture begins with a sequence parameter set, as those do with which a decoder can begin.
+pub fn is_entry(payload: &[u8]) -> bool {
+    const START_CODE: [u8; 4] = [0, 0, 0, 1];
+    const SPS: u8 = 7;
+    const KIND: u8 = 0x1f;
+    let is_sps = |rest: &[u8]| rest.first().is_some_and(|kind| kind & KIND == SPS);
+    payload.strip_prefix(&START_CODE).is_some_and(is_sps)
 }
 
 /// Splits a stream into pictures. Whatever arrives, it keeps at most one picture of the largest size.

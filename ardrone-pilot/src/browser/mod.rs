@@ -8,6 +8,7 @@
 //! requires a token, which is new for each flight. Pages of other sites are refused everywhere.
 
 mod access;
+mod pictures;
 mod requests;
 mod server;
 mod snapshot;
@@ -20,6 +21,7 @@ use self::access::Access;
 use self::server::Server;
 use self::snapshot::Snapshot;
 use crate::flight::{Controls, Message};
+use crate::video::VideoFeed;
 
 /// Why the page cannot be served.
 #[derive(Debug, thiserror::Error)]
@@ -74,9 +76,10 @@ impl Listener {
         plan: Option<&Plan>,
         limits: &FlightLimits,
         controls: Controls,
+        video: Option<VideoFeed>,
     ) -> Result<Browser, BrowserError> {
         let snapshot = Snapshot::new(plan, limits);
-        let server = Server::start(self.listener, self.access, snapshot, controls)
+        let server = Server::start(self.listener, self.access, snapshot, controls, video)
             .map_err(BrowserError::Thread)?;
         Ok(Browser { server })
     }

@@ -5,6 +5,8 @@ use std::time::Duration;
 use autopilot::vehicle::OperatorOrder;
 use serde::Deserialize;
 
+use crate::camera::NamedCamera;
+
 /// A cut must be confirmed within this time.
 const CUT_AGAIN: Duration = Duration::from_secs(3);
 /// Minimum interval between orders; nobody clicks faster.
@@ -23,6 +25,9 @@ enum Request {
     GoTo {
         x_m: f64,
         y_m: f64,
+    },
+    Camera {
+        camera: NamedCamera,
     },
     /// Announces a cut, which must be confirmed.
     Arm,
@@ -79,6 +84,7 @@ impl Requests {
             Request::Resume => OperatorOrder::Resume,
             Request::Land => OperatorOrder::Land,
             Request::GoTo { x_m, y_m } => OperatorOrder::GoTo { x_m, y_m },
+            Request::Camera { camera } => OperatorOrder::Camera(camera.into()),
             Request::Arm => {
                 self.armed = Some(now);
                 return Ok(None);
@@ -98,6 +104,7 @@ impl Requests {
 
 #[cfg(test)]
 mod tests {
+    use ardrone_link::settings::Camera;
     use proptest::prelude::*;
 
     use super::*;
@@ -110,6 +117,8 @@ mod tests {
         assert_eq!(order(r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
         assert_eq!(order(r#"{"order":"resume"}"#), Ok(Some(OperatorOrder::Resume)));
         assert_eq!(order(r#"{"order":"land"}"#), Ok(Some(OperatorOrder::Land)));
+        let bottom = Ok(Some(OperatorOrder::Camera(Camera::Bottom)));
+        assert_eq!(order(r#"{"order":"camera","camera":"bottom"}"#), bottom);
         let go_to = OperatorOrder::GoTo { x_m: 1.5, y_m: -2.0 };
         assert_eq!(order(r#"{"order":"goto","x_m":1.5,"y_m":-2}"#), Ok(Some(go_to)));
         for text in [

@@ -30,9 +30,11 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore, broadcast, mpsc, oneshot};
 use tokio::time::{Instant, timeout};
 
 use super::access::{Access, Claims, Refusal};
+use super::pictures;
 use super::requests::Requests;
 use super::snapshot::Snapshot;
 use crate::flight::Controls;
+use crate::video::VideoFeed;
 
 /// Maximum number of simultaneous HTTP connections; further ones wait in the system's queue.
 const CONNECTIONS: usize = 64;
@@ -56,6 +58,7 @@ const WRITE_BYTES: usize = 1 << 20;
 const PAGE: &str = include_str!("page/index.html");
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
+const VIDEO_SCRIPT: &str = include_str!("page/video.js");
 /// No content from elsewhere, and no framing: an invisible button must not be clicked (clickjacking).
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
     img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -75,6 +78,7 @@ impl Server {
         access: Access,
         snapshot: Snapshot,
         controls: Controls,
+        video: Option<VideoFeed>,
     ) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let shared = Arc::new(Shared {
@@ -82,6 +86,8 @@ impl Server {
             controls,
             stage: Mutex::new(Stage { snapshot, sender: Some(broadcast::Sender::new(BEHIND)) }),
             viewers: Arc::new(Semaphore::new(VIEWERS as usize)),
+            video,
+            watchers: Arc::new(Semaphore::new(VIEWERS as usize)),
         });
         let (end, ended) = oneshot::channel();
         let served = Arc::clone(&shared);
@@ -134,6 +140,9 @@ struct Shared {
     controls: Controls,
     stage: Mutex<Stage>,
     viewers: Arc<Semaphore>,
+    video: Option<VideoFeed>,
+    /// Places for those who see the video.
+    watchers: Arc<Semaphore>,
 }
 
 /// The snapshot and the stream of changes, under one lock so that a new viewer misses nothing between the
@@ -173,7 +182,9 @@ async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .route("/", asset("text/html; charset=utf-8", PAGE))
         .route("/page.css", asset("text/css; charset=utf-8", STYLE))
         .route("/page.js", asset("text/javascript; charset=utf-8", SCRIPT))
+        .route("/video.js", asset("text/javascript; charset=utf-8", VIDEO_SCRIPT))
         .route("/live", get(live))
+        .route("/video", get(video))
         .layer(middleware::from_fn_with_state(Arc::clone(&shared), guard))
         .with_state(shared);
     let places = Arc::new(Semaphore::new(CONNECTIONS));
@@ -235,7 +246,7 @@ fn check(access: &Access, uri: &Uri, headers: &HeaderMap) -> Result<(), Refusal>
         token: parameters.find_map(|parameter| parameter.strip_prefix("token=")),
     };
     // Style and script contain nothing secret.
-    let orders = !matches!(uri.path(), "/page.css" | "/page.js");
+    let orders = !matches!(uri.path(), "/page.css" | "/page.js" | "/video.js");
     access.check(claims, orders)
 }
 
@@ -266,6 +277,23 @@ async fn live(
             _ = shared.controls.order(by, OperatorOrder::Release);
             drop(place);
         })
+}
+
+/// Opens the WebSocket that carries the pictures of the drone's camera.
+async fn video(State(shared): State<Arc<Shared>>, upgrade: WebSocketUpgrade) -> Response {
+    let Some(feed) = shared.video.clone() else {
+        return (StatusCode::NOT_FOUND, "there is no video\n").into_response();
+    };
+    let Ok(place) = Arc::clone(&shared.watchers).try_acquire_owned() else {
+        let full = "too many pages show the video: close one\n";
+        return (StatusCode::SERVICE_UNAVAILABLE, full).into_response();
+    };
+    upgrade.max_message_size(REQUEST_BYTES).max_frame_size(REQUEST_BYTES).on_upgrade(
+        move |socket| async move {
+            pictures::show(socket, &feed).await;
+            drop(place);
+        },
+    )
 }
 
 /// Sends the snapshot, then changes, until the flight has ended or the page is gone.

@@ -3,7 +3,7 @@
 use std::net::{Ipv4Addr, SocketAddr, ToSocketAddrs as _};
 use std::path::PathBuf;
 
-use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT};
+use ardrone_link::{AT_PORT, CONTROL_PORT, DRONE_HOST, NAVDATA_PORT, VIDEO_PORT};
 use autopilot::plan;
 use autopilot::vehicle::Law;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -75,6 +75,15 @@ pub(super) enum Command {
         #[arg(short, value_name = "FILE")]
         output: Option<PathBuf>,
     },
+    /// Write the video of a recorded flight to a file, as it was encoded by the drone
+    Video {
+        /// A flight log, recorded with --record-video
+        #[arg(value_name = "LOG")]
+        log: PathBuf,
+        /// The film, .mp4 or .h264 [default: the log's name with .mp4]
+        #[arg(short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
     /// Fly a recorded flight again, and show where today's code decides otherwise: exit status 1 if it does
     Replay {
         /// A flight log
@@ -134,7 +143,7 @@ pub(super) struct Fly {
     #[arg(long, value_name = "FILE")]
     pub(super) config: Option<PathBuf>,
     /// Fly a simulated drone, started on free loopback ports
-    #[arg(long, conflicts_with_all = ["drone", "at_port", "navdata_port", "control_port"])]
+    #[arg(long, conflicts_with_all = ["drone", "at_port", "navdata_port", "control_port", "video_port"])]
     pub(super) mock: bool,
     /// The drone's address
     #[arg(long, value_name = "HOST", default_value = DRONE_HOST)]
@@ -148,6 +157,9 @@ pub(super) struct Fly {
     /// The drone's TCP port for its configuration
     #[arg(long, value_name = "PORT", default_value_t = CONTROL_PORT)]
     pub(super) control_port: u16,
+    /// The drone's TCP port for video
+    #[arg(long, value_name = "PORT", default_value_t = VIDEO_PORT)]
+    pub(super) video_port: u16,
     /// Where z = 0 of the plan is
     #[arg(long, value_enum, value_name = "WHERE", default_value_t = ZOrigin::Hover)]
     z_origin: ZOrigin,
@@ -167,6 +179,9 @@ pub(super) struct Fly {
     /// Do not record the flight
     #[arg(long, conflicts_with = "log")]
     pub(super) no_log: bool,
+    /// Record what the camera sees, too: 8 MB a minute
+    #[arg(long, conflicts_with = "no_log")]
+    pub(super) record_video: bool,
     /// Show the flight in a browser, and take orders from it; at an address that others can reach, with
     /// a token
     #[arg(

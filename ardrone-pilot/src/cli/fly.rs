@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{FlightLimits, Plan, Step, TagUse, given_tag_warnings};
+use autopilot::vehicle::SurveyedTag;
 use mock_drone::server::{MockDrone, Ports};
 use mock_drone::{FloorTag, WorldConfig};
 use serde_json::Value;
@@ -25,6 +26,7 @@ use crate::json;
 use crate::recording::{Header, Recorder, Recording};
 use crate::settings::Settings;
 use crate::timing::TimingReport;
+use crate::video::Video;
 
 /// The simulated drone finds its tags where they are said to be, and one below its start if none is.
 fn mock_world(settings: &Settings, plan: Option<&Plan>) -> WorldConfig {
@@ -63,17 +65,12 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let plain = arguments.plain || !std::io::stderr().is_terminal();
     let prompt = PromptLine::default();
     let mut progress = Progress::new(prompt.clone(), plain);
-    for note in plan.iter().flat_map(Plan::notes) {
+    for note in notes(plan.as_ref(), surveyed.as_deref(), &config.limits) {
         progress.print_line(&format!("note: {note}"));
     }
-    for warning in given_tag_warnings(surveyed.as_deref().unwrap_or_default(), &config.limits) {
-        progress.print_line(&format!("note: {warning}"));
-    }
-    if plan.as_ref().is_some_and(Plan::uses_tags) && surveyed.is_none() {
-        progress.print_line("note: the plan asks for tags, but they are not in use: add --tags");
-    }
     let mock = if arguments.mock {
-        Some(MockDrone::start(&mock_world(&settings, plan.as_ref()), Ports::LOOPBACK)?)
+        let ports = Ports { video: Some(0), ..Ports::LOOPBACK };
+        Some(MockDrone::start(&mock_world(&settings, plan.as_ref()), ports)?)
     } else {
         None
     };
@@ -87,6 +84,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
         None => (None, None),
     };
+    let video = watch_video(arguments, mock.as_ref(), recording.as_ref())?;
     let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
     let controls = flight.controls();
     // Not fatal, because the drone may already be flying.
@@ -95,7 +93,10 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
             "a second Ctrl-C cannot end the program while its output is blocked: {error}"
         ));
     }
-    let open = |listener: Listener| listener.open(plan.as_ref(), &config.limits, controls.clone());
+    let open = |listener: Listener| {
+        let feed = video.as_ref().map(Video::feed);
+        listener.open(plan.as_ref(), &config.limits, controls.clone(), feed)
+    };
     let browser = listener.map(open).transpose().unwrap_or_else(|error| {
         // Not fatal, because the drone may already be flying.
         progress.warn(&terminal::Causes(&error).to_string());
@@ -126,6 +127,8 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         _ if stays && controls.has_quit() && finished.is_down => 0,
         status => status,
     };
+    // Nothing more is recorded, or shown.
+    drop(video);
     let recorded = outputs.recording.and_then(Recording::finish);
     let end = json::end(&finished, recorded.as_ref(), status);
     if let Some(browser) = outputs.browser {
@@ -145,6 +148,21 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         terminal::print(TimingReport(&finished.ticks));
     }
     Ok(status)
+}
+
+/// What is unwise in a plan and in the tags that are given; `None` if tags are not in use.
+fn notes(
+    plan: Option<&Plan>,
+    surveyed: Option<&[SurveyedTag]>,
+    limits: &FlightLimits,
+) -> Vec<String> {
+    let mut notes: Vec<String> = plan.into_iter().flat_map(Plan::notes).cloned().collect();
+    let warnings = given_tag_warnings(surveyed.unwrap_or_default(), limits);
+    notes.extend(warnings);
+    if plan.is_some_and(Plan::uses_tags) && surveyed.is_none() {
+        notes.push("the plan asks for tags, but they are not in use: add --tags".to_owned());
+    }
+    notes
 }
 
 fn beginning(plan: Option<&Plan>, mock: bool, drone: &DroneAddress) -> String {
@@ -296,6 +314,23 @@ fn default_log(now: UtcDateTime) -> Result<PathBuf, CommandError> {
         time.minute(),
         time.second()
     )))
+}
+
+/// Starts the video if the page may show it, or it is recorded.
+fn watch_video(
+    arguments: &Fly,
+    mock: Option<&MockDrone>,
+    recording: Option<&Recording>,
+) -> Result<Option<Video>, CommandError> {
+    let recorder = recording.filter(|_| arguments.record_video).map(Recording::video);
+    if recorder.is_none() && arguments.ui.is_none() {
+        return Ok(None);
+    }
+    let (host, port) = match mock.map(MockDrone::ports) {
+        Some(ports) => (ports.host.to_string(), ports.video.unwrap_or_default()),
+        None => (arguments.drone.clone(), arguments.video_port),
+    };
+    Video::start(&host, port, recorder).map(Some).map_err(CommandError::VideoThread)
 }
 
 fn drone_address(arguments: &Fly, mock: Option<&MockDrone>) -> DroneAddress {

@@ -32,6 +32,7 @@ use crate::recording::{LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{self, ReportError};
 use crate::settings::{Settings, SettingsError};
+use crate::video::{self, ExportError};
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -53,6 +54,10 @@ enum CommandError {
     #[error(transparent)]
     Report(#[from] ReportError),
     #[error(transparent)]
+    Video(#[from] ExportError),
+    #[error("cannot start the thread of the video")]
+    VideoThread(#[source] std::io::Error),
+    #[error(transparent)]
     Picture(#[from] PlanDrawingError),
     #[error(transparent)]
     Mock(#[from] ServerError),
@@ -71,12 +76,16 @@ impl CommandError {
             | Self::Plan(_)
             | Self::Settings(_)
             | Self::Log { .. }
+            | Self::Video(ExportError::Log(_) | ExportError::NoVideo)
             | Self::Replay(_) => 20,
+            Self::Video(ExportError::Format { .. }) => 2,
             Self::Flight(FlightError::Address { .. }) => 10,
             Self::Mock(_)
             | Self::Flight(_)
             | Self::PrintSettings(_)
             | Self::Picture(_)
+            | Self::Video(_)
+            | Self::VideoThread(_)
             | Self::Report(_)
             | Self::Recording(_)
             | Self::Browser(_)
@@ -101,6 +110,7 @@ pub fn main() -> ExitCode {
         (Some(Command::Check(arguments)), _) => check::run(arguments),
         (Some(Command::Report { log, output }), _) => make_report(log, output.as_deref()),
         (Some(Command::Replay { log }), _) => replay(log),
+        (Some(Command::Video { log, output }), _) => write_video(log, output.as_deref()),
         (Some(Command::Completions { shell }), _) => Ok(print_completions(*shell)),
         (Some(Command::Man), _) => Ok(print_manual()),
         (Some(Command::Config { config }), _) => print_settings(config.as_deref()),
@@ -158,7 +168,21 @@ fn replay(path: &Path) -> Result<u8, CommandError> {
     Ok(u8::from(!replay.is_same()))
 }
 
-fn read_log(path: &Path) -> Result<Log, CommandError> {
+/// Writes the video of a log.
+fn write_video(path: &Path, output: Option<&Path>) -> Result<u8, CommandError> {
+    let output = output.map_or_else(|| path.with_extension("mp4"), Path::to_owned);
+    let written = video::export(&read_file(path)?, &output)?;
+    terminal::print(format_args!(
+        "{}: {} pictures, {:.1} s\n",
+        output.display(),
+        written.pictures,
+        written.seconds
+    ));
+    Ok(0)
+}
+
+/// The content of a flight log.
+fn read_file(path: &Path) -> Result<Vec<u8>, CommandError> {
     let name = || path.display().to_string();
     let mut file = Vec::new();
     // One byte more than allowed, so that a longer file is noticed.
@@ -166,6 +190,12 @@ fn read_log(path: &Path) -> Result<Log, CommandError> {
     File::open(path)
         .and_then(|opened| opened.take(most).read_to_end(&mut file))
         .map_err(|source| CommandError::Read { what: "the flight log", path: name(), source })?;
+    Ok(file)
+}
+
+fn read_log(path: &Path) -> Result<Log, CommandError> {
+    let name = || path.display().to_string();
+    let file = read_file(path)?;
     let log = Log::read(&file).map_err(|source| CommandError::Log { path: name(), source })?;
     if !log.complete {
         terminal::print_message(format_args!(

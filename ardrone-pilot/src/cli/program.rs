@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 
 use super::terminal;
 use super::typed::{self, Typed};
+use crate::camera::NamedCamera;
 use crate::flight::Controls;
 use crate::json;
 
@@ -68,6 +69,9 @@ enum Request {
     Land {},
     Cut {},
     Recover {},
+    Camera {
+        camera: NamedCamera,
+    },
     Release {},
     Quit {},
 }
@@ -348,6 +352,7 @@ fn order(request: Request, limits: &FlightLimits) -> Result<Option<OperatorOrder
         Request::Land {} => OperatorOrder::Land,
         Request::Cut {} => OperatorOrder::Cut,
         Request::Recover {} => OperatorOrder::Recover,
+        Request::Camera { camera } => OperatorOrder::Camera(camera.into()),
         Request::Release {} => OperatorOrder::Release,
         Request::Quit {} => return Ok(None),
     }))

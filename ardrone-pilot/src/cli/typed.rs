@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
+use ardrone_link::settings::Camera;
 use autopilot::plan::{Commands, FlightLimits, Plan, PlanError};
 use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 
 use crate::flight::Controls;
 
 /// Words that are orders of their own; everything else is a command of the plan language.
-const ORDERS: [&str; 12] = [
+const ORDERS: [&str; 14] = [
     "load", "append", "clear", "start", "hold", "resume", "land", "cut", "recover", "release",
-    "quit", "help",
+    "front", "bottom", "quit", "help",
 ];
 /// Commands of the plan language, for completion.
 const COMMANDS: [&str; 15] = [
@@ -33,7 +34,7 @@ const COMMANDS: [&str; 15] = [
 
 /// Summary of the orders.
 pub(super) const HELP: &str = "load FILE, start, hold, resume, clear, land, cut, recover (after an \
-    emergency), release (the controls), quit; anything else is appended to the mission: takeoff, \
+    emergency), release (the controls), front or bottom (camera), quit; anything else is appended to the mission: takeoff, \
     goto x y z yaw, moveBy, moveByRel, setReference, setStayTime, findTag, landOnTag, ...; `append land` appends a landing";
 
 /// Why a typed line was not carried out.
@@ -101,6 +102,8 @@ pub(super) fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedErr
         "land" => OperatorOrder::Land,
         "cut" => OperatorOrder::Cut,
         "recover" => OperatorOrder::Recover,
+        "front" => OperatorOrder::Camera(Camera::Front),
+        "bottom" => OperatorOrder::Camera(Camera::Bottom),
         "release" => OperatorOrder::Release,
         "quit" => return Ok(Typed::Quit),
         "help" => return Err(TypedError::Help),

@@ -3,6 +3,7 @@
 
 use ardrone_link::WAKE_UP;
 use ardrone_link::session::FlightOrder;
+use ardrone_link::settings::Camera;
 use autopilot::agent::AgentCommand;
 use autopilot::plan::{Commands, Plan};
 use autopilot::vehicle::{
@@ -43,6 +44,7 @@ fn order() -> impl Strategy<Value = OperatorOrder> {
         (-2.0..2.0, -2.0..2.0).prop_map(|(x_m, y_m)| OperatorOrder::GoTo { x_m, y_m }),
         Just(OperatorOrder::Land),
         Just(OperatorOrder::Recover),
+        Just(OperatorOrder::Camera(Camera::Bottom)),
         Just(OperatorOrder::Release),
     ]
 }

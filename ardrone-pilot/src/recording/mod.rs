@@ -4,8 +4,10 @@
 //! are dropped and counted. A separate thread writes the file. Flushed records survive a crash of the
 //! process.
 
+mod compressed_video;
 mod messages;
 mod order;
+mod pictures;
 mod reader;
 mod recorder;
 mod topic;
@@ -18,8 +20,9 @@ pub use messages::{
     Tick, Timing,
 };
 pub use order::{Order, OrderError};
+pub use pictures::{RecordedPicture, pictures};
 pub use reader::{Entry, LARGEST_FILE_BYTES, Log, LogError};
-pub use recorder::{Recorded, Recorder, Recording, RecordingError};
+pub use recorder::{Recorded, Recorder, Recording, RecordingError, VideoRecorder};
 pub use writer::LogWriter;
 
 use autopilot::outcome::Outcome;
@@ -103,6 +106,13 @@ pub enum Record {
         at: Duration,
         /// Its text.
         text: String,
+    },
+    /// A picture of the camera.
+    Picture {
+        /// Time of its arrival.
+        at: Duration,
+        /// The encoded picture.
+        picture: bytes::Bytes,
     },
     /// A tick.
     Tick {

@@ -5,6 +5,8 @@ use autopilot::vehicle::{Operator, OperatorOrder, Station};
 use kinematics::Sticks;
 use serde::{Deserialize, Serialize};
 
+use crate::camera::NamedCamera;
+
 /// An order and its operator.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Order {
@@ -36,6 +38,7 @@ enum Ordered {
     Land,
     Cut,
     Recover,
+    Camera { camera: NamedCamera },
     Release,
 }
 
@@ -89,6 +92,7 @@ impl Order {
             Ordered::Land => OperatorOrder::Land,
             Ordered::Cut => OperatorOrder::Cut,
             Ordered::Recover => OperatorOrder::Recover,
+            &Ordered::Camera { camera } => OperatorOrder::Camera(camera.into()),
             Ordered::Release => OperatorOrder::Release,
         };
         Ok((by, order))
@@ -115,6 +119,7 @@ impl From<&OperatorOrder> for Ordered {
             OperatorOrder::Land => Self::Land,
             OperatorOrder::Cut => Self::Cut,
             OperatorOrder::Recover => Self::Recover,
+            &OperatorOrder::Camera(camera) => Self::Camera { camera: camera.into() },
             OperatorOrder::Release => Self::Release,
         }
     }
@@ -135,6 +140,7 @@ mod tests {
             OperatorOrder::Steer(Sticks { roll: 0.5, ..Sticks::default() }),
             OperatorOrder::GoTo { x_m: 1.0, y_m: -2.5 },
             OperatorOrder::Cut,
+            OperatorOrder::Camera(ardrone_link::settings::Camera::Bottom),
         ] {
             let text = serde_json::to_string(&Order::new(remote, &order)).unwrap();
             let read: Order = serde_json::from_str(&text).unwrap();

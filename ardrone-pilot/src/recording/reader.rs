@@ -116,9 +116,6 @@ impl Log {
     /// # Errors
     /// [`LogError`] if it is not a flight log.
     pub fn read(file: &[u8]) -> Result<Self, LogError> {
-        if file.len() > LARGEST_FILE_BYTES {
-            return Err(LogError::TooLarge);
-        }
         let mut content = Content::read(file)?;
         let flight = content.flight;
         let mut text = |name: &str| {
@@ -216,37 +213,9 @@ struct Content {
 }
 
 impl Content {
-    /// Each record is parsed as soon as it is unpacked and then dropped, so the memory in use is proportional
-    /// to the unpacked size, which is bounded by the size of the file.
     fn read(file: &[u8]) -> Result<Self, LogError> {
-        // The checksum of a chunk is verified before its content is parsed.
-        let options = LinearReaderOptions::default()
-            .with_prevalidate_chunk_crcs(true)
-            .with_record_length_limit(LONGEST_RECORD_BYTES);
-        let mut reader = LinearReader::new_with_options(options);
         let mut content = Self::default();
-        let mut rest = file;
-        let mut room =
-            file.len().saturating_mul(LARGEST_RATIO).saturating_add(ALWAYS_UNPACKED_BYTES);
-        while let Some(event) = reader.next_event() {
-            match event {
-                Ok(LinearReadEvent::ReadRequest(wanted)) => {
-                    let (part, behind) = rest.split_at(wanted.min(rest.len()));
-                    reader.insert(part.len()).copy_from_slice(part);
-                    reader.notify_read(part.len());
-                    rest = behind;
-                }
-                Ok(LinearReadEvent::Record { data, opcode }) => {
-                    // An entry takes more memory than the shortest message that it is parsed from.
-                    let needed = data.len().max(size_of::<(Duration, Entry)>());
-                    room = room.checked_sub(needed).ok_or(LogError::Bomb)?;
-                    content.record(parse_record(opcode, data)?)?;
-                }
-                Err(error @ McapError::BadMagic) => return Err(error.into()),
-                // The file was truncated here, or is damaged from here on.
-                Err(_) => return Ok(content),
-            }
-        }
+        read_records(file, |record| content.record(record))?;
         Ok(content)
     }
 
@@ -283,6 +252,46 @@ impl Content {
         }
         Ok(())
     }
+}
+
+/// Visits all records of a file, up to where it was truncated or is damaged.
+///
+/// Each record is parsed as soon as it is unpacked and then dropped, so the memory in use is proportional to the unpacked
+/// size, which is bounded by the size of the file.
+pub(super) fn read_records(
+    file: &[u8],
+    mut visit: impl FnMut(McapRecord<'_>) -> Result<(), LogError>,
+) -> Result<(), LogError> {
+    if file.len() > LARGEST_FILE_BYTES {
+        return Err(LogError::TooLarge);
+    }
+    // The checksum of a chunk is verified before its content is parsed.
+    let options = LinearReaderOptions::default()
+        .with_prevalidate_chunk_crcs(true)
+        .with_record_length_limit(LONGEST_RECORD_BYTES);
+    let mut reader = LinearReader::new_with_options(options);
+    let mut rest = file;
+    let mut room = file.len().saturating_mul(LARGEST_RATIO).saturating_add(ALWAYS_UNPACKED_BYTES);
+    while let Some(event) = reader.next_event() {
+        match event {
+            Ok(LinearReadEvent::ReadRequest(wanted)) => {
+                let (part, behind) = rest.split_at(wanted.min(rest.len()));
+                reader.insert(part.len()).copy_from_slice(part);
+                reader.notify_read(part.len());
+                rest = behind;
+            }
+            Ok(LinearReadEvent::Record { data, opcode }) => {
+                // An entry takes more memory than the shortest message that it is parsed from.
+                let needed = data.len().max(size_of::<(Duration, Entry)>());
+                room = room.checked_sub(needed).ok_or(LogError::Bomb)?;
+                visit(parse_record(opcode, data)?)?;
+            }
+            Err(error @ McapError::BadMagic) => return Err(error.into()),
+            // The file was truncated here, or is damaged from here on.
+            Err(_) => return Ok(()),
+        }
+    }
+    Ok(())
 }
 
 /// Parses an entry; `None` for messages that exist only for other viewers.

@@ -4,11 +4,12 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+use ardrone_link::video::Picture;
 use autopilot::outcome::Outcome;
 use autopilot::vehicle::{Decision, FlightEvent, Operator, OperatorOrder};
-use crossbeam_channel::{Receiver, RecvTimeoutError, Sender, bounded};
+use crossbeam_channel::{Receiver, Sender, bounded, never, select_biased};
 use mcap::McapError;
 
 use super::messages::Timing;
@@ -21,6 +22,8 @@ const BUFFERS: usize = 512;
 const BUFFER_BYTES: usize = 4096;
 /// Interval of flushing to disk.
 const FLUSH: Duration = Duration::from_millis(500);
+/// Pictures that may wait for the writer: two seconds.
+const PICTURES: usize = 64;
 
 /// Why recording could not start, or has stopped.
 #[derive(Debug, thiserror::Error)]
@@ -68,6 +71,28 @@ pub struct Recording {
     path: PathBuf,
     problems: Receiver<RecordingError>,
     thread: JoinHandle<Option<u64>>,
+    start: Instant,
+    pictures: Sender<Record>,
+}
+
+/// Video-side handle. It has a queue of its own, so that pictures never take the place of what the tick records.
+#[derive(Debug)]
+pub struct VideoRecorder {
+    pictures: Sender<Record>,
+    start: Instant,
+    /// A picture was lost, and the next ones depend on it.
+    waits_for_entry: bool,
+}
+
+impl VideoRecorder {
+    /// Records a picture, or leaves out all up to the next one that a decoder can begin with if the disk is too slow.
+    pub fn picture(&mut self, picture: &Picture) {
+        if self.waits_for_entry && !picture.is_entry() {
+            return;
+        }
+        let record = Record::Picture { at: self.start.elapsed(), picture: picture.payload.clone() };
+        self.waits_for_entry = self.pictures.try_send(record).is_err();
+    }
 }
 
 /// A finished log.
@@ -97,13 +122,15 @@ impl Recorder {
             // The channel has room for all buffers.
             _ = give_back.try_send(Vec::with_capacity(BUFFER_BYTES));
         }
+        let (pictures, received_pictures) = bounded(PICTURES);
         let (report, problems) = bounded(1);
         let own = path.to_owned();
         let thread = std::thread::Builder::new()
             .name("flight log".to_owned())
-            .spawn(move || write(writer, &own, &received, &give_back, &report))
+            .spawn(move || write(writer, &own, &received, received_pictures, &give_back, &report))
             .map_err(RecordingError::Thread)?;
-        let recording = Recording { path: path.to_owned(), problems, thread };
+        let start = Instant::now();
+        let recording = Recording { path: path.to_owned(), problems, thread, start, pictures };
         Ok((Self { records, buffers, lost: 0 }, recording))
     }
 
@@ -185,6 +212,12 @@ impl Recording {
         self.problems.try_recv().ok()
     }
 
+    /// Records the video of the flight, too.
+    pub fn video(&self) -> VideoRecorder {
+        let pictures = self.pictures.clone();
+        VideoRecorder { pictures, start: self.start, waits_for_entry: false }
+    }
+
     /// Waits until the file is complete, which requires that the [`Recorder`] was dropped; `None` if writing
     /// failed.
     pub fn finish(self) -> Option<Recorded> {
@@ -198,10 +231,11 @@ fn write(
     writer: LogWriter<BufWriter<File>>,
     path: &Path,
     records: &Receiver<Record>,
+    pictures: Receiver<Record>,
     give_back: &Sender<Vec<u8>>,
     report: &Sender<RecordingError>,
 ) -> Option<u64> {
-    match write_all(writer, records, give_back) {
+    match write_all(writer, records, pictures, give_back) {
         Ok(bytes) => Some(bytes),
         Err(source) => {
             _ = report.try_send(RecordingError::Write { path: path.to_owned(), problem: source });
@@ -217,18 +251,26 @@ fn write(
 fn write_all(
     mut writer: LogWriter<BufWriter<File>>,
     records: &Receiver<Record>,
+    mut pictures: Receiver<Record>,
     give_back: &Sender<Vec<u8>>,
 ) -> Result<u64, McapError> {
-    let clock = std::time::Instant::now;
+    let clock = Instant::now;
     let mut flushed = clock();
     loop {
-        match records.recv_timeout(FLUSH) {
-            Ok(record) => {
-                writer.write(&record)?;
-                recycle(record, give_back);
-            }
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => break,
+        select_biased! {
+            recv(records) -> record => match record {
+                Ok(record) => {
+                    writer.write(&record)?;
+                    recycle(record, give_back);
+                }
+                Err(_) => break,
+            },
+            recv(pictures) -> picture => match picture {
+                Ok(picture) => writer.write(&picture)?,
+                // No video, or no more.
+                Err(_) => pictures = never(),
+            },
+            default(FLUSH) => {}
         }
         if flushed.elapsed() >= FLUSH {
             writer.flush()?;

@@ -42,5 +42,8 @@ pub(super) const TARGET: Topic = Topic { name: "/target", ..POSE };
 pub(super) const TAGS: Topic =
     Topic { name: "/tags", schema: "ardrone_pilot.Tags", text: include_str!("schemas/tags.json") };
 
+/// Pictures of the drone's camera: protobuf, unlike the others.
+pub(super) const VIDEO: &str = "/video";
+
 pub(super) const ALL: [Topic; 9] =
     [TICK, NAVDATA, RAW_NAVDATA, CONTROL, ORDERS, LOG, POSE, TARGET, TAGS];

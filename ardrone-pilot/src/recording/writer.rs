@@ -21,7 +21,8 @@ use serde_json::json;
 use super::messages::{Bytes, DecodedNavdata, Place, Tags, Tick};
 use super::order::Order;
 use super::{
-    AGENT_FILE, EVENT, FLIGHT, FORMAT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE, topic,
+    AGENT_FILE, EVENT, FLIGHT, FORMAT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE,
+    compressed_video, topic,
 };
 
 /// Ticks between pose messages, which exist only for display.
@@ -34,6 +35,8 @@ const TAGS_APART: Duration = Duration::from_secs(1);
 const COMPRESSION_LEVEL: u32 = 6;
 /// Frame of the poses: right, forward and up from the take-off.
 const FRAME: &str = "take_off";
+/// Frame of the pictures. Which camera it is changes in flight.
+const CAMERA: &str = "camera";
 
 /// Writes a log.
 pub struct LogWriter<W: Write + Seek> {
@@ -46,6 +49,8 @@ pub struct LogWriter<W: Write + Seek> {
     decoded: Option<Duration>,
     /// Time of the last message about tags, and their numbers.
     tags: Option<(Duration, Vec<u32>)>,
+    /// Channel of the video, once there is a picture.
+    video: Option<u16>,
 }
 
 impl<W: Write + Seek> LogWriter<W> {
@@ -90,7 +95,16 @@ impl<W: Write + Seek> LogWriter<W> {
                 data: Cow::Borrowed(text.as_bytes()),
             })?;
         }
-        Ok(Self { writer, channels, start_ns, sequence: 0, ticks: 0, decoded: None, tags: None })
+        Ok(Self {
+            writer,
+            channels,
+            start_ns,
+            sequence: 0,
+            ticks: 0,
+            decoded: None,
+            tags: None,
+            video: None,
+        })
     }
 
     /// Writes a record.
@@ -127,6 +141,7 @@ impl<W: Write + Seek> LogWriter<W> {
                 self.log(*at, level, OUTCOME, &outcome.to_string())
             }
             Record::Note { at, text } => self.log(*at, Level::Info, EVENT, text),
+            Record::Picture { at, picture } => self.picture(*at, picture),
             Record::Tick { decision, timing, datagram } => {
                 let tick = Tick::new(decision, *timing, datagram);
                 if self.ticks.is_multiple_of(POSE_TICKS) {
@@ -159,6 +174,23 @@ impl<W: Write + Seek> LogWriter<W> {
         self.message(topic::TAGS, at, &Tags::from(status))
     }
 
+    /// Writes a picture; its channel is only in logs that have one.
+    fn picture(&mut self, at: Duration, picture: &[u8]) -> Result<(), McapError> {
+        let channel = if let Some(channel) = self.video {
+            channel
+        } else {
+            let encoding = compressed_video::ENCODING;
+            let schema = compressed_video::schema();
+            let schema =
+                self.writer.add_schema(compressed_video::SCHEMA_NAME, encoding, &schema)?;
+            let channel =
+                self.writer.add_channel(schema, topic::VIDEO, encoding, &BTreeMap::new())?;
+            *self.video.insert(channel)
+        };
+        let time = Duration::from_nanos(self.start_ns).saturating_add(at);
+        self.bytes(channel, at, &compressed_video::message(time, CAMERA, picture))
+    }
+
     /// Ensures that everything written so far survives a crash.
     ///
     /// # Errors
@@ -182,7 +214,12 @@ impl<W: Write + Seek> LogWriter<W> {
         at: Duration,
         content: &impl Serialize,
     ) -> Result<(), McapError> {
-        let Some(channel_id) = self.channels.get(topic.name).copied() else { return Ok(()) };
+        let Some(channel) = self.channels.get(topic.name).copied() else { return Ok(()) };
+        let data = serde_json::to_vec(content).map_err(std::io::Error::from)?;
+        self.bytes(channel, at, &data)
+    }
+
+    fn bytes(&mut self, channel_id: u16, at: Duration, data: &[u8]) -> Result<(), McapError> {
         let time = self.start_ns.saturating_add(u64::try_from(at.as_nanos()).unwrap_or(u64::MAX));
         self.sequence = self.sequence.wrapping_add(1);
         let header = MessageHeader {
@@ -191,8 +228,7 @@ impl<W: Write + Seek> LogWriter<W> {
             log_time: time,
             publish_time: time,
         };
-        let data = serde_json::to_vec(content).map_err(std::io::Error::from)?;
-        self.writer.write_to_known_channel(&header, &data)
+        self.writer.write_to_known_channel(&header, data)
     }
 
     fn log(&mut self, at: Duration, level: Level, name: &str, text: &str) -> Result<(), McapError> {

@@ -131,7 +131,7 @@ fn the_sticks_steer_and_hold_when_they_are_let_go() {
     bench.accepted(steer());
     bench.run(2 * TICK);
     let roll = |bench: &Bench| match bench.commands[1] {
-        ardrone_link::at::Command::Pcmd(Motion::Progressive { roll, .. }) => roll.get(),
+        Command::Pcmd(Motion::Progressive { roll, .. }) => roll.get(),
         _ => 0.0,
     };
     assert!((roll(&bench) - 0.3).abs() < 1e-6, "{:?}", bench.commands);
