@@ -170,6 +170,10 @@ fn pushes(mnemonic: &str, operands: &str) -> Option<i64> {
     };
     let count = number(rest.strip_prefix("sp, ").unwrap_or(rest));
     match mnemonic {
+        // Stores or loads without moving the pointer.
+        "stmia" | "stm" | "ldmia" | "ldm" if rest.starts_with('{') && !rest.contains("pc") => {
+            Some(0)
+        }
         "sub" | "subw" => count,
         "add" | "addw" => Some(-count?),
         "cmp" => Some(0),
@@ -204,6 +208,7 @@ mod tests {
             ("stmdb\tsp!, {r4, r5, r6, r7, r8, lr}", Flow::Next, 24),
             ("vpush\t{d8-d11}", Flow::Next, 32),
             ("vpush\t{s16}", Flow::Next, 4),
+            ("stmia.w\tsp, {r0, r1}", Flow::Next, 0),
             ("sub\tsp, #16", Flow::Next, 16),
             ("add.w\tsp, sp, #512\t; 0x200", Flow::Next, -512),
             ("str.w\tlr, [sp, #-4]!", Flow::Next, 4),

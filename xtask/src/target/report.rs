@@ -114,8 +114,8 @@ QEMU also logs each instruction of the agent in 500 steps: the costliest `next_s
 column, and must not exceed the bounds above.
 
 To see that the trace shows differences, one character of the C is changed: one comparison, `+` or `-`, at even
-distances in the file. Changes that are not seen are in code that the random steps do not reach, or change nothing
-(such as a check that always holds).
+distances in the file. Whether a change that is not seen is in code that the random steps do not reach, or changes nothing
+(such as a check that always holds), was not examined one by one.
 
 | agent | traces | actions and functions called | costliest step found | changes seen |
 |---|---|---|---|---|
