@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest as _;
 use tungstenite::{Message, WebSocket};
 
-use crate::chromium::Chromium;
+use crate::chromium::{Chromium, Tab};
 use crate::processes::{plan_file, program, signal};
 
 /// A flight with a page.
@@ -177,6 +177,44 @@ fn the_page_shows_the_flight_and_orders_it() {
     }
     let (status, printed) = flown.end();
     assert_eq!(status, Some(130), "{printed}");
+}
+
+/// Keys steer as long as they are held, and a page that vanishes with a key held steers no longer.
+#[test]
+fn the_page_flies_by_hand() {
+    let Some(mut chromium) = Chromium::start() else {
+        return;
+    };
+    let flown = Flown::start(HOVER);
+    let tab = chromium.open(&flown.url());
+    chromium.wait(&tab, "status?.step === 3");
+    chromium.wait(&tab, "document.querySelector('#who').textContent === 'the local terminal'");
+    // Without taking the sticks keys do nothing.
+    chromium.key(&tab, "keyDown", "KeyW");
+    chromium.key(&tab, "keyUp", "KeyW");
+    chromium.click(&tab, "#byhand", [0.0; 2]);
+    assert_eq!(chromium.evaluate(&tab, "status.mission_waits"), false);
+    chromium.key(&tab, "keyDown", "KeyD");
+    chromium.wait(&tab, "status.pose.x_m > 0.5");
+    assert_eq!(chromium.evaluate(&tab, "status.mission_waits"), true);
+    chromium.key(&tab, "keyUp", "KeyD");
+    chromium.wait(&tab, "status.target && Math.abs(status.target.x_m - status.pose.x_m) < 0.1");
+    let place = |chromium: &mut Chromium, tab: &Tab| {
+        chromium.evaluate(tab, "status.pose.x_m").as_f64().unwrap()
+    };
+    let held = place(&mut chromium, &tab);
+    std::thread::sleep(Duration::from_secs(1));
+    assert!((place(&mut chromium, &tab) - held).abs() < 0.3);
+    // The stick on the screen, to the left.
+    let watcher = chromium.open(&flown.url());
+    chromium.wait(&watcher, "!!status");
+    chromium.show(&tab);
+    chromium.press(&tab, "#right", [-60.0, 0.0]);
+    chromium.wait(&tab, &format!("status.pose.x_m < {held} - 0.3"));
+    chromium.close(&tab);
+    chromium.wait(&watcher, "status.target && Math.abs(status.target.x_m - status.pose.x_m) < 0.1");
+    chromium.click(&watcher, "#land", [0.0; 2]);
+    assert_eq!(flown.end().0, Some(130));
 }
 
 #[test]

@@ -108,8 +108,27 @@ impl Chromium {
         }
     }
 
+    /// Shows a tab that another one has covered.
+    pub(crate) fn show(&mut self, tab: &Tab) {
+        self.call(Some(tab), "Page.bringToFront", &json!({}));
+    }
+
+    /// Closes a tab.
+    pub(crate) fn close(&mut self, tab: &Tab) {
+        self.call(Some(tab), "Page.close", &json!({}));
+    }
+
     /// Clicks with a mouse at an offset from the middle of an element.
     pub(crate) fn click(&mut self, tab: &Tab, selector: &str, off: [f64; 2]) {
+        self.mouse(tab, selector, off, &["mousePressed", "mouseReleased"]);
+    }
+
+    /// Presses a mouse's button and keeps it pressed.
+    pub(crate) fn press(&mut self, tab: &Tab, selector: &str, off: [f64; 2]) {
+        self.mouse(tab, selector, off, &["mousePressed"]);
+    }
+
+    fn mouse(&mut self, tab: &Tab, selector: &str, off: [f64; 2], kinds: &[&str]) {
         let place = self.evaluate(
             tab,
             &format!(
@@ -118,10 +137,16 @@ impl Chromium {
             ),
         );
         let [x, y] = [0, 1].map(|axis| place[axis].as_f64().unwrap() + off[axis]);
-        for kind in ["mousePressed", "mouseReleased"] {
+        for kind in kinds {
             let mouse = json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1 });
             self.call(Some(tab), "Input.dispatchMouseEvent", &mouse);
         }
+    }
+
+    /// Presses (`keyDown`) or releases (`keyUp`) a key, by its place on the keyboard.
+    pub(crate) fn key(&mut self, tab: &Tab, kind: &str, code: &str) {
+        let key = json!({ "type": kind, "code": code });
+        self.call(Some(tab), "Input.dispatchKeyEvent", &key);
     }
 
     /// Saves a screenshot.

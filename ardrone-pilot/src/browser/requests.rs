@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use autopilot::vehicle::OperatorOrder;
+use kinematics::Sticks;
 use serde::Deserialize;
 
 use crate::camera::NamedCamera;
@@ -29,6 +30,13 @@ enum Request {
     Camera {
         camera: NamedCamera,
     },
+    /// Sticks of the page, repeated as long as one is not centred.
+    Steer {
+        roll: f64,
+        pitch: f64,
+        gaz: f64,
+        yaw: f64,
+    },
     /// Announces a cut, which must be confirmed.
     Arm,
     Cut,
@@ -40,6 +48,9 @@ pub(super) enum RequestError {
     /// Not a valid [`Request`].
     #[error("not understood: {0}")]
     Meaningless(String),
+    /// A stick that is further out than it can be.
+    #[error("sticks are from -1 to 1")]
+    NoSticks,
     /// Orders arrive faster than a person could click.
     #[error("too fast")]
     TooFast,
@@ -85,6 +96,14 @@ impl Requests {
             Request::Land => OperatorOrder::Land,
             Request::GoTo { x_m, y_m } => OperatorOrder::GoTo { x_m, y_m },
             Request::Camera { camera } => OperatorOrder::Camera(camera.into()),
+            Request::Steer { roll, pitch, gaz, yaw } => {
+                let sticks = [roll, pitch, gaz, yaw];
+                if !sticks.iter().all(|stick| (-1.0..=1.0).contains(stick)) {
+                    self.meaningless += 1;
+                    return Err(RequestError::NoSticks);
+                }
+                OperatorOrder::Steer(Sticks { roll, pitch, gaz, yaw })
+            }
             Request::Arm => {
                 self.armed = Some(now);
                 return Ok(None);
@@ -119,6 +138,11 @@ mod tests {
         assert_eq!(order(r#"{"order":"land"}"#), Ok(Some(OperatorOrder::Land)));
         let bottom = Ok(Some(OperatorOrder::Camera(Camera::Bottom)));
         assert_eq!(order(r#"{"order":"camera","camera":"bottom"}"#), bottom);
+        let steer = OperatorOrder::Steer(Sticks { pitch: -0.5, ..Sticks::default() });
+        let text = r#"{"order":"steer","roll":0,"pitch":-0.5,"gaz":0,"yaw":0}"#;
+        assert_eq!(order(text), Ok(Some(steer)));
+        let too_far = r#"{"order":"steer","roll":0,"pitch":-1.5,"gaz":0,"yaw":0}"#;
+        assert_eq!(order(too_far), Err(RequestError::NoSticks));
         let go_to = OperatorOrder::GoTo { x_m: 1.5, y_m: -2.0 };
         assert_eq!(order(r#"{"order":"goto","x_m":1.5,"y_m":-2}"#), Ok(Some(go_to)));
         for text in [

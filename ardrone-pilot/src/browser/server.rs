@@ -23,6 +23,7 @@ use futures_util::{SinkExt as _, StreamExt as _};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
+use kinematics::Sticks;
 use rustix::net::sockopt::set_socket_send_buffer_size;
 use serde_json::{Value, json};
 use tokio::net::TcpStream;
@@ -50,6 +51,8 @@ const WRITE_TIME: Duration = Duration::from_secs(2);
 const PARTING_TIME: Duration = Duration::from_millis(500);
 /// Send buffer of a WebSocket: some seconds of messages.
 const SEND_BYTES: usize = 32 << 10;
+/// Sticks that a page does not repeat within this time are centred; a while later the drone holds.
+const STICK_SILENCE: Duration = Duration::from_millis(250);
 /// Maximum size of a request, more than the page ever sends.
 const REQUEST_BYTES: usize = 1024;
 /// Maximum data waiting to be written on a connection.
@@ -59,6 +62,7 @@ const PAGE: &str = include_str!("page/index.html");
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
 const VIDEO_SCRIPT: &str = include_str!("page/video.js");
+const STICKS_SCRIPT: &str = include_str!("page/sticks.js");
 /// No content from elsewhere, and no framing: an invisible button must not be clicked (clickjacking).
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
     img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -183,6 +187,7 @@ async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .route("/page.css", asset("text/css; charset=utf-8", STYLE))
         .route("/page.js", asset("text/javascript; charset=utf-8", SCRIPT))
         .route("/video.js", asset("text/javascript; charset=utf-8", VIDEO_SCRIPT))
+        .route("/sticks.js", asset("text/javascript; charset=utf-8", STICKS_SCRIPT))
         .route("/live", get(live))
         .route("/video", get(video))
         .layer(middleware::from_fn_with_state(Arc::clone(&shared), guard))
@@ -246,7 +251,7 @@ fn check(access: &Access, uri: &Uri, headers: &HeaderMap) -> Result<(), Refusal>
         token: parameters.find_map(|parameter| parameter.strip_prefix("token=")),
     };
     // Style and script contain nothing secret.
-    let orders = !matches!(uri.path(), "/page.css" | "/page.js" | "/video.js");
+    let orders = !matches!(uri.path(), "/page.css" | "/page.js" | "/video.js" | "/sticks.js");
     access.check(claims, orders)
 }
 
@@ -348,7 +353,17 @@ async fn read(
 ) {
     let start = Instant::now();
     let mut requests = Requests::default();
-    while let Some(Ok(message)) = stream.next().await {
+    // Whether a stick of this page is not centred.
+    let mut steers = false;
+    loop {
+        let patience = if steers { STICK_SILENCE } else { Duration::MAX };
+        let Ok(message) = timeout(patience, stream.next()).await else {
+            steers = false;
+            // Refused if there is nothing to steer any more.
+            _ = shared.controls.order(by, OperatorOrder::Steer(Sticks::default()));
+            continue;
+        };
+        let Some(Ok(message)) = message else { return };
         let text = match &message {
             ws::Message::Text(text) => text.as_str(),
             ws::Message::Binary(_) => "",
@@ -358,6 +373,8 @@ async fn read(
         let answer = match requests.order(start.elapsed(), text) {
             Ok(None) => json!({ "type": "armed" }),
             Ok(Some(order)) => {
+                steers =
+                    matches!(&order, OperatorOrder::Steer(sticks) if *sticks != Sticks::default());
                 let answers = answers.clone();
                 let ordered = shared.controls.order_answered(by, order, move |answer| {
                     reply(

@@ -253,6 +253,7 @@ function drawFacts() {
   const stale = age === null || age > 0.3;
   $("link").textContent = age === null ? "none" : stale ? `NONE for ${age.toFixed(1)} s` : `${status.navdata_hz.toFixed(0)}/s, ${(age * 1000).toFixed(0)} ms old`;
   $("link").classList.toggle("ill", stale);
+  $("who").textContent = status.controls ?? "nobody";
   $("ticks").textContent = `${(status.tick_late_s * 1000).toFixed(1)} ms late, ${status.ticks_skipped} skipped`;
   $("ticks").classList.toggle("ill", status.tick_late_s > 0.01);
   $("since").textContent = decided ? `for ${Math.max(0, status.t_s - decidedAt).toFixed(1)} s` : "";
