@@ -132,9 +132,9 @@ fn all_lines_of_json_are_alike() {
         (&[], &unread, "missing-setting", 1),
         (&[], &blocked, "not-written", 1),
         (&["verify"], &|_| {}, "not-checked", 3),
-        (&["verify", "-q"], &no_agent, "not-read", 1),
-        (&["verify"], &wrong, "not-declared", 1),
-        (&["verify", "--quiet"], &unread, "missing-setting", 1),
+        (&["verify", "-q"], &no_agent, "not-read", 3),
+        (&["verify"], &wrong, "not-declared", 3),
+        (&["verify", "--quiet"], &unread, "missing-setting", 3),
     ];
     for (options, spoil, code, status) in cases {
         let folder = folder();
