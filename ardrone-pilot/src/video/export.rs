@@ -100,7 +100,7 @@ fn write_stream(
 fn write_mp4(
     file: BufWriter<File>,
     pictures: &[RecordedPicture],
-    _: Failed<'_>,
+    failed: Failed<'_>,
 ) -> Result<(), ExportError> {
     /// The drone's pictures as they are shown.
     const SIZE: (u32, u32) = (640, 360);
@@ -120,6 +120,7 @@ fn write_mp4(
         last = Some(at);
         muxer.write_video(at, &picture.data, picture.is_entry)?;
     }
-    muxer.finish()?;
-    Ok(())
+    muxer.finish_in_place()?;
+    // It does not flush what it was given.
+    muxer.into_writer().flush().map_err(failed)
 }

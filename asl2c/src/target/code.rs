@@ -31,24 +31,40 @@ pub(super) struct Code {
     pub(super) instructions: BTreeMap<u64, Result<Instruction, String>>,
     /// Names by address.
     pub(super) names: BTreeMap<u64, String>,
+    /// Functions that begin by making room on the stack and then save registers below it, with the bytes of the room.
+    reserved: BTreeMap<u64, u64>,
 }
 
 impl Code {
     /// Parses the output of `objdump -d --no-show-raw-insn` for Thumb code.
     pub(super) fn parse(disassembly: &str) -> Self {
         let mut code = Self::default();
+        // The function whose first instruction is next, or the room that it has made.
+        let (mut begins, mut made) = (None, None);
         for line in disassembly.lines() {
             if let Some((address, name)) = label(line) {
                 code.names.insert(address, name.to_owned());
+                (begins, made) = (Some(address), None);
             } else if let Some((address, text)) = line.split_once(":\t")
                 && let Ok(address) = u64::from_str_radix(address.trim(), 16)
                 // Constants between instructions.
                 && !text.starts_with('.')
             {
+                if let Some((function, bytes)) = made.take()
+                    && text.starts_with("push\t")
+                {
+                    code.reserved.insert(function, bytes);
+                }
+                made = begins.take().zip(room(text));
                 code.instructions.insert(address, instruction(text));
             }
         }
         code
+    }
+
+    /// Bytes that a function takes from the stack before it saves registers: for parameters that came in registers.
+    pub(super) fn reserves(&self, function: u64) -> Option<u64> {
+        self.reserved.get(&function).copied()
     }
 
     /// The address after an instruction's.
@@ -60,6 +76,11 @@ impl Code {
     pub(super) fn function(&self, address: u64) -> &str {
         self.names.range(..=address).next_back().map_or("?", |(_, name)| name)
     }
+}
+
+/// The bytes of `sub sp, #16`.
+fn room(text: &str) -> Option<u64> {
+    text.strip_prefix("sub\tsp, #")?.split_whitespace().next()?.parse().ok()
 }
 
 /// `00000040 <next_step>:`

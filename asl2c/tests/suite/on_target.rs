@@ -114,6 +114,19 @@ fn an_agent_with_all_types_is_compared_and_the_library_counts() {
     assert!(error.to_string().contains("own.h"), "{error}");
 }
 
+/// A struct that comes partly in registers and partly on the stack: its function takes more stack than the compiler says.
+#[test]
+fn a_struct_of_four_fields_is_followed() {
+    const CONFIGURATION: &str = "settings { input = m.asl; output = m.c; header = m.h; basics = acts.h; };
+        structs { vec { double x; double y; float z; bool ok; }; };
+        basics { void move(vec); }; types { pos(vec); go(void); }; settables { pos; }; triggerables { +!go; };";
+    let configuration = translator::parse_configuration("m.conf", CONFIGURATION).unwrap();
+    let exercise = translator::exercise(&configuration, "+!go : pos(P) <- move(P).").unwrap();
+    let Some(found) = run(&exercise, &exercise, 1000) else { return };
+    assert_eq!(found.difference, None);
+    assert!(found.bounds[0].stack >= found.observed.stack, "{found:?}");
+}
+
 #[test]
 fn the_report_has_the_target_and_a_missing_tool_is_no_success() {
     let report = |path: Option<&str>, arguments: &[&str]| {

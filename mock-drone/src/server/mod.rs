@@ -196,7 +196,10 @@ impl Server {
         let mut visitors = Visitors::default();
         let mut clock = tokio::time::interval(PERIOD);
         #[cfg(feature = "video")]
-        let video = video::VideoServer::start(start, self.sight(), self.video_clock)?;
+        let video = match &self.video {
+            Some(_) => Some(video::VideoServer::start(start, self.sight(), self.video_clock)?),
+            None => None,
+        };
         loop {
             tokio::select! {
                 received = self.at.recv_from(&mut at_buffer) => {
@@ -230,7 +233,9 @@ impl Server {
                 }
                 Some(stream) = accept(self.video.as_ref()) => {
                     #[cfg(feature = "video")]
-                    video.connect(stream);
+                    if let Some(video) = &video {
+                        video.connect(stream);
+                    }
                     #[cfg(not(feature = "video"))]
                     visitors.keep(stream);
                 }
@@ -240,7 +245,7 @@ impl Server {
             let now = start.elapsed();
             self.world.advance(now);
             #[cfg(feature = "video")]
-            if video.is_watched() {
+            if let Some(video) = video.as_ref().filter(|video| video.is_watched()) {
                 video.see(self.sight());
             }
             while let Some(message) = self.world.receive(now) {

@@ -29,7 +29,7 @@
 
   if (!("VideoDecoder" in window)) {
     const why = window.isSecureContext
-      ? "this browser cannot decode H.264 pictures (WebCodecs); try Chromium, Chrome, Edge or Safari"
+      ? "this browser cannot decode pictures (WebCodecs); Chromium can"
       : "browsers show video only on pages that are safe: open this page on the machine that flies, as http://127.0.0.1, or tunnel it there (ssh -L 8080:127.0.0.1:8080)";
     say(`no video: ${why}`);
     return;

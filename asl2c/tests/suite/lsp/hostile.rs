@@ -1,5 +1,8 @@
 //! Input that no well-behaved client sends, and clients that vanish.
 
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+
 use lsp_server::Message;
 use serde_json::{Value, json};
 
@@ -47,15 +50,25 @@ fn what_makes_no_sense_is_refused_and_the_session_goes_on() {
     assert_eq!(client.request("shutdown", Value::Null), Ok(Value::Null));
 }
 
+/// Read as bytes: the client of these tests cannot read answers without a number.
 #[test]
 fn malformed_messages_are_answered() {
-    let mut client = Client::with_files(&[]);
-    for body in ["{", "[]", "null", "{\"jsonrpc\":\"2.0\"}", "\"\\ud800\""] {
-        client.write(format!("Content-Length: {}\r\n\r\n{body}", body.len()).as_bytes());
+    const BODIES: [&str; 5] = ["{", "[]", "null", "{\"jsonrpc\":\"2.0\"}", "\"\\ud800\""];
+    let mut server = Command::new(env!("CARGO_BIN_EXE_asl2c"))
+        .arg("lsp")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = server.stdin.take().unwrap();
+    for body in BODIES {
+        write!(input, "Content-Length: {}\r\n\r\n{body}", body.len()).unwrap();
     }
-    // The client of these tests cannot read answers without a number, so they are counted by what comes behind.
-    client.notify("exit", Value::Null);
-    assert_eq!(client.wait_open(), 1);
+    drop(input);
+    let output = server.wait_with_output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text.matches("\"code\":-32700").count(), BODIES.len(), "{text}");
+    assert_eq!(output.status.code(), Some(1));
 }
 
 #[test]
