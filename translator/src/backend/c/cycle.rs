@@ -10,6 +10,9 @@ use crate::program::{External, HandlerId, Program};
 use crate::syntax::ast::{Operator, TriggerKind};
 use crate::types::CType;
 
+/// A step that takes at most this number of updates before it handles an event has no loop.
+const UNROLLED: usize = 8;
+
 /// Enumerator of an event, with the prefix of the agent.
 pub(super) fn event_name(names: &Names, slot: Slot, trigger: &str) -> String {
     format!("{}{}", names.interface("").to_uppercase(), event(slot, trigger))
@@ -282,13 +285,17 @@ fn handle_event(writer: &mut Writer, program: &Program, names: &Names) {
         let values: Vec<String> = (0..belief.types.len())
             .map(|number| names.field(&belief_value(&belief.name, number)))
             .collect();
-        // A belief that has been deleted meanwhile raises no event.
-        writer.open(format!("if ({})", names.field(&held(&belief.name))));
-        run(writer, program, names, handler, &values);
-        writer.close("}");
-        writer.open("else");
-        writer.line("handled = false;");
-        writer.close("}");
+        if program.is_deleted(belief) {
+            // A belief that has been deleted meanwhile raises no event.
+            writer.open(format!("if ({})", names.field(&held(&belief.name))));
+            run(writer, program, names, handler, &values);
+            writer.close("}");
+            writer.open("else");
+            writer.line("handled = false;");
+            writer.close("}");
+        } else {
+            run(writer, program, names, handler, &values);
+        }
         close_case(writer);
     }
     for external in &program.external {
@@ -419,26 +426,41 @@ fn next_step(writer: &mut Writer, program: &Program, names: &Names) {
     let no_arguments = || names.arguments(std::iter::empty());
     let handle =
         format!("handle_event({})", names.arguments([format!("take_event({})", no_arguments())]));
-    let watched = perceived(program).count();
-    let updates = watched > 0
-        || queued(program)
-            .any(|external| external.handler.is_none() || external.operator == Operator::Delete);
-    if updates {
+    let most = updates(program);
+    if most == 0 {
+        writer.line(format!("{update}({update_arguments});"));
+        writer.line(format!("(void){handle};"));
+    } else {
         writer.line("bool handled = false;");
         writer.line("");
-    }
-    writer.line(format!("{update}({update_arguments});"));
-    if updates {
-        // Each round that handles nothing removes one event.
-        let rounds = program.configuration.settings.inbox as usize + watched;
-        writer.open(format!(
-            "for (uint32_t round = 0U; (round <= {rounds}U) && (!handled); round++)"
-        ));
+        writer.line(format!("{update}({update_arguments});"));
         writer.line(format!("handled = {handle};"));
-        writer.close("}");
-    } else {
-        writer.line(format!("(void){handle};"));
+        writer.line("/* What only updates a belief takes no step. */");
+        if most <= UNROLLED {
+            // Without a loop, the compiled code has a longest path.
+            for round in 1..=most {
+                let result = if round < most { "handled = " } else { "(void)" };
+                writer.open("if (!handled)");
+                writer.line(format!("{result}{handle};"));
+                writer.close("}");
+            }
+        } else {
+            writer.open(format!(
+                "for (uint32_t round = 0U; (round < {most}U) && (!handled); round++)"
+            ));
+            writer.line(format!("handled = {handle};"));
+            writer.close("}");
+        }
     }
     writer.close("}");
     writer.line("");
+}
+
+/// The largest number of events that a step can take without handling one: each takes an event away.
+fn updates(program: &Program) -> usize {
+    let is_update =
+        |external: &External| external.handler.is_none() || external.operator == Operator::Delete;
+    let deleted = perceived(program).filter(|(belief, _)| program.is_deleted(belief)).count();
+    let inbox = program.configuration.settings.inbox as usize;
+    deleted + if queued(program).any(is_update) { inbox } else { 0 }
 }

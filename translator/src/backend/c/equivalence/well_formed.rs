@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use super::Comparison;
 use super::relation::numbered;
 use crate::backend::c::state::{
-    Ring, Slot, deferred_ring, external_count, handler_name, inbox_ring, limits, pending,
+    Ring, Slot, deferred_ring, external_count, handler_name, held, inbox_ring, limits, pending,
+    perceived,
 };
 use crate::plain;
 use crate::program::HandlerId;
@@ -33,6 +34,13 @@ impl Comparison<'_> {
             let none = self.nothing();
             let (posted, limited) = (field("posted"), field("limited"));
             unless(text, &format!("{posted} != {none} || {limited} == {none}"));
+        }
+        // The C does not look whether such a belief is held.
+        for (belief, handler) in perceived(program) {
+            if !program.is_deleted(belief) {
+                let pending = field(&pending(Slot::Perceived, &handler_name(program, handler)));
+                unless(text, &format!("!{pending} || {}", field(&held(&belief.name))));
+            }
         }
         if let Some(ring) = inbox_ring(program) {
             self.ring(text, &ring, &self.listed());

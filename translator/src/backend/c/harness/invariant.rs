@@ -31,6 +31,10 @@ impl Builder<'_> {
             for event in &posted {
                 candidates.push(format!("((self->posted != {event}) || {held})"));
             }
+            if let Some(handler) = belief.perceived {
+                let pending = pending(Slot::Perceived, &handler_name(self.program, handler));
+                candidates.push(format!("(!self->{pending} || {held})"));
+            }
             candidates.push(format!("(!{held})"));
             candidates.push(held);
             for (index, value) in belief.initial.iter().flatten().enumerate() {
