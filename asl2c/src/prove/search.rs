@@ -71,6 +71,7 @@ pub(crate) fn search(
             found: Found::None(0),
         })
         .collect();
+    let declared = configuration.declarations();
     let mut length = 0;
     while length < limits.transitions {
         length = if length == 0 { 4 } else { length * 2 }.min(limits.transitions);
@@ -86,11 +87,42 @@ pub(crate) fn search(
                 continue;
             }
             let trace = traces.iter().find(|trace| trace.name == failure.name);
-            let way = trace.and_then(|trace| Way::new(trace, configuration.declarations()));
-            result.found = way.map_or(Found::None(length), |way| confirm(way, failure, session));
+            let way = trace.and_then(|trace| Way::new(trace, declared));
+            let none = std::mem::replace(&mut result.found, Found::None(length));
+            let Some(way) = way else { continue };
+            result.found = confirm(way, failure, session);
+            if let Found::None(none) = none {
+                let fewer = |transitions| {
+                    let traces = cbmc.ways(folder, &[failure], transitions, until)?;
+                    Ok(traces.map(|traces| {
+                        let way = traces.first().and_then(|trace| Way::new(trace, declared));
+                        way.map_or(Found::None(transitions), |way| confirm(way, failure, session))
+                    }))
+                };
+                fewest(&mut result.found, none, fewer)?;
+            }
         }
     }
     Ok(results)
+}
+
+/// Replaces a counterexample by one with the fewest transitions, as far as there is time. There is none with as many as
+/// `none`; `search` looks for one with at most so many, and returns `None` when the time is over.
+fn fewest(
+    found: &mut Found,
+    mut none: u32,
+    search: impl Fn(u32) -> Result<Option<Found>, ProveError>,
+) -> Result<(), ProveError> {
+    while let Found::Way(way, _) = &*found
+        && way.transitions() > none + 1
+    {
+        match search(none.midpoint(way.transitions()))? {
+            Some(Found::None(transitions)) => none = transitions,
+            Some(shorter @ Found::Way(..)) => *found = shorter,
+            Some(Found::Unconfirmed(_)) | None => break,
+        }
+    }
+    Ok(())
 }
 
 /// Replays the trace by the reference interpreter, as far as that can decide the failure.

@@ -131,6 +131,13 @@ impl Way {
         Some(Self { acts })
     }
 
+    /// Number of events, beliefs that are set, and steps.
+    pub(super) fn transitions(&self) -> u32 {
+        let transitions = self.acts.iter().filter(|act| act.kind != Kind::Answers).count();
+        // A search is never as long as that.
+        u32::try_from(transitions).unwrap_or(u32::MAX)
+    }
+
     /// The lines of the script.
     pub(crate) fn lines(&self) -> impl Iterator<Item = String> {
         self.acts.iter().map(Act::line)
