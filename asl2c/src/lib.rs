@@ -38,8 +38,8 @@ pub use certify::{
 pub use coverage::{Counts, Coverage, CoverageError, Independence, LineCount, Share, Test, cover};
 pub use measure::measure;
 pub use prove::{
-    Budget, CBMC, Cbmc, Checks, Difference, End, Part, Plan, Proof, ProveError, Validated, Watch,
-    prove, validate, validate_watched, violates,
+    Budget, CBMC, Cbmc, Checks, Difference, End, Open, Part, Plan, Proof, ProveError, Validated,
+    Watch, prove, validate, validate_watched, violates,
 };
 pub use run::{Replay, Session, replay};
 pub use spin::{SPIN, SpinError, Verdict};

@@ -273,10 +273,23 @@ pub fn comparison(
     configuration: &ParsedConfiguration,
     agent_text: &str,
 ) -> Result<Comparison, TranslateError> {
+    comparison_after(configuration, agent_text, &[])
+}
+
+/// As [`comparison`], but executions of `main` have this beginning, if it has any acts; the other functions are of no use
+/// then.
+///
+/// # Errors
+/// As [`translate`].
+pub fn comparison_after(
+    configuration: &ParsedConfiguration,
+    agent_text: &str,
+    beginning: &[Act],
+) -> Result<Comparison, TranslateError> {
     let wanted = configuration.configuration.settings.instance;
     let (program, _) = check(configuration, agent_text, wanted)?;
     let mut files = c_files(&program);
-    let text = backend::c::comparison(&program);
+    let text = backend::c::comparison(&program, beginning);
     files.push(GeneratedFile { name: COMPARISON.to_owned(), text, setting: "" });
     Ok(Comparison {
         files,

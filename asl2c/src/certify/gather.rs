@@ -266,6 +266,7 @@ fn validation(
         Status::Undecided
     };
     let Validated { proofs, calls, timeouts, open } = validated;
+    let open = open.iter().map(ToString::to_string).collect();
     Ok(ValidationEvidence { status, proofs, calls, timeouts, open })
 }
 

@@ -36,6 +36,7 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         }
         CommandError::Verify(_)
         | CommandError::Prove(_)
+        | CommandError::Tool(_)
         | CommandError::Certify(_)
         | CommandError::Target(_)
         | CommandError::Incomparable(_) => general("not-checked", None),

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod certify;
+mod difference;
 mod fmt;
 mod messages;
 #[allow(clippy::disallowed_methods, reason = "people are told how long a proof takes")]
@@ -34,6 +35,7 @@ use crate::new::{NewError, make};
 use crate::output::{self, OutputError};
 use crate::prove::ProveError;
 use crate::target::TargetError;
+use crate::tool::ToolError;
 use crate::verify::{VerifyError, verify};
 
 /// Errors of the program.
@@ -49,6 +51,8 @@ enum CommandError {
     Prove(#[from] ProveError),
     #[error("nothing is proved: {0}")]
     Incomparable(#[from] Incomparable),
+    #[error(transparent)]
+    Tool(#[from] ToolError),
     #[error(transparent)]
     Certify(CertifyError),
     #[error(transparent)]

@@ -9,17 +9,16 @@ use serde_json::json;
 use translator::{Happening, comparison};
 
 use super::arguments::{Validate, is_json};
+use super::difference::{Search, Way};
 use super::progress::Progress;
 use super::{CommandError, NOT_CHECKED, print, stop};
 use crate::agent::Agent;
-use crate::prove::{
-    Budget, Cbmc, Difference, ProveError, Validated, Watch, difference, validate_watched,
-};
+use crate::prove::{Budget, Cbmc, Difference, ProveError, Validated, Watch as _, validate_watched};
 use crate::run::Session;
 
 /// A difference, what the agent does on the way to it, and its script.
 struct Shown {
-    difference: Difference,
+    way: Way,
     story: Vec<Happening>,
     path: PathBuf,
 }
@@ -45,16 +44,26 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let progress = Progress::new(quiet, stop::flag()?);
     let folders = (folder.path(), agent.folder());
     let validated = validate_watched(&comparison, &cbmc, folders, budget, &progress)?;
+    let mut none = 0;
     let mut shown = None;
     if validated.differs() {
-        let declared = configuration.declarations();
-        let lengths = (validated.calls, asked.length);
-        let limits = (budget, &progress as &dyn Watch);
-        let found = difference(&comparison, declared, &cbmc, folders, lengths, limits)?;
-        if let Some(difference) = found {
+        let search = Search {
+            agent: &agent,
+            comparison: &comparison,
+            validated: &validated,
+            cbmc: &cbmc,
+            folder: folder.path(),
+            length: asked.length,
+            budget,
+            watch: &progress,
+        };
+        let way;
+        (way, none) = search.way()?;
+        if let Some(way) = way {
             let session = Session::new(configuration, text)?;
             let output = asked.output.as_deref().unwrap_or(agent.folder());
-            shown = Some(show(difference, &session, &asked.configuration, output)?);
+            let (story, path) = show(&way.difference, &session, &asked.configuration, output)?;
+            shown = Some(Shown { way, story, path });
         }
     }
     let c = match &asked.c {
@@ -65,7 +74,7 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let text = if asked.json {
         as_json(&c, &validated, shown.as_ref())
     } else {
-        as_text(&c, &validated, shown.as_ref(), &agent, progress.stops())
+        as_text(&c, &validated, (shown.as_ref(), none), &agent, progress.stops())
     };
     print("the result", &text)?;
     Ok(if shown.is_some() {
@@ -77,17 +86,17 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     })
 }
 
-/// Writes the way to a difference as a script.
+/// Writes the way to a difference as a script. Returns what the agent does on it, and the script's path.
 fn show(
-    difference: Difference,
+    difference: &Difference,
     session: &Session,
     configuration: &Path,
     folder: &Path,
-) -> Result<Shown, CommandError> {
+) -> Result<(Vec<Happening>, PathBuf), CommandError> {
     let stem = configuration.file_stem().unwrap_or_default().to_string_lossy();
     let path = folder.join(format!("{stem}.differs.script"));
     let mut text = format!("// The C differs: {}\n", difference.said);
-    for line in difference.lines() {
+    for line in &difference.lines {
         // Writing to a string cannot fail.
         _ = writeln!(text, "{line}");
     }
@@ -98,25 +107,32 @@ fn show(
         })
     })?;
     let mut session = session.clone();
-    let story = difference.lines().flat_map(|line| session.happenings(&line)).collect();
-    Ok(Shown { difference, story, path })
+    let story = difference.lines.iter().flat_map(|line| session.happenings(line)).collect();
+    Ok((story, path))
 }
 
 fn as_text(
     c: &str,
     validated: &Validated,
-    shown: Option<&Shown>,
+    (shown, none): (Option<&Shown>, u32),
     agent: &Agent,
     stopped: bool,
 ) -> String {
     let mut text = String::new();
     let input = agent.configuration.input();
-    if let Some(Shown { difference, story, path }) = shown {
+    if let Some(Shown { way, story, path }) = shown {
+        let Way { difference, is_shortest } = way;
         _ = writeln!(text, "{c}: DIFFERS from {input}\n  what the agent does ({input}):");
         for happening in story {
             _ = writeln!(text, "    {happening}");
         }
         _ = writeln!(text, "  in the last of these, the C differs: {}", difference.said);
+        if !is_shortest {
+            _ = writeln!(
+                text,
+                "  (there may be a shorter way, of more than {none} events, beliefs and steps)"
+            );
+        }
         let (agent, path) = (agent.path.display(), path.display());
         _ = writeln!(text, "  to replay it: asl2c run {agent} --script {path}");
     } else if validated.is_proved() {
@@ -128,8 +144,8 @@ fn as_text(
         );
     } else {
         _ = writeln!(text, "{c}: NOT DECIDED");
-        for said in &validated.open {
-            _ = writeln!(text, "  in some state: {said}");
+        for open in &validated.open {
+            _ = writeln!(text, "  in some state, {open}");
         }
         if validated.timeouts > 0 {
             let Validated { timeouts, proofs, .. } = validated;
@@ -137,8 +153,11 @@ fn as_text(
             _ = writeln!(text, "  {timeouts} of {proofs} proofs were not finished {why}");
         }
         if validated.differs() {
-            text +=
-                "  no way from the start to such a state was found (--length, --time, --total)\n";
+            _ = writeln!(
+                text,
+                "  no way from the start to such a state was found: tests of the agent do not reach one, and there is \
+                 none within {none} events, beliefs and steps (--length, --time, --total)"
+            );
         }
     }
     text
@@ -157,7 +176,8 @@ fn as_json(c: &str, validated: &Validated, shown: Option<&Shown>) -> String {
         "timeouts": validated.timeouts,
         "calls": validated.calls,
         "open": validated.open,
-        "difference": shown.map(|shown| &shown.difference.said),
+        "is_shortest": shown.map(|shown| shown.way.is_shortest),
+        "difference": shown.map(|shown| &shown.way.difference.said),
         "trace": shown.map(|shown| &shown.story),
         "script": shown.map(|shown| shown.path.display().to_string()),
     });

@@ -1,5 +1,6 @@
 //! Tests that are made from an agent's text, executed on its C, and what of the C they reach.
 
+mod difference;
 mod gcov;
 mod independence;
 mod search;
@@ -12,6 +13,7 @@ use std::path::Path;
 use translator::interpreter::Value;
 use translator::{Act, GeneratedFile, TESTS, TranslateError, scripted};
 
+pub(crate) use self::difference::{Differing, differing, places, shorter};
 pub use self::gcov::{Counts, LineCount, Share};
 pub use self::independence::Independence;
 use self::search::{Found, search};

@@ -1,7 +1,7 @@
 //! Finds tests that reach every decision of an agent: the reference interpreter is run with random calls and answers,
 //! what reaches something new is continued, and the fewest executions that reach everything found are the tests.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
@@ -18,6 +18,8 @@ use crate::run::parameters;
 const PATIENCE: u32 = 20_000;
 /// .. or this number altogether.
 const MOST: u32 = 200_000;
+/// Maximum number of steps in which nothing happens.
+const QUIET: u32 = 48;
 /// Tests are not continued beyond this number of acts.
 const LONGEST: usize = 400;
 
@@ -31,6 +33,7 @@ pub(super) struct Found {
     pub(super) plans: BTreeSet<usize>,
 }
 
+#[derive(Clone)]
 struct Run<'a> {
     acts: Vec<Act>,
     execution: Execution<'a>,
@@ -55,18 +58,76 @@ pub(super) fn search(
     configuration: &ParsedConfiguration,
     text: &str,
 ) -> Result<Vec<Found>, TranslateError> {
-    let agent = Interpreter::new(configuration, text)?;
-    let configuration = configuration.declarations();
-    let mut search =
-        Search { configuration, numbers: Numbers::new(text), random: ChaCha8Rng::seed_from_u64(1) };
-    let first = Run { acts: Vec::new(), execution: Execution::new(agent, configuration) };
+    let first = first(configuration, text)?;
+    let (runs, reached) = explore(&first, configuration.declarations(), text);
     // What is proved of agents is proved without `clear()`: this test alone has it.
     let mut cleared = Run { acts: Vec::new(), execution: first.execution.clone() };
     for act in [Act::Step, Act::Clear, Act::Step] {
         cleared.execution.execute(&act);
         cleared.acts.push(act);
     }
-    let mut runs = vec![first];
+    let mut found = fewest(&runs, reached);
+    found.push(cleared.found());
+    Ok(found)
+}
+
+/// Short executions to the steps that decide something: for each decision and its outcome one of the shortest that were
+/// found, up to the step before it, with the next event there.
+pub(super) fn places(
+    configuration: &ParsedConfiguration,
+    text: &str,
+) -> Result<Vec<(String, Vec<Act>)>, TranslateError> {
+    let first = first(configuration, text)?;
+    let (runs, _) = explore(&first, configuration.declarations(), text);
+    let mut shortest: BTreeMap<Goal, (String, Vec<Act>)> = BTreeMap::new();
+    for run in &runs {
+        let acts = without_effectless(&run.acts);
+        let mut execution = first.execution.clone();
+        let mut place = (execution.next(), 0);
+        for (index, act) in acts.iter().enumerate() {
+            execution.forget_reached();
+            execution.execute(act);
+            if *act != Act::Step {
+                continue;
+            }
+            for goal in execution.reached().iter().filter(|goal| goal.is_decision()) {
+                let known = shortest.get(goal);
+                if known.is_none_or(|(_, known)| known.len() > place.1) {
+                    let (next, length) = &place;
+                    shortest.insert(goal.clone(), (next.clone(), acts[..*length].to_vec()));
+                }
+            }
+            place = (execution.next(), index + 1);
+        }
+    }
+    let mut places: Vec<(String, Vec<Act>)> = Vec::new();
+    for place in shortest.into_values() {
+        if !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    Ok(places)
+}
+
+/// The run without any act.
+fn first<'a>(
+    configuration: &'a ParsedConfiguration,
+    text: &str,
+) -> Result<Run<'a>, TranslateError> {
+    let agent = Interpreter::new(configuration, text)?;
+    let execution = Execution::new(agent, configuration.declarations());
+    Ok(Run { acts: Vec::new(), execution })
+}
+
+/// Runs that reach all that is found, and what they reach.
+fn explore<'a>(
+    first: &Run<'a>,
+    configuration: &'a Configuration,
+    text: &str,
+) -> (Vec<Run<'a>>, BTreeSet<Goal>) {
+    let mut search =
+        Search { configuration, numbers: Numbers::new(text), random: ChaCha8Rng::seed_from_u64(1) };
+    let mut runs = vec![first.clone()];
     let mut reached: BTreeSet<Goal> = BTreeSet::new();
     let mut idle = 0;
     for _ in 0..MOST {
@@ -79,9 +140,7 @@ pub(super) fn search(
         runs.push(continued);
         idle = 0;
     }
-    let mut found = fewest(&runs, reached);
-    found.push(cleared.found());
-    Ok(found)
+    (runs, reached)
 }
 
 struct Search<'a> {
@@ -103,8 +162,11 @@ impl<'a> Search<'a> {
         let mut acts = run.acts.clone();
         let mut execution = run.execution.clone();
         let mut useful: Option<(usize, usize, Execution<'a>)> = None;
-        for _ in 0..self.random.random_range(1..=6) {
-            for _ in 0..self.random.random_range(0..=3) {
+        // Sometimes nothing happens for long: what counts steps or time comes to its end then.
+        let is_quiet = self.random.random_range(0..8) == 0;
+        let (steps, calls) = if is_quiet { (QUIET, 0) } else { (6, 3) };
+        for _ in 0..self.random.random_range(1..=steps) {
+            for _ in 0..self.random.random_range(0..=calls) {
                 if let Some(act) = self.act(&execution) {
                     execution.execute(&act);
                     acts.push(act);

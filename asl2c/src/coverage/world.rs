@@ -33,6 +33,13 @@ pub(super) enum Goal {
     Waiting(usize),
 }
 
+impl Goal {
+    /// Whether it is a decision in the agent's text.
+    pub(super) fn is_decision(&self) -> bool {
+        matches!(self, Self::Condition(..) | Self::Compared(..) | Self::Plan(..))
+    }
+}
+
 /// A test in execution.
 #[derive(Debug, Clone)]
 pub(super) struct Execution<'a> {
@@ -84,6 +91,11 @@ impl<'a> Execution<'a> {
         self.world.answers.get(function).and_then(VecDeque::front)
     }
 
+    /// Begins to collect anew what is reached.
+    pub(super) fn forget_reached(&mut self) {
+        self.world.reached.clear();
+    }
+
     fn counts(&self) -> Vec<(&'static str, u32)> {
         let mut counts = vec![
             ("unhandled", self.agent.unhandled_events()),
@@ -97,12 +109,14 @@ impl<'a> Execution<'a> {
     }
 
     /// The next event, without its values.
-    fn next(&self) -> String {
+    pub(super) fn next(&self) -> String {
         let mut depth = 0;
         let mut name = self.agent.waiting().into_iter().next().unwrap_or_default();
         name.retain(|character| {
-            depth += i32::from(character == '(') - i32::from(character == ')');
-            depth == 0 && !character.is_ascii_digit()
+            depth += i32::from(character == '(');
+            let is_outside = depth == 0 && !character.is_ascii_digit();
+            depth -= i32::from(character == ')');
+            is_outside
         });
         name
     }

@@ -25,8 +25,8 @@ use translator::{Obligations, Promise};
 pub(crate) use self::cbmc::DeadBranches;
 pub use self::cbmc::{CBMC, Cbmc};
 pub(crate) use self::search::{Found, Limits, Searched, search};
-pub(crate) use self::validate::difference;
-pub use self::validate::{Difference, Validated, validate, validate_watched};
+pub use self::validate::{Difference, Open, Validated, validate, validate_watched};
+pub(crate) use self::validate::{SearchedWay, difference, write_comparison};
 pub use self::watch::{Budget, End, Part, Watch};
 
 /// Errors that prevent a proof.

@@ -1,5 +1,6 @@
 //! Proves that an agent's C does what a second, plain translation of the same text does.
 
+use std::fmt;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -27,18 +28,34 @@ const ENDLESS: &str = "it does not come to an end";
 pub struct Validated {
     /// Number of proofs: the start, the calls of the environment, and each kind of step.
     pub proofs: usize,
-    /// What differs, by CBMC's description; empty if the C is proved.
-    pub open: Vec<String>,
+    /// What is not proved; empty if the C is proved.
+    pub open: Vec<Open>,
     /// Proofs that reached a time limit or were stopped; none if there is a difference, which ends the others.
     pub timeouts: usize,
     /// The largest number of answers of one action in a step that had to be compared, rounded up to a power of two.
     pub calls: u32,
 }
 
+/// Something that is not proved.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[non_exhaustive]
+pub struct Open {
+    /// Where: in the start, a call of the environment, or the step that handles an event.
+    pub part: String,
+    /// What differs, by CBMC's description.
+    pub said: String,
+}
+
+impl fmt::Display for Open {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.part, self.said)
+    }
+}
+
 impl Validated {
     /// Whether something was done differently: a way to it may be found. What never ends is not.
     pub(crate) fn differs(&self) -> bool {
-        self.open.iter().any(|said| is_difference(said))
+        self.open.iter().any(|open| is_difference(&open.said))
     }
 
     /// Whether the C does what the agent says, in every environment and for any number of steps.
@@ -48,19 +65,13 @@ impl Validated {
 }
 
 /// An execution from the start in which the C does not do what the agent says.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Difference {
     /// What differs, at its end.
     pub said: String,
-    pub(crate) way: Way,
-}
-
-impl Difference {
     /// The lines of a script for `asl2c run`.
-    pub fn lines(&self) -> impl Iterator<Item = String> {
-        self.way.lines()
-    }
+    pub lines: Vec<String>,
 }
 
 /// Proves the comparison, with `include` as a folder of the environment's own headers. Creates `folder` for the
@@ -89,8 +100,7 @@ pub fn validate_watched(
     budget: Budget,
     watch: &dyn Watch,
 ) -> Result<Validated, ProveError> {
-    std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
-    comparison.files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
+    write_comparison(comparison, folder)?;
     let parts = parts(comparison);
     let next = AtomicUsize::new(0);
     let different = AtomicBool::new(false);
@@ -119,7 +129,7 @@ pub fn validate_watched(
                         different.store(true, Ordering::Relaxed);
                     }
                     if let Ok(mut results) = results.lock() {
-                        results.push(result);
+                        results.push((part, result));
                     }
                 }
             });
@@ -127,11 +137,12 @@ pub fn validate_watched(
     });
     let results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     let mut validated = Validated { proofs: parts.len(), open: Vec::new(), timeouts: 0, calls: 0 };
-    for result in results {
+    for (part, result) in results {
         match result {
             Ok(Some((failures, calls))) => {
                 validated.calls = validated.calls.max(calls);
-                validated.open.extend(failures.into_iter().map(|failure| failure.said));
+                let open = |failure: Failure| Open { part: part.what.clone(), said: failure.said };
+                validated.open.extend(failures.into_iter().map(open));
             }
             Ok(None) => validated.timeouts += 1,
             // A terminal interrupts CBMC too, which then says nothing.
@@ -146,6 +157,12 @@ pub fn validate_watched(
     validated.open.sort();
     validated.open.dedup();
     Ok(validated)
+}
+
+/// Writes the files of a comparison into a folder, which it makes.
+pub(crate) fn write_comparison(comparison: &Comparison, folder: &Path) -> Result<(), ProveError> {
+    std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
+    comparison.files.iter().try_for_each(|file| write(folder, &file.name, &file.text))
 }
 
 /// The functions to prove.
@@ -229,8 +246,17 @@ fn arguments(comparison: &Comparison, include: &Path, room: u32) -> Vec<String> 
     ]
 }
 
+/// Result of the search for an execution in which the two differ.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SearchedWay {
+    /// The shortest one, if it was found.
+    pub(crate) difference: Option<Difference>,
+    /// There is none with at most this number of events, beliefs and steps.
+    pub(crate) none: u32,
+}
+
 /// Searches for the shortest execution from the start in which the two differ, of at most this `length` in events,
-/// beliefs and steps; [`validate`] has written the files. `None` if there is none, or not in time.
+/// beliefs and steps, whose files are written. It is told as `what`.
 ///
 /// # Errors
 /// If CBMC gives no result.
@@ -239,13 +265,13 @@ pub(crate) fn difference(
     configuration: &Configuration,
     cbmc: &Cbmc,
     (folder, include): (&Path, &Path),
-    (calls, length): (u32, u32),
+    ((calls, length), what): ((u32, u32), &str),
     (budget, watch): (Budget, &dyn Watch),
-) -> Result<Option<Difference>, ProveError> {
+) -> Result<SearchedWay, ProveError> {
     let late = budget.late(watch);
     let of = length as usize;
     for length in 1..=length {
-        let what = format!("the shortest way to a difference: not within {}", length - 1);
+        let what = format!("{what}: not within {}", length - 1);
         let part = Part { number: length as usize - 1, of, what };
         watch.begins(&part);
         let begun = Instant::now();
@@ -261,12 +287,16 @@ pub(crate) fn difference(
             Ok(None) | Err(_) => End::GivenUp,
         };
         watch.ends(&part, end, begun.elapsed());
-        let Some(traces) = found? else { return Ok(None) };
+        let Some(traces) = found? else {
+            return Ok(SearchedWay { difference: None, none: length - 1 });
+        };
         for trace in traces {
             if let Some(way) = Way::new(&trace, configuration) {
-                return Ok(Some(Difference { said: trace.said.clone(), way }));
+                let lines = way.lines().collect();
+                let difference = Some(Difference { said: trace.said, lines });
+                return Ok(SearchedWay { difference, none: length - 1 });
             }
         }
     }
-    Ok(None)
+    Ok(SearchedWay { difference: None, none: length })
 }

@@ -56,6 +56,12 @@ impl Budget {
         Self { each, end }
     }
 
+    /// The same, but from now on no longer than `most` for all.
+    pub(crate) fn at_most(self, most: Duration) -> Self {
+        let end = Instant::now().checked_add(most);
+        Self { end: [end, self.end].into_iter().flatten().min(), ..self }
+    }
+
     /// When a part that begins now has to end; `None` if no clock can show that.
     fn until(&self) -> Option<Instant> {
         let each = Instant::now().checked_add(self.each);
@@ -63,7 +69,7 @@ impl Budget {
     }
 
     /// Whether the time for all is over.
-    pub(super) fn is_over(&self) -> bool {
+    pub(crate) fn is_over(&self) -> bool {
         self.end.is_some_and(|end| Instant::now() >= end)
     }
 

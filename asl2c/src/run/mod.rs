@@ -8,7 +8,7 @@ mod transcript;
 mod values;
 mod world;
 
-pub(crate) use self::script::{call_name, is_skipped, parameters};
+pub(crate) use self::script::{act, call_name, is_skipped, parameters};
 pub(crate) use self::session::IDLE;
 pub use self::session::Session;
 pub use self::transcript::{Replay, replay};

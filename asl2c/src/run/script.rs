@@ -1,6 +1,7 @@
 //! The lines of a script: calls of the agent's interface, results of its functions, and commands.
 
 use diagnostic::{Diagnostic, Span, closest};
+use translator::Act;
 use translator::configuration::{Configuration, ExternalTrigger};
 use translator::interpreter::Value;
 use translator::syntax::ast::{Operator, TriggerKind};
@@ -33,6 +34,19 @@ pub(super) enum Statement {
     Help,
     /// `quit`
     Quit,
+}
+
+/// The line of a script as what the environment does; `None` if it is something else, or more.
+pub(crate) fn act(line: &str, configuration: &Configuration) -> Option<Act> {
+    let [statement] = <[Statement; 1]>::try_from(parse_line(line, configuration).ok()?).ok()?;
+    match statement {
+        Statement::Raise(event, values) => Some(Act::Raise(event, values)),
+        Statement::Set(belief, values) => Some(Act::Set(belief, values)),
+        Statement::Answer(function, values) => Some(Act::Answer(function, values)),
+        Statement::Clear => Some(Act::Clear),
+        Statement::Step(1) => Some(Act::Step),
+        _ => None,
+    }
 }
 
 /// Commands besides calls and results.

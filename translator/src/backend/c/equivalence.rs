@@ -5,6 +5,7 @@
 //! calls with the same values in the same order, returns the same, and ends in related states. Therefore they
 //! can never differ, after any number of calls.
 
+mod beginning;
 mod cases;
 mod relation;
 mod well_formed;
@@ -17,6 +18,7 @@ use super::state::{FieldType, counters, external_name, layout, rings};
 use crate::backend::c::harness::{ANSWERS, CALLS, STEPS};
 use crate::plain;
 use crate::program::Program;
+use crate::scripted::Act;
 use crate::types::{CType, TypeKind};
 
 /// Maximum number of calls of one action in a step that are answered, to be defined as a number.
@@ -29,16 +31,15 @@ pub const ONLY_END: &str = "PLAIN_ONLY_END";
 /// Assertion that [`ROOM`] is sufficient.
 pub const ENOUGH_ROOM: &str = "room for the answers";
 
-/// The C file that compares the agent's C, which it includes, with the plain translation in it.
-pub(crate) fn comparison(program: &Program) -> String {
-    let comparison = Comparison { program, names: Names::new(program), types: types(program) };
-    comparison.text()
+/// The C file that compares the agent's C, which it includes, with the plain translation in it. Executions of its
+/// `main` have this beginning, if there is one; its other functions are of no use then.
+pub(crate) fn comparison(program: &Program, beginning: &[Act]) -> String {
+    Comparison::new(program, beginning).text()
 }
 
 /// What the step does in each function `plain_case_N`, for people.
 pub(crate) fn cases(program: &Program) -> Vec<String> {
-    let comparison = Comparison { program, names: Names::new(program), types: types(program) };
-    comparison.cases().into_iter().map(|case| case.name).collect()
+    Comparison::new(program, &[]).cases().into_iter().map(|case| case.name).collect()
 }
 
 /// A bound for all loops of both.
@@ -70,6 +71,13 @@ struct Comparison<'a> {
     program: &'a Program,
     names: Names,
     types: Vec<CType>,
+    beginning: &'a [Act],
+}
+
+impl<'a> Comparison<'a> {
+    fn new(program: &'a Program, beginning: &'a [Act]) -> Self {
+        Self { program, names: Names::new(program), types: types(program), beginning }
+    }
 }
 
 impl Comparison<'_> {
@@ -195,6 +203,10 @@ impl Comparison<'_> {
             }
             let result = &basic.result.name;
             _ = writeln!(text, "static {result} plain_answer_{number}[{ROOM}];");
+            if !self.beginning.is_empty() {
+                _ = writeln!(text, "static const {result} *plain_given_{number};");
+                _ = writeln!(text, "static uint32_t plain_given_left_{number};");
+            }
             for counted in ["asked", "answered"] {
                 _ = writeln!(text, "static uint32_t plain_{counted}_{number};");
                 _ = writeln!(restart, "    plain_{counted}_{number} = 0;");
@@ -255,7 +267,17 @@ impl Comparison<'_> {
             _ = writeln!(text, "    plain_assert_room(place < {ROOM}, \"{ENOUGH_ROOM}\");");
             _ = writeln!(text, "    __CPROVER_assume(place < {ROOM});");
             _ = writeln!(text, "    plain_asked_{number}++;");
-            _ = writeln!(text, "    {answer} = {};", self.any(&basic.result));
+            let any = self.any(&basic.result);
+            if self.beginning.is_empty() {
+                _ = writeln!(text, "    {answer} = {any};");
+            } else {
+                let given = format!("plain_given_{number}");
+                _ = writeln!(
+                    text,
+                    "    {answer} = {given} != 0 ? *{given} : {any};\n    \
+                     if ({given} != 0 && plain_given_left_{number} > 1) {{ {given}++; plain_given_left_{number}--; }}"
+                );
+            }
             _ = writeln!(text, "    __CPROVER_output(\"{ANSWERS} {name}\", {answer});");
         }
         text.push_str("    (void)watched;\n");
@@ -359,9 +381,14 @@ impl Comparison<'_> {
             text,
             "int plain_interface(void)\n{{\n    plain_start();\n    plain_call_by_environment();\n    plain_assert_end(false, \"the end\");\n    return 0;\n}}\n"
         );
+        let mut begun = String::new();
+        if !self.beginning.is_empty() {
+            self.begin(text);
+            begun.push_str("    plain_beginning();\n");
+        }
         _ = writeln!(
             text,
-            "int main(void)\n{{\n    plain_searching = true;\n    plain_watched = {};\n{init}    plain_compare();",
+            "int main(void)\n{{\n    plain_searching = true;\n{init}{begun}    plain_watched = {};\n    plain_compare();",
             self.any(&CType::named("uint32_t"))
         );
         let choice = self.any(&CType::named("bool"));

@@ -14,6 +14,7 @@ mod harness;
 mod header;
 mod helpers;
 mod interface;
+mod literal;
 mod locals;
 mod names;
 mod plan;

@@ -1,0 +1,120 @@
+//! A known beginning of an execution, which both make before the model checker chooses what happens.
+
+use std::fmt::Write as _;
+
+use super::Comparison;
+use crate::backend::c::harness::{CALLS, STEPS};
+use crate::backend::c::literal::literal;
+use crate::backend::c::state::external_name;
+use crate::configuration::ExternalTrigger;
+use crate::interpreter::Value;
+use crate::scripted::Act;
+use crate::types::{CType, TypeKind};
+
+impl Comparison<'_> {
+    /// The function `plain_beginning()`; its calls and answers are recorded in the trace.
+    pub(super) fn begin(&self, text: &mut String) {
+        text.push_str("static void plain_beginning(void)\n{\n    plain_watched = UINT32_MAX;\n");
+        for (number, basic) in self.program.configuration.basics.iter().enumerate() {
+            if basic.result.kind != TypeKind::Void {
+                let zero = literal(self.program, None, &basic.result);
+                self.give(text, number, &[zero]);
+            }
+        }
+        for act in self.beginning {
+            match act {
+                Act::Raise(event, values) => self.raise(text, event, values),
+                Act::Set(belief, values) => self.set(text, belief, values),
+                Act::Answer(function, values) => {
+                    let mut basics = self.program.configuration.basics.iter().enumerate();
+                    let found = basics.find(|(_, basic)| basic.name.text == *function);
+                    let Some((number, basic)) = found else { continue };
+                    let values = values.iter();
+                    let values =
+                        values.map(|value| literal(self.program, Some(value), &basic.result));
+                    self.give(text, number, &values.collect::<Vec<_>>());
+                }
+                Act::Clear => {
+                    _ = writeln!(text, "    __CPROVER_output(\"{CALLS} clear\", 0U);");
+                    let clear = self.interface_call("clear", []);
+                    _ = writeln!(text, "    {clear};\n    plain_clear();\n    plain_compare();");
+                }
+                Act::Step => {
+                    _ = writeln!(text, "    __CPROVER_output(\"{STEPS}\", 0U);");
+                    text.push_str("    plain_both_step();\n");
+                }
+            }
+        }
+        for (number, basic) in self.program.configuration.basics.iter().enumerate() {
+            if basic.result.kind != TypeKind::Void {
+                _ = writeln!(text, "    plain_given_{number} = 0;");
+            }
+        }
+        text.push_str("}\n\n");
+    }
+
+    /// From now on a function returns these values in turn; the last one repeats.
+    fn give(&self, text: &mut String, number: usize, values: &[String]) {
+        let result = &self.program.configuration.basics[number].result.name;
+        let (count, values) = (values.len(), values.join(", "));
+        _ = writeln!(
+            text,
+            "    {{\n        static const {result} given[{count}] = {{ {values} }};"
+        );
+        _ = writeln!(text, "        plain_given_{number} = given;");
+        _ = writeln!(text, "        plain_given_left_{number} = {count};\n    }}");
+    }
+
+    fn raise(&self, text: &mut String, event: &ExternalTrigger, values: &[Value]) {
+        let mut externals = self.program.external.iter().enumerate();
+        let Some((number, external)) = externals.find(|(_, external)| {
+            (external.operator, external.kind, &external.name)
+                == (event.operator, event.kind, &event.name.text)
+        }) else {
+            return;
+        };
+        let name = external_name(external);
+        let given = self.given(text, &name, values, &external.types);
+        let raised = self.interface_call(&name, given.clone());
+        let given = given.join(", ");
+        _ = writeln!(text, "        bool accepted = {raised};");
+        _ = writeln!(text, "        bool expected = plain_raise_{number}({given});");
+        _ = writeln!(
+            text,
+            "        plain_assert(accepted == expected, \"another result of {name}\");"
+        );
+        text.push_str("        plain_compare();\n    }\n");
+    }
+
+    fn set(&self, text: &mut String, belief: &str, values: &[Value]) {
+        let mut beliefs = self.program.beliefs.iter();
+        let Some(declared) = beliefs.find(|declared| declared.name == belief) else { return };
+        let name = format!("set_{belief}");
+        let given = self.given(text, &name, values, &declared.types);
+        let set = self.interface_call(&name, given.clone());
+        let given = given.join(", ");
+        _ = writeln!(text, "        {set};\n        plain_set_{belief}({given});");
+        text.push_str("        plain_compare();\n    }\n");
+    }
+
+    /// Opens a block and declares the arguments of a call in it. Returns their names.
+    fn given(
+        &self,
+        text: &mut String,
+        call: &str,
+        values: &[Value],
+        types: &[CType],
+    ) -> Vec<String> {
+        text.push_str("    {\n");
+        let mut names = Vec::new();
+        for (value, ctype) in values.iter().zip(types) {
+            let name = format!("argument{}", names.len() + 1);
+            let value = literal(self.program, Some(value), ctype);
+            _ = writeln!(text, "        {} {name} = {value};", ctype.name);
+            names.push(name);
+        }
+        let recorded = if names.is_empty() { "0U".to_owned() } else { names.join(", ") };
+        _ = writeln!(text, "        __CPROVER_output(\"{CALLS} {call}\", {recorded});");
+        names
+    }
+}
