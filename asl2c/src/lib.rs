@@ -35,7 +35,9 @@ pub use certify::{
     Reach, Reached, Requirement, Status, TestEvidence, Tool, ValidationEvidence,
     Verdict as PropertyVerdict, certify,
 };
-pub use coverage::{Counts, Coverage, CoverageError, Independence, LineCount, Share, Test, cover};
+pub use coverage::{
+    Counts, Coverage, CoverageError, Independence, LineCount, OwnTest, Share, Test, cover,
+};
 pub use measure::measure;
 pub use prove::{
     Budget, CBMC, Cbmc, Checks, Difference, End, Open, Part, Plan, Proof, ProveError, Validated,

@@ -187,6 +187,11 @@ pub struct Evidence {
 }
 
 impl Evidence {
+    /// The plans that no test chooses.
+    pub fn untested_plans(&self) -> Vec<&PlanEvidence> {
+        self.plans.iter().filter(|plan| plan.tests.is_empty()).collect()
+    }
+
     /// Result of the proofs of the properties.
     pub fn properties_status(&self) -> Status {
         worst(self.properties.iter().map(|property| property.verdict.status()))

@@ -17,7 +17,7 @@ use super::misra::deviations;
 use super::reach::reach;
 use super::trust::{assumptions, tools};
 use crate::agent::Agent;
-use crate::coverage::{Coverage, CoverageError, cover};
+use crate::coverage::{Coverage, CoverageError, OwnTest, cover};
 use crate::measure::measure;
 use crate::prove::{
     Cbmc, DeadBranches, Found, Limits as SearchLimits, Plan, ProveError, Searched, Validated,
@@ -55,6 +55,9 @@ pub enum CertifyError {
         /// The folder.
         folder: String,
     },
+    /// A test of one's own cannot be executed, or the agent does something else.
+    #[error("nothing is certified: {0}")]
+    Test(String),
 }
 
 impl From<CoverageError> for CertifyError {
@@ -62,6 +65,7 @@ impl From<CoverageError> for CertifyError {
         match error {
             CoverageError::Translate(error) => error.into(),
             CoverageError::Tool(error) => error.into(),
+            CoverageError::Test(said) => Self::Test(said),
         }
     }
 }
@@ -90,14 +94,16 @@ pub(super) const AGENT: &str = "agent";
 /// Folder of the generated files.
 pub(super) const C: &str = "c";
 const TESTS: &str = "tests";
+const OWN_TESTS: &str = "tests/own";
 const COUNTEREXAMPLES: &str = "counterexamples";
 
-/// Gathers the evidence for an agent; `tell` hears what is being done.
+/// Gathers the evidence for an agent, with tests of one's own; `tell` hears what is being done.
 ///
 /// # Errors
 /// If a tool is missing or fails, or the agent cannot be translated or proved.
 pub fn certify(
     agent: &Agent,
+    own_tests: &[OwnTest],
     cbmc: &Cbmc,
     limits: Limits,
     tell: &mut dyn FnMut(&str),
@@ -119,7 +125,7 @@ pub fn certify(
     let missing = measure(&mut translation, configuration, text);
     let bounds = Bounds { report: translation.report.to_string(), missing };
     tell("makes tests and executes them on the C")?;
-    let coverage = cover(agent, include)?;
+    let coverage = cover(agent, own_tests, include)?;
     tell("proves the properties")?;
     let Proved { properties, run_time_errors, invariant, mut files, c: proved_c, dead } =
         proved(agent, obligations, cbmc, limits)?;
@@ -135,7 +141,10 @@ pub fn certify(
     let tests: Vec<TestEvidence> = (1..)
         .zip(&coverage.tests)
         .map(|(number, test)| TestEvidence {
-            file: name(TESTS, &format!("test_{number:03}.transcript")),
+            file: match &test.own {
+                Some(own) => name(OWN_TESTS, own),
+                None => name(TESTS, &format!("test_{number:03}.transcript")),
+            },
             plans: test.plans.clone(),
             difference: test.difference.clone(),
         })

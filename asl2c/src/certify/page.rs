@@ -41,6 +41,10 @@ pub(super) fn page(certified: &Certified) -> String {
                 h2 #bounds { "Memory and time" }
                 @for missing in &evidence.bounds.missing { p.undecided { (missing) } }
                 pre { (evidence.bounds.report) }
+                p.faint {
+                    "Counts of calls in a step are those of the paths through the C, also of paths that no execution takes: "
+                    "a property can say more."
+                }
                 (tests(evidence, text(&evidence.c)))
                 (plans(evidence))
                 (trust(evidence))
@@ -120,6 +124,9 @@ fn summary(evidence: &Evidence) -> Markup {
                     (evidence.reach.outcomes.all) " outcomes of conditions but "
                     (evidence.reach.outcomes.unreachable) " that are proved to be unreachable and "
                     (evidence.reach.outcomes.open()) " others"
+                    @if let untested = evidence.untested_plans() && !untested.is_empty() {
+                        "; " a href="#plans" { (untested.len()) " plans" } " are chosen by none"
+                    }
                 }
             }
         }

@@ -207,6 +207,9 @@ pub(super) struct Prove {
     /// Folder of the counterexamples [default: the configuration's folder]
     #[arg(short, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
+    /// Folder with tests of your own: transcripts of `asl2c run`, in files NAME.transcript
+    #[arg(long, value_name = "DIR")]
+    pub(super) tests: Option<PathBuf>,
     /// The CBMC to use [default: that on the path]
     #[arg(long, value_name = "PATH")]
     pub(super) cbmc: Option<PathBuf>,
@@ -271,6 +274,9 @@ pub(super) struct Certify {
     /// Folder of the evidence: a new or empty one, or one with earlier evidence, which is replaced
     #[arg(short, value_name = "DIR", required = true)]
     pub(super) output: PathBuf,
+    /// Folder with tests of your own: transcripts of `asl2c run`, in files NAME.transcript
+    #[arg(long, value_name = "DIR")]
+    pub(super) tests: Option<PathBuf>,
     /// The CBMC to use [default: that on the path]
     #[arg(long, value_name = "PATH")]
     pub(super) cbmc: Option<PathBuf>,

@@ -1,13 +1,17 @@
 //! `asl2c certify`: the evidence for an agent, in a folder.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
 use super::arguments::Certify;
 use super::{CommandError, NOT_CHECKED, complain_of, print, stop};
 use crate::agent::Agent;
-use crate::certify::{Evidence, Limits, Status, Verdict, certify, check_folder, write};
+use crate::certify::{
+    CertifyError, Evidence, Limits, Status, Verdict, certify, check_folder, write,
+};
+use crate::coverage::OwnTest;
 use crate::prove::Cbmc;
 
 /// Gathers the evidence, writes it and prints a summary.
@@ -22,7 +26,8 @@ pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
             complain_of(&format!("asl2c {doing}"));
         }
     };
-    let certified = certify(&agent, &cbmc, limits, &mut tell)?;
+    let own_tests = asked.tests.as_deref().map_or(Ok(Vec::new()), own_tests)?;
+    let certified = certify(&agent, &own_tests, &cbmc, limits, &mut tell)?;
     write(&certified, &asked.output)?;
     let evidence = &certified.evidence;
     let mut text = as_text(evidence);
@@ -34,6 +39,31 @@ pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
         Status::Refuted => ExitCode::FAILURE,
         Status::Undecided => NOT_CHECKED.into(),
     })
+}
+
+/// The transcripts of a folder, by their names.
+fn own_tests(folder: &Path) -> Result<Vec<OwnTest>, CertifyError> {
+    let unread =
+        |source| CertifyError::Io { what: format!("cannot read {}", folder.display()), source };
+    let mut tests = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(unread)? {
+        let path = entry.map_err(unread)?.path();
+        if path.extension().is_some_and(|extension| extension == "transcript") {
+            let bytes = std::fs::read(&path).map_err(|source| CertifyError::Io {
+                what: format!("cannot read {}", path.display()),
+                source,
+            })?;
+            let transcript = String::from_utf8_lossy(&bytes).into_owned();
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            tests.push(OwnTest { name, transcript });
+        }
+    }
+    if tests.is_empty() {
+        let folder = folder.display();
+        return Err(CertifyError::Test(format!("{folder} has no file NAME.transcript")));
+    }
+    tests.sort_by(|left, right| left.name.cmp(&right.name));
+    Ok(tests)
 }
 
 fn as_text(evidence: &Evidence) -> String {
@@ -61,6 +91,7 @@ fn as_text(evidence: &Evidence) -> String {
         ("bounds", evidence.bounds_status(), evidence.bounds.missing.join("; ")),
         ("tests", evidence.tests_status(), tests),
     ];
+    let untested = evidence.untested_plans();
     let mut text = String::new();
     for (what, status, detail) in rows {
         let word = match status {
@@ -70,6 +101,15 @@ fn as_text(evidence: &Evidence) -> String {
         };
         let detail = if detail.is_empty() { detail } else { format!(" ({detail})") };
         _ = writeln!(text, "{what:<14}{word}{detail}");
+    }
+    if !untested.is_empty() {
+        let lines: Vec<String> = untested.iter().map(|plan| plan.lines.0.to_string()).collect();
+        let file = &evidence.agent;
+        _ = writeln!(
+            text,
+            "no test chooses the plans in these lines of {file}: {}",
+            lines.join(", ")
+        );
     }
     text
 }

@@ -136,7 +136,8 @@ impl Search<'_> {
 fn testable<T>(tested: Result<T, CoverageError>) -> Result<Option<T>, CommandError> {
     match tested {
         Ok(tested) => Ok(Some(tested)),
-        Err(CoverageError::Translate(_)) => Ok(None),
+        // No test is somebody's own.
+        Err(CoverageError::Translate(_) | CoverageError::Test(_)) => Ok(None),
         Err(CoverageError::Tool(error)) => Err(error.into()),
     }
 }

@@ -46,6 +46,7 @@ pub(super) fn status(checked: &[Checked]) -> ExitCode {
 
 fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> String {
     let mut text = String::new();
+    let mut fails = false;
     // Writing to a string cannot fail.
     for Checked { property: promise, verdict } in checked {
         let tags = match promise.requirements.as_slice() {
@@ -59,6 +60,7 @@ fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> St
                 _ = writeln!(text, "{head}: NOT DECIDED: {reason}");
             }
             Verdict::Fails(happenings) => {
+                fails = true;
                 let Promise { formula, .. } = promise;
                 _ = writeln!(text, "{head}: DOES NOT HOLD\n  {formula}");
                 _ = writeln!(text, "  counterexample ({}):", model.input());
@@ -67,6 +69,9 @@ fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> St
                 }
             }
         }
+    }
+    if fails {
+        text += "(a counterexample is one of the model, which has no values: `asl2c prove` tells whether the agent does it)\n";
     }
     text
 }

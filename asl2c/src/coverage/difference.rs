@@ -10,7 +10,7 @@ use super::search::{self, search};
 use super::world::Execution;
 use super::{CoverageError, act_line};
 use crate::agent::Agent;
-use crate::run::act;
+use crate::run::test_acts;
 use crate::tool::{ToolError, include_option, output, run, write};
 
 /// An execution from the start, at whose end the C differs.
@@ -52,11 +52,11 @@ pub(crate) fn shorter(
     include: &Path,
 ) -> Result<Option<Differing>, CoverageError> {
     let configuration = agent.configuration.declarations();
-    let acts: Option<Vec<Act>> = lines.iter().map(|line| act(line, configuration)).collect();
-    Ok(match acts {
-        Some(acts) => shortened(agent, vec![acts], c, include)?,
-        None => None,
-    })
+    match test_acts("way", &lines.join("\n"), configuration) {
+        Ok(acts) => shortened(agent, vec![acts], c, include),
+        // The script is our own, so this cannot happen; the way is as good as it was.
+        Err(_) => Ok(None),
+    }
 }
 
 /// Short executions of the agent to different states, with the next event, and as a beginning for

@@ -18,7 +18,7 @@ pub use self::gcov::{Counts, LineCount, Share};
 pub use self::independence::Independence;
 use self::search::{Found, search};
 use crate::agent::Agent;
-use crate::run::{Session, call_name};
+use crate::run::{Session, call_name, replay, test_acts};
 use crate::tool::{ToolError, include_option, run, write};
 
 /// Why there is no coverage.
@@ -31,12 +31,26 @@ pub enum CoverageError {
     /// A tool is missing or failed.
     #[error(transparent)]
     Tool(#[from] ToolError),
+    /// A test of one's own cannot be executed, or the agent does something else.
+    #[error("{0}")]
+    Test(String),
+}
+
+/// A test that somebody wrote.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OwnTest {
+    /// Its name, for people and as a file.
+    pub name: String,
+    /// A transcript of `asl2c run`.
+    pub transcript: String,
 }
 
 /// A test: the environment's calls, and what the agent must do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Test {
+    /// The name of a test that somebody wrote; `None` for one that was made.
+    pub own: Option<String>,
     /// A transcript for `asl2c run`.
     pub transcript: String,
     /// First lines of the plans that are chosen in it, in the agent's text.
@@ -59,23 +73,50 @@ pub struct Coverage {
     pub independence: Independence,
 }
 
-/// Makes tests that reach as much of an agent as is found, and executes them on its C. `include` is the folder with the
-/// configuration's own headers.
+/// Makes tests that reach as much of an agent as is found, and executes them, and those that somebody wrote, on its C.
+/// `include` is the folder with the configuration's own headers.
 ///
 /// # Errors
 /// See [`CoverageError`].
-pub fn cover(agent: &Agent, include: &Path) -> Result<Coverage, CoverageError> {
-    let found = search(&agent.configuration, &agent.text)?;
+pub fn cover(agent: &Agent, own: &[OwnTest], include: &Path) -> Result<Coverage, CoverageError> {
+    let mut found = search(&agent.configuration, &agent.text)?;
+    for test in own {
+        found.push(executable(agent, test)?);
+    }
+    let first_own = found.len() - own.len();
     let files = program(agent, &found)?;
     let (said, counts) = executed(&files, include)?;
     let mut tests = Vec::new();
-    for ((number, test), difference) in (1..).zip(&found).zip(differences(&found, &said)) {
+    for ((index, test), difference) in found.iter().enumerate().zip(differences(&found, &said)) {
         let plans = test.plans.iter().map(|place| line(&agent.text, *place)).collect();
-        tests.push(Test { transcript: transcript(agent, number, test)?, plans, difference });
+        let own = index.checked_sub(first_own).and_then(|index| own.get(index));
+        let transcript = match own {
+            Some(own) => own.transcript.clone(),
+            None => transcript(agent, index + 1, test)?,
+        };
+        let own = own.map(|own| own.name.clone());
+        tests.push(Test { own, transcript, plans, difference });
     }
     let independence = Independence::new(&counts, &files[0].text);
     let program = files.into_iter().rev().find(|file| file.name == TESTS).unwrap_or_default();
     Ok(Coverage { tests, program, counts, independence })
+}
+
+/// A test that somebody wrote, if the agent does what it says.
+fn executable(agent: &Agent, test: &OwnTest) -> Result<Found, CoverageError> {
+    let OwnTest { name, transcript } = test;
+    let mut session = Session::new(&agent.configuration, &agent.text)?;
+    let replayed = replay(&mut session, name, transcript);
+    if replayed.errors > 0 {
+        let shown = replayed.shown;
+        return Err(CoverageError::Test(format!(
+            "{name}: the agent does something else:\n{shown}"
+        )));
+    }
+    let acts = test_acts(name, transcript, agent.configuration.declarations());
+    let acts = acts.map_err(CoverageError::Test)?;
+    let too_long = || CoverageError::Test(format!("{name}: a step is too long"));
+    search::given(&agent.configuration, &agent.text, acts)?.ok_or_else(too_long)
 }
 
 /// The agent's C and a program that executes the tests on it.
@@ -181,7 +222,7 @@ mod tests {
 
     #[test]
     fn tests_reach_what_can_be_reached() {
-        let found = cover(&lamp(), Path::new(".")).unwrap();
+        let found = cover(&lamp(), &[], Path::new(".")).unwrap();
         assert!(found.tests.iter().all(|test| test.difference.is_none()), "{:?}", found.tests);
         let plans: std::collections::BTreeSet<usize> =
             found.tests.iter().flat_map(|test| test.plans.iter().copied()).collect();
@@ -191,7 +232,28 @@ mod tests {
         assert!(missed.count() <= 1, "{:?}", found.counts);
         assert!(found.tests.iter().any(|test| test.transcript.contains("4711")));
         // The same ones each time.
-        assert_eq!(cover(&lamp(), Path::new(".")).unwrap(), found);
+        assert_eq!(cover(&lamp(), &[], Path::new(".")).unwrap(), found);
+    }
+
+    #[test]
+    fn a_test_of_ones_own_is_executed_if_the_agent_does_what_it_says() {
+        let of = |transcript: &str| {
+            let own =
+                OwnTest { name: "own.transcript".to_owned(), transcript: transcript.to_owned() };
+            cover(&lamp(), &[own], Path::new("."))
+        };
+        let found = of("> // A test.\n> achieve_light(3); step 1\nwarn()\n").unwrap();
+        let last = found.tests.last().unwrap();
+        assert_eq!((last.own.as_deref(), &last.difference), (Some("own.transcript"), &None));
+        assert_eq!(last.plans, [3]);
+        for (wrong, said) in [
+            ("> achieve_light(3); step 1\nshine(3)\n", "`warn()` instead of `shine(3)`"),
+            ("> init();\n", "not a test of the C"),
+            ("> achieve_dark();\n", "there is no `achieve_dark`"),
+        ] {
+            let error = of(wrong).unwrap_err().to_string();
+            assert!(error.contains(said), "{error}");
+        }
     }
 
     #[test]

@@ -71,6 +71,18 @@ pub(super) fn search(
     Ok(found)
 }
 
+/// The test with these acts; `None` if a step of it is too long.
+pub(super) fn given(
+    configuration: &ParsedConfiguration,
+    text: &str,
+    acts: Vec<Act>,
+) -> Result<Option<Found>, TranslateError> {
+    let mut run = first(configuration, text)?;
+    let ends = acts.iter().all(|act| run.execution.execute(act));
+    run.acts = acts;
+    Ok(ends.then(|| run.found()))
+}
+
 /// Short executions to the steps that decide something: for each decision and its outcome one of the shortest that were
 /// found, up to the step before it, with the next event there.
 pub(super) fn places(

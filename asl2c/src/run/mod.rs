@@ -8,8 +8,9 @@ mod transcript;
 mod values;
 mod world;
 
-pub(crate) use self::script::{act, call_name, is_skipped, parameters};
+pub(crate) use self::script::{call_name, is_skipped, parameters};
 pub(crate) use self::session::IDLE;
 pub use self::session::Session;
+pub(crate) use self::transcript::test_acts;
 pub use self::transcript::{Replay, replay};
 pub(crate) use self::values::{fields, zero};

@@ -36,17 +36,32 @@ pub(super) enum Statement {
     Quit,
 }
 
-/// The line of a script as what the environment does; `None` if it is something else, or more.
-pub(crate) fn act(line: &str, configuration: &Configuration) -> Option<Act> {
-    let [statement] = <[Statement; 1]>::try_from(parse_line(line, configuration).ok()?).ok()?;
-    match statement {
-        Statement::Raise(event, values) => Some(Act::Raise(event, values)),
-        Statement::Set(belief, values) => Some(Act::Set(belief, values)),
-        Statement::Answer(function, values) => Some(Act::Answer(function, values)),
-        Statement::Clear => Some(Act::Clear),
-        Statement::Step(1) => Some(Act::Step),
-        _ => None,
+/// The line of a script as what the environment does; `mind` does nothing.
+///
+/// # Errors
+/// As for [`Session::execute`](super::Session::execute), and if the line has something that no environment does.
+pub(crate) fn acts(line: &str, configuration: &Configuration) -> Result<Vec<Act>, Diagnostic> {
+    let mut acts = Vec::new();
+    for statement in parse_line(line, configuration)? {
+        match statement {
+            Statement::Raise(event, values) => acts.push(Act::Raise(event, values)),
+            Statement::Set(belief, values) => acts.push(Act::Set(belief, values)),
+            Statement::Answer(function, values) => acts.push(Act::Answer(function, values)),
+            Statement::Clear => acts.push(Act::Clear),
+            Statement::Step(count) => acts.extend((0..count).map(|_| Act::Step)),
+            Statement::Mind => {}
+            Statement::Init
+            | Statement::Run(_)
+            | Statement::Undo(_)
+            | Statement::Help
+            | Statement::Quit => {
+                let message = "only the prompt and scripts know this, not a test of the C";
+                return Err(Diagnostic::error(message, 0..line.len())
+                    .help("a test calls the agent's interface, sets results, and makes steps"));
+            }
+        }
     }
+    Ok(acts)
 }
 
 /// Commands besides calls and results.
@@ -209,6 +224,10 @@ impl<'a> Parser<'a> {
             "mind" => Ok(Statement::Mind),
             "help" => Ok(Statement::Help),
             "quit" | "exit" => Ok(Statement::Quit),
+            function if self.is_function(function) => {
+                let error = Diagnostic::error(format!("`{function}` is a function"), span.clone());
+                Err(error.help(format!("`{function}_result = ..;` sets what it returns")))
+            }
             _ => {
                 let words = words(self.configuration);
                 let names =
@@ -220,6 +239,11 @@ impl<'a> Parser<'a> {
                 })
             }
         }
+    }
+
+    fn is_function(&self, name: &str) -> bool {
+        let mut basics = self.configuration.basics.iter();
+        basics.any(|basic| basic.name.text == name && basic.result.kind != TypeKind::Void)
     }
 
     fn all(&self) -> String {

@@ -3,8 +3,10 @@
 use std::fmt::Write as _;
 
 use diagnostic::{Diagnostic, Source};
+use translator::Act;
+use translator::configuration::Configuration;
 
-use super::script::is_skipped;
+use super::script::{acts, is_skipped};
 use super::session::Session;
 
 /// Result of a script.
@@ -46,6 +48,10 @@ pub fn replay(session: &mut Session, name: &str, text: &str) -> Replay {
             expected.extend(lines.next().map(|(_, line)| line.trim_end()));
         }
         if is_skipped(command) {
+            // A comment stays, so that a script becomes a transcript by redirecting the output.
+            if !command.trim().is_empty() {
+                _ = writeln!(replay.shown, "> {}", command.trim());
+            }
             continue;
         }
         let start = start + line.len() - command.len();
@@ -55,6 +61,30 @@ pub fn replay(session: &mut Session, name: &str, text: &str) -> Replay {
         }
     }
     replay
+}
+
+/// What the environment does in a transcript, or in a script.
+///
+/// # Errors
+/// The errors in its lines, as text with their places.
+pub(crate) fn test_acts(
+    name: &str,
+    text: &str,
+    configuration: &Configuration,
+) -> Result<Vec<Act>, String> {
+    let is_transcript = text.lines().any(|line| line.starts_with('>'));
+    let source = Source { name, text };
+    let mut made = Vec::new();
+    for (start, line) in places(text) {
+        let command = if is_transcript { line.strip_prefix('>') } else { Some(line) };
+        let Some(command) = command.filter(|command| !is_skipped(command)) else { continue };
+        let start = start + line.len() - command.len();
+        made.extend(acts(command, configuration).map_err(|mut error| {
+            error.span = start + error.span.start..start + error.span.end;
+            error.render(&source)
+        })?);
+    }
+    Ok(made)
 }
 
 impl Replay {
@@ -89,7 +119,16 @@ impl Replay {
             shown.filter(|line| !is_note(line)).collect()
         };
         if shown != expected {
-            let error = Diagnostic::error("the output differs", 0..command.len());
+            let same =
+                shown.iter().zip(&expected).take_while(|(shown, expected)| shown == expected);
+            let first = same.count();
+            let at = |lines: &[&str]| match lines.get(first) {
+                Some(line) => format!("`{line}`"),
+                None => "the end".to_owned(),
+            };
+            let (line, found, wanted) = (first + 1, at(&shown), at(&expected));
+            let message = format!("the output differs in line {line}: {found} instead of {wanted}");
+            let error = Diagnostic::error(message, 0..command.len());
             let expected = expected.join("\n");
             self.error(error.help(format!("expected\n{expected}")), start, source);
         }

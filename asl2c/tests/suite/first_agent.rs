@@ -1,4 +1,4 @@
-//! `docs/first-agent.md` is what a newcomer sees: the test writes its files and runs its commands.
+//! `docs/first-agent.md` and `docs/crossing.md` are what a newcomer sees: the tests write their files and run their commands.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -6,10 +6,12 @@ use std::process::Command;
 
 use crate::harness::{cbmc, skip};
 
-const PAGE: &str = "../docs/first-agent.md";
-
-/// What a command of the page prints; progress is on standard error.
+/// What a command of the page prints, if it does not go to a file; progress is on standard error.
 fn printed(command: &str, folder: &Path, cbmc: &Path) -> String {
+    let (command, file) = match command.split_once(" > ") {
+        Some((command, file)) => (command, Some(file)),
+        None => (command, None),
+    };
     let arguments = command.strip_prefix("asl2c ").unwrap().split(' ');
     let arguments: Vec<&str> = arguments.collect();
     let mut program = Command::new(env!("CARGO_BIN_EXE_asl2c"));
@@ -17,7 +19,10 @@ fn printed(command: &str, folder: &Path, cbmc: &Path) -> String {
     if ["prove", "validate", "certify"].contains(&arguments[0]) {
         program.arg("--cbmc").arg(cbmc);
     }
-    String::from_utf8(program.output().unwrap().stdout).unwrap()
+    let text = String::from_utf8(program.output().unwrap().stdout).unwrap();
+    let Some(file) = file else { return text };
+    std::fs::write(folder.join(file), text).unwrap();
+    String::new()
 }
 
 /// The page with what its commands print here.
@@ -53,9 +58,18 @@ fn without_counts(page: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// `UPDATE_PAGES=1` writes what is printed into the page.
 #[test]
-fn the_page_shows_what_a_newcomer_sees() {
+fn the_first_page_shows_what_a_newcomer_sees() {
+    follow("../docs/first-agent.md");
+}
+
+#[test]
+fn the_second_page_shows_what_a_newcomer_sees() {
+    follow("../docs/crossing.md");
+}
+
+/// `UPDATE_PAGES=1` writes what is printed into the page.
+fn follow(page_path: &str) {
     let Some(cbmc) = cbmc() else {
         skip("cbmc");
         return;
@@ -66,11 +80,11 @@ fn the_page_shows_what_a_newcomer_sees() {
             return;
         }
     }
-    let page = std::fs::read_to_string(PAGE).unwrap();
+    let page = std::fs::read_to_string(page_path).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let seen = followed(&page, folder.path(), &cbmc);
     if std::env::var_os("UPDATE_PAGES").is_some() {
-        std::fs::write(PAGE, seen).unwrap();
+        std::fs::write(page_path, seen).unwrap();
     } else {
         let (seen, shown) = (without_counts(&seen), without_counts(&page));
         let differs = seen.lines().zip(shown.lines()).find(|(seen, shown)| seen != shown);

@@ -267,7 +267,22 @@ impl Declarations {
         matches!(self.known(name), Some(Declared::Predicate(_)))
     }
 
+    /// A name that is not what it has to be, a name of this section.
     fn undeclared(&self, name: &Name, section: &str) -> Diagnostic {
+        let wrong_kind = |is: &str, wanted: &str| {
+            Code::WrongKind
+                .at(format!("`{}` is {is}, not {wanted}", name.text), name.span.clone())
+                .help(format!("the section `{section}` declares them"))
+        };
+        match self.known(&name.text) {
+            Some(Declared::Basic(_)) => {
+                return wrong_kind("a basic action or function", "a belief or goal");
+            }
+            Some(Declared::Predicate(_)) => {
+                return wrong_kind("a belief or goal", "an action or a class of actions");
+            }
+            None => {}
+        }
         let help = match closest(&name.text, self.names.keys().map(String::as_str)) {
             Some(candidate) => format!("did you mean `{candidate}`?"),
             None => format!("declare it in the section `{section}` of the configuration"),

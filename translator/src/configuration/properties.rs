@@ -6,7 +6,8 @@ use super::ExternalTrigger;
 use super::parser::Parser;
 use super::scanner::Parsed;
 use crate::code::Code;
-use crate::syntax::ast::{Name, Number, Relation};
+use crate::syntax::ast::{FOREIGN_RELATIONS, Name, Number, Relation};
+use crate::syntax::lexer::foreign_relation;
 
 /// A requirement that must hold in every environment and for any number of steps.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -222,6 +223,12 @@ impl Parser<'_> {
 
     fn relation(&mut self) -> Parsed<Option<Relation>> {
         self.scanner.skip_blanks()?;
+        let rest = self.scanner.rest();
+        if let Some((found, meant)) =
+            FOREIGN_RELATIONS.iter().find(|(found, _)| rest.starts_with(found))
+        {
+            return Err(foreign_relation(found, meant, self.scanner.position));
+        }
         let known = [
             ("<=", Relation::LessOrEqual),
             (">=", Relation::GreaterOrEqual),

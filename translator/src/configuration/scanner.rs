@@ -73,7 +73,12 @@ impl<'a> Scanner<'a> {
     }
 
     pub(super) fn unexpected(&self, expected: &str) -> Diagnostic {
+        let word = self.rest().find(|c| !is_word(c)).unwrap_or(self.rest().len());
         match self.rest().chars().next() {
+            Some(_) if word > 0 => Code::Syntax.at(
+                format!("expected {expected}, found `{}`", &self.rest()[..word]),
+                self.position..self.position + word,
+            ),
             Some(found) => Code::Syntax.at(
                 format!("expected {expected}, found `{}`", found.escape_debug()),
                 span_of(self.position, found),

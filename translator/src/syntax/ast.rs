@@ -208,6 +208,10 @@ pub enum Relation {
     NotEqual,
 }
 
+/// Relations of other languages, with those that are meant.
+pub(crate) const FOREIGN_RELATIONS: [(&str, &str); 5] =
+    [("!=", "\\=="), ("<>", "\\=="), ("=<", "<="), ("=>", ">="), ("=/=", "\\==")];
+
 /// A number as written, so that its exact value reaches C.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Number {

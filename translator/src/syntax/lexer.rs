@@ -3,6 +3,7 @@
 use diagnostic::{Diagnostic, Span};
 
 use crate::code::Code;
+use crate::syntax::ast::FOREIGN_RELATIONS;
 
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
@@ -268,6 +269,14 @@ impl<'a> Lexer<'a> {
             ("[", TokenKind::LeftBracket),
             ("]", TokenKind::RightBracket),
         ];
+        if let Some((found, meant)) =
+            FOREIGN_RELATIONS.iter().find(|(found, _)| self.rest().starts_with(found))
+        {
+            self.position += found.len();
+            self.error(foreign_relation(found, meant, start));
+            let kind = SYMBOLS.into_iter().find(|(symbol, _)| *symbol == *meant);
+            return self.made(kind.map_or(TokenKind::Invalid, |(_, kind)| kind), start);
+        }
         match SYMBOLS.iter().find(|(symbol, _)| self.rest().starts_with(symbol)) {
             Some((symbol, kind)) => {
                 self.position += symbol.len();
@@ -296,6 +305,13 @@ impl<'a> Lexer<'a> {
         );
         self.made(TokenKind::Invalid, start)
     }
+}
+
+/// A relation that is spelt as in another language.
+pub(crate) fn foreign_relation(found: &str, meant: &str, start: usize) -> Diagnostic {
+    Code::Syntax
+        .at(format!("`{found}` is no relation"), start..start + found.len())
+        .help(format!("write `{meant}`"))
 }
 
 #[cfg(test)]
