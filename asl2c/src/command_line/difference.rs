@@ -13,13 +13,13 @@ use crate::prove::{
 };
 
 /// How long something shorter than a known way is looked for.
-const SHORTER: Duration = Duration::from_secs(60);
+const SHORTER: Duration = Duration::from_mins(1);
 /// How long a difference is looked for after each known beginning, ..
 const AFTER: Duration = Duration::from_secs(30);
 /// .. how many events, beliefs and steps after it, ..
 const BEYOND: u32 = 4;
 /// .. and for how long after all of them.
-const AFTER_ALL: Duration = Duration::from_secs(180);
+const AFTER_ALL: Duration = Duration::from_mins(3);
 
 /// A way to a difference.
 #[derive(Debug, Clone, PartialEq, Eq)]
