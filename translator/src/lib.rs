@@ -276,7 +276,7 @@ pub fn comparison(
     comparison_after(configuration, agent_text, &[])
 }
 
-/// As [`comparison`], but executions of `main` have this beginning, if it has any acts; the other functions are of no use
+/// As [`comparison()`], but executions of `main` have this beginning, if it has any acts; the other functions are of no use
 /// then.
 ///
 /// # Errors
