@@ -86,6 +86,7 @@ fn a_failure_is_told_in_the_agents_own_terms() {
           line 7: plan +!light
             line 8: idle
             line 9: fails
+    (a counterexample is one of the model, which has no values: `asl2c prove` tells whether the agent does it)
     ");
     let Some(output) = verify(&configuration, agent, &["--json"]) else { return };
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
