@@ -68,8 +68,9 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
             "step": null,
             "command": null,
         }),
-        Message::Mission(steps) => json!({
+        Message::Mission { name, steps } => json!({
             "type": "mission",
+            "name": name,
             "steps": steps.iter().map(|step| step.text.as_str()).collect::<Vec<_>>(),
         }),
         Message::Readiness(at, reasons) => json!({
@@ -107,6 +108,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "mission_waits": status.mission_waits,
                 "controls": status.controls.map(|operator| operator.to_string()),
                 "pose": status.pose.map(|pose| Place::from(&pose)),
+                "velocity_m_s": status.velocity_m_s,
                 "target": target.map(|target| Place::from(&target)),
                 "distance_m": distance_m,
                 "battery_percent": battery_percent,

@@ -110,6 +110,7 @@ impl Replay {
                 }
                 Entry::Decoded(_)
                 | Entry::Tags(_)
+                | Entry::Mission(_)
                 | Entry::Event { .. }
                 | Entry::Outcome { .. } => {}
                 Entry::Tick(recorded) => {

@@ -55,6 +55,8 @@ pub struct AppendError {
 #[derive(Debug)]
 pub struct Mission {
     limits: FlightLimits,
+    /// The loaded plan's; empty without one.
+    name: String,
     steps: Vec<Step>,
     tags: Vec<SurveyedTag>,
     next: usize,
@@ -66,6 +68,7 @@ impl Mission {
     pub fn new(limits: FlightLimits) -> Self {
         Self {
             limits,
+            name: String::new(),
             steps: Vec::new(),
             tags: Vec::new(),
             next: 0,
@@ -76,6 +79,7 @@ impl Mission {
     /// Replaces the mission by a plan. The origin of coordinates is kept while the drone is `airborne`.
     pub fn load(&mut self, plan: Plan, airborne: bool) {
         self.tags = plan.tags().to_vec();
+        plan.name().clone_into(&mut self.name);
         self.steps = plan.into_steps();
         self.next = 0;
         self.interpreter =
@@ -122,6 +126,7 @@ impl Mission {
 
     /// Removes all steps. The reference and the settings are kept.
     pub fn clear(&mut self) {
+        self.name.clear();
         self.steps.clear();
         self.tags.clear();
         self.next = 0;
@@ -131,6 +136,11 @@ impl Mission {
     pub fn rewind(&mut self) {
         self.next = 0;
         self.interpreter = Interpreter::new(self.limits);
+    }
+
+    /// Name of the loaded plan; empty without one.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// The tags that the loaded plan declares.

@@ -68,7 +68,7 @@ fn allocations(
                         Output::Event(event) => recorder.event(now, event),
                         Output::Waypoint(_)
                         | Output::Ended(_)
-                        | Output::Mission(_)
+                        | Output::Mission { .. }
                         | Output::Readiness(_) => {}
                     }
                 }

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use ardrone_pilot::drive::{Driver, Passed};
 use autopilot::outcome::Outcome;
 use autopilot::plan::Commands;
 use autopilot::vehicle::{
@@ -10,7 +11,6 @@ use autopilot::vehicle::{
 use autopilot::{Vehicle, VehicleConfig};
 use mock_drone::scenario::Scenario;
 use mock_drone::{DroneConfig, Tag27, Truth, WorldConfig, firmware};
-use system_tests::drive::{Driver, Passed};
 use system_tests::sim::{Moment, Simulation};
 use system_tests::{SQUARE, plan};
 
@@ -77,7 +77,7 @@ impl Bench {
                 Output::Event(event) => events.push((now, event)),
                 Output::Ended(outcome) => outcomes.push(outcome.clone()),
                 Output::Readiness(reasons) => *ready = Some(reasons.to_vec()),
-                Output::Mission(_) => *missions += 1,
+                Output::Mission { .. } => *missions += 1,
                 Output::Waypoint(_) | Output::Transmit(_) => {}
             }
         });

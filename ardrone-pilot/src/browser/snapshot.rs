@@ -12,6 +12,7 @@ use crate::flight::Message;
 use crate::flown_path::FlownPath;
 use crate::json;
 use crate::recording::Place;
+use crate::typed;
 
 /// Capacity of the event list; the oldest events are dropped.
 const EVENTS: usize = 100;
@@ -21,6 +22,8 @@ const EVENTS: usize = 100;
 pub(super) struct Snapshot {
     steps: Vec<Step>,
     limits: FlightLimits,
+    /// The drone that is flown, for people.
+    drone: String,
     name: String,
     notes: Vec<String>,
     flown_path: FlownPath,
@@ -32,11 +35,12 @@ pub(super) struct Snapshot {
 
 impl Snapshot {
     /// Initial state, with a plan or without a mission.
-    pub(super) fn new(plan: Option<&Plan>, limits: &FlightLimits) -> Self {
-        let name = plan.map_or("ardrone-pilot", Plan::name);
+    pub(super) fn new(plan: Option<&Plan>, limits: &FlightLimits, drone: &str) -> Self {
+        let name = plan.map_or("", Plan::name);
         Self {
             steps: plan.map_or(Vec::new(), |plan| plan.steps().to_vec()),
             limits: *limits,
+            drone: printable(drone).into_owned(),
             name: printable(name).into_owned(),
             notes: plan.map_or(Vec::new(), |plan| plan.notes().to_vec()),
             flown_path: FlownPath::default(),
@@ -61,8 +65,10 @@ impl Snapshot {
                 self.remember(&object);
             }
             // The page redraws everything.
-            Message::Mission(steps) if *steps != self.steps => {
+            Message::Mission { name, steps } if *steps != self.steps => {
                 self.steps.clone_from(steps);
+                self.name = printable(name).into_owned();
+                self.notes.clear();
                 return self.so_far();
             }
             Message::Readiness(..) => self.ready = object.clone(),
@@ -78,7 +84,7 @@ impl Snapshot {
                 self.remember(&event);
                 return event;
             }
-            Message::Mission(_) | Message::Realtime(_) | Message::Waypoint(_) => {}
+            Message::Mission { .. } | Message::Realtime(_) | Message::Waypoint(_) => {}
         }
         object
     }
@@ -114,6 +120,7 @@ impl Snapshot {
         json!({
             "type": "flight",
             "version": env!("CARGO_PKG_VERSION"),
+            "drone": self.drone,
             "plan": self.name,
             "notes": self.notes,
             "steps": steps,
@@ -121,6 +128,7 @@ impl Snapshot {
             "floor_m": self.limits.floor_m,
             "ceiling_m": self.limits.ceiling_m,
             "plans": plans,
+            "words": typed::remote_words().collect::<Vec<_>>(),
             "trail": self.flown_path.places_m().collect::<Vec<_>>(),
             "events": self.events,
             "status": self.status,
@@ -140,7 +148,7 @@ mod tests {
     #[test]
     fn a_late_viewer_knows_what_happened() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\nland\n").unwrap();
-        let mut snapshot = Snapshot::new(Some(&plan), &FlightLimits::default());
+        let mut snapshot = Snapshot::new(Some(&plan), &FlightLimits::default(), "192.168.1.1");
         for step in 0..EVENTS + 5 {
             let at = Duration::from_secs(step as u64);
             snapshot.take_in(&Message::Event(at, FlightEvent::StepStarted { step }));

@@ -12,10 +12,10 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::terminal;
-use super::typed::{self, Typed};
 use crate::camera::NamedCamera;
 use crate::flight::Controls;
 use crate::json;
+use crate::typed::{self, Typed};
 
 /// Maximum length of a line, longer than any plan that can be flown.
 const LONGEST_LINE: u64 = 1 << 20;
@@ -72,6 +72,7 @@ enum Request {
     Camera {
         camera: NamedCamera,
     },
+    Take {},
     Release {},
     Quit {},
 }
@@ -353,6 +354,7 @@ fn order(request: Request, limits: &FlightLimits) -> Result<Option<OperatorOrder
         Request::Cut {} => OperatorOrder::Cut,
         Request::Recover {} => OperatorOrder::Recover,
         Request::Camera { camera } => OperatorOrder::Camera(camera.into()),
+        Request::Take {} => OperatorOrder::Take,
         Request::Release {} => OperatorOrder::Release,
         Request::Quit {} => return Ok(None),
     }))

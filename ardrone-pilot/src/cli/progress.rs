@@ -44,7 +44,7 @@ impl Progress {
             Message::Trouble(at, trouble) => self.print_line(&format!("{} {trouble}", time(*at))),
             Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
             Message::Waypoint(_) => {}
-            Message::Mission(steps) => self.steps.clone_from(steps),
+            Message::Mission { steps, .. } => self.steps.clone_from(steps),
             Message::Readiness(at, reasons) => {
                 if let Some(text) = readiness(reasons) {
                     self.print_line(&format!("{} {text}", time(*at)));
@@ -188,6 +188,7 @@ mod tests {
             mission_waits: false,
             controls: None,
             pose: Some(Pose { x_m: 0.12, y_m: 0.98, z_m: 0.85, yaw_deg: -1.0 }),
+            velocity_m_s: None,
             target: Some(Pose { x_m: 1.0, y_m: 1.0, z_m: 0.85, yaw_deg: 0.0 }),
             distance_m: Some(0.88),
             battery_percent: Some(87),

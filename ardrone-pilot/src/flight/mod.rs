@@ -57,7 +57,12 @@ pub enum Message {
     /// Status, several times a second.
     Status(Duration, Status, TickHealth),
     /// The mission has changed; all its steps.
-    Mission(Vec<Step>),
+    Mission {
+        /// Name of the loaded plan; empty without one.
+        name: String,
+        /// All its steps.
+        steps: Vec<Step>,
+    },
     /// The reasons not to take off have changed; all of them.
     Readiness(Duration, Vec<NotReady>),
     /// A flight has ended and the vehicle stays. The end of a flight with which the program exits is returned
@@ -521,7 +526,12 @@ impl TickLoop {
                     Message::Event(now, event)
                 }
                 Output::Waypoint(waypoint) => Message::Waypoint(waypoint),
-                Output::Mission(steps) => Message::Mission(steps.to_vec()),
+                Output::Mission { name, steps } => {
+                    if let Some(recorder) = &mut self.recorder {
+                        recorder.mission(now, name.to_owned(), steps.to_vec());
+                    }
+                    Message::Mission { name: name.to_owned(), steps: steps.to_vec() }
+                }
                 Output::Readiness(reasons) => Message::Readiness(now, reasons.to_vec()),
                 Output::Ended(outcome) if self.stay == Stay::UntilLeft => {
                     let outcome = outcome.clone();

@@ -45,6 +45,7 @@ fn order() -> impl Strategy<Value = OperatorOrder> {
         Just(OperatorOrder::Land),
         Just(OperatorOrder::Recover),
         Just(OperatorOrder::Camera(Camera::Bottom)),
+        Just(OperatorOrder::Take),
         Just(OperatorOrder::Release),
     ]
 }

@@ -30,6 +30,15 @@ pub struct Tick {
     pub datagram: String,
 }
 
+/// The mission from a moment on.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Mission {
+    /// Name of the loaded plan; empty without one.
+    pub name: String,
+    /// Its steps, as written.
+    pub steps: Vec<String>,
+}
+
 /// A position and a heading.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Place {

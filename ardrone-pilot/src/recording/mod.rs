@@ -16,8 +16,8 @@ mod writer;
 use std::time::Duration;
 
 pub use messages::{
-    Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, GpsPosition, Place, Tag, Tags,
-    Tick, Timing,
+    Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, GpsPosition, Mission, Place, Tag,
+    Tags, Tick, Timing,
 };
 pub use order::{Order, OrderError};
 pub use pictures::{RecordedPicture, pictures};
@@ -26,7 +26,7 @@ pub use recorder::{Recorded, Recorder, Recording, RecordingError, VideoRecorder}
 pub use writer::LogWriter;
 
 use autopilot::outcome::Outcome;
-use autopilot::plan::ZOrigin;
+use autopilot::plan::{Step, ZOrigin};
 use autopilot::vehicle::{Decision, FlightEvent, Operator, OperatorOrder};
 
 /// Names of attachments.
@@ -85,6 +85,15 @@ pub enum Record {
         by: Operator,
         /// The order.
         order: OperatorOrder,
+    },
+    /// The mission, which has changed.
+    Mission {
+        /// The time of the change.
+        at: Duration,
+        /// Name of the loaded plan; empty without one.
+        name: String,
+        /// All its steps.
+        steps: Vec<Step>,
     },
     /// An event of the flight.
     Event {

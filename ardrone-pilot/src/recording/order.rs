@@ -39,6 +39,7 @@ enum Ordered {
     Cut,
     Recover,
     Camera { camera: NamedCamera },
+    Take,
     Release,
 }
 
@@ -93,6 +94,7 @@ impl Order {
             Ordered::Cut => OperatorOrder::Cut,
             Ordered::Recover => OperatorOrder::Recover,
             &Ordered::Camera { camera } => OperatorOrder::Camera(camera.into()),
+            Ordered::Take => OperatorOrder::Take,
             Ordered::Release => OperatorOrder::Release,
         };
         Ok((by, order))
@@ -120,6 +122,7 @@ impl From<&OperatorOrder> for Ordered {
             OperatorOrder::Cut => Self::Cut,
             OperatorOrder::Recover => Self::Recover,
             &OperatorOrder::Camera(camera) => Self::Camera { camera: camera.into() },
+            OperatorOrder::Take => Self::Take,
             OperatorOrder::Release => Self::Release,
         }
     }

@@ -12,7 +12,7 @@ use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOp
 use mcap::{McapError, parse_record};
 use serde::de::DeserializeOwned;
 
-use super::messages::{Bytes, DecodedNavdata, Tags, Tick};
+use super::messages::{Bytes, DecodedNavdata, Mission, Tags, Tick};
 use super::order::Order;
 use super::{AGENT_FILE, FLIGHT, FORMAT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic};
 
@@ -52,6 +52,8 @@ pub enum Entry {
     Control(Vec<u8>),
     /// An operator's order.
     Order(Box<Order>),
+    /// The mission, which has changed.
+    Mission(Mission),
     /// An event as text.
     Event {
         /// Whether it is a warning.
@@ -116,7 +118,19 @@ impl Log {
     /// # Errors
     /// [`LogError`] if it is not a flight log.
     pub fn read(file: &[u8]) -> Result<Self, LogError> {
-        let mut content = Content::read(file)?;
+        Self::read_topics(file, &topic::ALL)
+    }
+
+    /// As [`read`](Self::read), without what the drone sent: a fraction of the memory and of the time.
+    ///
+    /// # Errors
+    /// [`LogError`] if it is not a flight log.
+    pub fn read_decisions(file: &[u8]) -> Result<Self, LogError> {
+        Self::read_topics(file, &[topic::TICK, topic::MISSION, topic::LOG])
+    }
+
+    fn read_topics(file: &[u8], wanted: &'static [topic::Topic]) -> Result<Self, LogError> {
+        let mut content = Content::read(file, wanted)?;
         let flight = content.flight;
         let mut text = |name: &str| {
             let text = content.texts.remove(name);
@@ -178,6 +192,14 @@ impl Log {
         })
     }
 
+    /// The mission from each time on at which it changed; none in logs of older versions.
+    pub fn missions(&self) -> impl Iterator<Item = (Duration, &Mission)> {
+        self.entries.iter().filter_map(|(at, entry)| match entry {
+            Entry::Mission(mission) => Some((*at, mission)),
+            _ => None,
+        })
+    }
+
     /// All messages for people: time, whether it is a warning, and text.
     pub fn events(&self) -> impl Iterator<Item = (Duration, bool, &str)> {
         self.entries.iter().filter_map(|(at, entry)| match entry {
@@ -201,6 +223,8 @@ const ALWAYS_UNPACKED_BYTES: usize = 16 << 20;
 /// Content of the file.
 #[derive(Default)]
 struct Content {
+    /// The topics that are read.
+    wanted: &'static [topic::Topic],
     /// Attached texts by name.
     texts: Texts,
     /// Metadata of the flight.
@@ -213,8 +237,8 @@ struct Content {
 }
 
 impl Content {
-    fn read(file: &[u8]) -> Result<Self, LogError> {
-        let mut content = Self::default();
+    fn read(file: &[u8], wanted: &'static [topic::Topic]) -> Result<Self, LogError> {
+        let mut content = Self { wanted, ..Self::default() };
         read_records(file, |record| content.record(record))?;
         Ok(content)
     }
@@ -235,7 +259,7 @@ impl Content {
             }
             McapRecord::Channel(channel) => {
                 // Only known names are kept: a file may have a long one for each of its channels.
-                let known = topic::ALL.iter().find(|topic| topic.name == channel.topic);
+                let known = self.wanted.iter().find(|topic| topic.name == channel.topic);
                 if let Some(topic) = known {
                     self.topics.insert(channel.id, topic.name);
                 }
@@ -306,6 +330,7 @@ fn entry(topic: &str, data: &[u8]) -> Result<Option<Entry>, LogError> {
         _ if topic == topic::NAVDATA.name => Entry::Decoded(parse(topic, data)?),
         _ if topic == topic::CONTROL.name => Entry::Control(bytes(data)?),
         _ if topic == topic::ORDERS.name => Entry::Order(Box::new(parse(topic, data)?)),
+        _ if topic == topic::MISSION.name => Entry::Mission(parse(topic, data)?),
         _ if topic == topic::TAGS.name => Entry::Tags(parse(topic, data)?),
         _ if topic == topic::LOG.name => {
             #[derive(serde::Deserialize)]

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use ardrone_link::video::Picture;
 use autopilot::outcome::Outcome;
+use autopilot::plan::Step;
 use autopilot::vehicle::{Decision, FlightEvent, Operator, OperatorOrder};
 use crossbeam_channel::{Receiver, Sender, bounded, never, select_biased};
 use mcap::McapError;
@@ -166,6 +167,11 @@ impl Recorder {
         self.record(Record::Order { at, by, order });
     }
 
+    /// The mission, which has changed.
+    pub fn mission(&mut self, at: Duration, name: String, steps: Vec<Step>) {
+        self.record(Record::Mission { at, name, steps });
+    }
+
     /// An event of the flight.
     pub fn event(&mut self, at: Duration, event: FlightEvent) {
         self.record(Record::Event { at, event });
@@ -207,6 +213,11 @@ impl Recorder {
 }
 
 impl Recording {
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The error that stopped the recording; returned once.
     pub fn problem(&self) -> Option<RecordingError> {
         self.problems.try_recv().ok()

@@ -28,6 +28,11 @@ pub(super) const ORDERS: Topic = Topic {
     schema: "ardrone_pilot.Order",
     text: include_str!("schemas/order.json"),
 };
+pub(super) const MISSION: Topic = Topic {
+    name: "/mission",
+    schema: "ardrone_pilot.Mission",
+    text: include_str!("schemas/mission.json"),
+};
 /// Foxglove's log schema, displayed as log lines.
 pub(super) const LOG: Topic =
     Topic { name: "/log", schema: "foxglove.Log", text: include_str!("schemas/log.json") };
@@ -45,5 +50,5 @@ pub(super) const TAGS: Topic =
 /// Pictures of the drone's camera: protobuf, unlike the others.
 pub(super) const VIDEO: &str = "/video";
 
-pub(super) const ALL: [Topic; 9] =
-    [TICK, NAVDATA, RAW_NAVDATA, CONTROL, ORDERS, LOG, POSE, TARGET, TAGS];
+pub(super) const ALL: [Topic; 10] =
+    [TICK, NAVDATA, RAW_NAVDATA, CONTROL, ORDERS, MISSION, LOG, POSE, TARGET, TAGS];

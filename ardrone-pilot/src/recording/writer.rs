@@ -18,7 +18,7 @@ use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
 use serde::Serialize;
 use serde_json::json;
 
-use super::messages::{Bytes, DecodedNavdata, Place, Tags, Tick};
+use super::messages::{Bytes, DecodedNavdata, Mission, Place, Tags, Tick};
 use super::order::Order;
 use super::{
     AGENT_FILE, EVENT, FLIGHT, FORMAT, Header, OUTCOME, PLAN_FILE, Record, SETTINGS_FILE,
@@ -130,6 +130,10 @@ impl<W: Write + Seek> LogWriter<W> {
             }
             Record::Order { at, by, order } => {
                 self.message(topic::ORDERS, *at, &Order::new(*by, order))
+            }
+            Record::Mission { at, name, steps } => {
+                let steps = steps.iter().map(|step| step.text.clone()).collect();
+                self.message(topic::MISSION, *at, &Mission { name: name.clone(), steps })
             }
             Record::Event { at, event } => {
                 let level = if event.warns() { Level::Warning } else { Level::Info };

@@ -79,7 +79,8 @@ impl<'a> Flight<'a> {
         let ticks: Vec<(f64, &Tick)> =
             log.ticks().map(|(at, tick)| (at.as_secs_f64(), tick)).collect();
         let end_s = ticks.last()?.0;
-        let steps = steps(&log.plan);
+        let mut missions = log.missions().peekable();
+        let mut steps = steps(&log.plan);
         let mut flight = Self {
             bands: Vec::new(),
             decisions: Vec::new(),
@@ -92,6 +93,9 @@ impl<'a> Flight<'a> {
         for index in 0..flight.ticks.len() {
             let (at_s, tick) = flight.ticks[index];
             let until_s = flight.ticks.get(index + 1).map_or(at_s, |(next_s, _)| *next_s);
+            while let Some((_, mission)) = missions.next_if(|(at, _)| at.as_secs_f64() <= at_s) {
+                steps = mission.steps.iter().map(|step| label(step)).collect();
+            }
             flight.extend_band(at_s, until_s, tick, &steps);
             flight.extend_decision(at_s, until_s, tick, &steps);
             flight.extend_plans(tick, &log.agent);

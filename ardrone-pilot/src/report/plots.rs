@@ -21,7 +21,7 @@ const POINTS: usize = 1500;
 const PLACE: &str = "Place (m), dashed: the target";
 
 const BLUE: RGBColor = RGBColor(25, 95, 170);
-const ORANGE: RGBColor = RGBColor(214, 96, 26);
+const ORANGE: RGBColor = RGBColor(178, 76, 14);
 const GREEN: RGBColor = RGBColor(40, 130, 70);
 const PURPLE: RGBColor = RGBColor(120, 70, 150);
 const GREY: RGBColor = RGBColor(110, 110, 110);

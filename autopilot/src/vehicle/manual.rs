@@ -4,12 +4,14 @@ use std::time::Duration;
 
 use kinematics::{Pose, Sticks};
 
-use super::{FlightEvent, Refused, Vehicle};
+use super::{FlightEvent, Operator, Refused, Station, Vehicle};
 use crate::agent::Report;
 use crate::safety::INSIDE_M;
 
 /// Stick input expires after this time. Key repeat is faster, so a held key keeps flying.
 const STICK_TIME: Duration = Duration::from_millis(600);
+/// Stick input from a page, which repeats it every 100 ms and knows when a key is released.
+const PAGE_STICK_TIME: Duration = Duration::from_millis(250);
 
 /// Manual control of the current flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -29,7 +31,7 @@ enum Mode {
     None,
     Steered {
         sticks: Sticks,
-        since: Duration,
+        until: Duration,
     },
     SentTo {
         place: Pose,
@@ -42,9 +44,7 @@ impl Manual {
     /// The current stick input; `None` once it has expired.
     pub(super) fn sticks(&self, now: Duration) -> Option<Sticks> {
         match self.mode {
-            Mode::Steered { sticks, since } if now.saturating_sub(since) < STICK_TIME => {
-                Some(sticks)
-            }
+            Mode::Steered { sticks, until } if now < until => Some(sticks),
             _ => None,
         }
     }
@@ -61,7 +61,7 @@ impl Vehicle {
         self.agent_holds();
     }
 
-    pub(super) fn steer(&mut self, now: Duration, sticks: Sticks) {
+    pub(super) fn steer(&mut self, now: Duration, by: Operator, sticks: Sticks) {
         if self.flight.manual.sticks(now).is_none() {
             self.begin_manual(FlightEvent::Steered);
             self.flight.manual.pre_empts = true;
@@ -69,7 +69,11 @@ impl Vehicle {
             let accepted = self.flight.agent.achieve_steer();
             debug_assert!(accepted);
         }
-        self.flight.manual.mode = Mode::Steered { sticks, since: now };
+        let lasts = match by.station {
+            Station::Browser => PAGE_STICK_TIME,
+            Station::Terminal | Station::Program | Station::Mavlink => STICK_TIME,
+        };
+        self.flight.manual.mode = Mode::Steered { sticks, until: now + lasts };
     }
 
     pub(super) fn send_to(&mut self, now: Duration, x_m: f64, y_m: f64) {
@@ -148,13 +152,12 @@ mod tests {
 
     #[test]
     fn stick_input_expires() {
-        let (sticks, since) = (Sticks { roll: 0.5, ..Sticks::default() }, Duration::from_secs(5));
-        let manual = Manual { mode: Mode::Steered { sticks, since }, ..Manual::default() };
-        let last = since + STICK_TIME.saturating_sub(Duration::from_millis(1));
-        assert_eq!(manual.sticks(since), Some(sticks));
+        let (sticks, until) = (Sticks { roll: 0.5, ..Sticks::default() }, Duration::from_secs(5));
+        let manual = Manual { mode: Mode::Steered { sticks, until }, ..Manual::default() };
+        let last = until.saturating_sub(Duration::from_millis(1));
         assert_eq!(manual.sticks(last), Some(sticks));
-        assert_eq!(manual.sticks(since + STICK_TIME), None);
-        assert_eq!(Manual::default().sticks(since), None);
+        assert_eq!(manual.sticks(until), None);
+        assert_eq!(Manual::default().sticks(last), None);
         assert!(!manual.sends(), "no place was given");
         let mode = Mode::SentTo { place: Pose::default(), offered: false };
         assert!(Manual { mode, ..manual }.sends());

@@ -326,6 +326,10 @@ impl Vehicle {
             mission_waits: self.flight.manual.holds_mission,
             controls: self.controls.holder(),
             pose: self.session.silence(now).map(|_| pose),
+            velocity_m_s: self
+                .session
+                .silence(now)
+                .and(self.decision.as_ref().map(|decision| decision.state.velocity_m_s.into())),
             target: self.flight.target,
             distance_m: self.flight.target.map(|target| distance(&pose, &target)),
             battery_percent: self.demo().map(|demo| demo.battery_percent),

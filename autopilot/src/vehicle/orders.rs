@@ -38,7 +38,8 @@ pub enum OperatorOrder {
     Hold,
     /// Resume the mission.
     Resume,
-    /// Manual control: stick fractions with the drone's signs. They expire after 600 ms unless repeated.
+    /// Manual control: stick fractions with the drone's signs. They expire after 600 ms unless repeated, those of a
+    /// browser's page after 250 ms.
     Steer(Sticks),
     /// Fly to this place at the present height and heading and stay there; the mission is paused. A place
     /// near or outside the fence is moved inside. Coordinates are in the estimator's frame.
@@ -58,6 +59,8 @@ pub enum OperatorOrder {
     /// Show this camera in the video. It takes no controls; a remote operator must not switch the picture of somebody
     /// else who has them.
     Camera(Camera),
+    /// Have the controls, and change nothing else.
+    Take,
     /// Release the controls.
     Release,
 }
@@ -141,6 +144,7 @@ impl OperatorOrder {
             Self::Cut => "cut",
             Self::Recover => "recover",
             Self::Camera(_) => "camera",
+            Self::Take => "take",
             Self::Release => "release",
         }
     }
@@ -183,6 +187,8 @@ impl Vehicle {
             }
             OperatorOrder::Recover => return self.recover(now),
             OperatorOrder::Camera(camera) => return self.show_camera(now, by, camera),
+            // They have been taken already.
+            OperatorOrder::Take => {}
             OperatorOrder::Release => self.controls.release(by),
             // Before the drone has left the ground a hold keeps it there.
             OperatorOrder::Hold if self.is_about_to_fly() => {
@@ -194,7 +200,7 @@ impl Vehicle {
             }
             OperatorOrder::Steer(demand) => {
                 self.can_be_held()?;
-                self.steer(now, demand);
+                self.steer(now, by, demand);
             }
             OperatorOrder::GoTo { x_m, y_m } if x_m.is_finite() && y_m.is_finite() => {
                 self.can_be_held()?;

@@ -41,8 +41,13 @@ pub enum Output<'a> {
     Transmit(Transmit<'a>),
     /// An event of the flight.
     Event(FlightEvent),
-    /// The mission has changed; all its steps.
-    Mission(&'a [Step]),
+    /// The mission has changed.
+    Mission {
+        /// Name of the loaded plan; empty without one.
+        name: &'a str,
+        /// All its steps.
+        steps: &'a [Step],
+    },
     /// A target of the mission was reached.
     Waypoint(Waypoint),
     /// The reasons not to take off have changed; all of them.
@@ -95,7 +100,10 @@ impl Vehicle {
             return self.poll_transmit().map(Output::Transmit);
         }
         if std::mem::take(&mut self.pending.mission) {
-            return Some(Output::Mission(self.mission.steps()));
+            return Some(Output::Mission {
+                name: self.mission.name(),
+                steps: self.mission.steps(),
+            });
         }
         if let Some(event) = self.events.pop_front() {
             return Some(Output::Event(event));

@@ -277,6 +277,8 @@ pub struct Status {
     pub controls: Option<Operator>,
     /// Estimated pose; `None` until the drone has been heard.
     pub pose: Option<Pose>,
+    /// Estimated velocity, right, forward and up; `None` until the drone has been heard.
+    pub velocity_m_s: Option<[f64; 3]>,
     /// Current target pose.
     pub target: Option<Pose>,
     /// Distance to the target.

@@ -85,7 +85,7 @@ impl View {
         match message {
             Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
             Message::Waypoint(_) => {}
-            Message::Mission(steps) => {
+            Message::Mission { steps, .. } => {
                 self.steps = steps.iter().map(|step| step.text.clone()).collect();
             }
             Message::Readiness(_, reasons) => {
@@ -395,6 +395,7 @@ mod tests {
             mission_waits: false,
             controls: None,
             pose: Some(Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 }),
+            velocity_m_s: Some([0.5, 0.0, 0.0]),
             target: Some(target),
             distance_m: Some(1.0 - share),
             battery_percent: Some(87),
@@ -416,7 +417,7 @@ mod tests {
     fn the_screen_shows_the_flight() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\ngoto 1 1 0 0\nland\n").unwrap();
         let mut view = View::new(&FlightLimits::default());
-        view.take_in(&Message::Mission(plan.steps().to_vec()));
+        view.take_in(&Message::Mission { name: String::new(), steps: plan.steps().to_vec() });
         for tick in 0..40_u32 {
             let status = status(f64::from(tick) / 40.0);
             let ticks = TickHealth { lateness: Duration::from_micros(230), skipped: 1 };

@@ -142,7 +142,7 @@ impl Bench {
                 Output::Event(event) => self.events.push(event),
                 Output::Ended(outcome) => self.outcomes.push(outcome.clone()),
                 Output::Readiness(reasons) => self.readiness.push(reasons.to_vec()),
-                Output::Mission(steps) => self.missions.push(steps.len()),
+                Output::Mission { steps, .. } => self.missions.push(steps.len()),
                 Output::Waypoint(waypoint) => self.waypoints.push(waypoint),
                 Output::Transmit(Transmit::WakeUp) => {}
             }

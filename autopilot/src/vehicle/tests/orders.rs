@@ -6,6 +6,7 @@ use kinematics::Sticks;
 
 use super::bench::{Bench, SECOND, START};
 use super::*;
+use crate::agent::AgentCommand;
 use crate::plan::Commands;
 
 const PLAN: &str = "takeoff\nland";
@@ -43,6 +44,7 @@ fn orders_are_named_like_their_variants_and_three_are_for_anyone() {
         OperatorOrder::Cut,
         OperatorOrder::Recover,
         OperatorOrder::Camera(Camera::Bottom),
+        OperatorOrder::Take,
         OperatorOrder::Release,
     ];
     for order in &orders {
@@ -138,7 +140,7 @@ fn the_sticks_steer_and_hold_when_they_are_let_go() {
     bench.accepted(steer());
     bench.run(SECOND);
     let wanted = bench.vehicle.decision().unwrap().wanted;
-    assert_ne!(wanted, crate::agent::AgentCommand::Sticks, "expired");
+    assert_ne!(wanted, AgentCommand::Sticks, "expired");
     let steered = bench.events.iter().filter(|event| **event == FlightEvent::Steered);
     assert_eq!(steered.count(), 1, "repeated sticks are one order");
     assert!(bench.vehicle.status(bench.now).mission_waits);
@@ -296,6 +298,36 @@ fn a_remote_operator_has_the_controls_until_it_releases_them_or_a_local_one_take
     // Anyone may land.
     assert_eq!(order(&mut bench, REMOTE, OperatorOrder::Land), Ok(()));
     assert_eq!(holder(&bench), Some(Operator::TERMINAL));
+}
+
+#[test]
+fn the_controls_can_be_taken_without_changing_anything_else() {
+    let mut bench = Bench::in_the_air(STAY);
+    bench.accepted(OperatorOrder::Release);
+    assert_eq!(bench.vehicle.order(bench.now, REMOTE, OperatorOrder::Take), Ok(()));
+    let held = Err(Refused::ControlsHeld(REMOTE));
+    assert_eq!(bench.vehicle.order(bench.now, OTHER, OperatorOrder::Take), held);
+    bench.accepted(OperatorOrder::Take);
+    bench.step();
+    let status = bench.vehicle.status(bench.now);
+    assert_eq!((status.controls, status.mission_waits), (Some(Operator::TERMINAL), false));
+}
+
+/// A page repeats its sticks more often than a terminal repeats a key.
+#[test]
+fn sticks_of_a_page_expire_sooner_than_those_of_a_terminal() {
+    const PAGE: Operator = Operator { station: Station::Browser, number: 1, local: true };
+    let steers = |bench: &Bench| bench.vehicle.decision().unwrap().wanted == AgentCommand::Sticks;
+    for (by, expected) in [(PAGE, 250), (Operator::TERMINAL, 600)] {
+        let mut bench = Bench::in_the_air(STAY);
+        let since = bench.now;
+        bench.vehicle.order(bench.now, by, steer()).unwrap();
+        bench.step();
+        assert!(steers(&bench));
+        bench.until(2 * SECOND, |bench| !steers(bench));
+        let lasted = bench.now.saturating_sub(since).as_millis();
+        assert!((expected..expected + 100).contains(&lasted), "{lasted}");
+    }
 }
 
 #[test]

@@ -9,9 +9,9 @@ use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 use crate::flight::Controls;
 
 /// Words that are orders of their own; everything else is a command of the plan language.
-const ORDERS: [&str; 14] = [
-    "load", "append", "clear", "start", "hold", "resume", "land", "cut", "recover", "release",
-    "front", "bottom", "quit", "help",
+const ORDERS: [&str; 15] = [
+    "load", "append", "clear", "start", "hold", "resume", "land", "cut", "recover", "take",
+    "release", "front", "bottom", "quit", "help",
 ];
 /// Commands of the plan language, for completion.
 const COMMANDS: [&str; 15] = [
@@ -33,13 +33,13 @@ const COMMANDS: [&str; 15] = [
 ];
 
 /// Summary of the orders.
-pub(super) const HELP: &str = "load FILE, start, hold, resume, clear, land, cut, recover (after an \
-    emergency), release (the controls), front or bottom (camera), quit; anything else is appended to the mission: takeoff, \
+pub(crate) const HELP: &str = "load FILE, start, hold, resume, clear, land, cut, recover (after an \
+    emergency), take or release (the controls), front or bottom (camera), quit; anything else is appended to the mission: takeoff, \
     goto x y z yaw, moveBy, moveByRel, setReference, setStayTime, findTag, landOnTag, ...; `append land` appends a landing";
 
 /// Why a typed line was not carried out.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum TypedError {
+pub(crate) enum TypedError {
     #[error("cannot read the plan {path}")]
     Read { path: String, source: std::io::Error },
     #[error(transparent)]
@@ -48,6 +48,8 @@ pub(super) enum TypedError {
     Alone(String),
     #[error("write `load FILE`")]
     NoFile,
+    #[error("`{0}` is for the terminal in which the program runs")]
+    Here(String),
     #[error("{HELP}")]
     Help,
     #[error(transparent)]
@@ -56,7 +58,7 @@ pub(super) enum TypedError {
 
 /// A parsed line.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Typed {
+pub(crate) enum Typed {
     Order(OperatorOrder),
     Quit,
 }
@@ -65,7 +67,7 @@ pub(super) enum Typed {
 ///
 /// # Errors
 /// [`TypedError`] if it was not carried out.
-pub(super) fn obey(
+pub(crate) fn obey(
     line: &str,
     limits: &FlightLimits,
     controls: &Controls,
@@ -85,7 +87,7 @@ pub(super) fn obey(
 ///
 /// # Errors
 /// [`TypedError`] if it is no order.
-pub(super) fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedError> {
+pub(crate) fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedError> {
     let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
     let rest = rest.trim();
     let order = match word {
@@ -104,12 +106,33 @@ pub(super) fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedErr
         "recover" => OperatorOrder::Recover,
         "front" => OperatorOrder::Camera(Camera::Front),
         "bottom" => OperatorOrder::Camera(Camera::Bottom),
+        "take" => OperatorOrder::Take,
         "release" => OperatorOrder::Release,
         "quit" => return Ok(Typed::Quit),
         "help" => return Err(TypedError::Help),
         _ => OperatorOrder::Append(Commands::parse("command", line)?),
     };
     Ok(Typed::Order(order))
+}
+
+/// As [`parse`], of a line from elsewhere: nothing that reads files here or ends the program.
+///
+/// # Errors
+/// [`TypedError`] if it is no order.
+pub(crate) fn parse_remote(line: &str, limits: &FlightLimits) -> Result<OperatorOrder, TypedError> {
+    match line.split_whitespace().next() {
+        Some(word @ ("load" | "quit")) => Err(TypedError::Here(word.to_owned())),
+        _ => match parse(line, limits)? {
+            Typed::Order(order) => Ok(order),
+            Typed::Quit => Err(TypedError::Here("quit".to_owned())),
+        },
+    }
+}
+
+/// The words that a line can begin with, other than those of [`TypedError::Here`].
+pub(crate) fn remote_words() -> impl Iterator<Item = &'static str> {
+    let here = |word: &&str| !matches!(*word, "load" | "quit" | "help");
+    ORDERS.into_iter().filter(here).chain(COMMANDS)
 }
 
 fn read(path: &str, limits: &FlightLimits) -> Result<Plan, TypedError> {
@@ -119,7 +142,7 @@ fn read(path: &str, limits: &FlightLimits) -> Result<Plan, TypedError> {
 }
 
 /// Completions of a line: orders, commands, and files after `load`.
-pub(super) fn completions(line: &str) -> Vec<String> {
+pub(crate) fn completions(line: &str) -> Vec<String> {
     if let Some(path) = line.strip_prefix("load ") {
         return files(path).into_iter().map(|path| format!("load {path}")).collect();
     }
@@ -168,11 +191,23 @@ mod tests {
     }
 
     #[test]
+    fn lines_from_elsewhere_read_no_file_and_do_not_end_the_program() {
+        let typed = |line| parse_remote(line, &FlightLimits::default());
+        assert!(matches!(typed("hold"), Ok(OperatorOrder::Hold)));
+        for line in ["load /etc/passwd", " quit", "load"] {
+            assert!(matches!(typed(line), Err(TypedError::Here(_))), "{line}");
+        }
+        assert!(
+            remote_words().all(|word| word != "load") && remote_words().any(|word| word == "goto")
+        );
+    }
+
+    #[test]
     fn orders_commands_and_files_are_completed() {
         assert_eq!(completions("res"), ["resume"]);
         assert_eq!(completions("moveByR"), ["moveByRel"]);
-        let files = completions("load src/cli/typ");
-        assert_eq!(files, ["load src/cli/typed.rs"]);
+        let files = completions("load src/cli/term");
+        assert_eq!(files, ["load src/cli/terminal.rs"]);
         assert!(completions("load src/cl").contains(&"load src/cli/".to_owned()));
         assert!(completions("load /no/such/folder/").is_empty());
     }
