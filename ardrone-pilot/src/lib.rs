@@ -3,8 +3,10 @@
 //! - [`flight`] runs the vehicle in real time over UDP. [`realtime`] requests real-time scheduling, and
 //!   [`timing`] measures the ticks.
 //! - [`recording`] is the flight log, [`replay`] replays a log, [`report`] makes a page of it,
-//!   [`plan_drawing`] draws a plan.
+//!   [`flights`] finds the flights in it, [`plan_drawing`] draws a
+//!   plan.
 //! - [`video`] passes on what the camera sees.
+//! - [`drive`] runs the vehicle in simulated time with a simulated drone; [`simulation`] flies a plan so.
 //! - [`browser`] shows the flight in a browser, [`cli`] in the terminal.
 //! - [`settings`] reads `pilot.toml`.
 #![forbid(unsafe_code)]
@@ -15,9 +17,12 @@
 
 pub mod browser;
 mod camera;
+mod checked_plan;
 pub mod cli;
 mod drawing;
+pub mod drive;
 pub mod flight;
+mod flights;
 mod flown_path;
 mod json;
 pub mod plan_drawing;
@@ -26,5 +31,7 @@ pub mod recording;
 pub mod replay;
 pub mod report;
 pub mod settings;
+pub mod simulation;
 pub mod timing;
+mod typed;
 pub mod video;

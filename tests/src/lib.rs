@@ -3,7 +3,6 @@
 
 mod alone;
 pub mod campaign;
-pub mod drive;
 pub mod landings;
 pub mod rules;
 pub mod sensors;

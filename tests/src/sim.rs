@@ -13,7 +13,7 @@ use autopilot::vehicle::{
 };
 use mock_drone::{Truth, World, WorldConfig};
 
-use crate::drive::{Driver, Passed};
+use ardrone_pilot::drive::{Driver, Passed};
 
 /// A world to fly in.
 #[derive(Debug, Clone, Default)]

@@ -98,6 +98,15 @@ impl Chromium {
         self.call(Some(tab), "Runtime.evaluate", &parameters)["result"]["value"].clone()
     }
 
+    /// The value that a promise in the page comes to.
+    pub(crate) fn settle(&mut self, tab: &Tab, promise: &str) -> Value {
+        let parameters =
+            json!({ "expression": promise, "returnByValue": true, "awaitPromise": true });
+        let result = self.call(Some(tab), "Runtime.evaluate", &parameters);
+        assert!(result["exceptionDetails"].is_null(), "{promise:.200}: {result}");
+        result["result"]["value"].clone()
+    }
+
     /// Waits until a condition is true in the page.
     pub(crate) fn wait(&mut self, tab: &Tab, condition: &str) {
         let start = Instant::now();
@@ -128,18 +137,76 @@ impl Chromium {
         self.mouse(tab, selector, off, &["mousePressed"]);
     }
 
-    fn mouse(&mut self, tab: &Tab, selector: &str, off: [f64; 2], kinds: &[&str]) {
-        let place = self.evaluate(
+    /// Drags an element with the mouse by an offset.
+    pub(crate) fn drag(&mut self, tab: &Tab, selector: &str, by: [f64; 2]) {
+        let [x, y] = self.middle(tab, selector);
+        for (kind, part) in [
+            ("mousePressed", 0.0),
+            ("mouseMoved", 0.3),
+            ("mouseMoved", 1.0),
+            ("mouseReleased", 1.0),
+        ] {
+            let mouse = json!({
+                "type": kind, "x": x + part * by[0], "y": y + part * by[1],
+                "button": "left", "buttons": 1, "clickCount": 1,
+            });
+            self.call(Some(tab), "Input.dispatchMouseEvent", &mouse);
+        }
+    }
+
+    /// Chooses an option of a list.
+    pub(crate) fn choose(&mut self, tab: &Tab, selector: &str, value: &str) {
+        let list = format!("document.querySelector('{selector}')");
+        self.wait(
             tab,
-            &format!(
-                "{{ const box = document.querySelector('{selector}').getBoundingClientRect(); \
-                 [box.x + box.width / 2, box.y + box.height / 2] }}"
-            ),
+            &format!("[...{list}.options].some((option) => option.value === '{value}')"),
         );
-        let [x, y] = [0, 1].map(|axis| place[axis].as_f64().unwrap() + off[axis]);
+        let choose = format!("{list}.value = '{value}'; {list}.dispatchEvent(new Event('change'))");
+        self.evaluate(tab, &choose);
+    }
+
+    /// Replaces the content of a field as if it was typed.
+    pub(crate) fn type_into(&mut self, tab: &Tab, selector: &str, text: &str) {
+        let field = format!("document.querySelector('{selector}')");
+        self.evaluate(tab, &format!("{field}.focus(); {field}.select()"));
+        self.call(Some(tab), "Input.insertText", &json!({ "text": text }));
+    }
+
+    /// Sets the size of the window and the colour scheme, light or dark.
+    pub(crate) fn look(&mut self, tab: &Tab, [width, height]: [u32; 2], scheme: &str) {
+        let size =
+            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.call(Some(tab), "Emulation.setDeviceMetricsOverride", &size);
+        let features = json!([{ "name": "prefers-color-scheme", "value": scheme }]);
+        self.call(Some(tab), "Emulation.setEmulatedMedia", &json!({ "features": features }));
+    }
+
+    fn mouse(&mut self, tab: &Tab, selector: &str, off: [f64; 2], kinds: &[&str]) {
+        let [x, y] = self.middle(tab, selector);
+        let [x, y] = [x + off[0], y + off[1]];
         for kind in kinds {
             let mouse = json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1 });
             self.call(Some(tab), "Input.dispatchMouseEvent", &mouse);
+        }
+    }
+
+    /// The middle of an element that has come to rest.
+    fn middle(&mut self, tab: &Tab, selector: &str) -> [f64; 2] {
+        let middle = format!(
+            "{{ const box = document.querySelector('{selector}').getBoundingClientRect(); \
+             [box.x + box.width / 2, box.y + box.height / 2] }}"
+        );
+        let (start, mut last) = (Instant::now(), [f64::NAN; 2]);
+        loop {
+            assert!(start.elapsed() < PATIENCE, "{selector} does not come to rest");
+            let place = self.evaluate(tab, &middle);
+            // It may not be there yet.
+            let now = [0, 1].map(|axis| place[axis].as_f64().unwrap_or(f64::NAN));
+            if now.iter().zip(last).all(|(now, last)| (now - last).abs() < 0.5) {
+                return now;
+            }
+            last = now;
+            std::thread::sleep(Duration::from_millis(50));
         }
     }
 

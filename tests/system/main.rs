@@ -13,6 +13,7 @@ mod conversation;
 mod dependencies;
 mod estimate;
 mod faults;
+mod ground_station;
 mod lateness;
 mod parting;
 mod plans;

@@ -8,16 +8,22 @@
 //! requires a token, which is new for each flight. Pages of other sites are refused everywhere.
 
 mod access;
+mod files;
+mod folder;
 mod pictures;
+mod planning;
 mod requests;
 mod server;
 mod snapshot;
 
 use std::net::{SocketAddr, TcpListener};
+use std::path::PathBuf;
 
-use autopilot::plan::{FlightLimits, Plan};
+use autopilot::plan::Plan;
 
 use self::access::Access;
+use self::files::Files;
+pub use self::planning::Planning;
 use self::server::Server;
 use self::snapshot::Snapshot;
 use crate::flight::{Controls, Message};
@@ -40,6 +46,21 @@ pub enum BrowserError {
     /// A thread could not be started.
     #[error("cannot start the page's thread")]
     Thread(#[source] std::io::Error),
+}
+
+/// What the page offers besides the flight.
+#[derive(Debug, Clone)]
+pub struct PageConfig {
+    /// The drone that is flown, for people.
+    pub drone: String,
+    /// By what plans are checked and simulated.
+    pub planning: Planning,
+    /// Folder of the plans.
+    pub plans: PathBuf,
+    /// Folder of the recordings.
+    pub flights: PathBuf,
+    /// The recording of this run, which cannot be deleted.
+    pub recording: Option<PathBuf>,
 }
 
 /// A bound address, reserved before the flight begins.
@@ -74,12 +95,14 @@ impl Listener {
     pub fn open(
         self,
         plan: Option<&Plan>,
-        limits: &FlightLimits,
+        page: PageConfig,
         controls: Controls,
         video: Option<VideoFeed>,
     ) -> Result<Browser, BrowserError> {
-        let snapshot = Snapshot::new(plan, limits);
-        let server = Server::start(self.listener, self.access, snapshot, controls, video)
+        let PageConfig { drone, planning, plans, flights, recording } = page;
+        let snapshot = Snapshot::new(plan, &planning.config.limits, &drone);
+        let files = Files::new(planning, plans, flights, recording);
+        let server = Server::start(self.listener, self.access, snapshot, files, controls, video)
             .map_err(BrowserError::Thread)?;
         Ok(Browser { server })
     }

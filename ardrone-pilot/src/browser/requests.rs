@@ -6,7 +6,9 @@ use autopilot::vehicle::OperatorOrder;
 use kinematics::Sticks;
 use serde::Deserialize;
 
+use super::planning::Planning;
 use crate::camera::NamedCamera;
+use crate::typed;
 
 /// A cut must be confirmed within this time.
 const CUT_AGAIN: Duration = Duration::from_secs(3);
@@ -16,9 +18,20 @@ const LEAST_APART: Duration = Duration::from_millis(20);
 const FORGIVEN: u32 = 10;
 
 /// A request of the page.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "order", rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
+    /// Replaces the mission.
+    Load {
+        name: String,
+        plan: String,
+    },
+    /// A line as in the terminal.
+    Typed {
+        line: String,
+    },
+    Take,
+    Release,
     Start,
     Hold,
     Resume,
@@ -48,6 +61,9 @@ pub(super) enum RequestError {
     /// Not a valid [`Request`].
     #[error("not understood: {0}")]
     Meaningless(String),
+    /// A plan that cannot be flown, or a line that is no order.
+    #[error("{0}")]
+    Wrong(String),
     /// A stick that is further out than it can be.
     #[error("sticks are from -1 to 1")]
     NoSticks,
@@ -76,6 +92,7 @@ impl Requests {
         &mut self,
         now: Duration,
         text: &str,
+        planning: &Planning,
     ) -> Result<Option<OperatorOrder>, RequestError> {
         let request = serde_json::from_str(text).map_err(|error| {
             self.meaningless += 1;
@@ -89,7 +106,25 @@ impl Requests {
             return Err(RequestError::TooFast);
         }
         let armed = self.armed.take();
+        let is_armed = armed.is_some_and(|at| now.saturating_sub(at) < CUT_AGAIN);
         Ok(Some(match request {
+            Request::Load { name, plan } => {
+                let plan = planning.parse(&name, &plan);
+                OperatorOrder::Load(plan.map_err(|error| RequestError::Wrong(error.to_string()))?)
+            }
+            Request::Typed { line } => {
+                let order = typed::parse_remote(&line, &planning.config.limits);
+                match order.map_err(|error| RequestError::Wrong(error.to_string()))? {
+                    // As the button, twice.
+                    OperatorOrder::Cut if !is_armed => {
+                        self.armed = Some(now);
+                        return Ok(None);
+                    }
+                    order => order,
+                }
+            }
+            Request::Take => OperatorOrder::Take,
+            Request::Release => OperatorOrder::Release,
             Request::Start => OperatorOrder::Start { when_ready: false },
             Request::Hold => OperatorOrder::Hold,
             Request::Resume => OperatorOrder::Resume,
@@ -108,9 +143,7 @@ impl Requests {
                 self.armed = Some(now);
                 return Ok(None);
             }
-            Request::Cut if armed.is_some_and(|at| now.saturating_sub(at) < CUT_AGAIN) => {
-                OperatorOrder::Cut
-            }
+            Request::Cut if is_armed => OperatorOrder::Cut,
             Request::Cut => return Err(RequestError::NotArmed),
         }))
     }
@@ -124,15 +157,20 @@ impl Requests {
 #[cfg(test)]
 mod tests {
     use ardrone_link::settings::Camera;
+    use autopilot::vehicle::VehicleConfig;
     use proptest::prelude::*;
 
     use super::*;
 
     const SECOND: Duration = Duration::from_secs(1);
 
+    fn planning() -> Planning {
+        Planning { config: VehicleConfig::default(), surveyed: None }
+    }
+
     #[test]
     fn requests_are_orders() {
-        let order = |text| Requests::default().order(Duration::ZERO, text);
+        let order = |text| Requests::default().order(Duration::ZERO, text, &planning());
         assert_eq!(order(r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
         assert_eq!(order(r#"{"order":"resume"}"#), Ok(Some(OperatorOrder::Resume)));
         assert_eq!(order(r#"{"order":"land"}"#), Ok(Some(OperatorOrder::Land)));
@@ -160,11 +198,29 @@ mod tests {
     }
 
     #[test]
+    fn plans_and_typed_lines_are_orders() {
+        let order = |text| Requests::default().order(Duration::ZERO, text, &planning());
+        let load = order(r#"{"order":"load","name":"p","plan":"takeoff\ngoto 0 1 0 0\nland\n"}"#);
+        assert!(matches!(load, Ok(Some(OperatorOrder::Load(plan))) if plan.steps().len() == 3));
+        let append = order(r#"{"order":"typed","line":"goto 1 0 0 0"}"#);
+        assert!(matches!(append, Ok(Some(OperatorOrder::Append(_)))));
+        for text in [
+            r#"{"order":"load","name":"p","plan":"takeoff\ngoto 99 0 0 0"}"#,
+            r#"{"order":"typed","line":"gotoo 1 0 0 0"}"#,
+            r#"{"order":"typed","line":"load /etc/passwd"}"#,
+            r#"{"order":"typed","line":"quit"}"#,
+        ] {
+            assert!(matches!(order(text), Err(RequestError::Wrong(_))), "{text}");
+        }
+    }
+
+    #[test]
     fn one_press_cuts_nothing() {
         const ARM: &str = r#"{"order":"arm"}"#;
         const CUT: &str = r#"{"order":"cut"}"#;
+        const TYPED: &str = r#"{"order":"typed","line":"cut"}"#;
         let mut requests = Requests::default();
-        let mut order = |tenths, text| requests.order(SECOND / 10 * tenths, text);
+        let mut order = |tenths, text| requests.order(SECOND / 10 * tenths, text, &planning());
         assert_eq!(order(0, CUT), Err(RequestError::NotArmed));
         assert_eq!(order(10, ARM), Ok(None));
         assert_eq!(order(39, CUT), Ok(Some(OperatorOrder::Cut)));
@@ -175,19 +231,29 @@ mod tests {
         assert_eq!(order(90, ARM), Ok(None));
         assert_eq!(order(91, r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
         assert_eq!(order(92, CUT), Err(RequestError::NotArmed));
+        // Typed, it is no faster.
+        assert_eq!(order(100, TYPED), Ok(None));
+        assert_eq!(order(101, TYPED), Ok(Some(OperatorOrder::Cut)));
     }
 
     #[test]
     fn floods_and_garbage_are_noticed() {
         let mut requests = Requests::default();
+        let planning = planning();
         let soon = SECOND + SECOND / 100;
-        assert!(requests.order(SECOND, r#"{"order":"resume"}"#).is_ok());
-        assert_eq!(requests.order(soon, r#"{"order":"resume"}"#), Err(RequestError::TooFast));
+        assert!(requests.order(SECOND, r#"{"order":"resume"}"#, &planning).is_ok());
+        assert_eq!(
+            requests.order(soon, r#"{"order":"resume"}"#, &planning),
+            Err(RequestError::TooFast)
+        );
         // However fast they come, a landing is taken.
-        assert_eq!(requests.order(soon, r#"{"order":"land"}"#), Ok(Some(OperatorOrder::Land)));
+        assert_eq!(
+            requests.order(soon, r#"{"order":"land"}"#, &planning),
+            Ok(Some(OperatorOrder::Land))
+        );
         assert!(!requests.is_garbage());
         for count in 0..FORGIVEN {
-            assert!(requests.order(SECOND * (count + 2), "?").is_err());
+            assert!(requests.order(SECOND * (count + 2), "?", &planning).is_err());
         }
         assert!(requests.is_garbage());
     }
@@ -195,7 +261,7 @@ mod tests {
     proptest! {
         #[test]
         fn nothing_panics(text in ".{0,200}") {
-            prop_assert!(Requests::default().order(SECOND, &text).is_err());
+            prop_assert!(Requests::default().order(SECOND, &text, &planning()).is_err());
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::io;
 use std::net::TcpListener;
+use std::sync::atomic::{AtomicU16, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -10,10 +11,10 @@ use autopilot::vehicle::{Operator, OperatorOrder, Station};
 use axum::extract::ws::{self, WebSocket, WebSocketUpgrade};
 use axum::extract::{Request, State};
 use axum::http::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HOST, HeaderMap, ORIGIN, REFERRER_POLICY,
-    X_CONTENT_TYPE_OPTIONS,
+    CACHE_CONTROL, CONNECTION, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HOST, HeaderMap, ORIGIN,
+    REFERRER_POLICY, X_CONTENT_TYPE_OPTIONS,
 };
-use axum::http::{StatusCode, Uri};
+use axum::http::{HeaderName, HeaderValue, StatusCode, Uri};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
@@ -23,14 +24,15 @@ use futures_util::{SinkExt as _, StreamExt as _};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
-use kinematics::Sticks;
 use rustix::net::sockopt::set_socket_send_buffer_size;
 use serde_json::{Value, json};
 use tokio::net::TcpStream;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, broadcast, mpsc, oneshot};
 use tokio::time::{Instant, timeout};
+use tokio_io_timeout::TimeoutStream;
 
 use super::access::{Access, Claims, Refusal};
+use super::files::{Files, PLAN_BYTES};
 use super::pictures;
 use super::requests::Requests;
 use super::snapshot::Snapshot;
@@ -43,7 +45,7 @@ const CONNECTIONS: usize = 64;
 const VIEWERS: u32 = 16;
 /// Messages that a browser may fall behind before it gets a new snapshot.
 const BEHIND: usize = 64;
-/// Timeout of plain HTTP connections.
+/// Timeout of sending a request, and of a response of which nothing is taken.
 const REQUEST_TIME: Duration = Duration::from_secs(5);
 /// A browser that accepts no data for this time is disconnected.
 const WRITE_TIME: Duration = Duration::from_secs(2);
@@ -51,21 +53,50 @@ const WRITE_TIME: Duration = Duration::from_secs(2);
 const PARTING_TIME: Duration = Duration::from_millis(500);
 /// Send buffer of a WebSocket: some seconds of messages.
 const SEND_BYTES: usize = 32 << 10;
-/// Sticks that a page does not repeat within this time are centred; a while later the drone holds.
-const STICK_SILENCE: Duration = Duration::from_millis(250);
-/// Maximum size of a request, more than the page ever sends.
-const REQUEST_BYTES: usize = 1024;
+/// Longest response, a recording over a slow network.
+const RESPONSE_TIME: Duration = Duration::from_mins(10);
+/// Maximum size of a message of the page: a plan as JSON.
+const REQUEST_BYTES: usize = 2 * PLAN_BYTES;
 /// Maximum data waiting to be written on a connection.
 const WRITE_BYTES: usize = 1 << 20;
 
-const PAGE: &str = include_str!("page/index.html");
-const STYLE: &str = include_str!("page/page.css");
-const SCRIPT: &str = include_str!("page/page.js");
-const VIDEO_SCRIPT: &str = include_str!("page/video.js");
-const STICKS_SCRIPT: &str = include_str!("page/sticks.js");
+/// A part of the page, which contains nothing secret.
+#[derive(Debug, Clone, Copy)]
+struct Asset {
+    path: &'static str,
+    kind: &'static str,
+    text: &'static str,
+}
+
+macro_rules! script {
+    ($name:literal) => {
+        Asset {
+            path: concat!("/", $name),
+            kind: "text/javascript; charset=utf-8",
+            text: include_str!(concat!("page/", $name)),
+        }
+    };
+}
+
+/// The page itself comes first.
+const ASSETS: [Asset; 9] = [
+    Asset { path: "/", kind: "text/html; charset=utf-8", text: include_str!("page/index.html") },
+    Asset {
+        path: "/page.css",
+        kind: "text/css; charset=utf-8",
+        text: include_str!("page/page.css"),
+    },
+    script!("page.js"),
+    script!("map.js"),
+    script!("video.js"),
+    script!("sticks.js"),
+    script!("plan.js"),
+    script!("flights.js"),
+    script!("plots.js"),
+];
 /// No content from elsewhere, and no framing: an invisible button must not be clicked (clickjacking).
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
-    img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    img-src 'self' data: blob:; frame-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// The server's thread.
 #[derive(Debug)]
@@ -81,15 +112,18 @@ impl Server {
         listener: TcpListener,
         access: Access,
         snapshot: Snapshot,
+        files: Files,
         controls: Controls,
         video: Option<VideoFeed>,
     ) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let shared = Arc::new(Shared {
             access,
+            files: Arc::new(files),
             controls,
             stage: Mutex::new(Stage { snapshot, sender: Some(broadcast::Sender::new(BEHIND)) }),
             viewers: Arc::new(Semaphore::new(VIEWERS as usize)),
+            pages: AtomicU16::new(0),
             video,
             watchers: Arc::new(Semaphore::new(VIEWERS as usize)),
         });
@@ -106,6 +140,8 @@ impl Server {
                 // Viewers that are slower than this miss the end.
                 _ = timeout(PARTING_TIME, viewers.acquire_many(VIEWERS)).await;
             });
+            // The end does not wait for a simulation or a report.
+            runtime.shutdown_background();
         })?;
         Ok(Self { shared, end: Some(end), thread: Some(thread) })
     }
@@ -141,13 +177,20 @@ impl Drop for Server {
 #[derive(Debug)]
 struct Shared {
     access: Access,
+    files: Arc<Files>,
     controls: Controls,
     stage: Mutex<Stage>,
     viewers: Arc<Semaphore>,
+    /// Pages so far, each of which is an operator.
+    pages: AtomicU16,
     video: Option<VideoFeed>,
     /// Places for those who see the video.
     watchers: Arc<Semaphore>,
 }
+
+/// Whether a client is on this machine.
+#[derive(Debug, Clone, Copy)]
+struct Local(bool);
 
 /// The snapshot and the stream of changes, under one lock so that a new viewer misses nothing between the
 /// two.
@@ -179,30 +222,21 @@ async fn serve(listener: TcpListener, shared: Arc<Shared>) {
             return std::future::pending().await;
         }
     };
-    let asset = |kind: &'static str, text: &'static str| {
-        get(move || async move { ([(CONTENT_TYPE, kind)], text) })
-    };
-    let app = Router::new()
-        .route("/", asset("text/html; charset=utf-8", PAGE))
-        .route("/page.css", asset("text/css; charset=utf-8", STYLE))
-        .route("/page.js", asset("text/javascript; charset=utf-8", SCRIPT))
-        .route("/video.js", asset("text/javascript; charset=utf-8", VIDEO_SCRIPT))
-        .route("/sticks.js", asset("text/javascript; charset=utf-8", STICKS_SCRIPT))
-        .route("/live", get(live))
-        .route("/video", get(video))
-        .layer(middleware::from_fn_with_state(Arc::clone(&shared), guard))
-        .with_state(shared);
+    let mut app = Router::new().route("/live", get(live)).route("/video", get(video));
+    for Asset { path, kind, text } in ASSETS {
+        app = app.route(path, get(move || async move { ([(CONTENT_TYPE, kind)], text) }));
+    }
+    let app = app
+        .with_state(Arc::clone(&shared))
+        .merge(shared.files.router())
+        .layer(middleware::from_fn_with_state(shared, guard));
     let places = Arc::new(Semaphore::new(CONNECTIONS));
-    let mut connections = 0_u16;
     loop {
         // The semaphore is never closed.
         let Ok(place) = Arc::clone(&places).acquire_owned().await else { return };
         match listener.accept().await {
             Ok((stream, peer)) => {
-                connections = connections.wrapping_add(1);
-                let (number, local) = (connections, peer.ip().is_loopback());
-                let by = Operator { station: Station::Browser, number, local };
-                let app = app.clone().layer(Extension(by));
+                let app = app.clone().layer(Extension(Local(peer.ip().is_loopback())));
                 drop(tokio::spawn(connection(stream, app, place)));
             }
             // Too many open files: waits until some are closed.
@@ -217,29 +251,39 @@ async fn connection(stream: TcpStream, app: Router, place: OwnedSemaphorePermit)
     // this option the page is only slower.
     _ = stream.set_nodelay(true);
     _ = set_socket_send_buffer_size(&stream, SEND_BYTES);
+    let mut stream = TimeoutStream::new(stream);
+    stream.set_write_timeout(Some(REQUEST_TIME));
     let served = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(REQUEST_TIME)
-        .serve_connection(TokioIo::new(stream), TowerToHyperService::new(app))
+        .serve_connection(TokioIo::new(Box::pin(stream)), TowerToHyperService::new(app))
         .with_upgrades();
     // A client that disconnects or is too slow is not an error here.
-    _ = timeout(REQUEST_TIME, served).await;
+    _ = timeout(RESPONSE_TIME, served).await;
     drop(place);
 }
 
 /// Checks access, and adds security headers to the response.
 async fn guard(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
-    let response = match check(&shared.access, request.uri(), request.headers()) {
+    let mut response = match check(&shared.access, request.uri(), request.headers()) {
         Ok(()) => next.run(request).await,
         Err(refusal) => (StatusCode::FORBIDDEN, format!("{refusal}\n")).into_response(),
     };
-    let careful = [
+    // A connection that waits for another request would keep a place from others. One that is upgraded goes on.
+    if response.status() != StatusCode::SWITCHING_PROTOCOLS {
+        response.headers_mut().insert(CONNECTION, HeaderValue::from_static("close"));
+    }
+    for (name, value) in [
         (CONTENT_SECURITY_POLICY, POLICY),
         (X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (REFERRER_POLICY, "no-referrer"),
         (CACHE_CONTROL, "no-store"),
-    ];
-    (careful, response).into_response()
+        (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+    ] {
+        // A report has a policy of its own.
+        response.headers_mut().entry(name).or_insert(HeaderValue::from_static(value));
+    }
+    response
 }
 
 fn check(access: &Access, uri: &Uri, headers: &HeaderMap) -> Result<(), Refusal> {
@@ -250,21 +294,24 @@ fn check(access: &Access, uri: &Uri, headers: &HeaderMap) -> Result<(), Refusal>
         origin: headers.get(ORIGIN).map(|origin| origin.to_str().unwrap_or_default()),
         token: parameters.find_map(|parameter| parameter.strip_prefix("token=")),
     };
-    // Style and script contain nothing secret.
-    let orders = !matches!(uri.path(), "/page.css" | "/page.js" | "/video.js" | "/sticks.js");
+    // They load without the token.
+    let is_part = ASSETS.iter().skip(1).any(|asset| asset.path == uri.path());
+    let orders = !is_part;
     access.check(claims, orders)
 }
 
 /// Opens the WebSocket that carries the flight's messages and the page's orders.
 async fn live(
     State(shared): State<Arc<Shared>>,
-    Extension(by): Extension<Operator>,
+    Extension(Local(local)): Extension<Local>,
     upgrade: WebSocketUpgrade,
 ) -> Response {
     let Ok(place) = Arc::clone(&shared.viewers).try_acquire_owned() else {
         let full = "too many pages watch this flight: close one\n";
         return (StatusCode::SERVICE_UNAVAILABLE, full).into_response();
     };
+    let number = shared.pages.fetch_add(1, Ordering::Relaxed).wrapping_add(1);
+    let by = Operator { station: Station::Browser, number, local };
     upgrade
         .max_message_size(REQUEST_BYTES)
         .max_frame_size(REQUEST_BYTES)
@@ -272,6 +319,7 @@ async fn live(
         .on_upgrade(move |socket| async move {
             let (sink, stream) = socket.split();
             let (answers, answered) = mpsc::channel(BEHIND);
+            reply(&answers, &json!({ "type": "you", "name": by.to_string(), "local": by.local }));
             // Orders are received even while writing is blocked.
             tokio::select! {
                 () = write(sink, &shared, answered) => {}
@@ -331,12 +379,12 @@ async fn write(
     _ = timeout(WRITE_TIME, sink.send(ws::Message::Close(None))).await;
 }
 
-fn accepted() -> Value {
-    json!({ "type": "accepted" })
+fn accepted(order: &str) -> Value {
+    json!({ "type": "accepted", "order": order })
 }
 
-fn refused(reason: &str) -> Value {
-    json!({ "type": "refused", "reason": reason })
+fn refused(order: Option<&str>, reason: &str) -> Value {
+    json!({ "type": "refused", "order": order, "reason": reason })
 }
 
 /// Queues an answer; dropped if the page does not read.
@@ -353,41 +401,30 @@ async fn read(
 ) {
     let start = Instant::now();
     let mut requests = Requests::default();
-    // Whether a stick of this page is not centred.
-    let mut steers = false;
-    loop {
-        let patience = if steers { STICK_SILENCE } else { Duration::MAX };
-        let Ok(message) = timeout(patience, stream.next()).await else {
-            steers = false;
-            // Refused if there is nothing to steer any more.
-            _ = shared.controls.order(by, OperatorOrder::Steer(Sticks::default()));
-            continue;
-        };
-        let Some(Ok(message)) = message else { return };
+    while let Some(Ok(message)) = stream.next().await {
         let text = match &message {
             ws::Message::Text(text) => text.as_str(),
             ws::Message::Binary(_) => "",
             ws::Message::Ping(_) | ws::Message::Pong(_) => continue,
             ws::Message::Close(_) => return,
         };
-        let answer = match requests.order(start.elapsed(), text) {
+        let answer = match requests.order(start.elapsed(), text, shared.files.planning()) {
             Ok(None) => json!({ "type": "armed" }),
             Ok(Some(order)) => {
-                steers =
-                    matches!(&order, OperatorOrder::Steer(sticks) if *sticks != Sticks::default());
-                let answers = answers.clone();
+                let (answers, name) = (answers.clone(), order.name());
                 let ordered = shared.controls.order_answered(by, order, move |answer| {
-                    reply(
-                        &answers,
-                        &answer.map_or_else(|why| refused(&why.to_string()), |()| accepted()),
-                    );
+                    let answer = match answer {
+                        Ok(()) => accepted(name),
+                        Err(why) => refused(Some(name), &why.to_string()),
+                    };
+                    reply(&answers, &answer);
                 });
                 match ordered {
                     Ok(()) => continue,
-                    Err(why) => refused(&why.to_string()),
+                    Err(why) => refused(Some(name), &why.to_string()),
                 }
             }
-            Err(error) => refused(&error.to_string()),
+            Err(error) => refused(None, &error.to_string()),
         };
         reply(&answers, &answer);
         if requests.is_garbage() {

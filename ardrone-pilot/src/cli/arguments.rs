@@ -192,6 +192,9 @@ pub(super) struct Fly {
         value_parser = page_address
     )]
     pub(super) ui: Option<SocketAddr>,
+    /// Folder of the plans that the page opens and saves
+    #[arg(long, value_name = "FOLDER", default_value = "plans", requires = "ui")]
+    pub(super) plans: PathBuf,
     /// Print how regular the ticks were and what they cost
     #[arg(long)]
     pub(super) timing: bool,

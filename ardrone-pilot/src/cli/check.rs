@@ -3,18 +3,15 @@
 use std::fmt;
 use std::time::Duration;
 
-use autopilot::plan::{
-    Expectation, FlightLimits, Plan, TagUse, battery_percent, given_tag_warnings,
-};
-use diagnostic::{Diagnostic, Severity, Source, line_column, render_all};
+use autopilot::plan::{Expectation, Plan, battery_percent};
+use diagnostic::{Severity, Source, render_all};
 use kinematics::Pose;
-use serde_json::{Value, json};
 
 use super::arguments::CheckPlan;
 use super::{CommandError, terminal};
+use crate::checked_plan::CheckedPlan;
 use crate::json;
 use crate::plan_drawing;
-use crate::recording::Place;
 
 /// Checks a plan, prints the findings, and draws it if asked to. The exit status is 20 for a plan that cannot
 /// be flown.
@@ -28,21 +25,14 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     let name = arguments.plan.display().to_string();
     let source = Source { name: &name, text: &text };
     let surveyed = settings.surveyed_tags();
-    let given = given_tag_warnings(surveyed.as_deref().unwrap_or_default(), &limits);
-    let tags = surveyed.as_deref().map_or(TagUse::Off, TagUse::On);
-    let (plan, mut diagnostics) = Plan::review_with_tags(&text, &limits, tags);
-    diagnostics.sort_by_key(|diagnostic| diagnostic.span.start);
-    let checked = plan.as_ref().map(|plan| Checked::new(plan, &limits));
+    let checked = CheckedPlan::new(&text, &limits, surveyed.as_deref());
     let printed = if arguments.json {
-        let problems: Vec<Value> = (given.iter().map(|text| given_problem(text)))
-            .chain(diagnostics.iter().map(|diagnostic| problem(diagnostic, &text)))
-            .collect();
-        let steps = checked.as_ref().map(Checked::json);
-        let object = json!({ "plan": name, "steps": steps, "problems": problems });
-        json::text_in_lines(&object) + "\n"
+        json::text_in_lines(&checked.json(&name, &text)) + "\n"
     } else {
-        let table = checked.map(|checked| checked.to_string()).unwrap_or_default();
-        let problems = render_all(&diagnostics, &source);
+        let CheckedPlan { plan, diagnostics, given, expectations } = &checked;
+        let table = plan.as_ref().map(|plan| Table { plan, expectations }.to_string());
+        let table = table.unwrap_or_default();
+        let problems = render_all(diagnostics, &source);
         let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
         let verdict = match (errors, diagnostics.len() + given.len()) {
             (0, 0) => format!("{name} can be flown"),
@@ -57,7 +47,7 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
         parts.join("\n\n") + "\n"
     };
     terminal::print(printed);
-    let Some(plan) = plan else { return Ok(20) };
+    let Some(plan) = checked.plan else { return Ok(20) };
     if let Some(path) = &arguments.svg {
         let drawing = plan_drawing::svg(&name, &plan, &limits)?;
         std::fs::write(path, drawing).map_err(|source| CommandError::Write {
@@ -69,59 +59,16 @@ pub(super) fn run(arguments: &CheckPlan) -> Result<u8, CommandError> {
     Ok(0)
 }
 
-/// An error or a warning as JSON.
-fn problem(diagnostic: &Diagnostic, text: &str) -> Value {
-    let (line, column) = line_column(text, diagnostic.span.start);
-    let severity = match diagnostic.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
-    json!({
-        "severity": severity,
-        "line": line,
-        "column": column,
-        "message": diagnostic.message,
-        "help": diagnostic.help,
-    })
-}
-
-/// A warning about the settings as JSON: it has no place in the plan.
-fn given_problem(text: &str) -> Value {
-    json!({ "severity": "warning", "line": null, "column": null, "message": text, "help": null })
-}
-
 /// A plan with its expected course.
-struct Checked<'a> {
+struct Table<'a> {
     plan: &'a Plan,
-    expectations: Vec<Expectation>,
+    expectations: &'a [Expectation],
 }
 
-impl<'a> Checked<'a> {
-    fn new(plan: &'a Plan, limits: &FlightLimits) -> Self {
-        Self { plan, expectations: plan.expectations(limits) }
-    }
-
-    fn json(&self) -> Vec<Value> {
-        let steps = self.plan.steps().iter().zip(&self.expectations);
-        steps
-            .map(|(step, expected)| {
-                json!({
-                    "line": (step.line > 0).then_some(step.line),
-                    "command": step.text,
-                    "target": expected.target.map(|pose| Place::from(&pose)),
-                    "leg_m": expected.leg_m,
-                    "time_s": expected.time.as_secs_f64(),
-                    "battery_percent": battery_percent(expected.time),
-                })
-            })
-            .collect()
-    }
-}
-
-impl fmt::Display for Checked<'_> {
+impl fmt::Display for Table<'_> {
     /// A table of steps, with the totals below.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let steps = || self.plan.steps().iter().zip(&self.expectations);
+        let steps = || self.plan.steps().iter().zip(self.expectations);
         let width = steps().map(|(step, _)| step.text.chars().count()).max().unwrap_or(0).max(7);
         writeln!(
             f,

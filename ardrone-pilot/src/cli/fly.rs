@@ -1,14 +1,13 @@
 //! Flying: one plan and then exit, or a vehicle that stays and takes orders.
 
 use std::io::IsTerminal as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{FlightLimits, Plan, Step, TagUse, given_tag_warnings};
-use autopilot::vehicle::SurveyedTag;
+use autopilot::vehicle::{SurveyedTag, VehicleConfig};
 use mock_drone::server::{MockDrone, Ports};
-use mock_drone::{FloorTag, WorldConfig};
 use serde_json::Value;
 use time::UtcDateTime;
 
@@ -20,27 +19,17 @@ use super::prompt::PromptLine;
 use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
 use super::{CommandError, leave, read, read_settings, terminal};
-use crate::browser::{Browser, Listener};
+use crate::browser::{Browser, Listener, PageConfig, Planning};
 use crate::flight::{Controls, Flight, Message};
 use crate::json;
 use crate::recording::{Header, Recorder, Recording};
 use crate::settings::Settings;
+use crate::simulation;
 use crate::timing::TimingReport;
 use crate::video::Video;
 
-/// The simulated drone finds its tags where they are said to be, and one below its start if none is.
-fn mock_world(settings: &Settings, plan: Option<&Plan>) -> WorldConfig {
-    let mut world = WorldConfig::default();
-    let Some(surveyed) = settings.surveyed_tags() else { return world };
-    for tag in surveyed.iter().chain(plan.iter().flat_map(|plan| plan.tags())) {
-        let heading_deg = tag.heading_deg.unwrap_or(0.0);
-        world.tags.push(FloorTag::new(tag.place_m.x, tag.place_m.y, heading_deg));
-    }
-    if world.tags.is_empty() {
-        world.tags.push(FloorTag::new(0.0, 0.0, 0.0));
-    }
-    world
-}
+/// Folder of the recordings unless another one is given.
+const FLIGHTS: &str = "flights";
 
 /// Flies the plan, or stays and takes orders; returns the exit status.
 pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
@@ -70,7 +59,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     }
     let mock = if arguments.mock {
         let ports = Ports { video: Some(0), ..Ports::LOOPBACK };
-        Some(MockDrone::start(&mock_world(&settings, plan.as_ref()), ports)?)
+        Some(MockDrone::start(&simulation::world(surveyed.as_deref(), plan.as_ref()), ports)?)
     } else {
         None
     };
@@ -80,7 +69,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     if let Some(listener) = &listener {
         progress.print_line(&format!("watch it at {}", listener.url()));
     }
-    let (recorder, recording) = match record(arguments, &settings, plan.as_ref(), mock.is_some())? {
+    let (recorder, recording) = match record(arguments, &settings, plan.as_ref())? {
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
         None => (None, None),
     };
@@ -93,9 +82,10 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
             "a second Ctrl-C cannot end the program while its output is blocked: {error}"
         ));
     }
+    let page = page_config(arguments, config.clone(), surveyed, recording.as_ref());
     let open = |listener: Listener| {
         let feed = video.as_ref().map(Video::feed);
-        listener.open(plan.as_ref(), &config.limits, controls.clone(), feed)
+        listener.open(plan.as_ref(), page, controls.clone(), feed)
     };
     let browser = listener.map(open).transpose().unwrap_or_else(|error| {
         // Not fatal, because the drone may already be flying.
@@ -200,7 +190,7 @@ struct Outputs<'a> {
 
 impl Outputs<'_> {
     fn send(&mut self, message: &Message, watch: &mut Watch) {
-        if let Message::Mission(steps) = message {
+        if let Message::Mission { steps, .. } = message {
             self.steps.clone_from(steps);
         }
         if self.arguments.json {
@@ -270,7 +260,6 @@ fn record(
     arguments: &Fly,
     settings: &Settings,
     plan: Option<&Plan>,
-    mock: bool,
 ) -> Result<Option<(Recorder, Recording)>, CommandError> {
     if arguments.no_log {
         return Ok(None);
@@ -287,7 +276,7 @@ fn record(
         plan: plan.map_or("", Plan::text).to_owned(),
         settings: settings.to_toml()?,
         z_origin: arguments.z_origin(),
-        drone: if mock { "mock drone".to_owned() } else { arguments.drone.clone() },
+        drone: drone_name(arguments).to_owned(),
     };
     let (mut recorder, recording) = Recorder::start(&path, &header)?;
     for note in plan.into_iter().flat_map(Plan::notes) {
@@ -296,9 +285,40 @@ fn record(
     Ok(Some((recorder, recording)))
 }
 
+/// What the page offers besides the flight.
+fn page_config(
+    arguments: &Fly,
+    config: VehicleConfig,
+    surveyed: Option<Vec<SurveyedTag>>,
+    recording: Option<&Recording>,
+) -> PageConfig {
+    PageConfig {
+        drone: drone_name(arguments).to_owned(),
+        planning: Planning { config, surveyed },
+        plans: arguments.plans.clone(),
+        flights: log_folder(arguments),
+        recording: recording.map(|recording| recording.path().to_owned()),
+    }
+}
+
+/// The drone, for people.
+fn drone_name(arguments: &Fly) -> &str {
+    if arguments.mock { "mock drone" } else { &arguments.drone }
+}
+
+/// The folder in which this flight and others are recorded.
+fn log_folder(arguments: &Fly) -> PathBuf {
+    let parent = arguments.log.as_deref().and_then(Path::parent);
+    match parent {
+        Some(parent) if parent.as_os_str().is_empty() => PathBuf::from("."),
+        Some(parent) => parent.to_owned(),
+        None => PathBuf::from(FLIGHTS),
+    }
+}
+
 /// `flights/2026-11-21T13-45-07Z.mcap`: names that sort by time and are valid on any file system.
 fn default_log(now: UtcDateTime) -> Result<PathBuf, CommandError> {
-    let folder = PathBuf::from("flights");
+    let folder = PathBuf::from(FLIGHTS);
     std::fs::create_dir_all(&folder).map_err(|source| CommandError::Write {
         what: "the folder",
         path: folder.display().to_string(),

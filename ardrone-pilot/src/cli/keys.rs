@@ -19,8 +19,9 @@ use rustix::termios::{
 };
 
 use super::prompt::{Edited, Prompt, PromptLine};
-use super::{terminal, typed};
+use super::terminal;
 use crate::flight::Controls;
+use crate::typed;
 
 /// Summary of the keys.
 pub(super) const HELP: &str = "keys: space hold, r resume, l land, q land and quit, \

@@ -11,7 +11,6 @@ mod prompt;
 mod screen;
 mod summary;
 mod terminal;
-mod typed;
 
 use std::fs::File;
 use std::io::{IsTerminal as _, Read as _};

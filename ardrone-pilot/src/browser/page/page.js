@@ -1,12 +1,6 @@
 "use strict";
 // Shows the flight from ardrone-pilot's messages on /live, and sends the operator's orders.
 
-const $ = (id) => document.getElementById(id);
-const svg = (name, attributes = {}) => {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-  return element;
-};
 const signed = (value, digits = 2) => {
   const text = Math.abs(value).toFixed(digits);
   return (value < 0 && Number(text) !== 0 ? "−" : "+") + text;
@@ -28,12 +22,10 @@ let clock = -Infinity; // the flight's clock less ours, as the fastest message h
 let behind = 0; // how much later than that the last message was
 let over = null; // how it ended
 let trail = [];
-let tags = new Map(); // marks of the known tags by their number
-let targets = []; // of the plan: { x, y, steps, mark }
+let me = null; // our name among the operators
+let view = ""; // the part of the page that is shown
 let decided = ""; // the last decision
 let decidedAt = 0;
-let zoom = 1;
-let view = null; // the part of the world on the map: { x, y, half }
 let wanted = null; // where was clicked
 let wantedUntil = 0;
 let armedUntil = 0;
@@ -75,6 +67,7 @@ function take(message) {
       behind = clock - (message.t_s * 1000 - performance.now());
       if (message.pose) extendTrail(message.pose);
       decide(message);
+      plots.add(message);
       break;
     case "event":
       addEvent(message);
@@ -85,6 +78,12 @@ function take(message) {
     case "ready":
       readiness = message;
       break;
+    case "you":
+      me = message.name;
+      break;
+    case "accepted":
+      if (message.order === "load") plan.loaded();
+      break;
     case "end":
       finish(message);
       break;
@@ -93,6 +92,7 @@ function take(message) {
       break;
     case "refused":
       $("answer").textContent = message.reason;
+      if (message.order === "load" || view === "plan") plan.refused(message.reason);
       break;
   }
 }
@@ -101,37 +101,39 @@ function begin(message) {
   flight = message;
   trail = message.trail;
   decided = "";
-  $("plan").textContent = message.plan;
-  document.title = `${message.plan} – ardrone-pilot`;
-  for (const id of ["steps", "events", "decisions", "targets"]) $(id).replaceChildren();
+  $("plan").textContent = message.plan || "ardrone-pilot";
+  document.title = message.plan ? `${message.plan} – ardrone-pilot` : "ardrone-pilot";
+  $("nodrone").textContent = message.drone;
+  $("nomission").hidden = message.steps.length > 0;
+  $("edit").hidden = !message.steps.length;
+  if (!$("words").childElementCount) {
+    $("words").append(...message.words.map((word) => Object.assign(document.createElement("option"), { value: word })));
+  }
+  for (const id of ["steps", "events", "decisions"]) $(id).replaceChildren();
   message.steps.forEach((step, index) => {
     const item = document.createElement("li");
     item.textContent = `${index + 1}  ${step.text}`;
     $("steps").append(item);
   });
-  targets = [];
-  message.steps.forEach(({ target }, index) => {
-    if (!target) return;
-    // Targets at one place share a mark.
-    const near = (other) => Math.hypot(other.x - target.x_m, other.y - target.y_m) < 0.1;
-    let place = targets.find(near);
-    if (!place) {
-      place = { x: target.x_m, y: target.y_m, steps: [], mark: svg("g") };
-      place.mark.append(svg("circle", { r: 0.8 }), svg("text", { y: -1.7, "font-size": 1.3 }));
-      $("targets").append(place.mark);
-      targets.push(place);
-    }
-    place.steps.push(index);
-    place.mark.lastChild.textContent = place.steps.map((step) => step + 1).join(", ");
-  });
-  const way = [[0, 0], ...message.steps.filter((step) => step.target).map((step) => [step.target.x_m, step.target.y_m])];
-  $("way").setAttribute("points", points(way));
-  $("fence").setAttribute("r", message.radius_m);
   message.notes.forEach((note) => addEvent({ t_s: 0, text: `note: ${note}` }));
   message.events.forEach(addEvent);
   if (message.status) take(message.status);
   readiness = message.ready;
   if (message.end) finish(message.end);
+  plan.begin(message);
+  // Somebody without a mission makes one first.
+  if (!view) show(message.steps.length ? "fly" : "plan");
+}
+
+// Shows a part of the page: fly, plan, plots or flights.
+function show(name) {
+  if (name === view) return;
+  view = name;
+  document.body.dataset.view = name;
+  for (const button of document.querySelectorAll("nav button")) button.ariaPressed = String(button.dataset.show === name);
+  wanted = null;
+  map.reset();
+  if (name === "flights") flights.list();
 }
 
 function finish(message) {
@@ -190,21 +192,24 @@ function extendTrail(pose) {
 
 // ---- Display. Drawn in animation frames, so that a page in the background costs nothing.
 
-const points = (places) => places.map(([x, y]) => `${x.toFixed(3)},${(-y).toFixed(3)}`).join(" ");
-
 function draw() {
   requestAnimationFrame(draw);
   drawAlarm();
   drawButtons();
-  if (!flight || !status) return;
+  if (!flight) return;
+  if (view !== "flights") map.draw();
+  if (!status) return;
   drawFacts();
-  if (!status.pose) return;
-  drawMap();
-  drawGauges();
+  if (view === "plots") plots.draw();
+  if (status.pose) drawGauges();
   drawSteps();
 }
 
 function drawAlarm() {
+  // A drone that has not been heard for this long is looked for, in seconds.
+  const PATIENCE = 3;
+  const connecting = !over && status && status.phase === "connecting" && status.navdata_age_s === null;
+  $("advice").hidden = !connecting || status.t_s < PATIENCE;
   if (over) return;
   const silence = performance.now() - heard;
   const seconds = (time) => `${(time / 1000).toFixed(0)} s`;
@@ -219,16 +224,26 @@ function drawAlarm() {
   $("alarm").textContent = alarm;
 }
 
+// Whether another page has the controls: they must be taken before anything that needs them.
+function isWatching() {
+  return Boolean(status && me && status.controls !== me && /browser/.test(status.controls ?? ""));
+}
+
 function drawButtons() {
   const live = !over && socket && socket.readyState === WebSocket.OPEN;
   const flying = live && status && status.phase === "flying";
   $("hold").disabled = !flying;
   // A delayed order to fly to a place must not be sent.
   $("fly").disabled = !flying || !$("alarm").hidden;
-  $("resume").disabled = !flying || !status.mission_waits;
+  const watching = isWatching();
+  $("take").hidden = !live || !status || !(watching || status.controls === me);
+  $("take").textContent = watching ? "Take the controls" : "Release the controls";
+  $("fly").disabled ||= watching;
+  $("typed").disabled = !live || watching;
+  $("resume").disabled = !flying || !status.mission_waits || watching;
   const standby = live && status && status.phase === "standby";
   $("start").hidden = !standby;
-  $("start").disabled = !flight || !flight.steps.length || !readiness || !readiness.ready;
+  $("start").disabled = !flight || !flight.steps.length || !readiness || !readiness.ready || watching;
   $("land").disabled = $("cut").disabled = !live;
   const now = performance.now();
   const armed = now < armedUntil;
@@ -253,106 +268,11 @@ function drawFacts() {
   const stale = age === null || age > 0.3;
   $("link").textContent = age === null ? "none" : stale ? `NONE for ${age.toFixed(1)} s` : `${status.navdata_hz.toFixed(0)}/s, ${(age * 1000).toFixed(0)} ms old`;
   $("link").classList.toggle("ill", stale);
-  $("who").textContent = status.controls ?? "nobody";
+  $("who").textContent = !status.controls ? "nobody" : status.controls === me ? "you" : status.controls;
+  $("who").title = status.controls ?? "";
   $("ticks").textContent = `${(status.tick_late_s * 1000).toFixed(1)} ms late, ${status.ticks_skipped} skipped`;
   $("ticks").classList.toggle("ill", status.tick_late_s > 0.01);
   $("since").textContent = decided ? `for ${Math.max(0, status.t_s - decidedAt).toFixed(1)} s` : "";
-}
-
-function drawMap() {
-  const map = $("map");
-  const { width, height } = map.getBoundingClientRect();
-  if (!width || !height) return;
-  const places = flight.steps.filter((step) => step.target).map((step) => [step.target.x_m, step.target.y_m]);
-  places.push([0, 0], [status.pose.x_m, status.pose.y_m]);
-  for (const tag of known()) places.push([tag.x_m, tag.y_m]);
-  if (status.target) places.push([status.target.x_m, status.target.y_m]);
-  const [xs, ys] = [0, 1].map((axis) => places.map((place) => place[axis]));
-  const middle = (values) => (Math.min(...values) + Math.max(...values)) / 2;
-  const reach = (values) => (Math.max(...values) - Math.min(...values)) / 2;
-  const least = Math.min(width, height);
-  const half = Math.max((reach(xs) * least) / width, (reach(ys) * least) / height, 0.8) * 1.25 + 0.3;
-  // The view follows smoothly and does not zoom in by itself.
-  view ??= { x: middle(xs), y: middle(ys), half };
-  view.half = Math.max(view.half, half);
-  view.x += (middle(xs) - view.x) * 0.1;
-  view.y += (middle(ys) - view.y) * 0.1;
-  const shown = view.half / zoom;
-  const [wide, high] = [(shown * width) / least, (shown * height) / least];
-  map.setAttribute("viewBox", `${view.x - wide} ${-view.y - high} ${2 * wide} ${2 * high}`);
-  drawGrid(wide, high, shown);
-  const size = shown * 0.05; // of a mark, in metres
-  const put = (id, x, y, more = "") => $(id).setAttribute("transform", `translate(${x} ${-y}) scale(${size}) ${more}`);
-  const pose = status.pose;
-  put("drone", pose.x_m, pose.y_m, `rotate(${pose.yaw_deg})`);
-  $("doubt").setAttribute("cx", pose.x_m);
-  $("doubt").setAttribute("cy", -pose.y_m);
-  $("doubt").setAttribute("r", 2 * status.horizontal_deviation_m);
-  $("trail").setAttribute("points", points(trail));
-  $("aim").style.display = status.target ? "" : "none";
-  if (status.target) put("aim", status.target.x_m, status.target.y_m);
-  $("wanted").style.display = wanted ? "" : "none";
-  if (wanted) put("wanted", wanted.x, wanted.y);
-  drawTags(size);
-  for (const { x, y, steps, mark } of targets) {
-    mark.setAttribute("transform", `translate(${x} ${-y}) scale(${size * 0.8})`);
-    mark.setAttribute("class", steps.includes(status.step) ? "now" : "");
-  }
-}
-
-const known = () => (status.tags ? status.tags.map : []);
-
-// A tag that was not seen for this long is drawn faintly, in seconds.
-const STALE = 2;
-
-// Each tag as a roundel with a mark in its direction, its number, and a circle of one standard deviation.
-function drawTags(size) {
-  const map = known();
-  for (const [id, mark] of tags) {
-    if (map.some((tag) => tag.id === id)) continue;
-    mark.remove();
-    tags.delete(id);
-  }
-  for (const tag of map) {
-    if (!tags.has(tag.id)) {
-      const mark = svg("g");
-      const roundel = svg("g");
-      roundel.append(svg("path", { d: "M0-.8V-1.7" }), svg("circle", { class: "rim", r: 0.8 }), svg("circle", { class: "dot", r: 0.3 }));
-      mark.append(svg("circle", { class: "spread" }), roundel, svg("text", { "font-size": 1.2, y: 2.2 }));
-      $("tags").append(mark);
-      tags.set(tag.id, mark);
-    }
-    const mark = tags.get(tag.id);
-    const [spread, roundel, number] = mark.children;
-    spread.setAttribute("r", tag.deviation_m);
-    mark.setAttribute("transform", `translate(${tag.x_m} ${-tag.y_m})`);
-    roundel.setAttribute("transform", `scale(${size * 0.8}) rotate(${tag.heading_deg ?? 0})`);
-    roundel.firstChild.style.display = tag.heading_deg === null ? "none" : "";
-    number.setAttribute("transform", `scale(${size * 0.8})`);
-    number.textContent = `${tag.id}${tag.surveyed ? "*" : ""}`;
-    mark.setAttribute("class", tag.seen_s !== null && tag.seen_s < STALE ? "" : "stale");
-  }
-}
-
-// "2, to 0.04 m, seen 0.1 s ago": the best of them.
-function tagsText() {
-  const map = known();
-  const seen = status.tags.seen_s === null ? "none seen yet" : `seen ${status.tags.seen_s.toFixed(1)} s ago`;
-  if (!map.length) return seen;
-  const best = Math.min(...map.map((tag) => tag.deviation_m));
-  return `${map.length}, to ${best.toFixed(2)} m, ${seen}`;
-}
-
-function drawGrid(wide, high, shown) {
-  const step = [0.25, 0.5, 1, 2, 5, 10, 20, 50].find((step) => shown / step < 6) || 100;
-  const [left, right, low, top] = [view.x - wide, view.x + wide, -view.y - high, -view.y + high];
-  let lines = "";
-  for (let x = Math.ceil(left / step) * step; x <= right; x += step) lines += `M${x} ${low}V${top}`;
-  for (let y = Math.ceil(low / step) * step; y <= top; y += step) lines += `M${left} ${y}H${right}`;
-  if (!$("grid").firstChild) $("grid").append(svg("path"), svg("path", { class: "axis" }));
-  $("grid").firstChild.setAttribute("d", lines);
-  $("grid").lastChild.setAttribute("d", `M0 ${low}V${top}M${left} 0H${right}`);
-  $("scale").textContent = `squares of ${step} m; disc: position uncertainty; dashed: the fence, ${flight.radius_m} m from the start${status.tags ? "; roundels: tags with one standard deviation, * surveyed" : ""}`;
 }
 
 function drawGauges() {
@@ -373,7 +293,7 @@ function drawGauges() {
   $("target").textContent = status.target ? place(status.target) : "–";
   $("off").textContent = status.target ? `${status.distance_m.toFixed(2)} m` : "–";
   $("tagged").hidden = !status.tags;
-  if (status.tags) $("tagsknown").textContent = tagsText();
+  if (status.tags) $("tagsknown").textContent = map.tagsText();
   $("known").textContent = `${status.horizontal_deviation_m.toFixed(2)} m`;
 }
 
@@ -399,21 +319,31 @@ $("cut").onclick = () => {
   armedUntil = 0;
   order({ order: armed ? "cut" : "arm" });
 };
-$("map").onclick = (event) => {
-  const place = new DOMPoint(event.clientX, event.clientY).matrixTransform($("map").getScreenCTM().inverse());
-  wanted = { x: place.x, y: -place.y };
+$("map").addEventListener("click", (event) => {
+  if (view !== "fly") return;
+  wanted = map.place(event);
   wantedUntil = performance.now() + GO_AGAIN;
-};
+});
 $("fly").onclick = () => {
   if (wanted) order({ order: "goto", x_m: wanted.x, y_m: wanted.y });
   wanted = null;
 };
 $("stay").onclick = () => (wanted = null);
-document.onkeydown = (event) => {
-  if (event.key === "Escape") wanted = null;
+$("take").onclick = () => order({ order: status && status.controls === me ? "release" : "take" });
+$("edit").onclick = () => plan.edit(flight);
+for (const button of document.querySelectorAll("nav button")) button.onclick = () => show(button.dataset.show);
+$("typing").onsubmit = (event) => {
+  event.preventDefault();
+  const line = $("typed").value.trim();
+  if (!line) return;
+  order({ order: "typed", line });
+  $("typed").value = "";
 };
-$("nearer").onclick = () => (zoom = Math.min(8, zoom * 1.5));
-$("farther").onclick = () => (zoom = Math.max(0.1, zoom / 1.5));
+document.addEventListener("keydown", (event) => {
+  if (event.key === "Escape") wanted = null;
+});
 
-connect();
-draw();
+addEventListener("load", () => {
+  connect();
+  draw();
+});

@@ -2,7 +2,7 @@
 // Flies by hand: keys, sticks on the screen, or a gamepad. Whatever is let go is centred, and then the drone holds.
 
 (() => {
-  // Time between two orders, in milliseconds. The server centres sticks that are silent for 250 ms.
+  // Time between two orders, in milliseconds. The vehicle centres sticks that are silent for 250 ms.
   const EVERY = 100;
   // Deflection of a key, as in the terminal.
   const KEY = 0.4;
@@ -67,7 +67,7 @@
   }
 
   setInterval(() => {
-    const flying = !over && status && status.phase === "flying";
+    const flying = !over && status && status.phase === "flying" && !isWatching();
     button.disabled = !flying;
     if (!flying && on) set(false);
     const demand = on ? sticks() : { roll: 0, pitch: 0, gaz: 0, yaw: 0 };
@@ -79,7 +79,9 @@
 
   button.onclick = () => set(!on);
   document.addEventListener("keydown", (event) => {
-    if (!on || !(event.code in KEYS) || event.ctrlKey || event.metaKey || event.altKey) return;
+    // Letters that are typed are letters.
+    const writes = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
+    if (!on || writes || !(event.code in KEYS) || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     held.add(event.code);
   });

@@ -1,4 +1,4 @@
-//! Drives a vehicle with a simulated drone; the counterpart of `ardrone_pilot::flight` in simulated time.
+//! Drives a vehicle with a simulated drone; the counterpart of [`flight`](crate::flight) in simulated time.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use autopilot::vehicle::{Input, Operator, OperatorOrder, Output, Refused, TICK, 
 use mock_drone::{Message, World, WorldConfig};
 
 /// Interval of handling navdata; the drone's own steps are finer.
-pub(crate) const POLL: Duration = Duration::from_millis(5);
+pub const POLL: Duration = Duration::from_millis(5);
 
 /// A vehicle and its world, with their common time.
 #[derive(Debug)]

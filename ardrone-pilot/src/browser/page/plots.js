@@ -1,0 +1,112 @@
+"use strict";
+// The last minute of the flight as plots.
+
+const plots = (() => {
+  const SHOWN = 60; // seconds
+  const EVERY = 200; // milliseconds between two drawings
+  const LINES = 3; // at most, in one plot
+  // Name, unit, least range, and what of a status is drawn.
+  const PLOTS = [
+    ["position", "m", 1, ["right", "forward", "up"], ({ pose }) => (pose ? [pose.x_m, pose.y_m, pose.z_m] : [])],
+    ["speed", "m/s", 0.5, ["right", "forward", "up"], ({ velocity_m_s: speed }) => speed ?? []],
+    ["distance to the target", "m", 0.5, ["distance"], ({ distance_m }) => [distance_m]],
+    ["tilt", "°", 5, ["right", "forward"], ({ attitude_deg: tilt }) => (tilt ? [tilt[0], -tilt[1]] : [])],
+    ["battery", "%", 10, ["charge"], ({ battery_percent }) => [battery_percent]],
+    ["age of the navdata", "ms", 50, ["age"], ({ navdata_age_s: age }) => [age === null ? null : age * 1000]],
+    ["lateness of the tick", "ms", 1, ["lateness"], ({ tick_late_s }) => [tick_late_s * 1000]],
+  ];
+
+  let rows = []; // [time, a list of values for each plot]
+  let drawn = 0;
+  const figures = PLOTS.map(([name, unit, , lines]) => {
+    const figure = document.createElement("figure");
+    const caption = document.createElement("figcaption");
+    const now = document.createElement("span");
+    caption.append(`${name} (${unit}) `, now);
+    const canvas = document.createElement("canvas");
+    canvas.role = "img";
+    canvas.ariaLabel = `${name} in the last minute: ${lines.join(", ")}`;
+    figure.append(caption, canvas);
+    $("plots").append(figure);
+    return { canvas, now };
+  });
+  // The style sheet's colours, which depend on light and dark.
+  const samples = [...Array(LINES).keys()].map((line) => {
+    const sample = Object.assign(document.createElement("i"), { className: `line${line}` });
+    $("plots").append(sample);
+    return sample;
+  });
+
+  function add(status) {
+    // The flight's clock begins anew with the program.
+    if (rows.length && rows.at(-1)[0] > status.t_s) rows = [];
+    rows.push([status.t_s, PLOTS.map(([, , , , of]) => of(status))]);
+    while (rows[0][0] < status.t_s - SHOWN) rows.shift();
+  }
+
+  function draw() {
+    if (performance.now() - drawn < EVERY || !rows.length) return;
+    drawn = performance.now();
+    const colours = samples.map((sample) => getComputedStyle(sample).color);
+    PLOTS.forEach((plot, index) => drawOne(plot, index, figures[index], colours));
+  }
+
+  function drawOne([, , least, names], index, { canvas, now }, colours) {
+    const { width, height } = canvas.getBoundingClientRect();
+    const scale = devicePixelRatio || 1;
+    if (canvas.width !== Math.round(width * scale)) canvas.width = Math.round(width * scale);
+    if (canvas.height !== Math.round(height * scale)) canvas.height = Math.round(height * scale);
+    const context = canvas.getContext("2d");
+    context.setTransform(scale, 0, 0, scale, 0, 0);
+    context.clearRect(0, 0, width, height);
+    const values = rows.flatMap(([, all]) => all[index]).filter(Number.isFinite);
+    if (!values.length) {
+      now.textContent = "–";
+      return;
+    }
+    let [low, high] = [Math.min(...values), Math.max(...values)];
+    const room = Math.max(0, least - (high - low)) / 2 + (high - low) * 0.05;
+    [low, high] = [low - room, high + room];
+    const end = rows.at(-1)[0];
+    const x = (time) => width - ((end - time) / SHOWN) * (width - 44);
+    const y = (value) => 6 + ((high - value) / (high - low)) * (height - 12);
+    context.font = "11px system-ui, sans-serif";
+    const style = getComputedStyle(canvas);
+    context.fillStyle = style.color;
+    context.strokeStyle = style.borderTopColor;
+    context.lineWidth = 1;
+    for (const value of [low, (low + high) / 2, high]) {
+      context.beginPath();
+      context.moveTo(44, y(value));
+      context.lineTo(width, y(value));
+      context.stroke();
+      context.fillText(value.toFixed(high - low < 10 ? 1 : 0), 0, Math.max(10, Math.min(height - 2, y(value) + 4)));
+    }
+    const last = rows.at(-1)[1][index];
+    now.replaceChildren(...names.map((name, line) => {
+      const label = document.createElement("b");
+      label.className = `line${line}`;
+      label.textContent = `${names.length > 1 ? `${name} ` : ""}${Number.isFinite(last[line]) ? last[line].toFixed(2) : "–"} `;
+      return label;
+    }));
+    names.forEach((_, line) => {
+      context.strokeStyle = colours[line];
+      context.lineWidth = 1.5;
+      context.beginPath();
+      let open = false;
+      for (const [time, all] of rows) {
+        const value = all[index][line];
+        if (!Number.isFinite(value)) {
+          open = false;
+          continue;
+        }
+        if (open) context.lineTo(x(time), y(value));
+        else context.moveTo(x(time), y(value));
+        open = true;
+      }
+      context.stroke();
+    });
+  }
+
+  return { add, draw };
+})();

@@ -1,0 +1,118 @@
+//! A plan flown by the vehicle on a simulated drone, in simulated time: what to expect before it is flown.
+
+use std::time::Duration;
+
+use autopilot::outcome::Outcome;
+use autopilot::plan::Plan;
+use autopilot::vehicle::{CannotFly, FlightEvent, Output, SurveyedTag, Vehicle, VehicleConfig};
+use kinematics::Pose;
+use mock_drone::{FloorTag, WorldConfig};
+
+use crate::drive::{Driver, Passed};
+
+/// Longest simulated time; no battery lasts that long.
+const LONGEST: Duration = Duration::from_mins(20);
+/// Interval of the places of the track.
+const TRACK: Duration = Duration::from_millis(100);
+/// Height above which the drone is in the air.
+const LIFTED_M: f64 = 0.02;
+
+/// A simulated flight.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulatedFlight {
+    /// How it ended; `None` if it did not within 20 minutes.
+    pub outcome: Option<Outcome>,
+    /// Time in the air.
+    pub duration: Duration,
+    /// The charge that it took.
+    pub battery_percent: f64,
+    /// The true place of the drone every tenth of a second since it left the ground, with this time.
+    pub track: Vec<(Duration, Pose)>,
+    /// What the vehicle warned of, with this time.
+    pub warnings: Vec<(Duration, FlightEvent)>,
+}
+
+/// A world with the tags of the settings and of a plan, or with one below the start if there are none; without any
+/// if tags are not in use.
+pub fn world(surveyed: Option<&[SurveyedTag]>, plan: Option<&Plan>) -> WorldConfig {
+    let mut world = WorldConfig::default();
+    let Some(surveyed) = surveyed else { return world };
+    for tag in surveyed.iter().chain(plan.iter().flat_map(|plan| plan.tags())) {
+        let heading_deg = tag.heading_deg.unwrap_or(0.0);
+        world.tags.push(FloorTag::new(tag.place_m.x, tag.place_m.y, heading_deg));
+    }
+    if world.tags.is_empty() {
+        world.tags.push(FloorTag::new(0.0, 0.0, 0.0));
+    }
+    world
+}
+
+/// Flies a plan; a few thousand times faster than real time.
+///
+/// # Errors
+/// [`CannotFly`] if the plan or the limits are refused.
+pub fn fly(
+    plan: Plan,
+    config: &VehicleConfig,
+    world: &WorldConfig,
+) -> Result<SimulatedFlight, CannotFly> {
+    let mut driver = Driver::new(Vehicle::flying(plan, config)?, world);
+    let charged = driver.world.truth().battery_percent;
+    let (mut outcome, mut warnings, mut track) = (None, Vec::new(), Vec::new());
+    let mut lifted: Option<Duration> = None;
+    let mut landed = Duration::ZERO;
+    while outcome.is_none() && driver.now() < LONGEST {
+        let now = driver.now();
+        let since = now.saturating_sub(lifted.unwrap_or(now));
+        driver.step(|passed| match passed {
+            Passed::Output(Output::Ended(ended)) => outcome = Some(ended.clone()),
+            Passed::Output(Output::Event(event)) if event.warns() => warnings.push((since, event)),
+            _ => {}
+        });
+        let truth = driver.world.truth();
+        if truth.position_m.z > LIFTED_M {
+            lifted.get_or_insert(now);
+            landed = now;
+            if since >= TRACK * u32::try_from(track.len()).unwrap_or(u32::MAX) {
+                let [x_m, y_m, z_m] = truth.position_m.into();
+                track.push((since, Pose { x_m, y_m, z_m, yaw_deg: truth.yaw_deg }));
+            }
+        }
+        driver.pass();
+    }
+    let duration = landed.saturating_sub(lifted.unwrap_or(landed));
+    let battery_percent = charged - driver.world.truth().battery_percent;
+    Ok(SimulatedFlight { outcome, duration, battery_percent, track, warnings })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flown(text: &str) -> SimulatedFlight {
+        let plan = Plan::parse("plan", text).unwrap();
+        fly(plan, &VehicleConfig::default(), &WorldConfig::default()).unwrap()
+    }
+
+    #[test]
+    fn a_plan_is_flown_to_its_end() {
+        let flight = flown("takeoff\ngoto 1 0 0 0\nland\n");
+        assert_eq!(flight.outcome, Some(Outcome::Completed));
+        let farthest = flight.track.iter().map(|(_, pose)| pose.x_m).fold(0.0, f64::max);
+        assert!((0.9..1.2).contains(&farthest), "{farthest}");
+        let seconds = flight.duration.as_secs_f64();
+        assert!((5.0..30.0).contains(&seconds), "{seconds}");
+        assert!((0.2..10.0).contains(&flight.battery_percent), "{}", flight.battery_percent);
+        assert_eq!(flight.warnings, []);
+        assert_eq!(flown("takeoff\ngoto 1 0 0 0\nland\n"), flight);
+    }
+
+    #[test]
+    fn a_plan_for_which_no_battery_lasts_is_refused_as_it_would_be() {
+        let flight =
+            flown("takeoff\nsetStayTime 600\ngoto 0 0 0 0\ngoto 0 1 0 0\ngoto 0 0 0 0\nland\n");
+        let refused = matches!(flight.outcome, Some(Outcome::PreflightRefused { .. }));
+        assert!(refused, "{:?}", flight.outcome);
+        assert_eq!((flight.duration, flight.track), (Duration::ZERO, vec![]));
+    }
+}

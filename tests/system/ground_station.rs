@@ -1,0 +1,429 @@
+//! The page as a ground station, end to end: a real Chromium, the program without a plan, the mock drone.
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::{IpAddr, TcpStream, UdpSocket};
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::time::Duration;
+
+use serde_json::json;
+
+use crate::chromium::{Chromium, Tab};
+use crate::processes::{program, signal};
+
+/// The program at rest, with a page, and folders of its own.
+struct Station {
+    child: Child,
+    /// As printed, with the token if there is one.
+    url: String,
+    folder: tempfile::TempDir,
+}
+
+impl Station {
+    fn start(address: &str, arguments: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mut child = program("ardrone-pilot")
+            .args(["--plain", "--ui", address, "--log"])
+            .arg(folder.path().join("flights.mcap"))
+            .arg("--plans")
+            .arg(folder.path().join("plans"))
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+        let url = lines
+            .find_map(|line| Some(line.unwrap().strip_prefix("watch it at ")?.to_owned()))
+            .unwrap();
+        std::thread::spawn(move || lines.for_each(drop));
+        Self { child, url, folder }
+    }
+
+    /// `127.0.0.1:1234`.
+    fn host(&self) -> &str {
+        self.url.trim_start_matches("http://").trim_end_matches('/')
+    }
+
+    /// The server's complete response to a request.
+    fn request(&self, method: &str, path: &str, headers: &str, body: &str) -> String {
+        let host = self.host();
+        let mut stream = TcpStream::connect(host).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        let length = body.len();
+        write!(
+            stream,
+            "{method} {path} HTTP/1.1\r\nHost: {host}\r\nContent-Length: {length}\r\n{headers}\r\n{body}"
+        )
+        .unwrap();
+        let mut answer = Vec::new();
+        // The connection may be reset.
+        _ = stream.read_to_end(&mut answer);
+        String::from_utf8_lossy(&answer).into_owned()
+    }
+
+    /// Lands, and waits for the end.
+    fn end(mut self) {
+        signal(&self.child, "-INT");
+        self.child.wait().unwrap();
+    }
+}
+
+impl Drop for Station {
+    fn drop(&mut self) {
+        // The process may have ended already.
+        _ = self.child.kill();
+        _ = self.child.wait();
+    }
+}
+
+fn happened(chromium: &mut Chromium, tab: &Tab, what: &str) {
+    let events = "document.querySelector('#events').textContent";
+    chromium.wait(tab, &format!("{events}.includes('{what}')"));
+}
+
+fn number(chromium: &mut Chromium, tab: &Tab, expression: &str) -> f64 {
+    let value = chromium.evaluate(tab, expression);
+    value.as_f64().unwrap_or_else(|| panic!("{expression}: {value}"))
+}
+
+/// Someone without a drone: three clicks to a flight.
+#[test]
+fn the_example_is_three_clicks_from_the_air() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0", &["--mock"]);
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "view === 'plan' && !document.querySelector('#simulate').disabled");
+    chromium.wait(&tab, "document.querySelector('#expected').textContent.includes('5.7 m')");
+    chromium.click(&tab, "#simulate", [0.0; 2]);
+    chromium.wait(&tab, "!!plan.simulated()?.completed");
+    let simulated = number(&mut chromium, &tab, "plan.simulated().length_s");
+    assert!((10.0..30.0).contains(&simulated), "{simulated}");
+    chromium.wait(&tab, "document.querySelector('#simulated').getAttribute('points').length > 500");
+    chromium.click(&tab, "#load", [0.0; 2]);
+    chromium.wait(&tab, "view === 'fly' && document.querySelectorAll('#steps li').length === 6");
+    chromium.wait(&tab, "!document.querySelector('#start').disabled");
+    chromium.click(&tab, "#start", [0.0; 2]);
+    chromium.wait(&tab, "status.phase === 'flying' && status.pose.z_m > 0.5");
+    assert_eq!(chromium.evaluate(&tab, "document.querySelector('#who').textContent"), "you");
+    station.end();
+}
+
+/// A plan is made with the mouse, simulated, flown with a detour by hand, and looked back at.
+#[test]
+fn a_plan_is_made_simulated_flown_and_compared() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0", &["--mock"]);
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "view === 'plan'");
+    chromium.choose(&tab, "#plans", "-");
+    chromium.wait(&tab, "plan.text() === 'takeoff\\nland\\n'");
+    // Two clicks on the map are two targets before the landing, and one of them is dragged.
+    for (count, off) in [(1, [0.0, -90.0]), (2, [90.0, -90.0])] {
+        chromium.click(&tab, "#map", off);
+        chromium.wait(&tab, &format!("plan.targets().length === {count}"));
+    }
+    let lines =
+        chromium.evaluate(&tab, "plan.text().split('\\n').map((line) => line.split(' ')[0])");
+    assert_eq!(lines, json!(["takeoff", "goto", "goto", "land", ""]));
+    let before = number(&mut chromium, &tab, "plan.targets()[1].x");
+    chromium.drag(&tab, "#drafts g:nth-child(2)", [40.0, 0.0]);
+    chromium.wait(&tab, &format!("plan.targets()[1].x > {before} + 0.1"));
+    // The list changes the text, and the text the list.
+    chromium.type_into(&tab, "#draftsteps li:nth-child(2) input:nth-of-type(3)", "0.3");
+    chromium.wait(&tab, "/^goto \\S+ \\S+ 0.3 0$/.test(plan.text().split('\\n')[1])");
+    chromium.wait(&tab, "document.querySelector('#expected').textContent.includes('1.15 m above')");
+    let good = chromium.evaluate(&tab, "plan.text()").as_str().unwrap().to_owned();
+    chromium.type_into(&tab, "#plantext", &good.replace("takeoff", "takeof"));
+    chromium.wait(&tab, "document.querySelector('#problems').textContent.includes('line 1')");
+    assert_eq!(chromium.evaluate(&tab, "document.querySelector('#load').disabled"), true);
+    chromium.type_into(&tab, "#plantext", &good);
+    chromium.wait(&tab, "document.querySelectorAll('#problems .error').length === 0");
+    chromium.type_into(&tab, "#planname", "two targets");
+    chromium.click(&tab, "#saveplan", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelector('#plananswer').textContent.startsWith('Saved')");
+    let saved = std::fs::read_to_string(station.folder.path().join("plans/two targets.txt"));
+    assert_eq!(saved.unwrap(), good);
+    chromium.click(&tab, "#simulate", [0.0; 2]);
+    chromium.wait(&tab, "!!plan.simulated()?.completed");
+    chromium.click(&tab, "#load", [0.0; 2]);
+    chromium.wait(&tab, "view === 'fly' && !document.querySelector('#start').disabled");
+    chromium.click(&tab, "#start", [0.0; 2]);
+    chromium.wait(&tab, "status.step === 2 && status.distance_m < 0.7");
+    // By hand, away from the way, and on with the mission.
+    chromium.click(&tab, "#byhand", [0.0; 2]);
+    chromium.key(&tab, "keyDown", "KeyS");
+    chromium.wait(&tab, "status.mission_waits && status.velocity_m_s[1] < -0.3");
+    chromium.key(&tab, "keyUp", "KeyS");
+    chromium.wait(&tab, "Math.abs(status.velocity_m_s[1]) < 0.1");
+    chromium.click(&tab, "#resume", [0.0; 2]);
+    happened(&mut chromium, &tab, "mission resumed");
+    happened(&mut chromium, &tab, "plan flown to its end");
+    chromium.wait(&tab, "status.phase === 'standby'");
+    // Looking back, while the program goes on: the flight and the simulation.
+    chromium.click(&tab, "[data-show=flights]", [0.0; 2]);
+    chromium.wait(&tab, "document.querySelectorAll('#recordings tbody tr').length === 2");
+    let row = "document.querySelector('#recordings tbody tr:nth-child(2)').textContent";
+    // It is written a moment later.
+    chromium.wait(&tab, &format!("{row}.includes('plan flown to its end')"));
+    let row = chromium.evaluate(&tab, row);
+    let row = row.as_str().unwrap();
+    assert!(row.contains("two targets.txt"), "{row}");
+    for number in [1, 2] {
+        chromium.click(&tab, &format!("#recordings tr:nth-child({number}) input"), [0.0; 2]);
+    }
+    chromium.wait(&tab, "document.querySelectorAll('#comparison polyline').length === 8");
+    let apart = chromium.evaluate(&tab, "document.querySelector('#apart').textContent");
+    let metres: Vec<f64> =
+        (apart.as_str().unwrap().split_whitespace()).filter_map(|word| word.parse().ok()).collect();
+    // The detour by hand is in one of them only.
+    assert!(metres[0] > 0.02 && metres[1] > 0.3 && metres[1] < 6.0, "{apart}");
+    chromium.click(&tab, "#recordings .actions button", [0.0; 2]);
+    let report = "fetch(document.querySelector('#report').src).then((response) => response.text())\
+        .then((text) => (window.reported = text)); true";
+    chromium.wait(&tab, "document.querySelector('#report').src.endsWith('/report')");
+    chromium.evaluate(&tab, report);
+    chromium.wait(&tab, "(window.reported ?? '').includes('<h2>Decisions')");
+    // The steps have the words of the plan that was loaded.
+    chromium.wait(&tab, "window.reported.includes('1: takeoff')");
+    // What is being recorded cannot be deleted.
+    assert!(station.request("DELETE", "/flights/flights.mcap", "", "").contains(" 409 "));
+    station.end();
+}
+
+/// The address by which other machines would reach this one.
+fn own_address() -> Option<IpAddr> {
+    let socket = UdpSocket::bind("0.0.0.0:0").ok()?;
+    // Nothing is sent.
+    socket.connect("192.0.2.1:9").ok()?;
+    let address = socket.local_addr().ok()?.ip();
+    (!address.is_loopback() && !address.is_unspecified()).then_some(address)
+}
+
+/// One page has the controls: a local one takes them visibly, a remote one is refused, and one that vanishes with a stick
+/// held leaves a drone that holds.
+#[test]
+fn pages_hand_over_the_controls() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0.0.0.0:0", &["--mock"]);
+    let local = station.url.replace("ADDRESS-OF-THIS-MACHINE", "127.0.0.1");
+    let first = chromium.open(&local);
+    chromium.wait(&first, "view === 'plan' && !document.querySelector('#load').disabled");
+    let plan = "takeoff\ngoto 0 1 0 0\nsetStayTime 300\ngoto 0 0 0 0\nland\n";
+    chromium.type_into(&first, "#plantext", plan);
+    chromium.wait(&first, "document.querySelectorAll('#draftsteps li').length === 5");
+    chromium.wait(&first, "!document.querySelector('#load').disabled");
+    chromium.click(&first, "#load", [0.0; 2]);
+    chromium.wait(&first, "view === 'fly' && !document.querySelector('#start').disabled");
+    chromium.click(&first, "#start", [0.0; 2]);
+    chromium.wait(&first, "status.phase === 'flying' && status.pose.z_m > 0.5");
+    let who = "document.querySelector('#who').textContent";
+    // A second one watches: what needs the controls is not offered.
+    let second = chromium.open(&local);
+    chromium.wait(&second, "isWatching() && !document.querySelector('#take').hidden");
+    for button in ["fly", "typed", "byhand"] {
+        let disabled = format!("document.querySelector('#{button}').disabled");
+        chromium.wait(&second, &disabled);
+    }
+    chromium.click(&second, "#take", [0.0; 2]);
+    chromium.wait(&second, &format!("{who} === 'you' && !status.mission_waits"));
+    chromium.show(&first);
+    chromium.wait(&first, "isWatching()");
+    happened(&mut chromium, &first, "has taken the controls");
+    if let Some(address) = own_address() {
+        let remote = chromium.open(&local.replace("127.0.0.1", &address.to_string()));
+        chromium.wait(&remote, "isWatching() && me.includes('remote')");
+        chromium.click(&remote, "#take", [0.0; 2]);
+        let answer = "document.querySelector('#answer').textContent";
+        chromium.wait(&remote, &format!("{answer}.includes('has the controls')"));
+        chromium.wait(&remote, &format!("{who}.includes('local browser')"));
+        // It may hold the drone nevertheless.
+        chromium.click(&remote, "#hold", [0.0; 2]);
+        chromium.wait(&remote, "status.mission_waits");
+        chromium.close(&remote);
+    } else {
+        assert!(std::env::var_os("CI").is_none(), "this machine has no address but its own");
+    }
+    chromium.show(&second);
+    chromium.click(&second, "#byhand", [0.0; 2]);
+    chromium.key(&second, "keyDown", "KeyD");
+    chromium.wait(&second, "status.velocity_m_s[0] > 0.3");
+    chromium.close(&second);
+    chromium.show(&first);
+    chromium.wait(&first, "Math.abs(status.velocity_m_s[0]) < 0.1 && status.mission_waits");
+    chromium.wait(&first, &format!("{who} === 'nobody'"));
+    chromium.wait(&first, "status.phase === 'flying'");
+    chromium.type_into(&first, "#typed", "resume");
+    chromium.evaluate(&first, "document.querySelector('#typing').requestSubmit()");
+    chromium.wait(&first, &format!("!status.mission_waits && {who} === 'you'"));
+    station.end();
+}
+
+/// The files of the page: what is too large, badly named or foreign is refused, and nothing else is reached.
+#[test]
+fn files_are_bounded_and_nothing_else_is_reached() {
+    let station = Station::start("0", &["--mock"]);
+    std::fs::write(station.folder.path().join("secret.txt"), "secret").unwrap();
+    let plan = "takeoff\nland\n";
+    let status = |answer: &str| answer.split(' ').nth(1).unwrap_or_default().to_owned();
+    let put = |path: &str, headers: &str, body: &str| {
+        status(&station.request("PUT", path, headers, body))
+    };
+    assert_eq!(put("/plans/a%20b.txt", "If-None-Match: *\r\n", plan), "204");
+    assert_eq!(put("/plans/a%20b.txt", "If-None-Match: *\r\n", plan), "412");
+    assert_eq!(put("/plans/a%20b.txt", "", plan), "204");
+    let foreign = "Origin: http://evil.example\r\n";
+    assert_eq!(put("/plans/evil.txt", foreign, plan), "403");
+    for (method, path) in [
+        ("DELETE", "/flights/flights.mcap"),
+        ("POST", "/plan/check"),
+        ("POST", "/plan/simulate"),
+        ("GET", "/plans/a%20b.txt"),
+    ] {
+        assert_eq!(status(&station.request(method, path, foreign, plan)), "403", "{path}");
+    }
+    for name in ["..%2Fsecret.txt", "%2Fetc%2Fpasswd.txt", "..%5Csecret.txt", ".x.txt", "a%00.txt"]
+    {
+        for method in ["GET", "PUT"] {
+            let answer = station.request(method, &format!("/plans/{name}"), "", plan);
+            assert_eq!(status(&answer), "400", "{method} {name}: {answer}");
+        }
+        let answer = station.request("GET", &format!("/flights/{name}/report"), "", "");
+        assert_eq!(status(&answer), "400", "{name}: {answer}");
+    }
+    assert_eq!(status(&station.request("GET", "/plans/../secret.txt", "", "")), "404");
+    assert_eq!(status(&station.request("GET", "/plans/none.txt", "", "")), "404");
+    let large = "#".repeat(40 << 10);
+    for (method, path) in
+        [("PUT", "/plans/large.txt"), ("POST", "/plan/check"), ("POST", "/plan/simulate")]
+    {
+        assert_eq!(status(&station.request(method, path, "", &large)), "400", "{path}");
+    }
+    let plans = station.request("GET", "/plans", "", "");
+    assert!(plans.ends_with("[\"a b.txt\"]"), "{plans}");
+    std::fs::write(station.folder.path().join("broken.mcap"), "no log").unwrap();
+    assert_eq!(status(&station.request("GET", "/flights/broken.mcap/summary", "", "")), "422");
+    assert_eq!(status(&station.request("DELETE", "/flights/broken.mcap", "", "")), "204");
+    let report = station.request("GET", "/flights/flights.mcap/report", "", "");
+    assert!(report.contains("sandbox allow-scripts") || status(&report) == "422", "{report}");
+    assert!(std::fs::exists(station.folder.path().join("secret.txt")).unwrap());
+    // With a token everything but style and script needs it.
+    let mut open = Station::start("0.0.0.0:0", &["--mock"]);
+    let port = open.url.split(':').nth(2).unwrap().split('/').next().unwrap();
+    open.url = format!("http://127.0.0.1:{port}/");
+    for path in ["/plans", "/flights", "/flights/flights.mcap", "/plans/a.txt"] {
+        assert_eq!(status(&open.request("GET", path, "", "")), "403", "{path}");
+    }
+    assert_eq!(status(&open.request("GET", "/plan.js", "", "")), "200");
+}
+
+#[test]
+fn a_drone_that_is_not_found_is_looked_for() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0", &["--drone", "127.0.0.1"]);
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "!document.querySelector('#advice').hidden");
+    let advice = chromium.evaluate(&tab, "document.querySelector('#advice').innerText");
+    let advice = advice.as_str().unwrap();
+    for word in ["127.0.0.1", "ardrone2_", "--drone", "another program", "--mock"] {
+        assert!(advice.contains(word), "{word}: {advice}");
+    }
+    // A plan can be made and simulated meanwhile.
+    chromium.click(&tab, "#simulate", [0.0; 2]);
+    chromium.wait(&tab, "!!plan.simulated()?.completed");
+    station.end();
+}
+
+/// What axe-core finds on a page that is serious: rule and place.
+fn violations(chromium: &mut Chromium, tab: &Tab, axe: &str) -> Vec<String> {
+    chromium.evaluate(tab, &format!("{axe}; true"));
+    let found = chromium.settle(tab, "axe.run(document, { resultTypes: ['violations'] })");
+    let violations = found["violations"].as_array().expect("axe-core has run").iter();
+    let serious = violations
+        .filter(|violation| matches!(violation["impact"].as_str(), Some("serious" | "critical")));
+    serious
+        .flat_map(|violation| {
+            let nodes = violation["nodes"].as_array().unwrap().iter();
+            nodes.map(|node| format!("{}: {}", violation["id"], node["target"]))
+        })
+        .collect()
+}
+
+#[test]
+fn the_page_and_the_report_can_be_used_by_everybody() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("accessibility/node_modules/axe-core/axe.min.js");
+    let Ok(axe) = std::fs::read_to_string(&file) else {
+        let missing = "there is no axe-core here: npm ci --prefix tests/accessibility";
+        assert!(std::env::var_os("CI").is_none(), "{missing}");
+        println!("skipped: {missing}");
+        return;
+    };
+    let station = Station::start("0", &["--mock"]);
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "view === 'plan' && !document.querySelector('#load').disabled");
+    chromium.click(&tab, "#simulate", [0.0; 2]);
+    chromium.wait(&tab, "!!plan.simulated()?.completed");
+    chromium.click(&tab, "#load", [0.0; 2]);
+    chromium.wait(&tab, "view === 'fly' && !document.querySelector('#start').disabled");
+    chromium.click(&tab, "#start", [0.0; 2]);
+    chromium.wait(&tab, "status.step === 1");
+    chromium.click(&tab, "#byhand", [0.0; 2]);
+    // A plan with problems, a comparison, an alarm.
+    let draft = "takeoff\ngoto 9 9 0 0\nfly\nland\n";
+    chromium.click(&tab, "[data-show=plan]", [0.0; 2]);
+    chromium.type_into(&tab, "#plantext", draft);
+    chromium.wait(&tab, "document.querySelectorAll('#problems li').length > 0");
+    for scheme in ["light", "dark"] {
+        chromium.look(&tab, [1400, 860], scheme);
+        for name in ["fly", "plan", "plots", "flights"] {
+            chromium.click(&tab, &format!("[data-show={name}]"), [0.0; 2]);
+            chromium.wait(&tab, &format!("view === '{name}'"));
+            if name == "flights" {
+                chromium.wait(&tab, "document.querySelectorAll('#recordings tbody tr').length > 0");
+                chromium.click(&tab, "#recordings .actions button", [0.0; 2]);
+            }
+            let found = violations(&mut chromium, &tab, &axe);
+            assert_eq!(found, Vec::<String>::new(), "{name}, {scheme}");
+        }
+    }
+    let report = chromium.open(&format!("{}flights/flights.mcap/report", station.url));
+    chromium.wait(&report, "document.querySelectorAll('h2').length > 3");
+    assert_eq!(violations(&mut chromium, &report, &axe), Vec::<String>::new(), "the report");
+    // The checker notices a button without a name and grey letters on grey ground.
+    let breaks = "document.querySelector('nav button').replaceChildren(); \
+        document.querySelector('h1').style.color = '#444'";
+    chromium.evaluate(&tab, breaks);
+    let found = violations(&mut chromium, &tab, &axe).join(" ");
+    assert!(found.contains("button-name") && found.contains("color-contrast"), "{found}");
+    station.end();
+}
+
+/// All views, narrow and wide, in light and dark, where nothing is wider than the window.
+#[test]
+fn the_page_fits_telephones_and_large_screens() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0", &["--mock"]);
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "view === 'plan' && !document.querySelector('#simulate').disabled");
+    let pictures = std::env::var_os("PAGE_PICTURES");
+    for (width, height) in [(360, 740), (820, 1180), (1366, 768), (1920, 1080)] {
+        for scheme in ["light", "dark"] {
+            chromium.look(&tab, [width, height], scheme);
+            for name in ["fly", "plan", "plots", "flights"] {
+                chromium.click(&tab, &format!("[data-show={name}]"), [0.0; 2]);
+                chromium.wait(&tab, &format!("view === '{name}'"));
+                let wide = number(&mut chromium, &tab, "document.documentElement.scrollWidth");
+                assert!(wide <= f64::from(width), "{name} is {wide} wide at {width}");
+                if let Some(folder) = &pictures {
+                    std::thread::sleep(Duration::from_millis(300));
+                    let file = Path::new(folder).join(format!("{name}-{width}-{scheme}.png"));
+                    chromium.screenshot(&tab, &file);
+                }
+            }
+        }
+    }
+    station.end();
+}
