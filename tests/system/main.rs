@@ -30,3 +30,4 @@ mod tags;
 mod udp;
 mod vehicle;
 mod video;
+mod video_faults;

@@ -15,7 +15,8 @@ use tokio::sync::broadcast::error::RecvError;
 use tokio::time::Instant;
 use tracing::{debug, info, warn};
 
-use crate::video::{EncodedPicture, Scene, VideoEncoder, View};
+use crate::scenario::VideoFault;
+use crate::video::{EncodedPicture, Scene, Sent, Spoiler, VideoEncoder, View};
 
 /// Interval of the pictures.
 const INTERVAL: Duration = Duration::from_micros(33_333);
@@ -40,6 +41,8 @@ pub(super) struct Sight {
     pub(super) loss: f64,
     /// Nothing arrives.
     pub(super) is_out: bool,
+    /// What is wrong with the stream.
+    pub(super) fault: Option<VideoFault>,
 }
 
 /// Sends the video to its clients.
@@ -93,8 +96,14 @@ impl VideoServer {
         *lock(&self.sight) = sight;
     }
 
-    /// Takes a client.
-    pub(super) fn connect(&self, stream: TcpStream) {
+    /// Takes a client, unless what the camera sees now is cut.
+    pub(super) fn connect(&self, stream: TcpStream, sight: Sight) {
+        let is_cut = sight.fault == Some(VideoFault::Cut);
+        // Nobody may have watched until now, so that the last one is old.
+        self.see(sight);
+        if is_cut {
+            return;
+        }
         if self.pictures.receiver_count() >= CLIENTS {
             return info!("a video client is refused: there are {CLIENTS} already");
         }
@@ -136,6 +145,7 @@ async fn send(
     sight: &Mutex<Sight>,
 ) -> io::Result<()> {
     let mut random = ChaCha8Rng::seed_from_u64(0);
+    let mut spoiler = Spoiler::default();
     let mut joined = false;
     loop {
         let picture = match pictures.recv().await {
@@ -160,6 +170,13 @@ async fn send(
                 tokio::time::sleep(SENT_AGAIN).await;
             }
         }
-        tokio::time::timeout(PATIENCE, stream.write_all(&picture.bytes)).await??;
+        let fault = lock(sight).fault;
+        match spoiler.spoil(&picture, fault) {
+            Sent::Bytes(bytes) => {
+                tokio::time::timeout(PATIENCE, stream.write_all(&bytes)).await??;
+            }
+            Sent::Nothing => {}
+            Sent::End => return Ok(()),
+        }
     }
 }
