@@ -31,3 +31,4 @@ mod udp;
 mod vehicle;
 mod video;
 mod video_faults;
+mod video_rate;

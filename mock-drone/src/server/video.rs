@@ -40,6 +40,8 @@ const LOOK: Duration = Duration::from_millis(50);
 pub(super) struct Sight {
     pub(super) view: View,
     pub(super) scene: Scene,
+    /// Bit rate of the video.
+    pub(super) kbit_s: u32,
     /// Fraction of packets that are lost.
     pub(super) loss: f64,
     /// Nothing arrives.
@@ -84,7 +86,8 @@ impl VideoServer {
                 if sender.receiver_count() == 0 {
                     continue;
                 }
-                let Sight { view, scene, .. } = lock(&seen).clone();
+                let Sight { view, scene, kbit_s, .. } = lock(&seen).clone();
+                encoder.set_rate(kbit_s);
                 match encoder.encode(start.elapsed(), &scene, &view) {
                     // A client may have gone meanwhile.
                     Ok(picture) => {
