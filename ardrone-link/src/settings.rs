@@ -85,6 +85,17 @@ pub enum EnemyColors {
     Blue,
 }
 
+/// What determines the bit rate of the video.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BitRateControl {
+    /// It is [`Setting::VideoMaxBitRateKbitS`].
+    Off,
+    /// The drone adapts it to the link, up to [`Setting::VideoMaxBitRateKbitS`].
+    Dynamic,
+    /// It is [`Setting::VideoBitRateKbitS`], whatever the maximum.
+    Manual,
+}
+
 /// Tags that the cameras detect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detection {
@@ -221,7 +232,17 @@ settings! {
     }.to_owned());
     /// Video frames per second, 15 to 30. Needs custom identities.
     VideoFramesPerSecond(u32) = "video:codec_fps", Session, |key, fps| whole(key, *fps, 15, 30);
-    /// Bit rate of the video, 250 to 4000 kbit/s. Needs custom identities.
+    /// What determines the bit rate of the video; off by default. Needs custom identities.
+    VideoBitRateControl(BitRateControl) = "video:bitrate_ctrl_mode", Application, |_, control| Ok(match control {
+        BitRateControl::Off => "0",
+        BitRateControl::Dynamic => "1",
+        BitRateControl::Manual => "2",
+    }.to_owned());
+    /// Highest bit rate of the video, unless it is controlled manually, 250 to 4000 kbit/s; 1000 kbit/s by default. Needs
+    /// custom identities.
+    VideoMaxBitRateKbitS(u32) = "video:max_bitrate", Session, |key, rate| whole(key, *rate, 250, 4000);
+    /// Bit rate of the video if it is controlled manually, 250 to 4000 kbit/s; 1000 kbit/s by default. Needs custom
+    /// identities.
     VideoBitRateKbitS(u32) = "video:bitrate", Application, |key, rate| whole(key, *rate, 250, 4000);
     /// Whether video is recorded to a USB key.
     VideoOnUsb(bool) = "video:video_on_usb", Common, |_, on| flag(*on);
@@ -317,6 +338,9 @@ mod tests {
             (Setting::ClimbMaxMS(0.7), "control:control_vz_max", "700"),
             (Setting::YawRateMaxDegS(100.0), "control:control_yaw", "1.745329"),
             (Setting::VideoChannel(Camera::Bottom), "video:video_channel", "1"),
+            (Setting::VideoBitRateControl(BitRateControl::Manual), "video:bitrate_ctrl_mode", "2"),
+            (Setting::VideoBitRateKbitS(250), "video:bitrate", "250"),
+            (Setting::VideoMaxBitRateKbitS(4000), "video:max_bitrate", "4000"),
             (Setting::SlowUltrasound(false), "pic:ultrasound_freq", "8"),
             (Setting::LatitudeDeg(-33.5), "gps:latitude", "-33.5"),
         ] {
@@ -338,6 +362,8 @@ mod tests {
             Setting::EulerAngleMaxDeg(-1.0),
             Setting::ClimbMaxMS(700.0),
             Setting::CommunicationWatchdogS(0),
+            Setting::VideoBitRateKbitS(249),
+            Setting::VideoMaxBitRateKbitS(4_000_000),
             Setting::NavdataOptions(vec![28]),
             Setting::NetworkName("a\"b".to_owned()),
         ] {

@@ -93,6 +93,17 @@ const KEYS: [(&str, Kind, &str); 66] = [
 /// Limits with an indoor and an outdoor set; the drone uses the active one.
 const LIMITS: [&str; 3] = ["euler_angle_max", "control_vz_max", "control_yaw"];
 
+/// Keys that the default configuration does not let be changed: they need identities of their own.
+const CUSTOM: [&str; 5] = [
+    "video:codec_fps",
+    "video:video_codec",
+    "video:bitrate",
+    "video:max_bitrate",
+    "video:bitrate_ctrl_mode",
+];
+const APPLICATION: &str = "custom:application_id";
+const DEFAULT_ID: &str = "00000000";
+
 /// A drone's configuration.
 #[derive(Debug, Clone)]
 pub(crate) struct ConfigurationStore {
@@ -117,7 +128,7 @@ impl ConfigurationStore {
             Text => true,
             ReadOnly => false,
         };
-        if !valid {
+        if !valid || (CUSTOM.contains(key) && self.text(APPLICATION) == Some(DEFAULT_ID)) {
             return;
         }
         self.values.insert(key, value.to_owned());
@@ -153,6 +164,16 @@ impl ConfigurationStore {
 
     pub(crate) fn text(&self, key: &str) -> Option<&str> {
         self.values.get(key).map(String::as_str)
+    }
+
+    /// Bit rate of the video. That the drone adapts it to its link is not modelled: it is the greatest then.
+    #[cfg(feature = "video")]
+    pub(crate) fn video_kbit_s(&self) -> u32 {
+        const MANUAL: &str = "2";
+        let is_manual = self.text("video:bitrate_ctrl_mode") == Some(MANUAL);
+        let key = if is_manual { "video:bitrate" } else { "video:max_bitrate" };
+        let rate = self.text(key).and_then(|value| value.parse::<u32>().ok());
+        rate.unwrap_or_default().clamp(250, 4000)
     }
 
     pub(crate) fn is_set(&self, key: &str) -> bool {
@@ -215,6 +236,24 @@ mod tests {
         assert_eq!(configuration.len(), KEYS.len());
         let gains = configuration.get("control:accs_gains").unwrap();
         assert_eq!(gains.split_whitespace().count(), 11, "nine numbers in braces");
+    }
+
+    #[cfg(feature = "video")]
+    #[test]
+    fn the_video_has_the_rate_that_an_application_of_its_own_sets() {
+        let mut store = ConfigurationStore::default();
+        let mut rate = |key: &str, value: &str| {
+            store.set(key, value);
+            store.video_kbit_s()
+        };
+        assert_eq!(rate("video:bitrate_ctrl_mode", "2"), 1000);
+        assert_eq!(rate("video:max_bitrate", "2000"), 1000, "the default configuration");
+        assert_eq!(rate("custom:application_id", "00000003"), 1000);
+        assert_eq!(rate("video:max_bitrate", "2000"), 2000);
+        assert_eq!(rate("video:bitrate", "500"), 2000);
+        assert_eq!(rate("video:bitrate_ctrl_mode", "2"), 500);
+        assert_eq!(rate("video:bitrate", "9000"), 4000);
+        assert_eq!(rate("video:bitrate_ctrl_mode", "1"), 2000);
     }
 
     #[test]

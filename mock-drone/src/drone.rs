@@ -312,6 +312,12 @@ impl Drone {
         }
     }
 
+    /// Bit rate of the video that the configuration asks for.
+    #[cfg(feature = "video")]
+    pub fn video_kbit_s(&self) -> u32 {
+        self.firmware.video_kbit_s()
+    }
+
     /// The roundels on the floor, in the order of their placement.
     pub fn tags(&self) -> &[FloorTag] {
         &self.tags

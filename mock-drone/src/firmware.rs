@@ -465,13 +465,19 @@ impl Firmware {
         mask.and_then(|mask| mask.parse::<u32>().ok()).is_some_and(|mask| mask >> tag & 1 == 1)
     }
 
-    /// The roundel detector, if the configuration enables it.
     /// Whether the video shows the bottom camera.
     #[cfg(feature = "video")]
     pub(crate) fn shows_bottom(&self) -> bool {
         self.configuration.text(VIDEO_CHANNEL) == Some(BOTTOM)
     }
 
+    /// Bit rate of the video.
+    #[cfg(feature = "video")]
+    pub(crate) fn video_kbit_s(&self) -> u32 {
+        self.configuration.video_kbit_s()
+    }
+
+    /// The roundel detector, if the configuration enables it.
     pub(crate) fn detector(&self) -> Option<Detector> {
         /// The black and white oriented roundel, as a kind and as a selection bit.
         const ROUNDEL: u32 = 8;

@@ -11,7 +11,7 @@ use crate::drone::{Drone, DroneConfig, Truth};
 use crate::faults::{Quantity, SensorFault};
 use crate::firmware::Phase;
 use crate::link::{Link, LinkFaults};
-use crate::scenario::{Action, Direction, Scenario};
+use crate::scenario::{Action, Direction, Scenario, VideoFault};
 use crate::second_pilot::SecondPilot;
 
 /// Configuration of a [`World`].
@@ -54,6 +54,8 @@ pub struct World {
     /// End of the current outage, up and down.
     outage_ends: [Option<Duration>; 2],
     second_pilot: Option<SecondPilot>,
+    /// Faults of the video, with the end of each; the last one counts.
+    video_faults: Vec<(VideoFault, Duration)>,
     control: Option<String>,
 }
 
@@ -73,6 +75,7 @@ impl World {
             take_off: None,
             outage_ends: [None; 2],
             second_pilot: None,
+            video_faults: Vec::new(),
             control: None,
         }
     }
@@ -133,6 +136,12 @@ impl World {
     #[cfg(feature = "video")]
     pub(crate) fn link_state(&self) -> (f64, bool) {
         (self.down.faults.loss, self.down.out)
+    }
+
+    /// What is wrong with the video now.
+    pub fn video_fault(&self) -> Option<VideoFault> {
+        let now = self.drone.time();
+        self.video_faults.iter().rfind(|(_, ends)| now < *ends).map(|(fault, _)| *fault)
     }
 
     /// The drone.
@@ -229,6 +238,10 @@ impl World {
             Action::BatterySag(percent) => self.drone.set_battery_sag_percent(percent),
             Action::SecondPilot(time, sequence) => {
                 self.second_pilot = Some(SecondPilot::new(now, time, sequence));
+            }
+            Action::Video(fault, time) => {
+                self.video_faults.retain(|(_, ends)| now < *ends);
+                self.video_faults.push((fault, now + time));
             }
         }
     }
@@ -344,6 +357,18 @@ mod tests {
         assert_eq!(bench.world.truth().phase, Phase::Flying, "its numbers are higher");
         bench.fly(Ref::Land, 14);
         assert_eq!(bench.world.truth().phase, Phase::Landed, "it has gone");
+    }
+
+    #[test]
+    fn the_last_fault_of_the_video_counts_until_it_ends() {
+        let mut bench = Bench::new("1 video garbage for 5\n2 video cut for 2\n2 video lie for 1");
+        let mut faults = Vec::new();
+        for _ in 0..7 {
+            faults.push(bench.world.video_fault());
+            bench.fly(Ref::Land, 1);
+        }
+        let [garbage, cut, lie] = [VideoFault::Garbage, VideoFault::Cut, VideoFault::Lie].map(Some);
+        assert_eq!(faults, [None, garbage, lie, cut, garbage, garbage, None]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Clients that others wrote fly the mock drone, unmodified: node-ar-drone and ardrone-autonomy from
-# npm, pyardrone from PyPI. Where they can't be had, that is said and nothing is tested; in CI that is a failure.
+# Clients that others wrote fly the mock drone and read its video, unmodified: node-ar-drone and ardrone-autonomy from
+# npm, pyardrone from PyPI, and ffmpeg decodes. Where they can't be had, that is said and nothing is tested; in CI that is a failure.
 set -uo pipefail
 mock=$(realpath "${1:?usage: run.sh PATH-OF-MOCK-DRONE}")
 [ -x "$mock" ] || { echo "there is no $mock"; exit 1; }
@@ -29,16 +29,24 @@ flies() {
     wait "$drone" 2>/dev/null
 }
 
-cp fly_node.js fly_mission.js fly_hover.js "$work"
+cp fly_node.js fly_mission.js fly_hover.js read_video.js read_png.js "$work"
 if command -v npm >/dev/null && (cd "$work" && npm install --no-audit --no-fund ar-drone@0.3.3 ardrone-autonomy@0.1.2) >"$work/npm.log" 2>&1; then
     flies "node-ar-drone, demo navdata" "" node "$work/fly_node.js" demo
     flies "node-ar-drone, full navdata" "" node "$work/fly_node.js" full
     flies "node-ar-drone, full navdata with GPS" "--option-27 gps" node "$work/fly_node.js" full
     flies "ardrone-autonomy, a mission" "" node "$work/fly_mission.js"
     flies "ardrone-autonomy, a hover above a tag" "--tag 0,0,0" node "$work/fly_hover.js"
+    flies "node-ar-drone, video" "" node "$work/read_video.js" "$work/film.h264"
+    if command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null; then
+        flies "node-ar-drone and ffmpeg, video" "" ./decode_video.sh "$work"
+        flies "node-ar-drone and ffmpeg, video as PNG" "" node "$work/read_png.js"
+    else
+        echo "skipped: ffmpeg is not there"
+        skipped=$((skipped + 2))
+    fi
 else
     echo "skipped: npm or its registry is not there"
-    skipped=$((skipped + 5))
+    skipped=$((skipped + 8))
 fi
 if command -v python3 >/dev/null && python3 -m venv "$work/python" >"$work/pip.log" 2>&1 &&
     "$work/python/bin/pip" install pyardrone==0.6.1 >>"$work/pip.log" 2>&1; then

@@ -31,3 +31,5 @@ mod tags;
 mod udp;
 mod vehicle;
 mod video;
+mod video_faults;
+mod video_rate;

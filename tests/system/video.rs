@@ -267,9 +267,26 @@ fn a_recorded_flight_has_its_video() {
     assert_eq!((status, &film[4..8]), (Some(0), &b"ftyp"[..]));
     assert!(film.len() > expected.len());
     assert_eq!(export("film.avi"), (Some(2), Vec::new()));
+    for name in ["full.h264", "full.mp4"] {
+        no_room(&log, &folder.path().join(name));
+    }
     // The flight is replayed as if there were no video.
     let replayed = program("ardrone-pilot").arg("replay").arg(&log).output().unwrap();
     assert_eq!(replayed.status.code(), Some(0));
+}
+
+/// A film for which there is no room on the disk is an error, and nothing is left of it.
+fn no_room(log: &Path, film: &Path) {
+    // A film is written under this name first.
+    let begun = film.with_added_extension("partial");
+    std::os::unix::fs::symlink("/dev/full", &begun).unwrap();
+    let output = program("ardrone-pilot").arg("video").arg(log).arg("-o").arg(film).output();
+    let output = output.unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), &*output.stdout), (Some(1), &b""[..]), "{said}");
+    assert!(said.contains("No space left on device"), "{said}");
+    assert!(said.contains(&film.display().to_string()), "{said}");
+    assert!(!film.exists() && !begun.is_symlink(), "something is left of {}", film.display());
 }
 
 /// `cargo test --release -p system-tests --test system -- --ignored how_late --nocapture`

@@ -13,7 +13,7 @@ use pid::Law;
 use serde::{Deserialize, Serialize};
 
 use self::section::{Comments, LawName};
-use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Fence};
+use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Fence, Video};
 pub use self::tags::GivenTag;
 use self::tags::Tags;
 
@@ -23,6 +23,7 @@ use self::tags::Tags;
 pub struct Settings {
     fence: Fence,
     drone: Drone,
+    video: Video,
     delays: Delays,
     airframe: Airframe,
     estimator: Estimator,
@@ -59,9 +60,10 @@ const HEADER: &str = "\
 ";
 
 /// The sections' comments.
-const COMMENTS: [Comments; 7] = [
+const COMMENTS: [Comments; 8] = [
     Fence::COMMENTS,
     Drone::COMMENTS,
+    Video::COMMENTS,
     Delays::COMMENTS,
     Airframe::COMMENTS,
     Estimator::COMMENTS,
@@ -145,11 +147,12 @@ impl Settings {
 
     /// The vehicle's configuration.
     pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
-        let Self { fence, drone, delays, airframe, estimator, tags, controller } = self;
+        let Self { fence, drone, video, delays, airframe, estimator, tags, controller } = self;
         let mut config = VehicleConfig::default();
         config.limits.z_origin = z_origin;
         fence.apply(&mut config);
         drone.apply(&mut config);
+        video.apply(&mut config);
         delays.apply(&mut config);
         airframe.apply(&mut config);
         estimator.apply(&mut config);
@@ -159,9 +162,10 @@ impl Settings {
     }
 
     fn reasons_against(&self) -> Vec<String> {
-        let Self { fence, drone, delays, airframe, estimator, tags, controller } = self;
+        let Self { fence, drone, video, delays, airframe, estimator, tags, controller } = self;
         let mut reasons = fence.out_of_range();
         reasons.extend(drone.out_of_range());
+        reasons.extend(video.out_of_range());
         reasons.extend(delays.out_of_range());
         reasons.extend(airframe.out_of_range());
         reasons.extend(estimator.out_of_range());
@@ -203,6 +207,8 @@ mod tests {
             for (name, value) in values.as_table().unwrap() {
                 let other = match value {
                     toml::Value::Float(number) => (number * 1.05).into(),
+                    // A bit rate that is not asked for.
+                    toml::Value::Integer(0) => 500.into(),
                     toml::Value::Integer(number) => (number + 1).into(),
                     toml::Value::Boolean(on) => (!on).into(),
                     toml::Value::Array(_) => vec![0.9, 0.8].into(),
@@ -217,7 +223,7 @@ mod tests {
                 tried += 1;
             }
         }
-        assert_eq!(tried, 40);
+        assert_eq!(tried, 41);
     }
 
     #[test]
@@ -246,11 +252,12 @@ mod tests {
     #[test]
     fn values_that_no_flight_can_have_are_refused_all_at_once() {
         let text = "[drone]\ntilt_max_deg = 90.0\n[fence]\nfloor_m = nan\n\
-                    [airframe]\nthrust_gain = [1.0, 0.0]";
+                    [airframe]\nthrust_gain = [1.0, 0.0]\n[video]\nbitrate_kbit_s = 100";
         let error = Settings::parse("my.toml", text).unwrap_err();
         let SettingsError::Values { reasons, .. } = error else { panic!("{error}") };
-        assert_eq!(reasons.len(), 3, "{reasons:?}");
+        assert_eq!(reasons.len(), 4, "{reasons:?}");
         assert!(reasons[1].contains("drone.tilt_max_deg is 90"), "{reasons:?}");
+        assert!(reasons[2].contains("video.bitrate_kbit_s is 100"), "{reasons:?}");
         let text = "[fence]\nfloor_m = 2.5\nceiling_m = 2.0";
         assert!(Settings::parse("my.toml", text).is_err());
     }

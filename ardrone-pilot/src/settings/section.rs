@@ -128,6 +128,21 @@ impl Setting<Duration> for Milliseconds {
     }
 }
 
+/// A bit rate in kbit/s; zero for none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(super) struct BitRate(u32);
+
+impl Setting<Option<u32>> for BitRate {
+    fn of(value: &Option<u32>) -> Self {
+        Self(value.unwrap_or_default())
+    }
+
+    fn value(&self) -> Option<u32> {
+        (self.0 > 0).then_some(self.0)
+    }
+}
+
 /// An angle in radians, written in degrees.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
@@ -217,6 +232,13 @@ impl Numbers for [f64; 2] {
 impl Numbers for Milliseconds {
     fn numbers(&self) -> impl Iterator<Item = f64> {
         std::iter::once(self.0.into())
+    }
+}
+
+impl Numbers for BitRate {
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        let rate: Option<u32> = self.value();
+        rate.into_iter().map(f64::from)
     }
 }
 

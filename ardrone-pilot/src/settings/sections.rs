@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use autopilot::vehicle::VehicleConfig;
 use serde::{Deserialize, Serialize};
 
-use super::section::{Degrees, LawName, Milliseconds, Navdata, section};
+use super::section::{BitRate, Degrees, LawName, Milliseconds, Navdata, section};
 
 /// Range of gains that the estimator accepts.
 const GAIN: RangeInclusive<f64> = 0.4..=2.5;
@@ -34,6 +34,14 @@ section! {
         read_back: bool = [read_back],
         /// Whether the position by a flight recorder is asked for. It is shown and recorded; nothing is flown by it.
         gps: bool = [gps],
+    }
+}
+
+section! {
+    struct Video("video") of VehicleConfig {
+        /// Bit rate that the drone is asked for, 250 to 4000: less suffers less from a bad link. kbit/s; 0 leaves it as it is,
+        /// which is 1000 after a start.
+        bitrate_kbit_s: BitRate = [video_kbit_s] in 250.0..=4000.0,
     }
 }
 

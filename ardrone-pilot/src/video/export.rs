@@ -33,8 +33,8 @@ pub enum ExportError {
         source: std::io::Error,
     },
     /// The pictures do not make a film.
-    #[error("the video cannot be written as MP4: {0}")]
-    Mp4(#[from] MuxerError),
+    #[error("the video cannot be written as MP4")]
+    Mp4(#[source] MuxerError),
 }
 
 /// What was written.
@@ -108,19 +108,24 @@ fn write_mp4(
     const RATE: f64 = 30.0;
     /// Two pictures cannot have the same time.
     const LEAST_APART_S: f64 = 1e-3;
+    let mp4 = |error| match error {
+        MuxerError::Io(source) => failed(source),
+        other => ExportError::Mp4(other),
+    };
     let mut muxer = MuxerBuilder::new(file)
         .video(VideoCodec::H264, SIZE.0, SIZE.1, RATE)
         .with_fast_start(true)
-        .build()?;
+        .build()
+        .map_err(mp4)?;
     let start = pictures.first().map(|picture| picture.at).unwrap_or_default();
     let mut last: Option<f64> = None;
     for picture in pictures {
         let at = picture.at.saturating_sub(start).as_secs_f64();
         let at = last.map_or(at, |last| at.max(last + LEAST_APART_S));
         last = Some(at);
-        muxer.write_video(at, &picture.data, picture.is_entry)?;
+        muxer.write_video(at, &picture.data, picture.is_entry).map_err(mp4)?;
     }
-    muxer.finish_in_place()?;
+    muxer.finish_in_place().map_err(mp4)?;
     // It does not flush what it was given.
     muxer.into_writer().flush().map_err(failed)
 }

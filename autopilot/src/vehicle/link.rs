@@ -18,6 +18,8 @@ pub(super) const NAVDATA_OPTIONS_KEY: &str = "general:navdata_options";
 /// What makes the drone look for roundels. A firmware may not know it, or not let the default configuration
 /// change it: the flight does not depend on it.
 pub(super) const DETECTION_SECTION: &str = "detect:";
+/// The video, on which no flight depends.
+pub(super) const VIDEO_SECTION: &str = "video:";
 
 impl Vehicle {
     pub(super) fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
@@ -200,6 +202,10 @@ impl Vehicle {
         } else if key.starts_with(DETECTION_SECTION) {
             if !std::mem::replace(&mut self.configured.no_detection, true) {
                 self.events.push_back(FlightEvent::NoTagDetection);
+            }
+        } else if key.starts_with(VIDEO_SECTION) {
+            if !std::mem::replace(&mut self.configured.no_video_rate, true) {
+                self.events.push_back(FlightEvent::NoVideoRate);
             }
         } else if !self.configured.unconfirmed.iter().any(|other| other == key) {
             self.configured.unconfirmed.push(key.to_owned());

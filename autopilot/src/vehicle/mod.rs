@@ -24,10 +24,10 @@ mod tick;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use ardrone_link::at::Config;
+use ardrone_link::at::{Config, Identity};
 use ardrone_link::navdata::{ControlState, Demo, DroneState, GpsFix, Navdata};
 use ardrone_link::session::{self, Session, SessionConfig};
-use ardrone_link::settings::{Detection, Setting, SettingError};
+use ardrone_link::settings::{BitRateControl, Detection, Setting, SettingError};
 use estimator::{EstimatorConfig, Prediction};
 pub use estimator::{KnownTag, KnownTags, Quantity, SurveyedTag, TagConfig, TagStatus, Trust};
 use kinematics::Pose;
@@ -77,6 +77,8 @@ pub struct VehicleConfig {
     pub navdata: NavdataRate,
     /// Whether the drone is asked for the position by its flight recorder, which is only reported.
     pub gps: bool,
+    /// Bit rate of the video that is asked for, in kbit/s; otherwise the drone keeps its own.
+    pub video_kbit_s: Option<u32>,
     /// Control law for approaching and holding poses.
     pub law: Law,
     /// Delays and airframe parameters assumed by the estimator.
@@ -92,6 +94,7 @@ impl Default for VehicleConfig {
             read_back: true,
             navdata: NavdataRate::default(),
             gps: false,
+            video_kbit_s: None,
             law: Law::default(),
             estimator: EstimatorConfig::default(),
             cascade: CascadeConfig::default(),
@@ -99,6 +102,9 @@ impl Default for VehicleConfig {
     }
 }
 
+/// Our own configuration on the drone: any numbers but zero.
+const IDENTITY: Identity =
+    Identity { session: 0x0a0d_0001, user: 0x0a0d_0002, application: 0x0a0d_0003 };
 /// Longest wait for the first navdata.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 /// Longest wait for the drone to acknowledge its configuration.
@@ -176,6 +182,8 @@ struct Configured {
     not_read: bool,
     /// It does not look for roundels.
     no_detection: bool,
+    /// The drone has not confirmed the video's bit rate.
+    no_video_rate: bool,
 }
 
 /// Whether and why this program may send commands to the drone.
@@ -198,6 +206,8 @@ impl Vehicle {
         let settings = drone_settings(config)?;
         let session_config = SessionConfig {
             settings: settings.clone(),
+            // Only a configuration of one's own has a bit rate that can be set. Without need the drone's own is used, as ever.
+            identity: config.video_kbit_s.map(|_| IDENTITY),
             read_back: config.read_back,
             // The agent gives up a take-off after its own time limit.
             take_off_timeout: Duration::MAX,
@@ -389,6 +399,10 @@ fn drone_settings(config: &VehicleConfig) -> Result<Vec<Config>, SettingError> {
         // The selection counts for other values of the type; some clients of real drones set it too.
         settings.push(Setting::DetectionsBottom(ROUNDEL_BIT));
         settings.push(Setting::DetectType(Detection::OrientedRoundel));
+    }
+    if let Some(kbit_s) = config.video_kbit_s {
+        settings.push(Setting::VideoBitRateControl(BitRateControl::Manual));
+        settings.push(Setting::VideoBitRateKbitS(kbit_s));
     }
     settings.iter().map(Setting::config).collect()
 }

@@ -28,6 +28,8 @@ pub enum FlightEvent {
     NoDroneClock,
     /// The drone does not confirm that it looks for roundels: the place may drift.
     NoTagDetection,
+    /// The drone does not confirm the bit rate of the video.
+    NoVideoRate,
     /// All settings are applied.
     Configured,
     /// The drone is already in the air, and the plan takes it over.
@@ -126,6 +128,7 @@ impl FlightEvent {
             | Self::Resumed => false,
             Self::ConfigurationNotRead
             | Self::NoTagDetection
+            | Self::NoVideoRate
             | Self::TargetCorrected { .. }
             | Self::LandingOrdered(_)
             | Self::LinkLost
@@ -160,6 +163,9 @@ impl fmt::Display for FlightEvent {
             Self::NoTagDetection => f.write_str(
                 "the drone does not confirm that it looks for tags: the place may drift as without them",
             ),
+            Self::NoVideoRate => {
+                f.write_str("the drone does not confirm the bit rate of the video: it may have another one")
+            }
             Self::Configured => f.write_str("drone configured, level reference set"),
             Self::TakingOver => f.write_str("the drone flies: taking it over"),
             Self::StepStarted { step } => write!(f, "step {}", step + 1),

@@ -9,7 +9,7 @@ use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{Gps, NavdataOption, PacketWriter};
 use bytes::BytesMut;
 
-use super::link::{DETECTION_SECTION, GPS_MAX_AGE, NAVDATA_OPTIONS_KEY};
+use super::link::{DETECTION_SECTION, GPS_MAX_AGE, NAVDATA_OPTIONS_KEY, VIDEO_SECTION};
 use super::*;
 use bench::{Bench, SECOND};
 
@@ -170,6 +170,29 @@ fn a_firmware_that_does_not_look_for_tags_is_reported_and_flown() {
     for (key, _) in &detection {
         vehicle.setting_unconfirmed(key);
         let said = vehicle.events.iter().filter(|event| **event == FlightEvent::NoTagDetection);
+        assert_eq!(said.count(), 1, "once for all keys");
+    }
+    assert_eq!(vehicle.configured.unconfirmed, Vec::<String>::new());
+}
+
+#[test]
+fn a_firmware_that_keeps_its_bit_rate_is_reported_and_flown() {
+    let keys = |config: &VehicleConfig| {
+        let vehicle = Vehicle::new(config).unwrap();
+        let settings = vehicle.settings.iter();
+        let settings = settings.filter(|setting| setting.key().starts_with(VIDEO_SECTION));
+        settings.map(|one| (one.key().to_owned(), one.value().to_owned())).collect::<Vec<_>>()
+    };
+    let mut config = VehicleConfig::default();
+    assert_eq!(keys(&config), [], "off unless asked for");
+    config.video_kbit_s = Some(500);
+    let rate = [("video:bitrate_ctrl_mode", "2"), ("video:bitrate", "500")]
+        .map(|(key, value)| (key.to_owned(), value.to_owned()));
+    assert_eq!(keys(&config), rate);
+    let mut vehicle = Vehicle::new(&config).unwrap();
+    for (key, _) in &rate {
+        vehicle.setting_unconfirmed(key);
+        let said = vehicle.events.iter().filter(|event| **event == FlightEvent::NoVideoRate);
         assert_eq!(said.count(), 1, "once for all keys");
     }
     assert_eq!(vehicle.configured.unconfirmed, Vec::<String>::new());

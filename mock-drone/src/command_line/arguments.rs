@@ -47,7 +47,10 @@ start, or with a plus since the first take-off; # starts a comment.
                                  numbers start at 1, or with `from 5000` at the end there
   +24   tag 1.5 -0.5 90          place a roundel: metres right and forward, degrees; likewise
                                  tag-moved 1 0 0 90 (number and new place) and tag-gone 1
-  +25   restart                  power cycle; or propeller, a blocked one, which cuts the motors
+  +25   video cut for 3          seconds in which the video's connections are closed; likewise
+                                 silent (they stay open without data), garbage (random bytes)
+                                 and lie (headers with wrong sizes)
+  +30   restart                  power cycle; or propeller, a blocked one, which cuts the motors
 
 loss, outage and hold affect both directions, or with up or down behind the word only the datagrams
 to or from the drone. A quantity is velocity-right, velocity-forward, altitude, yaw (or heading),

@@ -7,6 +7,7 @@
 //! +5    outage 1.2               # seconds
 //! +8    lie altitude 0.5 for 3   # metres, seconds
 //! +9    stuck yaw for 2
+//! +10   video cut for 2
 //! +12   wind 1.5 -0.5 gusts 0.4  # metres a second towards right and forward
 //! +20   restart
 //! ```
@@ -64,6 +65,19 @@ impl Direction {
     }
 }
 
+/// What is wrong with the video stream.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum VideoFault {
+    /// Connections are closed, new ones as soon as they are accepted.
+    Cut,
+    /// Connections stay open and new ones are accepted, but nothing is sent.
+    Silent,
+    /// Random bytes in place of each picture, with a header's signature among them.
+    Garbage,
+    /// The headers of the pictures announce wrong sizes, of themselves or of the payload.
+    Lie,
+}
+
 /// A fault or another change. Fractions are probabilities from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
@@ -109,6 +123,8 @@ pub enum Action {
     BatterySag(f64),
     /// Another client commands the drone to hover for a time; its sequence numbers start here.
     SecondPilot(Duration, u32),
+    /// The video is wrong for a time. Of several faults the last one counts, until it ends.
+    Video(VideoFault, Duration),
 }
 
 /// The errors of a scenario.
@@ -241,6 +257,10 @@ mod tests {
             ("tag-moved 1 0 2 -90", Action::MoveTag(0, Some(FloorTag::new(0.0, 2.0, -90.0)))),
             ("second-pilot 1", Action::SecondPilot(second, 1)),
             ("second-pilot 1 from 5000", Action::SecondPilot(second, 5000)),
+            ("video cut for 1", Action::Video(VideoFault::Cut, second)),
+            ("video silent for 1", Action::Video(VideoFault::Silent, second)),
+            ("video garbage for 1", Action::Video(VideoFault::Garbage, second)),
+            ("video lie for 1", Action::Video(VideoFault::Lie, second)),
         ] {
             assert_eq!(actions(&format!("0 {text}")), [action], "{text}");
         }
@@ -250,7 +270,7 @@ mod tests {
     fn every_mistake_is_shown_with_its_place() {
         let text = "soon loss 3\n1 los 3\n2 loss 300\n3 loss\n4 restart now\n5 lie wind 3 for 1\n\
                     6 lie yaw 3 1\n-7 restart\nNaN restart\n8 nan altitude for 1\n9 state happy for 1\n\
-                    10 burst 1.5\n11 lie velocity 1 for 2\n12 stuck velocity for 2";
+                    10 burst 1.5\n11 lie velocity 1 for 2\n12 stuck velocity for 2\n13 video gone for 2\n14 video cut 2";
         let error = Scenario::parse("s.txt", text).unwrap_err().rendered;
         let places: Vec<&str> = error.lines().filter(|line| line.starts_with("error")).collect();
         assert_eq!(
@@ -270,6 +290,8 @@ mod tests {
                 "error: expected a number of packets, found `1.5`",
                 "error: expected metres a second, found `for`",
                 "error: unknown quantity `velocity`",
+                "error: unknown fault of the video `gone`",
+                "error: expected `for`, found `2`",
             ]
         );
         assert!(error.contains("s.txt:3:8"), "{error}");

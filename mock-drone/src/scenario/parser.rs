@@ -8,14 +8,14 @@ use ardrone_link::navdata::DroneState;
 use diagnostic::{Diagnostic, Span};
 use nalgebra::Vector2;
 
-use super::{Action, Direction, Entry, When};
+use super::{Action, Direction, Entry, VideoFault, When};
 use crate::camera::FloorTag;
 use crate::faults::{Quantity, SensorFault};
 use crate::link::PAST;
 
 const ACTIONS: &str = "loss, delay, duplicate, reorder, corrupt, outage, hold, burst, restart, \
                        propeller, freeze, stuck, dead, lie, ramp, nan, late, state, minor, motor, \
-                       wind, battery, sag, second-pilot, tag, tag-moved, tag-gone";
+                       wind, battery, sag, second-pilot, video, tag, tag-moved, tag-gone";
 
 /// Names of the quantities in navdata.
 const QUANTITIES: [(&str, Quantity); 8] = [
@@ -27,6 +27,14 @@ const QUANTITIES: [(&str, Quantity); 8] = [
     ("roll", Quantity::Roll),
     ("pitch", Quantity::Pitch),
     ("clock", Quantity::Clock),
+];
+
+/// Names of the faults of the video.
+const VIDEO_FAULTS: [(&str, VideoFault); 4] = [
+    ("cut", VideoFault::Cut),
+    ("silent", VideoFault::Silent),
+    ("garbage", VideoFault::Garbage),
+    ("lie", VideoFault::Lie),
 ];
 
 /// Parses all lines: the valid entries, and the errors of the others.
@@ -102,6 +110,7 @@ fn actions(words: &mut Words<'_>) -> Result<Vec<Action>, Diagnostic> {
                 if words.take("from") { words.whole("a number", &(1..=u32::MAX))? } else { 1 };
             Action::SecondPilot(time, first)
         }
+        "video" => Action::Video(words.video_fault()?, words.for_seconds()?),
         _ => {
             return Err(Diagnostic::error(format!("unknown action `{word}`"), span)
                 .help(format!("one of {ACTIONS}")));
@@ -296,6 +305,16 @@ impl<'a> Words<'a> {
             return Err(Diagnostic::error(message, span).help(format!("one of {names}")));
         };
         Ok((*quantity, word, span))
+    }
+
+    fn video_fault(&mut self) -> Result<VideoFault, Diagnostic> {
+        let (word, span) = self.next("a fault of the video")?;
+        let fault = VIDEO_FAULTS.iter().find(|(name, _)| *name == word).map(|(_, fault)| *fault);
+        fault.ok_or_else(|| {
+            let names = VIDEO_FAULTS.map(|(name, _)| name).join(", ");
+            let message = format!("unknown fault of the video `{word}`");
+            Diagnostic::error(message, span).help(format!("one of {names}"))
+        })
     }
 
     /// A value of a quantity, or its change.

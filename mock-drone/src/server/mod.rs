@@ -234,7 +234,7 @@ impl Server {
                 Some(stream) = accept(self.video.as_ref()) => {
                     #[cfg(feature = "video")]
                     if let Some(video) = &video {
-                        video.connect(stream);
+                        video.connect(stream, self.sight());
                     }
                     #[cfg(not(feature = "video"))]
                     visitors.keep(stream);
@@ -288,7 +288,14 @@ impl Server {
         let drone = self.world.drone();
         let scene = crate::video::Scene { tags: drone.tags().to_vec() };
         let (loss, is_out) = self.world.link_state();
-        video::Sight { view: drone.view(), scene, loss, is_out }
+        video::Sight {
+            view: drone.view(),
+            scene,
+            loss,
+            is_out,
+            fault: self.world.video_fault(),
+            kbit_s: drone.video_kbit_s(),
+        }
     }
 }
 

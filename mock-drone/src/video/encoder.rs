@@ -11,8 +11,8 @@ use super::scene::{HEIGHT, Pixels, Scene, View, WIDTH};
 
 /// Pictures from one key picture to the next.
 const GROUP: u32 = 15;
-/// Bits per second.
-const RATE: u32 = 1_000_000;
+/// Thousands of bits per second, unless something else is asked for.
+const RATE: u32 = 1000;
 /// Pictures per second.
 const PICTURES_PER_S: f32 = 30.0;
 /// Headers of most captures are longer than what is known of them.
@@ -36,6 +36,10 @@ pub struct EncodedPicture {
 /// Encodes one picture after the other.
 pub struct VideoEncoder {
     encoder: Encoder,
+    kbit_s: u32,
+    wanted_kbit_s: u32,
+    /// Pictures since the last key picture, with it.
+    group: u32,
     pixels: Pixels,
     clock: Option<u32>,
     number: u32,
@@ -55,15 +59,21 @@ impl VideoEncoder {
     /// # Errors
     /// [`EncodeError`] if the encoder refuses its configuration.
     pub fn new(clock: Option<u32>) -> Result<Self, EncodeError> {
-        let config = EncoderConfig {
-            gop_size: GROUP,
-            min_keyint: GROUP,
-            bitrate: RATE,
-            framerate: PICTURES_PER_S,
-            ..EncoderConfig::baseline(WIDTH, HEIGHT)
-        };
-        let encoder = Encoder::new(config)?;
-        Ok(Self { encoder, pixels: Pixels::default(), clock, number: 0, position: 0 })
+        Ok(Self {
+            encoder: encoder(RATE)?,
+            kbit_s: RATE,
+            wanted_kbit_s: RATE,
+            group: 0,
+            pixels: Pixels::default(),
+            clock,
+            number: 0,
+            position: 0,
+        })
+    }
+
+    /// Asks for another bit rate, in thousands of bits per second, from the next key picture on.
+    pub fn set_rate(&mut self, kbit_s: u32) {
+        self.wanted_kbit_s = kbit_s;
     }
 
     /// Renders and encodes the next picture.
@@ -76,6 +86,12 @@ impl VideoEncoder {
         scene: &Scene,
         view: &View,
     ) -> Result<EncodedPicture, EncodeError> {
+        // The encoder keeps its rate for life. At a key picture another one can go on, because nothing depends on what was
+        // before; two key pictures in a row could not be told apart by their numbers.
+        if self.kbit_s != self.wanted_kbit_s && self.group == GROUP {
+            self.encoder = encoder(self.wanted_kbit_s)?;
+            self.kbit_s = self.wanted_kbit_s;
+        }
         scene.render(view, &mut self.pixels);
         if let Some(zero) = self.clock {
             draw_clock(zero.wrapping_add(milliseconds(time)), &mut self.pixels.luma);
@@ -90,6 +106,7 @@ impl VideoEncoder {
             stride_c: WIDTH / 2,
         })?;
         let is_entry = is_entry(&payload);
+        self.group = if is_entry { 1 } else { self.group + 1 };
         let [sps_bytes, pps_bytes] = if is_entry { parameter_bytes(&payload) } else { [0, 0] };
         let payload_bytes = u32::try_from(payload.len()).unwrap_or(u32::MAX);
         let header = Header {
@@ -116,6 +133,17 @@ impl VideoEncoder {
         bytes.put_slice(&payload);
         Ok(EncodedPicture { bytes: bytes.freeze(), is_entry })
     }
+}
+
+/// An encoder with a bit rate.
+fn encoder(kbit_s: u32) -> Result<Encoder, EncodeError> {
+    Encoder::new(EncoderConfig {
+        gop_size: GROUP,
+        min_keyint: GROUP,
+        bitrate: kbit_s.saturating_mul(1000),
+        framerate: PICTURES_PER_S,
+        ..EncoderConfig::baseline(WIDTH, HEIGHT)
+    })
 }
 
 /// Sizes of the first two units of an access unit, with their start codes.
@@ -181,6 +209,36 @@ mod tests {
         assert_eq!(reader.garbage_bytes(), 0);
         // Two seconds at about 1 Mbit/s.
         assert!((100_000..500_000).contains(&bytes), "{bytes}");
+    }
+
+    #[test]
+    fn the_rate_changes_at_a_key_picture() {
+        let mut encoder = VideoEncoder::new(None).unwrap();
+        let mut reader = Reader::default();
+        let mut number = 0_u32;
+        // Pictures of three seconds, of which the first is left out, and their kilobits per second.
+        let mut film = |kbit_s: u32| {
+            encoder.set_rate(kbit_s);
+            let mut bytes = 0;
+            for _ in 0..90 {
+                let mut view = VIEW;
+                // The front camera, turning.
+                view.is_bottom = false;
+                view.yaw_rad = f64::from(number) * 0.03;
+                let time = Duration::from_millis(u64::from(number) * 33);
+                let encoded = encoder.encode(time, &Scene::default(), &view).unwrap();
+                assert_eq!(encoded.is_entry, number.is_multiple_of(GROUP), "{number}");
+                reader.push(&encoded.bytes);
+                assert_eq!(reader.next().unwrap().header.number, number);
+                number += 1;
+                bytes += if number % 90 >= 30 { encoded.bytes.len() } else { 0 };
+            }
+            bytes * 8 / 2 / 1000
+        };
+        for kbit_s in [1000, 250, 4000, 500] {
+            let found = film(kbit_s);
+            assert!(found.abs_diff(kbit_s as usize) < kbit_s as usize / 10, "{kbit_s}: {found}");
+        }
     }
 
     #[test]
