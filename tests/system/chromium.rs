@@ -212,7 +212,8 @@ impl Chromium {
 
     /// Presses (`keyDown`) or releases (`keyUp`) a key, by its place on the keyboard.
     pub(crate) fn key(&mut self, tab: &Tab, kind: &str, code: &str) {
-        let key = json!({ "type": kind, "code": code });
+        // The name of a key other than a letter is its place.
+        let key = json!({ "type": kind, "code": code, "key": code });
         self.call(Some(tab), "Input.dispatchKeyEvent", &key);
     }
 

@@ -9,7 +9,7 @@ use std::time::Duration;
 use serde_json::json;
 
 use crate::chromium::{Chromium, Tab};
-use crate::processes::{program, signal};
+use crate::processes::{plan_file, program, signal};
 
 /// The program at rest, with a page, and folders of its own.
 struct Station {
@@ -426,4 +426,50 @@ fn the_page_fits_telephones_and_large_screens() {
         }
     }
     station.end();
+}
+
+/// How late ticks are with everything at once (a page that shows the video, plots drawn, the log with video, navdata 200
+/// times per second) beside the same flight with nothing of it, in turn.
+///
+/// `cargo test --release -p system-tests --test system -- --ignored ticks_with_everything --nocapture`
+#[test]
+#[ignore = "measures"]
+#[allow(clippy::print_stdout, reason = "a measurement")]
+fn ticks_with_everything_and_with_nothing() {
+    let plan = plan_file("takeoff\ngoto 0 1 0 0\nsetStayTime 45\ngoto 1 1 0 0\nland\n");
+    let folder = tempfile::tempdir().unwrap();
+    let full = folder.path().join("pilot.toml");
+    std::fs::write(&full, "[link]\nnavdata = \"full\"\n").unwrap();
+    let mut chromium = Chromium::start().expect("chromium");
+    for turn in 0..2 {
+        for everything in [false, true] {
+            let mut flight = program("ardrone-pilot");
+            flight.args(["--mock", "--plain", "--timing", "--plan"]).arg(plan.path());
+            if everything {
+                let log = folder.path().join(format!("{turn}.mcap"));
+                flight.args(["--ui", "0", "--record-video", "--log"]).arg(log);
+                flight.arg("--config").arg(&full);
+            } else {
+                flight.arg("--no-log");
+            }
+            let mut flight = flight.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+            let lines = BufReader::new(flight.stderr.take().unwrap()).lines();
+            let mut lines = lines.map_while(Result::ok);
+            let watch = |line: String| Some(line.strip_prefix("watch it at ")?.to_owned());
+            let url = everything.then(|| lines.find_map(watch).unwrap());
+            std::thread::spawn(move || lines.for_each(drop));
+            if let Some(url) = url {
+                let tab = chromium.open(&url);
+                chromium.wait(&tab, "window.video.drawn > 30");
+                chromium.click(&tab, "[data-show=plots]", [0.0; 2]);
+            }
+            let mut printed = String::new();
+            flight.stdout.take().unwrap().read_to_string(&mut printed).unwrap();
+            assert_eq!(flight.wait().unwrap().code(), Some(0), "{printed}");
+            println!("{}", if everything { "everything" } else { "nothing" });
+            let rows = ["timing", "µs", "period", "lateness", "all work"];
+            let row = |line: &&str| rows.iter().any(|row| line.trim_start().starts_with(row));
+            printed.lines().filter(row).for_each(|line| println!("{line}"));
+        }
+    }
 }

@@ -279,7 +279,7 @@ fn a_report_answers_why() {
     let (flight, file) = recorded(SQUARE, &Simulation::default());
     let mut log = Log::read(&file).unwrap();
     log.plan_name = "<script>alert(1)</script>".to_owned();
-    let page = report::html(&log).unwrap();
+    let page = report::html(&log, &[]).unwrap();
     assert_eq!(page.matches("<svg ").count(), 8);
     for outside in ["http://", "https://", "<link", "src=", "<script>alert"] {
         let inside = page.replace("http://www.w3.org/2000/svg", "");
@@ -293,7 +293,7 @@ fn a_report_answers_why() {
     let steps = flight.report.steps_done;
     assert!(page.contains(&format!("<b>{steps}</b>steps done")), "{steps}");
     log.entries.clear();
-    assert!(report::html(&log).is_err());
+    assert!(report::html(&log, &[]).is_err());
 }
 
 /// Logs may come from anywhere. Their text must not be executed by the page or a terminal.
@@ -324,8 +324,8 @@ fn a_hostile_log_does_nothing_to_page_and_terminal() {
             _ => {}
         }
     }
-    let page = report::html(&log).unwrap();
-    let count = |of: &str| report::html(&clean).unwrap().matches(of).count();
+    let page = report::html(&log, &[]).unwrap();
+    let count = |of: &str| report::html(&clean, &[]).unwrap().matches(of).count();
     for markup in ["<script", "</script", "<!--"] {
         assert_eq!(page.matches(markup).count(), count(markup), "{markup}");
     }
@@ -371,7 +371,7 @@ fn a_hostile_log_makes_no_large_page() {
     assert!(file.len() < 1_000_000, "{}", file.len());
     let log = Log::read(&file).unwrap();
     let mut length = 0;
-    let used = allocation_counter::measure(|| length = report::html(&log).unwrap().len());
+    let used = allocation_counter::measure(|| length = report::html(&log, &[]).unwrap().len());
     assert!(length < 10_000_000, "{length} characters");
     assert!(used.bytes_max < 100 << 20, "{} bytes", used.bytes_max);
 }
@@ -381,7 +381,7 @@ fn a_report_shows_what_went_wrong() {
     let scenario = mock_drone::scenario::Scenario::parse("faults", "8 battery 5\n").unwrap();
     let world = mock_drone::WorldConfig { scenario, ..Default::default() };
     let (_, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
-    let page = report::html(&Log::read(&file).unwrap()).unwrap();
+    let page = report::html(&Log::read(&file).unwrap(), &[]).unwrap();
     for part in [
         "landed by a failsafe: battery",
         "landing: battery",
@@ -399,7 +399,7 @@ fn a_refused_flight_is_not_reported_as_a_good_one() {
     world.drone.battery_percent = 10.0;
     let (flight, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
     assert_ne!(flight.outcome.exit_status(), 0);
-    let page = report::html(&Log::read(&file).unwrap()).unwrap();
+    let page = report::html(&Log::read(&file).unwrap(), &[]).unwrap();
     assert!(page.contains("<p class=\"outcome warn\">"), "{}", flight.outcome);
 }
 

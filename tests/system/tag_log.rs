@@ -49,7 +49,7 @@ fn tags_are_logged_once_a_second_and_when_one_is_found_and_replay_the_same() {
     let last = moments.last().unwrap().1[1];
     assert!(last.id == 2 && !last.surveyed && last.seen_s.is_some(), "{last:?}");
     assert!((last.x_m - 0.05).hypot(last.y_m + 0.05) < 2.0 * last.deviation_m, "{last:?}");
-    let page = report::html(&log).unwrap();
+    let page = report::html(&log, &[]).unwrap();
     assert!(page.contains("id=\"tagtext\"") && page.contains("\"deviation_m\""));
     log.settings = log
         .settings

@@ -234,6 +234,39 @@ fn fly_and_read(log: &Path, video_port: u16) {
     assert!(log.outcome().is_some_and(|(warns, _)| !warns));
 }
 
+/// The report shows the picture of the moment under the cursor, from a file as from the page, without a network.
+#[test]
+fn the_report_shows_the_pictures() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("flight.mcap");
+    let plan = plan_file(SHORT);
+    let fly = program("ardrone-pilot")
+        .args(["--plain", "--mock", "--record-video", "--plan"])
+        .arg(plan.path())
+        .arg("--log")
+        .arg(&log)
+        .output();
+    assert_eq!(fly.unwrap().status.code(), Some(0));
+    let report = program("ardrone-pilot").arg("report").arg(&log).output();
+    assert_eq!(report.unwrap().status.code(), Some(0));
+    let tab = chromium.open(&format!("file://{}", log.with_extension("html").display()));
+    chromium.wait(&tab, "typeof camera === 'object' && camera !== null && camera.shown() === null");
+    let mut seen = Vec::new();
+    for share in [0.3, 0.7, 0.2] {
+        chromium.evaluate(&tab, &format!("show({share} * Number(end))"));
+        let of =
+            format!("Math.abs(parseFloat(nopicture.textContent.split(' ')[2]) - {share} * end)");
+        chromium.wait(&tab, &format!("{of} < 0.2"));
+        seen.push(brightness(&mut chromium, &tab, [0, 0, 640, 360]));
+    }
+    assert!(seen.iter().all(|brightness| *brightness > 20.0), "{seen:?}");
+    // The keyboard moves the cursor as well.
+    chromium.evaluate(&tab, "document.querySelector('.plot').focus(); marked = 1; true");
+    chromium.key(&tab, "keyDown", "ArrowRight");
+    chromium.wait(&tab, "marked > 1.05 && document.activeElement.className === 'plot'");
+}
+
 #[test]
 fn a_recorded_flight_has_its_video() {
     let folder = tempfile::tempdir().unwrap();

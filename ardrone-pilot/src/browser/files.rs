@@ -28,7 +28,7 @@ use tokio::time::timeout;
 use super::folder::{Entry, Folder, FolderError};
 use super::planning::Planning;
 use crate::flights::{RecordedFlight, flights};
-use crate::recording::{LARGEST_FILE_BYTES, Log, LogError};
+use crate::recording::{LARGEST_FILE_BYTES, Log, LogError, pictures};
 use crate::report::{self, ReportError};
 
 /// Maximum size of a plan; those that can be flown are much smaller.
@@ -169,11 +169,10 @@ impl Files {
         self.current.as_deref().is_some_and(|current| self.flights.is(name, current))
     }
 
-    /// A recording, of which only the decisions are read with `briefly`.
-    fn log(&self, name: &str, briefly: bool) -> Result<Log, Failure> {
+    /// What was decided in a recording.
+    fn log(&self, name: &str) -> Result<Log, Failure> {
         let file = self.flights.read(name, LARGEST_FILE_BYTES as u64)?;
-        let log = if briefly { Log::read_decisions(&file) } else { Log::read(&file) };
-        log.map_err(|error| Failure::Log(name.to_owned(), error))
+        Log::read_decisions(&file).map_err(|error| Failure::Log(name.to_owned(), error))
     }
 
     /// Description of a recording. One that is finished is read once.
@@ -185,7 +184,7 @@ impl Files {
         if let Some(summary) = known().get(&key) {
             return Ok(summary.clone());
         }
-        let log = self.log(name, true)?;
+        let log = self.log(name)?;
         let flights: Vec<Value> = flights(&log).iter().map(RecordedFlight::json).collect();
         let summary = json!({
             "name": name,
@@ -280,8 +279,10 @@ async fn summary(State(files): Shared, Path(name): Path<String>) -> Result<Json,
 
 async fn show_report(State(files): Shared, Path(name): Path<String>) -> Result<Response, Failure> {
     let make = move |files: &Files| {
-        let log = files.log(&name, false)?;
-        report::html(&log).map_err(|error| Failure::Report(name, error))
+        let file = files.flights.read(&name, LARGEST_FILE_BYTES as u64)?;
+        let bad = |error| Failure::Log(name.clone(), error);
+        let (log, pictures) = (Log::read(&file).map_err(bad)?, pictures(&file).map_err(bad)?);
+        report::html(&log, &pictures).map_err(|error| Failure::Report(name, error))
     };
     let page = files.slowly(make).await??;
     let headers =
@@ -294,7 +295,7 @@ async fn track(
     Path((name, index)): Path<(String, usize)>,
 ) -> Result<Json, Failure> {
     let read = move |files: &Files| {
-        let log = files.log(&name, true)?;
+        let log = files.log(&name)?;
         let flights = flights(&log);
         let flight = flights.get(index).ok_or(Failure::NoFlight(name, index))?;
         Ok(json!({ "track": flight.track(&log) }))

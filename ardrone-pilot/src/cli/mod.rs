@@ -27,7 +27,7 @@ use self::screen::Warnings;
 use crate::browser::BrowserError;
 use crate::flight::FlightError;
 use crate::plan_drawing::PlanDrawingError;
-use crate::recording::{LARGEST_FILE_BYTES, Log, LogError, RecordingError};
+use crate::recording::{self, LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{self, ReportError};
 use crate::settings::{Settings, SettingsError};
@@ -149,7 +149,11 @@ fn print_manual() -> u8 {
 
 /// Writes the report page of a log.
 fn make_report(path: &Path, output: Option<&Path>) -> Result<u8, CommandError> {
-    let page = report::html(&read_log(path)?)?;
+    let file = read_file(path)?;
+    let log = parse_log(path, &file)?;
+    let pictures = recording::pictures(&file)
+        .map_err(|source| CommandError::Log { path: path.display().to_string(), source })?;
+    let page = report::html(&log, &pictures)?;
     let output = output.map_or_else(|| path.with_extension("html"), Path::to_owned);
     std::fs::write(&output, page).map_err(|source| CommandError::Write {
         what: "the report",
@@ -193,9 +197,13 @@ fn read_file(path: &Path) -> Result<Vec<u8>, CommandError> {
 }
 
 fn read_log(path: &Path) -> Result<Log, CommandError> {
+    parse_log(path, &read_file(path)?)
+}
+
+/// The content of a flight log; one that was truncated is reported.
+fn parse_log(path: &Path, file: &[u8]) -> Result<Log, CommandError> {
     let name = || path.display().to_string();
-    let file = read_file(path)?;
-    let log = Log::read(&file).map_err(|source| CommandError::Log { path: name(), source })?;
+    let log = Log::read(file).map_err(|source| CommandError::Log { path: name(), source })?;
     if !log.complete {
         terminal::print_message(format_args!(
             "note: {} was cut off; what is there is read",

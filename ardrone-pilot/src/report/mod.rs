@@ -2,11 +2,12 @@
 
 mod data;
 mod page;
+mod pictures;
 mod plots;
 
 use data::Flight;
 
-use crate::recording::Log;
+use crate::recording::{Log, RecordedPicture};
 
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
@@ -19,12 +20,13 @@ pub enum ReportError {
     Drawing(String),
 }
 
-/// Creates the page about a flight.
+/// Creates the page about a flight, with the pictures of its camera if it recorded them.
 ///
 /// # Errors
 /// [`ReportError`] if the log is empty or a plot cannot be drawn.
-pub fn html(log: &Log) -> Result<String, ReportError> {
+pub fn html(log: &Log, pictures: &[RecordedPicture]) -> Result<String, ReportError> {
     let flight = Flight::new(log).ok_or(ReportError::Empty)?;
     let plots = plots::all(&flight).map_err(|error| ReportError::Drawing(error.to_string()))?;
-    Ok(page::html(log, &flight, &plots))
+    let pictures = pictures::embedded(pictures, log.start);
+    Ok(page::html(log, &flight, &plots, &pictures))
 }

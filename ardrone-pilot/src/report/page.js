@@ -33,6 +33,7 @@ function show(seconds) {
     element("pre", plans[line] || trigger, why);
   }
   drawTags(seconds);
+  camera?.show(seconds);
   rows.forEach((row) => row.classList.toggle("now", Number(row.dataset.index) === index));
 }
 
@@ -76,12 +77,89 @@ function drawTags(seconds) {
 
 drawTags(Number(end));
 
+// What the camera saw: the browser decodes the picture of a moment, from the last one before it with which it can begin.
+const camera = (() => {
+  const pictures = JSON.parse(document.getElementById("pictures").textContent);
+  const canvas = document.getElementById("picture");
+  if (!pictures.length) return null;
+  const note = document.getElementById("nopicture");
+  if (!("VideoDecoder" in window)) {
+    note.textContent = "This browser cannot decode the pictures here (WebCodecs); Chromium can.";
+    return null;
+  }
+  const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  // "avc1.42801e": profile, constraints and level from the sequence parameter set behind the start code.
+  const codecOf = (data) => "avc1." + [5, 6, 7].map((index) => data[index].toString(16).padStart(2, "0")).join("");
+  let wanted = null; // index of the picture to show
+  let shown = null;
+  let busy = false;
+
+  async function decode(index) {
+    let first = index;
+    while (first > 0 && !pictures[first].entry) first -= 1;
+    let last = null;
+    const decoder = new VideoDecoder({
+      output: (frame) => {
+        last?.close();
+        last = frame;
+      },
+      error: (error) => (note.textContent = `The picture cannot be decoded: ${error.message}`),
+    });
+    decoder.configure({ codec: codecOf(bytes(pictures[first].data)) });
+    for (let at = first; at <= index; at += 1) {
+      const { entry, at_s, data } = pictures[at];
+      decoder.decode(new EncodedVideoChunk({ type: entry ? "key" : "delta", timestamp: at_s * 1e6, data: bytes(data) }));
+    }
+    await decoder.flush();
+    decoder.close();
+    if (!last) return;
+    Object.assign(canvas, { width: last.displayWidth, height: last.displayHeight });
+    canvas.getContext("2d").drawImage(last, 0, 0);
+    last.close();
+    note.textContent = `picture of ${pictures[index].at_s.toFixed(2)} s`;
+    shown = index;
+  }
+
+  async function work() {
+    if (busy) return;
+    busy = true;
+    while (wanted !== shown) {
+      const index = wanted;
+      try {
+        await decode(index);
+      } catch (error) {
+        note.textContent = `The picture cannot be decoded: ${error.message}`;
+      }
+      shown = index;
+    }
+    busy = false;
+  }
+
+  return {
+    show(seconds) {
+      const later = pictures.findIndex(({ at_s }) => at_s > seconds);
+      wanted = Math.max(0, (later < 0 ? pictures.length : later) - 1);
+      work();
+    },
+    shown: () => shown,
+  };
+})();
+
+let marked = 0; // the time of the cursor
 for (const plot of plots) {
+  plot.addEventListener("keydown", (event) => {
+    const by = { ArrowLeft: -0.1, ArrowRight: 0.1, PageUp: -5, PageDown: 5 }[event.key];
+    if (!by) return;
+    event.preventDefault();
+    marked = Math.min(Math.max(marked + by, 0), Number(end));
+    show(marked);
+  });
   plot.addEventListener("mousemove", (event) => {
     const box = plot.getBoundingClientRect();
     const inner = width - left - right;
     const x = ((event.clientX - box.left) / box.width) * width;
-    show(Math.min(Math.max(((x - left) / inner) * end, 0), Number(end)));
+    marked = Math.min(Math.max(((x - left) / inner) * end, 0), Number(end));
+    show(marked);
   });
 }
 for (const row of rows) {

@@ -7,6 +7,7 @@ use serde_json::json;
 use time::UtcDateTime;
 
 use super::data::Flight;
+use super::pictures::EmbeddedPicture;
 use super::plots::{LEFT, Plot, RIGHT, WIDTH};
 use crate::json;
 use crate::recording::Log;
@@ -17,7 +18,12 @@ const SCRIPT: &str = include_str!("page.js");
 const MOST_ROWS: usize = 400;
 
 /// The whole page.
-pub(super) fn html(log: &Log, flight: &Flight<'_>, plots: &[Plot]) -> String {
+pub(super) fn html(
+    log: &Log,
+    flight: &Flight<'_>,
+    plots: &[Plot],
+    pictures: &[EmbeddedPicture],
+) -> String {
     let mut page = String::new();
     let title = escaped(&log.plan_name);
     // Writing to a string cannot fail.
@@ -50,16 +56,28 @@ pub(super) fn html(log: &Log, flight: &Flight<'_>, plots: &[Plot]) -> String {
             None => ("still", ""),
         };
         let svg = svg.replace("<svg ", &format!("<svg role=\"img\" aria-label=\"{title}\" "));
+        // The keyboard moves the cursor of a plot that has the focus.
+        let focus = if *over_time { " tabindex=\"0\"" } else { "" };
         _ = writeln!(
             page,
-            "<h2>{title} <small>{legend}</small></h2>\n<div class=\"{kind}\">{svg}{cursor}</div>"
+            "<h2>{title} <small>{legend}</small></h2>\n<div class=\"{kind}\"{focus}>{svg}{cursor}</div>"
         );
         if map.is_some() && !flight.tags.is_empty() {
             page += "<p class=\"faint\" id=\"tagtext\"></p>\n";
         }
     }
-    page += "</div>\n<div class=\"why\"><h2>Why?</h2>\n<div id=\"moment\"><p class=\"faint\">Move over a plot: the \
-             moment, what was ordered, and the agent's plan behind it.</p></div></div>\n</div>\n";
+    let picture = if pictures.is_empty() {
+        ""
+    } else {
+        "<canvas id=\"picture\" width=\"640\" height=\"360\" role=\"img\" \
+         aria-label=\"what the camera saw\"></canvas>\n<p class=\"faint\" id=\"nopicture\"></p>\n"
+    };
+    _ = write!(
+        page,
+        "</div>\n<div class=\"why\"><h2>Why?</h2>\n{picture}<div id=\"moment\"><p class=\"faint\">Move over a \
+         plot, or with the arrow keys in it: the moment, what was ordered, and the agent's plan behind it.</p></div>\
+         </div>\n</div>\n"
+    );
     timeline(&mut page, flight);
     events(&mut page, flight);
     let tags: Vec<_> =
@@ -73,8 +91,10 @@ pub(super) fn html(log: &Log, flight: &Flight<'_>, plots: &[Plot]) -> String {
     _ = write!(
         page,
         "<script type=\"application/json\" id=\"decided\">{}</script>\n\
+         <script type=\"application/json\" id=\"pictures\">{}</script>\n\
          <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
-        json::text(&decided)
+        json::text(&decided),
+        json::text(&json!(pictures)),
     );
     page
 }
