@@ -4,7 +4,9 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::plan::Plan;
-use autopilot::vehicle::{CannotFly, FlightEvent, Output, SurveyedTag, Vehicle, VehicleConfig};
+use autopilot::vehicle::{
+    CannotFly, Decision, FlightEvent, Output, Phase, SurveyedTag, Vehicle, VehicleConfig,
+};
 use kinematics::Pose;
 use mock_drone::{FloorTag, WorldConfig};
 
@@ -14,8 +16,6 @@ use crate::drive::{Driver, Passed};
 const LONGEST: Duration = Duration::from_mins(20);
 /// Interval of the places of the track.
 const TRACK: Duration = Duration::from_millis(100);
-/// Height above which the drone is in the air.
-const LIFTED_M: f64 = 0.02;
 
 /// A simulated flight.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,8 @@ pub struct SimulatedFlight {
     pub duration: Duration,
     /// The charge that it took.
     pub battery_percent: f64,
-    /// The true place of the drone every tenth of a second since it left the ground, with this time.
+    /// The true place of the drone every tenth of a second since the vehicle perceived that it left the ground, with
+    /// this time.
     pub track: Vec<(Duration, Pose)>,
     /// What the vehicle warned of, with this time.
     pub warnings: Vec<(Duration, FlightEvent)>,
@@ -70,7 +71,7 @@ pub fn fly(
             _ => {}
         });
         let truth = driver.world.truth();
-        if truth.position_m.z > LIFTED_M {
+        if driver.vehicle.decision().is_some_and(is_in_the_air) {
             lifted.get_or_insert(now);
             landed = now;
             if since >= TRACK * u32::try_from(track.len()).unwrap_or(u32::MAX) {
@@ -83,6 +84,11 @@ pub fn fly(
     let duration = landed.saturating_sub(lifted.unwrap_or(landed));
     let battery_percent = charged - driver.world.truth().battery_percent;
     Ok(SimulatedFlight { outcome, duration, battery_percent, track, warnings })
+}
+
+/// As the vehicle perceived it: a recorded flight begins and ends by the same sign.
+fn is_in_the_air(decision: &Decision) -> bool {
+    matches!(decision.phase, Phase::Flying | Phase::Landing) && !decision.percepts.on_ground
 }
 
 #[cfg(test)]

@@ -187,6 +187,7 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     chromium.wait(&tab, "(window.reported ?? '').includes('<h2>Decisions')");
     // The steps have the words of the plan that was loaded.
     chromium.wait(&tab, "window.reported.includes('1: takeoff')");
+    chromium.wait(&tab, "window.reported.includes('<h1>two targets.txt</h1>')");
     // What is being recorded cannot be deleted.
     assert!(station.request("DELETE", "/flights/flights.mcap", "", "").contains(" 409 "));
     station.end();
@@ -335,6 +336,50 @@ fn a_drone_that_is_not_found_is_looked_for() {
     station.end();
 }
 
+#[test]
+#[ignore = "makes the pictures of the documentation"]
+fn the_pictures_of_the_plan_and_of_the_flights() {
+    let mut chromium = Chromium::start().expect("chromium");
+    let station = Station::start("0", &["--mock"]);
+    let tab = chromium.open(&station.url);
+    let plan = "# Up along a stair, and down again.\ntakeoff\nsetStayTime 1\ngoto 0 1.5 0 0\n\
+        goto 1.5 1.5 0.5 90\ngoto 1.5 -0.5 1 180\nmoveBy -1.5 0 -0.5 0\ngoto 0 0 0 0\nland\n";
+    chromium.wait(&tab, "view === 'plan' && !document.querySelector('#load').disabled");
+    chromium.type_into(&tab, "#planname", "stair.txt");
+    chromium.type_into(&tab, "#plantext", plan);
+    chromium.wait(&tab, "plan.targets().length === 5");
+    chromium.click(&tab, "#simulate", [0.0; 2]);
+    chromium.wait(&tab, "!!plan.simulated()?.completed");
+    std::thread::sleep(Duration::from_secs(2));
+    chromium.screenshot(&tab, Path::new("../docs/plan.png"));
+    chromium.click(&tab, "#load", [0.0; 2]);
+    chromium.wait(&tab, "view === 'fly' && !document.querySelector('#start').disabled");
+    chromium.click(&tab, "#start", [0.0; 2]);
+    chromium.click(&tab, "[data-show=plots]", [0.0; 2]);
+    chromium.wait(&tab, "status.step === 6");
+    if let Some(folder) = std::env::var_os("PAGE_PICTURES") {
+        chromium.screenshot(&tab, &Path::new(&folder).join("plots.png"));
+    }
+    happened(&mut chromium, &tab, "plan flown to its end");
+    chromium.click(&tab, "[data-show=flights]", [0.0; 2]);
+    chromium.wait(
+        &tab,
+        "document.querySelector('#recordings tbody').textContent.includes('flown to its end')",
+    );
+    std::thread::sleep(Duration::from_secs(2));
+    for number in [1, 2] {
+        chromium.click(&tab, &format!("#recordings tr:nth-child({number}) input"), [0.0; 2]);
+    }
+    chromium.wait(&tab, "document.querySelectorAll('#comparison polyline').length === 8");
+    chromium.screenshot(&tab, Path::new("../docs/flights.png"));
+    if let Some(folder) = std::env::var_os("PAGE_PICTURES") {
+        chromium.click(&tab, "#recordings .actions button", [0.0; 2]);
+        std::thread::sleep(Duration::from_secs(2));
+        chromium.screenshot(&tab, &Path::new(&folder).join("report.png"));
+    }
+    station.end();
+}
+
 /// What axe-core finds on a page that is serious: rule and place.
 fn violations(chromium: &mut Chromium, tab: &Tab, axe: &str) -> Vec<String> {
     chromium.evaluate(tab, &format!("{axe}; true"));
@@ -439,7 +484,7 @@ fn ticks_with_everything_and_with_nothing() {
     let plan = plan_file("takeoff\ngoto 0 1 0 0\nsetStayTime 45\ngoto 1 1 0 0\nland\n");
     let folder = tempfile::tempdir().unwrap();
     let full = folder.path().join("pilot.toml");
-    std::fs::write(&full, "[link]\nnavdata = \"full\"\n").unwrap();
+    std::fs::write(&full, "[drone]\nnavdata = \"full\"\n").unwrap();
     let mut chromium = Chromium::start().expect("chromium");
     for turn in 0..2 {
         for everything in [false, true] {

@@ -25,7 +25,7 @@ pub(super) fn html(
     pictures: &[EmbeddedPicture],
 ) -> String {
     let mut page = String::new();
-    let title = escaped(&log.plan_name);
+    let title = escaped(&title(log));
     // Writing to a string cannot fail.
     _ = write!(
         page,
@@ -99,6 +99,21 @@ pub(super) fn html(
     page
 }
 
+/// The plans that were flown.
+fn title(log: &Log) -> String {
+    let mut names = vec![log.plan_name.as_str()];
+    names.extend(log.missions().map(|(_, mission)| mission.name.as_str()));
+    names.retain(|name| !name.is_empty());
+    names.dedup();
+    match names.as_slice() {
+        [] => "flown by orders".to_owned(),
+        [first, .., last] if names.len() > 3 => {
+            format!("{first} to {last}, {} missions", names.len())
+        }
+        names => names.join(", "),
+    }
+}
+
 /// Summary at the top.
 fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
     let date = i64::try_from(log.start.as_secs()).ok();
@@ -114,8 +129,7 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
             time.minute()
         )
     });
-    let (plan, drone, version) =
-        (escaped(&log.plan_name), escaped(&log.drone), escaped(&log.version));
+    let (plan, drone, version) = (escaped(&title(log)), escaped(&log.drone), escaped(&log.version));
     _ = write!(
         page,
         "<h1>{plan}</h1>\n<p class=\"faint\">{date}{drone}, ardrone-pilot {version}</p>\n"

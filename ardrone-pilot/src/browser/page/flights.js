@@ -205,7 +205,7 @@ const flights = (() => {
     const mean = apart.reduce((sum, value) => sum + value, 0) / Math.max(1, apart.length);
     const said = document.createElement("p");
     said.id = "apart";
-    said.textContent = `At the same time after the take-off they are ${mean.toFixed(2)} m apart on average, ${Math.max(0, ...apart).toFixed(2)} m at most.`;
+    said.textContent = `At the same time after the take-off they are ${mean.toFixed(2)} m apart on average, ${Math.max(0, ...apart).toFixed(2)} m at most. A recorded track is the pilot's estimate, a simulated one is true.`;
     const plots = [["right (m)", 1], ["forward (m)", 2], ["height (m)", 3]].map(([title, axis]) =>
       plot(title, tracks.map((track) => track.map((row) => [row[0], row[axis]]))));
     place.replaceChildren(legend, said, above(tracks), ...plots);

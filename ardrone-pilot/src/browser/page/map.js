@@ -164,7 +164,7 @@ const map = (() => {
     $("grid").firstChild.setAttribute("d", lines);
     $("grid").lastChild.setAttribute("d", `M0 ${low}V${top}M${left} 0H${right}`);
     const tagged = status && status.tags ? "; roundels: tags with one standard deviation, * surveyed" : "";
-    const simulated = document.body.dataset.view === "plan" && plan.simulated() ? "; line: the simulated flight" : "";
+    const simulated = document.body.dataset.view === "plan" && plan.simulated() ? "; line: where the simulated drone flew" : "";
     $("scale").textContent = `squares of ${step} m; disc: position uncertainty; dashed: the fence, ${flight.radius_m} m from the start${tagged}${simulated}`;
   }
 
