@@ -3,7 +3,7 @@
 //! - [`flight`] runs the vehicle in real time over UDP. [`realtime`] requests real-time scheduling, and
 //!   [`timing`] measures the ticks.
 //! - [`recording`] is the flight log, [`replay`] replays a log, [`report`] makes a page of it,
-//!   [`flights`] finds the flights in it, [`plan_drawing`] draws a
+//!   `flights` finds the flights in it, [`plan_drawing`] draws a
 //!   plan.
 //! - [`video`] passes on what the camera sees.
 //! - [`drive`] runs the vehicle in simulated time with a simulated drone; [`simulation`] flies a plan so.
