@@ -1,6 +1,6 @@
 //! The browser display end to end: a real Chromium, the program, the mock drone.
 
-use std::io::{BufRead as _, BufReader, ErrorKind, Read as _, Write as _};
+use std::io::{ErrorKind, Read as _, Write as _};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Stdio};
@@ -11,7 +11,7 @@ use tungstenite::client::IntoClientRequest as _;
 use tungstenite::{Message, WebSocket};
 
 use crate::chromium::{Chromium, Tab};
-use crate::processes::{plan_file, program, signal};
+use crate::processes::{plan_file, program, signal, with_page};
 
 /// A flight with a page.
 struct Flown {
@@ -36,21 +36,11 @@ impl Flown {
     }
 
     fn fly(address: &str, plan: &Path) -> (Child, String) {
-        let mut child = program("ardrone-pilot")
-            .current_dir("..")
-            .arg("--plan")
-            .arg(plan)
-            .args(["--mock", "--plain", "--no-log", "--ui", address])
-            .stderr(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
-        let printed = lines
-            .find_map(|line| Some(line.unwrap().strip_prefix("watch it at http://")?.to_owned()))
-            .unwrap();
-        std::thread::spawn(move || lines.for_each(drop));
-        (child, printed)
+        let mut pilot = program("ardrone-pilot");
+        pilot.current_dir("..").arg("--plan").arg(plan);
+        pilot.args(["--mock", "--plain", "--no-log", "--ui", address]);
+        let (child, url) = with_page(pilot.stdout(Stdio::piped()));
+        (child, url.strip_prefix("http://").unwrap().to_owned())
     }
 
     /// Waits for the end: the exit status and the output.

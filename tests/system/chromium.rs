@@ -63,6 +63,13 @@ impl Chromium {
     }
 
     fn call(&mut self, tab: Option<&Tab>, method: &str, parameters: &Value) -> Value {
+        let answer = self.answer(tab, method, parameters);
+        assert!(answer["error"].is_null(), "{method}: {answer}");
+        answer["result"].clone()
+    }
+
+    /// The answer to a call, which may be an error.
+    fn answer(&mut self, tab: Option<&Tab>, method: &str, parameters: &Value) -> Value {
         self.calls += 1;
         let mut call = json!({ "id": self.calls, "method": method, "params": parameters });
         if let Some(Tab(session)) = tab {
@@ -73,8 +80,7 @@ impl Chromium {
             let Message::Text(text) = self.socket.read().unwrap() else { continue };
             let answer: Value = serde_json::from_str(&text).unwrap();
             if answer["id"] == self.calls {
-                assert!(answer["error"].is_null(), "{method}: {answer}");
-                return answer["result"].clone();
+                return answer;
             }
         }
     }
@@ -95,7 +101,17 @@ impl Chromium {
     /// The value of an expression in the page.
     pub(crate) fn evaluate(&mut self, tab: &Tab, expression: &str) -> Value {
         let parameters = json!({ "expression": expression, "returnByValue": true });
-        self.call(Some(tab), "Runtime.evaluate", &parameters)["result"]["value"].clone()
+        let start = Instant::now();
+        loop {
+            let answer = self.answer(Some(tab), "Runtime.evaluate", &parameters);
+            if answer["error"].is_null() {
+                return answer["result"]["result"]["value"].clone();
+            }
+            // A page that is being loaded can evaluate nothing yet.
+            let loads = answer["error"]["message"] == "Cannot find default execution context";
+            assert!(loads && start.elapsed() < PATIENCE, "{expression:.200}: {answer}");
+            std::thread::sleep(Duration::from_millis(20));
+        }
     }
 
     /// The value that a promise in the page comes to.

@@ -1,15 +1,15 @@
 //! The page as a ground station, end to end: a real Chromium, the program without a plan, the mock drone.
 
-use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::io::{Read as _, Write as _};
 use std::net::{IpAddr, TcpStream, UdpSocket};
 use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::chromium::{Chromium, Tab};
-use crate::processes::{plan_file, program, signal};
+use crate::processes::{plan_file, program, signal, with_page};
 
 /// The program at rest, with a page, and folders of its own.
 struct Station {
@@ -22,22 +22,10 @@ struct Station {
 impl Station {
     fn start(address: &str, arguments: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let mut child = program("ardrone-pilot")
-            .args(["--plain", "--ui", address, "--log"])
-            .arg(folder.path().join("flights.mcap"))
-            .arg("--plans")
-            .arg(folder.path().join("plans"))
-            .args(arguments)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
-        let url = lines
-            .find_map(|line| Some(line.unwrap().strip_prefix("watch it at ")?.to_owned()))
-            .unwrap();
-        std::thread::spawn(move || lines.for_each(drop));
+        let mut pilot = program("ardrone-pilot");
+        pilot.args(["--plain", "--ui", address, "--log"]).arg(folder.path().join("flights.mcap"));
+        pilot.arg("--plans").arg(folder.path().join("plans")).args(arguments);
+        let (child, url) = with_page(pilot.stdin(Stdio::null()).stdout(Stdio::null()));
         Self { child, url, folder }
     }
 
@@ -190,6 +178,44 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     chromium.wait(&tab, "window.reported.includes('<h1>two targets.txt</h1>')");
     // What is being recorded cannot be deleted.
     assert!(station.request("DELETE", "/flights/flights.mcap", "", "").contains(" 409 "));
+    station.end();
+}
+
+/// One run of the program, two flights: each is found with its plan and its length.
+#[test]
+fn the_flights_of_a_run_are_told_apart() {
+    let Some(mut chromium) = Chromium::start() else { return };
+    let station = Station::start("0", &["--mock"]);
+    let tab = chromium.open(&station.url);
+    chromium.wait(&tab, "!!status && !!readiness && readiness.ready");
+    for (name, plan) in
+        [("short.txt", "takeoff\\nland\\n"), ("long.txt", "takeoff\\ngoto 0 1 0 0\\nland\\n")]
+    {
+        let load = format!("order({{ order: 'load', name: '{name}', plan: '{plan}' }})");
+        chromium.evaluate(&tab, &load);
+        chromium.wait(&tab, &format!("flight.plan === '{name}'"));
+        chromium.evaluate(&tab, "order({ order: 'start' })");
+        chromium.wait(&tab, "status.phase === 'flying' && status.pose.z_m > 0.3");
+        chromium.wait(&tab, "status.phase === 'standby' && readiness.ready");
+    }
+    let summary = "fetch('flights/flights.mcap/summary').then((response) => response.json())";
+    let ended =
+        format!("{summary}.then((found) => found.flights.filter((one) => one.outcome).length)");
+    while chromium.settle(&tab, &ended) != 2 {
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    let found = chromium.settle(&tab, summary);
+    let [short, long] = [0, 1].map(|index| found["flights"][index].clone());
+    assert_eq!((&short["plan"], &long["plan"]), (&json!("short.txt"), &json!("long.txt")));
+    for flight in [&short, &long] {
+        assert_eq!(flight["outcome"], "plan flown to its end");
+        assert_eq!(flight["warning"], false);
+    }
+    let value = |flight: &Value, key: &str| flight[key].as_f64().unwrap();
+    let [from, until] = [&short, &long].map(|flight| value(flight, "from_s"));
+    assert!(from + value(&short, "length_s") < until, "{found}");
+    assert!(value(&short, "length_s") + 2.0 < value(&long, "length_s"), "{found}");
+    assert!(value(&short, "farthest_m") < 0.4 && value(&long, "farthest_m") > 0.8, "{found}");
     station.end();
 }
 
@@ -497,12 +523,13 @@ fn ticks_with_everything_and_with_nothing() {
             } else {
                 flight.arg("--no-log");
             }
-            let mut flight = flight.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-            let lines = BufReader::new(flight.stderr.take().unwrap()).lines();
-            let mut lines = lines.map_while(Result::ok);
-            let watch = |line: String| Some(line.strip_prefix("watch it at ")?.to_owned());
-            let url = everything.then(|| lines.find_map(watch).unwrap());
-            std::thread::spawn(move || lines.for_each(drop));
+            flight.stdout(Stdio::piped());
+            let (mut flight, url) = if everything {
+                let (flight, url) = with_page(&mut flight);
+                (flight, Some(url))
+            } else {
+                (flight.stderr(Stdio::null()).spawn().unwrap(), None)
+            };
             if let Some(url) = url {
                 let tab = chromium.open(&url);
                 chromium.wait(&tab, "window.video.drawn > 30");

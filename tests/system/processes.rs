@@ -30,6 +30,18 @@ pub(crate) fn program(name: &str) -> Command {
     Command::new(folder.join(name))
 }
 
+/// Starts a pilot with a page; also returns the address that it prints.
+pub(crate) fn with_page(pilot: &mut Command) -> (Child, String) {
+    let mut child = pilot.stderr(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let url = lines
+        .find_map(|line| Some(line.unwrap().strip_prefix("watch it at ")?.to_owned()))
+        .unwrap();
+    // Further messages must not fill the pipe.
+    std::thread::spawn(move || lines.for_each(drop));
+    (child, url)
+}
+
 /// A mock drone process, killed when dropped.
 struct MockProcess {
     child: Child,

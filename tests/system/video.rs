@@ -1,6 +1,6 @@
 //! The video end to end: a camera that is simulated or was real, the program, its log, and a real Chromium.
 
-use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::io::{Read as _, Write as _};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::{Child, Stdio};
@@ -14,7 +14,7 @@ use mock_drone::server::{MockDrone, Ports};
 use serde_json::Value;
 
 use crate::chromium::{Chromium, Tab};
-use crate::processes::{plan_file, program, signal};
+use crate::processes::{plan_file, program, signal, with_page};
 
 const HOVER: &str = "takeoff\ngoto 0 1 0 0\nsetStayTime 300\ngoto 0 0 0 0\nland\n";
 const SHORT: &str = "takeoff\nland\n";
@@ -29,19 +29,9 @@ struct Pilot {
 
 impl Pilot {
     fn start(arguments: &[&str]) -> Self {
-        let mut child = program("ardrone-pilot")
-            .current_dir("..")
-            .args(["--plain", "--ui", "0"])
-            .args(arguments)
-            .stderr(Stdio::piped())
-            .stdout(Stdio::null())
-            .spawn()
-            .unwrap();
-        let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
-        let url = lines
-            .find_map(|line| Some(line.unwrap().strip_prefix("watch it at ")?.to_owned()))
-            .unwrap();
-        std::thread::spawn(move || lines.for_each(drop));
+        let mut pilot = program("ardrone-pilot");
+        pilot.current_dir("..").args(["--plain", "--ui", "0"]).args(arguments);
+        let (child, url) = with_page(pilot.stdout(Stdio::null()));
         Self { child, url }
     }
 

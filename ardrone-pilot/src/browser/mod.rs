@@ -1,7 +1,8 @@
-//! Browser display: a page that shows the flight live and takes operators' orders.
+//! The ground station in a browser: a page in which plans are made and simulated, flights are watched and ordered, and
+//! recorded ones looked back at.
 //!
 //! The page is served by a thread of its own, which has no access to the flight except its [`Controls`]: no
-//! client can affect the tick. A page that falls behind gets a new snapshot; one that does not read is
+//! client can affect the tick. What reads files or thinks is done on threads with the lowest priority. A page that falls behind gets a new snapshot; one that does not read is
 //! disconnected.
 //!
 //! On the loopback interface every user of this machine may give orders. At any other address the page
