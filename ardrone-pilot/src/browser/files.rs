@@ -213,8 +213,12 @@ async fn aside<T: Send + 'static>(
     work: impl FnOnce(&Files) -> T + Send + 'static,
 ) -> Result<T, Failure> {
     let done = tokio::task::spawn_blocking(move || {
-        // Of this thread alone, on Linux. A system that refuses it shares the processor more evenly.
-        _ = rustix::process::setpriority_process(None, 19);
+        // Of this thread alone; elsewhere it would be that of the tick, too. A system that refuses it shares the processor
+        // more evenly.
+        #[cfg(target_os = "linux")]
+        {
+            _ = rustix::process::setpriority_process(None, 19);
+        }
         work(&files)
     });
     done.await.map_err(|error| {

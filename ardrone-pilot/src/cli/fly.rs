@@ -66,8 +66,9 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let drone = drone_address(arguments, mock.as_ref());
     progress.print_line(&beginning(plan.as_ref(), mock.is_some(), &drone));
     let listener = arguments.ui.map(Listener::bind).transpose()?;
-    if let Some(listener) = &listener {
-        progress.print_line(&format!("watch it at {}", listener.url()));
+    let url = listener.as_ref().map(|listener| format!("watch it at {}", listener.url()));
+    if let Some(url) = &url {
+        progress.print_line(url);
     }
     let (recorder, recording) = match record(arguments, &settings, plan.as_ref())? {
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
@@ -94,10 +95,7 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     });
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
     let screen = || Screen::start(&config.limits, warnings, prompt.clone());
-    let mut watch = match wanted.then(screen).flatten() {
-        Some(screen) => Watch::Screen(Box::new(screen)),
-        None => Watch::Lines(progress),
-    };
+    let mut watch = Watch::new(progress, wanted.then(screen).flatten(), url.as_deref());
     let keys = Keys::start(controls.clone(), config.limits, prompt);
     if keys.is_some() {
         watch.print_line(keys::HELP);
@@ -221,6 +219,15 @@ enum Watch {
 }
 
 impl Watch {
+    /// A screen covers what was printed before: the page's address is repeated.
+    fn new(progress: Progress, screen: Option<Screen>, url: Option<&str>) -> Self {
+        let Some(mut screen) = screen else { return Self::Lines(progress) };
+        if let Some(url) = url {
+            screen.print_line(url);
+        }
+        Self::Screen(Box::new(screen))
+    }
+
     fn print_line(&mut self, line: &str) {
         match self {
             Self::Lines(progress) => progress.print_line(line),
