@@ -75,7 +75,9 @@ const map = (() => {
     const [wide, high] = [(visible * width) / least, (visible * height) / least];
     element.setAttribute("viewBox", `${view.x - wide} ${-view.y - high} ${2 * wide} ${2 * high}`);
     drawGrid(wide, high, visible);
-    const size = visible * 0.05; // of a mark, in metres
+    // Of a mark, in metres: large enough for its number on a small screen, in pixels.
+    const SMALLEST = 14;
+    const size = Math.max(visible * 0.05, (SMALLEST * 2 * visible) / least);
     $("fence").setAttribute("r", flight.radius_m);
     const planning = document.body.dataset.view === "plan";
     plan.drawOn(size);
