@@ -75,6 +75,10 @@ impl Rules {
                 self.holder = self.holder.filter(|holder| *holder != by);
                 None
             }
+            // It takes no controls.
+            (holder, OperatorOrder::Camera(_)) => {
+                holder.filter(|holder| *holder != by && !by.local)
+            }
             (Some(holder), OperatorOrder::Hold | OperatorOrder::Land | OperatorOrder::Cut) => {
                 self.holder = Some(if by.local && !holder.local { by } else { holder });
                 None
