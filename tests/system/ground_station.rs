@@ -118,11 +118,14 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     let before = number(&mut chromium, &tab, "plan.targets()[1].x");
     chromium.drag(&tab, "#drafts g:nth-child(2)", [40.0, 0.0]);
     chromium.wait(&tab, &format!("plan.targets()[1].x > {before} + 0.1"));
+    // A click on a target adds none.
+    chromium.click(&tab, "#drafts g:nth-child(1)", [0.0; 2]);
     // The list changes the text, and the text the list.
     chromium.type_into(&tab, "#draftsteps li:nth-child(2) input:nth-of-type(3)", "0.3");
     chromium.wait(&tab, "/^goto \\S+ \\S+ 0.3 0$/.test(plan.text().split('\\n')[1])");
     chromium.wait(&tab, "document.querySelector('#expected').textContent.includes('1.15 m above')");
     let good = chromium.evaluate(&tab, "plan.text()").as_str().unwrap().to_owned();
+    assert_eq!(good.matches("goto").count(), 2, "{good}");
     chromium.type_into(&tab, "#plantext", &good.replace("takeoff", "takeof"));
     chromium.wait(&tab, "document.querySelector('#problems').textContent.includes('line 1')");
     assert_eq!(chromium.evaluate(&tab, "document.querySelector('#load').disabled"), true);

@@ -32,7 +32,8 @@ land
   let stale = false; // the text has changed meanwhile
   let rows = []; // of the list: { key, item, inputs }
   let drag = null; // the target that is dragged: { line, last }
-  let dragged = false; // the click that follows adds nothing
+  let pressed = false; // a target was pressed: the click that follows adds none
+  let dragged = false; // .. and was moved
   let begun = false;
   let waits = false; // for the vehicle's answer to a loaded plan
   let asked = { what: "", until: 0 };
@@ -272,6 +273,7 @@ land
   $("map").addEventListener("pointerdown", (event) => {
     const mark = event.target.closest("#drafts g");
     dragged = false;
+    pressed = Boolean(mark);
     if (!mark || !mark.classList.contains("free")) return;
     drag = { line: Number(mark.dataset.line), last: map.place(event), begun: [event.clientX, event.clientY] };
     $("map").setPointerCapture(event.pointerId);
@@ -291,7 +293,7 @@ land
   $("map").addEventListener("pointerup", dropped);
   $("map").addEventListener("pointercancel", dropped);
   $("map").addEventListener("click", (event) => {
-    if (view !== "plan" || dragged || event.target.closest("#drafts g")) return;
+    if (view !== "plan" || pressed) return;
     add(target(map.place(event)));
   });
 
