@@ -71,6 +71,12 @@ fn happened(chromium: &mut Chromium, tab: &Tab, what: &str) {
     chromium.wait(tab, &format!("{events}.includes('{what}')"));
 }
 
+/// Waits until the plan editor is complete: what comes later moves what is below it.
+fn planner(chromium: &mut Chromium, tab: &Tab) {
+    chromium.wait(tab, "view === 'plan' && document.querySelectorAll('#plans option').length > 2");
+    chromium.wait(tab, "!document.querySelector('#simulate').disabled");
+}
+
 fn number(chromium: &mut Chromium, tab: &Tab, expression: &str) -> f64 {
     let value = chromium.evaluate(tab, expression);
     value.as_f64().unwrap_or_else(|| panic!("{expression}: {value}"))
@@ -82,7 +88,7 @@ fn the_example_is_three_clicks_from_the_air() {
     let Some(mut chromium) = Chromium::start() else { return };
     let station = Station::start("0", &["--mock"]);
     let tab = chromium.open(&station.url);
-    chromium.wait(&tab, "view === 'plan' && !document.querySelector('#simulate').disabled");
+    planner(&mut chromium, &tab);
     chromium.wait(&tab, "document.querySelector('#expected').textContent.includes('5.7 m')");
     chromium.click(&tab, "#simulate", [0.0; 2]);
     chromium.wait(&tab, "!!plan.simulated()?.completed");
@@ -104,7 +110,7 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     let Some(mut chromium) = Chromium::start() else { return };
     let station = Station::start("0", &["--mock"]);
     let tab = chromium.open(&station.url);
-    chromium.wait(&tab, "view === 'plan'");
+    planner(&mut chromium, &tab);
     chromium.choose(&tab, "#plans", "-");
     chromium.wait(&tab, "plan.text() === 'takeoff\\nland\\n'");
     // Two clicks on the map are two targets before the landing, and one of them is dragged.
@@ -239,7 +245,7 @@ fn pages_hand_over_the_controls() {
     let station = Station::start("0.0.0.0:0", &["--mock"]);
     let local = station.url.replace("ADDRESS-OF-THIS-MACHINE", "127.0.0.1");
     let first = chromium.open(&local);
-    chromium.wait(&first, "view === 'plan' && !document.querySelector('#load').disabled");
+    planner(&mut chromium, &first);
     let plan = "takeoff\ngoto 0 1 0 0\nsetStayTime 300\ngoto 0 0 0 0\nland\n";
     chromium.type_into(&first, "#plantext", plan);
     chromium.wait(&first, "document.querySelectorAll('#draftsteps li').length === 5");
@@ -360,6 +366,7 @@ fn a_drone_that_is_not_found_is_looked_for() {
         assert!(advice.contains(word), "{word}: {advice}");
     }
     // A plan can be made and simulated meanwhile.
+    planner(&mut chromium, &tab);
     chromium.click(&tab, "#simulate", [0.0; 2]);
     chromium.wait(&tab, "!!plan.simulated()?.completed");
     station.end();
@@ -373,7 +380,7 @@ fn the_pictures_of_the_plan_and_of_the_flights() {
     let tab = chromium.open(&station.url);
     let plan = "# Up along a stair, and down again.\ntakeoff\nsetStayTime 1\ngoto 0 1.5 0 0\n\
         goto 1.5 1.5 0.5 90\ngoto 1.5 -0.5 1 180\nmoveBy -1.5 0 -0.5 0\ngoto 0 0 0 0\nland\n";
-    chromium.wait(&tab, "view === 'plan' && !document.querySelector('#load').disabled");
+    planner(&mut chromium, &tab);
     chromium.type_into(&tab, "#planname", "stair.txt");
     chromium.type_into(&tab, "#plantext", plan);
     chromium.wait(&tab, "plan.targets().length === 5");
@@ -437,7 +444,7 @@ fn the_page_and_the_report_can_be_used_by_everybody() {
     };
     let station = Station::start("0", &["--mock"]);
     let tab = chromium.open(&station.url);
-    chromium.wait(&tab, "view === 'plan' && !document.querySelector('#load').disabled");
+    planner(&mut chromium, &tab);
     chromium.click(&tab, "#simulate", [0.0; 2]);
     chromium.wait(&tab, "!!plan.simulated()?.completed");
     chromium.click(&tab, "#load", [0.0; 2]);
@@ -481,7 +488,7 @@ fn the_page_fits_telephones_and_large_screens() {
     let Some(mut chromium) = Chromium::start() else { return };
     let station = Station::start("0", &["--mock"]);
     let tab = chromium.open(&station.url);
-    chromium.wait(&tab, "view === 'plan' && !document.querySelector('#simulate').disabled");
+    planner(&mut chromium, &tab);
     let pictures = std::env::var_os("PAGE_PICTURES");
     for (width, height) in [(360, 740), (820, 1180), (1366, 768), (1920, 1080)] {
         for scheme in ["light", "dark"] {
