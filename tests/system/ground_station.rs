@@ -111,6 +111,10 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     let station = Station::start("0", &["--mock"]);
     let tab = chromium.open(&station.url);
     planner(&mut chromium, &tab);
+    // On an empty plan a click adds a take-off, too; before a landing on a tag it adds a target.
+    chromium.type_into(&tab, "#plantext", "landOnTag\n");
+    chromium.click(&tab, "#map", [0.0, -90.0]);
+    chromium.wait(&tab, "/^takeoff\\ngoto .*\\nlandOnTag\\n$/.test(plan.text())");
     chromium.choose(&tab, "#plans", "-");
     chromium.wait(&tab, "plan.text() === 'takeoff\\nland\\n'");
     // Two clicks on the map are two targets before the landing, and one of them is dragged.
@@ -152,6 +156,13 @@ fn a_plan_is_made_simulated_flown_and_compared() {
     chromium.click(&tab, "#byhand", [0.0; 2]);
     chromium.key(&tab, "keyDown", "KeyS");
     chromium.wait(&tab, "status.mission_waits && status.velocity_m_s[1] < -0.3");
+    // The button of the cut answers to every press, and the sticks that are held do not disarm it.
+    for _ in 0..3 {
+        chromium.click(&tab, "#cut", [0.0; 2]);
+        chromium.wait(&tab, "document.querySelector('#cut').textContent.includes('FALLS')");
+        chromium.wait(&tab, "document.querySelector('#cut').textContent === 'Cut motors'");
+        assert_eq!(chromium.evaluate(&tab, "document.querySelector('#answer').textContent"), "");
+    }
     chromium.key(&tab, "keyUp", "KeyS");
     chromium.wait(&tab, "Math.abs(status.velocity_m_s[1]) < 0.1");
     chromium.click(&tab, "#resume", [0.0; 2]);

@@ -12,8 +12,8 @@ use crate::typed;
 
 /// A cut must be confirmed within this time.
 const CUT_AGAIN: Duration = Duration::from_secs(3);
-/// Minimum interval between orders; nobody clicks faster.
-const LEAST_APART: Duration = Duration::from_millis(20);
+/// Orders per second, and at once; nobody clicks faster, and sticks are repeated ten times a second.
+const PER_S: f64 = 50.0;
 /// Malformed requests tolerated before disconnecting.
 const FORGIVEN: u32 = 10;
 
@@ -79,7 +79,9 @@ pub(super) enum RequestError {
 #[derive(Debug, Default)]
 pub(super) struct Requests {
     armed: Option<Duration>,
-    last: Option<Duration>,
+    last: Duration,
+    /// Orders that were given in the last second, less with time.
+    recent: f64,
     meaningless: u32,
 }
 
@@ -98,14 +100,19 @@ impl Requests {
             self.meaningless += 1;
             RequestError::Meaningless(error.to_string())
         })?;
-        let last = self.last.replace(now);
-        let too_fast = last.is_some_and(|last| now.saturating_sub(last) < LEAST_APART);
-        // However fast orders come, a hold and a landing are among those that count.
-        if too_fast && !matches!(request, Request::Hold | Request::Land) {
-            self.meaningless += 1;
+        let since = now.saturating_sub(std::mem::replace(&mut self.last, now));
+        self.recent = (self.recent - PER_S * since.as_secs_f64()).max(0.0) + 1.0;
+        // However fast orders come, those that stop the drone are taken.
+        let stops = matches!(request, Request::Hold | Request::Land | Request::Arm | Request::Cut);
+        if self.recent > PER_S && !stops {
+            self.recent = PER_S;
             return Err(RequestError::TooFast);
         }
-        let armed = self.armed.take();
+        // Sticks that are held repeat themselves while somebody presses twice.
+        let armed = match request {
+            Request::Steer { .. } | Request::Camera { .. } => self.armed,
+            _ => self.armed.take(),
+        };
         let is_armed = armed.is_some_and(|at| now.saturating_sub(at) < CUT_AGAIN);
         Ok(Some(match request {
             Request::Load { name, plan } => {
@@ -236,23 +243,46 @@ mod tests {
         assert_eq!(order(101, TYPED), Ok(Some(OperatorOrder::Cut)));
     }
 
+    /// A page that flies by hand repeats its sticks at any moment between two presses.
+    #[test]
+    fn sticks_that_are_held_neither_delay_nor_prevent_a_cut() {
+        const STEER: &str = r#"{"order":"steer","roll":0,"pitch":-0.5,"gaz":0,"yaw":0}"#;
+        let (mut requests, planning) = (Requests::default(), planning());
+        let mut order = |ms, text| requests.order(Duration::from_millis(ms), text, &planning);
+        for ms in (0..1000).step_by(25) {
+            assert!(order(ms, STEER).is_ok(), "{ms}");
+        }
+        assert_eq!(order(1000, r#"{"order":"arm"}"#), Ok(None));
+        for ms in (1000..2000).step_by(100) {
+            assert!(order(ms, STEER).is_ok());
+        }
+        assert_eq!(order(2000, r#"{"order":"cut"}"#), Ok(Some(OperatorOrder::Cut)));
+    }
+
     #[test]
     fn floods_and_garbage_are_noticed() {
         let mut requests = Requests::default();
         let planning = planning();
-        let soon = SECOND + SECOND / 100;
-        assert!(requests.order(SECOND, r#"{"order":"resume"}"#, &planning).is_ok());
+        let soon = SECOND;
+        for _ in 0..50 {
+            assert!(requests.order(SECOND, r#"{"order":"resume"}"#, &planning).is_ok());
+        }
         assert_eq!(
             requests.order(soon, r#"{"order":"resume"}"#, &planning),
             Err(RequestError::TooFast)
         );
-        // However fast they come, a landing is taken.
+        // However fast they come, a landing is taken, and a cut.
+        assert_eq!(requests.order(soon, r#"{"order":"arm"}"#, &planning), Ok(None));
+        assert_eq!(
+            requests.order(soon, r#"{"order":"cut"}"#, &planning),
+            Ok(Some(OperatorOrder::Cut))
+        );
         assert_eq!(
             requests.order(soon, r#"{"order":"land"}"#, &planning),
             Ok(Some(OperatorOrder::Land))
         );
         assert!(!requests.is_garbage());
-        for count in 0..FORGIVEN {
+        for count in 0..=FORGIVEN {
             assert!(requests.order(SECOND * (count + 2), "?", &planning).is_err());
         }
         assert!(requests.is_garbage());

@@ -53,6 +53,8 @@ function order(request) {
     $("answer").textContent = "not connected: the order was not given";
     return;
   }
+  // Another order disarms the cut; sticks that are held do not.
+  if (!["steer", "camera"].includes(request.order)) armedUntil = 0;
   socket.send(JSON.stringify(request));
 }
 

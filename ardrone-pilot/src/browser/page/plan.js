@@ -69,6 +69,8 @@ land
 
   function changed() {
     flown = null;
+    // What was confirmed once was another plan.
+    asked = { what: "", until: 0 };
     $("simulation").textContent = "";
     try {
       sessionStorage.setItem(KEPT, JSON.stringify([$("planname").value, text.value]));
@@ -115,7 +117,8 @@ land
     // What is being typed into stays as it is.
     rows.forEach(({ inputs }, at) =>
       inputs.forEach((input, place) => {
-        if (input !== document.activeElement) input.value = commands[at].found[place + 1]?.word ?? "";
+        // A number as its field writes it: not "+1" or "1.".
+        if (input !== document.activeElement) input.value = String(Number(commands[at].found[place + 1]?.word));
       }));
   }
 
@@ -132,6 +135,8 @@ land
       Object.assign(input, { type: "number", step: unit.includes("°") ? 15 : 0.1, title: `${field}, ${unit}` });
       input.ariaLabel = `${what}: ${field}, ${unit}`;
       input.oninput = () => input.value && setNumbers(index, { [place + 1]: input.value });
+      // What was cleared and left is as it was.
+      input.onblur = drawList;
       item.append(input);
       return input;
     });
@@ -167,7 +172,12 @@ land
   function add(command) {
     const all = lines();
     while (all.length && !all.at(-1).trim()) all.pop();
-    const lands = all.length && words(all.at(-1))[0]?.word === "land" && command !== "land";
+    const [{ word }] = words(command);
+    const ends = (name) => ["land", "landOnTag"].includes(name);
+    const lands = all.length && ends(words(all.at(-1))[0]?.word) && !ends(word) && word !== "takeoff";
+    // Nothing is flown to from the ground.
+    const starts = all.some((line) => ["takeoff", "autoTakeover", "autoInit"].includes(words(line)[0]?.word));
+    if (TARGETS.has(word) && !starts) all.unshift("takeoff");
     all.splice(all.length - (lands ? 1 : 0), 0, command);
     write(all.join("\n") + "\n");
   }
