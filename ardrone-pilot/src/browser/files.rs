@@ -28,11 +28,14 @@ use tokio::time::timeout;
 use super::folder::{Entry, Folder, FolderError};
 use super::planning::Planning;
 use crate::flights::{RecordedFlight, flights};
-use crate::recording::{LARGEST_FILE_BYTES, Log, LogError, pictures};
+use crate::recording::{Log, LogError, pictures};
 use crate::report::{self, ReportError};
 
 /// Maximum size of a plan; those that can be flown are much smaller.
 pub(super) const PLAN_BYTES: usize = 32 << 10;
+/// Maximum size of a recording that is read beside a flight: its memory is locked, which holds up the tick. The command
+/// line reads larger ones.
+const LOG_BYTES: u64 = 128 << 20;
 /// Time for sending a plan.
 const BODY_TIME: Duration = Duration::from_secs(5);
 /// Size of the parts in which a recording is sent.
@@ -171,7 +174,7 @@ impl Files {
 
     /// What was decided in a recording.
     fn log(&self, name: &str) -> Result<Log, Failure> {
-        let file = self.flights.read(name, LARGEST_FILE_BYTES as u64)?;
+        let file = self.flights.read(name, LOG_BYTES)?;
         Log::read_decisions(&file).map_err(|error| Failure::Log(name.to_owned(), error))
     }
 
@@ -283,7 +286,7 @@ async fn summary(State(files): Shared, Path(name): Path<String>) -> Result<Json,
 
 async fn show_report(State(files): Shared, Path(name): Path<String>) -> Result<Response, Failure> {
     let make = move |files: &Files| {
-        let file = files.flights.read(&name, LARGEST_FILE_BYTES as u64)?;
+        let file = files.flights.read(&name, LOG_BYTES)?;
         let bad = |error| Failure::Log(name.clone(), error);
         let (log, pictures) = (Log::read(&file).map_err(bad)?, pictures(&file).map_err(bad)?);
         report::html(&log, &pictures).map_err(|error| Failure::Report(name, error))

@@ -91,13 +91,17 @@ impl Folder {
     /// # Errors
     /// [`FolderError`] if it is none of the folder, or larger than `most_bytes`.
     pub(super) fn read(&self, name: &str, most_bytes: u64) -> Result<Vec<u8>, FolderError> {
-        let (file, _) = self.open(name)?;
+        let too_large = || FolderError::TooLarge(name.to_owned(), most_bytes);
+        let (file, bytes) = self.open(name)?;
+        if bytes > most_bytes {
+            return Err(too_large());
+        }
         let mut content = Vec::new();
         // It may grow meanwhile.
         let read = file.take(most_bytes + 1).read_to_end(&mut content);
         read.map_err(|error| FolderError::System(name.to_owned(), error))?;
         if content.len() as u64 > most_bytes {
-            return Err(FolderError::TooLarge(name.to_owned(), most_bytes));
+            return Err(too_large());
         }
         Ok(content)
     }

@@ -367,6 +367,7 @@ land
       answer(`Saved as ${name}.`);
       list();
     } catch (error) {
+      asked = { what: "", until: 0 };
       answer(`${name} was not saved: ${error.message}`);
     }
   };
