@@ -16,6 +16,8 @@ const CUT_AGAIN: Duration = Duration::from_secs(3);
 const PER_S: f64 = 50.0;
 /// Malformed requests tolerated before disconnecting.
 const FORGIVEN: u32 = 10;
+/// Orders refused as too fast before disconnecting: nobody reads the answers.
+const FLOOD: u32 = 500;
 
 /// A request of the page.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -82,6 +84,7 @@ pub(super) struct Requests {
     last: Duration,
     /// Orders that were given in the last second, less with time.
     recent: f64,
+    too_fast: u32,
     meaningless: u32,
 }
 
@@ -106,6 +109,7 @@ impl Requests {
         let stops = matches!(request, Request::Hold | Request::Land | Request::Arm | Request::Cut);
         if self.recent > PER_S && !stops {
             self.recent = PER_S;
+            self.too_fast += 1;
             return Err(RequestError::TooFast);
         }
         // Sticks that are held repeat themselves while somebody presses twice.
@@ -155,9 +159,9 @@ impl Requests {
         }))
     }
 
-    /// Whether so many requests were malformed that the client is not this page.
+    /// Whether so many requests were malformed, or refused as too fast, that the client is not this page.
     pub(super) fn is_garbage(&self) -> bool {
-        self.meaningless > FORGIVEN
+        self.meaningless > FORGIVEN || self.too_fast > FLOOD
     }
 }
 
@@ -284,6 +288,15 @@ mod tests {
         assert!(!requests.is_garbage());
         for count in 0..=FORGIVEN {
             assert!(requests.order(SECOND * (count + 2), "?", &planning).is_err());
+        }
+        assert!(requests.is_garbage());
+        let mut requests = Requests::default();
+        for count in 0..=FLOOD {
+            assert!(!requests.is_garbage(), "{count}");
+            // Of 51 at once the last is refused.
+            for _ in 0..51 {
+                _ = requests.order(SECOND * (count + 1), r#"{"order":"resume"}"#, &planning);
+            }
         }
         assert!(requests.is_garbage());
     }

@@ -295,8 +295,7 @@ fn check(access: &Access, uri: &Uri, headers: &HeaderMap) -> Result<(), Refusal>
         token: parameters.find_map(|parameter| parameter.strip_prefix("token=")),
     };
     // They load without the token.
-    let is_part = ASSETS.iter().skip(1).any(|asset| asset.path == uri.path());
-    let orders = !is_part;
+    let orders = !ASSETS.iter().skip(1).any(|asset| asset.path == uri.path());
     access.check(claims, orders)
 }
 
