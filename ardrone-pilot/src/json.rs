@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use autopilot::plan::Step;
-use autopilot::vehicle::{FlightEvent, Status};
+use autopilot::vehicle::{FlightEvent, ManualControl, Status};
 use diagnostic::is_printable;
 use serde_json::{Value, json};
 
@@ -106,6 +106,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "step": step,
                 "steps": steps,
                 "mission_waits": status.mission_waits,
+                "manual": status.manual.map(ManualControl::name),
                 "controls": status.controls.map(|operator| operator.to_string()),
                 "pose": status.pose.map(|pose| Place::from(&pose)),
                 "velocity_m_s": status.velocity_m_s,

@@ -8,8 +8,9 @@
 // `doubt`, `saturatedFor`, `wind`), for how long it has been doing the same (`takingOffFor`,
 // `approachingFor`, `searchingFor`, `overTagFor`, `stayingFor`, `descendingFor`), how long ago a tag on
 // the floor was seen (`tagAge`), how far it is to the fence (`fenceRoom`) and
-// how orders are to be flown (`reachDistance`, `stayDistance`, `stayTime`); it orders `takeOff`, `goTo`,
-// `findTag`, `landOnTag`, `newMission`, `hold`, `steer` and `land`. The last four pre-empt whatever runs,
+// how orders are to be flown (`reachDistance`, `stayDistance`, `stayTime`), and whether whoever flies it is still
+// there (`setpointAge`, `stationSilentFor`); it orders `takeOff`, `goTo`,
+// `findTag`, `landOnTag`, `newMission`, `hold`, `steer`, `follow` and `land`. The last five pre-empt whatever runs,
 // but nothing ends a landing.
 
 // ---- Limits. Change them with care.
@@ -58,6 +59,15 @@ ontoTagTime(4000).
 tagPatience(2000).
 tagLowest(0.6).
 
+// Set-points that stop coming: the drone holds after this, and lands after that. Milliseconds.
+holdWithoutSetpoints(500).
+landWithoutSetpoints(10500).
+// The ground station that has the controls is silent: that is told after this. Milliseconds. When the drone holds, and when it
+// lands, is settled before the flight.
+tellWithoutStation(3000).
+holdWithoutStation(10000).
+landWithoutStation(20000).
+
 // Nothing has lasted yet, and nothing is known of where it could be.
 saturatedFor(0).
 takingOffFor(0).
@@ -70,6 +80,8 @@ searchAgo(1000000000).
 fenceRoom(0.0).
 searchFrom(0.0, 0.0, 0.0).
 descendingFor(0).
+setpointAge(0).
+stationSilentFor(0).
 
 !wait.
 
@@ -108,12 +120,36 @@ descendingFor(0).
   <- tellNoProgress;
      ?airworthy.
 
+@setpoints_gone[req("SAF-9")]
++!watch : setpointAge(Time) & landWithoutSetpoints(Limit) & Time > Limit
+  <- tellSetpointsGone;
+     ?airworthy.
+
+@station_gone[req("SAF-9")]
++!watch : stationSilentFor(Time) & landWithoutStation(Limit) & Time > Limit
+  <- tellStationGone;
+     ?airworthy.
+
 @low_battery[req("SAF-4")]
 +!watch : battery(Percent) & warningBattery(Limit) & Percent <= Limit & not batteryWarned
   <- +batteryWarned;
      tellBatteryLow.
 
+@station_silent[req("SAF-9")]
++!watch : stationSilentFor(Time) & tellWithoutStation(Limit) & Time > Limit
+  <- tellStationSilent.
+
 +!watch.
+
+// ---- Holding still where the drone is.
+
++!holdHere : position(X, Y, Z, Yaw)
+  <- +target(X, Y, Z, Yaw);
+     sendStay(X, Y, Z, Yaw).
+
++!holdHere
+  <- -target(_, _, _, _);
+     sendHover.
 
 // ---- Waiting for an order: stay where we are.
 
@@ -204,6 +240,14 @@ descendingFor(0).
      sendStandby;
      !!wait.
 
+// Nobody may be there any more who ordered it: it waits until it is ordered again.
+@nobody_sends[req("SAF-9")]
++!goTo(_, _, _, _) : stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
+  <- !watch;
+     !holdHere;
+     reportPaused;
+     !!wait.
+
 +!goTo(X, Y, Z, Yaw)
   <- !watch;
      +target(X, Y, Z, Yaw);
@@ -222,6 +266,13 @@ descendingFor(0).
   <- !watch;
      sendHover;
      !approach.
+
+@nobody_waits[req("SAF-9")]
++!approach : stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
+  <- !watch;
+     !holdHere;
+     reportPaused;
+     !!wait.
 
 // The place has become doubtful: look for a tag, then go on.
 @look_for_the_place
@@ -254,6 +305,13 @@ descendingFor(0).
   <- !watch;
      sendHover;
      !stay.
+
+@nobody_waits_here[req("SAF-9")]
++!stay : stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
+  <- !watch;
+     !holdHere;
+     reportPaused;
+     !!wait.
 
 // The place has become doubtful: look for a tag, as when approaching.
 @look_for_the_place_held
@@ -300,6 +358,13 @@ descendingFor(0).
      reportDone;
      !!wait.
 
+@nobody_looks[req("SAF-9")]
++!findTag : stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
+  <- !watch;
+     !holdHere;
+     reportPaused;
+     !!wait.
+
 +!findTag : tagsInUse & position(X, Y, Z, Yaw)
   <- !watch;
      +target(X, Y, Z, Yaw);
@@ -343,6 +408,13 @@ descendingFor(0).
   <- !watch;
      sendHover;
      !search(Then).
+
+@nobody_searches[req("SAF-9")]
++!search(_) : stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
+  <- !watch;
+     !holdHere;
+     reportPaused;
+     !!wait.
 
 +!search(0) : tagSeen & position(X, Y, Z, Yaw)
   <- !watch;
@@ -406,6 +478,13 @@ descendingFor(0).
      reportFailed;
      !!wait.
 
+@nobody_goes_on[req("SAF-9")]
++!noTag(1) : not onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
+  <- !watch;
+     !holdHere;
+     reportPaused;
+     !!wait.
+
 +!noTag(1) : not onGround & target(X, Y, Z, Yaw)
   <- !watch;
      sendGotoAgain(X, Y, Z, Yaw);
@@ -434,6 +513,13 @@ descendingFor(0).
      +target(X, Y, Z, Yaw);
      sendOverTag(X, Y, Z, Yaw);
      !overTag.
+
+@nobody_lands_it[req("SAF-9")]
++!landOnTag : stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
+  <- !watch;
+     !holdHere;
+     reportPaused;
+     !!wait.
 
 +!landOnTag : tagsInUse & position(_, _, _, _)
   <- !watch;
@@ -628,6 +714,12 @@ descendingFor(0).
      sendHover;
      !!wait.
 
+@nobody_steers[req("SAF-9")]
++!steer : stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
+  <- !watch;
+     !holdHere;
+     !!wait.
+
 +!steer : steering
   <- !watch;
      sendSticks;
@@ -646,6 +738,40 @@ descendingFor(0).
 
 @danger_steering[req("SAF-4"), req("SAF-5")]
 -!steer <- !goDown; !comeDown.
+
+// To where an operator's set-points say, as long as they keep coming. Where they have stopped, only another order begins anew.
+
++!follow : onGround
+  <- -comingDown;
+     sendStandby;
+     !!wait.
+
+@follow_while_landing[req("SAF-2")]
++!follow : comingDown
+  <- -target(_, _, _, _);
+     sendLand;
+     !comeDown.
+
+@setpoints_silent[req("SAF-9")]
++!follow : setpointAge(Time) & holdWithoutSetpoints(Limit) & Time > Limit
+    | stationSilentFor(Silent) & holdWithoutStation(Longest) & Silent > Longest
+  <- !watch;
+     !holdHere;
+     reportPaused;
+     !!wait.
+
++!follow : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit
+  <- !watch;
+     sendSetpointPause;
+     !follow.
+
++!follow
+  <- !watch;
+     sendSetpoint;
+     !follow.
+
+@danger_following[req("SAF-4"), req("SAF-5"), req("SAF-9")]
+-!follow <- !goDown; !comeDown.
 
 // ---- Landing: where it blows by ourselves as far as we can, with eyes open; then by the drone.
 // While we come down by ourselves there is a target; the drone's own landing has none.

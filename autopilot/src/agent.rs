@@ -81,6 +81,10 @@ pub struct Percepts {
     pub wind: f64,
     /// An operator flies by stick.
     pub steering: bool,
+    /// The set-points that an operator sends; `None` if they are not followed.
+    pub setpoint: Option<SetpointPercept>,
+    /// Whether the operator's ground station can be heard.
+    pub station: StationPercepts,
     /// Parameters of approaching and holding a target.
     pub settings: ApproachSettings,
     /// Horizontal speed in m/s.
@@ -89,6 +93,26 @@ pub struct Percepts {
     pub fence: FlightLimits,
     /// What is known of tags; `None` if they are not in use.
     pub tags: Option<TagPercepts>,
+}
+
+/// The set-points that are followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SetpointPercept {
+    /// Where they want the drone now.
+    pub pose: Pose,
+    /// Time since the last one, in milliseconds.
+    pub age_ms: i64,
+}
+
+/// What is known of the ground station that has the controls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StationPercepts {
+    /// Time since it was heard, in milliseconds; 0 if no station has the controls that must be heard.
+    pub silent_for_ms: i64,
+    /// The drone holds after a silence of this length, in milliseconds.
+    pub hold_after_ms: i64,
+    /// It lands after a silence of this length, in milliseconds.
+    pub land_after_ms: i64,
 }
 
 /// The agent's command to the drone.
@@ -143,6 +167,12 @@ pub enum Danger {
     NoTag,
     /// The tag to land on is not seen any more.
     TagLost,
+    /// The set-points that were followed have not come for too long.
+    SetpointsGone,
+    /// The ground station that has the controls is silent: a warning, in every step.
+    StationSilent,
+    /// It has been silent for too long.
+    StationGone,
 }
 
 impl Danger {
@@ -158,6 +188,9 @@ impl Danger {
             Self::Searching => "Searching",
             Self::NoTag => "NoTag",
             Self::TagLost => "TagLost",
+            Self::SetpointsGone => "SetpointsGone",
+            Self::StationSilent => "StationSilent",
+            Self::StationGone => "StationGone",
         }
     }
 }
@@ -171,6 +204,8 @@ pub enum Report {
     Refused,
     /// It was given up.
     Failed,
+    /// It was set aside, and is to be given again when somebody resumes it.
+    Paused,
 }
 
 impl Report {
@@ -180,6 +215,7 @@ impl Report {
             Self::Done => "Done",
             Self::Refused => "Refused",
             Self::Failed => "Failed",
+            Self::Paused => "Paused",
         }
     }
 }
@@ -303,6 +339,11 @@ impl Environment for AgentStep {
         beliefs.set_reach_distance(settings.reach_distance_m);
         beliefs.set_stay_distance(settings.stay_distance_m);
         beliefs.set_stay_time(settings.stay_time_ms);
+        beliefs.set_setpoint_age(self.percepts.setpoint.map_or(0, |setpoint| setpoint.age_ms));
+        let station = self.percepts.station;
+        beliefs.set_station_silent_for(station.silent_for_ms);
+        beliefs.set_hold_without_station(station.hold_after_ms);
+        beliefs.set_land_without_station(station.land_after_ms);
     }
 
     fn send_standby(&mut self) {
@@ -357,6 +398,16 @@ impl Environment for AgentStep {
 
     fn send_sticks(&mut self) {
         self.end(AgentCommand::Sticks);
+    }
+
+    fn send_setpoint(&mut self) {
+        // Without one nothing is followed, so this command is not issued.
+        let pose = self.percepts.setpoint.map(|setpoint| setpoint.pose);
+        self.end(pose.map_or(AgentCommand::Hover, AgentCommand::GoTo));
+    }
+
+    fn send_setpoint_pause(&mut self) {
+        self.end(AgentCommand::Hover);
     }
 
     fn send_descent(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
@@ -448,6 +499,10 @@ impl Environment for AgentStep {
         self.report = Some(Report::Failed);
     }
 
+    fn report_paused(&mut self) {
+        self.report = Some(Report::Paused);
+    }
+
     fn tell_battery_low(&mut self) {
         self.danger = Some(Danger::BatteryLow);
     }
@@ -482,6 +537,18 @@ impl Environment for AgentStep {
 
     fn tell_tag_lost(&mut self) {
         self.danger = Some(Danger::TagLost);
+    }
+
+    fn tell_setpoints_gone(&mut self) {
+        self.danger = Some(Danger::SetpointsGone);
+    }
+
+    fn tell_station_silent(&mut self) {
+        self.danger = Some(Danger::StationSilent);
+    }
+
+    fn tell_station_gone(&mut self) {
+        self.danger = Some(Danger::StationGone);
     }
 
     fn trace_plan(&mut self, number: u32) {

@@ -196,6 +196,11 @@ impl Mission {
         self.interpreter.settings()
     }
 
+    /// Current limit of the horizontal speed in m/s, besides that of the controller.
+    pub fn speed_m_s(&self) -> Option<f64> {
+        self.interpreter.speed_m_s()
+    }
+
     /// Current limit of the sticks, as a fraction.
     pub fn max_control(&self) -> f64 {
         self.interpreter.max_control()

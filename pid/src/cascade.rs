@@ -126,7 +126,8 @@ impl Cascade {
 
     /// Horizontal stick demand (right, forward).
     fn across(&mut self, inputs: &Inputs<'_>) -> (f64, f64) {
-        let Inputs { pose, velocity, target, airframe, disturbance_m_s2, step_s, limit } = *inputs;
+        let Inputs { pose, velocity, target, airframe, disturbance_m_s2, step_s, limit, speed_m_s } =
+            *inputs;
         let Some(way) = &mut self.way else { return (0.0, 0.0) };
         let (config, tilt_max_rad) = (self.config, self.limits.tilt_rad);
         let thrust = airframe.thrust_gain;
@@ -134,7 +135,7 @@ impl Cascade {
         // Acceleration needed against the disturbance is not available to the reference.
         let free_m_s2 = (full_m_s2 - disturbance_m_s2.norm()).max(full_m_s2 / 3.0);
         let limits = MotionLimits {
-            velocity_m_s: config.speed_max_m_s * limit,
+            velocity_m_s: speed_m_s.min(config.speed_max_m_s * limit),
             acceleration_m_s2: config.acceleration_share * free_m_s2 * limit,
             jerk_m_s3: config.jerk_max_m_s3 * limit,
         };

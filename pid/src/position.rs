@@ -23,11 +23,14 @@ pub struct Inputs<'a> {
     pub step_s: f64,
     /// Limit of the sticks, from 0 to 1.
     pub limit: f64,
+    /// Largest horizontal speed, in m/s, besides that of the law's configuration. Only the cascade heeds it.
+    pub speed_m_s: f64,
 }
 
 impl Inputs<'_> {
     fn is_finite(&self) -> bool {
-        let Inputs { pose, velocity, disturbance_m_s2, airframe, target, step_s, limit } = self;
+        let Inputs { pose, velocity, disturbance_m_s2, airframe, target, step_s, limit, speed_m_s } =
+            self;
         [
             pose.x_m,
             pose.y_m,
@@ -49,6 +52,7 @@ impl Inputs<'_> {
             target.yaw_deg,
             *step_s,
             *limit,
+            *speed_m_s,
         ]
         .iter()
         .all(|value| value.is_finite())
@@ -170,6 +174,7 @@ mod tests {
                 airframe: Airframe::default(),
                 step_s: 0.03,
                 limit,
+                speed_m_s: 99.0,
             })
         };
         step(&mut controller, &pose);
@@ -242,6 +247,7 @@ mod tests {
                     airframe: Airframe::default(),
                     step_s: 0.03,
                     limit: 1.0,
+                    speed_m_s: 99.0,
                 };
                 assert_eq!(controller.step(&inputs), Sticks::default());
                 let demand = controller.step(&Inputs { pose: &good, ..inputs });

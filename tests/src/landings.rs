@@ -4,7 +4,7 @@
 
 use std::time::Duration;
 
-use autopilot::vehicle::{OperatorOrder, TICK};
+use autopilot::vehicle::{OperatorOrder, Place, TICK};
 use kinematics::Sticks;
 use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
@@ -75,7 +75,7 @@ fn orders() -> Vec<Landing> {
     let others = [
         OperatorOrder::Hold,
         OperatorOrder::Steer(Sticks { roll: 0.5, ..Sticks::default() }),
-        OperatorOrder::GoTo { x_m: 0.0, y_m: 1.0 },
+        OperatorOrder::GoTo(Place::at(0.0, 1.0)),
         OperatorOrder::Load(plan("takeoff\ngoto 0 1 0 0\nland\n")),
         OperatorOrder::Clear,
     ];

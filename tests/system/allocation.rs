@@ -6,7 +6,7 @@ use allocation_counter::measure;
 use ardrone_pilot::recording::{Header, Recorder, Timing};
 use autopilot::Vehicle;
 use autopilot::vehicle::{
-    Input, NavdataRate, Operator, OperatorOrder, Output, Phase, TICK, TagConfig, Transmit,
+    Input, NavdataRate, Operator, OperatorOrder, Output, Phase, Place, TICK, TagConfig, Transmit,
     VehicleConfig,
 };
 use kinematics::Sticks;
@@ -92,7 +92,7 @@ fn nothing_is_allocated_in_flight() {
     let orders = [
         (7 * second, OperatorOrder::Hold),
         (8 * second, OperatorOrder::Steer(Sticks { roll: 0.5, ..Sticks::default() })),
-        (10 * second, OperatorOrder::GoTo { x_m: 0.5, y_m: 0.5 }),
+        (10 * second, OperatorOrder::GoTo(Place::at(0.5, 0.5))),
         (13 * second, OperatorOrder::Resume),
         (18 * second, OperatorOrder::Land),
     ];

@@ -165,6 +165,8 @@ impl Deviation {
             Command::SetReachDistance { .. }
             | Command::SetStayDistance { .. }
             | Command::SetStayTime { .. }
+            | Command::SetReferenceStart
+            | Command::SetSpeed { .. }
             | Command::SetMaxControl { .. }
             | Command::FindTag => return None,
         };

@@ -8,7 +8,7 @@ use ardrone_pilot::replay::Replay;
 use ardrone_pilot::report;
 use ardrone_pilot::settings::Settings;
 use autopilot::plan::ZOrigin;
-use autopilot::vehicle::{FlightEvent, NavdataRate, OperatorOrder, VehicleConfig};
+use autopilot::vehicle::{FlightEvent, NavdataRate, OperatorOrder, Place, VehicleConfig};
 use serde_json::{Value, json};
 use system_tests::sim::{SimulatedFlight, Simulation};
 use system_tests::{SQUARE, plan};
@@ -46,7 +46,7 @@ fn a_flight_is_read_back_as_it_was_and_flies_again_the_same() {
     let orders = vec![
         (7 * second, OperatorOrder::Hold),
         (8 * second, OperatorOrder::Steer(kinematics::Sticks { roll: 0.3, ..Default::default() })),
-        (9 * second, OperatorOrder::GoTo { x_m: 0.5, y_m: 0.25 }),
+        (9 * second, OperatorOrder::GoTo(Place::at(0.5, 0.25))),
         (12 * second, OperatorOrder::Resume),
     ];
     let simulation = Simulation { orders, ..Simulation::default() };

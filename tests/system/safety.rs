@@ -8,7 +8,7 @@ use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
 use autopilot::safety::Veto;
 use autopilot::vehicle::{
-    FlightEvent, LandingReason, OperatorOrder, Quantity, Trust, VehicleConfig,
+    FlightEvent, LandingReason, OperatorOrder, Place, Quantity, Trust, VehicleConfig,
 };
 use kinematics::Sticks;
 use mock_drone::airframe::Profile;
@@ -295,7 +295,7 @@ fn a_wind_that_cannot_be_held_against_lands_in_time() {
 /// A manual target is flown to and held while the plan waits; the plan then goes on.
 #[test]
 fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
-    let go_to = |x_m, y_m| OperatorOrder::GoTo { x_m, y_m };
+    let go_to = |x_m, y_m| OperatorOrder::GoTo(Place::at(x_m, y_m));
     let orders = vec![
         (8 * SECOND, go_to(f64::NAN, 0.0)),
         (8 * SECOND, go_to(0.5, 2.0)),
@@ -327,7 +327,7 @@ fn the_drone_is_sent_by_hand_and_the_plan_goes_on() {
 fn a_hold_takes_back_where_the_drone_was_sent() {
     for after_ms in [0, 10, 30, 40, 60, 100] {
         let held = 9 * SECOND + Duration::from_millis(after_ms);
-        let sent = OperatorOrder::GoTo { x_m: 3.0, y_m: 0.0 };
+        let sent = OperatorOrder::GoTo(Place::at(3.0, 0.0));
         let orders = vec![
             (8 * SECOND, OperatorOrder::Hold),
             (9 * SECOND, sent),
@@ -346,7 +346,7 @@ fn a_hold_takes_back_where_the_drone_was_sent() {
 /// A target outside the fence is moved to its edge; one that is not reached in time is given up.
 #[test]
 fn a_place_given_by_hand_may_be_outside_or_never_reached() {
-    let sent = (8 * SECOND, OperatorOrder::GoTo { x_m: 80.0, y_m: 0.0 });
+    let sent = (8 * SECOND, OperatorOrder::GoTo(Place::at(80.0, 0.0)));
     let fly = |radius_m, settings, orders| {
         let flown = plan(&format!("takeoff\n{settings}goto 0 0 0 0\ngoto 0 1 0 0\nland\n"));
         let limits = FlightLimits { radius_m, ..NEAR };

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use autopilot::vehicle::OperatorOrder;
+use autopilot::vehicle::{OperatorOrder, Place};
 use kinematics::Sticks;
 use serde::Deserialize;
 
@@ -140,7 +140,7 @@ impl Requests {
             Request::Hold => OperatorOrder::Hold,
             Request::Resume => OperatorOrder::Resume,
             Request::Land => OperatorOrder::Land,
-            Request::GoTo { x_m, y_m } => OperatorOrder::GoTo { x_m, y_m },
+            Request::GoTo { x_m, y_m } => OperatorOrder::GoTo(Place::at(x_m, y_m)),
             Request::Camera { camera } => OperatorOrder::Camera(camera.into()),
             Request::Steer { roll, pitch, gaz, yaw } => {
                 let sticks = [roll, pitch, gaz, yaw];
@@ -192,7 +192,7 @@ mod tests {
         assert_eq!(order(text), Ok(Some(steer)));
         let too_far = r#"{"order":"steer","roll":0,"pitch":-1.5,"gaz":0,"yaw":0}"#;
         assert_eq!(order(too_far), Err(RequestError::NoSticks));
-        let go_to = OperatorOrder::GoTo { x_m: 1.5, y_m: -2.0 };
+        let go_to = OperatorOrder::GoTo(Place::at(1.5, -2.0));
         assert_eq!(order(r#"{"order":"goto","x_m":1.5,"y_m":-2}"#), Ok(Some(go_to)));
         for text in [
             "",

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use autopilot::plan::{Commands, FlightLimits, Plan};
-use autopilot::vehicle::{Operator, OperatorOrder, Refused};
+use autopilot::vehicle::{Operator, OperatorOrder, Place, Refused};
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use kinematics::Sticks;
 use serde::Deserialize;
@@ -349,7 +349,7 @@ fn order(request: Request, limits: &FlightLimits) -> Result<Option<OperatorOrder
         Request::Steer { roll, pitch, gaz, yaw } => {
             OperatorOrder::Steer(Sticks { roll, pitch, gaz, yaw })
         }
-        Request::GoTo { x_m, y_m } => OperatorOrder::GoTo { x_m, y_m },
+        Request::GoTo { x_m, y_m } => OperatorOrder::GoTo(Place::at(x_m, y_m)),
         Request::Land {} => OperatorOrder::Land,
         Request::Cut {} => OperatorOrder::Cut,
         Request::Recover {} => OperatorOrder::Recover,

@@ -7,8 +7,8 @@ use ardrone_link::settings::Camera;
 use autopilot::agent::AgentCommand;
 use autopilot::plan::{Commands, Plan};
 use autopilot::vehicle::{
-    Input, Operator, OperatorOrder, Output, Phase, Refused, Station, TICK, Transmit, Vehicle,
-    VehicleConfig,
+    Input, Operator, OperatorOrder, Output, Phase, Place, Refused, Station, TICK, Transmit,
+    Vehicle, VehicleConfig,
 };
 use kinematics::{Pose, Sticks};
 use mock_drone::{Message, World, WorldConfig};
@@ -41,7 +41,7 @@ fn order() -> impl Strategy<Value = OperatorOrder> {
             gaz,
             ..Sticks::default()
         })),
-        (-2.0..2.0, -2.0..2.0).prop_map(|(x_m, y_m)| OperatorOrder::GoTo { x_m, y_m }),
+        (-2.0..2.0, -2.0..2.0).prop_map(|(x_m, y_m)| OperatorOrder::GoTo(Place::at(x_m, y_m))),
         Just(OperatorOrder::Land),
         Just(OperatorOrder::Recover),
         Just(OperatorOrder::Camera(Camera::Bottom)),

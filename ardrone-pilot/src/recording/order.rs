@@ -1,7 +1,9 @@
 //! Operator orders in the flight log.
 
 use autopilot::plan::{Commands, FlightLimits, Plan, PlanError};
-use autopilot::vehicle::{Operator, OperatorOrder, Station};
+use autopilot::vehicle::{
+    Heading, Horizontal, Operator, OperatorOrder, Place, Setpoint, Station, Vertical,
+};
 use kinematics::Sticks;
 use serde::{Deserialize, Serialize};
 
@@ -27,20 +29,129 @@ struct Giver {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "order", rename_all = "lowercase")]
 enum Ordered {
-    Load { name: String, plan: String },
-    Append { commands: String },
+    Load {
+        name: String,
+        plan: String,
+    },
+    Append {
+        commands: String,
+    },
     Clear,
-    Start { when_ready: bool },
+    Start {
+        when_ready: bool,
+    },
     Hold,
     Resume,
-    Steer { roll: f64, pitch: f64, gaz: f64, yaw: f64 },
-    GoTo { x_m: f64, y_m: f64 },
+    Steer {
+        roll: f64,
+        pitch: f64,
+        gaz: f64,
+        yaw: f64,
+    },
+    GoTo {
+        x_m: Option<f64>,
+        y_m: Option<f64>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        height_m: Option<f64>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        yaw_deg: Option<f64>,
+    },
+    Follow {
+        setpoint: LoggedSetpoint,
+    },
+    Setpoint {
+        setpoint: LoggedSetpoint,
+    },
+    Present,
     Land,
     Cut,
     Recover,
-    Camera { camera: NamedCamera },
+    Camera {
+        camera: NamedCamera,
+    },
     Take,
     Release,
+}
+
+/// A set-point.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct LoggedSetpoint {
+    horizontal: LoggedHorizontal,
+    vertical: LoggedVertical,
+    heading: LoggedHeading,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum LoggedHorizontal {
+    PlaceM([f64; 2]),
+    VelocityMS([f64; 2]),
+    BodyVelocityMS([f64; 2]),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum LoggedVertical {
+    HeightM(f64),
+    ClimbMS(f64),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum LoggedHeading {
+    Keep,
+    YawDeg(f64),
+    TurnDegS(f64),
+}
+
+impl From<LoggedSetpoint> for Setpoint {
+    fn from(logged: LoggedSetpoint) -> Self {
+        Self {
+            horizontal: match logged.horizontal {
+                LoggedHorizontal::PlaceM([x_m, y_m]) => Horizontal::Place { x_m, y_m },
+                LoggedHorizontal::VelocityMS([x_m_s, y_m_s]) => {
+                    Horizontal::Velocity { x_m_s, y_m_s }
+                }
+                LoggedHorizontal::BodyVelocityMS([right_m_s, forward_m_s]) => {
+                    Horizontal::BodyVelocity { right_m_s, forward_m_s }
+                }
+            },
+            vertical: match logged.vertical {
+                LoggedVertical::HeightM(height_m) => Vertical::Height(height_m),
+                LoggedVertical::ClimbMS(climb_m_s) => Vertical::Climb(climb_m_s),
+            },
+            heading: match logged.heading {
+                LoggedHeading::Keep => Heading::Keep,
+                LoggedHeading::YawDeg(yaw_deg) => Heading::Yaw(yaw_deg),
+                LoggedHeading::TurnDegS(turn_deg_s) => Heading::Turn(turn_deg_s),
+            },
+        }
+    }
+}
+
+impl From<Setpoint> for LoggedSetpoint {
+    fn from(setpoint: Setpoint) -> Self {
+        Self {
+            horizontal: match setpoint.horizontal {
+                Horizontal::Place { x_m, y_m } => LoggedHorizontal::PlaceM([x_m, y_m]),
+                Horizontal::Velocity { x_m_s, y_m_s } => {
+                    LoggedHorizontal::VelocityMS([x_m_s, y_m_s])
+                }
+                Horizontal::BodyVelocity { right_m_s, forward_m_s } => {
+                    LoggedHorizontal::BodyVelocityMS([right_m_s, forward_m_s])
+                }
+            },
+            vertical: match setpoint.vertical {
+                Vertical::Height(height_m) => LoggedVertical::HeightM(height_m),
+                Vertical::Climb(climb_m_s) => LoggedVertical::ClimbMS(climb_m_s),
+            },
+            heading: match setpoint.heading {
+                Heading::Keep => LoggedHeading::Keep,
+                Heading::Yaw(yaw_deg) => LoggedHeading::YawDeg(yaw_deg),
+                Heading::Turn(turn_deg_s) => LoggedHeading::TurnDegS(turn_deg_s),
+            },
+        }
+    }
 }
 
 /// Why a logged order cannot be replayed.
@@ -89,7 +200,14 @@ impl Order {
             &Ordered::Steer { roll, pitch, gaz, yaw } => {
                 OperatorOrder::Steer(Sticks { roll, pitch, gaz, yaw })
             }
-            &Ordered::GoTo { x_m, y_m } => OperatorOrder::GoTo { x_m, y_m },
+            &Ordered::GoTo { x_m, y_m, height_m, yaw_deg } => OperatorOrder::GoTo(Place {
+                place_m: x_m.zip(y_m).map(Into::into),
+                height_m,
+                yaw_deg,
+            }),
+            &Ordered::Follow { setpoint } => OperatorOrder::Follow(setpoint.into()),
+            &Ordered::Setpoint { setpoint } => OperatorOrder::Setpoint(setpoint.into()),
+            Ordered::Present => OperatorOrder::Present,
             Ordered::Land => OperatorOrder::Land,
             Ordered::Cut => OperatorOrder::Cut,
             Ordered::Recover => OperatorOrder::Recover,
@@ -117,7 +235,13 @@ impl From<&OperatorOrder> for Ordered {
             &OperatorOrder::Steer(Sticks { roll, pitch, gaz, yaw }) => {
                 Self::Steer { roll, pitch, gaz, yaw }
             }
-            &OperatorOrder::GoTo { x_m, y_m } => Self::GoTo { x_m, y_m },
+            &OperatorOrder::GoTo(Place { place_m, height_m, yaw_deg }) => {
+                let [x_m, y_m] = place_m.map_or([None; 2], |place_m| place_m.map(Some));
+                Self::GoTo { x_m, y_m, height_m, yaw_deg }
+            }
+            &OperatorOrder::Follow(setpoint) => Self::Follow { setpoint: setpoint.into() },
+            &OperatorOrder::Setpoint(setpoint) => Self::Setpoint { setpoint: setpoint.into() },
+            OperatorOrder::Present => Self::Present,
             OperatorOrder::Land => Self::Land,
             OperatorOrder::Cut => Self::Cut,
             OperatorOrder::Recover => Self::Recover,
@@ -141,7 +265,28 @@ mod tests {
             OperatorOrder::Append(Commands::parse("command", "goto 0 1 0 0").unwrap()),
             OperatorOrder::Start { when_ready: true },
             OperatorOrder::Steer(Sticks { roll: 0.5, ..Sticks::default() }),
-            OperatorOrder::GoTo { x_m: 1.0, y_m: -2.5 },
+            OperatorOrder::GoTo(Place::at(1.0, -2.5)),
+            OperatorOrder::GoTo(Place {
+                height_m: Some(1.5),
+                yaw_deg: Some(-90.0),
+                ..Place::default()
+            }),
+            OperatorOrder::Follow(Setpoint {
+                horizontal: Horizontal::Place { x_m: 1.0, y_m: -2.5 },
+                vertical: Vertical::Height(1.0),
+                heading: Heading::Keep,
+            }),
+            OperatorOrder::Setpoint(Setpoint {
+                horizontal: Horizontal::BodyVelocity { right_m_s: 1.0, forward_m_s: -0.5 },
+                vertical: Vertical::Climb(-0.25),
+                heading: Heading::Turn(5.0),
+            }),
+            OperatorOrder::Setpoint(Setpoint {
+                horizontal: Horizontal::Velocity { x_m_s: 1.0, y_m_s: -0.5 },
+                vertical: Vertical::Climb(0.25),
+                heading: Heading::Yaw(5.0),
+            }),
+            OperatorOrder::Present,
             OperatorOrder::Cut,
             OperatorOrder::Camera(ardrone_link::settings::Camera::Bottom),
         ] {

@@ -13,7 +13,7 @@ use pid::Law;
 use serde::{Deserialize, Serialize};
 
 use self::section::{Comments, LawName};
-use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Fence, Video};
+use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Fence, Station, Video};
 pub use self::tags::GivenTag;
 use self::tags::Tags;
 
@@ -24,6 +24,7 @@ pub struct Settings {
     fence: Fence,
     drone: Drone,
     video: Video,
+    station: Station,
     delays: Delays,
     airframe: Airframe,
     estimator: Estimator,
@@ -60,10 +61,11 @@ const HEADER: &str = "\
 ";
 
 /// The sections' comments.
-const COMMENTS: [Comments; 8] = [
+const COMMENTS: [Comments; 9] = [
     Fence::COMMENTS,
     Drone::COMMENTS,
     Video::COMMENTS,
+    Station::COMMENTS,
     Delays::COMMENTS,
     Airframe::COMMENTS,
     Estimator::COMMENTS,
@@ -147,12 +149,14 @@ impl Settings {
 
     /// The vehicle's configuration.
     pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
-        let Self { fence, drone, video, delays, airframe, estimator, tags, controller } = self;
+        let Self { fence, drone, video, station, delays, airframe, estimator, tags, controller } =
+            self;
         let mut config = VehicleConfig::default();
         config.limits.z_origin = z_origin;
         fence.apply(&mut config);
         drone.apply(&mut config);
         video.apply(&mut config);
+        station.apply(&mut config);
         delays.apply(&mut config);
         airframe.apply(&mut config);
         estimator.apply(&mut config);
@@ -162,10 +166,12 @@ impl Settings {
     }
 
     fn reasons_against(&self) -> Vec<String> {
-        let Self { fence, drone, video, delays, airframe, estimator, tags, controller } = self;
+        let Self { fence, drone, video, station, delays, airframe, estimator, tags, controller } =
+            self;
         let mut reasons = fence.out_of_range();
         reasons.extend(drone.out_of_range());
         reasons.extend(video.out_of_range());
+        reasons.extend(station.out_of_range());
         reasons.extend(delays.out_of_range());
         reasons.extend(airframe.out_of_range());
         reasons.extend(estimator.out_of_range());
@@ -173,6 +179,10 @@ impl Settings {
         reasons.extend(tags.reasons_against());
         if fence.floor_m >= fence.ceiling_m {
             reasons.push("fence.floor_m is not below fence.ceiling_m".to_owned());
+        }
+        let patience = self.pilot_config(ZOrigin::default()).station;
+        if patience.hold_after >= patience.land_after {
+            reasons.push("station.hold_after_ms is not below station.land_after_ms".to_owned());
         }
         reasons
     }
@@ -209,7 +219,7 @@ mod tests {
                     toml::Value::Float(number) => (number * 1.05).into(),
                     // A bit rate that is not asked for.
                     toml::Value::Integer(0) => 500.into(),
-                    toml::Value::Integer(number) => (number + 1).into(),
+                    toml::Value::Integer(number) => (number - 1).into(),
                     toml::Value::Boolean(on) => (!on).into(),
                     toml::Value::Array(_) => vec![0.9, 0.8].into(),
                     toml::Value::String(text) if text == "demo" => "full".into(),
@@ -223,7 +233,7 @@ mod tests {
                 tried += 1;
             }
         }
-        assert_eq!(tried, 41);
+        assert_eq!(tried, 43);
     }
 
     #[test]
@@ -258,7 +268,12 @@ mod tests {
         assert_eq!(reasons.len(), 4, "{reasons:?}");
         assert!(reasons[1].contains("drone.tilt_max_deg is 90"), "{reasons:?}");
         assert!(reasons[2].contains("video.bitrate_kbit_s is 100"), "{reasons:?}");
-        let text = "[fence]\nfloor_m = 2.5\nceiling_m = 2.0";
-        assert!(Settings::parse("my.toml", text).is_err());
+        for text in [
+            "[fence]\nfloor_m = 2.5\nceiling_m = 2.0",
+            "[station]\nhold_after_ms = 5000\nland_after_ms = 4000",
+            "[station]\nland_after_ms = 20001",
+        ] {
+            assert!(Settings::parse("my.toml", text).is_err(), "{text}");
+        }
     }
 }

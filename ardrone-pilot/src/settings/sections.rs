@@ -46,6 +46,15 @@ section! {
 }
 
 section! {
+    struct Station("station") of VehicleConfig {
+        /// A ground station that speaks MAVLink, has the controls and is silent in flight: after this time its mission is paused
+        /// and the drone holds, and after that time it lands. Milliseconds; never longer than the defaults.
+        hold_after_ms: Milliseconds = [station.hold_after] in 1000.0..=10_000.0,
+        land_after_ms: Milliseconds = [station.land_after] in 2000.0..=20_000.0,
+    }
+}
+
+section! {
     #[allow(clippy::struct_field_names, reason = "the unit belongs to the name")]
     struct Delays("delays") of VehicleConfig {
         /// From a command to the motors, including half a tick. Milliseconds.

@@ -1,5 +1,6 @@
 //! The agent's decisions, step by step.
 
+mod station;
 mod tags;
 
 use super::*;
@@ -16,6 +17,8 @@ const GROUND: Percepts = Percepts {
     saturated_for_ms: 0,
     wind: 0.0,
     steering: false,
+    setpoint: None,
+    station: StationPercepts { silent_for_ms: 0, hold_after_ms: 10_000, land_after_ms: 20_000 },
     settings: ApproachSettings { reach_distance_m: 0.2, stay_distance_m: 0.5, stay_time_ms: 2000 },
     speed_m_s: 0.0,
     fence: FlightLimits { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover },

@@ -53,6 +53,7 @@ pub(crate) struct Interpreter {
     /// The last target.
     target: Pose,
     settings: ApproachSettings,
+    speed_m_s: Option<f64>,
     max_control: f64,
 }
 
@@ -75,6 +76,7 @@ impl Interpreter {
             reference: Reference::FromOrigin(Pose::default()),
             target: Pose::default(),
             settings: ApproachSettings::default(),
+            speed_m_s: None,
             max_control: 1.0,
         }
     }
@@ -94,6 +96,8 @@ impl Interpreter {
             Command::MoveByRelative(by) => return Some(self.go_to(*pose, by)),
             Command::SetReference(to) => self.reference = Reference::FromOrigin(to),
             Command::SetReferenceHere => self.reference = Reference::Fixed(*pose),
+            // The estimator's frame begins where the drone stood at the start of the flight.
+            Command::SetReferenceStart => self.reference = Reference::Fixed(Pose::default()),
             Command::SetReachDistance { distance_m } => self.settings.reach_distance_m = distance_m,
             Command::SetStayDistance { distance_m } => self.settings.stay_distance_m = distance_m,
             Command::SetStayTime { time_s } => {
@@ -102,6 +106,7 @@ impl Interpreter {
                 let stay_time_ms = (time_s * 1000.0).round() as i64;
                 self.settings.stay_time_ms = stay_time_ms;
             }
+            Command::SetSpeed { speed_m_s } => self.speed_m_s = Some(speed_m_s),
             Command::SetMaxControl { fraction } => self.max_control = fraction,
         }
         None
@@ -127,6 +132,11 @@ impl Interpreter {
     /// Current approach parameters.
     pub(crate) fn settings(&self) -> ApproachSettings {
         self.settings
+    }
+
+    /// Current limit of the horizontal speed in m/s, besides that of the controller.
+    pub(crate) fn speed_m_s(&self) -> Option<f64> {
+        self.speed_m_s
     }
 
     /// Current limit of the sticks, as a fraction.
@@ -264,6 +274,13 @@ mod tests {
     }
 
     #[test]
+    fn places_can_count_from_the_start_of_the_flight() {
+        let start = "setReference $START$\ngoto 1 0 1.5 90";
+        assert_target(&format!("takeoff\ngoto 2 2 0 0\n{start}"), [1.0, 0.0, 1.5, 90.0]);
+        assert_target("setReference $START$\ntakeoff\ngoto 1 0 1.5 90", [1.0, 0.0, 1.5, 90.0]);
+    }
+
+    #[test]
     fn settings_hold_from_their_command_on() {
         let mut interpreter = Interpreter::new(FlightLimits::default());
         assert_eq!(interpreter.settings(), ApproachSettings::default());
@@ -271,6 +288,7 @@ mod tests {
             Command::SetReachDistance { distance_m: 0.1 },
             Command::SetStayDistance { distance_m: 0.7 },
             Command::SetStayTime { time_s: 1.2345 },
+            Command::SetSpeed { speed_m_s: 0.4 },
             Command::SetMaxControl { fraction: 0.5 },
         ] {
             assert_eq!(interpreter.carry_out(command, &Pose::default()), None);
@@ -279,5 +297,7 @@ mod tests {
             ApproachSettings { reach_distance_m: 0.1, stay_distance_m: 0.7, stay_time_ms: 1235 };
         assert_eq!(interpreter.settings(), settings);
         assert!((interpreter.max_control() - 0.5).abs() < 1e-9);
+        assert_eq!(interpreter.speed_m_s(), Some(0.4));
+        assert_eq!(interpreter.of_new_plan().speed_m_s(), None);
     }
 }

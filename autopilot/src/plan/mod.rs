@@ -77,6 +77,8 @@ pub enum Command {
     SetReference(Pose),
     /// `setReference $POSE$`: at the drone's pose.
     SetReferenceHere,
+    /// `setReference $START$`: where the flight began, on the floor.
+    SetReferenceStart,
     /// `setInitialReachDist`: a target is reached within this distance.
     SetReachDistance {
         /// Metres.
@@ -91,6 +93,11 @@ pub enum Command {
     SetStayTime {
         /// Seconds.
         time_s: f64,
+    },
+    /// `setSpeed`: limit of the horizontal speed.
+    SetSpeed {
+        /// Metres per second.
+        speed_m_s: f64,
     },
     /// `setMaxControl`: limit of the sticks.
     SetMaxControl {

@@ -50,6 +50,7 @@ enum Keyword {
     SetInitialReachDist,
     SetStayWithinDist,
     SetStayTime,
+    SetSpeed,
     SetMaxControl,
     Tag,
     FindTag,
@@ -62,7 +63,7 @@ enum Keyword {
 
 impl Keyword {
     /// All keywords. One that is missing here is never constructed, which the compiler reports as dead code.
-    const ALL: [Self; 17] = [
+    const ALL: [Self; 18] = [
         Self::TakeOff,
         Self::Land,
         Self::GoTo,
@@ -72,6 +73,7 @@ impl Keyword {
         Self::SetInitialReachDist,
         Self::SetStayWithinDist,
         Self::SetStayTime,
+        Self::SetSpeed,
         Self::SetMaxControl,
         Self::Tag,
         Self::FindTag,
@@ -94,6 +96,7 @@ impl Keyword {
             Self::SetInitialReachDist => "setInitialReachDist",
             Self::SetStayWithinDist => "setStayWithinDist",
             Self::SetStayTime => "setStayTime",
+            Self::SetSpeed => "setSpeed",
             Self::SetMaxControl => "setMaxControl",
             Self::Tag => "tag",
             Self::FindTag => "findTag",
@@ -116,9 +119,10 @@ impl Keyword {
             | Self::LockScaleFp => "",
             Self::Tag => "x y` or `tag x y heading",
             Self::GoTo | Self::MoveBy | Self::MoveByRel => "x y z yaw",
-            Self::SetReference => "x y z yaw` or `setReference $POSE$",
+            Self::SetReference => "x y z yaw`, `setReference $POSE$` or `setReference $START$",
             Self::SetInitialReachDist | Self::SetStayWithinDist => "metres",
             Self::SetStayTime => "seconds",
+            Self::SetSpeed => "m/s",
             Self::SetMaxControl => "fraction",
             Self::AutoInit | Self::AutoTakeover => "[numbers]",
         }
@@ -163,6 +167,7 @@ pub(super) fn note(line: &Line) -> Option<String> {
         | Keyword::SetInitialReachDist
         | Keyword::SetStayWithinDist
         | Keyword::SetStayTime
+        | Keyword::SetSpeed
         | Keyword::SetMaxControl
         | Keyword::Tag
         | Keyword::FindTag
@@ -245,6 +250,9 @@ impl Arguments<'_> {
             Keyword::SetReference if matches!(self.words, [word] if word.text == "$POSE$") => {
                 Command::SetReferenceHere
             }
+            Keyword::SetReference if matches!(self.words, [word] if word.text == "$START$") => {
+                Command::SetReferenceStart
+            }
             Keyword::SetReference => Command::SetReference(self.pose()?),
             Keyword::SetInitialReachDist => {
                 Command::SetReachDistance { distance_m: self.one(0.01, 10.0)? }
@@ -253,6 +261,7 @@ impl Arguments<'_> {
                 Command::SetStayDistance { distance_m: self.one(0.01, 10.0)? }
             }
             Keyword::SetStayTime => Command::SetStayTime { time_s: self.one(0.0, 600.0)? },
+            Keyword::SetSpeed => Command::SetSpeed { speed_m_s: self.one(0.05, 10.0)? },
             Keyword::SetMaxControl => Command::SetMaxControl { fraction: self.one(0.05, 1.0)? },
             Keyword::AutoInit => self.numbers(Command::TakeOff { take_over: false })?,
             Keyword::AutoTakeover => self.numbers(Command::TakeOff { take_over: true })?,

@@ -73,6 +73,8 @@ impl Review<'_> {
             Command::SetReachDistance { .. }
             | Command::SetStayDistance { .. }
             | Command::SetStayTime { .. }
+            | Command::SetReferenceStart
+            | Command::SetSpeed { .. }
             | Command::SetMaxControl { .. }
             | Command::SetReference(_)
             | Command::SetReferenceHere
@@ -154,7 +156,9 @@ impl Review<'_> {
                     | Command::SetStayDistance { .. }
                     | Command::SetStayTime { .. }
                     | Command::SetReference(_)
-                    | Command::SetReferenceHere,
+                    | Command::SetReferenceHere
+                    | Command::SetReferenceStart
+                    | Command::SetSpeed { .. },
                 ) => {
                     self.warn(
                         "no target comes after this",

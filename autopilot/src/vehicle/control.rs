@@ -93,6 +93,7 @@ impl Vehicle {
             target,
             step_s,
             limit: self.mission.max_control(),
+            speed_m_s: self.mission.speed_m_s().unwrap_or(self.config.cascade.speed_max_m_s),
         })
     }
 }

@@ -1,17 +1,19 @@
-//! Manual control: hold, fly by stick, fly to a place, go on with the mission.
+//! Manual control: hold, fly by stick, fly to a place, follow set-points, go on with the mission.
 
 use std::time::Duration;
 
 use kinematics::{Pose, Sticks};
 
-use super::{FlightEvent, Operator, Refused, Station, Vehicle};
-use crate::agent::Report;
+use super::{FlightEvent, Operator, Place, Refused, Setpoint, Station, Vehicle};
+use crate::agent::{Report, SetpointPercept};
 use crate::safety::INSIDE_M;
 
 /// Stick input expires after this time. Key repeat is faster, so a held key keeps flying.
 const STICK_TIME: Duration = Duration::from_millis(600);
 /// Stick input from a page, which repeats it every 100 ms and knows when a key is released.
 const PAGE_STICK_TIME: Duration = Duration::from_millis(250);
+/// Stick input by `MAVLink`, which repeats it several times a second (`mavlink.md` of PX4: lost after 0.5 s).
+const MAVLINK_STICK_TIME: Duration = Duration::from_millis(500);
 
 /// Manual control of the current flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,6 +40,40 @@ enum Mode {
         /// The target has been handed to the agent.
         offered: bool,
     },
+    Following {
+        setpoint: Setpoint,
+        /// When it came.
+        at: Duration,
+        /// Where it wants the drone now.
+        target: Pose,
+        /// The agent has stopped following, and waits for whoever sent the set-points.
+        stopped: bool,
+    },
+}
+
+/// What an operator does with the drone by hand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ManualControl {
+    /// It holds.
+    Hold,
+    /// It flies as the sticks say.
+    Sticks,
+    /// It flies to a place.
+    Target,
+    /// It follows set-points.
+    Setpoints,
+}
+
+impl ManualControl {
+    /// Its name in messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hold => "hold",
+            Self::Sticks => "sticks",
+            Self::Target => "target",
+            Self::Setpoints => "setpoints",
+        }
+    }
 }
 
 impl Manual {
@@ -47,6 +83,26 @@ impl Manual {
             Mode::Steered { sticks, until } if now < until => Some(sticks),
             _ => None,
         }
+    }
+
+    /// What the operator does; `None` if the mission is not paused.
+    pub(super) fn control(&self, now: Duration) -> Option<ManualControl> {
+        self.holds_mission.then_some(match self.mode {
+            Mode::Steered { until, .. } if now < until => ManualControl::Sticks,
+            Mode::SentTo { .. } => ManualControl::Target,
+            Mode::Following { stopped: false, .. } => ManualControl::Setpoints,
+            Mode::None | Mode::Steered { .. } | Mode::Following { .. } => ManualControl::Hold,
+        })
+    }
+
+    /// The set-points that are followed, or were until they stopped.
+    pub(super) fn setpoint(&self, now: Duration) -> Option<SetpointPercept> {
+        let Mode::Following { at, target, .. } = self.mode else { return None };
+        let age = now.saturating_sub(at);
+        Some(SetpointPercept {
+            pose: target,
+            age_ms: i64::try_from(age.as_millis()).unwrap_or(i64::MAX),
+        })
     }
 
     /// Whether a manual target is being flown to.
@@ -71,13 +127,67 @@ impl Vehicle {
         }
         let lasts = match by.station {
             Station::Browser => PAGE_STICK_TIME,
-            Station::Terminal | Station::Program | Station::Mavlink => STICK_TIME,
+            Station::Mavlink => MAVLINK_STICK_TIME,
+            Station::Terminal | Station::Program => STICK_TIME,
         };
         self.flight.manual.mode = Mode::Steered { sticks, until: now + lasts };
     }
 
-    pub(super) fn send_to(&mut self, now: Duration, x_m: f64, y_m: f64) {
-        let wanted = Pose { x_m, y_m, ..self.flight.target.unwrap_or_else(|| self.pose(now)) };
+    /// Begins to follow set-points.
+    pub(super) fn follow(&mut self, now: Duration, setpoint: Setpoint) {
+        let target = self.flight.target.unwrap_or_else(|| self.pose(now));
+        self.begin_manual(FlightEvent::FollowingSetpoints);
+        self.flight.manual.pre_empts = true;
+        self.flight.manual.mode = Mode::Following { setpoint, at: now, target, stopped: false };
+        // Pre-empting goals are always accepted.
+        let accepted = self.flight.agent.achieve_follow();
+        debug_assert!(accepted);
+    }
+
+    /// The next set-point. After the agent has stopped following it only shows that its sender is there.
+    pub(super) fn next_setpoint(&mut self, now: Duration, next: Setpoint) -> Result<(), Refused> {
+        let Mode::Following { setpoint, at, stopped, .. } = &mut self.flight.manual.mode else {
+            return Err(Refused::NotFollowing);
+        };
+        (*setpoint, *at) = (next, now);
+        if *stopped { Err(Refused::NotFollowing) } else { Ok(()) }
+    }
+
+    /// Moves the target of the set-points that are followed.
+    pub(super) fn advance_setpoint(&mut self, pose: &Pose, step_s: f64) {
+        let limits = self.config.limits;
+        if let Mode::Following { setpoint, target, stopped: false, .. } =
+            &mut self.flight.manual.mode
+        {
+            *target = limits.nearest_inside(&setpoint.target(target, pose, step_s), INSIDE_M);
+        }
+    }
+
+    /// The agent has set its order aside because whoever gave it is silent.
+    pub(super) fn order_paused(&mut self) {
+        let manual = &mut self.flight.manual;
+        match &mut manual.mode {
+            Mode::Following { stopped, .. } => {
+                *stopped = true;
+                self.events.push_back(FlightEvent::SetpointsSilent);
+            }
+            mode => {
+                *mode = Mode::None;
+                manual.holds_mission = true;
+                self.events.push_back(FlightEvent::PausedForStation);
+            }
+        }
+    }
+
+    pub(super) fn send_to(&mut self, now: Duration, to: &Place) {
+        let present = self.flight.target.unwrap_or_else(|| self.pose(now));
+        let [x_m, y_m] = to.place_m.unwrap_or([present.x_m, present.y_m]);
+        let wanted = Pose {
+            x_m,
+            y_m,
+            z_m: to.height_m.unwrap_or(present.z_m),
+            yaw_deg: to.yaw_deg.unwrap_or(present.yaw_deg),
+        };
         self.begin_manual(FlightEvent::ManualTargetSet);
         self.agent_holds();
         let place = self.mission.inside(&wanted, INSIDE_M);

@@ -17,6 +17,7 @@ mod protocol;
 mod readiness;
 mod report;
 mod saturation;
+mod setpoint;
 mod stage;
 mod tags;
 mod tick;
@@ -36,15 +37,17 @@ pub use pid::Law;
 
 pub use self::decision::Decision;
 use self::flight::{Active, Flight, sample};
+pub use self::manual::ManualControl;
 use self::operators::Controls;
 pub use self::operators::{Operator, Station};
-pub use self::orders::{OperatorOrder, Refused};
+pub use self::orders::{OperatorOrder, Place, Refused};
 use self::phase::FlightPhase;
 pub use self::phase::{LandingReason, Phase};
 use self::protocol::Pending;
 pub use self::protocol::{Input, Output, Transmit};
 pub use self::readiness::NotReady;
 pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
+pub use self::setpoint::{Heading, Horizontal, Setpoint, Vertical};
 pub use self::stage::Stage;
 use self::tags::{SignSearch, sights};
 use crate::agent::{Danger, Report, distance};
@@ -81,10 +84,27 @@ pub struct VehicleConfig {
     pub video_kbit_s: Option<u32>,
     /// Control law for approaching and holding poses.
     pub law: Law,
+    /// What a silent ground station means.
+    pub station: StationPatience,
     /// Delays and airframe parameters assumed by the estimator.
     pub estimator: EstimatorConfig,
     /// Gains and limits of [`Law::Cascade`].
     pub cascade: CascadeConfig,
+}
+
+/// How long a ground station that has the controls may be silent in flight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StationPatience {
+    /// After this time its mission is paused and the drone holds.
+    pub hold_after: Duration,
+    /// After this time the drone lands.
+    pub land_after: Duration,
+}
+
+impl Default for StationPatience {
+    fn default() -> Self {
+        Self { hold_after: Duration::from_secs(10), land_after: Duration::from_secs(20) }
+    }
 }
 
 impl Default for VehicleConfig {
@@ -96,6 +116,7 @@ impl Default for VehicleConfig {
             gps: false,
             video_kbit_s: None,
             law: Law::default(),
+            station: StationPatience::default(),
             estimator: EstimatorConfig::default(),
             cascade: CascadeConfig::default(),
         }
@@ -334,6 +355,7 @@ impl Vehicle {
             step: self.flight.due.as_ref().map(|active| active.due.step),
             steps: self.flight.report.steps,
             mission_waits: self.flight.manual.holds_mission,
+            manual: self.flight.manual.control(now),
             controls: self.controls.holder(),
             pose: self.session.silence(now).map(|_| pose),
             velocity_m_s: self

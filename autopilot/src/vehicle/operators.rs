@@ -1,6 +1,7 @@
 //! Authority of operators: several may give orders, one of them has the controls.
 
 use std::fmt;
+use std::time::Duration;
 
 /// Someone who gives orders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -10,7 +11,7 @@ pub struct Operator {
     /// Distinguishes operators at stations of the same kind.
     pub number: u16,
     /// Whether the operator is at the machine that runs the program. A local operator takes the controls from
-    /// a remote one, never the reverse.
+    /// a remote one, never the reverse; a `MAVLink` station takes them from nobody.
     pub local: bool,
 }
 
@@ -42,11 +43,25 @@ impl Station {
     }
 }
 
+impl Station {
+    /// Whether an operator who has the controls at such a station must be heard all the time: a program elsewhere that
+    /// falls silent may have ended without a word.
+    fn must_be_heard(self) -> bool {
+        self == Self::Mavlink
+    }
+}
+
 impl Operator {
     /// The operator who started the program.
     pub const TERMINAL: Self = Self { station: Station::Terminal, number: 0, local: true };
     /// The program connected to standard input.
     pub const PROGRAM: Self = Self { station: Station::Program, number: 0, local: true };
+
+    /// Whether this operator may take the controls from others. `MAVLink` has no login: its stations get them
+    /// only if they are free.
+    fn takes_controls(self) -> bool {
+        self.local && self.station != Station::Mavlink
+    }
 }
 
 impl fmt::Display for Operator {
@@ -64,6 +79,8 @@ impl fmt::Display for Operator {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Controls {
     holder: Option<Operator>,
+    /// When the holder was last heard.
+    heard: Duration,
 }
 
 impl Controls {
@@ -71,11 +88,26 @@ impl Controls {
         self.holder
     }
 
+    /// An operator was heard.
+    pub(super) fn heard(&mut self, now: Duration, by: Operator) {
+        if self.holder == Some(by) {
+            self.heard = now;
+        }
+    }
+
+    /// For how long a holder who must be heard has not been; zero for any other.
+    pub(super) fn silence(self, now: Duration) -> Duration {
+        match self.holder {
+            Some(holder) if holder.station.must_be_heard() => now.saturating_sub(self.heard),
+            _ => Duration::ZERO,
+        }
+    }
+
     /// Admits an order that anyone may give. It gives the controls to the first operator who orders anything,
-    /// and moves them from a remote operator to a local one, whom the remote one must not overrule
-    /// afterwards.
+    /// and moves them from a remote operator, or one who cannot take them, to a local one, whom that one must not
+    /// overrule afterwards.
     pub(super) fn admit_any(&mut self, by: Operator) {
-        if self.holder.is_none_or(|holder| by.local && !holder.local) {
+        if self.holder.is_none_or(|holder| by.takes_controls() && !holder.takes_controls()) {
             self.holder = Some(by);
         }
     }
@@ -87,7 +119,7 @@ impl Controls {
     /// The operator who has the controls.
     pub(super) fn admit(&mut self, by: Operator) -> Result<(), Operator> {
         match self.holder {
-            Some(holder) if holder != by && !by.local => Err(holder),
+            Some(holder) if holder != by && !by.takes_controls() => Err(holder),
             _ => {
                 self.holder = Some(by);
                 Ok(())

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::readiness::NotReady;
-use super::{Authority, FlightEvent, FlightPhase, LandingReason, Operator, Vehicle};
+use super::{Authority, FlightEvent, FlightPhase, LandingReason, Operator, Setpoint, Vehicle};
 use crate::agent::AgentCommand;
 use crate::mission::{AppendError, Underway};
 use crate::outcome::Outcome;
@@ -41,14 +41,16 @@ pub enum OperatorOrder {
     /// Manual control: stick fractions with the drone's signs. They expire after 600 ms unless repeated, those of a
     /// browser's page after 250 ms.
     Steer(Sticks),
-    /// Fly to this place at the present height and heading and stay there; the mission is paused. A place
-    /// near or outside the fence is moved inside. Coordinates are in the estimator's frame.
-    GoTo {
-        /// Metres to the right of the start.
-        x_m: f64,
-        /// Metres forward of the start.
-        y_m: f64,
-    },
+    /// Fly to this place and stay there; the mission is paused. A place near or outside the fence is moved inside.
+    GoTo(Place),
+    /// Follow set-points, of which this is the first; the mission is paused. If the next ones stop coming for 0.5 s the
+    /// drone holds, and ten seconds later it lands.
+    Follow(Setpoint),
+    /// The next set-point, while they are followed.
+    Setpoint(Setpoint),
+    /// Nothing but that the operator's station is there. A station that speaks `MAVLink` and has the controls must be
+    /// heard: by this or any other order.
+    Present,
     /// Land and give up the mission.
     Land,
     /// Cut the motors now. **The drone falls.**
@@ -63,6 +65,29 @@ pub enum OperatorOrder {
     Take,
     /// Release the controls.
     Release,
+}
+
+/// A place to fly to, in the estimator's frame; what is not given stays as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Place {
+    /// Metres to the right and forward of the start.
+    pub place_m: Option<[f64; 2]>,
+    /// Metres above the floor of the start.
+    pub height_m: Option<f64>,
+    /// Degrees clockwise from the heading of the start.
+    pub yaw_deg: Option<f64>,
+}
+
+impl Place {
+    /// This place, at the present height and heading.
+    pub const fn at(x_m: f64, y_m: f64) -> Self {
+        Self { place_m: Some([x_m, y_m]), height_m: None, yaw_deg: None }
+    }
+
+    fn is_finite(&self) -> bool {
+        let numbers = self.place_m.into_iter().flatten();
+        numbers.chain(self.height_m).chain(self.yaw_deg).all(f64::is_finite)
+    }
 }
 
 /// Why an order was refused. A refused order changes nothing.
@@ -93,6 +118,9 @@ pub enum Refused {
     /// The mission is already being flown.
     #[error("the mission is being flown already")]
     Flying,
+    /// No set-points are followed.
+    #[error("set-points are not followed: order it first")]
+    NotFollowing,
     /// Nothing is paused.
     #[error("nothing is held: there is nothing to resume")]
     NothingHeld,
@@ -110,7 +138,7 @@ pub enum Refused {
         known: usize,
     },
     /// A coordinate is not a finite number.
-    #[error("this is not a place: its coordinates must be numbers")]
+    #[error("this is not a place: its numbers must be finite")]
     NoPlace,
     /// The drone is not in its emergency state, or not on the ground.
     #[error("there is no emergency to recover from on the ground")]
@@ -139,7 +167,10 @@ impl OperatorOrder {
             Self::Hold => "hold",
             Self::Resume => "resume",
             Self::Steer(_) => "steer",
-            Self::GoTo { .. } => "goto",
+            Self::GoTo(_) => "goto",
+            Self::Follow(_) => "follow",
+            Self::Setpoint(_) => "setpoint",
+            Self::Present => "present",
             Self::Land => "land",
             Self::Cut => "cut",
             Self::Recover => "recover",
@@ -163,6 +194,7 @@ impl Vehicle {
         order: OperatorOrder,
     ) -> Result<(), Refused> {
         self.admit(by, &order)?;
+        self.controls.heard(now, by);
         match order {
             OperatorOrder::Load(plan) => return self.load(plan),
             OperatorOrder::Append(commands) => return self.append(now, commands),
@@ -202,11 +234,21 @@ impl Vehicle {
                 self.can_be_held()?;
                 self.steer(now, by, demand);
             }
-            OperatorOrder::GoTo { x_m, y_m } if x_m.is_finite() && y_m.is_finite() => {
+            OperatorOrder::GoTo(place) if place.is_finite() => {
                 self.can_be_held()?;
-                self.send_to(now, x_m, y_m);
+                self.send_to(now, &place);
             }
-            OperatorOrder::GoTo { .. } => return Err(Refused::NoPlace),
+            OperatorOrder::Follow(setpoint) if setpoint.is_finite() => {
+                self.can_be_held()?;
+                self.follow(now, setpoint);
+            }
+            OperatorOrder::Setpoint(setpoint) if setpoint.is_finite() => {
+                return self.next_setpoint(now, setpoint);
+            }
+            OperatorOrder::GoTo(_) | OperatorOrder::Follow(_) | OperatorOrder::Setpoint(_) => {
+                return Err(Refused::NoPlace);
+            }
+            OperatorOrder::Present => {}
             OperatorOrder::Resume => return self.resume(now),
         }
         Ok(())
@@ -216,7 +258,10 @@ impl Vehicle {
         let before = self.controls.holder();
         if order.is_for_anyone() {
             self.controls.admit_any(by);
-        } else if !matches!(order, OperatorOrder::Release | OperatorOrder::Camera(_)) {
+        } else if !matches!(
+            order,
+            OperatorOrder::Release | OperatorOrder::Camera(_) | OperatorOrder::Present
+        ) {
             self.controls.admit(by).map_err(Refused::ControlsHeld)?;
         }
         if before.is_some_and(|before| self.controls.holder() != Some(before)) {

@@ -144,6 +144,10 @@ pub enum LandingReason {
     PlaceUncertain,
     /// The wind is stronger than the drone.
     Wind,
+    /// The operator's set-points have not come for too long.
+    SetpointsGone,
+    /// The ground station that has the controls has been silent for too long.
+    StationGone,
     /// The drone reports a fault of its own.
     DroneFault(&'static str),
     /// A drone that was taken over in the air must not be flown on.
@@ -165,6 +169,8 @@ impl fmt::Display for LandingReason {
             Self::Distrust(trust) => trust.fmt(f),
             Self::PlaceUncertain => f.write_str("the position uncertainty is too large"),
             Self::Wind => f.write_str("the wind is too strong to hold the position"),
+            Self::SetpointsGone => f.write_str("no set-points for too long"),
+            Self::StationGone => f.write_str("the ground station has been silent for too long"),
             Self::DroneFault(fault) => f.write_str(fault),
             Self::TakeOverRefused => f.write_str("the drone must not continue to fly"),
             Self::Safety(Veto::OutsideFence) => f.write_str("the drone has left the fence"),
@@ -328,6 +334,16 @@ impl Vehicle {
                 self.events.push_back(FlightEvent::TagLost);
                 return;
             }
+            Danger::StationSilent => {
+                // The agent says it in every step.
+                let told = self.decision.is_some_and(|last| last.danger == Some(danger));
+                if !told {
+                    self.events.push_back(FlightEvent::StationSilent);
+                }
+                return;
+            }
+            Danger::SetpointsGone => LandingReason::SetpointsGone,
+            Danger::StationGone => LandingReason::StationGone,
             Danger::BatteryEmpty => LandingReason::Battery { percent },
             Danger::Blind => match self.flight.estimator.trust() {
                 Trust::Sound => LandingReason::LinkLost,

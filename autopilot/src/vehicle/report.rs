@@ -8,7 +8,7 @@ use diagnostic::printable;
 use estimator::{TagStatus, Trust};
 use kinematics::{Airframe, Pose};
 
-use super::{LandingReason, Operator, Phase};
+use super::{LandingReason, ManualControl, Operator, Phase};
 use crate::agent::{ChosenPlans, distance};
 use crate::safety::Veto;
 
@@ -97,6 +97,14 @@ pub enum FlightEvent {
     ManualTargetSet,
     /// The manual target was reached.
     ManualTargetReached,
+    /// An operator's set-points are followed.
+    FollowingSetpoints,
+    /// The set-points have stopped coming: the drone holds.
+    SetpointsSilent,
+    /// The ground station that has the controls is silent: a warning.
+    StationSilent,
+    /// It has been silent for so long that the mission is paused.
+    PausedForStation,
     /// The mission was resumed.
     Resumed,
     /// An operator has ordered the motors to be cut.
@@ -125,6 +133,7 @@ impl FlightEvent {
             | Self::Steered
             | Self::ManualTargetSet
             | Self::ManualTargetReached
+            | Self::FollowingSetpoints
             | Self::Resumed => false,
             Self::ConfigurationNotRead
             | Self::NoTagDetection
@@ -139,6 +148,9 @@ impl FlightEvent {
             | Self::TagLost
             | Self::FlownByAnother
             | Self::ControlsTaken { .. }
+            | Self::SetpointsSilent
+            | Self::StationSilent
+            | Self::PausedForStation
             | Self::CutOrdered
             | Self::Veto(_) => true,
         }
@@ -195,6 +207,12 @@ impl fmt::Display for FlightEvent {
             Self::Steered => f.write_str("manual control"),
             Self::ManualTargetSet => f.write_str("flying to a manual target"),
             Self::ManualTargetReached => f.write_str("manual target reached"),
+            Self::FollowingSetpoints => f.write_str("following set-points"),
+            Self::SetpointsSilent => f.write_str("set-points have stopped: holding"),
+            Self::StationSilent => f.write_str("the ground station is silent"),
+            Self::PausedForStation => {
+                f.write_str("the ground station is silent: holding, mission paused")
+            }
             Self::Resumed => f.write_str("mission resumed"),
             Self::CutOrdered => f.write_str("EMERGENCY CUT ordered"),
             Self::Veto(veto) => f.write_str(match veto {
@@ -279,6 +297,8 @@ pub struct Status {
     pub steps: usize,
     /// The mission is paused: an operator holds or flies the drone.
     pub mission_waits: bool,
+    /// What an operator does with the drone by hand, while the mission is paused.
+    pub manual: Option<ManualControl>,
     /// The operator who has the controls.
     pub controls: Option<Operator>,
     /// Estimated pose; `None` until the drone has been heard.

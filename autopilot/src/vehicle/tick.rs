@@ -13,7 +13,7 @@ use super::{
     Outcome, READINESS_TICKS, Report, Stage, TICK, TagStatus, Target, Vehicle, WIND_TIME_S,
     Waypoint, pose,
 };
-use crate::agent::{AgentCommand, AgentStep, Percepts};
+use crate::agent::{AgentCommand, AgentStep, Percepts, StationPercepts};
 use crate::safety::Situation;
 
 impl Vehicle {
@@ -45,6 +45,7 @@ impl Vehicle {
         let state = if self.config.law.predicts() { prediction } else { self.measured_state() };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
         let tags = self.flight.estimator.tag_status(now);
+        self.advance_setpoint(&pose(&state), step_s);
         let percepts = self.percepts(now, &state, tags.as_ref());
         let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, percepts);
         self.flight.manual.pre_empts = false;
@@ -155,10 +156,21 @@ impl Vehicle {
             saturated_for_ms: self.flight.saturation.for_ms(),
             wind: self.wind().norm(),
             steering: self.flight.manual.sticks(now).is_some(),
+            setpoint: self.flight.manual.setpoint(now),
+            station: self.station_percepts(now),
             settings: self.mission.settings(),
             speed_m_s: state.velocity_m_s.xy().norm(),
             fence: self.config.limits,
             tags: tags.map(|status| self.tag_percepts(now, state, status)),
+        }
+    }
+
+    fn station_percepts(&self, now: Duration) -> StationPercepts {
+        let ms = |time: Duration| i64::try_from(time.as_millis()).unwrap_or(i64::MAX);
+        StationPercepts {
+            silent_for_ms: ms(self.controls.silence(now)),
+            hold_after_ms: ms(self.config.station.hold_after),
+            land_after_ms: ms(self.config.station.land_after),
         }
     }
 
@@ -262,6 +274,13 @@ impl Vehicle {
     fn order_ended(&mut self, now: Duration, report: Report) {
         if self.flight.landing.is_some() {
             // The end of a landing is detected from the drone's state.
+            return;
+        }
+        if report == Report::Paused {
+            self.order_paused();
+            if let Some(active) = &mut self.flight.due {
+                active.offered = false;
+            }
             return;
         }
         if self.flight.manual.holds_mission {

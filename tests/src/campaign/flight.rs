@@ -6,7 +6,7 @@ use std::time::Duration;
 use ardrone_link::navdata::DroneState;
 use autopilot::Plan;
 use autopilot::plan::{FlightLimits, ZOrigin};
-use autopilot::vehicle::{OperatorOrder, VehicleConfig};
+use autopilot::vehicle::{OperatorOrder, Place, VehicleConfig};
 use kinematics::Sticks;
 use mock_drone::airframe::{GRAVITY_M_S2, Profile, ThrustLaw};
 use mock_drone::scenario::{Action, Direction, When};
@@ -364,7 +364,7 @@ fn pilot_order(random: &mut impl Rng) -> OperatorOrder {
         8 => OperatorOrder::Land,
         9 | 10 => {
             let mut place_m = || random.random_range(-15.0..15.0);
-            OperatorOrder::GoTo { x_m: place_m(), y_m: place_m() }
+            OperatorOrder::GoTo(Place::at(place_m(), place_m()))
         }
         _ if random.random_bool(0.1) => OperatorOrder::Cut,
         _ => OperatorOrder::Resume,

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{OperatorOrder, Phase as PilotPhase, TICK};
+use autopilot::vehicle::{OperatorOrder, Phase as PilotPhase, Place, TICK};
 use mock_drone::firmware::Phase;
 use nalgebra::Vector2;
 
@@ -123,7 +123,7 @@ impl Orders {
         }
         self.watched = match *order {
             OperatorOrder::Hold => Some(Watched::Hold { at: *now, place_m: None }),
-            OperatorOrder::GoTo { x_m, y_m } => {
+            OperatorOrder::GoTo(Place { place_m: Some([x_m, y_m]), .. }) => {
                 let wanted_m = Vector2::new(x_m, y_m);
                 let to_m = wanted_m.cap_magnitude(self.limits.radius_m - INSIDE_M);
                 let far_m = (to_m - truth.odometry_m).norm();

@@ -54,7 +54,7 @@ const fn c(
 }
 
 /// All mutants.
-pub(super) const MUTANTS: [Mutant; 65] = [
+pub(super) const MUTANTS: [Mutant; 76] = [
     agent(
         "a failure plan sends no command",
         "-!wait <- !goDown; !comeDown.",
@@ -427,6 +427,72 @@ pub(super) const MUTANTS: [Mutant; 65] = [
         "\n    & descendingFor(Time) & comingDownTime(Limit) & Time <= Limit & X = landingX",
         "\n    & X = landingX",
         "a_descent_ends",
+    ),
+    agent(
+        "set-points may be a week old",
+        "holdWithoutSetpoints(500).",
+        "holdWithoutSetpoints(600000000).",
+        "old_setpoints_are_not_flown",
+    ),
+    agent(
+        "new set-points are followed without an order",
+        "| stationSilentFor(Silent) & holdWithoutStation(Longest) & Silent > Longest\n  <- !watch;\n     !holdHere;\n     reportPaused;\n     !!wait.",
+        "| stationSilentFor(Silent) & holdWithoutStation(Longest) & Silent > Longest\n  <- !watch;\n     !holdHere;\n     reportPaused;\n     !follow.",
+        "following_is_ordered",
+    ),
+    agent(
+        "without set-points the drone holds for weeks",
+        "landWithoutSetpoints(10500).",
+        "landWithoutSetpoints(2000000000).",
+        "gone_setpoints_land",
+    ),
+    agent(
+        "gone set-points are reported, but the flight continues",
+        "tellSetpointsGone;\n     ?airworthy.",
+        "tellSetpointsGone.",
+        "gone_setpoints_land",
+    ),
+    agent(
+        "set-points cancel a landing",
+        "+!follow : comingDown\n",
+        "+!follow : comingDown & onGround\n",
+        "landing_goes_on",
+    ),
+    agent(
+        "following in danger has no failure plan",
+        "@danger_following[req(\"SAF-4\"), req(\"SAF-5\"), req(\"SAF-9\")]\n-!follow <- !goDown; !comeDown.",
+        "",
+        "nothing_is_lost",
+    ),
+    agent(
+        "a mission is flown on for a silent station",
+        "+!approach : stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
+        "+!approach : stationSilentFor(Time) & landWithoutStation(Limit) & Time > Limit\n",
+        "a_silent_station_stops",
+    ),
+    agent(
+        "set-points are followed for a silent station",
+        "    | stationSilentFor(Silent) & holdWithoutStation(Longest) & Silent > Longest\n",
+        "",
+        "a_silent_station_stops",
+    ),
+    agent(
+        "a silent station's sticks count",
+        "+!steer : stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
+        "+!steer : stationSilentFor(Time) & holdWithoutStation(Limit) & Time < Limit\n",
+        "a_silent_station_stops",
+    ),
+    agent(
+        "a lost station is reported, but the flight continues",
+        "tellStationGone;\n     ?airworthy.",
+        "tellStationGone.",
+        "a_lost_station_lands",
+    ),
+    agent(
+        "a tag is looked for after a search for a silent station",
+        "@nobody_goes_on[req(\"SAF-9\")]\n+!noTag(1) : not onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
+        "@nobody_goes_on[req(\"SAF-9\")]\n+!noTag(1) : onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
+        "a_silent_station_stops",
     ),
     c(
         "the C forgets a landing order",

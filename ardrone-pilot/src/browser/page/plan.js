@@ -19,7 +19,7 @@ land
   const FIELDS = {
     goto: POSE, moveBy: POSE, moveByRel: POSE, setReference: POSE,
     setStayTime: [["time", "s"]], setStayWithinDist: [["distance", "m"]], setInitialReachDist: [["distance", "m"]],
-    setMaxControl: [["fraction", "of the sticks"]],
+    setSpeed: [["speed", "m/s"]], setMaxControl: [["fraction", "of the sticks"]],
     tag: [["x", "m right"], ["y", "m forward"], ["heading", "° clockwise"]],
   };
   // Commands whose first two numbers move their target.

@@ -146,7 +146,7 @@ fn a_target_that_is_not_reached_in_time_is_the_operators_or_the_plans() {
         let mut bench = Bench::in_the_air("takeoff\ngoto 0 1 0 0\nland");
         bench.until(SECOND, |bench| bench.vehicle.status(bench.now).step == Some(1));
         if manual {
-            bench.accepted(OperatorOrder::GoTo { x_m: 0.0, y_m: 1.0 });
+            bench.accepted(OperatorOrder::GoTo(Place::at(0.0, 1.0)));
         }
         bench.vehicle.endangered(bench.now, Danger::NoProgress);
         bench.vehicle.flight.landing

@@ -27,7 +27,7 @@ fn steer() -> OperatorOrder {
     OperatorOrder::Steer(Sticks { roll: 0.3, ..Sticks::default() })
 }
 
-const HERE: OperatorOrder = OperatorOrder::GoTo { x_m: 0.0, y_m: 0.0 };
+const HERE: OperatorOrder = OperatorOrder::GoTo(Place::at(0.0, 0.0));
 
 #[test]
 fn orders_are_named_like_their_variants_and_three_are_for_anyone() {
@@ -150,10 +150,10 @@ fn the_sticks_steer_and_hold_when_they_are_let_go() {
 fn a_place_must_be_numbers() {
     let mut bench = Bench::in_the_air(STAY);
     for (x_m, y_m) in [(f64::NAN, 0.0), (0.0, f64::INFINITY)] {
-        assert_eq!(bench.order(OperatorOrder::GoTo { x_m, y_m }), Err(Refused::NoPlace));
+        assert_eq!(bench.order(OperatorOrder::GoTo(Place::at(x_m, y_m))), Err(Refused::NoPlace));
     }
     assert!(!bench.vehicle.status(bench.now).mission_waits);
-    bench.accepted(OperatorOrder::GoTo { x_m: 1.0, y_m: -2.0 });
+    bench.accepted(OperatorOrder::GoTo(Place::at(1.0, -2.0)));
     // The agent gives up its order and holds before it is given the place.
     bench.step();
     let held = bench.vehicle.status(bench.now).target.unwrap();
@@ -333,7 +333,7 @@ fn sticks_of_a_page_expire_sooner_than_those_of_a_terminal() {
 #[test]
 fn a_new_mission_ends_manual_control_and_waits_if_the_last_one_was_held() {
     let mut bench = Bench::in_the_air(STAY);
-    bench.accepted(OperatorOrder::GoTo { x_m: 0.0, y_m: 3.0 });
+    bench.accepted(OperatorOrder::GoTo(Place::at(0.0, 3.0)));
     bench.accepted(plan(STAY));
     for _ in 0..30 {
         bench.step();

@@ -239,7 +239,7 @@ fn a_program_that_exits_lands_the_drone_and_says_so_in_its_datagram() {
 fn a_drone_that_is_sent_forward_and_does_not_come_nearer_is_saturated_until_it_holds() {
     let mut bench = Bench::in_the_air(STAY);
     let saturated_ms = |bench: &Bench| bench.vehicle.decision().unwrap().percepts.saturated_for_ms;
-    bench.accepted(OperatorOrder::GoTo { x_m: 0.0, y_m: 5.0 });
+    bench.accepted(OperatorOrder::GoTo(Place::at(0.0, 5.0)));
     bench.run(SECOND);
     let forward = match bench.commands[1] {
         ardrone_link::at::Command::Pcmd(ardrone_link::at::Motion::Progressive {

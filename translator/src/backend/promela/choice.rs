@@ -1,7 +1,7 @@
 //! Conditions under which a context can hold and can fail, as far as the model has that information.
 
-use super::logic::Choice;
-use super::scale::{Number, Scale};
+use super::logic::{Choice, or};
+use super::scale::{Number, Scale, is_checked};
 use crate::analysis::constants::c_number;
 use crate::configuration::{Cause, Comparison, Formula, Operand};
 use crate::program::{BeliefId, Condition, Pattern, Plan, Program, Value, VariableId};
@@ -15,20 +15,30 @@ pub(super) struct Comparisons {
     scales: Vec<Scale>,
 }
 
-/// A comparison of two beliefs.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// A comparison of two beliefs. The model remembers its result only while it checks a property with it.
+#[derive(Debug, Clone)]
 struct Pair {
     left: String,
     relation: Relation,
     right: String,
+    /// The properties with it.
+    properties: Vec<usize>,
 }
 
 impl Pair {
-    fn of(comparison: &Comparison) -> Option<Self> {
+    fn of(property: usize, comparison: &Comparison) -> Option<Self> {
         let Comparison { left, relation, right: Operand::Belief(right) } = comparison else {
             return None;
         };
-        Some(Self { left: left.text.clone(), relation: *relation, right: right.text.clone() })
+        let (left, right) = (left.text.clone(), right.text.clone());
+        Some(Self { left, relation: *relation, right, properties: vec![property] })
+    }
+
+    fn is(&self, comparison: &Comparison) -> bool {
+        let Comparison { left, relation, right: Operand::Belief(right) } = comparison else {
+            return false;
+        };
+        self.left == left.text && self.relation == *relation && self.right == right.text
     }
 }
 
@@ -80,7 +90,10 @@ impl Comparisons {
                 continue;
             };
             let Some(Marked { belief, mark, .. }) = Marked::of(program, comparison) else {
-                pairs.extend(Pair::of(comparison).filter(|pair| !pairs.contains(pair)));
+                match pairs.iter_mut().find(|pair: &&mut Pair| pair.is(comparison)) {
+                    Some(pair) => pair.properties.push(number),
+                    None => pairs.extend(Pair::of(number, comparison)),
+                }
                 continue;
             };
             match scales.iter_mut().find(|scale| scale.belief() == belief) {
@@ -101,9 +114,13 @@ impl Comparisons {
         if let Some(Marked { belief, relation, mark }) = Marked::of(program, comparison) {
             return Some(self.scale(belief)?.holds(relation, mark));
         }
-        let pair = Pair::of(comparison)?;
-        let index = self.pairs.iter().position(|other| *other == pair)?;
+        let index = self.pairs.iter().position(|pair| pair.is(comparison))?;
         Some(format!("compared_{index}"))
+    }
+
+    /// Whether the result of a pair is remembered, as an expression.
+    pub(super) fn followed(&self, index: usize) -> String {
+        is_checked(self.pairs.get(index).map_or(&[], |pair| &pair.properties))
     }
 
     /// The pairs that contain a belief.
@@ -154,7 +171,11 @@ impl Comparisons {
                 (own, other) if (other, own) == compared => mirrored(relation),
                 _ => return None,
             };
-            let outcome = || Choice::when(format!("compared_{index}"));
+            let free = format!("!{}", self.followed(index));
+            let outcome = || Choice {
+                holds: or(&[free.clone(), format!("compared_{index}")]),
+                fails: or(&[free.clone(), format!("!compared_{index}")]),
+            };
             if relation == known.relation {
                 return Some(outcome());
             }

@@ -216,8 +216,12 @@ impl Emission<'_> {
     /// Chooses the result of a comparison nondeterministically.
     fn compare(&mut self, index: usize) {
         self.writer.line("if");
+        self.writer.line(format!(":: !{} ->", self.comparisons.followed(index)));
+        self.writer.line(":: else ->");
+        self.writer.line("if");
         self.writer.line(format!(":: compared_{index} = true"));
         self.writer.line(format!(":: compared_{index} = false"));
+        self.writer.line("fi");
         self.writer.line("fi;");
     }
 

@@ -64,9 +64,7 @@ impl Scale {
 
     /// Whether the region is remembered, as an expression.
     pub(super) fn followed(&self) -> String {
-        let checked: Vec<String> =
-            self.properties.iter().map(|number| format!("checked == {number}")).collect();
-        format!("({})", checked.join(" || "))
+        is_checked(&self.properties)
     }
 
     /// Numbers of the regions. The last one is for NaN.
@@ -139,6 +137,13 @@ fn holds(relation: Relation, order: Option<Ordering>) -> bool {
         Relation::Equal => order == Some(Ordering::Equal),
         Relation::NotEqual => order != Some(Ordering::Equal),
     }
+}
+
+/// Whether one of these properties is checked, as an expression.
+pub(super) fn is_checked(properties: &[usize]) -> String {
+    let checked: Vec<String> =
+        properties.iter().map(|number| format!("checked == {number}")).collect();
+    format!("({})", checked.join(" || "))
 }
 
 #[cfg(test)]
