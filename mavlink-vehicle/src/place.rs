@@ -196,25 +196,25 @@ impl Origin {
 
     /// The place of a pose; its heading is in [`Self::yaw_ned_rad`].
     pub fn ned(&self, pose: &Pose) -> Ned {
-        let (north_m, east_m) = self.to_north_east(pose.x_m, pose.y_m);
+        let (north_m, east_m) = self.north_east(pose.x_m, pose.y_m);
         Ned { north_m, east_m, down_m: -pose.z_m }
     }
 
     /// The pose at a place, with a yaw in radians clockwise from north.
     pub fn pose(&self, place: &Ned, yaw_ned_rad: f64) -> Pose {
-        let (x_m, y_m) = self.from_north_east(place.north_m, place.east_m);
+        let (x_m, y_m) = self.right_forward(place.north_m, place.east_m);
         Pose { x_m, y_m, z_m: -place.down_m, yaw_deg: self.yaw_deg(yaw_ned_rad) }
     }
 
     /// A velocity of ours.
     pub fn ned_velocity(&self, velocity: &Velocity) -> NedVelocity {
-        let (north_m_s, east_m_s) = self.to_north_east(velocity.x_m_s, velocity.y_m_s);
+        let (north_m_s, east_m_s) = self.north_east(velocity.x_m_s, velocity.y_m_s);
         NedVelocity { north_m_s, east_m_s, down_m_s: -velocity.z_m_s }
     }
 
     /// A velocity to ours, with a rate of turn in radians per second, clockwise.
     pub fn velocity(&self, velocity: &NedVelocity, yaw_rad_s: f64) -> Velocity {
-        let (x_m_s, y_m_s) = self.from_north_east(velocity.north_m_s, velocity.east_m_s);
+        let (x_m_s, y_m_s) = self.right_forward(velocity.north_m_s, velocity.east_m_s);
         let z_m_s = -velocity.down_m_s;
         Velocity { x_m_s, y_m_s, z_m_s, yaw_deg_s: yaw_rad_s.to_degrees() }
     }
@@ -231,7 +231,7 @@ impl Origin {
 
     /// The place on the globe, right and forward of the start.
     pub fn global(&self, x_m: f64, y_m: f64) -> Global {
-        let (north_m, east_m) = self.to_north_east(x_m, y_m);
+        let (north_m, east_m) = self.north_east(x_m, y_m);
         let longitude_deg = self.longitude_deg + east_m / self.metres_per_degree_east();
         Global {
             latitude_e7: scaled(self.latitude_deg + north_m / METRES_PER_DEGREE, GLOBAL_SCALE),
@@ -243,7 +243,7 @@ impl Origin {
     pub fn ground_m(&self, place: Global) -> (f64, f64) {
         let latitude_deg = f64::from(place.latitude_e7) / GLOBAL_SCALE;
         let longitude_deg = f64::from(place.longitude_e7) / GLOBAL_SCALE;
-        self.from_north_east(
+        self.right_forward(
             (latitude_deg - self.latitude_deg) * METRES_PER_DEGREE,
             wrap_deg(longitude_deg - self.longitude_deg) * self.metres_per_degree_east(),
         )
@@ -290,7 +290,7 @@ impl Origin {
                 (latitude_e7, longitude_e7)
             }
             (Some((x_m, y_m)), _) => {
-                let (north_m, east_m) = self.to_north_east(x_m, y_m);
+                let (north_m, east_m) = self.north_east(x_m, y_m);
                 let (x, y) = match frame {
                     Frame::LocalEnu => (east_m, north_m),
                     Frame::LocalFrd => (y_m, x_m),
@@ -329,20 +329,19 @@ impl Origin {
                 }
                 self.ground_m(Global { latitude_e7: x, longitude_e7: y })
             }
-            Frame::LocalNed | Frame::Mission => self.from_north_east(first, second),
-            Frame::LocalEnu => self.from_north_east(second, first),
+            Frame::LocalNed | Frame::Mission => self.right_forward(first, second),
+            Frame::LocalEnu => self.right_forward(second, first),
             Frame::LocalFrd => (second, first),
             Frame::LocalFlu => (-second, first),
         }))
     }
 
-    fn to_north_east(self, x: f64, y: f64) -> (f64, f64) {
+    fn north_east(self, x: f64, y: f64) -> (f64, f64) {
         let (sin, cos) = self.heading_deg.to_radians().sin_cos();
         (y * cos - x * sin, y * sin + x * cos)
     }
 
-    /// Right and forward.
-    fn from_north_east(self, north: f64, east: f64) -> (f64, f64) {
+    fn right_forward(self, north: f64, east: f64) -> (f64, f64) {
         let (sin, cos) = self.heading_deg.to_radians().sin_cos();
         (east * cos - north * sin, north * cos + east * sin)
     }

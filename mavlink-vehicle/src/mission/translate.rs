@@ -138,9 +138,7 @@ impl At<'_> {
     /// The parameter, or `default`, if it is one of these choices.
     fn choice(self, number: u8, default: f64, choices: &[f64]) -> Result<f64, Problem> {
         let value = self.param(number).unwrap_or(default);
-        // Small integers are exact.
-        #[allow(clippy::float_cmp)]
-        let known = choices.iter().any(|choice| *choice == value);
+        let known = choices.contains(&value);
         let wrong = || format!("parameter {number} is {value}, not one of {choices:?}");
         if known {
             Ok(value)

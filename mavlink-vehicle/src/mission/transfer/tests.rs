@@ -458,12 +458,16 @@ fn upload_over(
         for message in down.arrived(*now_ms) {
             if result.is_none() {
                 let answer = client.hear(*now_ms, message);
-                answer.into_iter().for_each(|answer| up.send(*now_ms, answer, chance));
+                if let Some(answer) = answer {
+                    up.send(*now_ms, answer, chance);
+                }
             }
         }
         if result.is_none() {
             let again = client.wait(*now_ms);
-            again.into_iter().for_each(|again| up.send(*now_ms, again, chance));
+            if let Some(again) = again {
+                up.send(*now_ms, again, chance);
+            }
             result = client.result;
         } else {
             quiet_ms += 10;
