@@ -424,6 +424,15 @@ mod tests {
     }
 
     #[test]
+    fn the_date_line_is_no_border() {
+        let origin = Origin { latitude_deg: 0.0, longitude_deg: 180.0, ..Origin::default() };
+        let east = origin.global(10.0, 0.0);
+        assert_eq!(east.longitude_e7, -1_799_999_101);
+        let (x_m, y_m) = origin.ground_m(east);
+        assert_near(&[x_m, y_m], &[10.0, 0.0], 0.012);
+    }
+
+    #[test]
     fn the_same_place_in_each_frame() {
         // 2 m right, 3 m forward, 1.5 m up: with +y to the east that is 2 m south, 3 m east.
         let place = Place { ground_m: Some((2.0, 3.0)), z_m: Some(1.5) };

@@ -242,6 +242,7 @@ fn a_turn_is_on_the_spot() {
     // The long way round, in parts.
     assert_eq!(last(turn(0.0, 1.0, 0.0)), [-180.0, -90.0, 0.0]);
     assert_eq!(last(turn(0.0, -1.0, 0.0)), [0.0]);
+    assert_eq!(last(turn(180.0, -1.0, 0.0)), [0.0, -90.0, -180.0]);
     assert_eq!(last(turn(360.0, 1.0, 1.0)), [-150.0, -30.0, 90.0]);
     assert_eq!(last(turn(90.0, 1.0, 0.0)), [90.0]);
     for (wrong, result) in [
