@@ -1,0 +1,440 @@
+//! How missions travel: one upload at a time, and downloads.
+//!
+//! An upload replaces the stored mission as a whole or not at all. Whoever began it is the only one who can go on
+//! with it or give it up; the vehicle gives it up when it has asked for an item six times in vain. Each message is
+//! answered with at most two.
+
+use std::time::Duration;
+
+use super::{Item, MAX_ITEMS, Problem, Rules, Translated, result, translate};
+
+/// Silence after which an item is asked for again.
+const REPEAT_AFTER: Duration = Duration::from_millis(250);
+/// An item is asked for so many times again.
+const REPEATS: u8 = 5;
+/// A repeated last item is acknowledged again for this long.
+const REMEMBERED_FOR: Duration = Duration::from_secs(2);
+/// Downloads that are protected from a change of the mission.
+const DOWNLOADS: usize = 4;
+/// `MAV_MISSION_TYPE`.
+const MISSION: u8 = 0;
+const FENCE: u8 = 1;
+const RALLY: u8 = 2;
+const ALL: u8 = 255;
+
+/// Another participant of the network.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Partner {
+    /// System id.
+    pub system: u8,
+    /// Component id.
+    pub component: u8,
+}
+
+/// A message to the vehicle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Received {
+    /// `MISSION_COUNT`: an upload begins.
+    Count {
+        /// Number of items.
+        count: u16,
+        /// `MAV_MISSION_TYPE`.
+        mission_type: u8,
+    },
+    /// `MISSION_ITEM_INT`, or `MISSION_ITEM` by [`Item::with_floats`].
+    Item(Item),
+    /// `MISSION_REQUEST_LIST`: a download begins.
+    RequestList {
+        /// `MAV_MISSION_TYPE`.
+        mission_type: u8,
+    },
+    /// `MISSION_REQUEST_INT` or `MISSION_REQUEST`.
+    Request {
+        /// Index of the item.
+        seq: u16,
+        /// `MAV_MISSION_TYPE`.
+        mission_type: u8,
+    },
+    /// `MISSION_ACK`: the end of a download, or of an upload that is given up.
+    Ack {
+        /// `MAV_MISSION_RESULT`.
+        result: u8,
+        /// `MAV_MISSION_TYPE`.
+        mission_type: u8,
+    },
+    /// `MISSION_CLEAR_ALL`.
+    ClearAll {
+        /// `MAV_MISSION_TYPE`.
+        mission_type: u8,
+    },
+    /// `MISSION_REQUEST_PARTIAL_LIST` or `MISSION_WRITE_PARTIAL_LIST`.
+    PartialList {
+        /// `MAV_MISSION_TYPE`.
+        mission_type: u8,
+    },
+}
+
+/// A message of the vehicle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Message {
+    /// `MISSION_COUNT`
+    Count {
+        /// Number of items.
+        count: u16,
+        /// `MAV_MISSION_TYPE`.
+        mission_type: u8,
+    },
+    /// `MISSION_REQUEST_INT`, of a mission.
+    Request {
+        /// Index of the item.
+        seq: u16,
+    },
+    /// `MISSION_ITEM_INT`
+    Item(Item),
+    /// `MISSION_ACK`
+    Ack {
+        /// `MAV_MISSION_RESULT`.
+        result: u8,
+        /// `MAV_MISSION_TYPE`.
+        mission_type: u8,
+    },
+}
+
+/// A message and whom it is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Outgoing {
+    /// The receiver.
+    pub to: Partner,
+    /// What to send.
+    pub message: Message,
+}
+
+/// At most two messages, in order.
+pub type Outgoings = std::iter::Flatten<std::array::IntoIter<Option<Outgoing>, 2>>;
+
+/// What happened to the stored mission.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Event {
+    /// A new mission is stored.
+    Accepted,
+    /// The mission was removed.
+    Cleared,
+    /// A new one was refused; the stored one is unchanged.
+    Refused(Problem),
+    /// An upload was given up; the stored mission is unchanged.
+    Cancelled,
+}
+
+/// What is to be done after a message or some time.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Handled {
+    messages: [Option<Outgoing>; 2],
+    /// What happened, if it did.
+    pub event: Option<Event>,
+}
+
+impl Handled {
+    /// The messages to send, in order.
+    pub fn messages(&self) -> Outgoings {
+        self.messages.into_iter().flatten()
+    }
+
+    fn send(to: Partner, message: Message) -> Self {
+        Self { messages: [Some(Outgoing { to, message }), None], event: None }
+    }
+
+    fn ack(to: Partner, result: u8, mission_type: u8) -> Self {
+        Self::send(to, Message::Ack { result, mission_type })
+    }
+
+    fn then(self, to: Partner, message: Message) -> Self {
+        let [first, _] = self.messages;
+        Self { messages: [first, Some(Outgoing { to, message })], ..self }
+    }
+
+    fn with(self, event: Event) -> Self {
+        Self { event: Some(event), ..self }
+    }
+}
+
+/// The stored mission, and how it comes and goes. At first there is none.
+#[derive(Debug, Default)]
+pub struct Transfer {
+    items: Vec<Item>,
+    /// Component that sent them.
+    sender_component: u8,
+    translated: Translated,
+    /// Changes with each mission.
+    id: u32,
+    /// Of the upload that goes on; kept for the next one.
+    incoming: Vec<Item>,
+    upload: Option<Upload>,
+    finished: Option<Finished>,
+    downloads: [Option<Download>; DOWNLOADS],
+}
+
+/// An upload that goes on.
+#[derive(Debug, Clone, Copy)]
+struct Upload {
+    from: Partner,
+    count: u16,
+    asked_at: Duration,
+    repeats: u8,
+    /// Items below this one may still be under way from before the partner began anew.
+    under_way: u16,
+}
+
+/// An upload that has ended, whose acknowledgement may have been lost.
+#[derive(Debug, Clone, Copy)]
+struct Finished {
+    from: Partner,
+    at: Duration,
+    last: u16,
+    result: u8,
+}
+
+/// Someone reads this mission.
+#[derive(Debug, Clone, Copy)]
+struct Download {
+    by: Partner,
+    id: u32,
+}
+
+impl Transfer {
+    /// The stored items, as they were sent.
+    pub fn items(&self) -> &[Item] {
+        &self.items
+    }
+
+    /// What the stored items mean.
+    pub fn translated(&self) -> &Translated {
+        &self.translated
+    }
+
+    /// A number that changes with each stored mission; 0 before the first.
+    pub fn id(&self) -> u32 {
+        self.id
+    }
+
+    /// Who uploads a mission now.
+    pub fn uploading(&self) -> Option<Partner> {
+        self.upload.map(|upload| upload.from)
+    }
+
+    /// Translates the stored items by other rules, as after a change of the origin.
+    ///
+    /// # Errors
+    /// [`Problem`] if an item cannot be flown by them; nothing has changed then.
+    pub fn translate_again(&mut self, rules: &Rules) -> Result<(), Problem> {
+        self.translated = translate(&self.items, self.sender_component, rules)?;
+        Ok(())
+    }
+
+    /// Handles a message. `now` never goes back.
+    pub fn handle(
+        &mut self,
+        now: Duration,
+        from: Partner,
+        received: &Received,
+        rules: &Rules,
+    ) -> Handled {
+        let is_partner = self.upload.is_none_or(|upload| upload.from == from);
+        match *received {
+            Received::Count { mission_type, .. }
+            | Received::ClearAll { mission_type }
+            | Received::PartialList { mission_type }
+            | Received::Item(Item { mission_type, .. })
+                if !is_partner =>
+            {
+                Handled::ack(from, result::DENIED, mission_type)
+            }
+            Received::Count { count, mission_type: MISSION } => self.count(now, from, count),
+            Received::ClearAll { mission_type: mission_type @ (MISSION | ALL) } => {
+                self.clear();
+                Handled::ack(from, result::ACCEPTED, mission_type).with(Event::Cleared)
+            }
+            Received::Item(item) if item.mission_type == MISSION => {
+                self.item(now, from, &item, rules)
+            }
+            Received::RequestList { mission_type: MISSION } => self.list(from),
+            Received::RequestList { mission_type: mission_type @ (FENCE | RALLY) } => {
+                Handled::send(from, Message::Count { count: 0, mission_type })
+            }
+            Received::Request { seq, mission_type: MISSION } => self.request(from, seq),
+            Received::Ack { result, mission_type: MISSION | ALL } => {
+                self.acknowledged(from, result)
+            }
+            Received::Ack { .. } => Handled::default(),
+            Received::Count { mission_type, .. }
+            | Received::ClearAll { mission_type }
+            | Received::PartialList { mission_type }
+            | Received::RequestList { mission_type }
+            | Received::Request { mission_type, .. }
+            | Received::Item(Item { mission_type, .. }) => {
+                Handled::ack(from, result::UNSUPPORTED, mission_type)
+            }
+        }
+    }
+
+    /// Asks again for an item that did not come, or gives up. To be called at least every 100 ms.
+    pub fn tick(&mut self, now: Duration) -> Handled {
+        let seq = self.wanted();
+        let Some(upload) = &mut self.upload else { return Handled::default() };
+        if now.saturating_sub(upload.asked_at) < REPEAT_AFTER {
+            return Handled::default();
+        }
+        let from = upload.from;
+        if upload.repeats >= REPEATS {
+            self.upload = None;
+            return Handled::ack(from, result::OPERATION_CANCELLED, MISSION).with(Event::Cancelled);
+        }
+        upload.repeats += 1;
+        upload.asked_at = now;
+        Handled::send(from, Message::Request { seq })
+    }
+
+    /// Removes the mission, and gives up an upload.
+    pub fn clear(&mut self) {
+        self.upload = None;
+        self.finished = None;
+        self.store(Vec::new(), 0, Translated::default());
+    }
+
+    fn store(&mut self, items: Vec<Item>, sender_component: u8, translated: Translated) {
+        self.items = items;
+        self.sender_component = sender_component;
+        self.translated = translated;
+        self.id = self.id.wrapping_add(1).max(1);
+    }
+
+    /// The item that an upload needs next.
+    fn wanted(&self) -> u16 {
+        // At most `MAX_ITEMS`.
+        u16::try_from(self.incoming.len()).unwrap_or(u16::MAX)
+    }
+
+    fn count(&mut self, now: Duration, from: Partner, count: u16) -> Handled {
+        let before = self.upload.take();
+        self.finished = None;
+        if count == 0 {
+            self.clear();
+            return Handled::ack(from, result::ACCEPTED, MISSION).with(Event::Cleared);
+        }
+        if usize::from(count) > MAX_ITEMS {
+            let reason = format!("{count} items: at most {MAX_ITEMS} are taken");
+            // The first that is too much.
+            let item = u16::try_from(MAX_ITEMS).unwrap_or(u16::MAX);
+            let problem = Problem { item, result: result::NO_SPACE, reason };
+            return Handled::ack(from, result::NO_SPACE, MISSION).with(Event::Refused(problem));
+        }
+        let asked = self.wanted().saturating_add(1);
+        let under_way = before.map_or(0, |before| before.under_way.max(asked));
+        self.incoming.clear();
+        self.incoming.reserve_exact(usize::from(count));
+        self.upload = Some(Upload { from, count, asked_at: now, repeats: 0, under_way });
+        Handled::send(from, Message::Request { seq: 0 })
+    }
+
+    fn item(&mut self, now: Duration, from: Partner, item: &Item, rules: &Rules) -> Handled {
+        let wanted = self.wanted();
+        let Some(upload) = &mut self.upload else { return self.late_item(now, from, item) };
+        let known = self.incoming.get(usize::from(item.seq));
+        if known == Some(item) {
+            return Handled::default();
+        }
+        upload.asked_at = now;
+        if known.is_some() {
+            // One of the two is from before the partner began anew.
+            self.incoming.clear();
+            upload.under_way = upload.under_way.max(wanted.saturating_add(1));
+            return Handled::send(from, Message::Request { seq: 0 });
+        }
+        if item.seq != wanted {
+            let again = Message::Request { seq: wanted };
+            if item.seq < upload.under_way {
+                return Handled::send(from, again);
+            }
+            return Handled::ack(from, result::INVALID_SEQUENCE, MISSION).then(from, again);
+        }
+        upload.repeats = 0;
+        self.incoming.push(*item);
+        let next = wanted + 1;
+        if next < upload.count {
+            return Handled::send(from, Message::Request { seq: next });
+        }
+        self.upload = None;
+        self.finish(now, from, item.seq, rules)
+    }
+
+    fn finish(&mut self, now: Duration, from: Partner, last: u16, rules: &Rules) -> Handled {
+        let items = std::mem::take(&mut self.incoming);
+        let (result, event) = match translate(&items, from.component, rules) {
+            Ok(translated) => {
+                self.store(items, from.component, translated);
+                (result::ACCEPTED, Event::Accepted)
+            }
+            Err(problem) => (problem.result, Event::Refused(problem)),
+        };
+        self.finished = Some(Finished { from, at: now, last, result });
+        Handled::ack(from, result, MISSION).with(event)
+    }
+
+    /// An item while no upload goes on.
+    fn late_item(&self, now: Duration, from: Partner, item: &Item) -> Handled {
+        match self.finished {
+            Some(finished)
+                if finished.from == from
+                    && now.saturating_sub(finished.at) <= REMEMBERED_FOR
+                    && item.seq <= finished.last =>
+            {
+                if item.seq < finished.last {
+                    return Handled::default();
+                }
+                Handled::ack(from, finished.result, MISSION)
+            }
+            _ => Handled::ack(from, result::INVALID_SEQUENCE, MISSION),
+        }
+    }
+
+    fn list(&mut self, by: Partner) -> Handled {
+        self.end_download(by);
+        // The oldest makes room.
+        self.downloads.rotate_right(1);
+        let [newest, ..] = &mut self.downloads;
+        *newest = Some(Download { by, id: self.id });
+        // At most `MAX_ITEMS`.
+        let count = u16::try_from(self.items.len()).unwrap_or(u16::MAX);
+        Handled::send(by, Message::Count { count, mission_type: MISSION })
+    }
+
+    fn request(&self, by: Partner, seq: u16) -> Handled {
+        let mut downloads = self.downloads.iter().flatten();
+        if downloads.any(|download| download.by == by && download.id != self.id) {
+            // The rest of another mission would make a mixture.
+            return Handled::ack(by, result::OPERATION_CANCELLED, MISSION);
+        }
+        match self.items.get(usize::from(seq)) {
+            Some(item) => Handled::send(by, Message::Item(*item)),
+            None => Handled::ack(by, result::INVALID_SEQUENCE, MISSION),
+        }
+    }
+
+    fn end_download(&mut self, by: Partner) {
+        for slot in &mut self.downloads {
+            *slot = slot.filter(|download| download.by != by);
+        }
+    }
+
+    fn acknowledged(&mut self, from: Partner, result: u8) -> Handled {
+        self.end_download(from);
+        // The acknowledgement of a download that was doubled on its way gives nothing up.
+        if result == result::ACCEPTED || self.uploading() != Some(from) {
+            return Handled::default();
+        }
+        self.upload = None;
+        Handled::default().with(Event::Cancelled)
+    }
+}
+
+#[cfg(test)]
+mod tests;
