@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The packages of the workspace and the packages that each may depend on.
-const MAY_USE: [(&str, &[&str]); 12] = [
+const MAY_USE: [(&str, &[&str]); 13] = [
     ("diagnostic", &[]),
     ("translator", &["diagnostic"]),
     ("asl2c", &["diagnostic", "translator"]),
@@ -15,6 +15,7 @@ const MAY_USE: [(&str, &[&str]); 12] = [
     ("pid", &["kinematics"]),
     ("mock-drone", &["ardrone-link", "diagnostic"]),
     ("autopilot", &["ardrone-link", "diagnostic", "estimator", "kinematics", "pid", "translator"]),
+    ("mavlink-vehicle", &["ardrone-link", "autopilot", "estimator", "kinematics"]),
     (
         "ardrone-pilot",
         &[
@@ -23,6 +24,7 @@ const MAY_USE: [(&str, &[&str]); 12] = [
             "diagnostic",
             "estimator",
             "kinematics",
+            "mavlink-vehicle",
             "mock-drone",
             "pid",
         ],
@@ -61,6 +63,22 @@ const PURE: [&str; 27] = [
     "unicode-ident",
     "unicode-width",
     "wide",
+];
+
+/// What the MAVLink vehicle depends on besides. `mavlink-core` could open files, but not without its feature `std`.
+const PURE_OF_MAVLINK: [&str; 12] = [
+    "block-buffer",
+    "cfg-if",
+    "cpufeatures",
+    "crc-any",
+    "crypto-common",
+    "digest",
+    "embedded-io",
+    "embedded-io-async",
+    "generic-array",
+    "mavlink-core",
+    "num-derive",
+    "sha2",
 ];
 
 /// Names that a pure crate must not use. `cargo tree` does not show uses of the standard library.
@@ -106,16 +124,38 @@ fn dependencies_point_one_way() {
     }
 }
 
+/// The names of all crates that a package needs at run time.
+fn needed_by(package: &str) -> BTreeSet<String> {
+    let tree = cargo(&["tree", "--package", package, "--edges", "normal", "--prefix", "none"]);
+    let names = tree.lines().filter_map(|line| line.split(' ').next());
+    names.filter(|name| !name.is_empty()).map(str::to_owned).collect()
+}
+
+fn is_ours(name: &str) -> bool {
+    MAY_USE.iter().any(|(package, _)| *package == name)
+}
+
 #[test]
 fn the_pilot_depends_on_nothing_that_can_do_input_or_output() {
-    let tree = cargo(&["tree", "--package", "autopilot", "--edges", "normal", "--prefix", "none"]);
-    let used: BTreeSet<&str> =
-        tree.lines().filter_map(|line| line.split(' ').next()).filter(|n| !n.is_empty()).collect();
-    assert!(used.contains("nalgebra"), "{tree}");
-    for name in used {
-        let ours = MAY_USE.iter().any(|(package, _)| *package == name);
-        assert!(ours || PURE.contains(&name), "the pilot depends on {name}");
+    let used = needed_by("autopilot");
+    assert!(used.contains("nalgebra"), "{used:?}");
+    for name in &used {
+        assert!(is_ours(name) || PURE.contains(&&**name), "the pilot depends on {name}");
     }
+}
+
+#[test]
+fn the_mavlink_vehicle_depends_on_nothing_that_can_do_input_or_output() {
+    let used = needed_by("mavlink-vehicle");
+    assert!(used.contains("mavlink-core"), "{used:?}");
+    for name in &used {
+        let pure = PURE.contains(&&**name) || PURE_OF_MAVLINK.contains(&&**name);
+        assert!(is_ours(name) || pure, "the MAVLink vehicle depends on {name}");
+    }
+    let features =
+        cargo(&["tree", "--package", "mavlink-vehicle", "--format", "{p} {f}", "--prefix", "none"]);
+    let core = features.lines().find(|line| line.starts_with("mavlink-core "));
+    assert!(core.is_some_and(|line| line.ends_with(" embedded")), "{features}");
 }
 
 /// Every build script that uses the translator compiles its dependencies.
@@ -192,6 +232,7 @@ fn pure_crates_name_nothing_that_does_input_or_output() {
         "pid",
         "autopilot",
         "ardrone-link",
+        "mavlink-vehicle",
         "mock-drone",
     ] {
         for path in sources(&Path::new("..").join(package).join("src")) {
@@ -239,6 +280,7 @@ fn no_files_of_a_folder_need_each_other() {
         "autopilot",
         "mock-drone",
         "ardrone-link",
+        "mavlink-vehicle",
         "pid",
         "ardrone-pilot",
         "xtask",
@@ -308,6 +350,7 @@ fn unsafe_code_is_in_one_file() {
         "ardrone-link/src/lib.rs",
         "kinematics/src/lib.rs",
         "estimator/src/lib.rs",
+        "mavlink-vehicle/src/lib.rs",
         "pid/src/lib.rs",
         "mock-drone/src/lib.rs",
         "mock-drone/src/main.rs",

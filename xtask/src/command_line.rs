@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::{campaign, fly, mutants, sensors, soak, tags, target, verify};
+use crate::{campaign, fly, mavlink, mutants, sensors, soak, tags, target, verify};
 
 /// Measurements of the whole system, in simulated time.
 #[derive(Debug, Parser)]
@@ -94,6 +94,8 @@ enum Command {
     /// Compile the gallery's agents and the shipped one for a Cortex-M4, measure that code, and compare its trace under
     /// QEMU with this machine's; fails if one differs or exceeds its bounds
     Target,
+    /// Generate the code of the MAVLink dialect from its XML; it is checked in
+    Mavlink(mavlink::Arguments),
 }
 
 /// Runs the command and returns the exit status.
@@ -127,6 +129,7 @@ pub(crate) fn main() -> ExitCode {
             verify::run(only_proofs).map_err(|error| error.to_string())
         }
         Command::Target => target::run().map_err(|error| error.to_string()),
+        Command::Mavlink(arguments) => mavlink::run(&arguments).map_err(|error| error.to_string()),
     };
     // If printing fails there is nowhere else to report it.
     match done {
