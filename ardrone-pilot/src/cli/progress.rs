@@ -186,6 +186,8 @@ mod tests {
             step: Some(2),
             steps: 6,
             mission_waits: false,
+            airborne: true,
+            altitude_m: None,
             manual: None,
             controls: None,
             pose: Some(Pose { x_m: 0.12, y_m: 0.98, z_m: 0.85, yaw_deg: -1.0 }),

@@ -352,6 +352,7 @@ impl Vehicle {
         };
         Status {
             phase: self.phase.phase(),
+            airborne: self.navdata.is_some() && !self.on_ground(),
             step: self.flight.due.as_ref().map(|active| active.due.step),
             steps: self.flight.report.steps,
             mission_waits: self.flight.manual.holds_mission,
@@ -373,6 +374,7 @@ impl Vehicle {
             airframe: *self.flight.estimator.airframe(),
             navdata_age: self.session.silence(now),
             navdata_hz: self.navdata_hz,
+            altitude_m: self.demo().map(|demo| demo.altitude_m),
             attitude_deg: self.demo().map(|demo| [demo.roll_deg, demo.pitch_deg]),
             plans: self.decision.map(|decision| decision.plans).unwrap_or_default(),
             command: self.decision.map(|decision| decision.wanted.name()),

@@ -8,7 +8,8 @@ use std::time::Duration;
 pub struct Operator {
     /// Where the orders come from.
     pub station: Station,
-    /// Distinguishes operators at stations of the same kind.
+    /// Distinguishes operators at stations of the same kind; by `MAVLink` the system in the upper byte, and its
+    /// component.
     pub number: u16,
     /// Whether the operator is at the machine that runs the program. A local operator takes the controls from
     /// a remote one, never the reverse; a `MAVLink` station takes them from nobody.
@@ -70,6 +71,11 @@ impl fmt::Display for Operator {
         f.write_str(self.station.name())?;
         match self.number {
             0 => Ok(()),
+            // System and component, as `MAVLink` programs write them.
+            number if self.station == Station::Mavlink => {
+                let [system, component] = number.to_be_bytes();
+                write!(f, " {system}.{component}")
+            }
             number => write!(f, " {number}"),
         }
     }

@@ -291,6 +291,8 @@ impl FlightReport {
 pub struct Status {
     /// Phase of the flight.
     pub phase: Phase,
+    /// Whether the drone is off the ground.
+    pub airborne: bool,
     /// Index of the step being flown.
     pub step: Option<usize>,
     /// Number of plan steps.
@@ -328,6 +330,8 @@ pub struct Status {
     pub navdata_age: Option<Duration>,
     /// Navdata packets per second, low-pass filtered.
     pub navdata_hz: f64,
+    /// Height above what is below the drone, by its ultrasound.
+    pub altitude_m: Option<f64>,
     /// Roll and pitch reported by the drone: right side down, nose up.
     pub attitude_deg: Option<[f64; 2]>,
     /// Agent plans chosen in the last tick.

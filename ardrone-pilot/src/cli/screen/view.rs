@@ -393,6 +393,8 @@ mod tests {
             step: Some(2),
             steps: 4,
             mission_waits: false,
+            airborne: true,
+            altitude_m: None,
             manual: None,
             controls: None,
             pose: Some(Pose { x_m: share, y_m: 1.0, z_m: 0.84, yaw_deg: 0.0 }),

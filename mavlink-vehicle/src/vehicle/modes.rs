@@ -1,0 +1,172 @@
+//! Flight modes in PX4's numbering, which clients take for that of every vehicle but `ArduPilot`'s.
+
+use autopilot::vehicle::{ManualControl, Phase, Status};
+
+use crate::dialect::MavStandardMode;
+
+/// A flight mode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Mode {
+    /// Hold the place; on the ground, wait.
+    Hold,
+    /// Take off.
+    TakeOff,
+    /// Fly the mission.
+    Mission,
+    /// Land.
+    Land,
+    /// Fly to the start and land.
+    Return,
+    /// Follow set-points.
+    Offboard,
+    /// Fly by hand: `MANUAL_CONTROL`.
+    Position,
+}
+
+impl Mode {
+    /// In the order of `AVAILABLE_MODES`.
+    pub(crate) const ALL: [Self; 7] = [
+        Self::Hold,
+        Self::TakeOff,
+        Self::Mission,
+        Self::Land,
+        Self::Return,
+        Self::Offboard,
+        Self::Position,
+    ];
+
+    /// Main mode and sub-mode, in PX4's `custom_mode`.
+    fn parts(self) -> (u8, u8) {
+        match self {
+            Self::Position => (3, 0),
+            Self::TakeOff => (4, 2),
+            Self::Hold => (4, 3),
+            Self::Mission => (4, 4),
+            Self::Return => (4, 5),
+            Self::Land => (4, 6),
+            Self::Offboard => (6, 0),
+        }
+    }
+
+    /// The mode of a main mode and a sub-mode; nothing for those that this vehicle does not have.
+    pub(crate) fn from_parts(main: u8, sub: u8) -> Option<Self> {
+        Self::ALL.into_iter().find(|mode| mode.parts() == (main, sub))
+    }
+
+    /// PX4's `custom_mode`.
+    pub(crate) fn custom(self) -> u32 {
+        let (main, sub) = self.parts();
+        u32::from(main) << 16 | u32::from(sub) << 24
+    }
+
+    /// The mode of a `custom_mode`.
+    pub(crate) fn from_custom(custom: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|mode| mode.custom() == custom)
+    }
+
+    /// Its place among the standard modes.
+    pub(crate) fn standard(self) -> MavStandardMode {
+        match self {
+            Self::Hold | Self::Offboard => MavStandardMode::MAV_STANDARD_MODE_NON_STANDARD,
+            Self::Position => MavStandardMode::MAV_STANDARD_MODE_POSITION_HOLD,
+            Self::Return => MavStandardMode::MAV_STANDARD_MODE_SAFE_RECOVERY,
+            Self::Mission => MavStandardMode::MAV_STANDARD_MODE_MISSION,
+            Self::Land => MavStandardMode::MAV_STANDARD_MODE_LAND,
+            Self::TakeOff => MavStandardMode::MAV_STANDARD_MODE_TAKEOFF,
+        }
+    }
+
+    /// The mode of a standard mode's number.
+    pub(crate) fn from_standard(number: u8) -> Option<Self> {
+        let standard = |mode: &Self| mode.standard() as u8;
+        Self::ALL.into_iter().find(|mode| number != 0 && standard(mode) == number)
+    }
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Hold => "Hold",
+            Self::TakeOff => "Takeoff",
+            Self::Mission => "Mission",
+            Self::Land => "Land",
+            Self::Return => "Return",
+            Self::Offboard => "Offboard",
+            Self::Position => "Position",
+        }
+    }
+
+    /// Whether the vehicle flies by itself in it.
+    pub(crate) fn is_automatic(self) -> bool {
+        !matches!(self, Self::Position | Self::Offboard)
+    }
+}
+
+/// What the mission that the vehicle flies was made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// A mission or plan.
+    Mission,
+    /// A take-off.
+    TakeOff,
+    /// A return to the start.
+    Return,
+}
+
+/// The mode of a vehicle in this state; `by_hand` if somebody has chosen to fly it so and is still there.
+pub(crate) fn mode(status: &Status, purpose: Purpose, by_hand: bool) -> Mode {
+    match status.phase {
+        Phase::Landing => return Mode::Land,
+        Phase::Flying => {}
+        _ => return Mode::Hold,
+    }
+    match status.manual {
+        Some(ManualControl::Sticks) => return Mode::Position,
+        Some(ManualControl::Setpoints) => return Mode::Offboard,
+        Some(ManualControl::Hold) if by_hand => return Mode::Position,
+        Some(ManualControl::Hold | ManualControl::Target) => return Mode::Hold,
+        None => {}
+    }
+    match status.command {
+        Some("Land") => Mode::Land,
+        Some("TakeOff") => Mode::TakeOff,
+        _ if status.step.is_none() => Mode::Hold,
+        _ => match purpose {
+            Purpose::Mission => Mode::Mission,
+            Purpose::TakeOff => Mode::TakeOff,
+            Purpose::Return => Mode::Return,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// PX4's documentation of its flight modes.
+    #[test]
+    fn modes_have_px4s_numbers() {
+        let numbers = Mode::ALL.map(|mode| (mode.name(), mode.custom()));
+        let expected = [
+            ("Hold", 0x0304_0000),
+            ("Takeoff", 0x0204_0000),
+            ("Mission", 0x0404_0000),
+            ("Land", 0x0604_0000),
+            ("Return", 0x0504_0000),
+            ("Offboard", 0x0006_0000),
+            ("Position", 0x0003_0000),
+        ];
+        assert_eq!(numbers, expected);
+        for mode in Mode::ALL {
+            assert_eq!(Mode::from_custom(mode.custom()), Some(mode));
+        }
+        assert_eq!(Mode::from_standard(7), Some(Mode::Land));
+        assert_eq!(Mode::from_standard(0), None);
+    }
+
+    /// Those of `ArduCopter`, and PX4's that this vehicle does not have.
+    #[test]
+    fn other_numbers_are_no_mode() {
+        for (main, sub) in [(4, 0), (4, 1), (5, 0), (9, 0), (0, 0), (1, 0), (6, 1)] {
+            assert_eq!(Mode::from_parts(main, sub), None, "{main} {sub}");
+        }
+    }
+}
