@@ -58,6 +58,8 @@ printf 'a drone for the tests\n' >"$work/key"
 chmod 600 "$work/key"
 flies mavsdk "--mavlink-pretend-gps" mavsdk_flight.py udpin://127.0.0.1:FIRST
 flies mavproxy "" mavproxy_flight.py FIRST SECOND
+flies hop_mavsdk "" ../../../docs/mavlink/hop_mavsdk.py udpin://127.0.0.1:FIRST
+flies hop_pymavlink "" ../../../docs/mavlink/hop_pymavlink.py udpin:127.0.0.1:FIRST
 corners telemetry "" telemetry,cut
 corners commands ""
 corners missions ""
