@@ -33,7 +33,8 @@ def command(number, *parameters):
         sys.exit(f"command {number} was refused with {acknowledged.result}")
 
 
-link.wait_heartbeat()
+if not link.wait_heartbeat(timeout=30):
+    sys.exit("no vehicle: is ardrone-pilot --mavlink running?")
 until("SYS_STATUS", lambda status: status.onboard_control_sensors_health & mavutil.mavlink.MAV_SYS_STATUS_PREARM_CHECK)
 command(mavutil.mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1)
 command(mavutil.mavlink.MAV_CMD_NAV_TAKEOFF)

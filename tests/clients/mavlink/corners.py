@@ -9,7 +9,7 @@ import time
 import traceback
 
 import flying
-from station import Station
+from station import Silence, Station
 
 
 def cases_of(group):
@@ -42,7 +42,11 @@ def main():
         cases, key = cases_of(group)
         station = Station(ports[0], key=key)
         station.second_port = ports[1] if len(ports) > 1 else None
-        flying.wait_ready(station)
+        try:
+            flying.wait_ready(station)
+        except Silence as silence:
+            print(f"{group}: the vehicle does not get ready: {silence}; {station.texts()[-4:]}")
+            return 1
         for case in cases:
             kept = holds(case, station)
             passed, failed = passed + kept, failed + (not kept)

@@ -44,8 +44,8 @@ class MavProxy:
         return any(text.lower() in line.lower() for line in self.printed[since:])
 
     def close(self):
-        self.process.terminate()
-        self.process.wait(10)
+        self.process.kill()
+        self.process.wait()
 
 
 def mission_file(folder):

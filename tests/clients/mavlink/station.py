@@ -70,7 +70,7 @@ class Station:
             self.socket.sendto(datagram, self.vehicle)
 
     def beat(self):
-        self.send("HEARTBEAT", mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, 0)
+        self.send("HEARTBEAT", mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, 0, 3)
 
     @contextlib.contextmanager
     def repeating(self, name, period_s, send):
@@ -170,11 +170,12 @@ class Station:
     def ask(self, kind, number, fields, within_s, version1):
         asked_s = time.monotonic()
         self.send(kind, *fields, version1=version1)
-        acknowledged = self.wait("COMMAND_ACK", within_s, lambda ack: ack.command == number, asked_s)
-        if not version1:
-            asker = (acknowledged.target_system, acknowledged.target_component)
-            assert asker == (self.system, self.component), f"the answer to {number} is addressed to {asker}"
-        return acknowledged.result
+        own = (number, self.system, self.component)
+
+        def answers(ack):
+            return (ack.command, ack.target_system, ack.target_component) == own
+
+        return self.wait("COMMAND_ACK", within_s, answers, asked_s).result
 
     def request(self, number, within_s=ACKNOWLEDGED_WITHIN_S, parameter=0):
         """Asks for one message by its number: the result, and the message if it came."""

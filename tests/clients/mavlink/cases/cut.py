@@ -1,4 +1,4 @@
-"""The motors are cut by the magic number only. Afterwards the vehicle does not fly until a person recovers it, so this is a run of its own."""
+"""The motors are cut by the magic number only. No test can follow: the vehicle does not fly until a person recovers it."""
 
 import time
 

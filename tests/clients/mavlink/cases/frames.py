@@ -111,14 +111,16 @@ def stick(station, x=0, y=0, z=500, r=0):
 
 
 def steered(station, seconds=1.5, **axes):
-    """The drone's way north, east, up (m) and its turn (deg) under these sticks."""
+    """The drone's way forward, right, up (m) and its turn (deg) under these sticks."""
     station.repeat["stick"] = (0.04, stick(station))
     station.hear(1.2)
     before, yaw = place(station), flying.yaw_deg(station)
     station.repeat["stick"] = (0.04, stick(station, **axes))
     station.hear(seconds)
-    after = place(station)
-    return [late - early for early, late in zip(before, after)], flying.turned_by(yaw, flying.yaw_deg(station))
+    north, east, up = (late - early for early, late in zip(before, place(station)))
+    cosine, sine = math.cos(math.radians(yaw)), math.sin(math.radians(yaw))
+    way = [north * cosine + east * sine, east * cosine - north * sine, up]
+    return way, flying.turned_by(yaw, flying.yaw_deg(station))
 
 
 def by_hand(station):
@@ -129,7 +131,6 @@ def by_hand(station):
 
 
 def test_the_joystick_steers_in_all_directions(station):
-    """Looks north (the drone is at rest after its take-off): x is north, y east."""
     flying.take_off(station)
     by_hand(station)
     for axes, axis, sign in (

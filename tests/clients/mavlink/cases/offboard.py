@@ -118,6 +118,7 @@ def test_silent_set_points_hold_and_then_land(station):
     silent_s = time.monotonic()
     held = flying.wait_mode(station, HOLD, 2.5, silent_s)
     near(held.heard_s - silent_s, 0.6, 0.4, "the time until it holds")
+    station.hear(0.5)
     assert station.texts(silent_s), "no text tells it"
     landing = flying.wait_mode(station, LAND, 13, silent_s)
     near(landing.heard_s - silent_s, 10.6, 0.9, "the time until it lands")

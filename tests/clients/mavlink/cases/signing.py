@@ -35,7 +35,8 @@ def test_unsigned_is_not_heard(station):
     station.codec.signing.sign_outgoing = False
     try:
         assert not answered(station, 64_101)
-        station.command_heard = answered(station, 400)
+        station.send("COMMAND_LONG", 1, 1, ARM, 0, 1, 0, 0, 0, 0, 0, 0)
+        station.hear(1.5)
         assert not flying.armed(station)
     finally:
         station.codec.signing.sign_outgoing = True

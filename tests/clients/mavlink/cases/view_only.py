@@ -4,11 +4,14 @@ import time
 
 import flying
 import plans
+from cases.telemetry import parameters
 from flying import ARM, NAN
 from station import Silence
-from cases.telemetry import parameters
 
-ORDERS = ((ARM, 1), (ARM, 0, flying.CUT_MAGIC), (22, 0), (21, 0), (20, 0), (24, 0), (176, 1, 4, 3), (192, -1), (193, 0), (193, 1), (300, 0), (185, 1), (224, 0), (246, 1), (189, 0), (262, 8))
+ORDERS = (
+    (ARM, 1), (ARM, 0, flying.CUT_MAGIC), (22, 0), (21, 0), (20, 0), (24, 0), (176, 1, 4, 3), (192, -1), (193, 0),
+    (193, 1), (300, 0), (185, 1), (224, 0), (246, 1), (189, 0), (262, 8),
+)  # fmt: skip
 
 
 def test_everything_can_be_seen(station):
