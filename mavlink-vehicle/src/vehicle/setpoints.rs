@@ -271,11 +271,11 @@ mod tests {
 
     #[test]
     fn velocities_are_north_east_down_or_seen_from_the_drone() {
-        let found = local(&data(1, 0b0111_1100_0111), &NORTH, None).unwrap();
+        let found = local(&data(1, 0b0101_1100_0111), &NORTH, None).unwrap();
         assert_eq!(found.horizontal, Horizontal::Velocity { x_m_s: 0.25, y_m_s: 0.5 });
         assert_eq!(found.vertical, Vertical::Climb(0.125));
         assert!(matches!(found.heading, Heading::Turn(turn) if (turn - 57.2958).abs() < 1e-3));
-        let found = local(&data(8, 0b0111_1100_0111), &NORTH, None).unwrap();
+        let found = local(&data(8, 0b0101_1100_0111), &NORTH, None).unwrap();
         let seen = Horizontal::BodyVelocity { right_m_s: 0.25, forward_m_s: 0.5 };
         assert_eq!(found.horizontal, seen);
         assert_eq!(local(&data(8, 2552), &NORTH, None), Err(NoSetpoint::Frame(8)));

@@ -190,8 +190,11 @@ fn armed_it_takes_off_and_unarmed_it_waits_to_be() {
     assert_eq!(bench.ordered(), ["take"]);
     assert!(bench.is_armed());
     bench.accepts(22, [NAN, NAN, NAN, NAN, NAN, NAN, 1.5]);
-    let (_, order) = bench.orders[0].clone();
-    let OperatorOrder::Append(commands) = order else { panic!("{order:?}") };
+    let commands = bench.orders.iter().find_map(|(_, order)| match order {
+        OperatorOrder::Append(commands) => Some(commands),
+        _ => None,
+    });
+    let commands = commands.unwrap();
     assert!(commands.text().contains("takeoff") && commands.text().contains("goto 0 0 1.500 0"));
     assert_eq!(bench.ordered(), ["append", "start"]);
     let mut bench = Bench::new(Config::default());
@@ -211,7 +214,7 @@ fn armed_it_takes_off_and_unarmed_it_waits_to_be() {
 fn arming_passes_and_needs_a_ready_drone() {
     let mut bench = Bench::new(Config::default());
     bench.accepts(400, first(1.0));
-    bench.pass(SECOND * 9);
+    bench.pass(SECOND * 8);
     assert!(bench.is_armed());
     bench.pass(SECOND);
     assert!(!bench.is_armed());
