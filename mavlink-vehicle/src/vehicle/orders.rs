@@ -297,6 +297,10 @@ impl MavlinkVehicle {
             && holder.station == Kind::Mavlink
         {
             self.order_quietly(holder, OperatorOrder::Release);
+            // Known before the next status says so.
+            if let Some((_, status)) = &mut self.status {
+                status.controls = None;
+            }
         }
     }
 
