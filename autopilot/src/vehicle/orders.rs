@@ -219,8 +219,8 @@ impl Vehicle {
             }
             OperatorOrder::Recover => return self.recover(now),
             OperatorOrder::Camera(camera) => return self.show_camera(now, by, camera),
-            // They have been taken already.
-            OperatorOrder::Take => {}
+            // They have been taken already; whoever is there was heard.
+            OperatorOrder::Take | OperatorOrder::Present => {}
             OperatorOrder::Release => self.controls.release(by),
             // Before the drone has left the ground a hold keeps it there.
             OperatorOrder::Hold if self.is_about_to_fly() => {
@@ -248,7 +248,6 @@ impl Vehicle {
             OperatorOrder::GoTo(_) | OperatorOrder::Follow(_) | OperatorOrder::Setpoint(_) => {
                 return Err(Refused::NoPlace);
             }
-            OperatorOrder::Present => {}
             OperatorOrder::Resume => return self.resume(now),
         }
         Ok(())

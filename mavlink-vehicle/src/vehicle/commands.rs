@@ -90,7 +90,7 @@ const NOT_NOW: End = End::Now(MavResult::MAV_RESULT_TEMPORARILY_REJECTED);
 const UNSUPPORTED: End = End::Now(MavResult::MAV_RESULT_UNSUPPORTED);
 
 impl MavlinkVehicle {
-    pub(super) fn command(&mut self, now: Duration, station: &Station, asked: &Asked) {
+    pub(super) fn command(&mut self, now: Duration, station: Station, asked: &Asked) {
         let end = match self.question(station, asked) {
             Some(end) => end,
             None if self.config.view_only && is_known(asked.command) => {
@@ -105,7 +105,7 @@ impl MavlinkVehicle {
     }
 
     /// Commands that only ask for something.
-    fn question(&mut self, station: &Station, asked: &Asked) -> Option<End> {
+    fn question(&mut self, station: Station, asked: &Asked) -> Option<End> {
         let to = To::Peer(station.peer);
         Some(match MavCmdNumber(asked.command) {
             MavCmdNumber::REQUEST_MESSAGE => {
@@ -156,7 +156,7 @@ impl MavlinkVehicle {
         })
     }
 
-    fn commanded(&mut self, now: Duration, station: &Station, asked: &Asked) -> End {
+    fn commanded(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
         let by_order = |this: &mut Self, order| {
             this.order(now, station, Some(asked.command), After::Nothing, [order]);
             End::Later
@@ -220,7 +220,7 @@ impl MavlinkVehicle {
         }
     }
 
-    fn arm_or_disarm(&mut self, now: Duration, station: &Station, asked: &Asked) -> End {
+    fn arm_or_disarm(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
         let magic = asked.parameter(2).unwrap_or(0.0);
         #[allow(clippy::float_cmp, reason = "a code, not a quantity")]
         let cuts = magic == MAGIC_CUT;
@@ -257,12 +257,12 @@ impl MavlinkVehicle {
     }
 
     /// Whether somebody else has the controls.
-    pub(super) fn is_others(&self, station: &Station) -> bool {
+    pub(super) fn is_others(&self, station: Station) -> bool {
         let holder = self.present().and_then(|status| status.controls);
         holder.is_some_and(|holder| holder != station.operator())
     }
 
-    fn asked_to_take_off(&mut self, now: Duration, station: &Station, asked: &Asked) -> End {
+    fn asked_to_take_off(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
         if self.is_flying() {
             return if self.mode() == Mode::TakeOff { ACCEPTED } else { NOT_NOW };
         }
@@ -280,7 +280,7 @@ impl MavlinkVehicle {
             Ok(_) => None,
             Err(error) => {
                 self.warn(format_args!("{error}"));
-                return End::Now(MavResult::MAV_RESULT_UNSUPPORTED_MAV_FRAME);
+                return End::Now(MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME);
             }
         };
         let wanted_m = wanted_m.or((usual_m > 0.0).then_some(usual_m));
@@ -299,7 +299,7 @@ impl MavlinkVehicle {
     pub(super) fn change_mode(
         &mut self,
         now: Duration,
-        station: &Station,
+        station: Station,
         command: u16,
         mode: Option<Mode>,
     ) -> End {
@@ -320,14 +320,13 @@ impl MavlinkVehicle {
                 return End::Later;
             }
             Mode::Mission => return self.start_mission(now, station, command),
-            Mode::Return if !self.is_airborne() => return NOT_NOW,
+            Mode::Return | Mode::Position if !self.is_airborne() => return NOT_NOW,
             Mode::Return if self.mode() == Mode::Return => return ACCEPTED,
             Mode::Return if self.mode() == Mode::Land => return NOT_NOW,
             Mode::Return => {
                 self.fly_home(now, station, command);
                 return End::Later;
             }
-            Mode::Position if !self.is_airborne() => return NOT_NOW,
             Mode::Position => {
                 self.joystick = super::Joystick::default();
                 (After::ByHand, OperatorOrder::Hold)
@@ -351,7 +350,7 @@ impl MavlinkVehicle {
         End::Later
     }
 
-    fn start_mission(&mut self, now: Duration, station: &Station, command: u16) -> End {
+    fn start_mission(&mut self, now: Duration, station: Station, command: u16) -> End {
         if self.transfer.items().is_empty() {
             self.warn(format_args!("there is no mission"));
             return DENIED;
@@ -398,7 +397,7 @@ impl MavlinkVehicle {
     pub(super) fn set_current(
         &mut self,
         now: Duration,
-        station: &Station,
+        station: Station,
         command: Option<u16>,
         seq: u16,
     ) -> End {
@@ -423,13 +422,13 @@ impl MavlinkVehicle {
         ACCEPTED
     }
 
-    fn reposition(&mut self, now: Duration, station: &Station, asked: &Asked) -> End {
+    fn reposition(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
         let frame = asked.frame.unwrap_or(GLOBAL);
         let place = match self.origin.place(frame, asked.x, asked.y, asked.z) {
             Ok(place) => place,
             Err(error) => {
                 self.warn(format_args!("{error}"));
-                return End::Now(MavResult::MAV_RESULT_UNSUPPORTED_MAV_FRAME);
+                return End::Now(MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME);
             }
         };
         let limits = self.config.limits;

@@ -70,7 +70,7 @@ pub(super) struct Awaited {
 
 impl MavlinkVehicle {
     /// Acknowledges a command.
-    pub(super) fn acknowledge(&mut self, station: &Station, command: u16, result: MavResult) {
+    pub(super) fn acknowledge(&mut self, station: Station, command: u16, result: MavResult) {
         let acknowledgement = COMMAND_ACK_DATA {
             command,
             result,
@@ -98,7 +98,7 @@ impl MavlinkVehicle {
     pub(super) fn order(
         &mut self,
         now: Duration,
-        station: &Station,
+        station: Station,
         command: Option<u16>,
         after: After,
         orders: impl IntoIterator<Item = OperatorOrder>,
@@ -127,7 +127,7 @@ impl MavlinkVehicle {
             left,
             result: MavResult::MAV_RESULT_ACCEPTED,
             command,
-            station: *station,
+            station,
             since: now,
             after,
             may_fly,
@@ -173,7 +173,7 @@ impl MavlinkVehicle {
 
     fn answered(&mut self, now: Duration, awaited: &Awaited) {
         if let Some(command) = awaited.command {
-            self.acknowledge(&awaited.station, command, awaited.result);
+            self.acknowledge(awaited.station, command, awaited.result);
         }
         if awaited.result != MavResult::MAV_RESULT_ACCEPTED {
             return;
@@ -187,30 +187,24 @@ impl MavlinkVehicle {
                 self.armed_until = Some(now + ARMED_TIME);
                 self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("armed by {by}"));
                 if let Some(pending) = self.pending.take() {
-                    self.do_then(now, &pending.station, None, pending.then);
+                    self.do_then(now, pending.station, None, pending.then);
                 }
             }
         }
     }
 
     /// Does it now if armed, or when arming follows soon.
-    pub(super) fn when_armed(
-        &mut self,
-        now: Duration,
-        station: &Station,
-        command: u16,
-        then: Then,
-    ) {
+    pub(super) fn when_armed(&mut self, now: Duration, station: Station, command: u16, then: Then) {
         if self.armed_until.is_some() {
             self.do_then(now, station, Some(command), then);
             return;
         }
         let until = now + PENDING_TIME;
-        self.pending = Some(Pending { then, station: *station, until });
+        self.pending = Some(Pending { then, station, until });
         self.acknowledge(station, command, MavResult::MAV_RESULT_ACCEPTED);
     }
 
-    fn do_then(&mut self, now: Duration, station: &Station, command: Option<u16>, then: Then) {
+    fn do_then(&mut self, now: Duration, station: Station, command: Option<u16>, then: Then) {
         match then {
             Then::TakeOff { height_m } => self.take_off(now, station, command, height_m),
             Then::Mission => self.fly_mission(now, station, command),
@@ -220,20 +214,18 @@ impl MavlinkVehicle {
     fn take_off(
         &mut self,
         now: Duration,
-        station: &Station,
+        station: Station,
         command: Option<u16>,
         height_m: Option<f64>,
     ) {
-        let mut text = "setReference $START$\ntakeoff\n".to_owned();
-        if let Some(height_m) = height_m {
-            text.push_str(&format!("setStayTime 0.3\ngoto 0 0 {height_m:.3} 0\n"));
-        }
+        let climb = height_m.map(|height_m| format!("setStayTime 0.3\ngoto 0 0 {height_m:.3} 0\n"));
+        let text = format!("setReference $START$\ntakeoff\n{}", climb.unwrap_or_default());
         let items = vec![0; text.lines().count()];
         self.hand_over(now, station, command, Purpose::TakeOff, &text, items);
     }
 
     /// Flies to the start and lands.
-    pub(super) fn fly_home(&mut self, now: Duration, station: &Station, command: u16) {
+    pub(super) fn fly_home(&mut self, now: Duration, station: Station, command: u16) {
         let limits = &self.config.limits;
         let pose = self.present().and_then(|status| status.pose).unwrap_or_default();
         let height_m = pose.z_m.clamp(limits.floor_m, limits.ceiling_m);
@@ -248,7 +240,7 @@ impl MavlinkVehicle {
     }
 
     /// Flies the stored mission, from where it is to begin.
-    pub(super) fn fly_mission(&mut self, now: Duration, station: &Station, command: Option<u16>) {
+    pub(super) fn fly_mission(&mut self, now: Duration, station: Station, command: Option<u16>) {
         let program = self.transfer.translated().commands_from(self.first_item, self.is_airborne());
         if program.text.is_empty() {
             self.warn(format_args!("there is no mission, or nothing is left of it"));
@@ -265,7 +257,7 @@ impl MavlinkVehicle {
     fn hand_over(
         &mut self,
         now: Duration,
-        station: &Station,
+        station: Station,
         command: Option<u16>,
         purpose: Purpose,
         text: &str,
@@ -305,6 +297,10 @@ impl MavlinkVehicle {
             && holder.station == Kind::Mavlink
         {
             self.order_quietly(holder, OperatorOrder::Release);
+            // Known before the next status says so.
+            if let Some((_, status)) = &mut self.status {
+                status.controls = None;
+            }
         }
     }
 
@@ -320,7 +316,7 @@ impl MavlinkVehicle {
             let late = self.awaited.swap_remove(index);
             if let Some(command) = late.command {
                 let busy = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
-                self.acknowledge(&late.station, command, busy);
+                self.acknowledge(late.station, command, busy);
             }
         }
         if self.pending.is_some_and(|pending| now >= pending.until) {

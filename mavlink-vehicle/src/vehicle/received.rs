@@ -47,10 +47,10 @@ impl MavlinkVehicle {
         if target(&frame.message).is_some_and(|(system, component)| !is_ours(system, component)) {
             return;
         }
-        self.received(now, &station, &frame.message);
+        self.received(now, station, &frame.message);
     }
 
-    fn received(&mut self, now: Duration, station: &Station, message: &MavMessage) {
+    fn received(&mut self, now: Duration, station: Station, message: &MavMessage) {
         let to = To::Peer(station.peer);
         match message {
             MavMessage::COMMAND_LONG(data) => self.command(now, station, &Asked::long(data)),
@@ -91,7 +91,7 @@ impl MavlinkVehicle {
                 }
             }
             MavMessage::PARAM_SET(data) => {
-                self.set_parameter(station, data.param_id, data.param_value)
+                self.set_parameter(station, data.param_id, data.param_value);
             }
             MavMessage::SET_GPS_GLOBAL_ORIGIN(data) => {
                 let degrees = |e7: i32| f64::from(e7) / 1e7;
@@ -126,7 +126,7 @@ impl MavlinkVehicle {
         }
     }
 
-    fn set_mode(&mut self, now: Duration, station: &Station, data: &SET_MODE_DATA) {
+    fn set_mode(&mut self, now: Duration, station: Station, data: &SET_MODE_DATA) {
         // It is acknowledged like the command that has taken its place.
         let command = MavCmd::MAV_CMD_DO_SET_MODE as u16;
         let custom = data.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED);
@@ -147,7 +147,7 @@ impl MavlinkVehicle {
         }
     }
 
-    fn set_parameter(&mut self, station: &Station, name: CharArray<16>, value: f32) {
+    fn set_parameter(&mut self, station: Station, name: CharArray<16>, value: f32) {
         let Some(index) = self.parameters.index(-1, &name) else {
             let error = MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST;
             return self.parameter_error(station, -1, name, error);
@@ -170,7 +170,7 @@ impl MavlinkVehicle {
 
     fn parameter_error(
         &mut self,
-        station: &Station,
+        station: Station,
         param_index: i16,
         param_id: CharArray<16>,
         error: MavParamError,
@@ -209,7 +209,7 @@ impl MavlinkVehicle {
     fn take_setpoint(
         &mut self,
         now: Duration,
-        station: &Station,
+        station: Station,
         setpoint: Result<Setpoint, NoSetpoint>,
     ) {
         if self.config.view_only {
@@ -243,7 +243,7 @@ impl MavlinkVehicle {
         }
     }
 
-    fn received_of_mission(&mut self, now: Duration, station: &Station, message: &MavMessage) {
+    fn received_of_mission(&mut self, now: Duration, station: Station, message: &MavMessage) {
         let received = match message {
             MavMessage::MISSION_COUNT(data) => {
                 Received::Count { count: data.count, mission_type: data.mission_type }
@@ -300,7 +300,7 @@ impl MavlinkVehicle {
     }
 
     /// Why a station may not change the stored mission now.
-    fn may_not_change(&self, station: &Station) -> Option<&'static str> {
+    fn may_not_change(&self, station: Station) -> Option<&'static str> {
         if self.config.view_only {
             Some("view only")
         } else if self.is_others(station) {
@@ -330,7 +330,7 @@ impl MavlinkVehicle {
             }
             Event::Refused(problem) => self.warn(format_args!("{}", problem.reason)),
             Event::Cancelled => {
-                self.warn(format_args!("upload given up; the mission is unchanged"))
+                self.warn(format_args!("upload given up; the mission is unchanged"));
             }
         }
     }

@@ -271,11 +271,11 @@ mod tests {
 
     #[test]
     fn velocities_are_north_east_down_or_seen_from_the_drone() {
-        let found = local(&data(1, 0b0111_1100_0111), &NORTH, None).unwrap();
+        let found = local(&data(1, 0b0101_1100_0111), &NORTH, None).unwrap();
         assert_eq!(found.horizontal, Horizontal::Velocity { x_m_s: 0.25, y_m_s: 0.5 });
         assert_eq!(found.vertical, Vertical::Climb(0.125));
         assert!(matches!(found.heading, Heading::Turn(turn) if (turn - 57.2958).abs() < 1e-3));
-        let found = local(&data(8, 0b0111_1100_0111), &NORTH, None).unwrap();
+        let found = local(&data(8, 0b0101_1100_0111), &NORTH, None).unwrap();
         let seen = Horizontal::BodyVelocity { right_m_s: 0.25, forward_m_s: 0.5 };
         assert_eq!(found.horizontal, seen);
         assert_eq!(local(&data(8, 2552), &NORTH, None), Err(NoSetpoint::Frame(8)));
@@ -311,18 +311,23 @@ mod tests {
         assert_eq!(global(&terrain, &NORTH), Err(NoSetpoint::Frame(11)));
     }
 
+    #[track_caller]
+    fn assert_same(value: f64, expected: f64) {
+        assert!((value - expected).abs() < 1e-9, "{value} is not {expected}");
+    }
+
     #[test]
     fn a_throttle_counts_once_it_was_in_the_middle() {
         let mut joystick = Joystick::default();
         let stick = |x, y, z, r| MANUAL_CONTROL_DATA { x, y, z, r, ..Default::default() };
         let sticks = joystick.sticks(&stick(500, -250, 0, 1000));
         assert_eq!(sticks, Sticks { roll: -0.25, pitch: -0.5, gaz: 0.0, yaw: 1.0 });
-        assert_eq!(joystick.sticks(&stick(0, 0, 500, 0)).gaz, 0.0);
-        assert_eq!(joystick.sticks(&stick(0, 0, 0, 0)).gaz, -1.0);
-        assert_eq!(joystick.sticks(&stick(0, 0, 1000, 0)).gaz, 1.0);
-        assert_eq!(joystick.sticks(&stick(0, 0, 540, 0)).gaz, 0.0);
+        assert_same(joystick.sticks(&stick(0, 0, 500, 0)).gaz, 0.0);
+        assert_same(joystick.sticks(&stick(0, 0, 0, 0)).gaz, -1.0);
+        assert_same(joystick.sticks(&stick(0, 0, 1000, 0)).gaz, 1.0);
+        assert_same(joystick.sticks(&stick(0, 0, 540, 0)).gaz, 0.0);
         let absent = joystick.sticks(&stick(i16::MAX, i16::MAX, i16::MAX, i16::MAX));
-        assert_eq!(absent.gaz + absent.roll + absent.pitch + absent.yaw, 0.0);
-        assert_eq!(joystick.sticks(&stick(i16::MIN, 0, 500, 0)).pitch, 1.0);
+        assert_eq!(absent, Sticks::default());
+        assert_same(joystick.sticks(&stick(i16::MIN, 0, 500, 0)).pitch, 1.0);
     }
 }

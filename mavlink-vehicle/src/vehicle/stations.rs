@@ -23,7 +23,7 @@ pub(super) struct Station {
 
 impl Station {
     /// The operator at this station.
-    pub(super) fn operator(&self) -> Operator {
+    pub(super) fn operator(self) -> Operator {
         let number = u16::from_be_bytes([self.system, self.component]);
         Operator { station: Kind::Mavlink, number, local: self.local }
     }

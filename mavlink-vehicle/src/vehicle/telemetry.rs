@@ -106,7 +106,8 @@ impl Schedule {
             return None;
         }
         // Without catching up what was missed.
-        stream.next = if now - stream.next < every { stream.next + every } else { now + every };
+        let next = stream.next + every;
+        stream.next = if next > now { next } else { now + every };
         Some(stream.id)
     }
 
