@@ -48,15 +48,8 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let config = settings.pilot_config(arguments.z_origin());
     let mavlink = arguments.mavlink.wanted(&config)?;
     let surveyed = settings.surveyed_tags();
-    let plan = arguments.plan.as_deref().map(|path| {
-        // The same text is recorded and flown.
-        let text = read("the plan", path)?;
-        // The note below is enough if they are not in use.
-        let tags = surveyed.as_deref().map_or(TagUse::Unknown, TagUse::On);
-        let name = path.display().to_string();
-        Ok::<_, CommandError>(Plan::parse_with_tags(&name, &text, &config.limits, tags)?)
-    });
-    let plan = plan.transpose()?;
+    let plan = arguments.plan.as_deref();
+    let plan = plan.map(|path| read_plan(path, surveyed.as_deref(), &config.limits)).transpose()?;
     let plain = arguments.plain || !std::io::stderr().is_terminal();
     let prompt = PromptLine::default();
     let mut progress = Progress::new(prompt.clone(), plain);
@@ -148,6 +141,18 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         terminal::print(TimingReport(&finished.ticks));
     }
     Ok(status)
+}
+
+/// The same text is recorded and flown.
+fn read_plan(
+    path: &Path,
+    surveyed: Option<&[SurveyedTag]>,
+    limits: &FlightLimits,
+) -> Result<Plan, CommandError> {
+    let text = read("the plan", path)?;
+    // A note is enough if they are not in use.
+    let tags = surveyed.map_or(TagUse::Unknown, TagUse::On);
+    Ok(Plan::parse_with_tags(&path.display().to_string(), &text, limits, tags)?)
 }
 
 /// What is unwise in a plan and in the tags that are given; `None` if tags are not in use.

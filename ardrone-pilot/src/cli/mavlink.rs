@@ -313,8 +313,9 @@ mod tests {
             heading_deg: -90.0,
         };
         assert_eq!(origin("-33.9,-70.5,-10,-90"), all);
-        assert_eq!(origin("-33.9, -70.5,-10").heading_deg, 0.0);
-        assert_eq!(origin("-33.9,-70.5").altitude_m, Origin::default().altitude_m);
+        assert_eq!(origin("-33.9, -70.5,-10"), Origin { heading_deg: 0.0, ..all });
+        let usual = Origin { altitude_m: 488.0, heading_deg: 0.0, ..all };
+        assert_eq!(origin("-33.9,-70.5"), usual);
         for text in ["", "1", "1,2,3,4,5", "north,2", "1,,2"] {
             let error = place(text).unwrap_err();
             assert!(error.contains("expected LAT,LON"), "{text}: {error}");

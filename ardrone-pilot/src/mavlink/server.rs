@@ -38,7 +38,7 @@ type Answer = (Ticket, Result<(), Refused>);
 #[derive(Debug)]
 pub(super) struct Server {
     end: Option<oneshot::Sender<()>>,
-    thread: Option<JoinHandle<u64>>,
+    thread: Option<JoinHandle<Lost>>,
 }
 
 impl Server {
@@ -69,7 +69,7 @@ impl Server {
             answering,
             start: Instant::now(),
             intake: Intake::default(),
-            dropped: 0,
+            lost: Lost::default(),
         };
         let (end, ended) = oneshot::channel();
         let thread = std::thread::Builder::new()
@@ -87,13 +87,27 @@ impl Drop for Server {
         }
         match self.thread.take().map(JoinHandle::join) {
             // The thread itself must not wait for anybody to read this.
-            Some(Ok(dropped @ 1..)) => {
-                tracing::warn!("MAVLink: {dropped} datagrams were dropped, because too many came");
+            Some(Ok(Lost { dropped, unsent })) => {
+                if dropped > 0 {
+                    tracing::warn!("MAVLink: too many datagrams came; {dropped} were dropped");
+                }
+                if unsent > 0 {
+                    tracing::warn!("MAVLink: the system refused to send {unsent} datagrams");
+                }
             }
             Some(Err(_)) => tracing::error!("the thread of MAVLink panicked"),
-            Some(Ok(0)) | None => {}
+            None => {}
         }
     }
+}
+
+/// Datagrams that were lost here.
+#[derive(Debug, Clone, Copy, Default)]
+struct Lost {
+    /// Not handled, because there were too many.
+    dropped: u64,
+    /// Not sent.
+    unsent: u64,
 }
 
 /// What was taken in since the last tick.
@@ -126,13 +140,11 @@ struct Exchange {
     answering: Sender<Answer>,
     start: Instant,
     intake: Intake,
-    /// Datagrams that were read and not handled because there were too many.
-    dropped: u64,
+    lost: Lost,
 }
 
 impl Exchange {
-    /// Returns how many datagrams were dropped.
-    async fn run(mut self, mut ended: oneshot::Receiver<()>) -> u64 {
+    async fn run(mut self, mut ended: oneshot::Receiver<()>) -> Lost {
         let mut ticks = tokio::time::interval(TICK);
         ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let mut buffer = vec![0; LONGEST_DATAGRAM];
@@ -153,7 +165,7 @@ impl Exchange {
         }
         // The last news.
         self.tick();
-        self.dropped
+        self.lost
     }
 
     fn now(&self) -> Duration {
@@ -199,11 +211,11 @@ impl Exchange {
             if self.peers.hear(now, peer) {
                 return Some(peer);
             }
-            self.dropped += 1;
+            self.lost.dropped += 1;
             return None;
         }
         if self.intake.strangers >= STRANGERS_PER_TICK {
-            self.dropped += 1;
+            self.lost.dropped += 1;
             return None;
         }
         self.intake.strangers += 1;
@@ -224,13 +236,13 @@ impl Exchange {
             match self.vehicle.poll(now) {
                 Some(Output::Datagram { to: To::All, bytes }) => {
                     for address in self.peers.addresses() {
-                        send(&self.socket, bytes, address);
+                        self.lost.unsent += send(&self.socket, bytes, address);
                     }
                 }
                 Some(Output::Datagram { to: To::Peer(peer), bytes }) => {
                     // One that has been forgotten meanwhile needs no answer.
                     if let Some(address) = self.peers.address(peer) {
-                        send(&self.socket, bytes, address);
+                        self.lost.unsent += send(&self.socket, bytes, address);
                     }
                 }
                 Some(Output::Order { ticket, by, order }) => self.give(now, ticket, by, order),
@@ -259,7 +271,11 @@ impl Exchange {
     }
 }
 
-/// What the system does not take is lost like others on the way: nobody is there, or it has no room.
-fn send(socket: &UdpSocket, bytes: &[u8], address: SocketAddr) {
-    _ = socket.try_send_to(bytes, address);
+/// Returns 1 if the system does not send it: it is lost as others are on the way.
+fn send(socket: &UdpSocket, bytes: &[u8], address: SocketAddr) -> u64 {
+    match socket.try_send_to(bytes, address) {
+        // Of an earlier one: nobody listens there yet.
+        Err(error) if error.kind() != io::ErrorKind::ConnectionRefused => 1,
+        _ => 0,
+    }
 }
