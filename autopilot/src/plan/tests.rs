@@ -84,7 +84,7 @@ fn every_bad_line_is_reported_with_line_column_and_advice() {
     7 | fly
       | ^^^
       |
-      = help: commands are: takeoff, land, goto, moveBy, moveByRel, setReference, setInitialReachDist, setStayWithinDist, setStayTime, setMaxControl, tag, findTag, landOnTag, clearCommands, autoInit, autoTakeover, lockScaleFP
+      = help: commands are: takeoff, land, goto, moveBy, moveByRel, setReference, setInitialReachDist, setStayWithinDist, setStayTime, setSpeed, setMaxControl, tag, findTag, landOnTag, clearCommands, autoInit, autoTakeover, lockScaleFP
     "
     );
 }

@@ -3,6 +3,7 @@ mod endings;
 mod orders;
 mod phases;
 mod sightings;
+mod station;
 mod ticks;
 
 use ardrone_link::configuration::Configuration;

@@ -327,23 +327,23 @@ impl MavlinkVehicle {
                 self.fly_home(now, station, command);
                 return End::Later;
             }
-            Mode::Position => {
-                self.joystick = super::Joystick::default();
-                (After::ByHand, OperatorOrder::Hold)
-            }
-            Mode::Offboard => {
+            Mode::Position | Mode::Offboard => {
                 let by = station.operator();
-                let fresh = self.setpoint.filter(|(at, whose, _)| {
+                let (last, after, whose) = match mode {
+                    Mode::Position => (self.sticks, After::ByHand, self.by_hand),
+                    _ => (self.setpoint, After::Follows, self.follows),
+                };
+                let fresh = last.filter(|(at, whose, _)| {
                     *whose == by && now.saturating_sub(*at) <= super::received::SETPOINT_TIME
                 });
                 let Some((_, _, setpoint)) = fresh else {
-                    self.warn(format_args!("no fresh set-points to follow"));
+                    self.warn(format_args!("no fresh set-points or sticks to follow"));
                     return DENIED;
                 };
-                if self.mode() == Mode::Offboard && self.follows == Some(by) {
+                if self.mode() == mode && whose == Some(by) {
                     return ACCEPTED;
                 }
-                (After::Follows, OperatorOrder::Follow(setpoint))
+                (after, OperatorOrder::Follow(setpoint))
             }
         };
         self.order(now, station, Some(command), after, [order]);

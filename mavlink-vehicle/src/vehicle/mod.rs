@@ -22,7 +22,7 @@ use arrayvec::{ArrayString, ArrayVec};
 use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{FlightEvent, NotReady, Operator, OperatorOrder, Setpoint, Status};
 
-use self::modes::{Mode, Purpose};
+use self::modes::{Doing, Mode, Purpose};
 use self::orders::{Awaited, Pending};
 use self::parameters::Parameters;
 pub use self::protocol::{Autopilot, Config, Input, Output, Ticket, To};
@@ -105,8 +105,10 @@ pub struct MavlinkVehicle {
     setpoint: Option<(Duration, Operator, Setpoint)>,
     /// The operator whose set-points are followed, or were until they stopped.
     follows: Option<Operator>,
-    /// The operator who flies by hand, and when his sticks were last heard.
-    by_hand: Option<(Duration, Operator)>,
+    /// The last that sticks asked for, whose they are and when it came.
+    sticks: Option<(Duration, Operator, Setpoint)>,
+    /// The operator whose sticks are followed, or were until they stopped.
+    by_hand: Option<Operator>,
     joystick: Joystick,
     /// Mode and arming that were told last.
     told: Option<(Mode, bool)>,
@@ -147,6 +149,7 @@ impl MavlinkVehicle {
             pending: None,
             setpoint: None,
             follows: None,
+            sticks: None,
             by_hand: None,
             joystick: Joystick::default(),
             told: None,
@@ -305,8 +308,12 @@ impl MavlinkVehicle {
             (Some(handed), Progress::Ours | Progress::Complete) => handed.purpose,
             _ => Purpose::Mission,
         };
-        let by_hand = self.by_hand.is_some();
-        self.present().map_or(Mode::Hold, |status| modes::mode(status, purpose, by_hand))
+        let doing = Doing {
+            purpose,
+            by_hand: self.by_hand.is_some(),
+            goes_on: self.progress == Progress::Ours,
+        };
+        self.present().map_or(Mode::Hold, |status| modes::mode(status, doing))
     }
 }
 

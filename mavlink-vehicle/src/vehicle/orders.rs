@@ -20,8 +20,6 @@ const PENDING_TIME: Duration = Duration::from_secs(5);
 const ANSWER_TIME: Duration = Duration::from_millis(300);
 /// The vehicle hears so often of a station that has the controls and is heard.
 const PRESENT_EVERY: Duration = Duration::from_millis(250);
-/// Who flies by hand and moves no stick for so long does so no longer.
-const BY_HAND_TIME: Duration = Duration::from_secs(1);
 
 /// What is done when arming follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +44,7 @@ pub(super) enum After {
     Nothing,
     /// The vehicle is armed.
     Armed,
-    /// This operator flies by hand.
+    /// The sticks of this operator are followed.
     ByHand,
     /// The set-points of this operator are followed.
     Follows,
@@ -180,9 +178,9 @@ impl MavlinkVehicle {
         }
         let by = awaited.station.operator();
         match awaited.after {
-            After::Nothing => {}
-            After::ByHand => self.by_hand = Some((now, by)),
-            After::Follows => self.follows = Some(by),
+            After::Nothing => (self.follows, self.by_hand) = (None, None),
+            After::ByHand => (self.follows, self.by_hand) = (None, Some(by)),
+            After::Follows => (self.follows, self.by_hand) = (Some(by), None),
             After::Armed => {
                 self.armed_until = Some(now + ARMED_TIME);
                 self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("armed by {by}"));
@@ -308,6 +306,7 @@ impl MavlinkVehicle {
         self.disarm();
         self.follows = None;
         self.setpoint = None;
+        self.sticks = None;
     }
 
     pub(super) fn watch_orders(&mut self, now: Duration) {
@@ -327,8 +326,6 @@ impl MavlinkVehicle {
             self.warn(format_args!("disarmed: no take-off followed"));
             self.disarm();
         }
-        let idle = |(at, _): &mut (Duration, Operator)| now.saturating_sub(*at) >= BY_HAND_TIME;
-        self.by_hand.take_if(idle);
     }
 
     /// Tells the vehicle of the station that has the controls while that is heard, and lets go of the controls on the

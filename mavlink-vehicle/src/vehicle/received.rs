@@ -114,12 +114,13 @@ impl MavlinkVehicle {
             }
             MavMessage::MANUAL_CONTROL(data) => {
                 let by = station.operator();
-                if let Some((at, whose)) = &mut self.by_hand
-                    && *whose == by
-                {
-                    *at = now;
-                    let sticks = self.joystick.sticks(data);
-                    self.order_quietly(by, OperatorOrder::Steer(sticks));
+                if self.config.view_only || self.by_hand.is_some_and(|whose| whose != by) {
+                    return;
+                }
+                let setpoint = self.joystick.setpoint(data);
+                self.sticks = Some((now, by, setpoint));
+                if self.by_hand == Some(by) {
+                    self.order_quietly(by, OperatorOrder::Setpoint(setpoint));
                 }
             }
             _ => self.received_of_mission(now, station, message),

@@ -157,7 +157,7 @@ impl MavlinkVehicle {
             42 => MavMessage::MISSION_CURRENT(view.mission()),
             49 => MavMessage::GPS_GLOBAL_ORIGIN(view.origin()),
             74 => MavMessage::VFR_HUD(view.hud()?),
-            85 => MavMessage::POSITION_TARGET_LOCAL_NED(view.target()?),
+            85 => MavMessage::POSITION_TARGET_LOCAL_NED(view.target()),
             132 => MavMessage::DISTANCE_SENSOR(view.distance()?),
             141 => MavMessage::ALTITUDE(view.altitude()?),
             147 => MavMessage::BATTERY_STATUS(view.battery()?),
@@ -512,20 +512,29 @@ impl View<'_> {
         GPS_GLOBAL_ORIGIN_DATA { latitude, longitude, altitude, time_usec: us(self.at) }
     }
 
-    fn target(&self) -> Option<POSITION_TARGET_LOCAL_NED_DATA> {
-        let target = self.status.target?;
+    fn target(&self) -> POSITION_TARGET_LOCAL_NED_DATA {
+        let (time_boot_ms, coordinate_frame) = (self.ms(), 1);
+        let Some(target) = self.status.target else {
+            // Without a target everything is to be ignored.
+            return POSITION_TARGET_LOCAL_NED_DATA {
+                time_boot_ms,
+                type_mask: PositionTargetTypemask::from_bits_truncate(0b1101_1111_1111),
+                coordinate_frame,
+                ..POSITION_TARGET_LOCAL_NED_DATA::default()
+            };
+        };
         let place = self.vehicle.origin.ned(&target);
-        Some(POSITION_TARGET_LOCAL_NED_DATA {
-            time_boot_ms: self.ms(),
+        POSITION_TARGET_LOCAL_NED_DATA {
+            time_boot_ms,
             x: f32_of(place.north_m),
             y: f32_of(place.east_m),
             z: f32_of(place.down_m),
             yaw: f32_of(self.vehicle.origin.yaw_ned_rad(target.yaw_deg)),
             // Place and yaw.
             type_mask: PositionTargetTypemask::from_bits_truncate(0b1001_1111_1000),
-            coordinate_frame: 1,
+            coordinate_frame,
             ..POSITION_TARGET_LOCAL_NED_DATA::default()
-        })
+        }
     }
 
     fn estimator(&self) -> ESTIMATOR_STATUS_DATA {

@@ -10,6 +10,7 @@ cd "$(dirname "$0")"
 work=$(mktemp -d)
 pilots=()
 trap 'for one in "${pilots[@]}"; do kill "$one" 2>/dev/null; done; rm -rf "$work"' EXIT
+[ -z "${KEEP:-}" ] || mkdir -p "$KEEP"
 export PYTHONDONTWRITEBYTECODE=1
 python=$work/python/bin/python
 

@@ -73,18 +73,31 @@ impl Bench {
 
     /// A vehicle that is ready, with this mission.
     pub(super) fn standing_by(plan: &str) -> Self {
-        let mut bench = Self::new();
+        Self::new().stands_by(plan)
+    }
+
+    fn stands_by(mut self, plan: &str) -> Self {
+        let bench = &mut self;
         bench.run(3 * SECOND);
         assert_eq!(bench.phase(), Phase::Standby);
         bench.accepted(OperatorOrder::Load(Plan::parse("plan", plan).unwrap()));
         bench.step();
         bench.events.clear();
-        bench
+        self
     }
 
     /// A vehicle whose take-off has just ended.
     pub(super) fn in_the_air(plan: &str) -> Self {
-        let mut bench = Self::standing_by(plan);
+        Self::standing_by(plan).takes_off()
+    }
+
+    /// Likewise, with this configuration.
+    pub(super) fn in_the_air_with(config: &VehicleConfig, plan: &str) -> Self {
+        Self::with(config).stands_by(plan).takes_off()
+    }
+
+    fn takes_off(mut self) -> Self {
+        let bench = &mut self;
         bench.accepted(START);
         bench.until(SECOND, |bench| bench.reference() == Some(Ref::TakeOff));
         bench.rises();
@@ -92,7 +105,7 @@ impl Bench {
         bench.run(2 * SECOND);
         bench.control_state = ControlState::Hovering;
         bench.until(SECOND, |bench| bench.vehicle.report().steps_done == 1);
-        bench
+        self
     }
 
     pub(super) fn rises(&mut self) {
