@@ -7,10 +7,11 @@ use std::time::Duration;
 pub(super) const MOST: usize = 8;
 /// After this silence one that was not given is forgotten.
 const FORGOTTEN_AFTER: Duration = Duration::from_secs(10);
-/// Datagrams of one peer that are taken at once, and how many more in each tick of 20 ms: a client sends some hundred per second
-/// at most, and one that floods takes no room from others.
-const AT_ONCE: u8 = 64;
-const PER_TICK: u8 = 8;
+/// Datagrams of one peer that are taken at once, and how many more in each tick of 20 ms: half of what all may send. One that sends
+/// more for long floods, and takes no more room from others. A client that asks for one thing after the other as fast as it is
+/// answered, as for the items of a mission, must lose nothing.
+const AT_ONCE: u16 = 2048;
+const PER_TICK: u16 = 32;
 
 #[derive(Debug, Clone, Copy)]
 struct Peer {
@@ -18,7 +19,7 @@ struct Peer {
     /// When it was heard last; `None` for a remote, which is never forgotten.
     heard: Option<Duration>,
     /// Datagrams that it may still send.
-    allowance: u8,
+    allowance: u16,
 }
 
 /// Peers by their numbers.
@@ -137,7 +138,7 @@ mod tests {
     #[test]
     fn one_that_floods_is_not_heard_any_more() {
         let mut peers = Peers::new(&[at(1), at(2)]);
-        let taken = |peers: &mut Peers| (0..1000).filter(|_| peers.hear(SECOND, 0)).count();
+        let taken = |peers: &mut Peers| (0..3000).filter(|_| peers.hear(SECOND, 0)).count();
         assert_eq!(taken(&mut peers), usize::from(AT_ONCE));
         peers.tick();
         assert_eq!(taken(&mut peers), usize::from(PER_TICK));
