@@ -84,7 +84,8 @@ impl Place {
         Self { place_m: Some([x_m, y_m]), height_m: None, yaw_deg: None }
     }
 
-    fn is_finite(&self) -> bool {
+    /// Whether all its numbers are finite.
+    pub fn is_finite(&self) -> bool {
         let numbers = self.place_m.into_iter().flatten();
         numbers.chain(self.height_m).chain(self.yaw_deg).all(f64::is_finite)
     }
