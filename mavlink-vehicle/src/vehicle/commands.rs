@@ -327,6 +327,7 @@ impl MavlinkVehicle {
                 self.fly_home(now, station, command);
                 return End::Later;
             }
+            Mode::Position | Mode::Offboard if self.is_others(station) => return NOT_NOW,
             Mode::Position | Mode::Offboard => {
                 let by = station.operator();
                 let (last, after, whose) = match mode {

@@ -91,6 +91,8 @@ pub struct MavlinkVehicle {
     progress: Progress,
     /// The item with which the mission begins next time.
     first_item: u16,
+    /// The item of the mission that the vehicle flew last, as long as it has it.
+    item: Option<u16>,
     /// The item that was reported as reached last.
     reached: Option<u16>,
     awaited: ArrayVec<Awaited, 16>,
@@ -141,6 +143,7 @@ impl MavlinkVehicle {
             handed: None,
             progress: Progress::Other,
             first_item: 0,
+            item: None,
             reached: None,
             awaited: ArrayVec::new(),
             presence: None,
@@ -245,6 +248,12 @@ impl MavlinkVehicle {
         let flew = self.is_flying();
         self.status = Some((now, *status));
         let flies = self.is_flying();
+        let handed = self.handed.as_ref().filter(|_| self.progress == Progress::Ours);
+        if let Some(item) =
+            handed.zip(status.step).and_then(|(handed, step)| handed.items.get(step))
+        {
+            self.item = Some(*item);
+        }
         if flies {
             self.armed_until = None;
             self.pending = None;

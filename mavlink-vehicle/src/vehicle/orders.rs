@@ -275,6 +275,7 @@ impl MavlinkVehicle {
             }
         };
         let lines = text.lines().map(str::to_owned).collect();
+        self.item = None;
         self.handed = Some(Handed { purpose, lines, items, id: self.transfer.id() });
         self.progress = Progress::Other;
         let clear = airborne.then_some(OperatorOrder::Clear);

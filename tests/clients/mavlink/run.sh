@@ -22,13 +22,20 @@ if ! { command -v python3 >/dev/null && python3 -m venv "$work/python" &&
     exit
 fi
 
-# All at once, so that no two are the same.
+# All at once, so that no two are the same, and none that the system gives to the programs meanwhile.
 mapfile -t ports < <("$python" - <<'PYTHON'
-import socket
-sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(64)]
-for one in sockets:
-    one.bind(("127.0.0.1", 0))
-    print(one.getsockname()[1])
+import random, socket
+found = 0
+for port in random.sample(range(20_000, 32_000), 200):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+        try:
+            one.bind(("127.0.0.1", port))
+        except OSError:
+            continue
+    print(port)
+    found += 1
+    if found == 64:
+        break
 PYTHON
 )
 
