@@ -99,8 +99,8 @@ pub struct MavlinkVehicle {
     /// When the vehicle was last told that the station with the controls is there.
     presence: Option<Duration>,
     next_ticket: u32,
-    /// Until when the vehicle is armed on the ground.
-    armed_until: Option<Duration>,
+    /// Until when the vehicle is armed on the ground, and by whom.
+    armed: Option<(Duration, Operator)>,
     /// What will be done when it is armed.
     pending: Option<Pending>,
     /// The last set-point, whose it was and when it came.
@@ -148,7 +148,7 @@ impl MavlinkVehicle {
             awaited: ArrayVec::new(),
             presence: None,
             next_ticket: 0,
-            armed_until: None,
+            armed: None,
             pending: None,
             setpoint: None,
             follows: None,
@@ -255,7 +255,7 @@ impl MavlinkVehicle {
             self.item = Some(*item);
         }
         if flies {
-            self.armed_until = None;
+            self.armed = None;
             self.pending = None;
             self.emergency = false;
         } else if flew {
@@ -280,6 +280,11 @@ impl MavlinkVehicle {
         use autopilot::vehicle::LandingReason;
         match event {
             FlightEvent::StepStarted { .. } => return,
+            // Whoever takes the controls does not expect that another's take-off follows.
+            FlightEvent::ControlsTaken { .. } => {
+                self.pending = None;
+                self.armed = None;
+            }
             FlightEvent::StepDone { step } => return self.step_done(*step),
             FlightEvent::LandingOrdered(LandingReason::Operator) => {}
             FlightEvent::LandingOrdered(_) | FlightEvent::LinkLost => self.failsafe = true,
@@ -309,7 +314,7 @@ impl MavlinkVehicle {
     }
 
     fn is_armed(&self) -> bool {
-        self.is_flying() || self.armed_until.is_some()
+        self.is_flying() || self.armed.is_some()
     }
 
     fn mode(&self) -> Mode {
