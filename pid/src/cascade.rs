@@ -11,9 +11,10 @@ use kinematics::{
 use nalgebra::Vector2;
 
 use crate::climb::{ClimbLimits, ClimbReference};
+use crate::course::Course;
 use crate::pid::{Pid, PidGains, PidInputs};
 use crate::position::Inputs;
-use crate::trajectory::{MotionLimits, Trajectory};
+use crate::trajectory::{MotionLimits, Reference, Trajectory};
 
 /// Gains and limits of the law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,6 +80,16 @@ struct Way {
     vertical: ClimbReference,
 }
 
+/// A course `lead_s` seconds from now.
+fn along(course: &Course, lead_s: f64) -> Reference {
+    Reference {
+        position_m: course.position_m + course.velocity_m_s * lead_s,
+        velocity_m_s: course.velocity_m_s + course.acceleration_m_s2 * lead_s,
+        acceleration_m_s2: course.acceleration_m_s2,
+        jerk_m_s3: Vector2::zeros(),
+    }
+}
+
 impl Cascade {
     pub(crate) fn new(config: CascadeConfig, limits: DroneLimits) -> Self {
         Self {
@@ -119,14 +130,15 @@ impl Cascade {
             ..PidInputs::default()
         });
         // A drone that turns more slowly while moving flies a straighter path.
-        let moves = self.way.as_ref().is_some_and(|way| way.horizontal.is_moving());
+        let moves = inputs.course.is_some()
+            || self.way.as_ref().is_some_and(|way| way.horizontal.is_moving());
         let most = if moves { inputs.limit * self.config.turn_share } else { inputs.limit };
         Sticks { roll: right, pitch: -forward, gaz, yaw: yaw.clamp(-most, most) }
     }
 
     /// Horizontal stick demand (right, forward).
     fn across(&mut self, inputs: &Inputs<'_>) -> (f64, f64) {
-        let Inputs { pose, velocity, target, airframe, disturbance_m_s2, step_s, limit, speed_m_s } =
+        let Inputs { pose, velocity, target, airframe, disturbance_m_s2, step_s, limit, .. } =
             *inputs;
         let Some(way) = &mut self.way else { return (0.0, 0.0) };
         let (config, tilt_max_rad) = (self.config, self.limits.tilt_rad);
@@ -135,14 +147,22 @@ impl Cascade {
         // Acceleration needed against the disturbance is not available to the reference.
         let free_m_s2 = (full_m_s2 - disturbance_m_s2.norm()).max(full_m_s2 / 3.0);
         let limits = MotionLimits {
-            velocity_m_s: speed_m_s.min(config.speed_max_m_s * limit),
+            velocity_m_s: inputs.speed_m_s.min(config.speed_max_m_s * limit),
             acceleration_m_s2: config.acceleration_share * free_m_s2 * limit,
             jerk_m_s3: config.jerk_max_m_s3 * limit,
         };
-        way.horizontal.set_target(Vector2::new(target.x_m, target.y_m), &limits);
-        let reference = way.horizontal.at(0.0);
+        if let Some(course) = inputs.course {
+            // Where the course ends, a motion begins from there.
+            way.horizontal = Trajectory::new(course.position_m);
+        } else {
+            way.horizontal.set_target(Vector2::new(target.x_m, target.y_m), &limits);
+        }
+        let at = |lead_s: f64| {
+            inputs.course.map_or_else(|| way.horizontal.at(lead_s), |course| along(course, lead_s))
+        };
+        let reference = at(0.0);
         // The command holds for one step, so it is computed for the middle of the step.
-        let ahead = way.horizontal.at(step_s / 2.0);
+        let ahead = at(step_s / 2.0);
         way.horizontal.advance(step_s);
         let speed_m_s = body_from_world(ahead.velocity_m_s, pose.yaw_deg);
         let drag = speed_m_s.component_mul(&airframe.drag_1_s);

@@ -7,11 +7,13 @@
 
 mod cascade;
 mod climb;
+mod course;
 mod pid;
 mod position;
 mod trajectory;
 mod tum;
 
 pub use cascade::CascadeConfig;
+pub use course::{Course, CourseLimits};
 pub use pid::{Pid, PidGains, PidInputs};
 pub use position::{Inputs, Law, PositionController};

@@ -4,6 +4,7 @@ use kinematics::{Airframe, DroneLimits, Pose, Sticks, Velocity};
 use nalgebra::Vector2;
 
 use crate::cascade::{Cascade, CascadeConfig};
+use crate::course::Course;
 use crate::tum::TumLaw;
 
 /// Inputs of a control law.
@@ -25,12 +26,24 @@ pub struct Inputs<'a> {
     pub limit: f64,
     /// Largest horizontal speed, in m/s, besides that of the law's configuration. Only the cascade heeds it.
     pub speed_m_s: f64,
+    /// The horizontal reference, if the caller moves one: otherwise the law makes its own, which ends at the target. Only
+    /// the cascade heeds it.
+    pub course: Option<&'a Course>,
 }
 
 impl Inputs<'_> {
     fn is_finite(&self) -> bool {
-        let Inputs { pose, velocity, disturbance_m_s2, airframe, target, step_s, limit, speed_m_s } =
-            self;
+        let Inputs {
+            pose,
+            velocity,
+            disturbance_m_s2,
+            airframe,
+            target,
+            step_s,
+            limit,
+            speed_m_s,
+            course,
+        } = self;
         [
             pose.x_m,
             pose.y_m,
@@ -56,6 +69,7 @@ impl Inputs<'_> {
         ]
         .iter()
         .all(|value| value.is_finite())
+            && course.is_none_or(Course::is_finite)
             && [
                 airframe.tilt_gain,
                 airframe.climb_gain,
@@ -175,6 +189,7 @@ mod tests {
                 step_s: 0.03,
                 limit,
                 speed_m_s: 99.0,
+                course: None,
             })
         };
         step(&mut controller, &pose);
@@ -228,6 +243,32 @@ mod tests {
     }
 
     #[test]
+    fn the_cascade_follows_a_course() {
+        let here = Pose::default();
+        let mut controller = PositionController::default();
+        let mut step = |course: Option<&Course>| {
+            controller.step(&Inputs {
+                pose: &here,
+                velocity: &Velocity::default(),
+                target: &here,
+                disturbance_m_s2: Vector2::zeros(),
+                airframe: Airframe::default(),
+                step_s: 0.03,
+                limit: 1.0,
+                speed_m_s: 99.0,
+                course,
+            })
+        };
+        assert_eq!(step(None), Sticks::default());
+        let forward = Course::new(Vector2::zeros(), Vector2::new(0.0, 0.5));
+        let demand = step(Some(&forward));
+        assert!(demand.pitch < -0.1 && demand.roll.abs() < 1e-9, "{demand:?}");
+        assert!(step(None).pitch.abs() < 0.01, "it is at the target");
+        let nowhere = Course::new(Vector2::new(0.0, f64::NAN), Vector2::zeros());
+        assert_eq!(step(Some(&nowhere)), Sticks::default());
+    }
+
+    #[test]
     fn what_is_no_number_moves_nothing_and_spoils_nothing() {
         for (law, bad) in LAWS
             .into_iter()
@@ -248,6 +289,7 @@ mod tests {
                     step_s: 0.03,
                     limit: 1.0,
                     speed_m_s: 99.0,
+                    course: None,
                 };
                 assert_eq!(controller.step(&inputs), Sticks::default());
                 let demand = controller.step(&Inputs { pose: &good, ..inputs });

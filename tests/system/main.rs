@@ -25,6 +25,7 @@ mod relay;
 mod safety;
 mod sensors;
 mod sequence;
+mod setpoints;
 mod simulated;
 mod tag_log;
 mod tag_plans;

@@ -94,6 +94,7 @@ impl Vehicle {
             step_s,
             limit: self.mission.max_control(),
             speed_m_s: self.mission.speed_m_s().unwrap_or(self.config.cascade.speed_max_m_s),
+            course: self.flight.manual.course(target),
         })
     }
 }

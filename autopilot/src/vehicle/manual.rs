@@ -2,10 +2,12 @@
 
 use std::time::Duration;
 
+use estimator::Prediction;
 use kinematics::{Pose, Sticks};
+use pid::{Course, CourseLimits};
 
-use super::{FlightEvent, Operator, Place, Refused, Setpoint, Station, Vehicle};
-use crate::agent::{Report, SetpointPercept};
+use super::{FlightEvent, Operator, Place, Refused, Setpoint, Station, Vehicle, pose};
+use crate::agent::{Report, SetpointPercept, distance};
 use crate::safety::INSIDE_M;
 
 /// Stick input expires after this time. Key repeat is faster, so a held key keeps flying.
@@ -44,6 +46,8 @@ enum Mode {
         at: Duration,
         /// Where it wants the drone now.
         target: Pose,
+        /// The way there.
+        course: Course,
         /// The agent has stopped following, and waits for whoever sent the set-points.
         stopped: bool,
     },
@@ -103,6 +107,18 @@ impl Manual {
         })
     }
 
+    /// The way to the target of the set-points that are followed, if this is it. Its heading may differ.
+    pub(super) fn course(&self, to: &Pose) -> Option<&Course> {
+        match &self.mode {
+            Mode::Following { target, course, stopped: false, .. }
+                if distance(target, to) <= f64::EPSILON =>
+            {
+                Some(course)
+            }
+            _ => None,
+        }
+    }
+
     /// Whether a manual target is being flown to.
     pub(super) fn sends(&self) -> bool {
         matches!(self.mode, Mode::SentTo { .. })
@@ -132,10 +148,16 @@ impl Vehicle {
 
     /// Begins to follow set-points.
     pub(super) fn follow(&mut self, now: Duration, setpoint: Setpoint) {
-        let target = self.flight.target.unwrap_or_else(|| self.pose(now));
+        let state = self.state(now);
+        let target = self.flight.target.unwrap_or_else(|| pose(&state));
+        let course = match self.flight.manual.mode {
+            Mode::Following { course, stopped: false, .. } => course,
+            _ => course_of(&state),
+        };
         self.begin_manual(FlightEvent::FollowingSetpoints);
         self.flight.manual.pre_empts = true;
-        self.flight.manual.mode = Mode::Following { setpoint, at: now, target, stopped: false };
+        self.flight.manual.mode =
+            Mode::Following { setpoint, at: now, target, course, stopped: false };
         // Pre-empting goals are always accepted.
         let accepted = self.flight.agent.achieve_follow();
         debug_assert!(accepted);
@@ -151,12 +173,39 @@ impl Vehicle {
     }
 
     /// Moves the target of the set-points that are followed.
-    pub(super) fn advance_setpoint(&mut self, pose: &Pose, step_s: f64) {
-        let limits = self.config.limits;
-        if let Mode::Following { setpoint, target, stopped: false, .. } =
+    pub(super) fn advance_setpoint(&mut self, state: &Prediction, step_s: f64) {
+        let fence = self.config.limits;
+        let limits = self.course_limits();
+        // It hovered by itself, and may be elsewhere.
+        let flown = self.flight.target.is_some();
+        if let Mode::Following { setpoint, target, course, stopped: false, .. } =
             &mut self.flight.manual.mode
         {
-            *target = limits.nearest_inside(&setpoint.target(target, pose, step_s), INSIDE_M);
+            if !flown {
+                *course = course_of(state);
+            }
+            let pose = pose(state);
+            let radius_m = (fence.radius_m - INSIDE_M).max(0.0);
+            setpoint.advance(course, &pose, &limits, radius_m, step_s);
+            let wanted = setpoint.target(target, course, &pose, step_s);
+            *target = fence.nearest_inside(&wanted, INSIDE_M);
+        }
+    }
+
+    /// What the controller's own reference may use too.
+    fn course_limits(&self) -> CourseLimits {
+        let cascade = &self.config.cascade;
+        let (limit, full_m_s2) = (self.mission.max_control(), self.full_tilt_m_s2());
+        // Acceleration needed against the wind is not available.
+        let free_m_s2 = full_m_s2 * self.least_thrust() * (1.0 - self.wind().norm()).max(1.0 / 3.0);
+        let speed_m_s = cascade.speed_max_m_s * limit;
+        CourseLimits {
+            speed_m_s: self
+                .mission
+                .speed_m_s()
+                .map_or(speed_m_s, |most_m_s| most_m_s.min(speed_m_s)),
+            acceleration_m_s2: cascade.acceleration_share * free_m_s2 * limit,
+            jerk_m_s3: cascade.jerk_max_m_s3 * limit,
         }
     }
 
@@ -251,6 +300,11 @@ impl Vehicle {
         self.flight.manual.holds_mission = true;
         self.flight.manual.mode = Mode::None;
     }
+}
+
+/// A course that goes on as the drone moves.
+fn course_of(state: &Prediction) -> Course {
+    Course::new(state.position_m.xy(), state.velocity_m_s.xy())
 }
 
 #[cfg(test)]

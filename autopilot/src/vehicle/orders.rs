@@ -84,7 +84,8 @@ impl Place {
         Self { place_m: Some([x_m, y_m]), height_m: None, yaw_deg: None }
     }
 
-    fn is_finite(&self) -> bool {
+    /// Whether all its numbers are finite.
+    pub fn is_finite(&self) -> bool {
         let numbers = self.place_m.into_iter().flatten();
         numbers.chain(self.height_m).chain(self.yaw_deg).all(f64::is_finite)
     }
@@ -157,6 +158,25 @@ impl OperatorOrder {
         matches!(self, Self::Hold | Self::Land | Self::Cut)
     }
 
+    /// Whether the drone flies otherwise after it.
+    fn changes_the_flight(&self) -> bool {
+        match self {
+            Self::Take | Self::Release | Self::Present | Self::Camera(_) | Self::Recover => false,
+            Self::Load(_)
+            | Self::Append(_)
+            | Self::Clear
+            | Self::Start { .. }
+            | Self::Hold
+            | Self::Resume
+            | Self::Steer(_)
+            | Self::GoTo(_)
+            | Self::Follow(_)
+            | Self::Setpoint(_)
+            | Self::Land
+            | Self::Cut => true,
+        }
+    }
+
     /// Its name in logs and in JSON.
     pub fn name(&self) -> &'static str {
         match self {
@@ -194,7 +214,16 @@ impl Vehicle {
         order: OperatorOrder,
     ) -> Result<(), Refused> {
         self.admit(by, &order)?;
+        let flies = order.changes_the_flight();
+        let accepted = self.obey(now, by, order);
+        if accepted.is_ok() && flies {
+            self.controls.has_ordered(by);
+        }
         self.controls.heard(now, by);
+        accepted
+    }
+
+    fn obey(&mut self, now: Duration, by: Operator, order: OperatorOrder) -> Result<(), Refused> {
         match order {
             OperatorOrder::Load(plan) => return self.load(plan),
             OperatorOrder::Append(commands) => return self.append(now, commands),

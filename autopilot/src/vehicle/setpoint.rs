@@ -2,16 +2,17 @@
 
 use kinematics::{Pose, world_from_body, wrap_deg};
 use nalgebra::Vector2;
+use pid::{Course, CourseLimits};
 
-/// Fastest horizontal velocity that is followed, in m/s: that of the controller's default reference.
-const SPEED_MAX_M_S: f64 = 2.2;
 /// Fastest climb and descent, in m/s.
 const CLIMB_MAX_M_S: f64 = 0.75;
 /// Fastest turn, in degrees/s.
 const TURN_MAX_DEG_S: f64 = 60.0;
-/// The place that moves with a wanted velocity is never further from the drone than this, horizontally and vertically, in
-/// metres: a drone that cannot follow must not run after it later.
-const LEASH_M: f64 = 1.2;
+/// The place that moves as it is wanted is never further from the drone than this, in metres: a drone that cannot follow
+/// must not run after it later.
+const LEASH_M: f64 = 0.6;
+/// Likewise for its height.
+const CLIMB_LEASH_M: f64 = 1.2;
 /// Likewise for its heading, in degrees.
 const LEASH_DEG: f64 = 45.0;
 
@@ -74,7 +75,7 @@ pub enum Heading {
 
 impl Setpoint {
     /// Whether all its numbers are finite.
-    pub(super) fn is_finite(&self) -> bool {
+    pub fn is_finite(&self) -> bool {
         let horizontal = match self.horizontal {
             Horizontal::Place { x_m: x, y_m: y }
             | Horizontal::Velocity { x_m_s: x, y_m_s: y }
@@ -90,26 +91,42 @@ impl Setpoint {
         horizontal && vertical.is_finite() && heading
     }
 
-    /// The pose to be flown to after another `step_s`, if it was `target` and the drone is at `pose`.
-    pub(super) fn target(&self, target: &Pose, pose: &Pose, step_s: f64) -> Pose {
-        let moved = |velocity_m_s: Vector2<f64>| {
-            let place = Vector2::new(target.x_m, target.y_m)
-                + velocity_m_s.cap_magnitude(SPEED_MAX_M_S) * step_s;
-            let here = Vector2::new(pose.x_m, pose.y_m);
-            here + (place - here).cap_magnitude(LEASH_M)
-        };
-        let place = match self.horizontal {
-            Horizontal::Place { x_m, y_m } => Vector2::new(x_m, y_m),
-            Horizontal::Velocity { x_m_s, y_m_s } => moved(Vector2::new(x_m_s, y_m_s)),
-            Horizontal::BodyVelocity { right_m_s, forward_m_s } => {
-                moved(world_from_body(Vector2::new(right_m_s, forward_m_s), pose.yaw_deg))
+    /// Moves a course as this set-point wants, for `step_s`. The drone is at `pose`; the course stays within `radius_m` from
+    /// the origin.
+    pub(super) fn advance(
+        &self,
+        course: &mut Course,
+        pose: &Pose,
+        limits: &CourseLimits,
+        radius_m: f64,
+        step_s: f64,
+    ) {
+        let wanted_m_s = match self.horizontal {
+            Horizontal::Place { x_m, y_m } => {
+                course.velocity_to(&capped(Vector2::new(x_m, y_m), radius_m), limits)
             }
+            Horizontal::Velocity { x_m_s, y_m_s } => Vector2::new(x_m_s, y_m_s),
+            Horizontal::BodyVelocity { right_m_s, forward_m_s } => {
+                world_from_body(Vector2::new(right_m_s, forward_m_s), pose.yaw_deg)
+            }
+        };
+        let wanted_m_s = capped(wanted_m_s, limits.speed_m_s);
+        course.advance(kept_inside_m_s(wanted_m_s, course, limits, radius_m), limits, step_s);
+        let here_m = Vector2::new(pose.x_m, pose.y_m);
+        course.position_m = here_m + (course.position_m - here_m).cap_magnitude(LEASH_M);
+    }
+
+    /// The pose to be flown to after another `step_s`, if it was `target`, the course is there and the drone at `pose`.
+    pub(super) fn target(&self, target: &Pose, course: &Course, pose: &Pose, step_s: f64) -> Pose {
+        let place_m = match self.horizontal {
+            Horizontal::Place { x_m, y_m } => Vector2::new(x_m, y_m),
+            Horizontal::Velocity { .. } | Horizontal::BodyVelocity { .. } => course.position_m,
         };
         let z_m = match self.vertical {
             Vertical::Height(height_m) => height_m,
             Vertical::Climb(climb_m_s) => {
                 let moved = target.z_m + climb_m_s.clamp(-CLIMB_MAX_M_S, CLIMB_MAX_M_S) * step_s;
-                pose.z_m + (moved - pose.z_m).clamp(-LEASH_M, LEASH_M)
+                pose.z_m + (moved - pose.z_m).clamp(-CLIMB_LEASH_M, CLIMB_LEASH_M)
             }
         };
         let yaw_deg = match self.heading {
@@ -121,8 +138,28 @@ impl Setpoint {
                 pose.yaw_deg + ahead_deg.clamp(-LEASH_DEG, LEASH_DEG)
             }
         };
-        Pose { x_m: place.x, y_m: place.y, z_m, yaw_deg: wrap_deg(yaw_deg) }
+        Pose { x_m: place_m.x, y_m: place_m.y, z_m, yaw_deg: wrap_deg(yaw_deg) }
     }
+}
+
+/// A vector of at most this length. That of a huge one is not squared, which would be infinite.
+fn capped(vector: Vector2<f64>, most: f64) -> Vector2<f64> {
+    let length = vector.x.hypot(vector.y);
+    if length > most { vector * (most / length) } else { vector }
+}
+
+/// A wanted velocity from which the course can stop before it is `radius_m` from the origin.
+fn kept_inside_m_s(
+    wanted_m_s: Vector2<f64>,
+    course: &Course,
+    limits: &CourseLimits,
+    radius_m: f64,
+) -> Vector2<f64> {
+    let away_m = course.position_m.norm();
+    let Some(outward) = course.position_m.try_normalize(f64::EPSILON) else { return wanted_m_s };
+    let most_m_s = limits.speed_before_stop_m_s(radius_m - away_m);
+    let too_fast_m_s = (wanted_m_s.dot(&outward) - most_m_s).max(0.0);
+    wanted_m_s - outward * too_fast_m_s
 }
 
 #[cfg(test)]
@@ -141,15 +178,61 @@ mod tests {
         assert!(off + (pose.yaw_deg - yaw_deg).abs() < 1e-9, "{pose:?}");
     }
 
+    const LIMITS: CourseLimits =
+        CourseLimits { speed_m_s: 2.0, acceleration_m_s2: 1.5, jerk_m_s3: 14.0 };
+    const STEP_S: f64 = 0.03;
+
+    fn at_rest() -> Course {
+        Course::new(Vector2::new(HERE.x_m, HERE.y_m), Vector2::zeros())
+    }
+
+    /// The course and the target after a time, flown by a drone that is always on its course.
+    fn flown(setpoint: &Setpoint, seconds: f64, radius_m: f64) -> (Course, Pose) {
+        let (mut course, mut target, mut pose) = (at_rest(), HERE, HERE);
+        let mut time_s = 0.0;
+        while time_s < seconds {
+            setpoint.advance(&mut course, &pose, &LIMITS, radius_m, STEP_S);
+            target = setpoint.target(&target, &course, &pose, STEP_S);
+            let (x_m, y_m) = (course.position_m.x, course.position_m.y);
+            pose = Pose { x_m, y_m, ..pose };
+            time_s += STEP_S;
+        }
+        (course, target)
+    }
+
     #[test]
-    fn a_place_is_flown_to_and_a_velocity_moves_the_place() {
+    fn a_place_is_flown_to_and_a_velocity_is_flown() {
         let there = setpoint(Horizontal::Place { x_m: -3.0, y_m: 4.0 });
-        assert_pose(&there.target(&HERE, &HERE, 0.03), [-3.0, 4.0, 1.0, 90.0]);
-        let right = setpoint(Horizontal::Velocity { x_m_s: 1.0, y_m_s: 0.0 });
-        assert_pose(&right.target(&HERE, &HERE, 0.1), [1.1, 2.0, 1.0, 90.0]);
+        let (course, target) = flown(&there, 10.0, 9.0);
+        assert_pose(&target, [-3.0, 4.0, 1.0, 90.0]);
+        assert!((course.position_m - Vector2::new(-3.0, 4.0)).norm() < 0.02, "{course:?}");
         // The drone looks to the right.
-        let forward = setpoint(Horizontal::BodyVelocity { right_m_s: 0.0, forward_m_s: 1.0 });
-        assert_pose(&forward.target(&HERE, &HERE, 0.1), [1.1, 2.0, 1.0, 90.0]);
+        for horizontal in [
+            Horizontal::Velocity { x_m_s: 1.0, y_m_s: 0.0 },
+            Horizontal::BodyVelocity { right_m_s: 0.0, forward_m_s: 1.0 },
+        ] {
+            let (course, target) = flown(&setpoint(horizontal), 3.0, 9.0);
+            assert!((course.velocity_m_s - Vector2::new(1.0, 0.0)).norm() < 0.01, "{course:?}");
+            assert!((target.x_m - 3.6).abs() < 0.3 && (target.y_m - 2.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn no_velocity_and_no_place_leads_outside() {
+        for horizontal in [
+            Horizontal::Velocity { x_m_s: 2.0, y_m_s: 1.0 },
+            Horizontal::Velocity { x_m_s: 1e300, y_m_s: -1e300 },
+            Horizontal::Place { x_m: -1e300, y_m: 1e300 },
+        ] {
+            let mut furthest_m: f64 = 0.0;
+            let (mut course, mut pose) = (at_rest(), HERE);
+            for _ in 0..600 {
+                setpoint(horizontal).advance(&mut course, &pose, &LIMITS, 4.0, STEP_S);
+                pose = Pose { x_m: course.position_m.x, y_m: course.position_m.y, ..pose };
+                furthest_m = furthest_m.max(course.position_m.norm());
+            }
+            assert!((3.9..4.05).contains(&furthest_m), "{horizontal:?}: {furthest_m:.2} m");
+        }
     }
 
     #[test]
@@ -157,21 +240,23 @@ mod tests {
         let still = Horizontal::Velocity { x_m_s: 0.0, y_m_s: 0.0 };
         let (vertical, heading) = (Vertical::Height(1.5), Heading::Yaw(-170.0));
         let there = Setpoint { horizontal: still, vertical, heading };
-        assert_pose(&there.target(&HERE, &HERE, 0.1), [1.0, 2.0, 1.5, -170.0]);
+        assert_pose(&there.target(&HERE, &at_rest(), &HERE, 0.1), [1.0, 2.0, 1.5, -170.0]);
         let (vertical, heading) = (Vertical::Climb(-0.5), Heading::Turn(20.0));
         let moves = Setpoint { horizontal: still, vertical, heading };
-        assert_pose(&moves.target(&HERE, &HERE, 0.1), [1.0, 2.0, 0.95, 92.0]);
+        assert_pose(&moves.target(&HERE, &at_rest(), &HERE, 0.1), [1.0, 2.0, 0.95, 92.0]);
     }
 
     #[test]
     fn a_drone_that_does_not_follow_is_not_left_behind() {
-        let far = Pose { x_m: 50.0, z_m: 9.0, yaw_deg: -90.0, ..HERE };
+        let far = Pose { z_m: 9.0, yaw_deg: -90.0, ..HERE };
         let (vertical, heading) = (Vertical::Climb(99.0), Heading::Turn(999.0));
         let horizontal = Horizontal::Velocity { x_m_s: 99.0, y_m_s: 0.0 };
         let moves = Setpoint { horizontal, vertical, heading };
-        let target = moves.target(&far, &HERE, 0.03);
-        assert_pose(&target, [1.0 + LEASH_M, 2.0, 1.0 + LEASH_M, 45.0]);
-        let target = moves.target(&HERE, &HERE, 1.0);
+        let mut course = Course::new(Vector2::new(50.0, 2.0), Vector2::zeros());
+        moves.advance(&mut course, &HERE, &LIMITS, 99.0, STEP_S);
+        let target = moves.target(&far, &course, &HERE, STEP_S);
+        assert_pose(&target, [1.0 + LEASH_M, 2.0, 1.0 + CLIMB_LEASH_M, 45.0]);
+        let target = moves.target(&HERE, &course, &HERE, 1.0);
         assert_pose(&target, [1.0 + LEASH_M, 2.0, 1.0 + CLIMB_MAX_M_S, 135.0]);
     }
 

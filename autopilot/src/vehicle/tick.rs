@@ -45,7 +45,7 @@ impl Vehicle {
         let state = if self.config.law.predicts() { prediction } else { self.measured_state() };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
         let tags = self.flight.estimator.tag_status(now);
-        self.advance_setpoint(&pose(&state), step_s);
+        self.advance_setpoint(&state, step_s);
         let percepts = self.percepts(now, &state, tags.as_ref());
         let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, percepts);
         self.flight.manual.pre_empts = false;
@@ -191,7 +191,7 @@ impl Vehicle {
         GRAVITY_M_S2 * self.config.estimator.limits.tilt_rad.tan()
     }
 
-    fn least_thrust(&self) -> f64 {
+    pub(super) fn least_thrust(&self) -> f64 {
         self.flight.estimator.airframe().thrust_gain.amin()
     }
 

@@ -190,7 +190,7 @@ impl MavlinkVehicle {
             }
             MavCmdNumber::DO_REPOSITION => self.reposition(now, station, asked),
             MavCmdNumber::DO_PAUSE_CONTINUE => match asked.number::<u8>(1) {
-                Some(0) => by_order(self, OperatorOrder::Hold),
+                Some(0) => self.change_mode(now, station, asked.command, Some(Mode::Hold)),
                 Some(1) if self.is_flying() => by_order(self, OperatorOrder::Resume),
                 Some(1) => NOT_NOW,
                 _ => DENIED,
@@ -210,6 +210,7 @@ impl MavlinkVehicle {
             }
             MavCmdNumber::DO_FLIGHTTERMINATION => {
                 if asked.parameter(1).is_some_and(|value| value > 0.5) {
+                    self.pending = None;
                     by_order(self, OperatorOrder::Cut)
                 } else {
                     DENIED
@@ -266,7 +267,7 @@ impl MavlinkVehicle {
         if self.is_flying() {
             return if self.mode() == Mode::TakeOff { ACCEPTED } else { NOT_NOW };
         }
-        if self.is_others(station) && self.armed_until.is_some() {
+        if self.is_others(station) && self.armed.is_some() {
             return NOT_NOW;
         }
         // QGroundControl asks PX4 by height above the sea; the others above the start.
@@ -305,10 +306,14 @@ impl MavlinkVehicle {
     ) -> End {
         let Some(mode) = mode else { return DENIED };
         let flies = self.is_flying();
+        if matches!(mode, Mode::Hold | Mode::Land) {
+            // Whoever orders so does not expect that a take-off follows.
+            self.pending = None;
+        }
         let (after, order) = match mode {
             Mode::Hold if !flies => return ACCEPTED,
             Mode::Hold => (After::Nothing, OperatorOrder::Hold),
-            Mode::Land if !flies && self.armed_until.is_none() => return ACCEPTED,
+            Mode::Land if !flies && self.armed.is_none() => return ACCEPTED,
             Mode::Land => (After::Nothing, OperatorOrder::Land),
             Mode::TakeOff if flies => {
                 return if self.mode() == Mode::TakeOff { ACCEPTED } else { NOT_NOW };
@@ -327,6 +332,7 @@ impl MavlinkVehicle {
                 self.fly_home(now, station, command);
                 return End::Later;
             }
+            Mode::Position | Mode::Offboard if self.is_others(station) => return NOT_NOW,
             Mode::Position | Mode::Offboard => {
                 let by = station.operator();
                 let (last, after, whose) = match mode {
@@ -356,7 +362,7 @@ impl MavlinkVehicle {
             return DENIED;
         }
         if !self.is_flying() {
-            if self.is_others(station) && self.armed_until.is_some() {
+            if self.is_others(station) && self.armed.is_some() {
                 return NOT_NOW;
             }
             self.when_armed(now, station, command, Then::Mission);

@@ -91,14 +91,16 @@ pub struct MavlinkVehicle {
     progress: Progress,
     /// The item with which the mission begins next time.
     first_item: u16,
+    /// The item of the mission that the vehicle flew last, as long as it has it.
+    item: Option<u16>,
     /// The item that was reported as reached last.
     reached: Option<u16>,
     awaited: ArrayVec<Awaited, 16>,
     /// When the vehicle was last told that the station with the controls is there.
     presence: Option<Duration>,
     next_ticket: u32,
-    /// Until when the vehicle is armed on the ground.
-    armed_until: Option<Duration>,
+    /// Until when the vehicle is armed on the ground, and by whom.
+    armed: Option<(Duration, Operator)>,
     /// What will be done when it is armed.
     pending: Option<Pending>,
     /// The last set-point, whose it was and when it came.
@@ -141,11 +143,12 @@ impl MavlinkVehicle {
             handed: None,
             progress: Progress::Other,
             first_item: 0,
+            item: None,
             reached: None,
             awaited: ArrayVec::new(),
             presence: None,
             next_ticket: 0,
-            armed_until: None,
+            armed: None,
             pending: None,
             setpoint: None,
             follows: None,
@@ -245,8 +248,14 @@ impl MavlinkVehicle {
         let flew = self.is_flying();
         self.status = Some((now, *status));
         let flies = self.is_flying();
+        let handed = self.handed.as_ref().filter(|_| self.progress == Progress::Ours);
+        if let Some(item) =
+            handed.zip(status.step).and_then(|(handed, step)| handed.items.get(step))
+        {
+            self.item = Some(*item);
+        }
         if flies {
-            self.armed_until = None;
+            self.armed = None;
             self.pending = None;
             self.emergency = false;
         } else if flew {
@@ -271,6 +280,11 @@ impl MavlinkVehicle {
         use autopilot::vehicle::LandingReason;
         match event {
             FlightEvent::StepStarted { .. } => return,
+            // Whoever takes the controls does not expect that another's take-off follows.
+            FlightEvent::ControlsTaken { .. } => {
+                self.pending = None;
+                self.armed = None;
+            }
             FlightEvent::StepDone { step } => return self.step_done(*step),
             FlightEvent::LandingOrdered(LandingReason::Operator) => {}
             FlightEvent::LandingOrdered(_) | FlightEvent::LinkLost => self.failsafe = true,
@@ -300,7 +314,7 @@ impl MavlinkVehicle {
     }
 
     fn is_armed(&self) -> bool {
-        self.is_flying() || self.armed_until.is_some()
+        self.is_flying() || self.armed.is_some()
     }
 
     fn mode(&self) -> Mode {

@@ -7,7 +7,7 @@ use autopilot::vehicle::{Operator, OperatorOrder, Refused, Station as Kind};
 
 use super::modes::Purpose;
 use super::stations::{GONE_AFTER, Station};
-use super::{Handed, MavlinkVehicle, ORDERS, Progress, Ticket, To};
+use super::{Handed, Joystick, MavlinkVehicle, ORDERS, Progress, Ticket, To};
 use crate::dialect::{
     COMMAND_ACK_DATA, MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity,
 };
@@ -182,7 +182,7 @@ impl MavlinkVehicle {
             After::ByHand => (self.follows, self.by_hand) = (None, Some(by)),
             After::Follows => (self.follows, self.by_hand) = (Some(by), None),
             After::Armed => {
-                self.armed_until = Some(now + ARMED_TIME);
+                self.armed = Some((now + ARMED_TIME, by));
                 self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("armed by {by}"));
                 if let Some(pending) = self.pending.take() {
                     self.do_then(now, pending.station, None, pending.then);
@@ -193,7 +193,7 @@ impl MavlinkVehicle {
 
     /// Does it now if armed, or when arming follows soon.
     pub(super) fn when_armed(&mut self, now: Duration, station: Station, command: u16, then: Then) {
-        if self.armed_until.is_some() {
+        if self.armed.is_some() {
             self.do_then(now, station, Some(command), then);
             return;
         }
@@ -275,6 +275,7 @@ impl MavlinkVehicle {
             }
         };
         let lines = text.lines().map(str::to_owned).collect();
+        self.item = None;
         self.handed = Some(Handed { purpose, lines, items, id: self.transfer.id() });
         self.progress = Progress::Other;
         let clear = airborne.then_some(OperatorOrder::Clear);
@@ -283,10 +284,15 @@ impl MavlinkVehicle {
     }
 
     pub(super) fn disarm(&mut self) {
-        self.armed_until = None;
+        // The vehicle's status may not say yet that this one has the controls.
+        let armed = self.armed.take();
         self.pending = None;
         self.by_hand = None;
-        self.release();
+        self.joystick = Joystick::default();
+        match armed {
+            Some((_, by)) => self.release_of(by),
+            None => self.release(),
+        }
     }
 
     /// Whoever has the controls by `MAVLink` gives them back.
@@ -294,11 +300,15 @@ impl MavlinkVehicle {
         if let Some(holder) = self.present().and_then(|status| status.controls)
             && holder.station == Kind::Mavlink
         {
-            self.order_quietly(holder, OperatorOrder::Release);
-            // Known before the next status says so.
-            if let Some((_, status)) = &mut self.status {
-                status.controls = None;
-            }
+            self.release_of(holder);
+        }
+    }
+
+    fn release_of(&mut self, holder: Operator) {
+        self.order_quietly(holder, OperatorOrder::Release);
+        // Known before the next status says so.
+        if let Some((_, status)) = &mut self.status {
+            status.controls = status.controls.filter(|controls| *controls != holder);
         }
     }
 
@@ -322,7 +332,7 @@ impl MavlinkVehicle {
             self.pending = None;
             self.warn(format_args!("not armed in time: the take-off is given up"));
         }
-        if self.armed_until.is_some_and(|until| now >= until) {
+        if self.armed.is_some_and(|(until, _)| now >= until) {
             self.warn(format_args!("disarmed: no take-off followed"));
             self.disarm();
         }

@@ -10,7 +10,7 @@ use super::modes::Mode;
 use super::parameters::NotSet;
 use super::setpoints::{NoSetpoint, global, local};
 use super::stations::Station;
-use super::{COMPONENT, MavlinkVehicle, SYSTEM, To};
+use super::{COMPONENT, Joystick, MavlinkVehicle, SYSTEM, To};
 use crate::dialect::{
     MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA,
     MISSION_REQUEST_INT_DATA, MavCmd, MavMessage, MavModeFlag, MavParamError, MavResult,
@@ -22,6 +22,8 @@ use crate::place::Origin;
 
 /// A set-point that is older is none.
 pub(super) const SETPOINT_TIME: Duration = Duration::from_millis(500);
+/// Sticks that have been silent for so long must be seen in the middle again.
+const STICKS_TIME: Duration = Duration::from_secs(1);
 /// Set-points that come faster than the vehicle decides are passed on no faster than this.
 const SETPOINT_EVERY: Duration = Duration::from_millis(20);
 /// Set-points that are refused are told no more often than this.
@@ -116,6 +118,9 @@ impl MavlinkVehicle {
                 let by = station.operator();
                 if self.config.view_only || self.by_hand.is_some_and(|whose| whose != by) {
                     return;
+                }
+                if self.sticks.is_none_or(|(at, _, _)| now.saturating_sub(at) >= STICKS_TIME) {
+                    self.joystick = Joystick::default();
                 }
                 let setpoint = self.joystick.setpoint(data);
                 self.sticks = Some((now, by, setpoint));
@@ -325,6 +330,8 @@ impl MavlinkVehicle {
             Event::Accepted | Event::Cleared => {
                 self.first_item = 0;
                 self.reached = None;
+                // What waits was ordered for another.
+                self.pending = None;
                 let count = self.transfer.items().len();
                 self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("mission of {count} items"));
                 self.answer_request(To::All, 42, 0);

@@ -577,7 +577,8 @@ impl View<'_> {
             handed.purpose == Purpose::Mission && handed.id == vehicle.transfer.id()
         });
         let flown = handed.filter(|_| vehicle.progress != Progress::Other);
-        let step = self.status.step.and_then(|step| flown?.items.get(step).copied());
+        // Between two steps, and while it is paused there, it is the one before.
+        let step = flown.and(vehicle.item);
         let complete = flown.is_some() && vehicle.progress == Progress::Complete;
         let last = u16::try_from(total.saturating_sub(1)).unwrap_or_default();
         let state = if total == 0 {

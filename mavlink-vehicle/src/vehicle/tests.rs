@@ -449,3 +449,33 @@ fn nothing_is_told_of_a_vehicle_without_news() {
     let last = bench.sent.iter().filter(|(_, message)| message.message_id() == 0).count();
     assert!(last <= 3, "{last} heartbeats in 10 s without news");
 }
+
+#[test]
+fn a_take_off_that_waits_is_given_up_by_what_is_ordered_after_it() {
+    let hold = [1.0, 4.0, 3.0, NAN, NAN, NAN, NAN];
+    for (command, p) in [(21, NOTHING), (176, hold), (193, first(0.0)), (185, first(1.0))] {
+        let mut bench = Bench::new(Config::default());
+        bench.accepts(22, NOTHING);
+        bench.client = Encoder::new(255, 190);
+        bench.accepts(command, p);
+        bench.orders.clear();
+        bench.accepts(400, first(1.0));
+        assert_eq!(bench.ordered(), ["take"], "{command}");
+    }
+    let mut bench = Bench::new(Config::default());
+    bench.accepts(22, NOTHING);
+    let taken = FlightEvent::ControlsTaken { by: Operator::TERMINAL };
+    bench.vehicle.handle(bench.now, Input::Event(&taken));
+    bench.accepts(400, first(1.0));
+    assert_eq!(bench.ordered(), ["take"]);
+    bench.vehicle.handle(bench.now, Input::Event(&taken));
+    assert!(!bench.is_armed());
+}
+
+#[test]
+fn disarmed_at_once_it_has_given_the_controls_back() {
+    let mut bench = Bench::new(Config::default());
+    bench.accepts(400, first(1.0));
+    bench.accepts(400, first(0.0));
+    assert_eq!(bench.ordered(), ["take", "release"]);
+}
