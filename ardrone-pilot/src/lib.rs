@@ -7,7 +7,7 @@
 //!   plan.
 //! - [`video`] passes on what the camera sees.
 //! - [`drive`] runs the vehicle in simulated time with a simulated drone; [`simulation`] flies a plan so.
-//! - [`browser`] shows the flight in a browser, [`cli`] in the terminal.
+//! - [`browser`] shows the flight in a browser, [`cli`] in the terminal, [`mavlink`] to ground stations and programs of others.
 //! - [`settings`] reads `pilot.toml`.
 #![forbid(unsafe_code)]
 #![expect(
@@ -25,6 +25,7 @@ pub mod flight;
 mod flights;
 mod flown_path;
 mod json;
+pub mod mavlink;
 pub mod plan_drawing;
 pub mod realtime;
 pub mod recording;

@@ -74,12 +74,12 @@ pub(crate) fn check(
 ) -> Result<Vec<(Promise, Verdict)>, SpinError> {
     let folder = tempfile::tempdir().map_err(SpinError::Write)?;
     let folder = folder.path();
-    prepare(model, folder)?;
+    prepare(model, folder, Compiler::for_searches(numbers.len()))?;
     let searched = in_parallel(numbers, |number| run(model, folder, number, &IN_DEPTH, DEPTH));
     let searched = searched.into_iter().map(|said| Ok(result(&said?)));
     let searched = searched.collect::<Result<Vec<Found>, SpinError>>()?;
     if searched.iter().any(|found| matches!(found, Found::Failure)) {
-        compile(folder, &IN_BREADTH)?;
+        compile(folder, &IN_BREADTH, Compiler::Fast)?;
     }
     let verdicts = numbers.iter().zip(searched);
     verdicts
@@ -102,24 +102,46 @@ pub(crate) fn check(
 pub(crate) fn is_refuted(model: &Model, number: usize) -> Result<bool, SpinError> {
     let folder = tempfile::tempdir().map_err(SpinError::Write)?;
     let folder = folder.path();
-    prepare(model, folder)?;
+    prepare(model, folder, Compiler::Fast)?;
     Ok(matches!(result(&run(model, folder, number, &IN_DEPTH, DEPTH)?), Found::Failure))
 }
 
 /// Writes and compiles a model's search in depth.
-fn prepare(model: &Model, folder: &Path) -> Result<(), SpinError> {
+fn prepare(model: &Model, folder: &Path, compiler: Compiler) -> Result<(), SpinError> {
     std::fs::write(folder.join("model.pml"), model.promela()).map_err(SpinError::Write)?;
     let mut spin = Command::new(SPIN);
     succeed(SPIN, spin.args(["-a", "model.pml"]).current_dir(folder))?;
-    compile(folder, &IN_DEPTH)
+    compile(folder, &IN_DEPTH, compiler)
 }
 
-fn compile(folder: &Path, search: &Search) -> Result<(), SpinError> {
+fn compile(folder: &Path, search: &Search, compiler: Compiler) -> Result<(), SpinError> {
     let memory = format!("-DMEMLIM={MEGABYTES}");
-    let mut compiler = Command::new("cc");
-    // Optimizing takes longer than most searches.
-    compiler.args(["-O0", "-w", "-DSAFETY", &memory]).args(search.options);
-    succeed("cc", compiler.args(["-o", search.program, "pan.c"]).current_dir(folder))
+    let mut program = Command::new("cc");
+    program.args([compiler.option(), "-w", "-DSAFETY", &memory]).args(search.options);
+    succeed("cc", program.args(["-o", search.program, "pan.c"]).current_dir(folder))
+}
+
+/// What is saved: time of the compiler, or of the searches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Compiler {
+    /// Optimising takes longer than most searches.
+    Fast,
+    /// .. but not longer than many.
+    Optimising,
+}
+
+impl Compiler {
+    fn for_searches(count: usize) -> Self {
+        const MANY: usize = 8;
+        if count > MANY { Self::Optimising } else { Self::Fast }
+    }
+
+    fn option(self) -> &'static str {
+        match self {
+            Self::Fast => "-O0",
+            Self::Optimising => "-O2",
+        }
+    }
 }
 
 /// Checks one property. Each has its own folder, in which the counterexample is stored.

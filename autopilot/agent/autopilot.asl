@@ -82,6 +82,12 @@ searchFrom(0.0, 0.0, 0.0).
 descendingFor(0).
 setpointAge(0).
 stationSilentFor(0).
+wind(0.0).
+
+// How orders are flown until they say so themselves.
+reachDistance(0.2).
+stayDistance(0.5).
+stayTime(2000).
 
 !wait.
 

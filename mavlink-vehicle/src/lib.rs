@@ -18,6 +18,9 @@ mod frame;
 pub mod mission;
 pub mod place;
 mod signing;
+#[allow(deprecated, reason = "clients of all ages are answered")]
+mod vehicle;
 
 pub use frame::{Buffer, Encoder, Frame, FrameError, LONGEST_FRAME, Version, frames};
 pub use signing::{Key, KeyError, Refusal, Signature, Signing};
+pub use vehicle::{Autopilot, Config, Input, MavlinkVehicle, Output, Ticket, To};

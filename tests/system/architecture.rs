@@ -29,7 +29,17 @@ const MAY_USE: [(&str, &[&str]); 13] = [
             "pid",
         ],
     ),
-    ("system-tests", &["ardrone-link", "ardrone-pilot", "autopilot", "kinematics", "mock-drone"]),
+    (
+        "system-tests",
+        &[
+            "ardrone-link",
+            "ardrone-pilot",
+            "autopilot",
+            "kinematics",
+            "mavlink-vehicle",
+            "mock-drone",
+        ],
+    ),
     ("xtask", &["asl2c", "autopilot", "kinematics", "mock-drone", "system-tests", "translator"]),
 ];
 

@@ -15,6 +15,7 @@ mod estimate;
 mod faults;
 mod ground_station;
 mod lateness;
+mod mavlink;
 mod parting;
 mod plans;
 mod ports;

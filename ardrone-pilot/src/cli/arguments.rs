@@ -10,6 +10,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use super::mavlink::MavlinkArguments;
 use crate::settings::GivenTag;
 
 const EXIT_STATUS: &str = "\
@@ -44,7 +45,7 @@ Keys, in a terminal:
 /// With --plan it flies that plan and exits. Without, it connects, reports whether the drone could take off,
 /// and takes orders:
 /// typed in a terminal behind `:`, as lines or (with --json) JSON objects on standard input, or from a
-/// browser.
+/// browser, or over MAVLink from ground stations and programs of others.
 ///
 /// Without a drone, add --mock: a simulated one is started and flown over the same protocol.
 #[derive(Debug, Parser)]
@@ -195,6 +196,8 @@ pub(super) struct Fly {
     /// Folder of the plans that the page opens and saves
     #[arg(long, value_name = "FOLDER", default_value = "plans", requires = "ui")]
     pub(super) plans: PathBuf,
+    #[command(flatten)]
+    pub(super) mavlink: MavlinkArguments,
     /// Print how regular the ticks were and what they cost
     #[arg(long)]
     pub(super) timing: bool,

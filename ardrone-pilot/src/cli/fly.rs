@@ -7,12 +7,14 @@ use std::time::Duration;
 use ardrone_link::DroneAddress;
 use autopilot::plan::{FlightLimits, Plan, Step, TagUse, given_tag_warnings};
 use autopilot::vehicle::{SurveyedTag, VehicleConfig};
+use crossbeam_channel::bounded;
 use mock_drone::server::{MockDrone, Ports};
 use serde_json::Value;
 use time::UtcDateTime;
 
 use super::arguments::Fly;
 use super::keys::{self, Keys};
+use super::mavlink::Wanted;
 use super::program::{self, AtEnd, Lines};
 use super::progress::Progress;
 use super::prompt::PromptLine;
@@ -22,6 +24,7 @@ use super::{CommandError, leave, read, read_settings, terminal};
 use crate::browser::{Browser, Listener, PageConfig, Planning};
 use crate::flight::{Controls, Flight, Message};
 use crate::json;
+use crate::mavlink::{self, MavlinkServer};
 use crate::recording::{Header, Recorder, Recording};
 use crate::settings::Settings;
 use crate::simulation;
@@ -30,6 +33,8 @@ use crate::video::Video;
 
 /// Folder of the recordings unless another one is given.
 const FLIGHTS: &str = "flights";
+/// Messages that may wait to be printed.
+const UNSHOWN: usize = 256;
 
 /// Flies the plan, or stays and takes orders; returns the exit status.
 pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandError> {
@@ -41,16 +46,10 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         settings.use_tags(&arguments.tag)?;
     }
     let config = settings.pilot_config(arguments.z_origin());
+    let mavlink = arguments.mavlink.wanted(&config)?;
     let surveyed = settings.surveyed_tags();
-    let plan = arguments.plan.as_deref().map(|path| {
-        // The same text is recorded and flown.
-        let text = read("the plan", path)?;
-        // The note below is enough if they are not in use.
-        let tags = surveyed.as_deref().map_or(TagUse::Unknown, TagUse::On);
-        let name = path.display().to_string();
-        Ok::<_, CommandError>(Plan::parse_with_tags(&name, &text, &config.limits, tags)?)
-    });
-    let plan = plan.transpose()?;
+    let plan = arguments.plan.as_deref();
+    let plan = plan.map(|path| read_plan(path, surveyed.as_deref(), &config.limits)).transpose()?;
     let plain = arguments.plain || !std::io::stderr().is_terminal();
     let prompt = PromptLine::default();
     let mut progress = Progress::new(prompt.clone(), plain);
@@ -66,9 +65,15 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     let drone = drone_address(arguments, mock.as_ref());
     progress.print_line(&beginning(plan.as_ref(), mock.is_some(), &drone));
     let listener = arguments.ui.map(Listener::bind).transpose()?;
-    let url = listener.as_ref().map(|listener| format!("watch it at {}", listener.url()));
-    if let Some(url) = &url {
-        progress.print_line(url);
+    let mavlink = mavlink.map(Station::bind).transpose()?;
+    let mut stations: Vec<String> =
+        listener.iter().map(|listener| format!("watch it at {}", listener.url())).collect();
+    stations.extend(mavlink.as_ref().map(|station| station.wanted.to_string()));
+    for line in &stations {
+        progress.print_line(line);
+    }
+    if let Some(warning) = mavlink.as_ref().and_then(|station| station.wanted.warning) {
+        progress.warn(warning);
     }
     let (recorder, recording) = match record(arguments, &settings, plan.as_ref())? {
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
@@ -93,24 +98,24 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         progress.warn(&terminal::Causes(&error).to_string());
         None
     });
+    let mavlink = mavlink.and_then(|station| station.open(&controls, &mut progress));
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
     let screen = || Screen::start(&config.limits, warnings, prompt.clone());
-    let mut watch = Watch::new(progress, wanted.then(screen).flatten(), url.as_deref());
+    let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
     let keys = Keys::start(controls.clone(), config.limits, prompt);
     if keys.is_some() {
         watch.print_line(keys::HELP);
     } else if let Err(error) = read_orders(arguments, config.limits, controls.clone()) {
         watch.warn(&format!("no orders can be read: {error}"));
     }
-    let mut outputs =
-        Outputs { arguments, steps: Vec::new(), mock, browser, recording, truths: Vec::new() };
-    for message in flight.messages() {
-        outputs.send(&message, &mut watch);
-    }
-    drop(keys);
+    let (steps, truths) = (Vec::new(), Vec::new());
+    let mut outputs = Outputs { arguments, steps, mock, browser, recording, truths };
+    let unshown = pass_on(&flight, mavlink.as_ref(), |message| outputs.send(&message, &mut watch));
+    drop((keys, mavlink));
     watch.end();
     let stays = arguments.plan.is_none();
-    let finished = flight.finish()?;
+    let mut finished = flight.finish()?;
+    finished.dropped_messages += unshown;
     let status = match finished.outcome.exit_status() {
         _ if stays && controls.has_quit() && finished.is_down => 0,
         status => status,
@@ -136,6 +141,18 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
         terminal::print(TimingReport(&finished.ticks));
     }
     Ok(status)
+}
+
+/// The same text is recorded and flown.
+fn read_plan(
+    path: &Path,
+    surveyed: Option<&[SurveyedTag]>,
+    limits: &FlightLimits,
+) -> Result<Plan, CommandError> {
+    let text = read("the plan", path)?;
+    // A note is enough if they are not in use.
+    let tags = surveyed.map_or(TagUse::Unknown, TagUse::On);
+    Ok(Plan::parse_with_tags(&path.display().to_string(), &text, limits, tags)?)
 }
 
 /// What is unwise in a plan and in the tags that are given; `None` if tags are not in use.
@@ -170,9 +187,57 @@ fn read_orders(arguments: &Fly, limits: FlightLimits, controls: Controls) -> std
         // With a plan, standard input is ignored.
         (false, true) => return Ok(()),
     };
-    let elsewhere = arguments.plan.is_some() || arguments.ui.is_some();
+    let elsewhere =
+        arguments.plan.is_some() || arguments.ui.is_some() || arguments.mavlink.is_given();
     let at_end = if elsewhere { AtEnd::GoOn } else { AtEnd::Quit };
     program::read_orders(lines, at_end, limits, controls)
+}
+
+/// MAVLink before the flight.
+struct Station {
+    wanted: Wanted,
+    listener: mavlink::Listener,
+}
+
+impl Station {
+    fn bind(wanted: Wanted) -> Result<Self, CommandError> {
+        let listener = mavlink::Listener::bind(wanted.remotes.clone())?;
+        Ok(Self { wanted, listener })
+    }
+
+    fn open(self, controls: &Controls, progress: &mut Progress) -> Option<MavlinkServer> {
+        let opened = self.listener.open(self.wanted.config, controls.clone());
+        // Not fatal, because the drone may already be flying.
+        opened.map_err(|error| progress.warn(&terminal::Causes(&error).to_string())).ok()
+    }
+}
+
+/// Passes on the flight's messages until its end; returns how many were not shown because they came too fast.
+///
+/// Output that nobody takes holds up the thread that prints it. MAVLink's clients hear of the flight nevertheless: they are told
+/// by another one.
+fn pass_on(flight: &Flight, mavlink: Option<&MavlinkServer>, mut show: impl FnMut(Message)) -> u64 {
+    let Some(mavlink) = mavlink else {
+        flight.messages().for_each(show);
+        return 0;
+    };
+    let (sender, messages) = bounded(UNSHOWN);
+    let tell = move || {
+        let told = flight.messages().inspect(|message| mavlink.show(message));
+        told.map(|message| u64::from(sender.try_send(message).is_err())).sum()
+    };
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().name("messages".to_owned());
+        if let Ok(thread) = thread.spawn_scoped(scope, tell) {
+            messages.iter().for_each(show);
+            return thread.join().unwrap_or(0);
+        }
+        for message in flight.messages() {
+            mavlink.show(&message);
+            show(message);
+        }
+        0
+    })
 }
 
 /// Distributes the flight's messages to all displays.
@@ -219,11 +284,11 @@ enum Watch {
 }
 
 impl Watch {
-    /// A screen covers what was printed before: the page's address is repeated.
-    fn new(progress: Progress, screen: Option<Screen>, url: Option<&str>) -> Self {
+    /// A screen covers what was printed before: where the flight can be watched is repeated.
+    fn new(progress: Progress, screen: Option<Screen>, stations: &[String]) -> Self {
         let Some(mut screen) = screen else { return Self::Lines(progress) };
-        if let Some(url) = url {
-            screen.print_line(url);
+        for line in stations {
+            screen.print_line(line);
         }
         Self::Screen(Box::new(screen))
     }

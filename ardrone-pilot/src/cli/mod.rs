@@ -5,6 +5,7 @@ mod check;
 mod fly;
 mod keys;
 mod leave;
+mod mavlink;
 mod program;
 mod progress;
 mod prompt;
@@ -23,9 +24,11 @@ use clap_complete::Shell;
 use mock_drone::server::ServerError;
 
 use self::arguments::{Arguments, Command};
+use self::mavlink::MavlinkArgumentError;
 use self::screen::Warnings;
 use crate::browser::BrowserError;
 use crate::flight::FlightError;
+use crate::mavlink::MavlinkError;
 use crate::plan_drawing::PlanDrawingError;
 use crate::recording::{self, LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
@@ -65,6 +68,10 @@ enum CommandError {
     #[error(transparent)]
     Browser(#[from] BrowserError),
     #[error(transparent)]
+    MavlinkArguments(#[from] MavlinkArgumentError),
+    #[error(transparent)]
+    Mavlink(#[from] MavlinkError),
+    #[error(transparent)]
     Flight(#[from] FlightError),
 }
 
@@ -78,6 +85,7 @@ impl CommandError {
             | Self::Video(ExportError::Log(_) | ExportError::NoVideo)
             | Self::Replay(_) => 20,
             Self::Video(ExportError::Format { .. }) => 2,
+            Self::MavlinkArguments(error) => error.exit_status(),
             Self::Flight(FlightError::Address { .. }) => 10,
             Self::Mock(_)
             | Self::Flight(_)
@@ -88,6 +96,7 @@ impl CommandError {
             | Self::Report(_)
             | Self::Recording(_)
             | Self::Browser(_)
+            | Self::Mavlink(_)
             | Self::Write { .. } => 1,
         }
     }

@@ -14,8 +14,6 @@ use crate::safety::INSIDE_M;
 const STICK_TIME: Duration = Duration::from_millis(600);
 /// Stick input from a page, which repeats it every 100 ms and knows when a key is released.
 const PAGE_STICK_TIME: Duration = Duration::from_millis(250);
-/// Stick input by `MAVLink`, which repeats it several times a second (`mavlink.md` of PX4: lost after 0.5 s).
-const MAVLINK_STICK_TIME: Duration = Duration::from_millis(500);
 
 /// Manual control of the current flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -143,8 +141,7 @@ impl Vehicle {
         }
         let lasts = match by.station {
             Station::Browser => PAGE_STICK_TIME,
-            Station::Mavlink => MAVLINK_STICK_TIME,
-            Station::Terminal | Station::Program => STICK_TIME,
+            Station::Terminal | Station::Program | Station::Mavlink => STICK_TIME,
         };
         self.flight.manual.mode = Mode::Steered { sticks, until: now + lasts };
     }

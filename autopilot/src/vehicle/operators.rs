@@ -85,7 +85,9 @@ impl fmt::Display for Operator {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Controls {
     holder: Option<Operator>,
-    /// When the holder was last heard.
+    /// Who gave the last order by which the drone flies: while nobody has the controls, it flies on for that one.
+    flies_for: Option<Operator>,
+    /// When the holder, or that one, was last heard.
     heard: Duration,
 }
 
@@ -96,14 +98,20 @@ impl Controls {
 
     /// An operator was heard.
     pub(super) fn heard(&mut self, now: Duration, by: Operator) {
-        if self.holder == Some(by) {
+        if self.holder.or(self.flies_for) == Some(by) {
             self.heard = now;
         }
     }
 
-    /// For how long a holder who must be heard has not been; zero for any other.
+    /// An operator has ordered what the drone does from now on.
+    pub(super) fn has_ordered(&mut self, by: Operator) {
+        self.flies_for = Some(by);
+    }
+
+    /// For how long has nobody been heard who has the controls, or for whom the drone flies, and must be heard; zero for any
+    /// other. Who takes the controls and only gives them back has ordered nothing.
     pub(super) fn silence(self, now: Duration) -> Duration {
-        match self.holder {
+        match self.holder.or(self.flies_for) {
             Some(holder) if holder.station.must_be_heard() => now.saturating_sub(self.heard),
             _ => Duration::ZERO,
         }
@@ -172,6 +180,26 @@ mod tests {
         controls.admit_any(PAGE);
         controls.admit_any(Operator::PROGRAM);
         assert_eq!(controls.holder(), Some(Operator::TERMINAL));
+    }
+
+    #[test]
+    fn a_drone_flies_on_for_whoever_ordered_it_last() {
+        let second = Duration::from_secs;
+        let mut controls = Controls::default();
+        assert_eq!(controls.admit(STATION), Ok(()));
+        controls.has_ordered(STATION);
+        controls.heard(second(1), STATION);
+        assert_eq!(controls.silence(second(5)), second(4));
+        // Somebody is there who need not be heard, and leaves it alone again.
+        assert_eq!(controls.admit(Operator::TERMINAL), Ok(()));
+        controls.heard(second(6), STATION);
+        assert_eq!(controls.silence(second(7)), Duration::ZERO);
+        controls.release(Operator::TERMINAL);
+        assert_eq!(controls.silence(second(8)), second(7));
+        controls.heard(second(8), STATION);
+        assert_eq!(controls.silence(second(9)), second(1));
+        controls.has_ordered(Operator::TERMINAL);
+        assert_eq!(controls.silence(second(9)), Duration::ZERO);
     }
 
     #[test]

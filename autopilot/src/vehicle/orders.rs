@@ -158,6 +158,25 @@ impl OperatorOrder {
         matches!(self, Self::Hold | Self::Land | Self::Cut)
     }
 
+    /// Whether the drone flies otherwise after it.
+    fn changes_the_flight(&self) -> bool {
+        match self {
+            Self::Take | Self::Release | Self::Present | Self::Camera(_) | Self::Recover => false,
+            Self::Load(_)
+            | Self::Append(_)
+            | Self::Clear
+            | Self::Start { .. }
+            | Self::Hold
+            | Self::Resume
+            | Self::Steer(_)
+            | Self::GoTo(_)
+            | Self::Follow(_)
+            | Self::Setpoint(_)
+            | Self::Land
+            | Self::Cut => true,
+        }
+    }
+
     /// Its name in logs and in JSON.
     pub fn name(&self) -> &'static str {
         match self {
@@ -195,7 +214,16 @@ impl Vehicle {
         order: OperatorOrder,
     ) -> Result<(), Refused> {
         self.admit(by, &order)?;
+        let flies = order.changes_the_flight();
+        let accepted = self.obey(now, by, order);
+        if accepted.is_ok() && flies {
+            self.controls.has_ordered(by);
+        }
         self.controls.heard(now, by);
+        accepted
+    }
+
+    fn obey(&mut self, now: Duration, by: Operator, order: OperatorOrder) -> Result<(), Refused> {
         match order {
             OperatorOrder::Load(plan) => return self.load(plan),
             OperatorOrder::Append(commands) => return self.append(now, commands),
@@ -220,8 +248,8 @@ impl Vehicle {
             }
             OperatorOrder::Recover => return self.recover(now),
             OperatorOrder::Camera(camera) => return self.show_camera(now, by, camera),
-            // They have been taken already.
-            OperatorOrder::Take => {}
+            // They have been taken already; whoever is there was heard.
+            OperatorOrder::Take | OperatorOrder::Present => {}
             OperatorOrder::Release => self.controls.release(by),
             // Before the drone has left the ground a hold keeps it there.
             OperatorOrder::Hold if self.is_about_to_fly() => {
@@ -249,7 +277,6 @@ impl Vehicle {
             OperatorOrder::GoTo(_) | OperatorOrder::Follow(_) | OperatorOrder::Setpoint(_) => {
                 return Err(Refused::NoPlace);
             }
-            OperatorOrder::Present => {}
             OperatorOrder::Resume => return self.resume(now),
         }
         Ok(())

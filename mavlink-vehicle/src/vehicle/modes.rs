@@ -111,8 +111,19 @@ pub(crate) enum Purpose {
     Return,
 }
 
-/// The mode of a vehicle in this state; `by_hand` if somebody has chosen to fly it so and is still there.
-pub(crate) fn mode(status: &Status, purpose: Purpose, by_hand: bool) -> Mode {
+/// What the vehicle's status does not say.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Doing {
+    /// Of the mission that it has.
+    pub(crate) purpose: Purpose,
+    /// Its set-points are those of sticks.
+    pub(crate) by_hand: bool,
+    /// Its mission is not at its end, even if it is between two steps.
+    pub(crate) goes_on: bool,
+}
+
+/// The mode of a vehicle.
+pub(crate) fn mode(status: &Status, doing: Doing) -> Mode {
     match status.phase {
         Phase::Landing => return Mode::Land,
         Phase::Flying => {}
@@ -120,16 +131,16 @@ pub(crate) fn mode(status: &Status, purpose: Purpose, by_hand: bool) -> Mode {
     }
     match status.manual {
         Some(ManualControl::Sticks) => return Mode::Position,
+        Some(ManualControl::Setpoints) if doing.by_hand => return Mode::Position,
         Some(ManualControl::Setpoints) => return Mode::Offboard,
-        Some(ManualControl::Hold) if by_hand => return Mode::Position,
         Some(ManualControl::Hold | ManualControl::Target) => return Mode::Hold,
         None => {}
     }
     match status.command {
         Some("Land") => Mode::Land,
         Some("TakeOff") => Mode::TakeOff,
-        _ if status.step.is_none() => Mode::Hold,
-        _ => match purpose {
+        _ if status.step.is_none() && !doing.goes_on => Mode::Hold,
+        _ => match doing.purpose {
             Purpose::Mission => Mode::Mission,
             Purpose::TakeOff => Mode::TakeOff,
             Purpose::Return => Mode::Return,

@@ -1,7 +1,7 @@
-//! Set-points (`SET_POSITION_TARGET_*`) and stick positions (`MANUAL_CONTROL`) in our frame.
+//! Set-points (`SET_POSITION_TARGET_*`) in our frame, and those that sticks ask for (`MANUAL_CONTROL`).
 
 use autopilot::vehicle::{Heading, Horizontal, Setpoint, Vertical};
-use kinematics::{Pose, Sticks, world_from_body};
+use kinematics::{Pose, world_from_body};
 use nalgebra::Vector2;
 
 use crate::dialect::{
@@ -188,10 +188,14 @@ fn level_velocity(origin: &Origin, north_m_s: f64, east_m_s: f64) -> Horizontal 
     Horizontal::Velocity { x_m_s: velocity.x_m_s, y_m_s: velocity.y_m_s }
 }
 
+/// What full sticks mean: in m/s along the ground and up, and in degrees/s.
+const FULL_SPEED_M_S: f64 = 1.5;
+const FULL_CLIMB_M_S: f64 = 0.5;
+const FULL_TURN_DEG_S: f64 = 60.0;
 /// Thousandths of the sticks: full, and around the neutral position of the throttle.
 const FULL: f64 = 1000.0;
 const NEUTRAL: f64 = 500.0;
-/// Share of the throttle's way around neutral that means: keep the height.
+/// Share of a stick's way around neutral that means: nothing.
 const DEAD_ZONE: f64 = 0.1;
 
 /// The sticks of one who flies by hand. The throttle counts only after it was seen in the middle with all others at rest: a
@@ -202,8 +206,8 @@ pub(crate) struct Joystick {
 }
 
 impl Joystick {
-    /// Stick positions; axes that are absent (`INT16_MAX`) are at rest.
-    pub(crate) fn sticks(&mut self, data: &MANUAL_CONTROL_DATA) -> Sticks {
+    /// The velocity that the sticks ask for; axes that are absent (`INT16_MAX`) are at rest.
+    pub(crate) fn setpoint(&mut self, data: &MANUAL_CONTROL_DATA) -> Setpoint {
         let axis = |value: i16| {
             let value = if value == i16::MAX { 0.0 } else { f64::from(value) };
             (value / FULL).clamp(-1.0, 1.0)
@@ -214,10 +218,22 @@ impl Joystick {
         let rests = [forward, right, turn].into_iter().all(|stick| stick.abs() <= DEAD_ZONE);
         // 400 to 600.
         self.centred |= rests && up.abs() <= 2.0 * DEAD_ZONE;
-        let beyond = (up.abs() - DEAD_ZONE).max(0.0) / (1.0 - DEAD_ZONE);
-        let gaz = if self.centred { beyond.copysign(up) } else { 0.0 };
-        Sticks { roll: right, pitch: -forward, gaz, yaw: turn }
+        let up = if self.centred { up } else { 0.0 };
+        let [forward, right, turn, up] = [forward, right, turn, up].map(beyond_dead_zone);
+        Setpoint {
+            horizontal: Horizontal::BodyVelocity {
+                right_m_s: right * FULL_SPEED_M_S,
+                forward_m_s: forward * FULL_SPEED_M_S,
+            },
+            vertical: Vertical::Climb(up * FULL_CLIMB_M_S),
+            heading: Heading::Turn(turn * FULL_TURN_DEG_S),
+        }
     }
+}
+
+fn beyond_dead_zone(stick: f64) -> f64 {
+    let beyond = (stick.abs() - DEAD_ZONE).max(0.0) / (1.0 - DEAD_ZONE);
+    if stick < 0.0 { -beyond } else { beyond }
 }
 
 #[cfg(test)]
@@ -271,11 +287,11 @@ mod tests {
 
     #[test]
     fn velocities_are_north_east_down_or_seen_from_the_drone() {
-        let found = local(&data(1, 0b0111_1100_0111), &NORTH, None).unwrap();
+        let found = local(&data(1, 0b0101_1100_0111), &NORTH, None).unwrap();
         assert_eq!(found.horizontal, Horizontal::Velocity { x_m_s: 0.25, y_m_s: 0.5 });
         assert_eq!(found.vertical, Vertical::Climb(0.125));
         assert!(matches!(found.heading, Heading::Turn(turn) if (turn - 57.2958).abs() < 1e-3));
-        let found = local(&data(8, 0b0111_1100_0111), &NORTH, None).unwrap();
+        let found = local(&data(8, 0b0101_1100_0111), &NORTH, None).unwrap();
         let seen = Horizontal::BodyVelocity { right_m_s: 0.25, forward_m_s: 0.5 };
         assert_eq!(found.horizontal, seen);
         assert_eq!(local(&data(8, 2552), &NORTH, None), Err(NoSetpoint::Frame(8)));
@@ -312,17 +328,36 @@ mod tests {
     }
 
     #[test]
-    fn a_throttle_counts_once_it_was_in_the_middle() {
+    fn sticks_are_velocities() {
         let mut joystick = Joystick::default();
         let stick = |x, y, z, r| MANUAL_CONTROL_DATA { x, y, z, r, ..Default::default() };
-        let sticks = joystick.sticks(&stick(500, -250, 0, 1000));
-        assert_eq!(sticks, Sticks { roll: -0.25, pitch: -0.5, gaz: 0.0, yaw: 1.0 });
-        assert_eq!(joystick.sticks(&stick(0, 0, 500, 0)).gaz, 0.0);
-        assert_eq!(joystick.sticks(&stick(0, 0, 0, 0)).gaz, -1.0);
-        assert_eq!(joystick.sticks(&stick(0, 0, 1000, 0)).gaz, 1.0);
-        assert_eq!(joystick.sticks(&stick(0, 0, 540, 0)).gaz, 0.0);
-        let absent = joystick.sticks(&stick(i16::MAX, i16::MAX, i16::MAX, i16::MAX));
-        assert_eq!(absent.gaz + absent.roll + absent.pitch + absent.yaw, 0.0);
-        assert_eq!(joystick.sticks(&stick(i16::MIN, 0, 500, 0)).pitch, 1.0);
+        let found = joystick.setpoint(&stick(1000, -550, 500, 1000));
+        let Horizontal::BodyVelocity { right_m_s, forward_m_s } = found.horizontal else {
+            panic!("{found:?}")
+        };
+        assert!((forward_m_s - 1.5).abs() < 1e-9 && (right_m_s + 0.75).abs() < 1e-9, "{found:?}");
+        assert_eq!(found.heading, Heading::Turn(60.0));
+        let absent = joystick.setpoint(&stick(i16::MAX, i16::MAX, i16::MAX, i16::MAX));
+        let still = Horizontal::BodyVelocity { right_m_s: 0.0, forward_m_s: 0.0 };
+        assert_eq!((absent.horizontal, absent.vertical), (still, Vertical::Climb(0.0)));
+        let beyond = joystick.setpoint(&stick(i16::MIN, 0, i16::MIN, 0));
+        let back = Horizontal::BodyVelocity { right_m_s: 0.0, forward_m_s: -1.5 };
+        assert_eq!(beyond.horizontal, back);
+    }
+
+    #[test]
+    fn a_throttle_counts_once_it_was_in_the_middle() {
+        let mut joystick = Joystick::default();
+        let mut climb = |x, z| {
+            let data = MANUAL_CONTROL_DATA { x, z, ..Default::default() };
+            joystick.setpoint(&data).vertical
+        };
+        assert_eq!(climb(500, 0), Vertical::Climb(0.0));
+        assert_eq!(climb(500, 500), Vertical::Climb(0.0));
+        assert_eq!(climb(0, 1000), Vertical::Climb(0.0));
+        assert_eq!(climb(0, 500), Vertical::Climb(0.0));
+        assert_eq!(climb(0, 0), Vertical::Climb(-0.5));
+        assert_eq!(climb(0, 1000), Vertical::Climb(0.5));
+        assert_eq!(climb(0, 540), Vertical::Climb(0.0));
     }
 }

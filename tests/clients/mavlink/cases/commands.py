@@ -235,6 +235,9 @@ def asks_impossible_things(station):
 def changes_modes_three_ways(station):
     expect(set_mode(station, flying.OFFBOARD), DENIED, TEMPORARILY_REJECTED, what="off-board without a stream")
     expect(station.command(flying.SET_MODE, 1, 6), DENIED, TEMPORARILY_REJECTED, what="ArduCopter's RTL")
+    expect(set_mode(station, flying.BY_HAND), DENIED, TEMPORARILY_REJECTED, what="by hand without sticks")
+    station.repeat["stick"] = (0.04, lambda: station.send("MANUAL_CONTROL", 1, 0, 0, 500, 0, 0))
+    station.hear(0.3)
     asked_s = time.monotonic()
     expect_accepted(set_mode(station, flying.BY_HAND), "by hand")
     flying.wait_mode(station, flying.BY_HAND, 1, asked_s)
@@ -248,6 +251,7 @@ def changes_modes_three_ways(station):
     asked_s = time.monotonic()
     expect_accepted(station.command(193, 0), "pause")
     flying.wait_mode(station, HOLD, 1, asked_s)
+    station.repeat.pop("stick")
 
 
 def test_landing_is_never_taken_back(station):

@@ -188,7 +188,8 @@ def test_a_bad_item_is_refused_by_its_number(station):
     for item, wanted in (
         (point(30, 0, 1.0), invalid), (point(0, -30, 1.0), invalid), (point(0.5, 0.5, 9.0), invalid),
         (point(0.5, 0.5, 0.05), invalid), (point(0.5, 0.5, -2), invalid), (point(0.5, 0.5, math.inf), invalid),
-        (Item(plans.WAYPOINT, 3, largest, largest, 1.0), invalid), (Item(plans.WAYPOINT, 3, -largest, largest, 1.0), invalid),
+        # Both would mean: where it is.
+        (Item(plans.WAYPOINT, 3, largest, 0, 1.0), invalid), (Item(plans.WAYPOINT, 3, -largest, largest, 1.0), invalid),
         (Item(plans.WAYPOINT, 10, *near_by, 1.0), (plans.UNSUPPORTED_FRAME,)),
         (Item(plans.WAYPOINT, 99, *near_by, 1.0), (plans.UNSUPPORTED_FRAME,)),
         (Item(201, 3, *near_by, 1.0), (plans.UNSUPPORTED,)), (Item(60_000, 3, *near_by, 1.0), (plans.UNSUPPORTED,)),

@@ -1,0 +1,281 @@
+//! The thread that speaks MAVLink.
+
+use std::io;
+use std::net::SocketAddr;
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use autopilot::vehicle::{Operator, OperatorOrder, Refused};
+use crossbeam_channel::{Receiver, Sender, bounded};
+use mavlink_vehicle::{Config, Input, MavlinkVehicle, Output, Signing, Ticket, To, frames};
+use time::UtcDateTime;
+use tokio::net::UdpSocket;
+use tokio::sync::oneshot;
+use tokio::time::MissedTickBehavior;
+
+use super::News;
+use super::peers::Peers;
+use crate::flight::Controls;
+
+/// Time between the vehicle's ticks.
+const TICK: Duration = Duration::from_millis(20);
+/// Longest datagram that is read as a whole.
+const LONGEST_DATAGRAM: usize = 4096;
+/// Most datagrams of peers that are handled in a tick; more wait in the system's buffer.
+const HANDLED_PER_TICK: u32 = 64;
+/// Most datagrams of others that are looked at.
+const STRANGERS_PER_TICK: u32 = 16;
+/// Most datagrams that are read at all: a flood from one port is read and dropped, so that it does not displace others.
+const READ_PER_TICK: u32 = 512;
+/// Answers that may wait: as many orders as wait for a tick, and as many as it is handling. Others are answered at once.
+const ANSWERS: usize = 256;
+/// Most outputs in a row.
+const OUTPUTS: u32 = 1024;
+
+type Answer = (Ticket, Result<(), Refused>);
+
+/// The thread, which ends when this is dropped.
+#[derive(Debug)]
+pub(super) struct Server {
+    end: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<Lost>>,
+}
+
+impl Server {
+    pub(super) fn start(
+        socket: std::net::UdpSocket,
+        remotes: &[SocketAddr],
+        mut config: Config,
+        controls: Controls,
+        news: Receiver<News>,
+    ) -> io::Result<Self> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let socket = {
+            let _inside = runtime.enter();
+            UdpSocket::from_std(socket)?
+        };
+        let unix_time = UtcDateTime::now() - UtcDateTime::UNIX_EPOCH;
+        config.unix_time = unix_time.try_into().unwrap_or_default();
+        let (answering, answers) = bounded(ANSWERS);
+        let exchange = Exchange {
+            judge: config.key.clone().map(|key| Signing::new(key, 0, config.unix_time, 0)),
+            only_here: remotes.iter().all(|remote| remote.ip().is_loopback()),
+            vehicle: MavlinkVehicle::new(config),
+            socket,
+            peers: Peers::new(remotes),
+            controls,
+            news,
+            answers,
+            answering,
+            start: Instant::now(),
+            intake: Intake::default(),
+            lost: Lost::default(),
+        };
+        let (end, ended) = oneshot::channel();
+        let thread = std::thread::Builder::new()
+            .name("mavlink".to_owned())
+            .spawn(move || runtime.block_on(exchange.run(ended)))?;
+        Ok(Self { end: Some(end), thread: Some(thread) })
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        if let Some(end) = self.end.take() {
+            // The thread may have ended already.
+            _ = end.send(());
+        }
+        match self.thread.take().map(JoinHandle::join) {
+            // The thread itself must not wait for anybody to read this.
+            Some(Ok(Lost { dropped, unsent })) => {
+                if dropped > 0 {
+                    tracing::warn!("MAVLink: too many datagrams came; {dropped} were dropped");
+                }
+                if unsent > 0 {
+                    tracing::warn!("MAVLink: the system refused to send {unsent} datagrams");
+                }
+            }
+            Some(Err(_)) => tracing::error!("the thread of MAVLink panicked"),
+            None => {}
+        }
+    }
+}
+
+/// Datagrams that were lost here.
+#[derive(Debug, Clone, Copy, Default)]
+struct Lost {
+    /// Not handled, because there were too many.
+    dropped: u64,
+    /// Not sent.
+    unsent: u64,
+}
+
+/// What was taken in since the last tick.
+#[derive(Debug, Clone, Copy, Default)]
+struct Intake {
+    read: u32,
+    handled: u32,
+    strangers: u32,
+}
+
+impl Intake {
+    fn has_room(&self) -> bool {
+        self.read < READ_PER_TICK && self.handled < HANDLED_PER_TICK
+    }
+}
+
+/// The vehicle between its socket and the flight.
+struct Exchange {
+    vehicle: MavlinkVehicle,
+    socket: UdpSocket,
+    peers: Peers,
+    /// With a key, only who signs becomes a peer.
+    judge: Option<Signing>,
+    /// Whether nobody but this machine is to be heard.
+    only_here: bool,
+    controls: Controls,
+    news: Receiver<News>,
+    answers: Receiver<Answer>,
+    /// The other end, for those who answer.
+    answering: Sender<Answer>,
+    start: Instant,
+    intake: Intake,
+    lost: Lost,
+}
+
+impl Exchange {
+    async fn run(mut self, mut ended: oneshot::Receiver<()>) -> Lost {
+        let mut ticks = tokio::time::interval(TICK);
+        ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        let mut buffer = vec![0; LONGEST_DATAGRAM];
+        loop {
+            tokio::select! {
+                // In this order: no flood holds up a tick.
+                biased;
+                _ = &mut ended => break,
+                _ = ticks.tick() => self.tick(),
+                received = self.socket.recv_from(&mut buffer), if self.intake.has_room() => {
+                    self.intake.read += 1;
+                    // An error is that of an earlier datagram, to somebody who does not listen.
+                    if let Ok((length, from)) = received {
+                        self.receive(from, buffer.get(..length).unwrap_or_default());
+                    }
+                }
+            }
+        }
+        // The last news.
+        self.tick();
+        self.lost
+    }
+
+    fn now(&self) -> Duration {
+        self.start.elapsed()
+    }
+
+    fn tick(&mut self) {
+        let now = self.now();
+        self.intake = Intake::default();
+        self.peers.tick();
+        while let Some(gone) = self.peers.forget(now) {
+            self.vehicle.handle(now, Input::PeerGone(gone));
+        }
+        for news in self.news.try_iter().take(super::BEHIND) {
+            let input = match &news {
+                News::Status(status) => Input::Status(status),
+                News::Event(event) => Input::Event(event),
+                News::Readiness(reasons) => Input::Readiness(reasons),
+                News::Mission(steps) => Input::Mission(steps),
+            };
+            self.vehicle.handle(now, input);
+        }
+        self.take_answers(now);
+        self.vehicle.tick(now);
+        self.put_out(now);
+    }
+
+    fn receive(&mut self, from: SocketAddr, bytes: &[u8]) {
+        let local = from.ip().is_loopback();
+        if self.only_here && !local {
+            return;
+        }
+        let now = self.now();
+        let Some(peer) = self.peer(now, from, bytes) else { return };
+        self.intake.handled += 1;
+        self.vehicle.handle(now, Input::Datagram { peer, local, bytes });
+        self.put_out(now);
+    }
+
+    /// The number of the peer from which this datagram came, if it is to be handled.
+    fn peer(&mut self, now: Duration, from: SocketAddr, bytes: &[u8]) -> Option<u8> {
+        if let Some(peer) = self.peers.number(from) {
+            if self.peers.hear(now, peer) {
+                return Some(peer);
+            }
+            self.lost.dropped += 1;
+            return None;
+        }
+        if self.intake.strangers >= STRANGERS_PER_TICK {
+            self.lost.dropped += 1;
+            return None;
+        }
+        self.intake.strangers += 1;
+        let judge = &mut self.judge;
+        let is_good = |signature| match (judge.as_mut(), signature) {
+            (None, _) => true,
+            (Some(judge), Some(signature)) => judge.verify(&signature, now).is_ok(),
+            (Some(_), None) => false,
+        };
+        let speaks = self.peers.has_room()
+            && frames(bytes).flatten().map(|frame| frame.signature).any(is_good);
+        if speaks { self.peers.learn(now, from) } else { None }
+    }
+
+    /// Sends and orders what the vehicle wants.
+    fn put_out(&mut self, now: Duration) {
+        for _ in 0..OUTPUTS {
+            match self.vehicle.poll(now) {
+                Some(Output::Datagram { to: To::All, bytes }) => {
+                    for address in self.peers.addresses() {
+                        self.lost.unsent += send(&self.socket, bytes, address);
+                    }
+                }
+                Some(Output::Datagram { to: To::Peer(peer), bytes }) => {
+                    // One that has been forgotten meanwhile needs no answer.
+                    if let Some(address) = self.peers.address(peer) {
+                        self.lost.unsent += send(&self.socket, bytes, address);
+                    }
+                }
+                Some(Output::Order { ticket, by, order }) => self.give(now, ticket, by, order),
+                None => return,
+            }
+        }
+    }
+
+    fn give(&mut self, now: Duration, ticket: Ticket, by: Operator, order: OperatorOrder) {
+        let answering = self.answering.clone();
+        let given = self.controls.order_answered(by, order, move |answer| {
+            // There is room.
+            _ = answering.try_send((ticket, answer));
+        });
+        if let Err(refused) = given {
+            self.vehicle.handle(now, Input::Answer { ticket, answer: Err(refused) });
+        }
+        // Some orders are answered at once.
+        self.take_answers(now);
+    }
+
+    fn take_answers(&mut self, now: Duration) {
+        for (ticket, answer) in self.answers.try_iter() {
+            self.vehicle.handle(now, Input::Answer { ticket, answer });
+        }
+    }
+}
+
+/// Returns 1 if the system does not send it: it is lost as others are on the way.
+fn send(socket: &UdpSocket, bytes: &[u8], address: SocketAddr) -> u64 {
+    match socket.try_send_to(bytes, address) {
+        // Of an earlier one: nobody listens there yet.
+        Err(error) if error.kind() != io::ErrorKind::ConnectionRefused => 1,
+        _ => 0,
+    }
+}

@@ -1,0 +1,540 @@
+//! `COMMAND_LONG`, `COMMAND_INT` and changes of mode.
+
+use std::time::Duration;
+
+use autopilot::vehicle::{OperatorOrder, Place};
+
+use super::modes::{Mode, Purpose};
+use super::orders::{After, Then};
+use super::parameters::TAKE_OFF_HEIGHT;
+use super::stations::Station;
+use super::{Autopilot, MavlinkVehicle, Progress, To};
+use crate::dialect::{COMMAND_INT_DATA, COMMAND_LONG_DATA, MavCmd, MavMessage, MavResult};
+use crate::place::ABSENT;
+
+/// The number with which a disarming cuts the motors in flight.
+const MAGIC_CUT: f32 = 21196.0;
+/// `MAV_FRAME_GLOBAL` and `MAV_FRAME_GLOBAL_RELATIVE_ALT`.
+const GLOBAL: u8 = 0;
+const GLOBAL_RELATIVE: u8 = 3;
+
+/// A command of either kind.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked {
+    pub(super) command: u16,
+    /// The first four parameters; NaN means "as usual".
+    p: [f32; 4],
+    /// Fifth and sixth as integers of the frame.
+    x: i32,
+    y: i32,
+    z: f32,
+    /// The frame; nothing in a `COMMAND_LONG`.
+    frame: Option<u8>,
+}
+
+impl Asked {
+    pub(super) fn long(data: &COMMAND_LONG_DATA) -> Self {
+        // Degrees as floats, of which nobody should expect much.
+        #[allow(clippy::cast_possible_truncation, reason = "a cast saturates")]
+        let degrees = |value: f32| {
+            if value.is_finite() { (f64::from(value) * 1e7).round() as i32 } else { ABSENT }
+        };
+        Self {
+            command: data.command,
+            p: [data.param1, data.param2, data.param3, data.param4],
+            x: degrees(data.param5),
+            y: degrees(data.param6),
+            z: data.param7,
+            frame: None,
+        }
+    }
+
+    pub(super) fn int(data: &COMMAND_INT_DATA) -> Self {
+        Self {
+            command: data.command,
+            p: [data.param1, data.param2, data.param3, data.param4],
+            x: data.x,
+            y: data.y,
+            z: data.z,
+            frame: Some(data.frame),
+        }
+    }
+
+    /// A parameter, from 1; nothing if it is not a number.
+    fn parameter(&self, number: usize) -> Option<f32> {
+        self.p.get(number - 1).copied().filter(|value| value.is_finite())
+    }
+
+    /// A parameter that stands for a small number, exactly.
+    fn number<T: TryFrom<i64>>(&self, number: usize) -> Option<T> {
+        let value = self.parameter(number)?;
+        #[allow(clippy::cast_possible_truncation, reason = "a cast saturates, and is compared")]
+        let integer = value as i64;
+        #[allow(clippy::float_cmp, reason = "exactly: half a mode is none")]
+        let exact = integer as f32 == value;
+        if exact { T::try_from(integer).ok() } else { None }
+    }
+}
+
+/// How a command ends.
+pub(super) enum End {
+    /// At once.
+    Now(MavResult),
+    /// Once the vehicle has answered, or it was acknowledged already.
+    Later,
+}
+
+const ACCEPTED: End = End::Now(MavResult::MAV_RESULT_ACCEPTED);
+const DENIED: End = End::Now(MavResult::MAV_RESULT_DENIED);
+const NOT_NOW: End = End::Now(MavResult::MAV_RESULT_TEMPORARILY_REJECTED);
+const UNSUPPORTED: End = End::Now(MavResult::MAV_RESULT_UNSUPPORTED);
+
+impl MavlinkVehicle {
+    pub(super) fn command(&mut self, now: Duration, station: Station, asked: &Asked) {
+        let end = match self.question(station, asked) {
+            Some(end) => end,
+            None if self.config.view_only && is_known(asked.command) => {
+                self.warn(format_args!("view only: no orders are taken by MAVLink"));
+                DENIED
+            }
+            None => self.commanded(now, station, asked),
+        };
+        if let End::Now(result) = end {
+            self.acknowledge(station, asked.command, result);
+        }
+    }
+
+    /// Commands that only ask for something.
+    fn question(&mut self, station: Station, asked: &Asked) -> Option<End> {
+        let to = To::Peer(station.peer);
+        Some(match MavCmdNumber(asked.command) {
+            MavCmdNumber::REQUEST_MESSAGE => {
+                let Some(id) = asked.number::<u32>(1) else { return Some(DENIED) };
+                let parameter = asked.number::<u8>(2).unwrap_or(0);
+                // The acknowledgement comes first.
+                let sent = self.messages.len();
+                let found = self.answer_request(to, id, parameter);
+                let result = if found {
+                    MavResult::MAV_RESULT_ACCEPTED
+                } else {
+                    MavResult::MAV_RESULT_UNSUPPORTED
+                };
+                self.acknowledge(station, asked.command, result);
+                if let Some(acknowledgement) = self.messages.pop_back() {
+                    let place = sent.min(self.messages.len());
+                    self.messages.insert(place, acknowledgement);
+                }
+                End::Later
+            }
+            MavCmdNumber::SET_MESSAGE_INTERVAL => {
+                let Some(id) = asked.number::<u32>(1) else { return Some(DENIED) };
+                let Some(interval_us) = asked.number::<i32>(2) else { return Some(DENIED) };
+                if self.schedule.set(id, interval_us) { ACCEPTED } else { UNSUPPORTED }
+            }
+            MavCmdNumber::GET_MESSAGE_INTERVAL => {
+                let Some(id) = asked.number::<u16>(1) else { return Some(DENIED) };
+                self.send(to, self.schedule.interval(id));
+                ACCEPTED
+            }
+            MavCmdNumber::REQUEST_AUTOPILOT_CAPABILITIES => {
+                self.answer_request(to, 148, 0);
+                ACCEPTED
+            }
+            MavCmdNumber::REQUEST_PROTOCOL_VERSION => {
+                self.answer_request(to, 300, 0);
+                ACCEPTED
+            }
+            MavCmdNumber::GET_HOME_POSITION => {
+                self.answer_request(to, 242, 0);
+                ACCEPTED
+            }
+            MavCmdNumber::RUN_PREARM_CHECKS => {
+                self.answer_request(to, 1, 0);
+                if self.is_flying() { NOT_NOW } else { ACCEPTED }
+            }
+            _ => return None,
+        })
+    }
+
+    fn commanded(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
+        let by_order = |this: &mut Self, order| {
+            this.order(now, station, Some(asked.command), After::Nothing, [order]);
+            End::Later
+        };
+        match MavCmdNumber(asked.command) {
+            MavCmdNumber::COMPONENT_ARM_DISARM => self.arm_or_disarm(now, station, asked),
+            MavCmdNumber::NAV_TAKEOFF | MavCmdNumber::NAV_TAKEOFF_LOCAL => {
+                self.asked_to_take_off(now, station, asked)
+            }
+            MavCmdNumber::NAV_LAND | MavCmdNumber::NAV_LAND_LOCAL | MavCmdNumber::DO_LAND_START => {
+                self.change_mode(now, station, asked.command, Some(Mode::Land))
+            }
+            MavCmdNumber::NAV_RETURN_TO_LAUNCH => {
+                self.change_mode(now, station, asked.command, Some(Mode::Return))
+            }
+            MavCmdNumber::DO_SET_MODE => {
+                let mode = match asked.number::<u32>(2) {
+                    // MAVProxy and pymavlink send the whole number.
+                    Some(custom @ 256..) => Mode::from_custom(custom),
+                    Some(main) => {
+                        let sub = asked.number::<u8>(3).unwrap_or(0);
+                        u8::try_from(main).ok().and_then(|main| Mode::from_parts(main, sub))
+                    }
+                    None => None,
+                };
+                self.change_mode(now, station, asked.command, mode)
+            }
+            MavCmdNumber::DO_SET_STANDARD_MODE => {
+                let mode = asked.number::<u8>(1).and_then(Mode::from_standard);
+                self.change_mode(now, station, asked.command, mode)
+            }
+            MavCmdNumber::DO_REPOSITION => self.reposition(now, station, asked),
+            MavCmdNumber::DO_PAUSE_CONTINUE => match asked.number::<u8>(1) {
+                Some(0) => self.change_mode(now, station, asked.command, Some(Mode::Hold)),
+                Some(1) if self.is_flying() => by_order(self, OperatorOrder::Resume),
+                Some(1) => NOT_NOW,
+                _ => DENIED,
+            },
+            MavCmdNumber::MISSION_START => {
+                self.first_from(asked.number::<u16>(1));
+                self.start_mission(now, station, asked.command)
+            }
+            MavCmdNumber::DO_SET_MISSION_CURRENT => {
+                let Some(seq) = asked.number::<i32>(1) else { return DENIED };
+                let reset = asked.number::<u8>(2) == Some(1);
+                let seq = if reset && seq < 0 { 0 } else { seq };
+                match u16::try_from(seq) {
+                    Ok(seq) => self.set_current(now, station, Some(asked.command), seq),
+                    Err(_) => DENIED,
+                }
+            }
+            MavCmdNumber::DO_FLIGHTTERMINATION => {
+                if asked.parameter(1).is_some_and(|value| value > 0.5) {
+                    self.pending = None;
+                    by_order(self, OperatorOrder::Cut)
+                } else {
+                    DENIED
+                }
+            }
+            MavCmdNumber::DO_SET_HOME | MavCmdNumber::PREFLIGHT_REBOOT_SHUTDOWN => DENIED,
+            _ => UNSUPPORTED,
+        }
+    }
+
+    fn arm_or_disarm(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
+        let magic = asked.parameter(2).unwrap_or(0.0);
+        #[allow(clippy::float_cmp, reason = "a code, not a quantity")]
+        let cuts = magic == MAGIC_CUT;
+        match asked.number::<u8>(1) {
+            Some(1) if self.is_flying() => ACCEPTED,
+            // A forced arming skips the checks before a flight, which are not to be skipped.
+            Some(1) if magic != 0.0 => DENIED,
+            Some(1) => {
+                let Some(why) = self.not_ready else { return NOT_NOW };
+                if !why.is_empty() {
+                    self.warn(format_args!("not ready: {why}"));
+                    return NOT_NOW;
+                }
+                let take = [OperatorOrder::Take];
+                self.order(now, station, Some(asked.command), After::Armed, take);
+                End::Later
+            }
+            Some(0) if cuts && self.is_flying() => {
+                let cut = [OperatorOrder::Cut];
+                self.order(now, station, Some(asked.command), After::Nothing, cut);
+                End::Later
+            }
+            Some(0) if self.is_flying() => {
+                self.warn(format_args!("in flight: land, or cut the motors by their code"));
+                DENIED
+            }
+            Some(0) if self.is_others(station) => NOT_NOW,
+            Some(0) => {
+                self.disarm();
+                ACCEPTED
+            }
+            _ => DENIED,
+        }
+    }
+
+    /// Whether somebody else has the controls.
+    pub(super) fn is_others(&self, station: Station) -> bool {
+        let holder = self.present().and_then(|status| status.controls);
+        holder.is_some_and(|holder| holder != station.operator())
+    }
+
+    fn asked_to_take_off(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
+        if self.is_flying() {
+            return if self.mode() == Mode::TakeOff { ACCEPTED } else { NOT_NOW };
+        }
+        if self.is_others(station) && self.armed.is_some() {
+            return NOT_NOW;
+        }
+        // QGroundControl asks PX4 by height above the sea; the others above the start.
+        let frame = asked.frame.unwrap_or(match self.config.autopilot {
+            Autopilot::Px4 => GLOBAL,
+            Autopilot::Generic => GLOBAL_RELATIVE,
+        });
+        let usual_m = self.parameters.value(TAKE_OFF_HEIGHT);
+        let wanted_m = match self.origin.place(frame, ABSENT, ABSENT, asked.z) {
+            Ok(place) if asked.z != 0.0 => place.z_m,
+            Ok(_) => None,
+            Err(error) => {
+                self.warn(format_args!("{error}"));
+                return End::Now(MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME);
+            }
+        };
+        let wanted_m = wanted_m.or((usual_m > 0.0).then_some(usual_m));
+        let limits = self.config.limits;
+        let height_m = wanted_m.map(|height_m| height_m.clamp(limits.floor_m, limits.ceiling_m));
+        if let (Some(wanted_m), Some(height_m)) = (wanted_m, height_m)
+            && (wanted_m - height_m).abs() > 0.01
+        {
+            self.warn(format_args!("take-off to {height_m:.2} m, not {wanted_m:.2} m"));
+        }
+        self.when_armed(now, station, asked.command, Then::TakeOff { height_m });
+        End::Later
+    }
+
+    /// Changes the mode; `None` is one that this vehicle does not have.
+    pub(super) fn change_mode(
+        &mut self,
+        now: Duration,
+        station: Station,
+        command: u16,
+        mode: Option<Mode>,
+    ) -> End {
+        let Some(mode) = mode else { return DENIED };
+        let flies = self.is_flying();
+        if matches!(mode, Mode::Hold | Mode::Land) {
+            // Whoever orders so does not expect that a take-off follows.
+            self.pending = None;
+        }
+        let (after, order) = match mode {
+            Mode::Hold if !flies => return ACCEPTED,
+            Mode::Hold => (After::Nothing, OperatorOrder::Hold),
+            Mode::Land if !flies && self.armed.is_none() => return ACCEPTED,
+            Mode::Land => (After::Nothing, OperatorOrder::Land),
+            Mode::TakeOff if flies => {
+                return if self.mode() == Mode::TakeOff { ACCEPTED } else { NOT_NOW };
+            }
+            Mode::TakeOff => {
+                let usual_m = self.parameters.value(TAKE_OFF_HEIGHT);
+                let height_m = (usual_m > 0.0).then_some(usual_m);
+                self.when_armed(now, station, command, Then::TakeOff { height_m });
+                return End::Later;
+            }
+            Mode::Mission => return self.start_mission(now, station, command),
+            Mode::Return | Mode::Position if !self.is_airborne() => return NOT_NOW,
+            Mode::Return if self.mode() == Mode::Return => return ACCEPTED,
+            Mode::Return if self.mode() == Mode::Land => return NOT_NOW,
+            Mode::Return => {
+                self.fly_home(now, station, command);
+                return End::Later;
+            }
+            Mode::Position | Mode::Offboard if self.is_others(station) => return NOT_NOW,
+            Mode::Position | Mode::Offboard => {
+                let by = station.operator();
+                let (last, after, whose) = match mode {
+                    Mode::Position => (self.sticks, After::ByHand, self.by_hand),
+                    _ => (self.setpoint, After::Follows, self.follows),
+                };
+                let fresh = last.filter(|(at, whose, _)| {
+                    *whose == by && now.saturating_sub(*at) <= super::received::SETPOINT_TIME
+                });
+                let Some((_, _, setpoint)) = fresh else {
+                    self.warn(format_args!("no fresh set-points or sticks to follow"));
+                    return DENIED;
+                };
+                if self.mode() == mode && whose == Some(by) {
+                    return ACCEPTED;
+                }
+                (after, OperatorOrder::Follow(setpoint))
+            }
+        };
+        self.order(now, station, Some(command), after, [order]);
+        End::Later
+    }
+
+    fn start_mission(&mut self, now: Duration, station: Station, command: u16) -> End {
+        if self.transfer.items().is_empty() {
+            self.warn(format_args!("there is no mission"));
+            return DENIED;
+        }
+        if !self.is_flying() {
+            if self.is_others(station) && self.armed.is_some() {
+                return NOT_NOW;
+            }
+            self.when_armed(now, station, command, Then::Mission);
+            return End::Later;
+        }
+        if !self.is_airborne() || self.mode() == Mode::Land {
+            return NOT_NOW;
+        }
+        if self.flies_stored_mission() {
+            let paused = self.present().is_some_and(|status| status.mission_waits);
+            if !paused {
+                return ACCEPTED;
+            }
+            self.order(now, station, Some(command), After::Nothing, [OperatorOrder::Resume]);
+        } else {
+            self.fly_mission(now, station, Some(command));
+        }
+        End::Later
+    }
+
+    /// Whether the vehicle flies the stored mission, and not to its end yet.
+    pub(super) fn flies_stored_mission(&self) -> bool {
+        self.is_flying()
+            && self.progress == Progress::Ours
+            && self.handed.as_ref().is_some_and(|handed| {
+                handed.purpose == Purpose::Mission && handed.id == self.transfer.id()
+            })
+    }
+
+    fn first_from(&mut self, seq: Option<u16>) {
+        let count = self.transfer.items().len();
+        if let Some(seq) = seq.filter(|seq| *seq > 0 && usize::from(*seq) < count) {
+            self.first_item = seq;
+        }
+    }
+
+    /// Goes on with another item.
+    pub(super) fn set_current(
+        &mut self,
+        now: Duration,
+        station: Station,
+        command: Option<u16>,
+        seq: u16,
+    ) -> End {
+        if usize::from(seq) >= self.transfer.items().len() {
+            return DENIED;
+        }
+        if self.is_others(station) {
+            return NOT_NOW;
+        }
+        let flies = self.flies_stored_mission();
+        let paused = self.present().is_some_and(|status| status.mission_waits);
+        self.first_item = seq;
+        self.reached = None;
+        if flies && !paused {
+            self.fly_mission(now, station, command);
+            return if command.is_some() { End::Later } else { ACCEPTED };
+        }
+        if flies {
+            // What is paused goes on there when it is started again.
+            self.progress = Progress::Other;
+        }
+        ACCEPTED
+    }
+
+    fn reposition(&mut self, now: Duration, station: Station, asked: &Asked) -> End {
+        let frame = asked.frame.unwrap_or(GLOBAL);
+        let place = match self.origin.place(frame, asked.x, asked.y, asked.z) {
+            Ok(place) => place,
+            Err(error) => {
+                self.warn(format_args!("{error}"));
+                return End::Now(MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME);
+            }
+        };
+        let limits = self.config.limits;
+        // A height of a tenth of a millimetre beyond is one that was rounded.
+        let (low_m, high_m) = (limits.floor_m - 1e-3, limits.ceiling_m + 1e-3);
+        let outside =
+            place.ground_m.is_some_and(|(x_m, y_m)| x_m.hypot(y_m) > limits.radius_m + 0.012);
+        if outside || place.z_m.is_some_and(|z_m| !(low_m..=high_m).contains(&z_m)) {
+            self.warn(format_args!(
+                "outside the fence: {} m around the start, {} to {} m high",
+                limits.radius_m, limits.floor_m, limits.ceiling_m
+            ));
+            return DENIED;
+        }
+        if !self.is_airborne() {
+            return NOT_NOW;
+        }
+        let yaw_deg = asked.parameter(4).map(|yaw_rad| self.origin.yaw_deg(yaw_rad.into()));
+        let to = Place {
+            place_m: place.ground_m.map(|(x_m, y_m)| [x_m, y_m]),
+            height_m: place.z_m.map(|z_m| z_m.clamp(limits.floor_m, limits.ceiling_m)),
+            yaw_deg,
+        };
+        // QGroundControl's pause is a way to nowhere.
+        let order =
+            if to == Place::default() { OperatorOrder::Hold } else { OperatorOrder::GoTo(to) };
+        self.order(now, station, Some(asked.command), After::Nothing, [order]);
+        End::Later
+    }
+}
+
+/// A `MAV_CMD`, to be matched by number: unknown ones are answered, too.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct MavCmdNumber(u16);
+
+macro_rules! commands {
+    ($($name:ident = $command:expr),* $(,)?) => {
+        impl MavCmdNumber {
+            $(const $name: Self = Self($command as u16);)*
+            const ALL: &[Self] = &[$(Self::$name),*];
+        }
+    };
+}
+
+commands! {
+    NAV_RETURN_TO_LAUNCH = MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH,
+    NAV_LAND = MavCmd::MAV_CMD_NAV_LAND,
+    NAV_TAKEOFF = MavCmd::MAV_CMD_NAV_TAKEOFF,
+    NAV_LAND_LOCAL = 23,
+    NAV_TAKEOFF_LOCAL = 24,
+    DO_SET_MODE = MavCmd::MAV_CMD_DO_SET_MODE,
+    DO_SET_HOME = MavCmd::MAV_CMD_DO_SET_HOME,
+    DO_FLIGHTTERMINATION = MavCmd::MAV_CMD_DO_FLIGHTTERMINATION,
+    // What MAVProxy sends for `land`.
+    DO_LAND_START = 189,
+    DO_REPOSITION = MavCmd::MAV_CMD_DO_REPOSITION,
+    DO_PAUSE_CONTINUE = MavCmd::MAV_CMD_DO_PAUSE_CONTINUE,
+    DO_SET_MISSION_CURRENT = MavCmd::MAV_CMD_DO_SET_MISSION_CURRENT,
+    PREFLIGHT_REBOOT_SHUTDOWN = MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN,
+    DO_SET_STANDARD_MODE = MavCmd::MAV_CMD_DO_SET_STANDARD_MODE,
+    MISSION_START = MavCmd::MAV_CMD_MISSION_START,
+    COMPONENT_ARM_DISARM = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM,
+    RUN_PREARM_CHECKS = MavCmd::MAV_CMD_RUN_PREARM_CHECKS,
+    GET_HOME_POSITION = MavCmd::MAV_CMD_GET_HOME_POSITION,
+    GET_MESSAGE_INTERVAL = MavCmd::MAV_CMD_GET_MESSAGE_INTERVAL,
+    SET_MESSAGE_INTERVAL = MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL,
+    REQUEST_MESSAGE = MavCmd::MAV_CMD_REQUEST_MESSAGE,
+    REQUEST_PROTOCOL_VERSION = MavCmd::MAV_CMD_REQUEST_PROTOCOL_VERSION,
+    REQUEST_AUTOPILOT_CAPABILITIES = MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES,
+}
+
+fn is_known(command: u16) -> bool {
+    MavCmdNumber::ALL.contains(&MavCmdNumber(command))
+}
+
+/// Sends what was asked for; used by commands and by old requests.
+impl MavlinkVehicle {
+    /// Returns whether there is such a message.
+    pub(super) fn answer_request(&mut self, to: To, id: u32, parameter: u8) -> bool {
+        let mut found = false;
+        let mut send = |this: &mut Self, message: Option<MavMessage>| {
+            found |= message.is_some();
+            if let Some(message) = message {
+                this.send(to, message);
+            }
+        };
+        match (id, parameter) {
+            // All modes.
+            (435, 0) => {
+                for index in 1..=Mode::ALL.len() {
+                    let message = Self::available_mode(index);
+                    send(self, message);
+                }
+            }
+            (435, index) => send(self, Self::available_mode(index.into())),
+            (id, _) => {
+                let message = self.telemetry(id);
+                send(self, message);
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,402 @@
+//! Orders to the vehicle, their answers, arming, and who has the controls.
+
+use std::time::Duration;
+
+use autopilot::plan::Commands;
+use autopilot::vehicle::{Operator, OperatorOrder, Refused, Station as Kind};
+
+use super::modes::Purpose;
+use super::stations::{GONE_AFTER, Station};
+use super::{Handed, Joystick, MavlinkVehicle, ORDERS, Progress, Ticket, To};
+use crate::dialect::{
+    COMMAND_ACK_DATA, MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity,
+};
+
+/// Armed on the ground for so long without a take-off, the vehicle disarms.
+const ARMED_TIME: Duration = Duration::from_secs(10);
+/// A take-off that was ordered before arming waits for so long.
+const PENDING_TIME: Duration = Duration::from_secs(5);
+/// A command is answered after this time even if the vehicle has not answered.
+const ANSWER_TIME: Duration = Duration::from_millis(300);
+/// The vehicle hears so often of a station that has the controls and is heard.
+const PRESENT_EVERY: Duration = Duration::from_millis(250);
+
+/// What is done when arming follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Then {
+    /// Take off, to this height in metres.
+    TakeOff { height_m: Option<f64> },
+    /// Fly the mission.
+    Mission,
+}
+
+/// An order that waits for arming.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pending {
+    then: Then,
+    station: Station,
+    until: Duration,
+}
+
+/// What follows an order that was accepted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum After {
+    Nothing,
+    /// The vehicle is armed.
+    Armed,
+    /// The sticks of this operator are followed.
+    ByHand,
+    /// The set-points of this operator are followed.
+    Follows,
+}
+
+/// Orders that were given and not yet answered.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Awaited {
+    ticket: Ticket,
+    /// Answers that are missing.
+    left: u8,
+    result: MavResult,
+    /// The command to acknowledge.
+    command: Option<u16>,
+    station: Station,
+    since: Duration,
+    after: After,
+    /// "Being flown already" is no refusal: it goes on by itself.
+    may_fly: bool,
+}
+
+impl MavlinkVehicle {
+    /// Acknowledges a command.
+    pub(super) fn acknowledge(&mut self, station: Station, command: u16, result: MavResult) {
+        let acknowledgement = COMMAND_ACK_DATA {
+            command,
+            result,
+            target_system: station.system,
+            target_component: station.component,
+            ..COMMAND_ACK_DATA::default()
+        };
+        self.send(To::Peer(station.peer), MavMessage::COMMAND_ACK(acknowledgement));
+    }
+
+    /// Gives one order without anybody waiting for the answer.
+    pub(super) fn order_quietly(&mut self, by: Operator, order: OperatorOrder) {
+        if self.orders.len() < ORDERS {
+            let ticket = self.ticket();
+            self.orders.push_back((ticket, by, order));
+        }
+    }
+
+    fn ticket(&mut self) -> Ticket {
+        self.next_ticket = self.next_ticket.wrapping_add(1);
+        Ticket(self.next_ticket)
+    }
+
+    /// Gives orders; `command` is acknowledged once all are answered.
+    pub(super) fn order(
+        &mut self,
+        now: Duration,
+        station: Station,
+        command: Option<u16>,
+        after: After,
+        orders: impl IntoIterator<Item = OperatorOrder>,
+    ) {
+        self.take_over_from_silent(now, station.operator());
+        let ticket = self.ticket();
+        let mut left = 0;
+        let mut may_fly = false;
+        for order in orders {
+            if self.orders.len() >= ORDERS || self.awaited.is_full() {
+                break;
+            }
+            may_fly |= left > 0 && matches!(order, OperatorOrder::Start { .. });
+            self.orders.push_back((ticket, station.operator(), order));
+            left += 1;
+        }
+        if left == 0 {
+            if let Some(command) = command {
+                let busy = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
+                self.acknowledge(station, command, busy);
+            }
+            return;
+        }
+        self.awaited.push(Awaited {
+            ticket,
+            left,
+            result: MavResult::MAV_RESULT_ACCEPTED,
+            command,
+            station,
+            since: now,
+            after,
+            may_fly,
+        });
+    }
+
+    /// The controls of a station that has been silent for some time go to one that gives an order.
+    fn take_over_from_silent(&mut self, now: Duration, by: Operator) {
+        let Some(holder) = self.present().and_then(|status| status.controls) else { return };
+        let heard = self.stations.last_heard(holder);
+        let silent = heard.is_none_or(|at| now.saturating_sub(at) >= GONE_AFTER);
+        if holder != by && holder.station == Kind::Mavlink && silent {
+            self.order_quietly(holder, OperatorOrder::Release);
+        }
+    }
+
+    pub(super) fn take_answer(
+        &mut self,
+        now: Duration,
+        ticket: Ticket,
+        answer: &Result<(), Refused>,
+    ) {
+        let Some(index) = self.awaited.iter().position(|awaited| awaited.ticket == ticket) else {
+            return;
+        };
+        let Some(awaited) = self.awaited.get_mut(index) else { return };
+        awaited.left = awaited.left.saturating_sub(1);
+        if let Err(refused) = answer
+            && !(awaited.may_fly && *refused == Refused::Flying)
+        {
+            let is_first = awaited.result == MavResult::MAV_RESULT_ACCEPTED;
+            awaited.result = result_of(refused);
+            if is_first {
+                self.warn(format_args!("refused: {refused}"));
+            }
+        }
+        let done = self.awaited.get(index).filter(|awaited| awaited.left == 0).copied();
+        if let Some(done) = done {
+            self.awaited.swap_remove(index);
+            self.answered(now, &done);
+        }
+    }
+
+    fn answered(&mut self, now: Duration, awaited: &Awaited) {
+        if let Some(command) = awaited.command {
+            self.acknowledge(awaited.station, command, awaited.result);
+        }
+        if awaited.result != MavResult::MAV_RESULT_ACCEPTED {
+            return;
+        }
+        let by = awaited.station.operator();
+        match awaited.after {
+            After::Nothing => (self.follows, self.by_hand) = (None, None),
+            After::ByHand => (self.follows, self.by_hand) = (None, Some(by)),
+            After::Follows => (self.follows, self.by_hand) = (Some(by), None),
+            After::Armed => {
+                self.armed = Some((now + ARMED_TIME, by));
+                self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("armed by {by}"));
+                if let Some(pending) = self.pending.take() {
+                    self.do_then(now, pending.station, None, pending.then);
+                }
+            }
+        }
+    }
+
+    /// Does it now if armed, or when arming follows soon.
+    pub(super) fn when_armed(&mut self, now: Duration, station: Station, command: u16, then: Then) {
+        if self.armed.is_some() {
+            self.do_then(now, station, Some(command), then);
+            return;
+        }
+        let until = now + PENDING_TIME;
+        self.pending = Some(Pending { then, station, until });
+        self.acknowledge(station, command, MavResult::MAV_RESULT_ACCEPTED);
+    }
+
+    fn do_then(&mut self, now: Duration, station: Station, command: Option<u16>, then: Then) {
+        match then {
+            Then::TakeOff { height_m } => self.take_off(now, station, command, height_m),
+            Then::Mission => self.fly_mission(now, station, command),
+        }
+    }
+
+    fn take_off(
+        &mut self,
+        now: Duration,
+        station: Station,
+        command: Option<u16>,
+        height_m: Option<f64>,
+    ) {
+        let climb = height_m.map(|height_m| format!("setStayTime 0.3\ngoto 0 0 {height_m:.3} 0\n"));
+        let text = format!("setReference $START$\ntakeoff\n{}", climb.unwrap_or_default());
+        let items = vec![0; text.lines().count()];
+        self.hand_over(now, station, command, Purpose::TakeOff, &text, items);
+    }
+
+    /// Flies to the start and lands.
+    pub(super) fn fly_home(&mut self, now: Duration, station: Station, command: u16) {
+        let limits = &self.config.limits;
+        let pose = self.present().and_then(|status| status.pose).unwrap_or_default();
+        let height_m = pose.z_m.clamp(limits.floor_m, limits.ceiling_m);
+        let yaw_deg = pose.yaw_deg;
+        let speed_m_s = self.parameters.value(super::parameters::CRUISE_SPEED);
+        let text = format!(
+            "setReference $START$\nsetSpeed {speed_m_s:.3}\nsetStayTime 0.3\n\
+             goto 0 0 {height_m:.3} {yaw_deg:.3}\nland\n"
+        );
+        let items = vec![0; text.lines().count()];
+        self.hand_over(now, station, Some(command), Purpose::Return, &text, items);
+    }
+
+    /// Flies the stored mission, from where it is to begin.
+    pub(super) fn fly_mission(&mut self, now: Duration, station: Station, command: Option<u16>) {
+        let program = self.transfer.translated().commands_from(self.first_item, self.is_airborne());
+        if program.text.is_empty() {
+            self.warn(format_args!("there is no mission, or nothing is left of it"));
+            if let Some(command) = command {
+                self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
+            }
+            return;
+        }
+        self.reached = None;
+        self.hand_over(now, station, command, Purpose::Mission, &program.text, program.items);
+    }
+
+    /// Hands a mission to the vehicle, which flies it at once.
+    fn hand_over(
+        &mut self,
+        now: Duration,
+        station: Station,
+        command: Option<u16>,
+        purpose: Purpose,
+        text: &str,
+        items: Vec<u16>,
+    ) {
+        let airborne = self.is_airborne();
+        // On the ground it replaces another mission as a whole; in the air that is cleared first, so that its step ends.
+        let whole = if airborne { text.to_owned() } else { format!("clearCommands\n{text}") };
+        let commands = match Commands::parse("MAVLink", &whole) {
+            Ok(commands) => commands,
+            Err(error) => {
+                self.warn(format_args!("{error}"));
+                if let Some(command) = command {
+                    self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
+                }
+                return;
+            }
+        };
+        let lines = text.lines().map(str::to_owned).collect();
+        self.item = None;
+        self.handed = Some(Handed { purpose, lines, items, id: self.transfer.id() });
+        self.progress = Progress::Other;
+        let clear = airborne.then_some(OperatorOrder::Clear);
+        let rest = [OperatorOrder::Append(commands), OperatorOrder::Start { when_ready: false }];
+        self.order(now, station, command, After::Nothing, clear.into_iter().chain(rest));
+    }
+
+    pub(super) fn disarm(&mut self) {
+        // The vehicle's status may not say yet that this one has the controls.
+        let armed = self.armed.take();
+        self.pending = None;
+        self.by_hand = None;
+        self.joystick = Joystick::default();
+        match armed {
+            Some((_, by)) => self.release_of(by),
+            None => self.release(),
+        }
+    }
+
+    /// Whoever has the controls by `MAVLink` gives them back.
+    fn release(&mut self) {
+        if let Some(holder) = self.present().and_then(|status| status.controls)
+            && holder.station == Kind::Mavlink
+        {
+            self.release_of(holder);
+        }
+    }
+
+    fn release_of(&mut self, holder: Operator) {
+        self.order_quietly(holder, OperatorOrder::Release);
+        // Known before the next status says so.
+        if let Some((_, status)) = &mut self.status {
+            status.controls = status.controls.filter(|controls| *controls != holder);
+        }
+    }
+
+    pub(super) fn flight_ended(&mut self) {
+        self.disarm();
+        self.follows = None;
+        self.setpoint = None;
+        self.sticks = None;
+    }
+
+    pub(super) fn watch_orders(&mut self, now: Duration) {
+        let old = |awaited: &Awaited| now.saturating_sub(awaited.since) >= ANSWER_TIME;
+        while let Some(index) = self.awaited.iter().position(old) {
+            let late = self.awaited.swap_remove(index);
+            if let Some(command) = late.command {
+                let busy = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
+                self.acknowledge(late.station, command, busy);
+            }
+        }
+        if self.pending.is_some_and(|pending| now >= pending.until) {
+            self.pending = None;
+            self.warn(format_args!("not armed in time: the take-off is given up"));
+        }
+        if self.armed.is_some_and(|(until, _)| now >= until) {
+            self.warn(format_args!("disarmed: no take-off followed"));
+            self.disarm();
+        }
+    }
+
+    /// Tells the vehicle of the station that has the controls while that is heard, and lets go of the controls on the
+    /// ground if it is not.
+    pub(super) fn watch_stations(&mut self, now: Duration) {
+        let Some(holder) = self.present().and_then(|status| status.controls) else { return };
+        if holder.station != Kind::Mavlink {
+            return;
+        }
+        let heard = self.stations.last_heard(holder);
+        if heard.is_some_and(|at| {
+            self.presence.is_none_or(|told| at > told && now.saturating_sub(told) >= PRESENT_EVERY)
+        }) {
+            self.presence = Some(now);
+            self.order_quietly(holder, OperatorOrder::Present);
+        }
+        let gone = heard.is_none_or(|at| now.saturating_sub(at) >= GONE_AFTER);
+        if gone && !self.is_flying() && !self.is_armed() {
+            self.release();
+        }
+    }
+
+    /// A step of the vehicle's mission was carried out.
+    pub(super) fn step_done(&mut self, step: usize) {
+        let Some(handed) = self.handed.as_ref().filter(|_| self.progress == Progress::Ours) else {
+            return;
+        };
+        let (done, next) = (handed.items.get(step).copied(), handed.items.get(step + 1).copied());
+        // Settings behind it that belong to the same item are no steps that will be reported.
+        let rest = handed.items.get(step + 1..).unwrap_or_default();
+        let goes_on = done.is_some_and(|item| {
+            let lines = handed.lines.get(step + 1..).unwrap_or_default();
+            rest.iter().zip(lines).any(|(other, line)| *other == item && !is_setting(line))
+        });
+        let is_mission = handed.purpose == Purpose::Mission;
+        let last = next.is_none()
+            || handed
+                .lines
+                .get(step + 1..)
+                .is_some_and(|rest| rest.iter().all(|line| is_setting(line)));
+        if let Some(seq) = done.filter(|seq| is_mission && !goes_on && self.reached != Some(*seq)) {
+            self.reached = Some(seq);
+            self.send(To::All, MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq }));
+        }
+        if last {
+            self.progress = Progress::Complete;
+        }
+    }
+}
+
+/// Whether a line of a plan only changes how later ones are flown.
+fn is_setting(line: &str) -> bool {
+    line.starts_with("set")
+}
+
+/// What a refusal by the vehicle is in `MAVLink`.
+fn result_of(refused: &Refused) -> MavResult {
+    match refused {
+        Refused::Command(_) | Refused::NoPlace | Refused::NoMission | Refused::NeverTakesOff => {
+            MavResult::MAV_RESULT_DENIED
+        }
+        _ => MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
+    }
+}

@@ -1,0 +1,469 @@
+//! Messages that arrive.
+
+use std::time::Duration;
+
+use autopilot::vehicle::{OperatorOrder, Setpoint};
+use mavlink_core::types::CharArray;
+
+use super::commands::{Asked, End};
+use super::modes::Mode;
+use super::parameters::NotSet;
+use super::setpoints::{NoSetpoint, global, local};
+use super::stations::Station;
+use super::{COMPONENT, Joystick, MavlinkVehicle, SYSTEM, To};
+use crate::dialect::{
+    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA,
+    MISSION_REQUEST_INT_DATA, MavCmd, MavMessage, MavModeFlag, MavParamError, MavResult,
+    MavSeverity, PARAM_ERROR_DATA, PING_DATA, SET_MODE_DATA, TIMESYNC_DATA,
+};
+use crate::frame::Frame;
+use crate::mission::{Event, Handled, Item, Message, Partner, Received, result};
+use crate::place::Origin;
+
+/// A set-point that is older is none.
+pub(super) const SETPOINT_TIME: Duration = Duration::from_millis(500);
+/// Sticks that have been silent for so long must be seen in the middle again.
+const STICKS_TIME: Duration = Duration::from_secs(1);
+/// Set-points that come faster than the vehicle decides are passed on no faster than this.
+const SETPOINT_EVERY: Duration = Duration::from_millis(20);
+/// Set-points that are refused are told no more often than this.
+const TELL_EVERY: Duration = Duration::from_secs(2);
+/// The target of all systems, and of all components.
+const ALL: u8 = 0;
+
+impl MavlinkVehicle {
+    /// A frame with a valid checksum has arrived.
+    pub(super) fn receive(&mut self, now: Duration, peer: u8, local: bool, frame: &Frame<'_>) {
+        if let Some(signing) = &mut self.signing {
+            let Some(signature) = &frame.signature else { return };
+            if signing.verify(signature, now).is_err() {
+                return;
+            }
+        }
+        // Our own, come back, or of nobody.
+        if frame.system == ALL || (frame.system, frame.component) == (SYSTEM, COMPONENT) {
+            return;
+        }
+        let station = Station { system: frame.system, component: frame.component, peer, local };
+        self.stations.heard(now, station);
+        if target(&frame.message).is_some_and(|(system, component)| !is_ours(system, component)) {
+            return;
+        }
+        self.received(now, station, &frame.message);
+    }
+
+    fn received(&mut self, now: Duration, station: Station, message: &MavMessage) {
+        let to = To::Peer(station.peer);
+        match message {
+            MavMessage::COMMAND_LONG(data) => self.command(now, station, &Asked::long(data)),
+            MavMessage::COMMAND_INT(data) => self.command(now, station, &Asked::int(data)),
+            MavMessage::SET_MODE(data) => self.set_mode(now, station, data),
+            MavMessage::PING(data) if data.target_system == ALL => {
+                let (target_system, target_component) = (station.system, station.component);
+                self.send(
+                    to,
+                    MavMessage::PING(PING_DATA { target_system, target_component, ..*data }),
+                );
+            }
+            MavMessage::TIMESYNC(data) if data.tc1 == 0 => {
+                let answer = TIMESYNC_DATA {
+                    tc1: i64::try_from(now.as_nanos()).unwrap_or(i64::MAX),
+                    ts1: data.ts1,
+                    target_system: station.system,
+                    target_component: station.component,
+                };
+                self.send(to, MavMessage::TIMESYNC(answer));
+            }
+            MavMessage::PARAM_REQUEST_LIST(_) => {
+                for index in 0..self.parameters.count() {
+                    if let Some(message) = self.parameters.at(index) {
+                        self.send(to, message);
+                    }
+                }
+            }
+            MavMessage::PARAM_REQUEST_READ(data) => {
+                match self.parameters.index(data.param_index, &data.param_id) {
+                    Some(index) => self.tell_parameter(to, index),
+                    None => self.parameter_error(
+                        station,
+                        data.param_index,
+                        data.param_id,
+                        MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST,
+                    ),
+                }
+            }
+            MavMessage::PARAM_SET(data) => {
+                self.set_parameter(station, data.param_id, data.param_value);
+            }
+            MavMessage::SET_GPS_GLOBAL_ORIGIN(data) => {
+                let degrees = |e7: i32| f64::from(e7) / 1e7;
+                let origin = Origin {
+                    latitude_deg: degrees(data.latitude),
+                    longitude_deg: degrees(data.longitude),
+                    altitude_m: f64::from(data.altitude) / 1e3,
+                    ..self.origin
+                };
+                self.set_origin(origin);
+            }
+            MavMessage::SET_POSITION_TARGET_LOCAL_NED(data) => {
+                let pose = self.present().and_then(|status| status.pose);
+                let setpoint = local(data, &self.origin, pose.as_ref());
+                self.take_setpoint(now, station, setpoint);
+            }
+            MavMessage::SET_POSITION_TARGET_GLOBAL_INT(data) => {
+                let setpoint = global(data, &self.origin);
+                self.take_setpoint(now, station, setpoint);
+            }
+            MavMessage::MANUAL_CONTROL(data) => {
+                let by = station.operator();
+                if self.config.view_only || self.by_hand.is_some_and(|whose| whose != by) {
+                    return;
+                }
+                if self.sticks.is_none_or(|(at, _, _)| now.saturating_sub(at) >= STICKS_TIME) {
+                    self.joystick = Joystick::default();
+                }
+                let setpoint = self.joystick.setpoint(data);
+                self.sticks = Some((now, by, setpoint));
+                if self.by_hand == Some(by) {
+                    self.order_quietly(by, OperatorOrder::Setpoint(setpoint));
+                }
+            }
+            _ => self.received_of_mission(now, station, message),
+        }
+    }
+
+    fn set_mode(&mut self, now: Duration, station: Station, data: &SET_MODE_DATA) {
+        // It is acknowledged like the command that has taken its place.
+        let command = MavCmd::MAV_CMD_DO_SET_MODE as u16;
+        let custom = data.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED);
+        let mode = if custom { Mode::from_custom(data.custom_mode) } else { None };
+        let end = if self.config.view_only {
+            End::Now(MavResult::MAV_RESULT_DENIED)
+        } else {
+            self.change_mode(now, station, command, mode)
+        };
+        if let End::Now(result) = end {
+            self.acknowledge(station, command, result);
+        }
+    }
+
+    fn tell_parameter(&mut self, to: To, index: usize) {
+        if let Some(message) = self.parameters.at(index) {
+            self.send(to, message);
+        }
+    }
+
+    fn set_parameter(&mut self, station: Station, name: CharArray<16>, value: f32) {
+        let Some(index) = self.parameters.index(-1, &name) else {
+            let error = MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST;
+            return self.parameter_error(station, -1, name, error);
+        };
+        let set = if self.config.view_only || self.is_others(station) {
+            Err(NotSet::ReadOnly)
+        } else {
+            self.parameters.set(index, value)
+        };
+        // All are told the value that is kept.
+        self.tell_parameter(To::All, index);
+        let error = match set {
+            Ok(()) => return,
+            Err(NotSet::Unknown) => MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST,
+            Err(NotSet::ReadOnly) => MavParamError::MAV_PARAM_ERROR_READ_ONLY,
+            Err(NotSet::OutOfRange) => MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE,
+        };
+        self.parameter_error(station, i16::try_from(index).unwrap_or(-1), name, error);
+    }
+
+    fn parameter_error(
+        &mut self,
+        station: Station,
+        param_index: i16,
+        param_id: CharArray<16>,
+        error: MavParamError,
+    ) {
+        let message = PARAM_ERROR_DATA {
+            param_index,
+            target_system: station.system,
+            target_component: station.component,
+            param_id,
+            error,
+        };
+        self.send(To::Peer(station.peer), MavMessage::PARAM_ERROR(message));
+    }
+
+    /// The origin can be set on the ground; a stored mission that no longer fits is removed.
+    fn set_origin(&mut self, origin: Origin) {
+        if self.config.view_only || self.is_flying() {
+            return self.warn(format_args!("the origin can be set on the ground only"));
+        }
+        let origin = match origin.checked() {
+            Ok(origin) => origin,
+            Err(error) => return self.warn(format_args!("{error}")),
+        };
+        self.origin = origin;
+        let rules = self.rules();
+        if let Err(problem) = self.transfer.translate_again(&rules) {
+            self.transfer.clear();
+            self.first_item = 0;
+            self.warn(format_args!("mission removed: {}", problem.reason));
+        }
+        for id in [49, 242] {
+            self.answer_request(To::All, id, 0);
+        }
+    }
+
+    fn take_setpoint(
+        &mut self,
+        now: Duration,
+        station: Station,
+        setpoint: Result<Setpoint, NoSetpoint>,
+    ) {
+        if self.config.view_only {
+            return;
+        }
+        let setpoint = match setpoint {
+            Ok(setpoint) => setpoint,
+            Err(error) => {
+                let told = self.refused_setpoint_told;
+                if told.is_none_or(|at| now.saturating_sub(at) >= TELL_EVERY) {
+                    self.refused_setpoint_told = Some(now);
+                    self.warn(format_args!("{error}"));
+                }
+                return;
+            }
+        };
+        let by = station.operator();
+        // Another's set-points do not take the place of those that are followed.
+        if self.follows.is_some_and(|follows| follows != by) {
+            return;
+        }
+        let soon = self.setpoint.is_some_and(|(at, whose, last)| {
+            whose == by && last == setpoint && now.saturating_sub(at) < SETPOINT_EVERY
+        });
+        if soon {
+            return;
+        }
+        self.setpoint = Some((now, by, setpoint));
+        if self.follows == Some(by) {
+            self.order_quietly(by, OperatorOrder::Setpoint(setpoint));
+        }
+    }
+
+    fn received_of_mission(&mut self, now: Duration, station: Station, message: &MavMessage) {
+        let received = match message {
+            MavMessage::MISSION_COUNT(data) => {
+                Received::Count { count: data.count, mission_type: data.mission_type }
+            }
+            MavMessage::MISSION_ITEM_INT(data) => Received::Item(item_int(data)),
+            MavMessage::MISSION_ITEM(data) => Received::Item(item(data)),
+            MavMessage::MISSION_REQUEST_LIST(data) => {
+                Received::RequestList { mission_type: data.mission_type }
+            }
+            MavMessage::MISSION_REQUEST_INT(data) => {
+                Received::Request { seq: data.seq, mission_type: data.mission_type }
+            }
+            MavMessage::MISSION_REQUEST(data) => {
+                Received::Request { seq: data.seq, mission_type: data.mission_type }
+            }
+            MavMessage::MISSION_ACK(data) => {
+                Received::Ack { result: data.mavtype, mission_type: data.mission_type }
+            }
+            MavMessage::MISSION_CLEAR_ALL(data) => {
+                Received::ClearAll { mission_type: data.mission_type }
+            }
+            MavMessage::MISSION_REQUEST_PARTIAL_LIST(data) => {
+                Received::PartialList { mission_type: data.mission_type }
+            }
+            MavMessage::MISSION_WRITE_PARTIAL_LIST(data) => {
+                Received::PartialList { mission_type: data.mission_type }
+            }
+            MavMessage::MISSION_SET_CURRENT(data) => {
+                if !self.config.view_only {
+                    // Answered by MISSION_CURRENT alone.
+                    _ = self.set_current(now, station, None, data.seq);
+                }
+                self.answer_request(To::All, 42, 0);
+                return;
+            }
+            _ => return,
+        };
+        let partner = Partner { system: station.system, component: station.component };
+        let changes = matches!(received, Received::Count { .. } | Received::ClearAll { .. });
+        if changes && let Some(why) = self.may_not_change(station) {
+            self.warn(format_args!("mission not changed: {why}"));
+            let mission_type = match received {
+                Received::Count { mission_type, .. } | Received::ClearAll { mission_type } => {
+                    mission_type
+                }
+                _ => 0,
+            };
+            let message = Message::Ack { result: result::DENIED, mission_type };
+            return self.send_of_mission(partner, message);
+        }
+        let rules = self.rules();
+        let handled = self.transfer.handle(now, partner, &received, &rules);
+        self.transferred(&handled);
+    }
+
+    /// Why a station may not change the stored mission now.
+    fn may_not_change(&self, station: Station) -> Option<&'static str> {
+        if self.config.view_only {
+            Some("view only")
+        } else if self.is_others(station) {
+            Some("somebody else has the controls")
+        } else if self.flies_stored_mission()
+            && self.present().is_some_and(|status| !status.mission_waits)
+        {
+            Some("it is being flown; pause it first")
+        } else {
+            None
+        }
+    }
+
+    /// What a transfer has led to.
+    pub(super) fn transferred(&mut self, handled: &Handled) {
+        for outgoing in handled.messages() {
+            self.send_of_mission(outgoing.to, outgoing.message);
+        }
+        let Some(event) = &handled.event else { return };
+        match event {
+            Event::Accepted | Event::Cleared => {
+                self.first_item = 0;
+                self.reached = None;
+                // What waits was ordered for another.
+                self.pending = None;
+                let count = self.transfer.items().len();
+                self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("mission of {count} items"));
+                self.answer_request(To::All, 42, 0);
+            }
+            Event::Refused(problem) => self.warn(format_args!("{}", problem.reason)),
+            Event::Cancelled => {
+                self.warn(format_args!("upload given up; the mission is unchanged"));
+            }
+        }
+    }
+
+    fn send_of_mission(&mut self, partner: Partner, message: Message) {
+        let Partner { system: target_system, component: target_component } = partner;
+        let Some(peer) = self.stations.peer(target_system, target_component) else { return };
+        let opaque_id = self.transfer.id();
+        let message = match message {
+            Message::Count { count, mission_type } => {
+                MavMessage::MISSION_COUNT(MISSION_COUNT_DATA {
+                    count,
+                    target_system,
+                    target_component,
+                    mission_type,
+                    opaque_id,
+                })
+            }
+            Message::Request { seq } => MavMessage::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA {
+                seq,
+                target_system,
+                target_component,
+                mission_type: 0,
+            }),
+            Message::Item(item) => MavMessage::MISSION_ITEM_INT(MISSION_ITEM_INT_DATA {
+                param1: item.param1,
+                param2: item.param2,
+                param3: item.param3,
+                param4: item.param4,
+                x: item.x,
+                y: item.y,
+                z: item.z,
+                seq: item.seq,
+                command: item.command,
+                target_system,
+                target_component,
+                frame: item.frame,
+                current: item.current,
+                autocontinue: item.autocontinue,
+                mission_type: item.mission_type,
+            }),
+            Message::Ack { result, mission_type } => MavMessage::MISSION_ACK(MISSION_ACK_DATA {
+                target_system,
+                target_component,
+                mavtype: result,
+                mission_type,
+                opaque_id,
+            }),
+        };
+        self.send(To::Peer(peer), message);
+    }
+}
+
+fn item_int(data: &MISSION_ITEM_INT_DATA) -> Item {
+    Item {
+        seq: data.seq,
+        frame: data.frame,
+        command: data.command,
+        current: data.current,
+        autocontinue: data.autocontinue,
+        param1: data.param1,
+        param2: data.param2,
+        param3: data.param3,
+        param4: data.param4,
+        x: data.x,
+        y: data.y,
+        z: data.z,
+        mission_type: data.mission_type,
+    }
+}
+
+fn item(data: &MISSION_ITEM_DATA) -> Item {
+    let item = Item {
+        seq: data.seq,
+        frame: data.frame,
+        command: data.command,
+        current: data.current,
+        autocontinue: data.autocontinue,
+        param1: data.param1,
+        param2: data.param2,
+        param3: data.param3,
+        param4: data.param4,
+        x: 0,
+        y: 0,
+        z: data.z,
+        mission_type: data.mission_type,
+    };
+    item.with_floats(data.x, data.y)
+}
+
+fn is_ours(system: u8, component: u8) -> bool {
+    matches!(system, ALL | SYSTEM) && matches!(component, ALL | COMPONENT)
+}
+
+/// The system and component that a message is for; nothing if it is for everybody.
+fn target(message: &MavMessage) -> Option<(u8, u8)> {
+    macro_rules! targets {
+        ($($name:ident),* $(,)?) => {
+            match message {
+                $(MavMessage::$name(data) => Some((data.target_system, data.target_component)),)*
+                MavMessage::SET_MODE(data) => Some((data.target_system, ALL)),
+                MavMessage::SET_GPS_GLOBAL_ORIGIN(data) => Some((data.target_system, ALL)),
+                MavMessage::MANUAL_CONTROL(data) => Some((data.target, ALL)),
+                _ => None,
+            }
+        };
+    }
+    targets!(
+        COMMAND_LONG,
+        COMMAND_INT,
+        PARAM_REQUEST_LIST,
+        PARAM_REQUEST_READ,
+        PARAM_SET,
+        MISSION_COUNT,
+        MISSION_ITEM,
+        MISSION_ITEM_INT,
+        MISSION_REQUEST,
+        MISSION_REQUEST_INT,
+        MISSION_REQUEST_LIST,
+        MISSION_REQUEST_PARTIAL_LIST,
+        MISSION_WRITE_PARTIAL_LIST,
+        MISSION_ACK,
+        MISSION_CLEAR_ALL,
+        MISSION_SET_CURRENT,
+        SET_POSITION_TARGET_LOCAL_NED,
+        SET_POSITION_TARGET_GLOBAL_INT,
+    )
+}

@@ -1,0 +1,610 @@
+//! What the vehicle tells, and how often.
+
+use std::time::Duration;
+
+use autopilot::vehicle::{Phase, Status, Trust};
+use kinematics::{Pose, Velocity};
+use mavlink_core::types::CharArray;
+
+use super::modes::{Mode, Purpose};
+use super::{Autopilot, Config, MavlinkVehicle, Progress, To};
+use crate::dialect::{
+    ALTITUDE_DATA, ATTITUDE_DATA, ATTITUDE_QUATERNION_DATA, AUTOPILOT_VERSION_DATA,
+    AVAILABLE_MODES_DATA, BATTERY_STATUS_DATA, CURRENT_MODE_DATA, DISTANCE_SENSOR_DATA,
+    ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags, GLOBAL_POSITION_INT_DATA,
+    GPS_GLOBAL_ORIGIN_DATA, GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, HOME_POSITION_DATA,
+    LOCAL_POSITION_NED_DATA, MESSAGE_INTERVAL_DATA, MISSION_CURRENT_DATA, MavAutopilot,
+    MavBatteryChargeState, MavDistanceSensor, MavLandedState, MavMessage, MavModeFlag,
+    MavModeProperty, MavProtocolCapability, MavSensorOrientation, MavState, MavSysStatusSensor,
+    MavType, MissionState, POSITION_TARGET_LOCAL_NED_DATA, PROTOCOL_VERSION_DATA,
+    PositionTargetTypemask, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA,
+};
+
+/// The vehicle's status comes no more often than this.
+const SHORTEST: Duration = Duration::from_millis(90);
+/// A heartbeat comes at least so often, whatever anybody asks for.
+const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
+const HEARTBEAT: u32 = 0;
+
+/// One kind of message.
+#[derive(Debug, Clone, Copy)]
+struct Stream {
+    id: u32,
+    /// By default; `None` for only on request.
+    usual: Option<Duration>,
+    every: Option<Duration>,
+    next: Duration,
+}
+
+/// When each kind of message is due.
+#[derive(Debug)]
+pub(super) struct Schedule(Vec<Stream>);
+
+impl Schedule {
+    pub(super) fn new(config: &Config) -> Self {
+        let stream = |(id, ms): (u32, u64)| {
+            let usual = (ms > 0).then(|| Duration::from_millis(ms));
+            Stream { id, usual, every: usual, next: Duration::ZERO }
+        };
+        let gps_ms = if config.pretend_gps { 1000 } else { 0 };
+        let usual = [
+            (HEARTBEAT, 1000),
+            (1, 1000),
+            (2, 1000),
+            (24, gps_ms),
+            (30, 90),
+            (31, 0),
+            (32, 90),
+            (33, 180),
+            (42, 1000),
+            (49, 0),
+            (74, 250),
+            (85, 0),
+            (132, 180),
+            (141, 1000),
+            (147, 1000),
+            (148, 0),
+            (230, 1000),
+            (242, 2000),
+            (245, 1000),
+            (300, 0),
+            (436, 2000),
+        ];
+        Self(usual.into_iter().map(stream).collect())
+    }
+
+    /// Sets an interval in microseconds, 0 for the usual one and less for never. Returns whether there is such a message.
+    pub(super) fn set(&mut self, id: u32, interval_us: i32) -> bool {
+        let Some(stream) = self.0.iter_mut().find(|stream| stream.id == id) else { return false };
+        stream.every = match u64::try_from(interval_us) {
+            Ok(0) => stream.usual,
+            Ok(us) => Some(Duration::from_micros(us).max(SHORTEST)),
+            Err(_) => None,
+        };
+        if id == HEARTBEAT {
+            stream.every = Some(stream.every.unwrap_or(HEARTBEAT_EVERY).min(HEARTBEAT_EVERY));
+        }
+        true
+    }
+
+    /// The message that tells an interval: 0 for what this vehicle does not have.
+    pub(super) fn interval(&self, message_id: u16) -> MavMessage {
+        let stream = self.0.iter().find(|stream| stream.id == message_id.into());
+        let interval_us = match stream.map(|stream| stream.every) {
+            None => 0,
+            Some(None) => -1,
+            Some(Some(every)) => i32::try_from(every.as_micros()).unwrap_or(i32::MAX),
+        };
+        MavMessage::MESSAGE_INTERVAL(MESSAGE_INTERVAL_DATA { interval_us, message_id })
+    }
+
+    /// The message at `index` if it is due; then it is due again after its interval.
+    fn due(&mut self, index: usize, now: Duration) -> Option<u32> {
+        let stream = self.0.get_mut(index)?;
+        let every = stream.every?;
+        if now < stream.next {
+            return None;
+        }
+        // Without catching up what was missed.
+        let next = stream.next + every;
+        stream.next = if next > now { next } else { now + every };
+        Some(stream.id)
+    }
+
+    /// Makes a message due at once.
+    fn hasten(&mut self, id: u32) {
+        if let Some(stream) = self.0.iter_mut().find(|stream| stream.id == id) {
+            stream.next = Duration::ZERO;
+        }
+    }
+}
+
+impl MavlinkVehicle {
+    /// Queues what is due.
+    pub(super) fn tell(&mut self, now: Duration) {
+        let told = (self.mode(), self.is_armed());
+        if self.told.is_some_and(|last| last != told) {
+            for id in [HEARTBEAT, 245, 436, 42] {
+                self.schedule.hasten(id);
+            }
+        }
+        self.told = Some(told);
+        for index in 0..self.schedule.0.len() {
+            if let Some(id) = self.schedule.due(index, now)
+                && let Some(message) = self.telemetry(id)
+            {
+                self.send(To::All, message);
+            }
+        }
+    }
+
+    /// A message by its number; nothing if there is none, or what it tells is not known yet.
+    pub(super) fn telemetry(&self, id: u32) -> Option<MavMessage> {
+        let (at, status) = self.status.as_ref()?;
+        let view = View { vehicle: self, status, at: *at };
+        Some(match id {
+            HEARTBEAT => MavMessage::HEARTBEAT(view.heartbeat()),
+            1 => MavMessage::SYS_STATUS(view.sys_status()),
+            2 => MavMessage::SYSTEM_TIME(SYSTEM_TIME_DATA {
+                time_unix_usec: us(self.config.unix_time + *at),
+                time_boot_ms: view.ms(),
+            }),
+            24 => MavMessage::GPS_RAW_INT(view.gps().filter(|_| self.config.pretend_gps)?),
+            30 => MavMessage::ATTITUDE(view.attitude()?),
+            31 => MavMessage::ATTITUDE_QUATERNION(view.quaternion()?),
+            32 => MavMessage::LOCAL_POSITION_NED(view.local()?),
+            33 => MavMessage::GLOBAL_POSITION_INT(view.global()?),
+            42 => MavMessage::MISSION_CURRENT(view.mission()),
+            49 => MavMessage::GPS_GLOBAL_ORIGIN(view.origin()),
+            74 => MavMessage::VFR_HUD(view.hud()?),
+            85 => MavMessage::POSITION_TARGET_LOCAL_NED(view.target()),
+            132 => MavMessage::DISTANCE_SENSOR(view.distance()?),
+            141 => MavMessage::ALTITUDE(view.altitude()?),
+            147 => MavMessage::BATTERY_STATUS(view.battery()?),
+            148 => MavMessage::AUTOPILOT_VERSION(self.version()),
+            230 => MavMessage::ESTIMATOR_STATUS(view.estimator()),
+            242 => MavMessage::HOME_POSITION(view.home()),
+            245 => MavMessage::EXTENDED_SYS_STATE(EXTENDED_SYS_STATE_DATA {
+                landed_state: view.landed(),
+                ..EXTENDED_SYS_STATE_DATA::default()
+            }),
+            300 => MavMessage::PROTOCOL_VERSION(PROTOCOL_VERSION_DATA {
+                version: 200,
+                min_version: 100,
+                max_version: 200,
+                ..PROTOCOL_VERSION_DATA::default()
+            }),
+            436 => MavMessage::CURRENT_MODE(CURRENT_MODE_DATA {
+                custom_mode: self.mode().custom(),
+                intended_custom_mode: self.mode().custom(),
+                standard_mode: self.mode().standard(),
+            }),
+            _ => return None,
+        })
+    }
+
+    /// A mode by its index, from 1.
+    pub(super) fn available_mode(index: usize) -> Option<MavMessage> {
+        let mode = *Mode::ALL.get(index.checked_sub(1)?)?;
+        let properties = if mode.is_automatic() {
+            MavModeProperty::MAV_MODE_PROPERTY_AUTO_MODE
+        } else {
+            MavModeProperty::empty()
+        };
+        Some(MavMessage::AVAILABLE_MODES(AVAILABLE_MODES_DATA {
+            custom_mode: mode.custom(),
+            properties,
+            number_modes: u8::try_from(Mode::ALL.len()).unwrap_or(u8::MAX),
+            mode_index: u8::try_from(index).unwrap_or(u8::MAX),
+            standard_mode: mode.standard(),
+            mode_name: CharArray::from(mode.name()),
+        }))
+    }
+
+    fn version(&self) -> AUTOPILOT_VERSION_DATA {
+        use MavProtocolCapability as Can;
+        AUTOPILOT_VERSION_DATA {
+            capabilities: Can::MAV_PROTOCOL_CAPABILITY_MISSION_INT
+                | Can::MAV_PROTOCOL_CAPABILITY_COMMAND_INT
+                | Can::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
+                | Can::MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_LOCAL_NED
+                | Can::MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_GLOBAL_INT
+                | Can::MAV_PROTOCOL_CAPABILITY_FLIGHT_TERMINATION
+                | Can::MAV_PROTOCOL_CAPABILITY_MAVLINK2,
+            uid: 1,
+            // Major, minor, patch, and 255 for a release.
+            flight_sw_version: match self.config.autopilot {
+                Autopilot::Px4 => 0x0110_00ff,
+                Autopilot::Generic => 0x0001_00ff,
+            },
+            ..AUTOPILOT_VERSION_DATA::default()
+        }
+    }
+}
+
+/// The vehicle at one moment.
+struct View<'a> {
+    vehicle: &'a MavlinkVehicle,
+    status: &'a Status,
+    at: Duration,
+}
+
+fn us(time: Duration) -> u64 {
+    u64::try_from(time.as_micros()).unwrap_or(u64::MAX)
+}
+
+/// To a smaller float; what is far outside of it becomes infinite, which nothing here is.
+#[allow(clippy::cast_possible_truncation, reason = "metres and radians")]
+fn f32_of(value: f64) -> f32 {
+    value as f32
+}
+
+/// To the nearest integer; a cast saturates.
+#[allow(clippy::cast_possible_truncation, reason = "it saturates")]
+fn i32_of(value: f64) -> i32 {
+    value.round() as i32
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "it saturates")]
+fn i16_of(value: f64) -> i16 {
+    value.round() as i16
+}
+
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
+fn u16_of(value: f64) -> u16 {
+    value.round() as u16
+}
+
+impl View<'_> {
+    fn ms(&self) -> u32 {
+        u32::try_from(self.at.as_millis() % (1 << 32)).unwrap_or_default()
+    }
+
+    fn is_connected(&self) -> bool {
+        self.status.phase != Phase::Connecting
+    }
+
+    fn heartbeat(&self) -> HEARTBEAT_DATA {
+        use MavModeFlag as Flag;
+        let mode = self.vehicle.mode();
+        let mut base_mode = Flag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+            | Flag::MAV_MODE_FLAG_STABILIZE_ENABLED
+            | match mode {
+                Mode::Position => Flag::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED,
+                Mode::Offboard => Flag::MAV_MODE_FLAG_GUIDED_ENABLED,
+                _ => Flag::MAV_MODE_FLAG_GUIDED_ENABLED | Flag::MAV_MODE_FLAG_AUTO_ENABLED,
+            };
+        base_mode.set(Flag::MAV_MODE_FLAG_SAFETY_ARMED, self.vehicle.is_armed());
+        let state = match self.status.phase {
+            _ if self.vehicle.emergency => MavState::MAV_STATE_EMERGENCY,
+            Phase::Connecting => MavState::MAV_STATE_UNINIT,
+            Phase::Configuring | Phase::Trimming => MavState::MAV_STATE_BOOT,
+            Phase::Flying | Phase::Landing if self.vehicle.failsafe => MavState::MAV_STATE_CRITICAL,
+            Phase::Flying | Phase::Landing | Phase::Observing => MavState::MAV_STATE_ACTIVE,
+            Phase::Standby => MavState::MAV_STATE_STANDBY,
+        };
+        HEARTBEAT_DATA {
+            custom_mode: mode.custom(),
+            mavtype: MavType::MAV_TYPE_QUADROTOR as u8,
+            autopilot: match self.vehicle.config.autopilot {
+                Autopilot::Generic => MavAutopilot::MAV_AUTOPILOT_GENERIC as u8,
+                Autopilot::Px4 => MavAutopilot::MAV_AUTOPILOT_PX4 as u8,
+            },
+            base_mode,
+            system_status: state as u8,
+            mavlink_version: 3,
+        }
+    }
+
+    fn sys_status(&self) -> SYS_STATUS_DATA {
+        use MavSysStatusSensor as Sensor;
+        let mut present = Sensor::MAV_SYS_STATUS_SENSOR_3D_GYRO
+            | Sensor::MAV_SYS_STATUS_SENSOR_3D_ACCEL
+            | Sensor::MAV_SYS_STATUS_SENSOR_3D_MAG
+            | Sensor::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE
+            | Sensor::MAV_SYS_STATUS_SENSOR_OPTICAL_FLOW
+            | Sensor::MAV_SYS_STATUS_SENSOR_LASER_POSITION
+            | Sensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION
+            | Sensor::MAV_SYS_STATUS_SENSOR_YAW_POSITION
+            | Sensor::MAV_SYS_STATUS_SENSOR_Z_ALTITUDE_CONTROL
+            | Sensor::MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL
+            | Sensor::MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS
+            | Sensor::MAV_SYS_STATUS_AHRS
+            | Sensor::MAV_SYS_STATUS_SENSOR_BATTERY
+            | Sensor::MAV_SYS_STATUS_PREARM_CHECK;
+        present.set(Sensor::MAV_SYS_STATUS_SENSOR_GPS, self.vehicle.config.pretend_gps);
+        let sound = self.is_connected() && self.status.trust == Trust::Sound;
+        let mut health = if sound { present } else { Sensor::MAV_SYS_STATUS_SENSOR_BATTERY };
+        // In flight the checks before it have been passed.
+        let ready = self.vehicle.is_flying()
+            || self.vehicle.not_ready.is_some_and(|reasons| reasons.is_empty());
+        health.set(Sensor::MAV_SYS_STATUS_PREARM_CHECK, ready && !self.vehicle.emergency);
+        let percent = self.status.battery_percent.and_then(|percent| i8::try_from(percent).ok());
+        SYS_STATUS_DATA {
+            onboard_control_sensors_present: present,
+            onboard_control_sensors_enabled: present,
+            onboard_control_sensors_health: health,
+            // Not known.
+            voltage_battery: u16::MAX,
+            current_battery: -1,
+            battery_remaining: percent.unwrap_or(-1),
+            ..SYS_STATUS_DATA::default()
+        }
+    }
+
+    fn battery(&self) -> Option<BATTERY_STATUS_DATA> {
+        let percent = self.status.battery_percent?;
+        Some(BATTERY_STATUS_DATA {
+            current_consumed: -1,
+            energy_consumed: -1,
+            temperature: i16::MAX,
+            voltages: [u16::MAX; 10],
+            current_battery: -1,
+            battery_remaining: i8::try_from(percent).unwrap_or(100),
+            charge_state: match percent {
+                0..=12 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL,
+                13..=20 => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
+                _ => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK,
+            },
+            ..BATTERY_STATUS_DATA::default()
+        })
+    }
+
+    fn pose(&self) -> Option<Pose> {
+        self.status.pose
+    }
+
+    /// Roll to the right, nose up, and yaw from north: radians.
+    fn angles_rad(&self) -> Option<[f64; 3]> {
+        let [roll_deg, pitch_deg] = self.status.attitude_deg?;
+        let yaw_rad = self.vehicle.origin.yaw_ned_rad(self.pose()?.yaw_deg);
+        Some([roll_deg.to_radians(), pitch_deg.to_radians(), yaw_rad])
+    }
+
+    fn attitude(&self) -> Option<ATTITUDE_DATA> {
+        let [roll, pitch, yaw] = self.angles_rad()?.map(f32_of);
+        let time_boot_ms = self.ms();
+        // Rates are not estimated.
+        Some(ATTITUDE_DATA { time_boot_ms, roll, pitch, yaw, ..ATTITUDE_DATA::default() })
+    }
+
+    fn quaternion(&self) -> Option<ATTITUDE_QUATERNION_DATA> {
+        let [roll, pitch, yaw] = self.angles_rad()?;
+        let turned = nalgebra::UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+        Some(ATTITUDE_QUATERNION_DATA {
+            time_boot_ms: self.ms(),
+            q1: f32_of(turned.w),
+            q2: f32_of(turned.i),
+            q3: f32_of(turned.j),
+            q4: f32_of(turned.k),
+            ..ATTITUDE_QUATERNION_DATA::default()
+        })
+    }
+
+    /// North, east and down, in m/s.
+    fn ned_velocity(&self) -> [f64; 3] {
+        let [x_m_s, y_m_s, z_m_s] = self.status.velocity_m_s.unwrap_or_default();
+        let velocity = Velocity { x_m_s, y_m_s, z_m_s, yaw_deg_s: 0.0 };
+        let ned = self.vehicle.origin.ned_velocity(&velocity);
+        [ned.north_m_s, ned.east_m_s, ned.down_m_s]
+    }
+
+    fn local(&self) -> Option<LOCAL_POSITION_NED_DATA> {
+        let place = self.vehicle.origin.ned(&self.pose()?);
+        let [vx, vy, vz] = self.ned_velocity().map(f32_of);
+        Some(LOCAL_POSITION_NED_DATA {
+            time_boot_ms: self.ms(),
+            x: f32_of(place.north_m),
+            y: f32_of(place.east_m),
+            z: f32_of(place.down_m),
+            vx,
+            vy,
+            vz,
+        })
+    }
+
+    /// Latitude and longitude × 1e7, and heights in mm above the sea and the start.
+    fn on_globe(&self, pose: &Pose) -> (i32, i32, i32, i32) {
+        let origin = &self.vehicle.origin;
+        let place = origin.global(pose.x_m, pose.y_m);
+        let amsl_mm = i32_of(origin.amsl_m(pose.z_m) * 1e3);
+        (place.latitude_e7, place.longitude_e7, amsl_mm, i32_of(pose.z_m * 1e3))
+    }
+
+    fn heading_deg(&self, pose: &Pose) -> f64 {
+        self.vehicle.origin.yaw_ned_rad(pose.yaw_deg).to_degrees().rem_euclid(360.0)
+    }
+
+    fn global(&self) -> Option<GLOBAL_POSITION_INT_DATA> {
+        let pose = self.pose()?;
+        let (lat, lon, alt, relative_alt) = self.on_globe(&pose);
+        let [vx, vy, vz] = self.ned_velocity().map(|speed_m_s| i16_of(speed_m_s * 1e2));
+        let hdg = u16_of(self.heading_deg(&pose) * 1e2) % 36_000;
+        let time_boot_ms = self.ms();
+        Some(GLOBAL_POSITION_INT_DATA {
+            time_boot_ms,
+            lat,
+            lon,
+            alt,
+            relative_alt,
+            vx,
+            vy,
+            vz,
+            hdg,
+        })
+    }
+
+    fn gps(&self) -> Option<GPS_RAW_INT_DATA> {
+        let pose = self.pose()?;
+        let (lat, lon, alt, _) = self.on_globe(&pose);
+        Some(GPS_RAW_INT_DATA {
+            time_usec: us(self.at),
+            lat,
+            lon,
+            alt,
+            eph: 100,
+            epv: 100,
+            vel: u16::MAX,
+            cog: u16::MAX,
+            fix_type: GpsFixType::GPS_FIX_TYPE_3D_FIX,
+            satellites_visible: 10,
+            ..GPS_RAW_INT_DATA::default()
+        })
+    }
+
+    fn hud(&self) -> Option<VFR_HUD_DATA> {
+        let pose = self.pose()?;
+        let [north, east, down] = self.ned_velocity();
+        Some(VFR_HUD_DATA {
+            airspeed: 0.0,
+            groundspeed: f32_of(north.hypot(east)),
+            alt: f32_of(self.vehicle.origin.amsl_m(pose.z_m)),
+            climb: f32_of(-down),
+            heading: i16_of(self.heading_deg(&pose)) % 360,
+            // Not known.
+            throttle: 0,
+        })
+    }
+
+    fn altitude(&self) -> Option<ALTITUDE_DATA> {
+        let z_m = self.pose()?.z_m;
+        let amsl = f32_of(self.vehicle.origin.amsl_m(z_m));
+        let above_start = f32_of(z_m);
+        Some(ALTITUDE_DATA {
+            time_usec: us(self.at),
+            altitude_monotonic: amsl,
+            altitude_amsl: amsl,
+            altitude_local: above_start,
+            altitude_relative: above_start,
+            // Far below what exists: not known.
+            altitude_terrain: -1001.0,
+            bottom_clearance: self.status.altitude_m.map_or(-1.0, f32_of),
+        })
+    }
+
+    fn distance(&self) -> Option<DISTANCE_SENSOR_DATA> {
+        Some(DISTANCE_SENSOR_DATA {
+            time_boot_ms: self.ms(),
+            min_distance: 20,
+            max_distance: 600,
+            current_distance: u16_of(self.status.altitude_m? * 1e2),
+            mavtype: MavDistanceSensor::MAV_DISTANCE_SENSOR_ULTRASOUND,
+            orientation: MavSensorOrientation::MAV_SENSOR_ROTATION_PITCH_270,
+            covariance: u8::MAX,
+            ..DISTANCE_SENSOR_DATA::default()
+        })
+    }
+
+    fn home(&self) -> HOME_POSITION_DATA {
+        let (latitude, longitude, altitude, _) = self.on_globe(&Pose::default());
+        HOME_POSITION_DATA {
+            latitude,
+            longitude,
+            altitude,
+            q: [1.0, 0.0, 0.0, 0.0],
+            time_usec: us(self.at),
+            ..HOME_POSITION_DATA::default()
+        }
+    }
+
+    fn origin(&self) -> GPS_GLOBAL_ORIGIN_DATA {
+        let (latitude, longitude, altitude, _) = self.on_globe(&Pose::default());
+        GPS_GLOBAL_ORIGIN_DATA { latitude, longitude, altitude, time_usec: us(self.at) }
+    }
+
+    fn target(&self) -> POSITION_TARGET_LOCAL_NED_DATA {
+        let (time_boot_ms, coordinate_frame) = (self.ms(), 1);
+        let Some(target) = self.status.target else {
+            // Without a target everything is to be ignored.
+            return POSITION_TARGET_LOCAL_NED_DATA {
+                time_boot_ms,
+                type_mask: PositionTargetTypemask::from_bits_truncate(0b1101_1111_1111),
+                coordinate_frame,
+                ..POSITION_TARGET_LOCAL_NED_DATA::default()
+            };
+        };
+        let place = self.vehicle.origin.ned(&target);
+        POSITION_TARGET_LOCAL_NED_DATA {
+            time_boot_ms,
+            x: f32_of(place.north_m),
+            y: f32_of(place.east_m),
+            z: f32_of(place.down_m),
+            yaw: f32_of(self.vehicle.origin.yaw_ned_rad(target.yaw_deg)),
+            // Place and yaw.
+            type_mask: PositionTargetTypemask::from_bits_truncate(0b1001_1111_1000),
+            coordinate_frame,
+            ..POSITION_TARGET_LOCAL_NED_DATA::default()
+        }
+    }
+
+    fn estimator(&self) -> ESTIMATOR_STATUS_DATA {
+        use EstimatorStatusFlags as Good;
+        let sound = self.is_connected() && self.status.trust == Trust::Sound;
+        let flags = if sound {
+            Good::ESTIMATOR_ATTITUDE
+                | Good::ESTIMATOR_VELOCITY_HORIZ
+                | Good::ESTIMATOR_VELOCITY_VERT
+                | Good::ESTIMATOR_POS_HORIZ_REL
+                | Good::ESTIMATOR_POS_VERT_AGL
+        } else {
+            Good::empty()
+        };
+        ESTIMATOR_STATUS_DATA {
+            time_usec: us(self.at),
+            pos_horiz_accuracy: f32_of(self.status.horizontal_deviation_m),
+            pos_vert_accuracy: f32_of(self.status.vertical_deviation_m),
+            flags,
+            ..ESTIMATOR_STATUS_DATA::default()
+        }
+    }
+
+    fn landed(&self) -> MavLandedState {
+        match (self.status.phase, self.vehicle.mode()) {
+            (Phase::Connecting, _) => MavLandedState::MAV_LANDED_STATE_UNDEFINED,
+            _ if !self.status.airborne && self.status.command != Some("TakeOff") => {
+                MavLandedState::MAV_LANDED_STATE_ON_GROUND
+            }
+            _ if self.status.command == Some("TakeOff") => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
+            (_, Mode::Land) => MavLandedState::MAV_LANDED_STATE_LANDING,
+            _ => MavLandedState::MAV_LANDED_STATE_IN_AIR,
+        }
+    }
+
+    fn mission(&self) -> MISSION_CURRENT_DATA {
+        let vehicle = self.vehicle;
+        let total = vehicle.transfer.items().len();
+        let handed = vehicle.handed.as_ref().filter(|handed| {
+            handed.purpose == Purpose::Mission && handed.id == vehicle.transfer.id()
+        });
+        let flown = handed.filter(|_| vehicle.progress != Progress::Other);
+        // Between two steps, and while it is paused there, it is the one before.
+        let step = flown.and(vehicle.item);
+        let complete = flown.is_some() && vehicle.progress == Progress::Complete;
+        let last = u16::try_from(total.saturating_sub(1)).unwrap_or_default();
+        let state = if total == 0 {
+            MissionState::MISSION_STATE_NO_MISSION
+        } else if complete {
+            MissionState::MISSION_STATE_COMPLETE
+        } else if flown.is_none() || !vehicle.is_flying() {
+            MissionState::MISSION_STATE_NOT_STARTED
+        } else if self.status.mission_waits {
+            MissionState::MISSION_STATE_PAUSED
+        } else {
+            MissionState::MISSION_STATE_ACTIVE
+        };
+        let seq = match (step, complete) {
+            (Some(item), _) => item,
+            (None, true) => last,
+            (None, false) => vehicle.first_item,
+        };
+        MISSION_CURRENT_DATA {
+            seq,
+            total: if total == 0 { u16::MAX } else { u16::try_from(total).unwrap_or(u16::MAX) },
+            mission_state: state,
+            // Not known.
+            mission_mode: 0,
+            mission_id: vehicle.transfer.id(),
+            ..MISSION_CURRENT_DATA::default()
+        }
+    }
+}
