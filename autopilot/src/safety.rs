@@ -21,9 +21,9 @@ const BLIND: Duration = Duration::from_secs(4);
 /// Distance beyond the fence that is tolerated, because the drone overshoots and its position is not exact.
 const MARGIN_M: f64 = 0.35;
 /// Delay before the drone starts to brake.
-const REACTION_S: f64 = 0.5;
+pub(crate) const REACTION_S: f64 = 0.5;
 /// Deceleration that the drone reaches even against the wind.
-const BRAKING_M_S2: f64 = 0.6;
+pub(crate) const BRAKING_M_S2: f64 = 0.6;
 /// Under manual control the drone is stopped this far inside the fence, and manual targets are moved as far
 /// inside: nearer to it, wind could carry the drone over the fence, which lands it. A drone that has left the
 /// fence is flown back this far.

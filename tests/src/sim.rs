@@ -24,6 +24,8 @@ pub struct Simulation {
     pub pilot: VehicleConfig,
     /// Operator orders with their times, in the order of time.
     pub orders: Vec<(Duration, OperatorOrder)>,
+    /// Orders of other operators, likewise.
+    pub others: Vec<(Duration, Operator, OperatorOrder)>,
     /// Times and durations in which the program does not run: it neither receives nor sends, and afterwards
     /// finds all queued input. In the order of time.
     pub stalls: Vec<(Duration, Duration)>,
@@ -143,6 +145,7 @@ impl Simulation {
         let mut events = Vec::new();
         let mut truth_at_waypoints = Vec::new();
         let mut orders = self.orders.iter().peekable();
+        let mut others = self.others.iter().peekable();
         while driver.now() < LIMIT {
             let now = driver.now();
             if self.is_stalled(now) {
@@ -152,8 +155,10 @@ impl Simulation {
                 driver.pass();
                 continue;
             }
-            while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
-                let by = Operator::TERMINAL;
+            let due = std::iter::from_fn(|| orders.next_if(|(at, _)| now >= *at));
+            let due = due.map(|(_, order)| (Operator::TERMINAL, order));
+            let due_too = std::iter::from_fn(|| others.next_if(|(at, ..)| now >= *at));
+            for (by, order) in due.chain(due_too.map(|(_, by, order)| (*by, order))) {
                 // A refused order changes nothing.
                 _ = driver.order(by, order.clone());
                 record(Record::Order { at: now, by, order: order.clone() });

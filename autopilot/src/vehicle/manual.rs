@@ -148,12 +148,12 @@ impl Vehicle {
 
     /// Begins to follow set-points.
     pub(super) fn follow(&mut self, now: Duration, setpoint: Setpoint) {
+        if self.next_setpoint(now, setpoint).is_ok() {
+            return;
+        }
         let state = self.state(now);
         let target = self.flight.target.unwrap_or_else(|| pose(&state));
-        let course = match self.flight.manual.mode {
-            Mode::Following { course, stopped: false, .. } => course,
-            _ => course_of(&state),
-        };
+        let course = course_of(&state);
         self.begin_manual(FlightEvent::FollowingSetpoints);
         self.flight.manual.pre_empts = true;
         self.flight.manual.mode =
@@ -217,6 +217,8 @@ impl Vehicle {
                 *stopped = true;
                 self.events.push_back(FlightEvent::SetpointsSilent);
             }
+            // It waits already.
+            Mode::None if manual.holds_mission => {}
             mode => {
                 *mode = Mode::None;
                 manual.holds_mission = true;

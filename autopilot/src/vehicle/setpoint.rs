@@ -4,6 +4,8 @@ use kinematics::{Pose, world_from_body, wrap_deg};
 use nalgebra::Vector2;
 use pid::{Course, CourseLimits};
 
+use crate::safety::{BRAKING_M_S2, REACTION_S};
+
 /// Fastest climb and descent, in m/s.
 const CLIMB_MAX_M_S: f64 = 0.75;
 /// Fastest turn, in degrees/s.
@@ -111,8 +113,9 @@ impl Setpoint {
             }
         };
         let wanted_m_s = capped(wanted_m_s, limits.speed_m_s);
-        course.advance(kept_inside_m_s(wanted_m_s, course, limits, radius_m), limits, step_s);
         let here_m = Vector2::new(pose.x_m, pose.y_m);
+        let inside_m_s = kept_inside_m_s(wanted_m_s, course, &here_m, radius_m);
+        course.advance(inside_m_s, limits, step_s);
         course.position_m = here_m + (course.position_m - here_m).cap_magnitude(LEASH_M);
     }
 
@@ -148,16 +151,19 @@ fn capped(vector: Vector2<f64>, most: f64) -> Vector2<f64> {
     if length > most { vector * (most / length) } else { vector }
 }
 
-/// A wanted velocity from which the course can stop before it is `radius_m` from the origin.
+/// A wanted velocity from which a drone that follows the course can stop before it is `radius_m` from the origin.
 fn kept_inside_m_s(
     wanted_m_s: Vector2<f64>,
     course: &Course,
-    limits: &CourseLimits,
+    here_m: &Vector2<f64>,
     radius_m: f64,
 ) -> Vector2<f64> {
-    let away_m = course.position_m.norm();
-    let Some(outward) = course.position_m.try_normalize(f64::EPSILON) else { return wanted_m_s };
-    let most_m_s = limits.speed_before_stop_m_s(radius_m - away_m);
+    let foremost_m =
+        if here_m.norm() > course.position_m.norm() { here_m } else { &course.position_m };
+    let Some(outward) = foremost_m.try_normalize(f64::EPSILON) else { return wanted_m_s };
+    let room_m = (radius_m - foremost_m.norm()).max(0.0);
+    let delay_m_s = BRAKING_M_S2 * REACTION_S;
+    let most_m_s = (delay_m_s * delay_m_s + 2.0 * BRAKING_M_S2 * room_m).sqrt() - delay_m_s;
     let too_fast_m_s = (wanted_m_s.dot(&outward) - most_m_s).max(0.0);
     wanted_m_s - outward * too_fast_m_s
 }
@@ -226,12 +232,12 @@ mod tests {
         ] {
             let mut furthest_m: f64 = 0.0;
             let (mut course, mut pose) = (at_rest(), HERE);
-            for _ in 0..600 {
+            for _ in 0..900 {
                 setpoint(horizontal).advance(&mut course, &pose, &LIMITS, 4.0, STEP_S);
                 pose = Pose { x_m: course.position_m.x, y_m: course.position_m.y, ..pose };
                 furthest_m = furthest_m.max(course.position_m.norm());
             }
-            assert!((3.9..4.05).contains(&furthest_m), "{horizontal:?}: {furthest_m:.2} m");
+            assert!((3.8..4.05).contains(&furthest_m), "{horizontal:?}: {furthest_m:.2} m");
         }
     }
 

@@ -22,6 +22,10 @@ pub enum Danger {
     Wind,
     /// The estimate's own position uncertainty is too large.
     Lost,
+    /// The ground station that has the controls has been silent for too long.
+    Station,
+    /// The set-points that were followed have not come for too long.
+    Setpoints,
 }
 
 impl fmt::Display for Danger {
@@ -34,6 +38,8 @@ impl fmt::Display for Danger {
             Self::NoFloor => "no floor seen or heard",
             Self::Wind => "wind stronger than the airframe",
             Self::Lost => "place lost",
+            Self::Station => "station gone",
+            Self::Setpoints => "set-points gone",
         })
     }
 }
@@ -92,6 +98,11 @@ pub enum Fault {
         /// The order.
         order: &'static str,
     },
+    /// The drone was flown on although nobody may have been there any more who ordered it.
+    FlownForNobody {
+        /// Whether set-points had stopped, or else the station was lost.
+        setpoints: bool,
+    },
     /// The estimate's error exceeded its claimed uncertainty.
     Overconfident {
         /// Whether in height, or else in position.
@@ -139,6 +150,8 @@ impl Fault {
             Self::EndlessLanding { .. } => "endless landing".to_owned(),
             Self::BlindSticks { .. } => "moved blindly".to_owned(),
             Self::OrderIgnored { order } => format!("order ignored: {order}"),
+            Self::FlownForNobody { setpoints: true } => "flown on without set-points".to_owned(),
+            Self::FlownForNobody { setpoints: false } => "flown for a lost station".to_owned(),
             Self::Overconfident { vertical: true, .. } => "overconfident of the height".to_owned(),
             Self::Overconfident { vertical: false, .. } => "overconfident of the place".to_owned(),
             Self::TargetMissed { .. } => "success without its target".to_owned(),
@@ -176,6 +189,7 @@ impl fmt::Display for Fault {
             }
             Self::Scraping
             | Self::OrderIgnored { .. }
+            | Self::FlownForNobody { .. }
             | Self::NotFlown
             | Self::GivenUpForNothing
             | Self::UncommandedTakeOff

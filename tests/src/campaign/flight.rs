@@ -17,6 +17,7 @@ use rand::{Rng, RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
 use super::injected::Injected;
+use super::station::Station;
 use super::tags::Tags;
 use crate::sensors::{AIRFRAMES, Model};
 use crate::sim::Simulation;
@@ -38,6 +39,8 @@ pub(super) struct Flight {
     plan_text: String,
     /// Tags, if they are in use.
     pub(super) tags: Option<Tags>,
+    /// The ground station that flies it, if there is one.
+    station: Option<Station>,
 }
 
 impl Flight {
@@ -56,7 +59,7 @@ impl Flight {
         let mut drone = drone(random, seed, profile(), strongest_m_s, &limits);
         let link = if random.random_bool(0.3) { LinkFaults::default() } else { link(random) };
         let mut injected = injected(random, strongest_m_s, drone.flies_at_m.is_some());
-        let orders = orders(random);
+        let mut orders = orders(random);
         let mut plan_text = plan(random, &limits, drone.flies_at_m.is_some());
         let tags = Tags::of(seed, drone.sensors == SensorModel::hard());
         let mut pilot = VehicleConfig { limits, ..VehicleConfig::default() };
@@ -66,6 +69,11 @@ impl Flight {
             injected.is_survey_wrong = tags.is_survey_wrong;
             pilot.estimator.tags = Some(tags.config);
             plan_text = tags.change(&plan_text);
+        }
+        let station = Station::of(seed, &limits);
+        if let Some(station) = &station {
+            orders.push((station.released_at, OperatorOrder::Release));
+            orders.sort_by_key(|(at, _)| *at);
         }
         let plan = Plan::parse_within("campaign", &plan_text, &limits)
             .unwrap_or_else(|error| panic!("{error}"));
@@ -78,10 +86,17 @@ impl Flight {
             },
             pilot,
             orders,
+            others: station.as_ref().map(|station| station.orders.clone()).unwrap_or_default(),
             stalls: injected.stalls.clone(),
             aftermath: AFTERMATH,
         };
-        Self { simulation, plan, injected, strongest_m_s, airframe, plan_text, tags }
+        Self { simulation, plan, injected, strongest_m_s, airframe, plan_text, tags, station }
+    }
+
+    /// Whether a station has loaded another plan.
+    pub(super) fn is_plan_replaced(&self) -> bool {
+        let is_plan = |order: &OperatorOrder| matches!(order, OperatorOrder::Load(_));
+        self.simulation.others.iter().any(|(_, _, order)| is_plan(order))
     }
 
     /// Whether nothing prevents the plan from being completed.
@@ -148,6 +163,7 @@ impl Flight {
             }
             lines.push(format!("{:.2} s: ordered to {order:?}", at.as_secs_f64()));
         }
+        lines.extend(self.station.iter().flat_map(Station::circumstances));
         lines
     }
 }

@@ -190,13 +190,18 @@ impl Injected {
         self.begun(now).any(|(_, action)| matches!(action, Action::Restart))
     }
 
-    /// The current wind, and the deviation of its gusts.
+    /// The current wind.
     pub(super) fn wind_m_s(&self, now: Duration) -> Option<f64> {
+        self.wind(now).map(|(speed_m_s, _)| speed_m_s)
+    }
+
+    /// The current wind, and the deviation of its gusts.
+    pub(super) fn wind(&self, now: Duration) -> Option<(f64, f64)> {
         let winds = self.begun(now).filter_map(|(at, action)| match action {
-            Action::Wind(steady_m_s, _) => Some((at, steady_m_s.norm())),
+            Action::Wind(steady_m_s, gusts_m_s) => Some((at, (steady_m_s.norm(), *gusts_m_s))),
             _ => None,
         });
-        winds.max_by_key(|(at, _)| *at).map(|(_, speed_m_s)| speed_m_s)
+        winds.max_by_key(|(at, _)| *at).map(|(_, wind)| wind)
     }
 }
 

@@ -15,6 +15,7 @@ use super::fence::Fence;
 use super::flight::Flight;
 use super::injected::{Injected, is_airborne};
 use super::orders::Orders;
+use super::silence::Silence;
 use super::targets::{TAKE_OFF_STEP, Targets};
 use crate::sim::{Moment, SimulatedFlight};
 
@@ -52,6 +53,8 @@ const REACHED_M: f64 = 0.5;
 const REACHED_LYING_M: f64 = 1.5;
 /// The agent's own limit of position uncertainty is 3 m; far beyond it nobody may fly on.
 const LOST_M: f64 = 3.6;
+/// Wind and gusts that a drone holds against within a metre for a long time, as a share of what it resists.
+const CALM: f64 = 0.6;
 /// Time for another pilot's drone to land by itself after that pilot's last command.
 const STRANGER_LANDS: Duration = Duration::from_secs(15);
 
@@ -77,6 +80,7 @@ impl DangerWatch {
             Danger::Broken => (2, 25),
             Danger::NoFloor => (5, 30),
             Danger::Wind => (5, 40),
+            Danger::Station | Danger::Setpoints => (1, 25),
         };
         Self {
             danger,
@@ -121,13 +125,15 @@ impl Lasting {
 #[derive(Debug)]
 pub(super) struct Judge {
     injected: Injected,
-    /// The wind at the start, and the strongest that the airframe resists.
+    /// The wind at the start with its gusts, and the strongest that the airframe resists.
     wind_m_s: f64,
+    gusts_m_s: f64,
     strongest_m_s: f64,
     pub(super) fence: Fence,
     orders: Orders,
+    silence: Silence,
     targets: Targets,
-    dangers: [DangerWatch; 7],
+    dangers: [DangerWatch; 9],
     /// Faults found, with their times.
     found: Vec<(Duration, Fault)>,
     last: Option<Truth>,
@@ -152,13 +158,16 @@ impl Judge {
         Self {
             injected: flight.injected.clone(),
             wind_m_s: drone.wind_m_s.norm(),
+            gusts_m_s: drone.gusts_m_s,
             strongest_m_s: flight.strongest_m_s,
             fence: Fence::new(limits),
             orders: Orders::new(
                 &flight.simulation.orders,
+                &flight.simulation.others,
                 limits,
                 flight.plan.steps().len().saturating_sub(1),
             ),
+            silence: Silence::new(&flight.simulation.orders, &flight.simulation.others),
             targets: Targets::of(&flight.plan, limits, flight.tags.is_some()),
             dangers: [
                 Danger::Battery,
@@ -168,6 +177,8 @@ impl Judge {
                 Danger::NoFloor,
                 Danger::Wind,
                 Danger::Lost,
+                Danger::Station,
+                Danger::Setpoints,
             ]
             .map(DangerWatch::new),
             found: Vec::new(),
@@ -209,6 +220,10 @@ impl Judge {
         for fault in self.orders.watch(moment, &self.injected, reached) {
             self.find(*now, fault);
         }
+        let steady = reached && self.is_calm(*now);
+        if let Some(fault) = self.silence.watch(moment, &self.injected, steady) {
+            self.find(*now, fault);
+        }
         self.watch_dangers(moment, reached, overpowered);
         self.watch_contacts(moment);
         self.watch_sticks(moment, reached);
@@ -226,6 +241,13 @@ impl Judge {
         let wind_m_s =
             self.injected.wind_m_s(now.saturating_sub(2 * TICK)).unwrap_or(self.wind_m_s);
         wind_m_s > 0.9 * self.strongest_m_s
+    }
+
+    /// Whether no gust carries the drone far.
+    fn is_calm(&self, now: Duration) -> bool {
+        let (wind_m_s, gusts_m_s) =
+            self.injected.wind(now).unwrap_or((self.wind_m_s, self.gusts_m_s));
+        wind_m_s + 3.0 * gusts_m_s < CALM * self.strongest_m_s
     }
 
     fn watch_dangers(&mut self, moment: &Moment, reached: bool, overpowered: bool) {
@@ -250,6 +272,8 @@ impl Judge {
                 // A drone that stays inside resists more wind than calculated.
                 Danger::Wind => overpowered && self.fence.is_outside(truth),
                 Danger::Lost => status.horizontal_deviation_m > LOST_M,
+                Danger::Station => self.silence.is_station_gone(now),
+                Danger::Setpoints => self.silence.are_setpoints_gone(now),
             };
             if let Some(fault) = self.dangers[index].watch(lasts, airborne, reached) {
                 self.find(now, fault);
@@ -401,6 +425,10 @@ impl Judge {
             if flight.is_fair() {
                 self.find(end, Fault::GivenUpForNothing);
             }
+            return;
+        }
+        // A station's mission has other targets.
+        if flight.is_plan_replaced() {
             return;
         }
         let waypoints = &flown.report.waypoints;

@@ -9,6 +9,8 @@ mod flight;
 mod injected;
 mod judge;
 mod orders;
+mod silence;
+mod station;
 mod tags;
 mod targets;
 

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{OperatorOrder, Phase as PilotPhase, Place, TICK};
+use autopilot::vehicle::{Operator, OperatorOrder, Phase as PilotPhase, Place, TICK};
 use mock_drone::firmware::Phase;
 use nalgebra::Vector2;
 
@@ -51,18 +51,19 @@ enum Watched {
 impl Orders {
     pub(super) fn new(
         all: &[(Duration, OperatorOrder)],
+        others: &[(Duration, Operator, OperatorOrder)],
         limits: FlightLimits,
         last_step: usize,
     ) -> Self {
-        Self {
-            all: all.to_vec(),
-            next: 0,
-            limits,
-            last_step,
-            lands_for: None,
-            cuts_for: None,
-            watched: None,
-        }
+        // Anyone may hold and land. What else others order may have an effect or not, but disturbs.
+        let others = others.iter().filter_map(|(at, _, order)| match order {
+            OperatorOrder::Present | OperatorOrder::Setpoint(_) => None,
+            order if order.is_for_anyone() => Some((*at, order.clone())),
+            _ => Some((*at, OperatorOrder::Take)),
+        });
+        let mut all: Vec<_> = all.iter().cloned().chain(others).collect();
+        all.sort_by_key(|(at, _)| *at);
+        Self { all, next: 0, limits, last_step, lands_for: None, cuts_for: None, watched: None }
     }
 
     /// `reached`: the drone hears us now.

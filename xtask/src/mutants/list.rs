@@ -37,6 +37,9 @@ const TICK: &str = "autopilot/src/vehicle/tick.rs";
 const CONTROL: &str = "autopilot/src/vehicle/control.rs";
 const PHASE: &str = "autopilot/src/vehicle/phase.rs";
 const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
+const OPERATORS: &str = "autopilot/src/vehicle/operators.rs";
+const MANUAL: &str = "autopilot/src/vehicle/manual.rs";
+const SETPOINT: &str = "autopilot/src/vehicle/setpoint.rs";
 pub(super) const ESTIMATOR: &str = "estimator/src/lib.rs";
 const FRAME: &str = "kinematics/src/frame.rs";
 const TAGS: &str = "estimator/src/tags/mod.rs";
@@ -319,6 +322,71 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;",
             "let landed = !blind;",
         )],
+    ),
+    // Whoever flies from elsewhere.
+    mutant(
+        "station: anybody's presence counts for it",
+        &[edit(
+            OPERATORS,
+            "if self.holder == Some(by) {",
+            "if self.holder.is_some_and(|holder| holder.station == by.station) {",
+        )],
+    ),
+    mutant(
+        "station: its silence is never counted",
+        &[edit(OPERATORS, "now.saturating_sub(self.heard)", "self.heard.saturating_sub(now)")],
+    ),
+    mutant(
+        "station: set-points are always new",
+        &[edit(MANUAL, "let age = now.saturating_sub(at);", "let age = at.saturating_sub(now);")],
+    ),
+    mutant(
+        "station: a mission that waits for it goes on by itself",
+        &[edit(
+            MANUAL,
+            "manual.holds_mission = true;\n                self.events.push_back(FlightEvent::PausedForStation);",
+            "manual.holds_mission = false;\n                self.events.push_back(FlightEvent::PausedForStation);",
+        )],
+    ),
+    mutant(
+        "station: without it the mission is flown on until it lands",
+        &[edit(
+            TICK,
+            "hold_after_ms: ms(self.config.station.hold_after),",
+            "hold_after_ms: ms(self.config.station.land_after),",
+        )],
+    ),
+    mutant(
+        "station: without it the drone holds for ever",
+        &[edit(
+            TICK,
+            "land_after_ms: ms(self.config.station.land_after),",
+            "land_after_ms: ms(self.config.station.land_after * 1_000_000),",
+        )],
+    ),
+    mutant(
+        "station: without set-points the drone holds for ever",
+        &[edit(AGENT, "landWithoutSetpoints(10500).", "landWithoutSetpoints(2000000000).")],
+    ),
+    mutant(
+        "station: set-points of ten seconds ago are flown",
+        &[edit(AGENT, "holdWithoutSetpoints(500).", "holdWithoutSetpoints(10000).")],
+    ),
+    mutant(
+        "station: set-points lead out of the fence",
+        &[
+            edit(
+                SETPOINT,
+                "wanted_m_s - outward * too_fast_m_s",
+                "wanted_m_s - outward * (0.0 * too_fast_m_s)",
+            ),
+            edit(MANUAL, "*target = fence.nearest_inside(&wanted, INSIDE_M);", "*target = wanted;"),
+            edit(
+                SAFETY,
+                "self.fence.radius_m + margin_m",
+                "self.fence.radius_m + margin_m.max(1e9)",
+            ),
+        ],
     ),
     // Tags.
     mutant(
