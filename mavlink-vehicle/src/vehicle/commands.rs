@@ -191,6 +191,8 @@ impl MavlinkVehicle {
             MavCmdNumber::DO_REPOSITION => self.reposition(now, station, asked),
             MavCmdNumber::DO_PAUSE_CONTINUE => match asked.number::<u8>(1) {
                 Some(0) => self.change_mode(now, station, asked.command, Some(Mode::Hold)),
+                // Asked again: the answer may have been lost.
+                Some(1) if self.goes_on() && !self.is_others(station) => ACCEPTED,
                 Some(1) if self.is_flying() => by_order(self, OperatorOrder::Resume),
                 Some(1) => NOT_NOW,
                 _ => DENIED,
@@ -371,6 +373,9 @@ impl MavlinkVehicle {
         if !self.is_airborne() || self.mode() == Mode::Land {
             return NOT_NOW;
         }
+        if self.is_others(station) {
+            return NOT_NOW;
+        }
         if self.flies_stored_mission() {
             let paused = self.present().is_some_and(|status| status.mission_waits);
             if !paused {
@@ -381,6 +386,13 @@ impl MavlinkVehicle {
             self.fly_mission(now, station, Some(command));
         }
         End::Later
+    }
+
+    /// Whether the vehicle flies a mission that is not paused.
+    fn goes_on(&self) -> bool {
+        let status = self.present();
+        self.is_airborne()
+            && status.is_some_and(|status| !status.mission_waits && status.step.is_some())
     }
 
     /// Whether the vehicle flies the stored mission, and not to its end yet.

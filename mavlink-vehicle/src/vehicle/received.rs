@@ -245,6 +245,7 @@ impl MavlinkVehicle {
         }
         self.setpoint = Some((now, by, setpoint));
         if self.follows == Some(by) {
+            self.ordered_at = Some((by, station.peer));
             self.order_quietly(by, OperatorOrder::Setpoint(setpoint));
         }
     }
