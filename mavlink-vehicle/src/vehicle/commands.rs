@@ -7,6 +7,7 @@ use autopilot::vehicle::{OperatorOrder, Place};
 use super::modes::{Mode, Purpose};
 use super::orders::{After, Then};
 use super::parameters::TAKE_OFF_HEIGHT;
+use super::setpoints::SETPOINT_TIME;
 use super::stations::Station;
 use super::{Autopilot, MavlinkVehicle, Progress, To};
 use crate::dialect::{COMMAND_INT_DATA, COMMAND_LONG_DATA, MavCmd, MavMessage, MavResult};
@@ -342,7 +343,7 @@ impl MavlinkVehicle {
                     _ => (self.setpoint, After::Follows, self.follows),
                 };
                 let fresh = last.filter(|(at, whose, _)| {
-                    *whose == by && now.saturating_sub(*at) <= super::received::SETPOINT_TIME
+                    *whose == by && now.saturating_sub(*at) <= SETPOINT_TIME
                 });
                 let Some((_, _, setpoint)) = fresh else {
                     self.warn(format_args!("no fresh set-points or sticks to follow"));

@@ -20,8 +20,6 @@ use crate::frame::Frame;
 use crate::mission::{Event, Handled, Item, Message, Partner, Received, result};
 use crate::place::Origin;
 
-/// A set-point that is older is none.
-pub(super) const SETPOINT_TIME: Duration = Duration::from_millis(500);
 /// Sticks that have been silent for so long must be seen in the middle again.
 const STICKS_TIME: Duration = Duration::from_secs(1);
 /// Set-points that come faster than the vehicle decides are passed on no faster than this.
