@@ -20,10 +20,19 @@ const PAGE_STICK_TIME: Duration = Duration::from_millis(250);
 pub(super) struct Manual {
     /// The mission is paused.
     pub(super) holds_mission: bool,
-    /// The agent's next step serves a pre-empting order. An order offered in the same tick would replace the
-    /// pre-empting one.
-    pub(super) pre_empts: bool,
+    /// What the agent is told in the next tick. It handles one pre-empting goal in a step, so of several orders in a tick it
+    /// gets the last; one that stayed for later would end whatever was ordered after it. Nothing else is offered meanwhile.
+    goal: Option<Goal>,
     mode: Mode,
+}
+
+/// A pre-empting goal of the agent, besides landing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Goal {
+    Hold,
+    Steer,
+    Follow,
+    NewMission,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -134,10 +143,7 @@ impl Vehicle {
     pub(super) fn steer(&mut self, now: Duration, by: Operator, sticks: Sticks) {
         if self.flight.manual.sticks(now).is_none() {
             self.begin_manual(FlightEvent::Steered);
-            self.flight.manual.pre_empts = true;
-            // Pre-empting goals are always accepted.
-            let accepted = self.flight.agent.achieve_steer();
-            debug_assert!(accepted);
+            self.flight.manual.goal = Some(Goal::Steer);
         }
         let lasts = match by.station {
             Station::Browser => PAGE_STICK_TIME,
@@ -155,12 +161,9 @@ impl Vehicle {
         let target = self.flight.target.unwrap_or_else(|| pose(&state));
         let course = course_of(&state);
         self.begin_manual(FlightEvent::FollowingSetpoints);
-        self.flight.manual.pre_empts = true;
+        self.flight.manual.goal = Some(Goal::Follow);
         self.flight.manual.mode =
             Mode::Following { setpoint, at: now, target, course, stopped: false };
-        // Pre-empting goals are always accepted.
-        let accepted = self.flight.agent.achieve_follow();
-        debug_assert!(accepted);
     }
 
     /// The next set-point. After the agent has stopped following it only shows that its sender is there.
@@ -265,7 +268,22 @@ impl Vehicle {
     /// Ends manual control because the mission was replaced. A paused mission stays paused.
     pub(super) fn manual_ends(&mut self) {
         self.flight.manual.mode = Mode::None;
-        self.flight.manual.pre_empts = true;
+        self.flight.manual.goal = Some(Goal::NewMission);
+    }
+
+    /// Tells the agent what the last order was; whether there was one.
+    pub(super) fn offer_goal(&mut self) -> bool {
+        let Some(goal) = self.flight.manual.goal.take() else { return false };
+        let agent = &mut self.flight.agent;
+        // Pre-empting goals are always accepted.
+        let accepted = match goal {
+            Goal::Hold => agent.achieve_hold(),
+            Goal::Steer => agent.achieve_steer(),
+            Goal::Follow => agent.achieve_follow(),
+            Goal::NewMission => agent.achieve_new_mission(),
+        };
+        debug_assert!(accepted);
+        true
     }
 
     /// Hands the manual target to the agent once the agent holds.
@@ -289,10 +307,7 @@ impl Vehicle {
 
     fn agent_holds(&mut self) {
         self.flight.manual.mode = Mode::None;
-        self.flight.manual.pre_empts = true;
-        // Pre-empting goals are always accepted.
-        let accepted = self.flight.agent.achieve_hold();
-        debug_assert!(accepted);
+        self.flight.manual.goal = Some(Goal::Hold);
     }
 
     fn begin_manual(&mut self, event: FlightEvent) {

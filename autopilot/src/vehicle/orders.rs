@@ -365,9 +365,6 @@ impl Vehicle {
         }
         self.flight.due = None;
         self.manual_ends();
-        // Pre-empting goals are always accepted.
-        let accepted = self.flight.agent.achieve_new_mission();
-        debug_assert!(accepted);
     }
 
     fn append(&mut self, now: Duration, commands: Commands) -> Result<(), Refused> {

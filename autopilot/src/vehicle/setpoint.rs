@@ -164,6 +164,11 @@ fn kept_inside_m_s(
     let room_m = (radius_m - foremost_m.norm()).max(0.0);
     let delay_m_s = BRAKING_M_S2 * REACTION_S;
     let most_m_s = (delay_m_s * delay_m_s + 2.0 * BRAKING_M_S2 * room_m).sqrt() - delay_m_s;
+    let excess_m_s = course.velocity_m_s.dot(&outward) - most_m_s;
+    if excess_m_s > 0.0 {
+        // All that it can do is to brake.
+        return -outward * excess_m_s;
+    }
     let too_fast_m_s = (wanted_m_s.dot(&outward) - most_m_s).max(0.0);
     wanted_m_s - outward * too_fast_m_s
 }

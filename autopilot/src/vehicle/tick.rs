@@ -48,7 +48,6 @@ impl Vehicle {
         self.advance_setpoint(&state, step_s);
         let percepts = self.percepts(now, &state, tags.as_ref());
         let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, percepts);
-        self.flight.manual.pre_empts = false;
         // An order that is refused because of a danger ends with that danger as its reason.
         if let Some(danger) = step.danger {
             self.endangered(now, danger);
@@ -224,7 +223,7 @@ impl Vehicle {
 
     /// Hands the next order to the agent when the last one has ended.
     fn offer_order(&mut self, now: Duration) {
-        if self.phase != FlightPhase::Flying || self.flight.manual.pre_empts {
+        if self.phase != FlightPhase::Flying || self.offer_goal() {
             return;
         }
         if self.flight.manual.holds_mission {

@@ -328,8 +328,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "station: anybody's presence counts for it",
         &[edit(
             OPERATORS,
-            "if self.holder == Some(by) {",
-            "if self.holder.is_some_and(|holder| holder.station == by.station) {",
+            "if self.holder.or(self.flies_for) == Some(by) {",
+            "if self.holder.is_some_and(|holder| holder.station == by.station) || self.flies_for == Some(by) {",
         )],
     ),
     mutant(

@@ -1,5 +1,7 @@
 //! Set-points that are followed, and a ground station that falls silent.
 
+use kinematics::Sticks;
+
 use super::bench::{Bench, SECOND, START};
 use super::*;
 
@@ -66,6 +68,30 @@ fn setpoints_lead_the_drone_as_long_as_they_come() {
     assert_eq!((bench.phase(), manual(&bench)), (Phase::Flying, Some(ManualControl::Hold)));
     bench.accepted(OperatorOrder::Resume);
     bench.until(20 * SECOND, |bench| bench.vehicle.report().steps_done == 3);
+}
+
+/// The agent handles one such goal in a step: one that was left would end what was ordered after it.
+#[test]
+fn of_several_orders_in_one_tick_the_last_is_flown() {
+    let steer = OperatorOrder::Steer(Sticks { roll: 0.3, ..Sticks::default() });
+    let follow = OperatorOrder::Follow(place(0.1, 0.0));
+    let mut bench = Bench::in_the_air(STAY);
+    bench.run(SECOND);
+    let of_mission = bench.vehicle.status(bench.now).target;
+    for order in [steer.clone(), follow.clone(), OperatorOrder::Resume] {
+        bench.accepted(order);
+    }
+    bench.run(SECOND / 3);
+    assert_eq!(bench.vehicle.status(bench.now).target, of_mission);
+    bench.until(15 * SECOND, |bench| bench.vehicle.report().steps_done == 3);
+    for order in [follow, steer, OperatorOrder::Hold] {
+        bench.accepted(order);
+    }
+    bench.step();
+    let held = bench.vehicle.status(bench.now).target.unwrap();
+    bench.run(SECOND);
+    assert_eq!(bench.vehicle.status(bench.now).target, Some(held));
+    assert_eq!(manual(&bench), Some(ManualControl::Hold));
 }
 
 #[test]
