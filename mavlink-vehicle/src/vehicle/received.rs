@@ -101,7 +101,7 @@ impl MavlinkVehicle {
                     altitude_m: f64::from(data.altitude) / 1e3,
                     ..self.origin
                 };
-                self.set_origin(origin);
+                self.set_origin(station, origin);
             }
             MavMessage::SET_POSITION_TARGET_LOCAL_NED(data) => {
                 let pose = self.present().and_then(|status| status.pose);
@@ -114,7 +114,7 @@ impl MavlinkVehicle {
             }
             MavMessage::MANUAL_CONTROL(data) => {
                 let by = station.operator();
-                if self.config.view_only || self.by_hand.is_some_and(|whose| whose != by) {
+                if self.config.view_only || self.is_others(station) {
                     return;
                 }
                 if self.sticks.is_none_or(|(at, _, _)| now.saturating_sub(at) >= STICKS_TIME) {
@@ -190,9 +190,9 @@ impl MavlinkVehicle {
     }
 
     /// The origin can be set on the ground; a stored mission that no longer fits is removed.
-    fn set_origin(&mut self, origin: Origin) {
-        if self.config.view_only || self.is_flying() {
-            return self.warn(format_args!("the origin can be set on the ground only"));
+    fn set_origin(&mut self, station: Station, origin: Origin) {
+        if self.config.view_only || self.is_armed() || self.is_others(station) {
+            return self.warn(format_args!("the origin is not set: disarm first"));
         }
         let origin = match origin.checked() {
             Ok(origin) => origin,
@@ -216,7 +216,8 @@ impl MavlinkVehicle {
         station: Station,
         setpoint: Result<Setpoint, NoSetpoint>,
     ) {
-        if self.config.view_only {
+        // Only whoever has the controls is followed, or might be.
+        if self.config.view_only || self.is_others(station) {
             return;
         }
         let setpoint = match setpoint {
