@@ -478,17 +478,18 @@ stayTime(2000).
 +?searchOffset(_, Right, Forward) <- Right = -1.4; Forward = 1.4.
 
 // None was found.
+
+@nobody_goes_on[req("SAF-9")]
++!noTag(_) : not onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
+  <- !watch;
+     !holdHere;
+     reportPaused;
+     !!wait.
+
 +!noTag(0) : not onGround
   <- !watch;
      sendHover;
      reportFailed;
-     !!wait.
-
-@nobody_goes_on[req("SAF-9")]
-+!noTag(1) : not onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
-  <- !watch;
-     !holdHere;
-     reportPaused;
      !!wait.
 
 +!noTag(1) : not onGround & target(X, Y, Z, Yaw)

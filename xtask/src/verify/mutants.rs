@@ -490,8 +490,8 @@ pub(super) const MUTANTS: [Mutant; 76] = [
     ),
     agent(
         "a tag is looked for after a search for a silent station",
-        "@nobody_goes_on[req(\"SAF-9\")]\n+!noTag(1) : not onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
-        "@nobody_goes_on[req(\"SAF-9\")]\n+!noTag(1) : onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
+        "@nobody_goes_on[req(\"SAF-9\")]\n+!noTag(_) : not onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
+        "@nobody_goes_on[req(\"SAF-9\")]\n+!noTag(_) : onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
         "a_silent_station_stops",
     ),
     c(
