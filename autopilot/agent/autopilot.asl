@@ -478,26 +478,20 @@ stayTime(2000).
 +?searchOffset(_, Right, Forward) <- Right = -1.4; Forward = 1.4.
 
 // None was found.
-
-@nobody_goes_on[req("SAF-9")]
-+!noTag(_) : not onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit
-  <- !watch;
-     !holdHere;
-     reportPaused;
-     !!wait.
-
 +!noTag(0) : not onGround
   <- !watch;
      sendHover;
      reportFailed;
      !!wait.
 
+@somebody_goes_on[req("SAF-9")]
 +!noTag(1) : not onGround & target(X, Y, Z, Yaw)
+    & stationSilentFor(Time) & holdWithoutStation(Limit) & Time <= Limit
   <- !watch;
      sendGotoAgain(X, Y, Z, Yaw);
      !approach.
 
-// Whoever was to land on it lands here.
+// Whoever was to land on it lands here, and so does the drone for which nobody is there any more.
 +!noTag(_)
   <- reportFailed;
      !goDown;

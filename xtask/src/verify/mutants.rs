@@ -489,9 +489,9 @@ pub(super) const MUTANTS: [Mutant; 76] = [
         "a_lost_station_lands",
     ),
     agent(
-        "a tag is looked for after a search for a silent station",
-        "@nobody_goes_on[req(\"SAF-9\")]\n+!noTag(_) : not onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
-        "@nobody_goes_on[req(\"SAF-9\")]\n+!noTag(_) : onGround & stationSilentFor(Time) & holdWithoutStation(Limit) & Time > Limit\n",
+        "a mission goes on after a search for a silent station",
+        "\n    & stationSilentFor(Time) & holdWithoutStation(Limit) & Time <= Limit\n",
+        "\n",
         "a_silent_station_stops",
     ),
     c(
