@@ -127,25 +127,21 @@ impl Client {
         });
     }
 
-    #[track_caller]
-    fn command(&mut self, command: MavCmd, parameters: [f32; 2]) -> MavResult {
-        let number = command as u16;
+    fn send_command(&mut self, command: MavCmd, parameters: [f32; 2]) {
         self.send(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
-            command: number,
+            command: command as u16,
             param1: parameters[0],
             param2: parameters[1],
             target_system: 1,
             target_component: 1,
             ..COMMAND_LONG_DATA::default()
         }));
-        self.until("an acknowledgement", |message| match message {
-            MavMessage::COMMAND_ACK(COMMAND_ACK_DATA { command, result, .. })
-                if *command == number =>
-            {
-                Some(*result)
-            }
-            _ => None,
-        })
+    }
+
+    #[track_caller]
+    fn command(&mut self, command: MavCmd, parameters: [f32; 2]) -> MavResult {
+        self.send_command(command, parameters);
+        self.until("an acknowledgement", |message| acknowledgement(message, command))
     }
 
     /// Arms when the vehicle is ready for it.
@@ -189,6 +185,15 @@ impl Client {
     fn longest_gap(&self) -> Duration {
         let gaps = self.heartbeats.windows(2).map(|pair| pair[1] - pair[0]);
         gaps.max().unwrap_or(Duration::MAX)
+    }
+}
+
+fn acknowledgement(message: &MavMessage, of: MavCmd) -> Option<MavResult> {
+    match message {
+        MavMessage::COMMAND_ACK(COMMAND_ACK_DATA { command, result, .. }) => {
+            (*command == of as u16).then_some(*result)
+        }
+        _ => None,
     }
 }
 
@@ -238,10 +243,10 @@ fn a_ground_station_flies_the_drone() {
     let lateness = Lateness::measure();
     client.find();
     client.fly();
-    // Again, by another one of whom nobody has told the program; at the first one's port nobody listens any more.
+    // Again, by another one of whom nobody has told the program. The first one's port stays its own: another test's client would
+    // hear this vehicle there.
     let mut other = Client::beside(&client);
     let gap = client.longest_gap();
-    drop(client);
     other.find();
     other.fly();
     let (gap, allowed) = (gap.max(other.longest_gap()), LONGEST_GAP + lateness.worst());
@@ -307,7 +312,7 @@ fn flood(vehicle: SocketAddr, most: u64, over: &AtomicBool) -> u64 {
             _ = socket.send_to(&bytes[..random.random_range(0..300)], vehicle);
             sent += 1;
         }
-        std::thread::sleep(Duration::from_millis(10));
+        std::thread::sleep(Duration::from_millis(5));
     }
     sent
 }
@@ -315,7 +320,7 @@ fn flood(vehicle: SocketAddr, most: u64, over: &AtomicBool) -> u64 {
 #[test]
 fn a_flood_silences_nobody_and_ends_no_flight() {
     let mut client = Client::new();
-    let plan = plan_file("takeoff\ngoto 0 1 0 0\nsetStayTime 5\ngoto 1 1 0 0\nland\n");
+    let plan = plan_file("takeoff\ngoto 0 1 0 0\nsetStayTime 15\ngoto 1 1 0 0\nland\n");
     let file = plan.path().to_str().unwrap();
     let mut process = Process::start(&mut pilot(&client.remote(), &["--plan", file]));
     client.find();
@@ -323,29 +328,32 @@ fn a_flood_silences_nobody_and_ends_no_flight() {
     client.heartbeats.clear();
     let (vehicle, lateness) = (client.vehicle.unwrap(), Lateness::measure());
     let (sent, over) = (AtomicU64::new(0), AtomicBool::new(false));
-    let mut asked = 0;
+    let (mut asked, mut answered) = (0, 0);
     let status = std::thread::scope(|scope| {
         scope.spawn(|| sent.store(flood(vehicle, 50_000, &over), Ordering::Relaxed));
+        let mut next = Instant::now();
         loop {
             if let Some(status) = process.0.try_wait().unwrap() {
                 over.store(true, Ordering::Relaxed);
                 return status;
             }
-            client.poll();
-            // It is heard through the flood.
-            if sent.load(Ordering::Relaxed) == 0 {
-                let start = Instant::now();
-                let answer = client.command(MavCmd::MAV_CMD_REQUEST_MESSAGE, [148.0, 0.0]);
-                assert_eq!(answer, MavResult::MAV_RESULT_ACCEPTED);
-                assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
+            let request = MavCmd::MAV_CMD_REQUEST_MESSAGE;
+            if sent.load(Ordering::Relaxed) == 0 && Instant::now() >= next {
+                client.send_command(request, [148.0, 0.0]);
                 asked += 1;
+                next = Instant::now() + Duration::from_millis(50);
             }
+            let answers = client.poll().into_iter();
+            answered += answers.filter_map(|answer| acknowledgement(&answer, request)).count();
         }
     });
     // The plan ends the program, beside MAVLink too.
     assert_eq!(status.code(), Some(0));
     let sent = sent.into_inner();
-    assert!(sent == 50_000 && asked > 10, "{sent} datagrams, {asked} questions");
+    // It is heard through the flood; some of its questions may be lost.
+    assert!(sent == 50_000 && asked > 20, "{sent} datagrams, {asked} questions");
+    println!("{answered} of {asked} questions were answered in the flood");
+    assert!(2 * answered > asked, "{answered} of {asked} questions were answered");
     let (gap, allowed) = (client.longest_gap(), LONGEST_GAP + lateness.worst());
     assert!(gap < allowed && client.heartbeats.len() > 5, "{gap:?}, {}", client.heartbeats.len());
 }

@@ -4,13 +4,16 @@ use std::net::SocketAddr;
 use std::time::Duration;
 
 /// Most peers at a time.
-pub(super) const MOST: usize = 8;
+pub(super) const MOST: usize = 16;
 /// After this silence one that was not given is forgotten.
 const FORGOTTEN_AFTER: Duration = Duration::from_secs(10);
-/// Datagrams of one peer that are taken at once, and how many more in each tick of 20 ms: a client sends some hundred per second
-/// at most, and one that floods takes no room from others.
-const AT_ONCE: u8 = 64;
-const PER_TICK: u8 = 8;
+/// Where there is no room, one that has been silent for so long gives way. Heartbeats come every second.
+const GIVES_WAY_AFTER: Duration = Duration::from_secs(3);
+/// Datagrams of one peer that are taken at once, and how many more in each tick of 20 ms: half of what all may send. One that sends
+/// more for long floods, and takes no more room from others. A client that asks for one thing after the other as fast as it is
+/// answered, as for the items of a mission, must lose nothing.
+const AT_ONCE: u16 = 2048;
+const PER_TICK: u16 = 32;
 
 #[derive(Debug, Clone, Copy)]
 struct Peer {
@@ -18,7 +21,7 @@ struct Peer {
     /// When it was heard last; `None` for a remote, which is never forgotten.
     heard: Option<Duration>,
     /// Datagrams that it may still send.
-    allowance: u8,
+    allowance: u16,
 }
 
 /// Peers by their numbers.
@@ -81,10 +84,23 @@ impl Peers {
 
     /// Forgets one of those who have been silent for too long, and returns its number.
     pub(super) fn forget(&mut self, now: Duration) -> Option<u8> {
-        let is_gone = |peer: Peer| {
-            peer.heard.is_some_and(|heard| now.saturating_sub(heard) >= FORGOTTEN_AFTER)
-        };
-        let number = self.places.iter().position(|place| place.is_some_and(is_gone))?;
+        self.forget_silent(now, FORGOTTEN_AFTER)
+    }
+
+    /// Forgets one who gives way to another if there is no room, and returns its number.
+    pub(super) fn make_room(&mut self, now: Duration) -> Option<u8> {
+        if self.has_room() { None } else { self.forget_silent(now, GIVES_WAY_AFTER) }
+    }
+
+    /// Forgets the one who has been silent longest, if it has been for so long.
+    fn forget_silent(&mut self, now: Duration, patience: Duration) -> Option<u8> {
+        let heard = |place: &Option<Peer>| place.and_then(|peer| peer.heard);
+        let silent = self.places.iter().enumerate();
+        let silent = silent.filter_map(|(number, place)| heard(place).map(|at| (at, number)));
+        let (at, number) = silent.min()?;
+        if now.saturating_sub(at) < patience {
+            return None;
+        }
         *self.places.get_mut(number)? = None;
         u8::try_from(number).ok()
     }
@@ -137,7 +153,7 @@ mod tests {
     #[test]
     fn one_that_floods_is_not_heard_any_more() {
         let mut peers = Peers::new(&[at(1), at(2)]);
-        let taken = |peers: &mut Peers| (0..1000).filter(|_| peers.hear(SECOND, 0)).count();
+        let taken = |peers: &mut Peers| (0..3000).filter(|_| peers.hear(SECOND, 0)).count();
         assert_eq!(taken(&mut peers), usize::from(AT_ONCE));
         peers.tick();
         assert_eq!(taken(&mut peers), usize::from(PER_TICK));

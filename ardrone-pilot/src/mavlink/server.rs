@@ -225,9 +225,14 @@ impl Exchange {
             (Some(judge), Some(signature)) => judge.verify(&signature, now).is_ok(),
             (Some(_), None) => false,
         };
-        let speaks = self.peers.has_room()
-            && frames(bytes).flatten().map(|frame| frame.signature).any(is_good);
-        if speaks { self.peers.learn(now, from) } else { None }
+        let speaks = frames(bytes).flatten().map(|frame| frame.signature).any(is_good);
+        if !speaks {
+            return None;
+        }
+        if let Some(gone) = self.peers.make_room(now) {
+            self.vehicle.handle(now, Input::PeerGone(gone));
+        }
+        self.peers.learn(now, from)
     }
 
     /// Sends and orders what the vehicle wants.

@@ -1,5 +1,7 @@
 //! The agent's decisions, step by step.
 
+#![allow(clippy::large_types_passed_by_value, reason = "percepts are copied in every step")]
+
 mod station;
 mod tags;
 

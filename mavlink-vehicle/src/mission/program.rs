@@ -4,6 +4,9 @@ use std::fmt;
 
 use kinematics::Pose;
 
+/// A target is reached within this distance, in metres.
+pub(super) const REACH_M: f64 = 0.2;
+
 /// A part of a mission as a flight plan. It sets all that it depends on, so that no mission flown before counts.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Program {
@@ -88,7 +91,7 @@ impl Translated {
                     writer.line(step.item, format_args!("goto {x} {y} {z} {yaw}"));
                 }
                 Action::Stay { stay_s } => {
-                    writer.settings(step.item, super::translate::REACH_M, stay_s);
+                    writer.settings(step.item, REACH_M, stay_s);
                     writer.line(step.item, format_args!("moveByRel 0 0 0 0"));
                 }
                 Action::Land => writer.line(step.item, format_args!("land")),

@@ -5,14 +5,12 @@
 
 use kinematics::{Pose, wrap_deg};
 
-use super::program::{Action, Step, Translated};
+use super::program::{Action, REACH_M, Step, Translated};
 use super::{Item, command, result};
 use crate::place::{Frame, Global, Origin, Place, PlaceError};
 
 /// Largest mission.
 pub const MAX_ITEMS: usize = 200;
-/// A target is reached within this distance, in metres.
-pub(super) const REACH_M: f64 = 0.2;
 
 /// Stay at a way-point without hold time.
 const SHORT_STAY_S: f64 = 0.3;

@@ -7,6 +7,7 @@ use autopilot::vehicle::{OperatorOrder, Place};
 use super::modes::{Mode, Purpose};
 use super::orders::{After, Then};
 use super::parameters::TAKE_OFF_HEIGHT;
+use super::setpoints::SETPOINT_TIME;
 use super::stations::Station;
 use super::{Autopilot, MavlinkVehicle, Progress, To};
 use crate::dialect::{COMMAND_INT_DATA, COMMAND_LONG_DATA, MavCmd, MavMessage, MavResult};
@@ -191,6 +192,8 @@ impl MavlinkVehicle {
             MavCmdNumber::DO_REPOSITION => self.reposition(now, station, asked),
             MavCmdNumber::DO_PAUSE_CONTINUE => match asked.number::<u8>(1) {
                 Some(0) => self.change_mode(now, station, asked.command, Some(Mode::Hold)),
+                // Asked again: the answer may have been lost.
+                Some(1) if self.goes_on() && !self.is_others(station) => ACCEPTED,
                 Some(1) if self.is_flying() => by_order(self, OperatorOrder::Resume),
                 Some(1) => NOT_NOW,
                 _ => DENIED,
@@ -340,7 +343,7 @@ impl MavlinkVehicle {
                     _ => (self.setpoint, After::Follows, self.follows),
                 };
                 let fresh = last.filter(|(at, whose, _)| {
-                    *whose == by && now.saturating_sub(*at) <= super::received::SETPOINT_TIME
+                    *whose == by && now.saturating_sub(*at) <= SETPOINT_TIME
                 });
                 let Some((_, _, setpoint)) = fresh else {
                     self.warn(format_args!("no fresh set-points or sticks to follow"));
@@ -371,6 +374,9 @@ impl MavlinkVehicle {
         if !self.is_airborne() || self.mode() == Mode::Land {
             return NOT_NOW;
         }
+        if self.is_others(station) {
+            return NOT_NOW;
+        }
         if self.flies_stored_mission() {
             let paused = self.present().is_some_and(|status| status.mission_waits);
             if !paused {
@@ -381,6 +387,13 @@ impl MavlinkVehicle {
             self.fly_mission(now, station, Some(command));
         }
         End::Later
+    }
+
+    /// Whether the vehicle flies a mission that is not paused.
+    fn goes_on(&self) -> bool {
+        let status = self.present();
+        self.is_airborne()
+            && status.is_some_and(|status| !status.mission_waits && status.step.is_some())
     }
 
     /// Whether the vehicle flies the stored mission, and not to its end yet.

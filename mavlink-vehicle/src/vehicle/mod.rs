@@ -96,6 +96,8 @@ pub struct MavlinkVehicle {
     /// The item that was reported as reached last.
     reached: Option<u16>,
     awaited: ArrayVec<Awaited, 16>,
+    /// The operator who gave the last order, and where.
+    ordered_at: Option<(Operator, u8)>,
     /// When the vehicle was last told that the station with the controls is there.
     presence: Option<Duration>,
     next_ticket: u32,
@@ -146,6 +148,7 @@ impl MavlinkVehicle {
             item: None,
             reached: None,
             awaited: ArrayVec::new(),
+            ordered_at: None,
             presence: None,
             next_ticket: 0,
             armed: None,

@@ -102,6 +102,7 @@ impl MavlinkVehicle {
         orders: impl IntoIterator<Item = OperatorOrder>,
     ) {
         self.take_over_from_silent(now, station.operator());
+        self.ordered_at = Some((station.operator(), station.peer));
         let ticket = self.ticket();
         let mut left = 0;
         let mut may_fly = false;
@@ -132,10 +133,16 @@ impl MavlinkVehicle {
         });
     }
 
+    /// When an operator was last heard where he gives his orders.
+    fn last_heard(&self, operator: Operator) -> Option<Duration> {
+        let ordered = self.ordered_at.filter(|(by, _)| *by == operator);
+        self.stations.last_heard(operator, ordered.map(|(_, peer)| peer))
+    }
+
     /// The controls of a station that has been silent for some time go to one that gives an order.
     fn take_over_from_silent(&mut self, now: Duration, by: Operator) {
         let Some(holder) = self.present().and_then(|status| status.controls) else { return };
-        let heard = self.stations.last_heard(holder);
+        let heard = self.last_heard(holder);
         let silent = heard.is_none_or(|at| now.saturating_sub(at) >= GONE_AFTER);
         if holder != by && holder.station == Kind::Mavlink && silent {
             self.order_quietly(holder, OperatorOrder::Release);
@@ -248,6 +255,8 @@ impl MavlinkVehicle {
             return;
         }
         self.reached = None;
+        // The next time it begins with its first item again.
+        self.first_item = 0;
         self.hand_over(now, station, command, Purpose::Mission, &program.text, program.items);
     }
 
@@ -345,7 +354,7 @@ impl MavlinkVehicle {
         if holder.station != Kind::Mavlink {
             return;
         }
-        let heard = self.stations.last_heard(holder);
+        let heard = self.last_heard(holder);
         if heard.is_some_and(|at| {
             self.presence.is_none_or(|told| at > told && now.saturating_sub(told) >= PRESENT_EVERY)
         }) {

@@ -20,8 +20,6 @@ use crate::frame::Frame;
 use crate::mission::{Event, Handled, Item, Message, Partner, Received, result};
 use crate::place::Origin;
 
-/// A set-point that is older is none.
-pub(super) const SETPOINT_TIME: Duration = Duration::from_millis(500);
 /// Sticks that have been silent for so long must be seen in the middle again.
 const STICKS_TIME: Duration = Duration::from_secs(1);
 /// Set-points that come faster than the vehicle decides are passed on no faster than this.
@@ -103,7 +101,7 @@ impl MavlinkVehicle {
                     altitude_m: f64::from(data.altitude) / 1e3,
                     ..self.origin
                 };
-                self.set_origin(origin);
+                self.set_origin(station, origin);
             }
             MavMessage::SET_POSITION_TARGET_LOCAL_NED(data) => {
                 let pose = self.present().and_then(|status| status.pose);
@@ -116,7 +114,7 @@ impl MavlinkVehicle {
             }
             MavMessage::MANUAL_CONTROL(data) => {
                 let by = station.operator();
-                if self.config.view_only || self.by_hand.is_some_and(|whose| whose != by) {
+                if self.config.view_only || self.is_others(station) {
                     return;
                 }
                 if self.sticks.is_none_or(|(at, _, _)| now.saturating_sub(at) >= STICKS_TIME) {
@@ -192,9 +190,9 @@ impl MavlinkVehicle {
     }
 
     /// The origin can be set on the ground; a stored mission that no longer fits is removed.
-    fn set_origin(&mut self, origin: Origin) {
-        if self.config.view_only || self.is_flying() {
-            return self.warn(format_args!("the origin can be set on the ground only"));
+    fn set_origin(&mut self, station: Station, origin: Origin) {
+        if self.config.view_only || self.is_armed() || self.is_others(station) {
+            return self.warn(format_args!("the origin is not set: disarm first"));
         }
         let origin = match origin.checked() {
             Ok(origin) => origin,
@@ -218,7 +216,8 @@ impl MavlinkVehicle {
         station: Station,
         setpoint: Result<Setpoint, NoSetpoint>,
     ) {
-        if self.config.view_only {
+        // Only whoever has the controls is followed, or might be.
+        if self.config.view_only || self.is_others(station) {
             return;
         }
         let setpoint = match setpoint {
@@ -245,6 +244,7 @@ impl MavlinkVehicle {
         }
         self.setpoint = Some((now, by, setpoint));
         if self.follows == Some(by) {
+            self.ordered_at = Some((by, station.peer));
             self.order_quietly(by, OperatorOrder::Setpoint(setpoint));
         }
     }

@@ -1,5 +1,7 @@
 //! Set-points (`SET_POSITION_TARGET_*`) in our frame, and those that sticks ask for (`MANUAL_CONTROL`).
 
+use std::time::Duration;
+
 use autopilot::vehicle::{Heading, Horizontal, Setpoint, Vertical};
 use kinematics::{Pose, world_from_body};
 use nalgebra::Vector2;
@@ -9,6 +11,9 @@ use crate::dialect::{
     SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
 use crate::place::{Ned, NedVelocity, Origin};
+
+/// A set-point that is older is none.
+pub(super) const SETPOINT_TIME: Duration = Duration::from_millis(500);
 
 /// Why a set-point is not followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

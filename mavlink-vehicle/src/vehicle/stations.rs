@@ -36,10 +36,7 @@ pub(super) struct Stations(ArrayVec<(Duration, Station), MOST>);
 impl Stations {
     /// A station was heard. The one that has been silent longest gives way to a new one.
     pub(super) fn heard(&mut self, now: Duration, station: Station) {
-        let is = |known: &Station| {
-            known.system == station.system && known.component == station.component
-        };
-        if let Some(known) = self.0.iter_mut().find(|(_, known)| is(known)) {
+        if let Some(known) = self.0.iter_mut().find(|(_, known)| *known == station) {
             *known = (now, station);
             return;
         }
@@ -52,16 +49,19 @@ impl Stations {
         self.0.push((now, station));
     }
 
-    /// When an operator was last heard.
-    pub(super) fn last_heard(&self, operator: Operator) -> Option<Duration> {
-        let heard = self.0.iter().find(|(_, station)| station.operator() == operator);
-        heard.map(|(at, _)| *at)
+    /// When an operator was last heard, at one peer or anywhere. Two programs that give themselves the same numbers are
+    /// one operator, but where one of them has ordered the other does not speak for it.
+    pub(super) fn last_heard(&self, operator: Operator, peer: Option<u8>) -> Option<Duration> {
+        let there = |station: &Station| peer.is_none_or(|peer| station.peer == peer);
+        let heard = self.0.iter().filter(|(_, station)| station.operator() == operator);
+        heard.filter(|(_, station)| there(station)).map(|(at, _)| *at).max()
     }
 
     /// Where a station is to be answered.
     pub(super) fn peer(&self, system: u8, component: u8) -> Option<u8> {
         let is = |known: &Station| known.system == system && known.component == component;
-        self.0.iter().find(|(_, known)| is(known)).map(|(_, known)| known.peer)
+        let heard = self.0.iter().filter(|(_, known)| is(known));
+        heard.max_by_key(|(at, _)| *at).map(|(_, known)| known.peer)
     }
 
     /// Nobody is at this peer any more.

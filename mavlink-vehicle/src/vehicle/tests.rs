@@ -17,6 +17,7 @@ struct Bench {
     vehicle: MavlinkVehicle,
     now: Duration,
     client: Encoder,
+    peer: u8,
     status: Status,
     /// What it sent and ordered, and who ordered it.
     sent: Vec<(To, MavMessage)>,
@@ -32,6 +33,7 @@ impl Bench {
             vehicle: MavlinkVehicle::new(config),
             now: SECOND,
             client: Encoder::new(255, 190),
+            peer: 0,
             status: Status { phase: Phase::Standby, battery_percent: Some(80), ..status },
             sent: Vec::new(),
             orders: Vec::new(),
@@ -79,7 +81,8 @@ impl Bench {
     fn say(&mut self, message: &MavMessage) {
         let mut buffer = [0; LONGEST_FRAME];
         let bytes = self.client.encode(message, None, self.now, &mut buffer);
-        self.vehicle.handle(self.now, Input::Datagram { peer: 0, local: true, bytes });
+        let peer = self.peer;
+        self.vehicle.handle(self.now, Input::Datagram { peer, local: true, bytes });
         self.collect();
     }
 
@@ -379,6 +382,13 @@ fn the_vehicle_hears_of_a_station_that_is_there() {
         bench.pass(Duration::from_millis(300));
     }
     assert_eq!(present(&bench), 10);
+    // A program elsewhere with the same numbers does not speak for it.
+    bench.orders.clear();
+    bench.peer = 1;
+    bench.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
+    bench.pass(SECOND);
+    assert_eq!(present(&bench), 0);
+    bench.peer = 0;
     // Another one's heartbeats do not count.
     bench.orders.clear();
     bench.client = Encoder::new(254, 190);

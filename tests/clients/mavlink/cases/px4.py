@@ -31,7 +31,8 @@ def test_the_buttons_take_off_go_pause_and_land(station):
     station.hear(1)
     expect_accepted(station.command(192, -1, 1, 0, NAN, NAN, NAN, NAN), "pause")
     flying.wait_mode(station, HOLD, 1)
-    station.hear(1)
+    # It brakes, and comes back to where it was when it was told to.
+    station.hear(3)
     before = flying.place(station)
     station.hear(1.5)
     assert math.dist(before, flying.place(station)) < 0.3, "it goes on after the pause"
