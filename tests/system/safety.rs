@@ -48,8 +48,9 @@ fn flights_that_once_went_wrong_end_well() {
     const RESTARTED_DRONES: [u64; 2] = [6426, 8461];
     const CUT_DURING_A_TAKE_OVER: u64 = 900_820;
     const STORMS: [u64; 4] = [2359, 8173, 8688, 2_002_821];
+    const GROUND_STATIONS: [u64; 3] = [3219, 4062, 5291];
     let single = [LANDING_RIGHT_AFTER_TAKE_OFF, CUT_DURING_A_TAKE_OVER];
-    for seed in RESTARTED_DRONES.into_iter().chain(STORMS).chain(single) {
+    for seed in RESTARTED_DRONES.into_iter().chain(STORMS).chain(GROUND_STATIONS).chain(single) {
         assert_eq!(campaign::fly(seed).unwrap().faults, [], "seed {seed}");
     }
 }

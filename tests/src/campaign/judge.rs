@@ -54,7 +54,7 @@ const REACHED_LYING_M: f64 = 1.5;
 /// The agent's own limit of position uncertainty is 3 m; far beyond it nobody may fly on.
 const LOST_M: f64 = 3.6;
 /// Wind and gusts that a drone holds against within a metre for a long time, as a share of what it resists.
-const CALM: f64 = 0.6;
+const CALM: f64 = 0.5;
 /// Time for another pilot's drone to land by itself after that pilot's last command.
 const STRANGER_LANDS: Duration = Duration::from_secs(15);
 

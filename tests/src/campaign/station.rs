@@ -1,6 +1,7 @@
 //! A ground station of a flight: it flies by missions, set-points and sticks, orders nonsense, and disappears without a
 //! word.
 
+use std::fmt::Write as _;
 use std::time::Duration;
 
 use autopilot::Plan;
@@ -269,7 +270,7 @@ fn mission(random: &mut impl Rng, limits: &FlightLimits) -> Plan {
     for _ in 0..random.random_range(4..9) {
         let (x, y) = (random.random_range(-2.5..2.5), random.random_range(-2.5..2.5));
         let z = random.random_range(0.5..limits.ceiling_m - 0.2);
-        text += &format!("goto {x:.2} {y:.2} {z:.2} 0\n");
+        _ = writeln!(text, "goto {x:.2} {y:.2} {z:.2} 0");
     }
     text += "land\n";
     Plan::parse_within("mission", &text, limits).unwrap_or_else(|error| panic!("{error}"))
