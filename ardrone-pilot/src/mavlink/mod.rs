@@ -25,7 +25,7 @@ use crate::flight::{Controls, Message};
 const BEHIND: usize = 256;
 
 /// Most remotes that can be spoken to, which leaves places for others who speak first.
-pub const MOST_REMOTES: usize = peers::MOST / 2;
+pub const MOST_REMOTES: usize = 4;
 
 /// Why there is no MAVLink.
 #[derive(Debug, thiserror::Error)]
