@@ -85,10 +85,11 @@ impl fmt::Display for Operator {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Controls {
     holder: Option<Operator>,
-    /// Who gave the last order by which the drone flies: while nobody has the controls, it flies on for that one.
-    flies_for: Option<Operator>,
-    /// When the holder, or that one, was last heard.
+    /// When the holder was last heard.
     heard: Duration,
+    /// Who gave the last order by which the drone flies, and when that one was last heard: while nobody has the controls, it
+    /// flies on for that one.
+    flies_for: Option<(Operator, Duration)>,
 }
 
 impl Controls {
@@ -98,21 +99,29 @@ impl Controls {
 
     /// An operator was heard.
     pub(super) fn heard(&mut self, now: Duration, by: Operator) {
-        if self.holder.or(self.flies_for) == Some(by) {
+        if self.holder == Some(by) {
             self.heard = now;
+        }
+        if let Some((operator, heard)) = &mut self.flies_for
+            && *operator == by
+        {
+            *heard = now;
         }
     }
 
     /// An operator has ordered what the drone does from now on.
-    pub(super) fn has_ordered(&mut self, by: Operator) {
-        self.flies_for = Some(by);
+    pub(super) fn has_ordered(&mut self, now: Duration, by: Operator) {
+        self.flies_for = Some((by, now));
     }
 
     /// For how long has nobody been heard who has the controls, or for whom the drone flies, and must be heard; zero for any
     /// other. Who takes the controls and only gives them back has ordered nothing.
     pub(super) fn silence(self, now: Duration) -> Duration {
-        match self.holder.or(self.flies_for) {
-            Some(holder) if holder.station.must_be_heard() => now.saturating_sub(self.heard),
+        let watched = self.holder.map(|holder| (holder, self.heard)).or(self.flies_for);
+        match watched {
+            Some((operator, heard)) if operator.station.must_be_heard() => {
+                now.saturating_sub(heard)
+            }
             _ => Duration::ZERO,
         }
     }
@@ -187,18 +196,23 @@ mod tests {
         let second = Duration::from_secs;
         let mut controls = Controls::default();
         assert_eq!(controls.admit(STATION), Ok(()));
-        controls.has_ordered(STATION);
+        controls.has_ordered(second(1), STATION);
         controls.heard(second(1), STATION);
         assert_eq!(controls.silence(second(5)), second(4));
         // Somebody is there who need not be heard, and leaves it alone again.
         assert_eq!(controls.admit(Operator::TERMINAL), Ok(()));
-        controls.heard(second(6), STATION);
+        controls.heard(second(6), Operator::TERMINAL);
         assert_eq!(controls.silence(second(7)), Duration::ZERO);
         controls.release(Operator::TERMINAL);
         assert_eq!(controls.silence(second(8)), second(7));
         controls.heard(second(8), STATION);
         assert_eq!(controls.silence(second(9)), second(1));
-        controls.has_ordered(Operator::TERMINAL);
+        // It was there all the time that somebody else had them.
+        assert_eq!(controls.admit(Operator::TERMINAL), Ok(()));
+        controls.heard(second(60), STATION);
+        controls.release(Operator::TERMINAL);
+        assert_eq!(controls.silence(second(61)), second(1));
+        controls.has_ordered(second(61), Operator::TERMINAL);
         assert_eq!(controls.silence(second(9)), Duration::ZERO);
     }
 

@@ -217,7 +217,7 @@ impl Vehicle {
         let flies = order.changes_the_flight();
         let accepted = self.obey(now, by, order);
         if accepted.is_ok() && flies {
-            self.controls.has_ordered(by);
+            self.controls.has_ordered(now, by);
         }
         self.controls.heard(now, by);
         accepted

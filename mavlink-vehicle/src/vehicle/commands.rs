@@ -199,7 +199,9 @@ impl MavlinkVehicle {
                 _ => DENIED,
             },
             MavCmdNumber::MISSION_START => {
-                self.first_from(asked.number::<u16>(1));
+                if !self.is_others(station) {
+                    self.first_from(asked.number::<u16>(1));
+                }
                 self.start_mission(now, station, asked.command)
             }
             MavCmdNumber::DO_SET_MISSION_CURRENT => {
@@ -258,12 +260,6 @@ impl MavlinkVehicle {
             }
             _ => DENIED,
         }
-    }
-
-    /// Whether somebody else has the controls.
-    pub(super) fn is_others(&self, station: Station) -> bool {
-        let holder = self.present().and_then(|status| status.controls);
-        holder.is_some_and(|holder| holder != station.operator())
     }
 
     fn asked_to_take_off(&mut self, now: Duration, station: Station, asked: &Asked) -> End {

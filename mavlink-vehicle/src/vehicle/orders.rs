@@ -139,12 +139,24 @@ impl MavlinkVehicle {
         self.stations.last_heard(operator, ordered.map(|(_, peer)| peer))
     }
 
+    /// Whether an operator at a `MAVLink` station has been silent for so long that another may have the controls.
+    fn is_gone(&self, now: Duration, operator: Operator) -> bool {
+        let heard = self.last_heard(operator);
+        operator.station == Kind::Mavlink
+            && heard.is_none_or(|at| now.saturating_sub(at) >= GONE_AFTER)
+    }
+
+    /// Whether somebody else has the controls, and is there.
+    pub(super) fn is_others(&self, station: Station) -> bool {
+        let Some((at, status)) = &self.status else { return false };
+        let other = status.controls.filter(|holder| *holder != station.operator());
+        other.is_some_and(|holder| !self.is_gone(*at, holder))
+    }
+
     /// The controls of a station that has been silent for some time go to one that gives an order.
     fn take_over_from_silent(&mut self, now: Duration, by: Operator) {
         let Some(holder) = self.present().and_then(|status| status.controls) else { return };
-        let heard = self.last_heard(holder);
-        let silent = heard.is_none_or(|at| now.saturating_sub(at) >= GONE_AFTER);
-        if holder != by && holder.station == Kind::Mavlink && silent {
+        if holder != by && self.is_gone(now, holder) {
             self.order_quietly(holder, OperatorOrder::Release);
         }
     }
@@ -270,6 +282,14 @@ impl MavlinkVehicle {
         text: &str,
         items: Vec<u16>,
     ) {
+        if self.is_others(station) {
+            // What is known of the mission that flies must not change by an order that will be refused.
+            if let Some(command) = command {
+                let refused = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
+                self.acknowledge(station, command, refused);
+            }
+            return;
+        }
         let airborne = self.is_airborne();
         // On the ground it replaces another mission as a whole; in the air that is cleared first, so that its step ends.
         let whole = if airborne { text.to_owned() } else { format!("clearCommands\n{text}") };
@@ -347,22 +367,20 @@ impl MavlinkVehicle {
         }
     }
 
-    /// Tells the vehicle of the station that has the controls while that is heard, and lets go of the controls on the
-    /// ground if it is not.
+    /// Tells the vehicle of the station that has the controls, or else of the one that ordered last, while that is heard, and
+    /// lets go of the controls on the ground if it is not.
     pub(super) fn watch_stations(&mut self, now: Duration) {
-        let Some(holder) = self.present().and_then(|status| status.controls) else { return };
-        if holder.station != Kind::Mavlink {
-            return;
-        }
-        let heard = self.last_heard(holder);
-        if heard.is_some_and(|at| {
+        let holder = self.present().and_then(|status| status.controls);
+        let holder = holder.filter(|holder| holder.station == Kind::Mavlink);
+        let ordered = self.ordered_at.map(|(by, _)| by).filter(|_| self.is_flying());
+        let Some(watched) = holder.or(ordered) else { return };
+        if self.last_heard(watched).is_some_and(|at| {
             self.presence.is_none_or(|told| at > told && now.saturating_sub(told) >= PRESENT_EVERY)
         }) {
             self.presence = Some(now);
-            self.order_quietly(holder, OperatorOrder::Present);
+            self.order_quietly(watched, OperatorOrder::Present);
         }
-        let gone = heard.is_none_or(|at| now.saturating_sub(at) >= GONE_AFTER);
-        if gone && !self.is_flying() && !self.is_armed() {
+        if holder.is_some_and(|holder| self.is_gone(now, holder)) && !self.is_armed() {
             self.release();
         }
     }

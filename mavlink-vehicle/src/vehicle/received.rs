@@ -22,7 +22,7 @@ use crate::place::Origin;
 
 /// Sticks that have been silent for so long must be seen in the middle again.
 const STICKS_TIME: Duration = Duration::from_secs(1);
-/// Set-points that come faster than the vehicle decides are passed on no faster than this.
+/// The same set-point again is not passed on sooner than this; the vehicle decides no faster.
 const SETPOINT_EVERY: Duration = Duration::from_millis(20);
 /// Set-points that are refused are told no more often than this.
 const TELL_EVERY: Duration = Duration::from_secs(2);

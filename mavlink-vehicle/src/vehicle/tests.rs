@@ -489,3 +489,39 @@ fn disarmed_at_once_it_has_given_the_controls_back() {
     bench.accepts(400, first(0.0));
     assert_eq!(bench.ordered(), ["take", "release"]);
 }
+
+#[test]
+fn a_station_that_ordered_is_told_of_while_nobody_or_somebody_else_has_the_controls() {
+    let mut bench = Bench::new(Config::default());
+    bench.accepts(400, first(1.0));
+    bench.fly();
+    for controls in [None, Some(Operator::TERMINAL)] {
+        bench.status.controls = controls;
+        bench.pass(SECOND);
+        bench.orders.clear();
+        bench.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
+        bench.pass(SECOND);
+        let told = bench.orders.iter().filter(|(_, order)| order.name() == "present");
+        assert_eq!(told.count(), 1, "{controls:?}");
+    }
+}
+
+/// The vehicle would refuse it; what is known of the mission must not be lost before.
+#[test]
+fn an_order_of_another_station_changes_nothing_of_the_mission_that_flies() {
+    let mut bench = Bench::new(Config::default());
+    bench.accepts(400, first(1.0));
+    bench.accepts(22, NOTHING);
+    let lines = bench.vehicle.handed.as_ref().unwrap().lines.clone();
+    bench.fly();
+    bench.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
+    bench.orders.clear();
+    bench.client = Encoder::new(254, 190);
+    bench.say(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+        command: 20,
+        target_system: 1,
+        ..COMMAND_LONG_DATA::default()
+    }));
+    assert!(bench.ordered().is_empty());
+    assert_eq!(bench.vehicle.handed.as_ref().unwrap().lines, lines);
+}
