@@ -326,15 +326,18 @@ pub(super) const MUTANTS: &[Mutant] = &[
     // Whoever flies from elsewhere.
     mutant(
         "station: anybody's presence counts for it",
-        &[edit(
-            OPERATORS,
-            "if self.holder.or(self.flies_for) == Some(by) {",
-            "if self.holder.is_some_and(|holder| holder.station == by.station) || self.flies_for == Some(by) {",
-        )],
+        &[
+            edit(
+                OPERATORS,
+                "if self.holder == Some(by) {",
+                "if self.holder.is_some_and(|holder| holder.station == by.station) {",
+            ),
+            edit(OPERATORS, "&& *operator == by", "&& operator.station == by.station"),
+        ],
     ),
     mutant(
         "station: its silence is never counted",
-        &[edit(OPERATORS, "now.saturating_sub(self.heard)", "self.heard.saturating_sub(now)")],
+        &[edit(OPERATORS, "now.saturating_sub(heard)", "heard.saturating_sub(now)")],
     ),
     mutant(
         "station: set-points are always new",
