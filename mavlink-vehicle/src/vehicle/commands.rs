@@ -4,12 +4,13 @@ use std::time::Duration;
 
 use autopilot::vehicle::{OperatorOrder, Place};
 
-use super::modes::{Mode, Purpose};
-use super::orders::{After, Then};
+use super::arming::Then;
+use super::following::Source;
+use super::modes::Mode;
+use super::orders::After;
 use super::parameters::TAKE_OFF_HEIGHT;
-use super::setpoints::SETPOINT_TIME;
 use super::stations::Station;
-use super::{Autopilot, MavlinkVehicle, Progress, To};
+use super::{Autopilot, MavlinkVehicle, To};
 use crate::dialect::{COMMAND_INT_DATA, COMMAND_LONG_DATA, MavCmd, MavMessage, MavResult};
 use crate::place::ABSENT;
 
@@ -199,10 +200,9 @@ impl MavlinkVehicle {
                 _ => DENIED,
             },
             MavCmdNumber::MISSION_START => {
-                if !self.is_others(station) {
-                    self.first_from(asked.number::<u16>(1));
-                }
-                self.start_mission(now, station, asked.command)
+                // 0 is what everybody sends; where it begins was chosen by then.
+                let first = asked.number::<u16>(1).filter(|seq| *seq > 0);
+                self.start_mission(now, station, asked.command, first)
             }
             MavCmdNumber::DO_SET_MISSION_CURRENT => {
                 let Some(seq) = asked.number::<i32>(1) else { return DENIED };
@@ -215,7 +215,7 @@ impl MavlinkVehicle {
             }
             MavCmdNumber::DO_FLIGHTTERMINATION => {
                 if asked.parameter(1).is_some_and(|value| value > 0.5) {
-                    self.pending = None;
+                    self.arming.give_up();
                     by_order(self, OperatorOrder::Cut)
                 } else {
                     DENIED
@@ -266,7 +266,7 @@ impl MavlinkVehicle {
         if self.is_flying() {
             return if self.mode() == Mode::TakeOff { ACCEPTED } else { NOT_NOW };
         }
-        if self.is_others(station) && self.armed.is_some() {
+        if self.is_others(station) {
             return NOT_NOW;
         }
         // QGroundControl asks PX4 by height above the sea; the others above the start.
@@ -307,23 +307,24 @@ impl MavlinkVehicle {
         let flies = self.is_flying();
         if matches!(mode, Mode::Hold | Mode::Land) {
             // Whoever orders so does not expect that a take-off follows.
-            self.pending = None;
+            self.arming.give_up();
         }
         let (after, order) = match mode {
             Mode::Hold if !flies => return ACCEPTED,
             Mode::Hold => (After::Nothing, OperatorOrder::Hold),
-            Mode::Land if !flies && self.armed.is_none() => return ACCEPTED,
+            Mode::Land if !flies && !self.arming.is_armed() => return ACCEPTED,
             Mode::Land => (After::Nothing, OperatorOrder::Land),
             Mode::TakeOff if flies => {
                 return if self.mode() == Mode::TakeOff { ACCEPTED } else { NOT_NOW };
             }
+            Mode::TakeOff if self.is_others(station) => return NOT_NOW,
             Mode::TakeOff => {
                 let usual_m = self.parameters.value(TAKE_OFF_HEIGHT);
                 let height_m = (usual_m > 0.0).then_some(usual_m);
                 self.when_armed(now, station, command, Then::TakeOff { height_m });
                 return End::Later;
             }
-            Mode::Mission => return self.start_mission(now, station, command),
+            Mode::Mission => return self.start_mission(now, station, command, None),
             Mode::Return | Mode::Position if !self.is_airborne() => return NOT_NOW,
             Mode::Return if self.mode() == Mode::Return => return ACCEPTED,
             Mode::Return if self.mode() == Mode::Land => return NOT_NOW,
@@ -334,43 +335,50 @@ impl MavlinkVehicle {
             Mode::Position | Mode::Offboard if self.is_others(station) => return NOT_NOW,
             Mode::Position | Mode::Offboard => {
                 let by = station.operator();
-                let (last, after, whose) = match mode {
-                    Mode::Position => (self.sticks, After::ByHand, self.by_hand),
-                    _ => (self.setpoint, After::Follows, self.follows),
-                };
-                let fresh = last.filter(|(at, whose, _)| {
-                    *whose == by && now.saturating_sub(*at) <= SETPOINT_TIME
-                });
-                let Some((_, _, setpoint)) = fresh else {
+                let source =
+                    if mode == Mode::Position { Source::Sticks } else { Source::Setpoints };
+                let Some(setpoint) = self.following.fresh(now, source, by) else {
                     self.warn(format_args!("no fresh set-points or sticks to follow"));
                     return DENIED;
                 };
-                if self.mode() == mode && whose == Some(by) {
+                if self.mode() == mode && self.following.followed() == Some((source, by)) {
                     return ACCEPTED;
                 }
-                (after, OperatorOrder::Follow(setpoint))
+                (After::Follows(source), OperatorOrder::Follow(setpoint))
             }
         };
         self.order(now, station, Some(command), after, [order]);
         End::Later
     }
 
-    fn start_mission(&mut self, now: Duration, station: Station, command: u16) -> End {
-        if self.transfer.items().is_empty() {
+    /// Starts the stored mission, or goes on with it; `first` is the item with which it is to begin.
+    fn start_mission(
+        &mut self,
+        now: Duration,
+        station: Station,
+        command: u16,
+        first: Option<u16>,
+    ) -> End {
+        let count = self.transfer.items().len();
+        if count == 0 {
             self.warn(format_args!("there is no mission"));
             return DENIED;
         }
+        if let Some(first) = first.filter(|first| usize::from(*first) >= count) {
+            self.warn(format_args!("there is no item {first}: the mission has {count}"));
+            return DENIED;
+        }
+        if self.is_others(station) {
+            return NOT_NOW;
+        }
         if !self.is_flying() {
-            if self.is_others(station) && self.armed.is_some() {
-                return NOT_NOW;
+            if let Some(first) = first {
+                self.flown.begin_at(first);
             }
             self.when_armed(now, station, command, Then::Mission);
             return End::Later;
         }
         if !self.is_airborne() || self.mode() == Mode::Land {
-            return NOT_NOW;
-        }
-        if self.is_others(station) {
             return NOT_NOW;
         }
         if self.flies_stored_mission() {
@@ -380,6 +388,9 @@ impl MavlinkVehicle {
             }
             self.order(now, station, Some(command), After::Nothing, [OperatorOrder::Resume]);
         } else {
+            if let Some(first) = first {
+                self.flown.begin_at(first);
+            }
             self.fly_mission(now, station, Some(command));
         }
         End::Later
@@ -394,18 +405,7 @@ impl MavlinkVehicle {
 
     /// Whether the vehicle flies the stored mission, and not to its end yet.
     pub(super) fn flies_stored_mission(&self) -> bool {
-        self.is_flying()
-            && self.progress == Progress::Ours
-            && self.handed.as_ref().is_some_and(|handed| {
-                handed.purpose == Purpose::Mission && handed.id == self.transfer.id()
-            })
-    }
-
-    fn first_from(&mut self, seq: Option<u16>) {
-        let count = self.transfer.items().len();
-        if let Some(seq) = seq.filter(|seq| *seq > 0 && usize::from(*seq) < count) {
-            self.first_item = seq;
-        }
+        self.is_flying() && self.flown.goes_on() && self.flown.is_stored(self.transfer.id())
     }
 
     /// Goes on with another item.
@@ -424,15 +424,14 @@ impl MavlinkVehicle {
         }
         let flies = self.flies_stored_mission();
         let paused = self.present().is_some_and(|status| status.mission_waits);
-        self.first_item = seq;
-        self.reached = None;
+        self.flown.begin_at(seq);
         if flies && !paused {
             self.fly_mission(now, station, command);
             return if command.is_some() { End::Later } else { ACCEPTED };
         }
         if flies {
             // What is paused goes on there when it is started again.
-            self.progress = Progress::Other;
+            self.flown.forget();
         }
         ACCEPTED
     }

@@ -4,12 +4,16 @@
 //! the vehicle tells of itself, and its answers to orders. Every 20 ms it calls [`MavlinkVehicle::tick`], and sends and orders
 //! what comes out ([`MavlinkVehicle::poll`]). Sources: the MAVLink developer guide and PX4's documentation of flight modes.
 
+mod arming;
 mod commands;
+mod flown;
+mod following;
 mod modes;
 mod orders;
 mod parameters;
 mod protocol;
 mod received;
+mod schedule;
 mod setpoints;
 mod stations;
 mod telemetry;
@@ -20,17 +24,19 @@ use std::time::Duration;
 
 use arrayvec::{ArrayString, ArrayVec};
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{FlightEvent, NotReady, Operator, OperatorOrder, Setpoint, Status};
+use autopilot::vehicle::{FlightEvent, NotReady, Operator, OperatorOrder, Status};
 
-use self::modes::{Doing, Mode, Purpose};
-use self::orders::{Awaited, Pending};
+use self::arming::Arming;
+use self::flown::Flown;
+use self::following::{Following, Source};
+use self::modes::{Doing, Mode};
+use self::orders::Awaited;
 use self::parameters::Parameters;
 pub use self::protocol::{Autopilot, Config, Input, Output, Ticket, To};
-use self::setpoints::Joystick;
+use self::schedule::Schedule;
 use self::stations::Stations;
-use self::telemetry::Schedule;
 use self::texts::Texts;
-use crate::dialect::{MavMessage, MavSeverity};
+use crate::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavSeverity};
 use crate::frame::{Buffer, Encoder, LONGEST_FRAME, frames};
 use crate::mission::{Fence, Rules, Transfer};
 use crate::place::Origin;
@@ -45,29 +51,6 @@ const MESSAGES: usize = 256;
 const ORDERS: usize = 32;
 /// After this time without news of the vehicle nothing is told of it any more.
 const NEWS_TIME: Duration = Duration::from_secs(3);
-
-/// A mission that was handed to the vehicle.
-#[derive(Debug, Clone)]
-struct Handed {
-    purpose: Purpose,
-    /// Its commands, by which it is recognised.
-    lines: Vec<String>,
-    /// The item of each command.
-    items: Vec<u16>,
-    /// The stored mission from which it was made.
-    id: u32,
-}
-
-/// How far the mission of [`Handed`] is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Progress {
-    /// The vehicle has another mission.
-    Other,
-    /// It has this one.
-    Ours,
-    /// .. and has flown it to its end.
-    Complete,
-}
 
 /// State machine of a `MAVLink` vehicle.
 #[derive(Debug)]
@@ -87,39 +70,20 @@ pub struct MavlinkVehicle {
     schedule: Schedule,
     parameters: Parameters,
     transfer: Transfer,
-    handed: Option<Handed>,
-    progress: Progress,
-    /// The item with which the mission begins next time.
-    first_item: u16,
-    /// The item of the mission that the vehicle flew last, as long as it has it.
-    item: Option<u16>,
-    /// The item that was reported as reached last.
-    reached: Option<u16>,
+    flown: Flown,
+    arming: Arming,
+    following: Following,
     awaited: ArrayVec<Awaited, 16>,
     /// The operator who gave the last order, and where.
     ordered_at: Option<(Operator, u8)>,
     /// When the vehicle was last told that the station with the controls is there.
     presence: Option<Duration>,
     next_ticket: u32,
-    /// Until when the vehicle is armed on the ground, and by whom.
-    armed: Option<(Duration, Operator)>,
-    /// What will be done when it is armed.
-    pending: Option<Pending>,
-    /// The last set-point, whose it was and when it came.
-    setpoint: Option<(Duration, Operator, Setpoint)>,
-    /// The operator whose set-points are followed, or were until they stopped.
-    follows: Option<Operator>,
-    /// The last that sticks asked for, whose they are and when it came.
-    sticks: Option<(Duration, Operator, Setpoint)>,
-    /// The operator whose sticks are followed, or were until they stopped.
-    by_hand: Option<Operator>,
-    joystick: Joystick,
     /// Mode and arming that were told last.
     told: Option<(Mode, bool)>,
     /// A landing that nobody has ordered, or worse.
     failsafe: bool,
     emergency: bool,
-    refused_setpoint_told: Option<Duration>,
 }
 
 impl MavlinkVehicle {
@@ -142,26 +106,16 @@ impl MavlinkVehicle {
             schedule: Schedule::new(&config),
             parameters,
             transfer: Transfer::default(),
-            handed: None,
-            progress: Progress::Other,
-            first_item: 0,
-            item: None,
-            reached: None,
+            flown: Flown::default(),
+            arming: Arming::default(),
+            following: Following::default(),
             awaited: ArrayVec::new(),
             ordered_at: None,
             presence: None,
             next_ticket: 0,
-            armed: None,
-            pending: None,
-            setpoint: None,
-            follows: None,
-            sticks: None,
-            by_hand: None,
-            joystick: Joystick::default(),
             told: None,
             failsafe: false,
             emergency: false,
-            refused_setpoint_told: None,
             config,
         }
     }
@@ -177,13 +131,7 @@ impl MavlinkVehicle {
             Input::Status(status) => self.take_status(now, status),
             Input::Readiness(reasons) => self.take_readiness(reasons),
             Input::Event(event) => self.take_event(event),
-            Input::Mission(steps) => {
-                let steps = steps.iter().map(|step| step.text.as_str());
-                let ours = self.handed.as_ref().is_some_and(|handed| {
-                    !handed.lines.is_empty() && steps.eq(handed.lines.iter().map(String::as_str))
-                });
-                self.progress = if ours { Progress::Ours } else { Progress::Other };
-            }
+            Input::Mission(steps) => self.flown.recognise(steps),
             Input::Answer { ticket, answer } => self.take_answer(now, ticket, &answer),
             Input::PeerGone(peer) => self.stations.forget_peer(peer),
         }
@@ -192,6 +140,7 @@ impl MavlinkVehicle {
     /// Time passes. Call this every 20 ms or so.
     pub fn tick(&mut self, now: Duration) {
         self.watch_orders(now);
+        self.watch_arming(now);
         self.watch_stations(now);
         let handled = self.transfer.tick(now);
         self.transferred(&handled);
@@ -251,18 +200,14 @@ impl MavlinkVehicle {
         let flew = self.is_flying();
         self.status = Some((now, *status));
         let flies = self.is_flying();
-        let handed = self.handed.as_ref().filter(|_| self.progress == Progress::Ours);
-        if let Some(item) =
-            handed.zip(status.step).and_then(|(handed, step)| handed.items.get(step))
-        {
-            self.item = Some(*item);
+        if let Some(step) = status.step {
+            self.flown.at_step(step);
         }
         if flies {
-            self.armed = None;
-            self.pending = None;
+            self.arming = Arming::default();
             self.emergency = false;
         } else if flew {
-            self.flight_ended();
+            self.disarm();
         }
         if !flies {
             self.failsafe = false;
@@ -284,11 +229,14 @@ impl MavlinkVehicle {
         match event {
             FlightEvent::StepStarted { .. } => return,
             // Whoever takes the controls does not expect that another's take-off follows.
-            FlightEvent::ControlsTaken { .. } => {
-                self.pending = None;
-                self.armed = None;
+            FlightEvent::ControlsTaken { .. } => self.arming = Arming::default(),
+            FlightEvent::StepDone { step } => {
+                if let Some(seq) = self.flown.step_done(*step) {
+                    let reached = MISSION_ITEM_REACHED_DATA { seq };
+                    self.send(To::All, MavMessage::MISSION_ITEM_REACHED(reached));
+                }
+                return;
             }
-            FlightEvent::StepDone { step } => return self.step_done(*step),
             FlightEvent::LandingOrdered(LandingReason::Operator) => {}
             FlightEvent::LandingOrdered(_) | FlightEvent::LinkLost => self.failsafe = true,
             FlightEvent::Emergency => self.emergency = true,
@@ -317,19 +265,13 @@ impl MavlinkVehicle {
     }
 
     fn is_armed(&self) -> bool {
-        self.is_flying() || self.armed.is_some()
+        self.is_flying() || self.arming.is_armed()
     }
 
     fn mode(&self) -> Mode {
-        let purpose = match (&self.handed, self.progress) {
-            (Some(handed), Progress::Ours | Progress::Complete) => handed.purpose,
-            _ => Purpose::Mission,
-        };
-        let doing = Doing {
-            purpose,
-            by_hand: self.by_hand.is_some(),
-            goes_on: self.progress == Progress::Ours,
-        };
+        let by_hand = matches!(self.following.followed(), Some((Source::Sticks, _)));
+        let (purpose, goes_on) = (self.flown.purpose(), self.flown.goes_on());
+        let doing = Doing { purpose, by_hand, goes_on };
         self.present().map_or(Mode::Hold, |status| modes::mode(status, doing))
     }
 }

@@ -1,42 +1,21 @@
-//! Orders to the vehicle, their answers, arming, and who has the controls.
+//! Orders to the vehicle, their answers, and who has the controls.
 
 use std::time::Duration;
 
 use autopilot::plan::Commands;
 use autopilot::vehicle::{Operator, OperatorOrder, Refused, Station as Kind};
 
+use super::flown::Handed;
+use super::following::Source;
 use super::modes::Purpose;
 use super::stations::{GONE_AFTER, Station};
-use super::{Handed, Joystick, MavlinkVehicle, ORDERS, Progress, Ticket, To};
-use crate::dialect::{
-    COMMAND_ACK_DATA, MISSION_ITEM_REACHED_DATA, MavMessage, MavResult, MavSeverity,
-};
+use super::{MavlinkVehicle, ORDERS, Ticket, To};
+use crate::dialect::{COMMAND_ACK_DATA, MavMessage, MavResult};
 
-/// Armed on the ground for so long without a take-off, the vehicle disarms.
-const ARMED_TIME: Duration = Duration::from_secs(10);
-/// A take-off that was ordered before arming waits for so long.
-const PENDING_TIME: Duration = Duration::from_secs(5);
 /// A command is answered after this time even if the vehicle has not answered.
 const ANSWER_TIME: Duration = Duration::from_millis(300);
 /// The vehicle hears so often of a station that has the controls and is heard.
 const PRESENT_EVERY: Duration = Duration::from_millis(250);
-
-/// What is done when arming follows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Then {
-    /// Take off, to this height in metres.
-    TakeOff { height_m: Option<f64> },
-    /// Fly the mission.
-    Mission,
-}
-
-/// An order that waits for arming.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pending {
-    then: Then,
-    station: Station,
-    until: Duration,
-}
 
 /// What follows an order that was accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,10 +23,8 @@ pub(super) enum After {
     Nothing,
     /// The vehicle is armed.
     Armed,
-    /// The sticks of this operator are followed.
-    ByHand,
-    /// The set-points of this operator are followed.
-    Follows,
+    /// The set-points or sticks of this operator are followed.
+    Follows(Source),
 }
 
 /// Orders that were given and not yet answered.
@@ -197,38 +174,13 @@ impl MavlinkVehicle {
         }
         let by = awaited.station.operator();
         match awaited.after {
-            After::Nothing => (self.follows, self.by_hand) = (None, None),
-            After::ByHand => (self.follows, self.by_hand) = (None, Some(by)),
-            After::Follows => (self.follows, self.by_hand) = (Some(by), None),
-            After::Armed => {
-                self.armed = Some((now + ARMED_TIME, by));
-                self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("armed by {by}"));
-                if let Some(pending) = self.pending.take() {
-                    self.do_then(now, pending.station, None, pending.then);
-                }
-            }
+            After::Nothing => self.following.follow(None),
+            After::Follows(source) => self.following.follow(Some((source, by))),
+            After::Armed => self.armed_by(now, by),
         }
     }
 
-    /// Does it now if armed, or when arming follows soon.
-    pub(super) fn when_armed(&mut self, now: Duration, station: Station, command: u16, then: Then) {
-        if self.armed.is_some() {
-            self.do_then(now, station, Some(command), then);
-            return;
-        }
-        let until = now + PENDING_TIME;
-        self.pending = Some(Pending { then, station, until });
-        self.acknowledge(station, command, MavResult::MAV_RESULT_ACCEPTED);
-    }
-
-    fn do_then(&mut self, now: Duration, station: Station, command: Option<u16>, then: Then) {
-        match then {
-            Then::TakeOff { height_m } => self.take_off(now, station, command, height_m),
-            Then::Mission => self.fly_mission(now, station, command),
-        }
-    }
-
-    fn take_off(
+    pub(super) fn take_off(
         &mut self,
         now: Duration,
         station: Station,
@@ -258,7 +210,8 @@ impl MavlinkVehicle {
 
     /// Flies the stored mission, from where it is to begin.
     pub(super) fn fly_mission(&mut self, now: Duration, station: Station, command: Option<u16>) {
-        let program = self.transfer.translated().commands_from(self.first_item, self.is_airborne());
+        let first = self.flown.first_item();
+        let program = self.transfer.translated().commands_from(first, self.is_airborne());
         if program.text.is_empty() {
             self.warn(format_args!("there is no mission, or nothing is left of it"));
             if let Some(command) = command {
@@ -266,9 +219,8 @@ impl MavlinkVehicle {
             }
             return;
         }
-        self.reached = None;
         // The next time it begins with its first item again.
-        self.first_item = 0;
+        self.flown.begin_at(0);
         self.hand_over(now, station, command, Purpose::Mission, &program.text, program.items);
     }
 
@@ -304,48 +256,10 @@ impl MavlinkVehicle {
             }
         };
         let lines = text.lines().map(str::to_owned).collect();
-        self.item = None;
-        self.handed = Some(Handed { purpose, lines, items, id: self.transfer.id() });
-        self.progress = Progress::Other;
+        self.flown.hand(Handed { purpose, lines, items, id: self.transfer.id() });
         let clear = airborne.then_some(OperatorOrder::Clear);
         let rest = [OperatorOrder::Append(commands), OperatorOrder::Start { when_ready: false }];
         self.order(now, station, command, After::Nothing, clear.into_iter().chain(rest));
-    }
-
-    pub(super) fn disarm(&mut self) {
-        // The vehicle's status may not say yet that this one has the controls.
-        let armed = self.armed.take();
-        self.pending = None;
-        self.by_hand = None;
-        self.joystick = Joystick::default();
-        match armed {
-            Some((_, by)) => self.release_of(by),
-            None => self.release(),
-        }
-    }
-
-    /// Whoever has the controls by `MAVLink` gives them back.
-    fn release(&mut self) {
-        if let Some(holder) = self.present().and_then(|status| status.controls)
-            && holder.station == Kind::Mavlink
-        {
-            self.release_of(holder);
-        }
-    }
-
-    fn release_of(&mut self, holder: Operator) {
-        self.order_quietly(holder, OperatorOrder::Release);
-        // Known before the next status says so.
-        if let Some((_, status)) = &mut self.status {
-            status.controls = status.controls.filter(|controls| *controls != holder);
-        }
-    }
-
-    pub(super) fn flight_ended(&mut self) {
-        self.disarm();
-        self.follows = None;
-        self.setpoint = None;
-        self.sticks = None;
     }
 
     pub(super) fn watch_orders(&mut self, now: Duration) {
@@ -356,14 +270,6 @@ impl MavlinkVehicle {
                 let busy = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
                 self.acknowledge(late.station, command, busy);
             }
-        }
-        if self.pending.is_some_and(|pending| now >= pending.until) {
-            self.pending = None;
-            self.warn(format_args!("not armed in time: the take-off is given up"));
-        }
-        if self.armed.is_some_and(|(until, _)| now >= until) {
-            self.warn(format_args!("disarmed: no take-off followed"));
-            self.disarm();
         }
     }
 
@@ -384,38 +290,6 @@ impl MavlinkVehicle {
             self.release();
         }
     }
-
-    /// A step of the vehicle's mission was carried out.
-    pub(super) fn step_done(&mut self, step: usize) {
-        let Some(handed) = self.handed.as_ref().filter(|_| self.progress == Progress::Ours) else {
-            return;
-        };
-        let (done, next) = (handed.items.get(step).copied(), handed.items.get(step + 1).copied());
-        // Settings behind it that belong to the same item are no steps that will be reported.
-        let rest = handed.items.get(step + 1..).unwrap_or_default();
-        let goes_on = done.is_some_and(|item| {
-            let lines = handed.lines.get(step + 1..).unwrap_or_default();
-            rest.iter().zip(lines).any(|(other, line)| *other == item && !is_setting(line))
-        });
-        let is_mission = handed.purpose == Purpose::Mission;
-        let last = next.is_none()
-            || handed
-                .lines
-                .get(step + 1..)
-                .is_some_and(|rest| rest.iter().all(|line| is_setting(line)));
-        if let Some(seq) = done.filter(|seq| is_mission && !goes_on && self.reached != Some(*seq)) {
-            self.reached = Some(seq);
-            self.send(To::All, MavMessage::MISSION_ITEM_REACHED(MISSION_ITEM_REACHED_DATA { seq }));
-        }
-        if last {
-            self.progress = Progress::Complete;
-        }
-    }
-}
-
-/// Whether a line of a plan only changes how later ones are flown.
-fn is_setting(line: &str) -> bool {
-    line.starts_with("set")
 }
 
 /// What a refusal by the vehicle is in `MAVLink`.

@@ -10,24 +10,39 @@ use super::modes::Mode;
 use super::parameters::NotSet;
 use super::setpoints::{NoSetpoint, global, local};
 use super::stations::Station;
-use super::{COMPONENT, Joystick, MavlinkVehicle, SYSTEM, To};
+use super::{COMPONENT, MavlinkVehicle, SYSTEM, To};
 use crate::dialect::{
-    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA,
-    MISSION_REQUEST_INT_DATA, MavCmd, MavMessage, MavModeFlag, MavParamError, MavResult,
-    MavSeverity, PARAM_ERROR_DATA, PING_DATA, SET_MODE_DATA, TIMESYNC_DATA,
+    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MavCmd,
+    MavMessage, MavModeFlag, MavParamError, MavResult, MavSeverity, PARAM_ERROR_DATA, PING_DATA,
+    SET_MODE_DATA, TIMESYNC_DATA,
 };
 use crate::frame::Frame;
 use crate::mission::{Event, Handled, Item, Message, Partner, Received, result};
 use crate::place::Origin;
 
-/// Sticks that have been silent for so long must be seen in the middle again.
-const STICKS_TIME: Duration = Duration::from_secs(1);
-/// The same set-point again is not passed on sooner than this; the vehicle decides no faster.
-const SETPOINT_EVERY: Duration = Duration::from_millis(20);
-/// Set-points that are refused are told no more often than this.
-const TELL_EVERY: Duration = Duration::from_secs(2);
 /// The target of all systems, and of all components.
 const ALL: u8 = 0;
+
+/// The item that a message carries, whose places are numbers of another type.
+macro_rules! item {
+    ($data:expr, $x:expr, $y:expr) => {
+        Item {
+            seq: $data.seq,
+            frame: $data.frame,
+            command: $data.command,
+            current: $data.current,
+            autocontinue: $data.autocontinue,
+            param1: $data.param1,
+            param2: $data.param2,
+            param3: $data.param3,
+            param4: $data.param4,
+            x: $x,
+            y: $y,
+            z: $data.z,
+            mission_type: $data.mission_type,
+        }
+    };
+}
 
 impl MavlinkVehicle {
     /// A frame with a valid checksum has arrived.
@@ -113,17 +128,12 @@ impl MavlinkVehicle {
                 self.take_setpoint(now, station, setpoint);
             }
             MavMessage::MANUAL_CONTROL(data) => {
-                let by = station.operator();
                 if self.config.view_only || self.is_others(station) {
                     return;
                 }
-                if self.sticks.is_none_or(|(at, _, _)| now.saturating_sub(at) >= STICKS_TIME) {
-                    self.joystick = Joystick::default();
-                }
-                let setpoint = self.joystick.setpoint(data);
-                self.sticks = Some((now, by, setpoint));
-                if self.by_hand == Some(by) {
-                    self.order_quietly(by, OperatorOrder::Setpoint(setpoint));
+                let by = station.operator();
+                if let Some(setpoint) = self.following.take_sticks(now, by, data) {
+                    self.pass_on(station, setpoint);
                 }
             }
             _ => self.received_of_mission(now, station, message),
@@ -202,7 +212,7 @@ impl MavlinkVehicle {
         let rules = self.rules();
         if let Err(problem) = self.transfer.translate_again(&rules) {
             self.transfer.clear();
-            self.first_item = 0;
+            self.flown.begin_at(0);
             self.warn(format_args!("mission removed: {}", problem.reason));
         }
         for id in [49, 242] {
@@ -223,30 +233,21 @@ impl MavlinkVehicle {
         let setpoint = match setpoint {
             Ok(setpoint) => setpoint,
             Err(error) => {
-                let told = self.refused_setpoint_told;
-                if told.is_none_or(|at| now.saturating_sub(at) >= TELL_EVERY) {
-                    self.refused_setpoint_told = Some(now);
+                if self.following.tells_refusal(now) {
                     self.warn(format_args!("{error}"));
                 }
                 return;
             }
         };
-        let by = station.operator();
-        // Another's set-points do not take the place of those that are followed.
-        if self.follows.is_some_and(|follows| follows != by) {
-            return;
+        if self.following.take_setpoint(now, station.operator(), setpoint) {
+            self.pass_on(station, setpoint);
         }
-        let soon = self.setpoint.is_some_and(|(at, whose, last)| {
-            whose == by && last == setpoint && now.saturating_sub(at) < SETPOINT_EVERY
-        });
-        if soon {
-            return;
-        }
-        self.setpoint = Some((now, by, setpoint));
-        if self.follows == Some(by) {
-            self.ordered_at = Some((by, station.peer));
-            self.order_quietly(by, OperatorOrder::Setpoint(setpoint));
-        }
+    }
+
+    /// Passes a set-point on that is followed.
+    fn pass_on(&mut self, station: Station, setpoint: Setpoint) {
+        self.ordered_at = Some((station.operator(), station.peer));
+        self.order_quietly(station.operator(), OperatorOrder::Setpoint(setpoint));
     }
 
     fn received_of_mission(&mut self, now: Duration, station: Station, message: &MavMessage) {
@@ -254,8 +255,10 @@ impl MavlinkVehicle {
             MavMessage::MISSION_COUNT(data) => {
                 Received::Count { count: data.count, mission_type: data.mission_type }
             }
-            MavMessage::MISSION_ITEM_INT(data) => Received::Item(item_int(data)),
-            MavMessage::MISSION_ITEM(data) => Received::Item(item(data)),
+            MavMessage::MISSION_ITEM_INT(data) => Received::Item(item!(data, data.x, data.y)),
+            MavMessage::MISSION_ITEM(data) => {
+                Received::Item(item!(data, 0, 0).with_floats(data.x, data.y))
+            }
             MavMessage::MISSION_REQUEST_LIST(data) => {
                 Received::RequestList { mission_type: data.mission_type }
             }
@@ -328,10 +331,9 @@ impl MavlinkVehicle {
         let Some(event) = &handled.event else { return };
         match event {
             Event::Accepted | Event::Cleared => {
-                self.first_item = 0;
-                self.reached = None;
+                self.flown.begin_at(0);
                 // What waits was ordered for another.
-                self.pending = None;
+                self.arming.give_up();
                 let count = self.transfer.items().len();
                 self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("mission of {count} items"));
                 self.answer_request(To::All, 42, 0);
@@ -390,43 +392,6 @@ impl MavlinkVehicle {
         };
         self.send(To::Peer(peer), message);
     }
-}
-
-fn item_int(data: &MISSION_ITEM_INT_DATA) -> Item {
-    Item {
-        seq: data.seq,
-        frame: data.frame,
-        command: data.command,
-        current: data.current,
-        autocontinue: data.autocontinue,
-        param1: data.param1,
-        param2: data.param2,
-        param3: data.param3,
-        param4: data.param4,
-        x: data.x,
-        y: data.y,
-        z: data.z,
-        mission_type: data.mission_type,
-    }
-}
-
-fn item(data: &MISSION_ITEM_DATA) -> Item {
-    let item = Item {
-        seq: data.seq,
-        frame: data.frame,
-        command: data.command,
-        current: data.current,
-        autocontinue: data.autocontinue,
-        param1: data.param1,
-        param2: data.param2,
-        param3: data.param3,
-        param4: data.param4,
-        x: 0,
-        y: 0,
-        z: data.z,
-        mission_type: data.mission_type,
-    };
-    item.with_floats(data.x, data.y)
 }
 
 fn is_ours(system: u8, component: u8) -> bool {

@@ -1,7 +1,5 @@
 //! Set-points (`SET_POSITION_TARGET_*`) in our frame, and those that sticks ask for (`MANUAL_CONTROL`).
 
-use std::time::Duration;
-
 use autopilot::vehicle::{Heading, Horizontal, Setpoint, Vertical};
 use kinematics::{Pose, world_from_body};
 use nalgebra::Vector2;
@@ -11,9 +9,6 @@ use crate::dialect::{
     SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
 use crate::place::{Ned, NedVelocity, Origin};
-
-/// A set-point that is older is none.
-pub(super) const SETPOINT_TIME: Duration = Duration::from_millis(500);
 
 /// Why a set-point is not followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -46,6 +41,17 @@ struct Fields {
     yaw_rate: f32,
 }
 
+macro_rules! fields {
+    ($data:expr) => {
+        Fields {
+            mask: $data.type_mask,
+            velocity: [$data.vx, $data.vy, $data.vz],
+            yaw: $data.yaw,
+            yaw_rate: $data.yaw_rate,
+        }
+    };
+}
+
 impl Fields {
     fn wants(&self, mask: Mask) -> bool {
         !self.mask.intersects(mask)
@@ -64,7 +70,7 @@ impl Fields {
         Ok([or_zero(x, level)?, or_zero(y, level)?, or_zero(z, climb)?])
     }
 
-    fn check(&self) -> Result<(), NoSetpoint> {
+    fn checked(self) -> Result<Self, NoSetpoint> {
         if !self.mask.contains(ACCELERATION)
             || self.mask.contains(Mask::POSITION_TARGET_TYPEMASK_FORCE_SET)
         {
@@ -75,7 +81,11 @@ impl Fields {
         let turn = Mask::POSITION_TARGET_TYPEMASK_YAW_IGNORE;
         let rate = Mask::POSITION_TARGET_TYPEMASK_YAW_RATE_IGNORE;
         let all = [PLACE, VELOCITY, height, climb, turn, rate];
-        if all.into_iter().any(|part| self.wants(part)) { Ok(()) } else { Err(NoSetpoint::Nothing) }
+        if all.into_iter().any(|part| self.wants(part)) {
+            Ok(self)
+        } else {
+            Err(NoSetpoint::Nothing)
+        }
     }
 
     fn heading(&self, yaw_deg: impl Fn(f64) -> f64) -> Result<Heading, NoSetpoint> {
@@ -100,13 +110,7 @@ pub(crate) fn local(
     origin: &Origin,
     pose: Option<&Pose>,
 ) -> Result<Setpoint, NoSetpoint> {
-    let fields = Fields {
-        mask: data.type_mask,
-        velocity: [data.vx, data.vy, data.vz],
-        yaw: data.yaw,
-        yaw_rate: data.yaw_rate,
-    };
-    fields.check()?;
+    let fields = fields!(data).checked()?;
     let (body, offset) = match data.coordinate_frame {
         1 => (false, false),
         7 => (false, true),
@@ -158,13 +162,7 @@ pub(crate) fn global(
     data: &SET_POSITION_TARGET_GLOBAL_INT_DATA,
     origin: &Origin,
 ) -> Result<Setpoint, NoSetpoint> {
-    let fields = Fields {
-        mask: data.type_mask,
-        velocity: [data.vx, data.vy, data.vz],
-        yaw: data.yaw,
-        yaw_rate: data.yaw_rate,
-    };
-    fields.check()?;
+    let fields = fields!(data).checked()?;
     let frame = data.coordinate_frame;
     if !matches!(frame, 0 | 3 | 5 | 6) {
         return Err(NoSetpoint::Frame(frame));
@@ -205,7 +203,7 @@ const DEAD_ZONE: f64 = 0.1;
 
 /// The sticks of one who flies by hand. The throttle counts only after it was seen in the middle with all others at rest: a
 /// joystick whose throttle rests at the bottom must not begin with a descent.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Joystick {
     centred: bool,
 }

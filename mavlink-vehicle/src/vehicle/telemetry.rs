@@ -1,4 +1,4 @@
-//! What the vehicle tells, and how often.
+//! What the vehicle tells.
 
 use std::time::Duration;
 
@@ -6,118 +6,20 @@ use autopilot::vehicle::{Phase, Status, Trust};
 use kinematics::{Pose, Velocity};
 use mavlink_core::types::CharArray;
 
-use super::modes::{Mode, Purpose};
-use super::{Autopilot, Config, MavlinkVehicle, Progress, To};
+use super::modes::Mode;
+use super::schedule::HEARTBEAT;
+use super::{Autopilot, MavlinkVehicle, To};
 use crate::dialect::{
     ALTITUDE_DATA, ATTITUDE_DATA, ATTITUDE_QUATERNION_DATA, AUTOPILOT_VERSION_DATA,
     AVAILABLE_MODES_DATA, BATTERY_STATUS_DATA, CURRENT_MODE_DATA, DISTANCE_SENSOR_DATA,
     ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags, GLOBAL_POSITION_INT_DATA,
     GPS_GLOBAL_ORIGIN_DATA, GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, HOME_POSITION_DATA,
-    LOCAL_POSITION_NED_DATA, MESSAGE_INTERVAL_DATA, MISSION_CURRENT_DATA, MavAutopilot,
-    MavBatteryChargeState, MavDistanceSensor, MavLandedState, MavMessage, MavModeFlag,
-    MavModeProperty, MavProtocolCapability, MavSensorOrientation, MavState, MavSysStatusSensor,
-    MavType, MissionState, POSITION_TARGET_LOCAL_NED_DATA, PROTOCOL_VERSION_DATA,
-    PositionTargetTypemask, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA,
+    LOCAL_POSITION_NED_DATA, MISSION_CURRENT_DATA, MavAutopilot, MavBatteryChargeState,
+    MavDistanceSensor, MavLandedState, MavMessage, MavModeFlag, MavModeProperty,
+    MavProtocolCapability, MavSensorOrientation, MavState, MavSysStatusSensor, MavType,
+    MissionState, POSITION_TARGET_LOCAL_NED_DATA, PROTOCOL_VERSION_DATA, PositionTargetTypemask,
+    SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA,
 };
-
-/// The vehicle's status comes no more often than this.
-const SHORTEST: Duration = Duration::from_millis(90);
-/// A heartbeat comes at least so often, whatever anybody asks for.
-const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
-const HEARTBEAT: u32 = 0;
-
-/// One kind of message.
-#[derive(Debug, Clone, Copy)]
-struct Stream {
-    id: u32,
-    /// By default; `None` for only on request.
-    usual: Option<Duration>,
-    every: Option<Duration>,
-    next: Duration,
-}
-
-/// When each kind of message is due.
-#[derive(Debug)]
-pub(super) struct Schedule(Vec<Stream>);
-
-impl Schedule {
-    pub(super) fn new(config: &Config) -> Self {
-        let stream = |(id, ms): (u32, u64)| {
-            let usual = (ms > 0).then(|| Duration::from_millis(ms));
-            Stream { id, usual, every: usual, next: Duration::ZERO }
-        };
-        let gps_ms = if config.pretend_gps { 1000 } else { 0 };
-        let usual = [
-            (HEARTBEAT, 1000),
-            (1, 1000),
-            (2, 1000),
-            (24, gps_ms),
-            (30, 90),
-            (31, 0),
-            (32, 90),
-            (33, 180),
-            (42, 1000),
-            (49, 0),
-            (74, 250),
-            (85, 0),
-            (132, 180),
-            (141, 1000),
-            (147, 1000),
-            (148, 0),
-            (230, 1000),
-            (242, 2000),
-            (245, 1000),
-            (300, 0),
-            (436, 2000),
-        ];
-        Self(usual.into_iter().map(stream).collect())
-    }
-
-    /// Sets an interval in microseconds, 0 for the usual one and less for never. Returns whether there is such a message.
-    pub(super) fn set(&mut self, id: u32, interval_us: i32) -> bool {
-        let Some(stream) = self.0.iter_mut().find(|stream| stream.id == id) else { return false };
-        stream.every = match u64::try_from(interval_us) {
-            Ok(0) => stream.usual,
-            Ok(us) => Some(Duration::from_micros(us).max(SHORTEST)),
-            Err(_) => None,
-        };
-        if id == HEARTBEAT {
-            stream.every = Some(stream.every.unwrap_or(HEARTBEAT_EVERY).min(HEARTBEAT_EVERY));
-        }
-        true
-    }
-
-    /// The message that tells an interval: 0 for what this vehicle does not have.
-    pub(super) fn interval(&self, message_id: u16) -> MavMessage {
-        let stream = self.0.iter().find(|stream| stream.id == message_id.into());
-        let interval_us = match stream.map(|stream| stream.every) {
-            None => 0,
-            Some(None) => -1,
-            Some(Some(every)) => i32::try_from(every.as_micros()).unwrap_or(i32::MAX),
-        };
-        MavMessage::MESSAGE_INTERVAL(MESSAGE_INTERVAL_DATA { interval_us, message_id })
-    }
-
-    /// The message at `index` if it is due; then it is due again after its interval.
-    fn due(&mut self, index: usize, now: Duration) -> Option<u32> {
-        let stream = self.0.get_mut(index)?;
-        let every = stream.every?;
-        if now < stream.next {
-            return None;
-        }
-        // Without catching up what was missed.
-        let next = stream.next + every;
-        stream.next = if next > now { next } else { now + every };
-        Some(stream.id)
-    }
-
-    /// Makes a message due at once.
-    fn hasten(&mut self, id: u32) {
-        if let Some(stream) = self.0.iter_mut().find(|stream| stream.id == id) {
-            stream.next = Duration::ZERO;
-        }
-    }
-}
 
 impl MavlinkVehicle {
     /// Queues what is due.
@@ -129,7 +31,7 @@ impl MavlinkVehicle {
             }
         }
         self.told = Some(told);
-        for index in 0..self.schedule.0.len() {
+        for index in 0..self.schedule.len() {
             if let Some(id) = self.schedule.due(index, now)
                 && let Some(message) = self.telemetry(id)
             {
@@ -573,19 +475,16 @@ impl View<'_> {
     fn mission(&self) -> MISSION_CURRENT_DATA {
         let vehicle = self.vehicle;
         let total = vehicle.transfer.items().len();
-        let handed = vehicle.handed.as_ref().filter(|handed| {
-            handed.purpose == Purpose::Mission && handed.id == vehicle.transfer.id()
-        });
-        let flown = handed.filter(|_| vehicle.progress != Progress::Other);
+        let flown = vehicle.flown.is_stored(vehicle.transfer.id());
         // Between two steps, and while it is paused there, it is the one before.
-        let step = flown.and(vehicle.item);
-        let complete = flown.is_some() && vehicle.progress == Progress::Complete;
+        let step = vehicle.flown.item().filter(|_| flown);
+        let complete = flown && vehicle.flown.is_complete();
         let last = u16::try_from(total.saturating_sub(1)).unwrap_or_default();
         let state = if total == 0 {
             MissionState::MISSION_STATE_NO_MISSION
         } else if complete {
             MissionState::MISSION_STATE_COMPLETE
-        } else if flown.is_none() || !vehicle.is_flying() {
+        } else if !flown || !vehicle.is_flying() {
             MissionState::MISSION_STATE_NOT_STARTED
         } else if self.status.mission_waits {
             MissionState::MISSION_STATE_PAUSED
@@ -595,7 +494,7 @@ impl View<'_> {
         let seq = match (step, complete) {
             (Some(item), _) => item,
             (None, true) => last,
-            (None, false) => vehicle.first_item,
+            (None, false) => vehicle.flown.first_item(),
         };
         MISSION_CURRENT_DATA {
             seq,

@@ -5,8 +5,8 @@ use mavlink_core::Message as _;
 
 use super::*;
 use crate::dialect::{
-    COMMAND_LONG_DATA, HEARTBEAT_DATA, MavModeFlag, MavResult, PositionTargetTypemask,
-    SET_POSITION_TARGET_LOCAL_NED_DATA, SETUP_SIGNING_DATA,
+    COMMAND_LONG_DATA, HEARTBEAT_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA, MavModeFlag,
+    MavResult, PositionTargetTypemask, SET_POSITION_TARGET_LOCAL_NED_DATA, SETUP_SIGNING_DATA,
 };
 use crate::signing::Key;
 
@@ -512,7 +512,7 @@ fn an_order_of_another_station_changes_nothing_of_the_mission_that_flies() {
     let mut bench = Bench::new(Config::default());
     bench.accepts(400, first(1.0));
     bench.accepts(22, NOTHING);
-    let lines = bench.vehicle.handed.as_ref().unwrap().lines.clone();
+    let lines = bench.vehicle.flown.lines().to_vec();
     bench.fly();
     bench.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
     bench.orders.clear();
@@ -523,5 +523,73 @@ fn an_order_of_another_station_changes_nothing_of_the_mission_that_flies() {
         ..COMMAND_LONG_DATA::default()
     }));
     assert!(bench.ordered().is_empty());
-    assert_eq!(bench.vehicle.handed.as_ref().unwrap().lines, lines);
+    assert_eq!(bench.vehicle.flown.lines(), lines);
+}
+
+impl Bench {
+    /// Uploads a mission that takes off, flies to two places and lands.
+    fn upload(&mut self) {
+        let item = |seq, command, x: f32| MISSION_ITEM_DATA {
+            seq,
+            command,
+            x,
+            z: 1.0,
+            autocontinue: 1,
+            frame: 1,
+            target_system: 1,
+            ..MISSION_ITEM_DATA::default()
+        };
+        let items = [item(0, 24, 0.0), item(1, 16, 1.0), item(2, 16, 0.5), item(3, 23, 0.5)];
+        let up = |item: MISSION_ITEM_DATA| MISSION_ITEM_DATA { z: -item.z, ..item };
+        self.say(&MavMessage::MISSION_COUNT(MISSION_COUNT_DATA {
+            count: 4,
+            target_system: 1,
+            ..MISSION_COUNT_DATA::default()
+        }));
+        for item in items.map(up) {
+            self.say(&MavMessage::MISSION_ITEM(item));
+        }
+        assert_eq!(self.vehicle.transfer.items().len(), 4, "{:?}", self.sent);
+    }
+}
+
+#[test]
+fn a_mission_begins_where_whoever_has_the_controls_says() {
+    let start = |item: f32| [item, 0.0, NAN, NAN, NAN, NAN, NAN];
+    let mut bench = Bench::new(Config::default());
+    bench.upload();
+    bench.accepts(400, first(1.0));
+    bench.pass(Duration::from_millis(100));
+    bench.orders.clear();
+    bench.refuses(300, start(4.0));
+    // Another station's start is refused, and moves nothing.
+    bench.client = Encoder::new(254, 190);
+    bench.say(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+        param1: 2.0,
+        command: 300,
+        target_system: 1,
+        ..COMMAND_LONG_DATA::default()
+    }));
+    assert_eq!((bench.ordered().len(), bench.vehicle.flown.first_item()), (0, 0));
+    bench.client = Encoder::new(255, 190);
+    bench.accepts(300, start(2.0));
+    assert_eq!(bench.ordered(), ["append", "start"]);
+    let lines = bench.vehicle.flown.lines().join("\n");
+    assert!(!lines.contains("goto 0.000 1.000") && lines.contains("land"), "{lines}");
+    assert_eq!(bench.vehicle.flown.first_item(), 0, "the next time it begins at its beginning");
+}
+
+#[test]
+fn a_take_off_waits_for_its_own_station_to_arm() {
+    let mut bench = Bench::new(Config::default());
+    bench.accepts(22, NOTHING);
+    bench.client = Encoder::new(254, 190);
+    bench.say(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
+        param1: 1.0,
+        command: 400,
+        target_system: 1,
+        ..COMMAND_LONG_DATA::default()
+    }));
+    assert_eq!(bench.ordered(), ["take"]);
+    assert!(bench.is_armed());
 }

@@ -1,0 +1,123 @@
+//! Arming on the ground, and take-offs that wait for it.
+
+use std::time::Duration;
+
+use autopilot::vehicle::{Operator, OperatorOrder, Station as Kind};
+
+use super::MavlinkVehicle;
+use super::following::Following;
+use super::stations::Station;
+use crate::dialect::{MavResult, MavSeverity};
+
+/// Armed on the ground for so long without a take-off, the vehicle disarms.
+const ARMED_TIME: Duration = Duration::from_secs(10);
+/// A take-off that was ordered before arming waits for so long.
+const PENDING_TIME: Duration = Duration::from_secs(5);
+
+/// What is done when arming follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Then {
+    /// Take off, to this height in metres.
+    TakeOff { height_m: Option<f64> },
+    /// Fly the mission.
+    Mission,
+}
+
+/// An order that waits for arming.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Pending {
+    then: Then,
+    station: Station,
+    until: Duration,
+}
+
+/// The vehicle on the ground, as its clients see it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Arming {
+    /// Until when it is armed, and by whom.
+    armed: Option<(Duration, Operator)>,
+    /// What will be done when it is armed.
+    pending: Option<Pending>,
+}
+
+impl Arming {
+    pub(super) fn is_armed(&self) -> bool {
+        self.armed.is_some()
+    }
+
+    /// What waits for arming is given up.
+    pub(super) fn give_up(&mut self) {
+        self.pending = None;
+    }
+}
+
+impl MavlinkVehicle {
+    /// An operator has armed the vehicle: what waited for it is done.
+    pub(super) fn armed_by(&mut self, now: Duration, by: Operator) {
+        self.arming.armed = Some((now + ARMED_TIME, by));
+        self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("armed by {by}"));
+        // Whoever takes the controls does not expect that another's take-off follows.
+        let pending = self.arming.pending.take();
+        if let Some(pending) = pending.filter(|pending| pending.station.operator() == by) {
+            self.do_then(now, pending.station, None, pending.then);
+        }
+    }
+
+    /// Does it now if armed, or when arming follows soon.
+    pub(super) fn when_armed(&mut self, now: Duration, station: Station, command: u16, then: Then) {
+        if self.arming.is_armed() {
+            self.do_then(now, station, Some(command), then);
+            return;
+        }
+        let until = now + PENDING_TIME;
+        self.arming.pending = Some(Pending { then, station, until });
+        self.acknowledge(station, command, MavResult::MAV_RESULT_ACCEPTED);
+    }
+
+    fn do_then(&mut self, now: Duration, station: Station, command: Option<u16>, then: Then) {
+        match then {
+            Then::TakeOff { height_m } => self.take_off(now, station, command, height_m),
+            Then::Mission => self.fly_mission(now, station, command),
+        }
+    }
+
+    pub(super) fn disarm(&mut self) {
+        // The vehicle's status may not say yet that this one has the controls.
+        let armed = self.arming.armed;
+        self.arming = Arming::default();
+        self.following = Following::default();
+        match armed {
+            Some((_, by)) => self.release_of(by),
+            None => self.release(),
+        }
+    }
+
+    /// Whoever has the controls by `MAVLink` gives them back.
+    pub(super) fn release(&mut self) {
+        if let Some(holder) = self.present().and_then(|status| status.controls)
+            && holder.station == Kind::Mavlink
+        {
+            self.release_of(holder);
+        }
+    }
+
+    fn release_of(&mut self, holder: Operator) {
+        self.order_quietly(holder, OperatorOrder::Release);
+        // Known before the next status says so.
+        if let Some((_, status)) = &mut self.status {
+            status.controls = status.controls.filter(|controls| *controls != holder);
+        }
+    }
+
+    /// Neither arming nor a take-off that waits for it lasts.
+    pub(super) fn watch_arming(&mut self, now: Duration) {
+        if self.arming.pending.is_some_and(|pending| now >= pending.until) {
+            self.arming.give_up();
+            self.warn(format_args!("not armed in time: the take-off is given up"));
+        }
+        if self.arming.armed.is_some_and(|(until, _)| now >= until) {
+            self.warn(format_args!("disarmed: no take-off followed"));
+            self.disarm();
+        }
+    }
+}
