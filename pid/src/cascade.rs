@@ -14,7 +14,7 @@ use crate::climb::{ClimbLimits, ClimbReference};
 use crate::course::Course;
 use crate::pid::{Pid, PidGains, PidInputs};
 use crate::position::Inputs;
-use crate::trajectory::{MotionLimits, Reference, Trajectory};
+use crate::trajectory::{Reference, Trajectory};
 
 /// Gains and limits of the law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,13 +144,8 @@ impl Cascade {
         let (config, tilt_max_rad) = (self.config, self.limits.tilt_rad);
         let thrust = airframe.thrust_gain;
         let full_m_s2 = GRAVITY_M_S2 * tilt_max_rad.tan() * thrust.amin();
-        // Acceleration needed against the disturbance is not available to the reference.
-        let free_m_s2 = (full_m_s2 - disturbance_m_s2.norm()).max(full_m_s2 / 3.0);
-        let limits = MotionLimits {
-            velocity_m_s: inputs.speed_m_s.min(config.speed_max_m_s * limit),
-            acceleration_m_s2: config.acceleration_share * free_m_s2 * limit,
-            jerk_m_s3: config.jerk_max_m_s3 * limit,
-        };
+        let limits =
+            config.motion_limits(full_m_s2, disturbance_m_s2.norm(), limit, inputs.speed_m_s);
         if let Some(course) = inputs.course {
             // Where the course ends, a motion begins from there.
             way.horizontal = Trajectory::new(course.position_m);

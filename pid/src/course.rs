@@ -2,23 +2,14 @@
 
 use nalgebra::Vector2;
 
+use crate::motion::MotionLimits;
+
 /// Time in which the velocity follows the wanted one.
 const RESPONSE_S: f64 = 0.15;
 /// Near its place the speed is this share of the distance, in 1/s: slow enough for [`RESPONSE_S`] not to overshoot.
 const APPROACH_1_S: f64 = 1.8;
 
-/// Limits of a [`Course`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CourseLimits {
-    /// Largest speed.
-    pub speed_m_s: f64,
-    /// Largest acceleration.
-    pub acceleration_m_s2: f64,
-    /// Largest jerk.
-    pub jerk_m_s3: f64,
-}
-
-impl CourseLimits {
+impl MotionLimits {
     /// The largest speed from which it comes to rest within a distance.
     pub fn speed_before_stop_m_s(&self, distance_m: f64) -> f64 {
         // Half of the acceleration is left for the time in which the velocity follows.
@@ -49,14 +40,14 @@ impl Course {
     }
 
     /// Velocity that leads to a place.
-    pub fn velocity_to(&self, place_m: &Vector2<f64>, limits: &CourseLimits) -> Vector2<f64> {
+    pub fn velocity_to(&self, place_m: &Vector2<f64>, limits: &MotionLimits) -> Vector2<f64> {
         let way_m = place_m - self.position_m;
         let speed_m_s = limits.speed_before_stop_m_s(way_m.norm());
         way_m.try_normalize(f64::EPSILON).map_or_else(Vector2::zeros, |way| way * speed_m_s)
     }
 
     /// Moves on for `step_s`, towards the wanted velocity.
-    pub fn advance(&mut self, wanted_m_s: Vector2<f64>, limits: &CourseLimits, step_s: f64) {
+    pub fn advance(&mut self, wanted_m_s: Vector2<f64>, limits: &MotionLimits, step_s: f64) {
         let wanted_m_s = wanted_m_s.cap_magnitude(limits.speed_m_s);
         let wanted_m_s2 =
             ((wanted_m_s - self.velocity_m_s) / RESPONSE_S).cap_magnitude(limits.acceleration_m_s2);
@@ -80,8 +71,8 @@ impl Course {
 mod tests {
     use super::*;
 
-    const LIMITS: CourseLimits =
-        CourseLimits { speed_m_s: 2.0, acceleration_m_s2: 1.4, jerk_m_s3: 14.0 };
+    const LIMITS: MotionLimits =
+        MotionLimits { speed_m_s: 2.0, acceleration_m_s2: 1.4, jerk_m_s3: 14.0 };
     const STEP_S: f64 = 0.03;
 
     fn at_rest() -> Course {
@@ -119,7 +110,7 @@ mod tests {
 
     #[test]
     fn it_stands_still_without_limits_to_move_in() {
-        let nothing = CourseLimits { speed_m_s: 0.0, acceleration_m_s2: 0.0, jerk_m_s3: 0.0 };
+        let nothing = MotionLimits { speed_m_s: 0.0, acceleration_m_s2: 0.0, jerk_m_s3: 0.0 };
         let mut course = at_rest();
         course.advance(course.velocity_to(&Vector2::new(1.0, 1.0), &nothing), &nothing, STEP_S);
         assert_eq!(course, at_rest());

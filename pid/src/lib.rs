@@ -8,12 +8,14 @@
 mod cascade;
 mod climb;
 mod course;
+mod motion;
 mod pid;
 mod position;
 mod trajectory;
 mod tum;
 
 pub use cascade::CascadeConfig;
-pub use course::{Course, CourseLimits};
+pub use course::Course;
+pub use motion::MotionLimits;
 pub use pid::{Pid, PidGains, PidInputs};
 pub use position::{Inputs, Law, PositionController};

@@ -6,16 +6,7 @@
 use arrayvec::ArrayVec;
 use nalgebra::Vector2;
 
-/// Limits of a motion along a line.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct MotionLimits {
-    /// Maximum speed.
-    pub(crate) velocity_m_s: f64,
-    /// Maximum acceleration.
-    pub(crate) acceleration_m_s2: f64,
-    /// Maximum jerk.
-    pub(crate) jerk_m_s3: f64,
-}
+use crate::motion::MotionLimits;
 
 /// Position, velocity, acceleration and jerk at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +31,7 @@ struct Profile {
 
 impl Profile {
     fn new(length_m: f64, limits: &MotionLimits) -> Self {
-        let MotionLimits { velocity_m_s: v, acceleration_m_s2: a, jerk_m_s3: j } = *limits;
+        let MotionLimits { speed_m_s: v, acceleration_m_s2: a, jerk_m_s3: j } = *limits;
         let nothing =
             Self { jerk_m_s3: 0.0, jerk_s: 0.0, acceleration_s: 0.0, cruise_s: 0.0, length_m };
         if length_m <= 0.0 || v <= 0.0 || a <= 0.0 || j <= 0.0 {
@@ -195,7 +186,7 @@ mod tests {
     use super::*;
 
     const LIMITS: MotionLimits =
-        MotionLimits { velocity_m_s: 2.0, acceleration_m_s2: 1.5, jerk_m_s3: 10.0 };
+        MotionLimits { speed_m_s: 2.0, acceleration_m_s2: 1.5, jerk_m_s3: 10.0 };
 
     #[test]
     fn every_motion_ends_at_its_length_and_keeps_its_limits() {
@@ -208,7 +199,7 @@ mod tests {
                 let time_s = duration_s * f64::from(step) / f64::from(steps);
                 let [way, speed, acceleration, _] = profile.at(time_s);
                 assert!(way >= last - 1e-9 && way <= length_m + 1e-9, "{length_m} {way}");
-                assert!(speed <= LIMITS.velocity_m_s + 1e-9, "{length_m} {speed}");
+                assert!(speed <= LIMITS.speed_m_s + 1e-9, "{length_m} {speed}");
                 assert!(acceleration.abs() <= LIMITS.acceleration_m_s2 + 1e-9);
                 last = way;
             }
@@ -242,7 +233,7 @@ mod tests {
 
     #[test]
     fn no_limits_mean_no_motion_but_no_nonsense_either() {
-        let nothing = MotionLimits { velocity_m_s: 0.0, ..LIMITS };
+        let nothing = MotionLimits { speed_m_s: 0.0, ..LIMITS };
         let [way, speed, ..] = Profile::new(1.0, &nothing).at(0.0);
         assert!(way.is_finite() && speed.abs() < 1e-12);
     }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use estimator::Prediction;
 use kinematics::{Pose, Sticks};
-use pid::{Course, CourseLimits};
+use pid::{Course, MotionLimits};
 
 use super::{FlightEvent, Operator, Place, Refused, Setpoint, Station, Vehicle, pose};
 use crate::agent::{Report, SetpointPercept, distance};
@@ -195,21 +195,14 @@ impl Vehicle {
         }
     }
 
-    /// What the controller's own reference may use too.
-    fn course_limits(&self) -> CourseLimits {
-        let cascade = &self.config.cascade;
-        let (limit, full_m_s2) = (self.mission.max_control(), self.full_tilt_m_s2());
-        // Acceleration needed against the wind is not available.
-        let free_m_s2 = full_m_s2 * self.least_thrust() * (1.0 - self.wind().norm()).max(1.0 / 3.0);
-        let speed_m_s = cascade.speed_max_m_s * limit;
-        CourseLimits {
-            speed_m_s: self
-                .mission
-                .speed_m_s()
-                .map_or(speed_m_s, |most_m_s| most_m_s.min(speed_m_s)),
-            acceleration_m_s2: cascade.acceleration_share * free_m_s2 * limit,
-            jerk_m_s3: cascade.jerk_max_m_s3 * limit,
-        }
+    /// Those of the controller's own reference.
+    fn course_limits(&self) -> MotionLimits {
+        self.config.cascade.motion_limits(
+            self.full_tilt_m_s2() * self.least_thrust(),
+            self.flight.wind_m_s2.norm(),
+            self.mission.max_control(),
+            self.mission.speed_m_s().unwrap_or(f64::INFINITY),
+        )
     }
 
     /// The agent has set its order aside because whoever gave it is silent.

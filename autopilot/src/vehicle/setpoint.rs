@@ -2,7 +2,7 @@
 
 use kinematics::{Pose, world_from_body, wrap_deg};
 use nalgebra::Vector2;
-use pid::{Course, CourseLimits};
+use pid::{Course, MotionLimits};
 
 use crate::safety::{BRAKING_M_S2, REACTION_S};
 
@@ -99,7 +99,7 @@ impl Setpoint {
         &self,
         course: &mut Course,
         pose: &Pose,
-        limits: &CourseLimits,
+        limits: &MotionLimits,
         radius_m: f64,
         step_s: f64,
     ) {
@@ -189,8 +189,8 @@ mod tests {
         assert!(off + (pose.yaw_deg - yaw_deg).abs() < 1e-9, "{pose:?}");
     }
 
-    const LIMITS: CourseLimits =
-        CourseLimits { speed_m_s: 2.0, acceleration_m_s2: 1.5, jerk_m_s3: 14.0 };
+    const LIMITS: MotionLimits =
+        MotionLimits { speed_m_s: 2.0, acceleration_m_s2: 1.5, jerk_m_s3: 14.0 };
     const STEP_S: f64 = 0.03;
 
     fn at_rest() -> Course {
