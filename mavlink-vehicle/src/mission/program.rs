@@ -22,6 +22,8 @@ pub struct Translated {
     pub(super) steps: Vec<Step>,
     /// Speed limit where the mission sets none, in metres per second.
     pub(super) speed_m_s: f64,
+    /// What is flown otherwise than an item says, for a person.
+    pub(super) limited: Vec<String>,
 }
 
 /// What is to be done for an item; an item may have several steps, or none.
@@ -51,6 +53,11 @@ pub(super) enum Action {
 }
 
 impl Translated {
+    /// What is flown otherwise than an item says, because it was outside the limits: for a person, each at most 100 bytes.
+    pub fn limited(&self) -> &[String] {
+        &self.limited
+    }
+
     /// The commands from item `first` on. On the ground a take-off is put in front if none comes first; with the
     /// drone `airborne` there is none. A stay or a turn begins with the way to its place. What does not end with a
     /// landing is held at its end.
@@ -161,7 +168,7 @@ mod tests {
 
     fn program(actions: &[Action], first: u16, airborne: bool) -> Program {
         let steps = (0..).zip(actions).map(|(item, &action)| Step { item, action }).collect();
-        Translated { steps, speed_m_s: 2.2 }.commands_from(first, airborne)
+        Translated { steps, speed_m_s: 2.2, ..Translated::default() }.commands_from(first, airborne)
     }
 
     const TO: Action = Action::GoTo {

@@ -80,6 +80,7 @@ pub fn translate(
     let mut translator = Translator {
         rules: Rules { max_speed_m_s, ..*rules },
         steps: Vec::with_capacity(items.len().min(MAX_ITEMS)),
+        limited: Vec::new(),
         pose: None,
         yaw_deg: 0.0,
         end: None,
@@ -96,7 +97,8 @@ pub fn translate(
             translator.item(at)?;
         }
     }
-    Ok(Translated { steps: translator.steps, speed_m_s: max_speed_m_s })
+    let Translator { steps, limited, .. } = translator;
+    Ok(Translated { steps, speed_m_s: max_speed_m_s, limited })
 }
 
 /// Whether it says where home is, instead of a place to fly to.
@@ -202,6 +204,8 @@ impl At<'_> {
 struct Translator {
     rules: Rules,
     steps: Vec<Step>,
+    /// What is flown otherwise than an item says.
+    limited: Vec<String>,
     /// Where the drone is after the items so far; `None` if they have no place.
     pose: Option<Pose>,
     /// Its heading then.
@@ -248,8 +252,9 @@ impl Translator {
         self.yaw_deg = self.yaw(at)?;
         self.push(at, Action::TakeOff);
         let height_m = place.z_m.filter(|_| at.item.z != 0.0);
-        let z_m = height_m.unwrap_or(self.height_m());
-        let z_m = self.clamped(z_m);
+        let wanted_m = height_m.unwrap_or(self.height_m());
+        let z_m = self.clamped(wanted_m);
+        self.note_limit(at, "altitude", "m", wanted_m, z_m);
         let pose = Pose { x_m, y_m, z_m, yaw_deg: self.yaw_deg };
         if height_m.is_some() {
             self.go_to(at, pose, REACH_M, SHORT_STAY_S);
@@ -345,7 +350,11 @@ impl Translator {
         let limit_m_s = match at.param(2) {
             None | Some(-1.0) => return Ok(()),
             Some(-2.0) => fastest_m_s,
-            Some(speed_m_s) if speed_m_s >= 0.0 => speed_m_s.max(slowest_m_s).min(fastest_m_s),
+            Some(speed_m_s) if speed_m_s >= 0.0 => {
+                let limit_m_s = speed_m_s.max(slowest_m_s).min(fastest_m_s);
+                self.note_limit(at, "speed", "m/s", speed_m_s, limit_m_s);
+                limit_m_s
+            }
             Some(speed_m_s) => {
                 let reason = format!("a speed of {speed_m_s} m/s is negative");
                 return Err(at.problem(result::INVALID_PARAM2, reason));
@@ -374,6 +383,14 @@ impl Translator {
         self.push(at, Action::Land);
         self.end = Some((at.index, "landing"));
         Ok(())
+    }
+
+    /// Notes that a quantity was moved into its limits, if it was.
+    fn note_limit(&mut self, at: At<'_>, what: &str, unit: &str, wanted: f64, flown: f64) {
+        if (wanted - flown).abs() > 0.01 {
+            let note = format!("item {}: {what} {flown:.2} {unit}, not {wanted:.2}", at.index);
+            self.limited.push(note);
+        }
     }
 
     fn push(&mut self, at: At<'_>, action: Action) {

@@ -20,6 +20,8 @@ use crate::frame::Frame;
 use crate::mission::{Event, Handled, Item, Message, Partner, Received, result};
 use crate::place::Origin;
 
+/// Most items of a mission of which it is told one by one what is flown otherwise.
+const NOTES: usize = 4;
 /// The target of all systems, and of all components.
 const ALL: u8 = 0;
 
@@ -336,6 +338,14 @@ impl MavlinkVehicle {
                 self.arming.give_up();
                 let count = self.transfer.items().len();
                 self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("mission of {count} items"));
+                let limited = self.transfer.translated().limited();
+                for note in limited.iter().take(NOTES) {
+                    self.texts.say(MavSeverity::MAV_SEVERITY_WARNING, format_args!("{note}"));
+                }
+                if let more @ 1.. = limited.len().saturating_sub(NOTES) {
+                    let text = format_args!("and {more} more items moved into the limits");
+                    self.texts.say(MavSeverity::MAV_SEVERITY_WARNING, text);
+                }
                 self.answer_request(To::All, 42, 0);
             }
             Event::Refused(problem) => self.warn(format_args!("{}", problem.reason)),

@@ -17,6 +17,8 @@ from flying import HOLD, MISSION
 from station import Station
 
 MODULES = "arm,mode,wp,cmdlong,misc,param,signing"
+# The plan of the documentation, home first as MAVProxy saves it, and where it leads.
+PLAN = Path(__file__).resolve().parents[3] / "docs/mavlink/square.waypoints"
 SQUARE = ((1.0, 0.0, 1.0), (1.0, 1.0, 1.2), (0.0, 1.0, 1.0))
 
 
@@ -48,19 +50,6 @@ class MavProxy:
         self.process.wait()
 
 
-def mission_file(folder):
-    """A plan in the format of QGroundControl's text files, home first, as MAVProxy saves it."""
-    lines = ["QGC WPL 110", f"0\t1\t0\t16\t0\t0\t0\t0\t{flying.ORIGIN[0]}\t{flying.ORIGIN[1]}\t{flying.ORIGIN[2]}\t1"]
-    lines.append("1\t0\t3\t22\t0\t0\t0\t0\t0\t0\t1\t1")
-    for number, (north, east, height) in enumerate(SQUARE, 2):
-        latitude, longitude = flying.to_degrees(north, east)
-        lines.append(f"{number}\t0\t3\t16\t0\t0.2\t0\t0\t{latitude:.8f}\t{longitude:.8f}\t{height}\t1")
-    lines.append(f"{len(lines) - 1}\t0\t3\t21\t0\t0\t0\t0\t0\t0\t0\t1")
-    path = Path(folder, "square.waypoints")
-    path.write_text("\n".join(lines) + "\n")
-    return path
-
-
 def flies_by_hand(proxy, station):
     proxy.type("arm throttle")
     flying.wait_armed(station, within_s=3)
@@ -77,9 +66,9 @@ def flies_by_hand(proxy, station):
     flying.wait_landed(station)
 
 
-def flies_a_mission(proxy, station, folder):
+def flies_a_mission(proxy, station):
     flying.wait_ready(station)
-    proxy.type(f"wp load {mission_file(folder)}")
+    proxy.type(f"wp load {PLAN}")
     station.wait_until(lambda: proxy.prints("loaded"), 8, "MAVProxy loads the file")
     uploaded = len(proxy.printed)
     station.hear(3)
@@ -118,7 +107,7 @@ def main():
             flying.wait_ready(station)
             station.wait_until(lambda: proxy.prints("online system"), 15, "MAVProxy hears the vehicle")
             flies_by_hand(proxy, station)
-            worst_m = flies_a_mission(proxy, station, folder)
+            worst_m = flies_a_mission(proxy, station)
         except Exception as error:
             print("".join(proxy.printed[-25:]))
             print(f"MAVProxy: {type(error).__name__}: {error}")

@@ -60,6 +60,19 @@ fn assert_problem(items: &[Item], result: u8, reason: &str) {
 }
 
 #[test]
+fn what_is_moved_into_the_limits_is_told() {
+    let speed = |m_s| Item { param1: 1.0, param2: m_s, ..item(0, MISSION, DO_CHANGE_SPEED) };
+    let high = Item { z: 50.0, ..take_off() };
+    let found = translated(&[high, speed(0.5), speed(9.0), at(NAV_WAYPOINT, 1, 2, 1.2)]);
+    assert_eq!(
+        found.limited(),
+        ["item 0: altitude 3.00 m, not 50.00", "item 2: speed 2.20 m/s, not 9.00"]
+    );
+    assert!(found.limited().iter().all(|note| note.len() <= 100));
+    assert!(translated(&[take_off(), speed(0.5)]).limited().is_empty());
+}
+
+#[test]
 fn a_mission_is_a_whole_program() {
     let mission = [
         take_off(),
