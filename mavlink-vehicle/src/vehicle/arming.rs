@@ -55,6 +55,10 @@ impl MavlinkVehicle {
     /// An operator has armed the vehicle: what waited for it is done.
     pub(super) fn armed_by(&mut self, now: Duration, by: Operator) {
         self.arming.armed = Some((now + ARMED_TIME, by));
+        // Known before the next status says so.
+        if let Some((_, status)) = &mut self.status {
+            status.controls = Some(by);
+        }
         self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("armed by {by}"));
         // Whoever takes the controls does not expect that another's take-off follows.
         let pending = self.arming.pending.take();

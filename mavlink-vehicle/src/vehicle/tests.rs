@@ -559,10 +559,9 @@ fn a_mission_begins_where_whoever_has_the_controls_says() {
     let mut bench = Bench::new(Config::default());
     bench.upload();
     bench.accepts(400, first(1.0));
-    bench.pass(Duration::from_millis(100));
     bench.orders.clear();
     bench.refuses(300, start(4.0));
-    // Another station's start is refused, and moves nothing.
+    // Another station's start is refused, also before the vehicle's status says who has armed, and moves nothing.
     bench.client = Encoder::new(254, 190);
     bench.say(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
         param1: 2.0,
