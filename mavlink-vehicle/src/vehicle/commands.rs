@@ -365,7 +365,7 @@ impl MavlinkVehicle {
             return DENIED;
         }
         if let Some(first) = first.filter(|first| usize::from(*first) >= count) {
-            self.warn(format_args!("there is no item {first}: the mission has {count}"));
+            self.warn(format_args!("there is no item {first}: the last is {}", count - 1));
             return DENIED;
         }
         if self.is_others(station) {
