@@ -235,6 +235,11 @@ impl MavlinkVehicle {
             // A forced arming skips the checks before a flight, which are not to be skipped.
             Some(1) if magic != 0.0 => DENIED,
             Some(1) => {
+                // Sooner than its reasons not to take off say so.
+                if self.emergency {
+                    self.warn(format_args!("not ready: the drone is in its emergency state"));
+                    return NOT_NOW;
+                }
                 let Some(why) = self.not_ready else { return NOT_NOW };
                 if !why.is_empty() {
                     self.warn(format_args!("not ready: {why}"));

@@ -24,7 +24,7 @@ use std::time::Duration;
 
 use arrayvec::{ArrayString, ArrayVec};
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{FlightEvent, NotReady, Operator, OperatorOrder, Status};
+use autopilot::vehicle::{FlightEvent, NotReady, Operator, OperatorOrder, Station as Kind, Status};
 
 use self::arming::Arming;
 use self::flown::Flown;
@@ -199,6 +199,10 @@ impl MavlinkVehicle {
     fn take_status(&mut self, now: Duration, status: &Status) {
         let flew = self.is_flying();
         self.status = Some((now, *status));
+        // Somebody elsewhere has stepped in, who does not expect that a take-off follows.
+        if status.controls.is_some_and(|holder| holder.station != Kind::Mavlink) {
+            self.arming.give_up();
+        }
         let flies = self.is_flying();
         if let Some(step) = status.step {
             self.flown.at_step(step);

@@ -480,6 +480,25 @@ fn a_take_off_that_waits_is_given_up_by_what_is_ordered_after_it() {
     assert_eq!(bench.ordered(), ["take"]);
     bench.vehicle.handle(bench.now, Input::Event(&taken));
     assert!(!bench.is_armed());
+    // A local operator who takes free controls and gives them back has stepped in, too.
+    let mut bench = Bench::new(Config::default());
+    bench.accepts(22, NOTHING);
+    bench.status.controls = Some(Operator::TERMINAL);
+    bench.pass(Duration::from_millis(40));
+    bench.status.controls = None;
+    bench.pass(Duration::from_millis(40));
+    bench.accepts(400, first(1.0));
+    assert_eq!(bench.ordered(), ["take"]);
+}
+
+#[test]
+fn a_drone_in_its_emergency_state_is_not_armed() {
+    let mut bench = Bench::new(Config::default());
+    bench.vehicle.handle(bench.now, Input::Event(&FlightEvent::Emergency));
+    // Its reasons not to take off come later.
+    bench.refuses(400, first(1.0));
+    bench.vehicle.handle(bench.now, Input::Event(&FlightEvent::EmergencyCleared));
+    bench.accepts(400, first(1.0));
 }
 
 #[test]
