@@ -1,6 +1,6 @@
 //! Controls a headless Chromium through the `DevTools` protocol, as far as these tests need it.
 
-use std::io::{BufRead as _, BufReader};
+use std::io::{BufRead as _, BufReader, ErrorKind};
 use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -77,7 +77,17 @@ impl Chromium {
         }
         self.socket.send(Message::text(call.to_string())).unwrap();
         loop {
-            let Message::Text(text) = self.socket.read().unwrap() else { continue };
+            let text = match self.socket.read() {
+                Ok(Message::Text(text)) => text,
+                // A read with a time limit is interrupted where the machine is stopped and goes on.
+                Err(tungstenite::Error::Io(error)) if error.kind() == ErrorKind::Interrupted => {
+                    continue;
+                }
+                other => {
+                    other.unwrap();
+                    continue;
+                }
+            };
             let answer: Value = serde_json::from_str(&text).unwrap();
             if answer["id"] == self.calls {
                 return answer;
