@@ -77,17 +77,14 @@ impl Chromium {
         }
         self.socket.send(Message::text(call.to_string())).unwrap();
         loop {
-            let text = match self.socket.read() {
-                Ok(Message::Text(text)) => text,
+            let message = match self.socket.read() {
                 // A read with a time limit is interrupted where the machine is stopped and goes on.
                 Err(tungstenite::Error::Io(error)) if error.kind() == ErrorKind::Interrupted => {
                     continue;
                 }
-                other => {
-                    other.unwrap();
-                    continue;
-                }
+                read => read.unwrap(),
             };
+            let Message::Text(text) = message else { continue };
             let answer: Value = serde_json::from_str(&text).unwrap();
             if answer["id"] == self.calls {
                 return answer;
