@@ -598,9 +598,10 @@ fn a_mission_begins_where_whoever_has_the_controls_says() {
 }
 
 #[test]
-fn a_take_off_waits_for_its_own_station_to_arm() {
+fn what_waits_for_arming_is_begun_only_by_its_own_station() {
     let mut bench = Bench::new(Config::default());
-    bench.accepts(22, NOTHING);
+    bench.upload();
+    bench.accepts(300, [2.0, 0.0, NAN, NAN, NAN, NAN, NAN]);
     bench.client = Encoder::new(254, 190);
     bench.say(&MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
         param1: 1.0,
@@ -610,4 +611,5 @@ fn a_take_off_waits_for_its_own_station_to_arm() {
     }));
     assert_eq!(bench.ordered(), ["take"]);
     assert!(bench.is_armed());
+    assert_eq!(bench.vehicle.flown.first_item(), 2, "it was not begun");
 }
