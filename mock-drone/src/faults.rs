@@ -57,6 +57,11 @@ impl Quantity {
         !matches!(self, Self::Altitude | Self::Clock)
     }
 
+    /// Whether it is measured from a zero that means something. A heading's is arbitrary, a clock's long ago.
+    fn has_zero(self) -> bool {
+        !matches!(self, Self::Yaw | Self::Clock)
+    }
+
     /// Standard deviation of its noise in navdata.
     fn noise(self, model: &SensorModel) -> f64 {
         match self {
@@ -82,6 +87,10 @@ pub enum SensorFault {
     Offset(f64),
     /// A ramp is added, per second.
     Ramp(f64),
+    /// White noise of this standard deviation is added.
+    Noise(f64),
+    /// Multiplied by this: what has a zero of its own from there, heading and clock from their value at the start.
+    Gain(f64),
     /// NaN. Quantities that are not floats on the wire read zero.
     NotANumber,
     /// Additional delay.
@@ -152,6 +161,8 @@ enum Effect {
     DeadAt(f64),
     Offset(f64),
     Ramp(f64),
+    Noise(f64),
+    Gain { factor: f64, zero: f64 },
     Late(DelayLine<f64>),
 }
 
@@ -175,6 +186,11 @@ impl SensorFaults {
             SensorFault::DeadAt(value) => Effect::DeadAt(value),
             SensorFault::Offset(offset) => Effect::Offset(offset),
             SensorFault::Ramp(rate) => Effect::Ramp(rate),
+            SensorFault::Noise(deviation) => Effect::Noise(deviation),
+            SensorFault::Gain(factor) => {
+                let zero = if quantity.has_zero() { 0.0 } else { reported.get(quantity) };
+                Effect::Gain { factor, zero }
+            }
             SensorFault::NotANumber => {
                 Effect::StuckAt(if quantity.is_float() { f64::NAN } else { 0.0 })
             }
@@ -198,6 +214,15 @@ impl SensorFaults {
                 }
                 Effect::Offset(offset) => value + *offset,
                 Effect::Ramp(rate) => value + *rate * now.saturating_sub(*began).as_secs_f64(),
+                Effect::Noise(deviation) => {
+                    let noise: f64 = StandardNormal.sample(&mut self.random);
+                    value + noise * *deviation
+                }
+                Effect::Gain { factor, zero } => {
+                    let change = value - *zero;
+                    let is_angle = *quantity == Quantity::Yaw;
+                    *zero + *factor * if is_angle { wrapped_deg(change) } else { change }
+                }
                 Effect::Late(line) => {
                     line.push(now, value);
                     line.read(now)
@@ -270,6 +295,42 @@ mod tests {
             let deviation = (values.iter().map(|value| value.powi(2)).sum::<f64>() / 500.0).sqrt();
             let usual = quantity.noise(&MODEL());
             assert!((deviation / usual - 1.0).abs() < 0.15, "{quantity:?}: {deviation} {usual}");
+        }
+    }
+
+    #[test]
+    fn noise_is_added_to_the_measured_value() {
+        for quantity in Quantity::SENSED {
+            let mut faults = SensorFaults::new(1);
+            let at = healthy(quantity, SECOND);
+            faults.begin(SECOND, quantity, SensorFault::Noise(0.3), SECOND, &at);
+            let values: Vec<f64> = (0..2000)
+                .map(|_| {
+                    let mut reported = at;
+                    faults.apply(SECOND, &MODEL(), &mut reported);
+                    reported.get(quantity) - 1.0
+                })
+                .collect();
+            let mean = values.iter().sum::<f64>() / 2000.0;
+            let deviation = (values.iter().map(|value| value.powi(2)).sum::<f64>() / 2000.0).sqrt();
+            assert!(mean.abs() < 0.03 && (deviation / 0.3 - 1.0).abs() < 0.05, "{quantity:?}");
+        }
+    }
+
+    #[test]
+    fn a_gain_multiplies_from_zero_or_from_where_it_began() {
+        for quantity in Quantity::ALL {
+            let mut faults = SensorFaults::new(1);
+            let at = healthy(quantity, SECOND);
+            faults.begin(SECOND, quantity, SensorFault::Gain(-2.0), 9 * SECOND, &at);
+            let mut reported = healthy(quantity, 3 * SECOND);
+            faults.apply(3 * SECOND, &MODEL(), &mut reported);
+            let expected = match quantity {
+                Quantity::Yaw => 1.0 - 2.0 * 2.0,
+                Quantity::Clock => 2048.0 + 1.0 - 2.0 * 2.0,
+                _ => -6.0,
+            };
+            assert!((reported.get(quantity) - expected).abs() < 1e-9, "{quantity:?}");
         }
     }
 

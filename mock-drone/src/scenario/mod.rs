@@ -221,6 +221,8 @@ mod tests {
             ("lie heading 20", Quantity::Yaw, Fault::Offset(20.0)),
             ("lie yaw -20", Quantity::Yaw, Fault::Offset(-20.0)),
             ("ramp roll 0.5", Quantity::Roll, Fault::Ramp(0.5)),
+            ("noise altitude 0.4", Quantity::Altitude, Fault::Noise(0.4)),
+            ("gain velocity-right -1", Quantity::VelocityRight, Fault::Gain(-1.0)),
             ("nan pitch", Quantity::Pitch, Fault::NotANumber),
             ("late clock 0.5", Quantity::Clock, Fault::Late(second / 2)),
         ] {

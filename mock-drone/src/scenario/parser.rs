@@ -14,7 +14,7 @@ use crate::faults::{Quantity, SensorFault};
 use crate::link::PAST;
 
 const ACTIONS: &str = "loss, delay, duplicate, reorder, corrupt, outage, hold, burst, restart, \
-                       propeller, freeze, stuck, dead, lie, ramp, nan, late, state, minor, motor, \
+                       propeller, freeze, stuck, dead, lie, ramp, noise, gain, nan, late, state, minor, motor, \
                        wind, battery, sag, second-pilot, video, tag, tag-moved, tag-gone";
 
 /// Names of the quantities in navdata.
@@ -77,7 +77,9 @@ fn actions(words: &mut Words<'_>) -> Result<Vec<Action>, Diagnostic> {
     let (word, span) = words.next("an action")?;
     let action = match word {
         "lie" if words.take("velocity") => return velocity_lie(words),
-        "stuck" | "dead" | "lie" | "ramp" | "nan" | "late" => sensor(word, words)?,
+        "stuck" | "dead" | "lie" | "ramp" | "noise" | "gain" | "nan" | "late" => {
+            sensor(word, words)?
+        }
         "state" | "minor" => claim(word, words)?,
         "loss" | "delay" | "duplicate" | "reorder" | "corrupt" | "outage" | "hold" | "burst" => {
             link(word, words)?
@@ -157,6 +159,8 @@ fn sensor(word: &str, words: &mut Words<'_>) -> Result<Action, Diagnostic> {
         "dead" => SensorFault::DeadAt(at(words)?.unwrap_or(0.0)),
         "lie" => SensorFault::Offset(words.value(quantity)?),
         "ramp" => SensorFault::Ramp(words.value(quantity)?),
+        "noise" => SensorFault::Noise(words.number("a standard deviation", 0.0, 180.0)?),
+        "gain" => SensorFault::Gain(words.number("a factor", -100.0, 100.0)?),
         "nan" if quantity.is_float() => SensorFault::NotANumber,
         "nan" => {
             return Err(Diagnostic::error(format!("{name} is always a number"), span)
