@@ -41,6 +41,7 @@ mod clock;
 mod heading;
 mod horizontal;
 mod identification;
+mod noise;
 mod orders;
 mod plausibility;
 mod response;
@@ -67,6 +68,7 @@ use crate::clock::SampleClock;
 use crate::heading::Heading;
 use crate::horizontal::{Horizontal, ObserverGains};
 use crate::identification::Identification;
+use crate::noise::NoiseOfAll;
 use crate::orders::Orders;
 use crate::plausibility::{Foreseen, Plausibility, VelocityGate, Verdict};
 use crate::response::{Measured, Response};
@@ -193,6 +195,7 @@ pub struct Estimator {
     identification: Identification,
     plausibility: Plausibility,
     response: Response,
+    noise: NoiseOfAll,
     uncertainty: Uncertainty,
     /// Since when the altitude is that of a drone on the floor although it follows its sticks.
     low_since_s: Option<f64>,
@@ -224,6 +227,8 @@ const ON_FLOOR_M: f64 = 0.1;
 const ON_FLOOR_S: f64 = 0.4;
 /// Time after which a take-off is clear of the ground.
 const TAKE_OFF_S: f64 = 3.0;
+/// Time in which an order shows in the attitude, also through a link that delays it.
+const RECENT_S: f64 = 0.5;
 /// Furthest prediction beyond the newest sample.
 const MAX_PREDICTION_S: f64 = 0.6;
 
@@ -243,6 +248,7 @@ impl Estimator {
             identification: Identification::new(config.airframe, config.limits),
             plausibility: Plausibility::default(),
             response: Response::default(),
+            noise: NoiseOfAll::default(),
             uncertainty: Uncertainty::default(),
             low_since_s: None,
             airborne_since_s: None,
@@ -286,6 +292,7 @@ impl Estimator {
         let verdict = Verdict {
             rejected: (!believed).then_some(Quantity::Velocity),
             unresponsive: self.watch_response(attitude_s, sample),
+            noisy: self.watch_noise(made_s, sample),
             step: match (turned, floor_stepped) {
                 (true, _) => Some(Quantity::Heading),
                 (false, true) => Some(Quantity::Altitude),
@@ -377,6 +384,18 @@ impl Estimator {
         stepped
     }
 
+    /// Returns a quantity that is noisier than its sensor.
+    fn watch_noise(&mut self, made_s: f64, sample: &Sample) -> Option<Quantity> {
+        if !sample.airborne {
+            self.noise = NoiseOfAll::default();
+            return None;
+        }
+        let limits = &self.config.limits;
+        let recent_s = made_s - RECENT_S;
+        let steered = self.orders.variation(recent_s, made_s);
+        self.noise.watch(made_s, sample, limits, steered)
+    }
+
     fn watch_response(&mut self, at_s: f64, sample: &Sample) -> Option<Quantity> {
         let measured = Measured {
             at_s,
@@ -391,7 +410,10 @@ impl Estimator {
         self.low_since_s = is_low.then(|| self.low_since_s.unwrap_or(at_s));
         let scrapes = self.low_since_s.is_some_and(|since_s| at_s - since_s >= ON_FLOOR_S);
         let unresponsive = self.response.watch(&measured, &self.orders, &self.config.limits);
-        unresponsive.or(scrapes.then_some(Quantity::Altitude))
+        let weak = self.config.identify && by_sticks && self.identification.has_impossible_thrust();
+        unresponsive
+            .or(weak.then_some(Quantity::Velocity))
+            .or(scrapes.then_some(Quantity::Altitude))
     }
 
     /// Returns whether the velocity was accepted.
@@ -665,6 +687,7 @@ impl Estimator {
         self.uncertainty.handle_restart();
         self.plausibility = Plausibility::default();
         self.response = Response::default();
+        self.noise = NoiseOfAll::default();
         if let Some(tags) = &mut self.tags {
             tags.handle_restart();
         }

@@ -43,6 +43,26 @@ impl Orders {
         newer.checked_sub(1).and_then(|i| self.recent.get(i)).map_or(Order::ByItself, |o| o.1)
     }
 
+    /// How far the sticks moved in an interval, summed up, by the one that moved furthest; infinite if the drone moved by
+    /// itself.
+    pub(crate) fn variation(&self, from_s: f64, to_s: f64) -> f64 {
+        let Order::Sticks(mut last) = self.at(from_s) else { return f64::INFINITY };
+        let first = self.recent.partition_point(|(at_s, _)| *at_s <= from_s);
+        let mut variation = [0.0; 4];
+        for (_, order) in self.recent.range(first..).take_while(|(at_s, _)| *at_s <= to_s) {
+            let Order::Sticks(sticks) = *order else { return f64::INFINITY };
+            let moved = [
+                sticks.roll - last.roll,
+                sticks.pitch - last.pitch,
+                sticks.gaz - last.gaz,
+                sticks.yaw - last.yaw,
+            ];
+            variation.iter_mut().zip(moved).for_each(|(sum, moved)| *sum += moved.abs());
+            last = sticks;
+        }
+        variation.into_iter().fold(0.0, f64::max)
+    }
+
     /// Splits an interval into steps with one order each.
     pub(crate) fn steps(&self, from_s: f64, to_s: f64, mut step: impl FnMut(f64, f64, Order)) {
         let mut now_s = from_s;

@@ -188,6 +188,8 @@ impl VelocityGate {
 pub(crate) struct Verdict {
     /// A quantity with a rejected value.
     pub(crate) rejected: Option<Quantity>,
+    /// A quantity that is noisier than its sensor.
+    pub(crate) noisy: Option<Quantity>,
     /// A quantity that does not follow the commands.
     pub(crate) unresponsive: Option<Quantity>,
     /// The floor or the heading made a step, which was compensated.
@@ -219,6 +221,8 @@ pub(crate) struct Plausibility {
     /// Number of remembered stops of a value, and whether one lasts.
     stops: f64,
     is_stopped: bool,
+    /// A quantity that is too noisy, and when it was last.
+    noisy: Option<(Quantity, f64)>,
     last_s: Option<f64>,
     trust: Trust,
     sound_at_s: Option<f64>,
@@ -235,6 +239,7 @@ impl Plausibility {
         let wrong = self.wrong(arrival_s, verdict);
         let reported = self.reported(arrival_s, sample);
         let unresponsive = self.unresponsive(arrival_s, verdict);
+        let noisy = self.noisy(arrival_s, verdict);
         self.count_stop(arrival_s, step_s, frozen.map(|(quantity, _)| quantity));
         // Dated from the first wrong packet, so that a reaction does not wait for another timeout.
         let since_s = [wrong, frozen, unresponsive].map(|found| found.map(|(_, since_s)| since_s));
@@ -242,6 +247,8 @@ impl Plausibility {
             Trust::Implausible(quantity)
         } else if let Some((quantity, _)) = frozen {
             Trust::Frozen(quantity)
+        } else if let Some(quantity) = noisy {
+            Trust::Noisy(quantity)
         } else if let Some(quantity) = reported {
             Trust::Reported(quantity)
         } else if let Some((quantity, _)) = unresponsive {
@@ -333,6 +340,12 @@ impl Plausibility {
             self.unresponsive = Some((quantity, arrival_s - WRONG_TIME_S));
         }
         self.unresponsive.filter(|(_, since_s)| arrival_s - since_s < DISPROVED_TIME_S)
+    }
+
+    fn noisy(&mut self, arrival_s: f64, verdict: &Verdict) -> Option<Quantity> {
+        self.noisy = verdict.noisy.map(|quantity| (quantity, arrival_s)).or(self.noisy);
+        let (quantity, last_s) = self.noisy?;
+        (arrival_s - last_s < DISPROVED_TIME_S).then_some(quantity)
     }
 
     fn reported(&mut self, arrival_s: f64, sample: &Sample) -> Option<Quantity> {

@@ -36,6 +36,8 @@ pub enum Trust {
     Frozen(Quantity),
     /// A quantity has impossible values for an AR.Drone, or jumps.
     Implausible(Quantity),
+    /// A quantity has more noise than its sensor.
+    Noisy(Quantity),
     /// A quantity does not follow the commands: the drone is commanded to move and shows no motion.
     Unresponsive(Quantity),
     /// The drone itself reports that it has lost a quantity.
@@ -48,6 +50,7 @@ impl fmt::Display for Trust {
             Self::Sound => f.write_str("navdata are sound"),
             Self::Frozen(quantity) => write!(f, "the {quantity} in navdata is frozen"),
             Self::Implausible(quantity) => write!(f, "the {quantity} in navdata is implausible"),
+            Self::Noisy(quantity) => write!(f, "the {quantity} in navdata is noisy"),
             Self::Unresponsive(quantity) => {
                 write!(f, "the {quantity} in navdata does not follow the commands")
             }

@@ -2,6 +2,7 @@ use super::*;
 
 const FINE: Verdict = Verdict {
     rejected: None,
+    noisy: None,
     unresponsive: None,
     step: None,
     near_ground: false,
