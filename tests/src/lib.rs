@@ -3,6 +3,7 @@
 
 mod alone;
 pub mod campaign;
+pub mod healthy;
 pub mod landings;
 pub mod rules;
 pub mod sensors;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::{campaign, fly, mavlink, mutants, sensors, soak, tags, target, verify};
+use crate::{campaign, fly, healthy, mavlink, mutants, sensors, soak, tags, target, verify};
 
 /// Measurements of the whole system, in simulated time.
 #[derive(Debug, Parser)]
@@ -39,6 +39,15 @@ enum Command {
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
     },
+    /// Fly healthy drones on links that lose and delay datagrams, and list those that were landed without need
+    Healthy {
+        /// How many flights
+        #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = clap::value_parser!(u64).range(1..))]
+        flights: u64,
+        /// The first seed; each further flight takes the next one
+        #[arg(long, value_name = "SEED", default_value_t = 1)]
+        first: u64,
+    },
     /// Fly with one wrong sensor at a time, and report how far that led the drone astray; fails if it was too
     /// far
     Sensors {
@@ -51,6 +60,9 @@ enum Command {
         /// Number of the first random failure
         #[arg(long, value_name = "NUMBER", default_value_t = 1)]
         first: u64,
+        /// Of the listed failures only those with this in their name
+        #[arg(long, value_name = "NAME")]
+        only: Option<String>,
     },
     /// Hover and fly over roundels on the floor, and tell how well the pilot knows where it is; fails if that is not
     /// as good as it must be
@@ -113,9 +125,12 @@ pub(crate) fn main() -> ExitCode {
         Command::Campaign { flights, first } => {
             campaign::run(flights, first).map_err(|error| error.to_string())
         }
-        Command::Sensors { seeds, random, first } => {
+        Command::Healthy { flights, first } => {
+            healthy::run(flights, first).map_err(|error| error.to_string())
+        }
+        Command::Sensors { seeds, random, first, only } => {
             let numbers = first..first.saturating_add(random);
-            sensors::run(seeds, numbers).map_err(|error| error.to_string())
+            sensors::run(seeds, only.as_deref(), numbers).map_err(|error| error.to_string())
         }
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each),
         Command::Mutants { all: true, shard, .. } => {

@@ -5,6 +5,7 @@ mod campaign;
 mod cases;
 mod command_line;
 mod fly;
+mod healthy;
 mod mavlink;
 mod mutants;
 mod parallel;

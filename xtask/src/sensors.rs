@@ -72,8 +72,12 @@ impl Row {
 
 /// Flies every failure in every situation on every airframe with `seeds` seeds, then random ones; the second value is
 /// whether no drone was led too far.
-pub(crate) fn run(seeds: u64, randoms: Range<u64>) -> Result<(String, bool), SimulationError> {
-    let (listed, listed_good) = run_listed(seeds)?;
+pub(crate) fn run(
+    seeds: u64,
+    only: Option<&str>,
+    randoms: Range<u64>,
+) -> Result<(String, bool), SimulationError> {
+    let (listed, listed_good) = run_listed(seeds, only)?;
     let (randomly, randomly_good) = run_random(randoms)?;
     Ok((listed + &randomly, listed_good && randomly_good))
 }
@@ -100,11 +104,12 @@ fn run_random(numbers: Range<u64>) -> Result<(String, bool), SimulationError> {
     Ok((text, judged.is_empty()))
 }
 
-fn run_listed(seeds: u64) -> Result<(String, bool), SimulationError> {
+fn run_listed(seeds: u64, only: Option<&str>) -> Result<(String, bool), SimulationError> {
     if seeds == 0 {
         return Ok((String::new(), true));
     }
-    let failures = failures();
+    let mut failures = failures();
+    failures.retain(|failure| only.is_none_or(|only| failure.name.contains(only)));
     let mut jobs = Vec::new();
     for seed in 1..=seeds {
         for airframe in 0..AIRFRAMES.len() {

@@ -14,6 +14,7 @@ use autopilot::vehicle::VehicleConfig;
 use mock_drone::airframe::Profile;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::{Action, Scenario, When};
+use mock_drone::sensors::SensorModel;
 use mock_drone::{DroneConfig, Quantity, SensorFault, Truth, WorldConfig};
 use nalgebra::{Vector2, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -125,6 +126,16 @@ impl fmt::Display for Situation {
     }
 }
 
+/// Quantities that become noisy together, or have a wrong gain together, and the deviations of their noise.
+const NOISE: [(&str, &[Quantity], [f64; 3]); 4] = [
+    ("velocity", &[Quantity::VelocityRight, Quantity::VelocityForward], [0.1, 0.4, 1.0]),
+    ("altitude", &[Quantity::Altitude], [0.1, 0.4, 1.0]),
+    ("yaw", &[Quantity::Yaw], [2.0, 6.0, 20.0]),
+    ("roll and pitch", &[Quantity::Roll, Quantity::Pitch], [2.0, 6.0, 20.0]),
+];
+/// Wrong gains.
+const GAINS: [f64; 7] = [-1.0, 0.2, 0.4, 0.7, 1.5, 2.0, 3.0];
+
 /// A sensor failure with its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Failure {
@@ -150,7 +161,14 @@ fn shows(quantity: Quantity, fault: SensorFault) -> bool {
             Quantity::VelocityRight | Quantity::VelocityForward,
             SensorFault::Ramp(_) | SensorFault::DeadAt(_) | SensorFault::Late(_)
         )
-    )
+    ) && !is_weaker_airframe(quantity, fault)
+}
+
+/// A velocity that shows too little is that of a weaker airframe or of stronger drag, and is found late if at all. One with
+/// the wrong sign is found, but after some metres.
+fn is_weaker_airframe(quantity: Quantity, fault: SensorFault) -> bool {
+    let is_velocity = matches!(quantity, Quantity::VelocityRight | Quantity::VelocityForward);
+    is_velocity && matches!(fault, SensorFault::Gain(gain) if gain < 1.0)
 }
 
 /// Every quantity with every fault, one at a time; then all sensors frozen, with the drone's clock running
@@ -161,6 +179,18 @@ pub fn failures() -> Vec<Failure> {
         for (name, fault) in faults(quantity) {
             let name = format!("{} {name}", name_of(quantity));
             failures.push(Failure { name, faults: vec![(quantity, fault)] });
+        }
+    }
+    for (name, quantities, deviations) in NOISE {
+        for deviation in deviations {
+            let faults = quantities.iter().map(|q| (*q, SensorFault::Noise(deviation))).collect();
+            failures.push(Failure { name: format!("{name} noise {deviation}"), faults });
+        }
+    }
+    for (name, quantities, _) in NOISE {
+        for gain in GAINS {
+            let faults = quantities.iter().map(|q| (*q, SensorFault::Gain(gain))).collect();
+            failures.push(Failure { name: format!("{name} gain {gain}"), faults });
         }
     }
     let frozen = |quantities: &[Quantity]| {
@@ -363,7 +393,9 @@ fn simulation(
     } else {
         Vector2::zeros()
     };
-    let drone = DroneConfig { profile, seed, wind_m_s, ..DroneConfig::default() };
+    // Good days and bad ones by turns.
+    let sensors = if seed.is_multiple_of(2) { SensorModel::hard() } else { SensorModel::nominal() };
+    let drone = DroneConfig { profile, seed, wind_m_s, sensors, ..DroneConfig::default() };
     Simulation {
         world: WorldConfig { drone, ..WorldConfig::default() },
         pilot: VehicleConfig { limits: FENCE, ..VehicleConfig::default() },

@@ -14,7 +14,7 @@ use mock_drone::{Quantity, SensorFault};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
 
-use super::{AIRFRAMES, Excursion, FOR_EVER, STEP, Situation};
+use super::{AIRFRAMES, Excursion, FOR_EVER, GAINS, STEP, Situation};
 use crate::sim::SimulationError;
 
 /// Smallest error of a velocity that shows between two packets, or compared with rest at the take-off.
@@ -173,8 +173,14 @@ fn random_fault(quantity: Quantity, random: &mut ChaCha8Rng) -> SensorFault {
         }
         Quantity::Clock => (0.1 + 50.0 * size.powi(3), 0.05 + 3.0 * size * size, 0.0),
     };
+    let noise = match quantity {
+        Quantity::Yaw | Quantity::Roll | Quantity::Pitch => 2.0 + 18.0 * size,
+        _ => 0.1 + 0.9 * size,
+    };
     let is_clock = quantity == Quantity::Clock;
-    match random.random_range(0..7) {
+    match random.random_range(0..9) {
+        7 if !is_clock => SensorFault::Noise(noise),
+        8 => SensorFault::Gain(GAINS[random.random_range(0..GAINS.len())]),
         0 if !is_clock => SensorFault::StuckAt(value),
         1 if !is_clock => SensorFault::DeadAt(value),
         2 | 3 => SensorFault::Offset(sign * offset),
