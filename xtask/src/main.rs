@@ -12,6 +12,7 @@ mod plot;
 mod score;
 mod sensors;
 mod soak;
+mod streams;
 mod table;
 mod tags;
 mod target;
