@@ -100,6 +100,8 @@ pub struct Percepts {
 pub struct SetpointPercept {
     /// Where they want the drone now.
     pub pose: Pose,
+    /// Where the way there has got to: the drone is held there if it is told to hold.
+    pub reached: Pose,
     /// Time since the last one, in milliseconds.
     pub age_ms: i64,
 }
@@ -314,7 +316,8 @@ impl AgentStep {
 impl Environment for AgentStep {
     fn update_beliefs(&mut self, beliefs: &mut Beliefs<'_>) {
         if let Some(pose) = self.percepts.pose {
-            beliefs.set_position(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg);
+            let Pose { x_m, y_m, z_m, yaw_deg } = self.activity.place_to_stay(&pose);
+            beliefs.set_position(x_m, y_m, z_m, yaw_deg);
             beliefs.set_fence_room(room_m(&pose, &self.percepts.fence));
         }
         if let Some(tags) = self.percepts.tags {
@@ -375,6 +378,7 @@ impl Environment for AgentStep {
     fn send_stay(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
         let target = Pose { x_m, y_m, z_m, yaw_deg };
         self.pursue(Pursuit::Staying, AgentCommand::GoTo(target));
+        self.activity.stays_at(target);
     }
 
     fn send_search(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
@@ -404,6 +408,9 @@ impl Environment for AgentStep {
         // Without one nothing is followed, so this command is not issued.
         let pose = self.percepts.setpoint.map(|setpoint| setpoint.pose);
         self.end(pose.map_or(AgentCommand::Hover, AgentCommand::GoTo));
+        if let Some(setpoint) = self.percepts.setpoint {
+            self.activity.stays_at(setpoint.reached);
+        }
     }
 
     fn send_setpoint_pause(&mut self) {
@@ -413,6 +420,7 @@ impl Environment for AgentStep {
     fn send_descent(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {
         let target = Pose { x_m, y_m, z_m, yaw_deg };
         self.pursue(Pursuit::Descending, AgentCommand::GoTo(target));
+        self.activity.stays_at(target);
     }
 
     fn send_pause(&mut self) {

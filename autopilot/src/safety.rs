@@ -4,13 +4,17 @@
 //! limits of stick motion, and that a drone in its emergency state is never ordered to fly. A landing that it
 //! has ordered is not taken back in the air.
 
+mod brake;
 mod carried;
+mod stopping;
 
 use std::time::Duration;
 
 use kinematics::{Pose, Sticks};
 
+use self::brake::Brake;
 use self::carried::CarriedOff;
+pub(crate) use self::stopping::Stopping;
 use crate::agent::AgentCommand;
 use crate::plan::FlightLimits;
 
@@ -21,9 +25,7 @@ const BLIND: Duration = Duration::from_secs(4);
 /// Distance beyond the fence that is tolerated, because the drone overshoots and its position is not exact.
 const MARGIN_M: f64 = 0.35;
 /// Delay before the drone starts to brake.
-pub(crate) const REACTION_S: f64 = 0.5;
-/// Deceleration that the drone reaches even against the wind.
-pub(crate) const BRAKING_M_S2: f64 = 0.6;
+const REACTION_S: f64 = 0.5;
 /// Under manual control the drone is stopped this far inside the fence, and manual targets are moved as far
 /// inside: nearer to it, wind could carry the drone over the fence, which lands it. A drone that has left the
 /// fence is flown back this far.
@@ -135,6 +137,14 @@ pub struct Situation {
     pub full_tilt_m_s2: f64,
     /// Linear drag: deceleration in still air divided by speed, in 1/s.
     pub drag_1_s: f64,
+    /// Time from an order to tilt until the drone has tilted, in seconds.
+    pub tilts_after_s: f64,
+    /// Time from an order until the rate of climb begins to follow it, and the time constant of this, in seconds.
+    pub climb_delay_s: f64,
+    /// See [`Situation::climb_delay_s`].
+    pub climb_lag_s: f64,
+    /// Rate of descent at full stick, positive.
+    pub sink_m_s: f64,
 }
 
 /// Replaces unsafe commands of the agent; the last stage before the session.
@@ -158,6 +168,8 @@ pub struct SafetyMonitor {
     /// The last order was to stay on the ground. If the drone is in the air all the same, it has followed an
     /// older take-off order, and any order to fly would keep it there.
     stays_down: bool,
+    /// What the fence leaves of this tick's sticks.
+    brake: Brake,
     sticks: Sticks,
 }
 
@@ -175,6 +187,7 @@ impl SafetyMonitor {
             back_at: Pose::default(),
             lands: false,
             stays_down: false,
+            brake: Brake::default(),
             sticks: Sticks::default(),
         }
     }
@@ -186,6 +199,7 @@ impl SafetyMonitor {
         now: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
         let flies = !matches!(command, AgentCommand::Standby | AgentCommand::Land);
+        self.brake = Brake::of(now, self.fence.radius_m, self.fence.ceiling_m);
         if now.emergency && flies {
             return (AgentCommand::Standby, Some(Veto::Emergency));
         }
@@ -255,22 +269,25 @@ impl SafetyMonitor {
         self.lands |= self.danger.is_some();
     }
 
-    /// Limits the sticks to `most`, and their change since the last tick. The descent is limited further so
+    /// Limits the sticks to `most`, and their change since the last tick. Where the drone could not stop inside the
+    /// fence any more they brake, with all that there is. The descent is limited further so
     /// that the drone can stop above the fence's floor; full gaz descends at `climb_m_s`.
     pub fn limit(&mut self, demand: &Sticks, most: f64, height_m: f64, climb_m_s: f64) -> Sticks {
-        let most = most.clamp(0.0, 1.0);
+        let asked = most.clamp(0.0, 1.0);
+        let demand = &clamped(demand, asked);
+        let left = self.brake.leave(demand);
+        let most = if left == *demand { asked } else { 1.0 };
         let room_m = (height_m - self.fence.floor_m).max(0.0);
         let sink = (SINK_AT_FLOOR_M_S + SINK_1_S * room_m) / climb_m_s.max(f64::EPSILON);
         let within = |wanted: f64, last: f64| {
-            let wanted = if wanted.is_finite() { wanted.clamp(-most, most) } else { 0.0 };
-            wanted.clamp(last - LARGEST_JUMP, last + LARGEST_JUMP)
+            wanted.clamp(-most, most).clamp(last - LARGEST_JUMP, last + LARGEST_JUMP)
         };
         let last = self.sticks;
         self.sticks = Sticks {
-            roll: within(demand.roll, last.roll),
-            pitch: within(demand.pitch, last.pitch),
-            gaz: within(demand.gaz, last.gaz).max(-sink),
-            yaw: within(demand.yaw, last.yaw),
+            roll: within(left.roll, last.roll),
+            pitch: within(left.pitch, last.pitch),
+            gaz: within(left.gaz, last.gaz).max(-sink),
+            yaw: within(left.yaw, last.yaw),
         };
         self.sticks
     }
@@ -398,12 +415,21 @@ fn time_to_sink(height_m: f64) -> Duration {
     Duration::try_from_secs_f64((height_m - HIGH_M) / SINKS_M_S).unwrap_or_default().min(RETREAT)
 }
 
+/// Each stick within `most`; one that is no number is at rest.
+fn clamped(sticks: &Sticks, most: f64) -> Sticks {
+    let within = |wanted: f64| if wanted.is_finite() { wanted.clamp(-most, most) } else { 0.0 };
+    Sticks {
+        roll: within(sticks.roll),
+        pitch: within(sticks.pitch),
+        gaz: within(sticks.gaz),
+        yaw: within(sticks.yaw),
+    }
+}
+
 /// Where the drone comes to rest if it begins to brake now.
 fn stopping_place(now: &Situation) -> Pose {
-    let way_m = |speed_m_s: f64| {
-        speed_m_s * REACTION_S + speed_m_s * speed_m_s.abs() / (2.0 * BRAKING_M_S2)
-    };
-    let [right, forward, up] = now.velocity_m_s.map(way_m);
+    let [right, forward, up] =
+        now.velocity_m_s.map(|speed_m_s| Stopping::CAUTIOUS.way_m(speed_m_s));
     let Pose { x_m, y_m, z_m, yaw_deg } = now.pose;
     Pose { x_m: x_m + right, y_m: y_m + forward, z_m: z_m + up, yaw_deg }
 }

@@ -1,5 +1,5 @@
-//! Flies the fault campaign, then landings with gaps and other orders around them, then flights in which a single
-//! rule keeps the drone safe, then one wrong sensor at a time, until a fault is found:
+//! Flies the fault campaign, then landings with gaps and other orders around them, then streams of orders, then flights in which a
+//! single rule keeps the drone safe, then one wrong sensor at a time, until a fault is found:
 //! `cargo run -p system-tests --example judge -- 1000`.
 //!
 //! `cargo xtask mutants` runs it on code with a mistake in it. The first fault is printed with its seed, and
@@ -14,7 +14,7 @@ use std::thread;
 use autopilot::outcome::Outcome;
 use system_tests::sensors::{self, AIRFRAMES, led_astray};
 use system_tests::sim::SimulationError;
-use system_tests::{campaign, landings, rules};
+use system_tests::{campaign, landings, rules, streams};
 
 /// At least one of this many flights of the campaign must complete its plan; of the unmodified code, two of
 /// five do.
@@ -98,6 +98,15 @@ fn unruly() -> Option<String> {
     }
 }
 
+/// The first stream of orders that led too far.
+fn streamed() -> Option<String> {
+    const LAST: u64 = 60;
+    (1..=LAST).find_map(|seed| match streams::fly(seed) {
+        Ok(flown) => flown.is_bad().then(|| flown.to_string()),
+        Err(error) => Some(error.to_string()),
+    })
+}
+
 fn main() -> ExitCode {
     let Some(flights) = std::env::args().nth(1).and_then(|word| word.parse().ok()) else {
         println!("usage: judge FLIGHTS");
@@ -123,7 +132,8 @@ fn main() -> ExitCode {
         None => {
             let astray = || astray().map(|astray| format!("sensors: {astray}"));
             let unruly = || unruly().map(|unruly| format!("rules: {unruly}"));
-            let Some(found) = forgotten().or_else(unruly).or_else(astray) else {
+            let streamed = || streamed().map(|streamed| format!("streams: {streamed}"));
+            let Some(found) = forgotten().or_else(streamed).or_else(unruly).or_else(astray) else {
                 println!("nothing in {flights} flights, {completed} plans were flown to their end");
                 return ExitCode::SUCCESS;
             };

@@ -8,6 +8,7 @@ pub mod landings;
 pub mod rules;
 pub mod sensors;
 pub mod sim;
+pub mod streams;
 
 use autopilot::Plan;
 use autopilot::vehicle::Waypoint;

@@ -27,6 +27,7 @@ mod sensors;
 mod sequence;
 mod setpoints;
 mod simulated;
+mod streams;
 mod tag_log;
 mod tag_plans;
 mod tags;

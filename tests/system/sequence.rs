@@ -6,7 +6,7 @@ use ardrone_link::at::{Command, Datagram, Motion, Ref};
 use ardrone_link::session::{FlightOrder, Input, Order, Session, SessionConfig, Transmit};
 use ardrone_link::settings::Setting;
 use mock_drone::firmware::Phase;
-use mock_drone::{Message, World, WorldConfig};
+use mock_drone::{LinkFaults, Message, World, WorldConfig};
 
 const TICK: Duration = Duration::from_millis(30);
 
@@ -23,9 +23,13 @@ struct Bench {
 impl Bench {
     /// A session and its simulated drone, without losses.
     fn new() -> Self {
+        Self::in_world(&WorldConfig::default())
+    }
+
+    fn in_world(world: &WorldConfig) -> Self {
         let settings = vec![Setting::NavdataDemo(true).config().unwrap()];
         let config = SessionConfig { settings, ..SessionConfig::default() };
-        let mut world = World::new(&WorldConfig::default());
+        let mut world = World::new(world);
         world.send_wake_up(Duration::ZERO, &ardrone_link::WAKE_UP);
         Self { session: Session::new(config), world, now: TICK, lost: None, hears: true }
     }
@@ -134,4 +138,66 @@ fn no_single_loss_delays_the_landing_of_a_pilot_that_leaves() {
             assert_eq!(bench.phase() == Phase::Landing, begun > 0, "{parting}");
         }
     }
+}
+
+/// Another client sends orders to fly, with numbers far above ours; the time until the drone begins to land after it was
+/// ordered to.
+fn lands_against(first: u32, each_second: u32, loss: f64) -> Duration {
+    let link = LinkFaults { loss, ..LinkFaults::default() };
+    let mut bench = Bench::in_world(&WorldConfig { link, ..WorldConfig::default() });
+    bench.until(FlightOrder::Land, |bench| bench.session.is_ready());
+    bench.until(FlightOrder::TakeOff, |bench| bench.phase() == Phase::Flying);
+    let mut number = first;
+    let ordered_at = bench.now + TICK * 10;
+    let mut next = bench.now;
+    loop {
+        if bench.now >= next {
+            let mut datagram = Datagram::new();
+            datagram.push(number, &Command::Ref(Ref::TakeOff)).unwrap();
+            datagram.push(number + 1, &Command::Pcmd(Motion::Hover)).unwrap();
+            bench.world.send_at(bench.now, datagram.as_bytes());
+            number += 2;
+            let period = Duration::from_secs(1).checked_div(each_second);
+            next += period.unwrap_or(Duration::from_hours(1));
+        }
+        let ordered = bench.now >= ordered_at;
+        bench.tick(if ordered { FlightOrder::Land } else { FlightOrder::StayAirborne });
+        let taken = bench.now.saturating_sub(ordered_at);
+        if bench.phase() == Phase::Landing || taken > Duration::from_secs(20) {
+            return taken;
+        }
+    }
+}
+
+#[test]
+fn no_other_clients_numbers_drown_a_landing() {
+    for first in [10_000_000, 2_000_000_000, u32::MAX - 100_000] {
+        for each_second in [0, 1, 10, 30] {
+            for loss in [0.0, 0.1] {
+                let taken = lands_against(first, each_second, loss);
+                assert!(
+                    taken <= Duration::from_secs(2),
+                    "{first}, {each_second} Hz, {loss} lost: lands after {taken:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A program that leaves has no time to see whether it is obeyed.
+#[test]
+fn no_other_clients_numbers_drown_the_landing_of_a_pilot_that_leaves() {
+    let mut bench = Bench::new();
+    bench.until(FlightOrder::Land, |bench| bench.session.is_ready());
+    bench.until(FlightOrder::TakeOff, |bench| bench.phase() == Phase::Flying);
+    let mut datagram = Datagram::new();
+    datagram.push(2_000_000_000, &Command::Pcmd(Motion::Hover)).unwrap();
+    bench.world.send_at(bench.now, datagram.as_bytes());
+    for _ in 0..10 {
+        bench.now += TICK;
+        bench.session.handle(bench.now, Input::Part);
+        bench.world.send_at(bench.now, bench.session.datagram());
+    }
+    bench.world.advance(bench.now + TICK);
+    assert_eq!(bench.phase(), Phase::Landing);
 }

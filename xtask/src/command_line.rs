@@ -6,7 +6,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::{campaign, fly, healthy, mavlink, mutants, sensors, soak, tags, target, verify};
+use crate::{
+    campaign, fly, healthy, mavlink, mutants, sensors, soak, streams, tags, target, verify,
+};
 
 /// Measurements of the whole system, in simulated time.
 #[derive(Debug, Parser)]
@@ -63,6 +65,16 @@ enum Command {
         /// Of the listed failures only those with this in their name
         #[arg(long, value_name = "NAME")]
         only: Option<String>,
+    },
+    /// Give random streams of orders, 1 to 400 each second, and report how far they led the drone; fails if one led
+    /// outside the fence, or further than a single order does
+    Streams {
+        /// How many streams; every fourth is for the same airframe
+        #[arg(long, value_name = "N", default_value_t = 4_000, value_parser = clap::value_parser!(u64).range(1..))]
+        streams: u64,
+        /// The first seed; each further stream takes the next one
+        #[arg(long, value_name = "SEED", default_value_t = 1)]
+        first: u64,
     },
     /// Hover and fly over roundels on the floor, and tell how well the pilot knows where it is; fails if that is not
     /// as good as it must be
@@ -131,6 +143,9 @@ pub(crate) fn main() -> ExitCode {
         Command::Sensors { seeds, random, first, only } => {
             let numbers = first..first.saturating_add(random);
             sensors::run(seeds, only.as_deref(), numbers).map_err(|error| error.to_string())
+        }
+        Command::Streams { streams, first } => {
+            streams::run(streams, first).map_err(|error| error.to_string())
         }
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each),
         Command::Mutants { all: true, shard, .. } => {

@@ -13,6 +13,7 @@ mod plot;
 mod score;
 mod sensors;
 mod soak;
+mod streams;
 mod table;
 mod tags;
 mod target;

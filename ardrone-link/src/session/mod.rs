@@ -9,7 +9,9 @@
 //! - REF and PCMD are levels and must be in every datagram.
 //! - The drone always accepts sequence number 1, and other numbers only if they are greater than the last. So
 //!   that any datagram may be lost, every one starts with number 1 until the drone shows that it receives
-//!   them; from then on numbers only rise, also after a loss and after a restart of the drone.
+//!   them; from then on numbers only rise, also after a loss and after a restart of the drone. Where a landing is
+//!   not obeyed for a second every other datagram starts with number 1 again: another client may have counted
+//!   further than we can know.
 //! - A drone that has restarted or was lost must never take off because of an old order: the take-off bit is
 //!   withheld until take-off is ordered again.
 //! - Navdata whose sequence number is not higher than the last is dropped, unless the drone has evidently

@@ -8,13 +8,17 @@ pub(super) struct SequenceNumbers {
     greatest: u32,
     /// The drone has shown that it receives our commands.
     confirmed: bool,
+    /// Another client's numbers may be above ours. Whether the last datagram began the count anew.
+    contested: Option<bool>,
+    /// They have leapt since they were last settled.
+    leapt: bool,
 }
 
 impl SequenceNumbers {
     const FIRST: u32 = 1;
 
     pub(super) fn new() -> Self {
-        Self { next: Self::FIRST, greatest: 0, confirmed: false }
+        Self { next: Self::FIRST, greatest: 0, confirmed: false, contested: None, leapt: false }
     }
 
     /// Whether any number was used.
@@ -29,17 +33,45 @@ impl SequenceNumbers {
 
     /// Starts a datagram. Until the drone has confirmed our numbering it may still expect numbers above those
     /// of another client, and the datagram that resets them may be lost.
+    ///
+    /// While the numbers are contested every other datagram begins with number 1, which the drone always accepts,
+    /// whatever another client has counted to and however often it says so. The one after it has our far number
+    /// again, so that no old datagram that was delayed is accepted for longer than a tick.
     pub(super) fn begin_datagram(&mut self) {
+        let anew = self.contested.as_mut().is_some_and(|anew| {
+            *anew = !*anew;
+            *anew
+        });
+        let continues = self.confirmed || self.contested.is_some();
         self.next = match self.greatest.checked_add(1) {
-            Some(next) if self.confirmed => next,
+            Some(next) if continues && !anew => next,
             _ => Self::FIRST,
         };
     }
 
-    /// Skips beyond any number that another client may have reached. Number 1 would be accepted as well, but
+    /// The drone does not obey although our numbers have leapt, or there is no time to see whether it does.
+    pub(super) fn contest(&mut self) {
+        self.contested.get_or_insert(false);
+        // What is sent later may still be below the other's numbers.
+        self.confirmed = false;
+    }
+
+    /// The drone does not obey: the numbers leap, and if that is not enough, they are contested.
+    pub(super) fn escalate(&mut self) {
+        if self.leapt { self.contest() } else { self.leap() }
+    }
+
+    /// The drone has obeyed, or need not any more.
+    pub(super) fn settle(&mut self) {
+        self.contested = None;
+        self.leapt = false;
+    }
+
+    /// Skips beyond the numbers that another client has reached in minutes. Number 1 would be accepted as well, but
     /// so would any delayed old datagram after it.
     pub(super) fn leap(&mut self) {
         const FAR: u32 = 1 << 20;
+        self.leapt = true;
         self.greatest = self.greatest.saturating_add(FAR);
     }
 

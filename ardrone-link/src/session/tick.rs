@@ -68,6 +68,7 @@ impl Session {
         }
         if !std::mem::replace(&mut self.parts, true) {
             self.sequence.leap();
+            self.sequence.contest();
         }
         self.sequence.begin_datagram();
         self.take_off.withhold();
@@ -122,16 +123,21 @@ impl Session {
     }
 
     /// Detects a drone that flies on although landing is ordered: it may accept only numbers above those of
-    /// another client.
+    /// another client. First our numbers leap; if that is not enough they are contested until the drone is down.
     fn watch_landing(&mut self, now: Duration, take_off: bool) {
-        if take_off || !self.state.contains(DroneState::FLYING) || self.lands {
+        if take_off || !self.state.contains(DroneState::FLYING) {
+            self.landing_since = None;
+            self.sequence.settle();
+            return;
+        }
+        if self.lands {
             self.landing_since = None;
             return;
         }
         let since = *self.landing_since.get_or_insert(now);
         if now.saturating_sub(since) >= DISOBEYED {
             self.landing_since = Some(now);
-            self.sequence.leap();
+            self.sequence.escalate();
         }
     }
 }

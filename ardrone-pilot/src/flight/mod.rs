@@ -588,8 +588,13 @@ impl TickLoop {
                 break;
             }
         }
-        if let (Some(recorder), 1..) = (&mut self.recorder, parted) {
-            let note = format!("the landing was ordered {parted} times more at the end");
+        // A drone that is down was landed; that it was told so once more is nothing to tell.
+        if let (Some(recorder), 1.., false) =
+            (&mut self.recorder, parted, self.vehicle.is_at_rest())
+        {
+            let note = format!(
+                "the program ended before the drone was down; the last {parted} datagrams ordered it to land"
+            );
             recorder.note(self.start.elapsed(), note);
         }
     }

@@ -1,5 +1,7 @@
 //! What the drone is doing, and for how long.
 
+use kinematics::Pose;
+
 /// Activities of the drone whose duration the agent limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pursuit {
@@ -13,7 +15,7 @@ pub(super) enum Pursuit {
 
 /// The drone's current activity and its duration. The agent has no clock of its own and gets these durations
 /// as percepts. A hover in between does not end the activity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Activity {
     /// The activity, and the time of its first command in milliseconds.
     pub(super) pursuit: Option<(Pursuit, i64)>,
@@ -22,6 +24,8 @@ pub struct Activity {
     pub(super) approached_ms: i64,
     /// Duration of the stay before it was interrupted by a search for a tag.
     stayed_ms: i64,
+    /// Where it stays, or comes down, or where the course of its set-points has got to.
+    place: Option<Pose>,
     /// Time of the last command of a search, in milliseconds.
     searched_ms: Option<i64>,
 }
@@ -44,6 +48,28 @@ impl Activity {
     /// Whether the agent is coming down to land.
     pub(crate) fn is_descending(&self) -> bool {
         self.pursuit.is_some_and(|(pursuit, _)| pursuit == Pursuit::Descending)
+    }
+
+    /// The place at which the drone, which is at `pose`, is to stay if it is told to stay where it is. A drone that
+    /// stays somewhere, or is on its way back there after braking, is there: otherwise each order to hold would
+    /// begin the hold anew at the place to which the drone has moved meanwhile, and many of them would let it go on.
+    pub(super) fn place_to_stay(&self, pose: &Pose) -> Pose {
+        match (self.pursuit, self.place) {
+            (Some((Pursuit::Staying, _)) | None, Some(place)) => place,
+            // How high it is decides when it is down.
+            (Some((Pursuit::Descending, _)), Some(place)) => Pose { z_m: pose.z_m, ..place },
+            _ => *pose,
+        }
+    }
+
+    /// Takes in the place of the activity that was just begun or continued.
+    pub(super) fn stays_at(&mut self, place: Pose) {
+        self.place = Some(place);
+    }
+
+    /// Whether the drone stays at a place.
+    pub(crate) fn stays(&self) -> bool {
+        self.pursuit.is_some_and(|(pursuit, _)| pursuit == Pursuit::Staying)
     }
 
     /// Time since the last search for a tag in milliseconds.
@@ -72,5 +98,6 @@ impl Activity {
             self.stayed_ms = if goes_on { self.lasted_ms(Pursuit::Staying, now_ms) } else { 0 };
         }
         self.pursuit = Some((pursuit, now_ms));
+        self.place = None;
     }
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use kinematics::Pose;
 
-use super::{BRAKES, BRAKES_M_S, GUST, MARGIN_M, REACTION_S, Situation};
+use super::{BRAKES, BRAKES_M_S, GUST, MARGIN_M, REACTION_S, Situation, Stopping};
 
 /// Speed up to which a drone counts as holding its position, in m/s.
 const SLOW_M_S: f64 = 0.3;
@@ -107,8 +107,7 @@ impl Motion {
         // The disturbance refers to a drone at rest; one that moves with the wind experiences less of it.
         let dragged_m_s2 = now.drag_1_s * self.speed_m_s / 2.0;
         let braking_m_s2 = now.full_tilt_m_s2 * (1.0 - self.along(now.wind)) + dragged_m_s2;
-        let way_m =
-            self.speed_m_s * REACTION_S + self.speed_m_s * self.speed_m_s / (2.0 * braking_m_s2);
+        let way_m = Stopping { delay_s: REACTION_S, braking_m_s2 }.way_m(self.speed_m_s);
         self.speed_m_s <= SLOW_M_S
             || self.along(now.wind) < STORM
             || braking_m_s2 > 0.0 && way_m <= self.room_m(now, radius_m + MARGIN_M)

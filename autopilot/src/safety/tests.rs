@@ -11,6 +11,10 @@ pub(super) const FINE: Situation = Situation {
     wind: [0.0; 2],
     full_tilt_m_s2: 2.0,
     drag_1_s: 0.2,
+    tilts_after_s: 0.2,
+    climb_delay_s: 0.1,
+    climb_lag_s: 0.5,
+    sink_m_s: 0.7,
 };
 const TARGET: Pose = Pose { x_m: 1.0, ..FINE.pose };
 const GO_TO: AgentCommand = AgentCommand::GoTo(TARGET);

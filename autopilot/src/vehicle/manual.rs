@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use estimator::Prediction;
 use kinematics::{Pose, Sticks};
+use nalgebra::Vector2;
 use pid::{Course, MotionLimits};
 
 use super::{FlightEvent, Operator, Place, Refused, Setpoint, Station, Vehicle, pose};
@@ -24,6 +25,8 @@ pub(super) struct Manual {
     /// gets the last; one that stayed for later would end whatever was ordered after it. Nothing else is offered meanwhile.
     goal: Option<Goal>,
     mode: Mode,
+    /// The course that was flown in the last tick.
+    flown: Option<Course>,
 }
 
 /// A pre-empting goal of the agent, besides landing.
@@ -108,10 +111,11 @@ impl Manual {
 
     /// The set-points that are followed, or were until they stopped.
     pub(super) fn setpoint(&self, now: Duration) -> Option<SetpointPercept> {
-        let Mode::Following { at, target, .. } = self.mode else { return None };
+        let Mode::Following { at, target, course, .. } = self.mode else { return None };
         let age = now.saturating_sub(at);
         Some(SetpointPercept {
             pose: target,
+            reached: Pose { x_m: course.position_m.x, y_m: course.position_m.y, ..target },
             age_ms: i64::try_from(age.as_millis()).unwrap_or(i64::MAX),
         })
     }
@@ -159,7 +163,14 @@ impl Vehicle {
         }
         let state = self.state(now);
         let target = self.flight.target.unwrap_or_else(|| pose(&state));
-        let course = course_of(&state);
+        // A course begins where the last one, or the hold, has led: begun anew with the drone's motion in every tick it
+        // would never brake it.
+        let holds = self.flight.activity.stays() && self.flight.target.is_some();
+        let course = match self.flight.manual.flown {
+            Some(course) => course,
+            None if holds => Course::new(Vector2::new(target.x_m, target.y_m), Vector2::zeros()),
+            None => course_of(&state),
+        };
         self.begin_manual(FlightEvent::FollowingSetpoints);
         self.flight.manual.goal = Some(Goal::Follow);
         self.flight.manual.mode =
@@ -181,6 +192,7 @@ impl Vehicle {
         let limits = self.course_limits();
         // It hovered by itself, and may be elsewhere.
         let flown = self.flight.target.is_some();
+        self.flight.manual.flown = None;
         if let Mode::Following { setpoint, target, course, stopped: false, .. } =
             &mut self.flight.manual.mode
         {
@@ -192,6 +204,7 @@ impl Vehicle {
             setpoint.advance(course, &pose, &limits, radius_m, step_s);
             let wanted = setpoint.target(target, course, &pose, step_s);
             *target = fence.nearest_inside(&wanted, INSIDE_M);
+            self.flight.manual.flown = Some(*course);
         }
     }
 
@@ -232,9 +245,24 @@ impl Vehicle {
             z_m: to.height_m.unwrap_or(present.z_m),
             yaw_deg: to.yaw_deg.unwrap_or(present.yaw_deg),
         };
+        let place = self.mission.inside(&wanted, INSIDE_M);
+        match &mut self.flight.manual.mode {
+            // It is on its way there.
+            Mode::SentTo { place: last, .. }
+                if distance(last, &place) <= f64::EPSILON
+                    && last.yaw_deg.to_bits() == place.yaw_deg.to_bits() =>
+            {
+                return;
+            }
+            // The agent has yet to hear of the last one. To hold once more would let no place through.
+            Mode::SentTo { place: last, offered: false } => {
+                *last = place;
+                return;
+            }
+            _ => {}
+        }
         self.begin_manual(FlightEvent::ManualTargetSet);
         self.agent_holds();
-        let place = self.mission.inside(&wanted, INSIDE_M);
         self.flight.manual.mode = Mode::SentTo { place, offered: false };
     }
 

@@ -4,7 +4,7 @@ use kinematics::{Pose, world_from_body, wrap_deg};
 use nalgebra::Vector2;
 use pid::{Course, MotionLimits};
 
-use crate::safety::{BRAKING_M_S2, REACTION_S};
+use crate::safety::Stopping;
 
 /// Fastest climb and descent, in m/s.
 const CLIMB_MAX_M_S: f64 = 0.75;
@@ -161,9 +161,7 @@ fn kept_inside_m_s(
     let foremost_m =
         if here_m.norm() > course.position_m.norm() { here_m } else { &course.position_m };
     let Some(outward) = foremost_m.try_normalize(f64::EPSILON) else { return wanted_m_s };
-    let room_m = (radius_m - foremost_m.norm()).max(0.0);
-    let delay_m_s = BRAKING_M_S2 * REACTION_S;
-    let most_m_s = (delay_m_s * delay_m_s + 2.0 * BRAKING_M_S2 * room_m).sqrt() - delay_m_s;
+    let most_m_s = Stopping::CAUTIOUS.speed_m_s(radius_m - foremost_m.norm());
     let excess_m_s = course.velocity_m_s.dot(&outward) - most_m_s;
     if excess_m_s > 0.0 {
         // All that it can do is to brake.

@@ -207,6 +207,9 @@ impl Vehicle {
 
     pub(super) fn situation(&self, now: Duration, state: &Prediction) -> Situation {
         let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
+        let airframe = self.flight.estimator.airframe();
+        // An order is sent in a tick and holds until the next.
+        let delay_s = (self.config.estimator.dead_time + TICK).as_secs_f64();
         Situation {
             now,
             blind_for: self.blind_for(now),
@@ -217,7 +220,11 @@ impl Vehicle {
             velocity_m_s: state.velocity_m_s.into(),
             wind: (state.disturbance_m_s2 / full_tilt_m_s2).into(),
             full_tilt_m_s2,
-            drag_1_s: self.flight.estimator.airframe().drag_1_s.min(),
+            drag_1_s: airframe.drag_1_s.min(),
+            tilts_after_s: delay_s + airframe.tilt_lag_s,
+            climb_delay_s: delay_s,
+            climb_lag_s: airframe.climb_lag_s,
+            sink_m_s: self.config.estimator.limits.climb_m_s * airframe.drop_gain,
         }
     }
 

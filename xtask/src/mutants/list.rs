@@ -31,6 +31,7 @@ pub(super) enum Expected {
 
 pub(super) const AGENT: &str = "autopilot/agent/autopilot.asl";
 const BINDING: &str = "autopilot/src/agent.rs";
+const ACTIVITY: &str = "autopilot/src/agent/activity.rs";
 pub(super) const SAFETY: &str = "autopilot/src/safety.rs";
 const FLIGHT: &str = "autopilot/src/vehicle/flight.rs";
 const TICK: &str = "autopilot/src/vehicle/tick.rs";
@@ -321,6 +322,23 @@ pub(super) const MUTANTS: &[Mutant] = &[
             PHASE,
             "let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;",
             "let landed = !blind;",
+        )],
+    ),
+    // Streams of orders.
+    mutant(
+        "each order to hold begins the hold anew",
+        &[edit(
+            ACTIVITY,
+            "| None, Some(place)) => place,",
+            "| None, Some(place)) if pose.z_m.is_nan() => place,",
+        )],
+    ),
+    mutant(
+        "nothing brakes at the fence",
+        &[edit(
+            SAFETY,
+            "let left = self.brake.leave(demand);",
+            "let left = Brake::default().leave(demand);",
         )],
     ),
     // Whoever flies from elsewhere.

@@ -247,6 +247,9 @@ function drawButtons() {
   $("start").hidden = !standby;
   $("start").disabled = !flight || !flight.steps.length || !readiness || !readiness.ready || watching;
   $("land").disabled = $("cut").disabled = !live;
+  // It is the bright one only where there is something to land: not after the motors were cut.
+  const grounded = !live || (status && ["connecting", "configuring", "standby"].includes(status.phase));
+  $("land").classList.toggle("quiet", Boolean(grounded));
   const now = performance.now();
   const armed = now < armedUntil;
   $("cut").classList.toggle("armed", armed);

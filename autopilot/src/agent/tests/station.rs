@@ -5,7 +5,7 @@ use super::*;
 const THERE: Pose = Pose { x_m: 0.5, y_m: 0.5, z_m: 1.0, yaw_deg: 10.0 };
 
 fn following(age_ms: i64) -> Percepts {
-    let setpoint = Some(SetpointPercept { pose: THERE, age_ms });
+    let setpoint = Some(SetpointPercept { pose: THERE, reached: THERE, age_ms });
     Percepts { setpoint, ..HOVERING }
 }
 
