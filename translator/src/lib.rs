@@ -46,7 +46,7 @@ pub use backend::matrix::TraceRow;
 use backend::rust::{camel_case, snake_case};
 pub use code::Code;
 pub use comparison::{
-    COMPARISON, Comparison, ENOUGH_ROOM, Incomparable, ONLY_END, ONLY_ROOM, ROOM,
+    COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM,
 };
 use configuration::{Configuration, Instance};
 use diagnostic::Source;
@@ -58,6 +58,7 @@ pub use model::{Happening, Model};
 pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, STEPS};
 pub use report::Report;
 use reserved::is_rust_word;
+pub use reserved::{is_c_word, is_library as is_c_library};
 pub use scripted::{Act, TESTS, traced};
 use syntax::Document;
 use syntax::ast::{Agent, Name};
