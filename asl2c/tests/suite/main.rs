@@ -19,5 +19,6 @@ mod run;
 #[cfg(target_os = "linux")]
 mod stopped;
 mod tool;
+mod tricks;
 mod validated;
 mod verification;
