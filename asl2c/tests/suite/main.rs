@@ -5,6 +5,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests wait for programs and time them")]
 
 mod certified;
+mod edited;
 mod files;
 mod first_agent;
 mod fmt;
