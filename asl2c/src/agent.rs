@@ -74,8 +74,11 @@ impl Agent {
     pub fn headers(&self) -> Vec<String> {
         // Such files in the folder would be taken for those of the compiler.
         let always = ["stdbool.h", "stdint.h"].map(str::to_owned);
-        let mut names: Vec<PathBuf> =
-            always.into_iter().chain(self.configuration.included_files()).map(PathBuf::from).collect();
+        let mut names: Vec<PathBuf> = always
+            .into_iter()
+            .chain(self.configuration.included_files())
+            .map(PathBuf::from)
+            .collect();
         let mut known = BTreeSet::new();
         let mut texts = Vec::new();
         while let Some(name) = names.pop() {

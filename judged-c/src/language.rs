@@ -51,14 +51,20 @@ impl Language {
         for header in headers {
             for item in parse_header(header)?.items {
                 match item {
-                    Item::Definition(name, definition) => language.define(&name.text, &definition)?,
+                    Item::Definition(name, definition) => {
+                        language.define(&name.text, &definition)?
+                    }
                     Item::Function(function) => {
                         let signature = language.declared(&function)?;
                         let name = function.name.text;
                         language.functions.insert(name, (Owner::Environment, signature));
                     }
                     Item::Object(object) => {
-                        return Err(refused(&object.name.text, object.name.place, Rule::Translation));
+                        return Err(refused(
+                            &object.name.text,
+                            object.name.place,
+                            Rule::Translation,
+                        ));
                     }
                 }
             }
@@ -96,7 +102,9 @@ impl Language {
     /// Names that begin a type.
     pub(crate) fn types(&self) -> HashSet<String> {
         let own = self.structs.keys().chain(&self.enums).chain(self.opaque.iter());
-        let integers = [8, 16, 32, 64].into_iter().flat_map(|bits| [format!("int{bits}_t"), format!("uint{bits}_t")]);
+        let integers = [8, 16, 32, 64]
+            .into_iter()
+            .flat_map(|bits| [format!("int{bits}_t"), format!("uint{bits}_t")]);
         own.cloned().chain(integers).collect()
     }
 
@@ -130,7 +138,9 @@ impl Language {
     /// Keeps a type of the environment.
     fn learn(&mut self, ctype: &Type) {
         let words = ctype.words.join(" ");
-        let known = basic(&words).is_some() || self.structs.contains_key(&words) || self.enums.contains(&words);
+        let known = basic(&words).is_some()
+            || self.structs.contains_key(&words)
+            || self.enums.contains(&words);
         if !known {
             self.opaque.insert(words);
         }
@@ -139,7 +149,9 @@ impl Language {
     fn declared(&mut self, function: &Function) -> Result<Signature, Refused> {
         self.learn(&function.result);
         function.parameters.iter().for_each(|parameter| self.learn(&parameter.ctype));
-        for ctype in std::iter::once(&function.result).chain(function.parameters.iter().map(|p| &p.ctype)) {
+        for ctype in
+            std::iter::once(&function.result).chain(function.parameters.iter().map(|p| &p.ctype))
+        {
             if translator::types::CType::named(&spelling(ctype)).may_be_text() {
                 self.texts.insert(spelling(ctype));
             }

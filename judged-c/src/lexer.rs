@@ -184,7 +184,8 @@ impl<'a> Lexer<'a> {
         let bytes = self.rest.as_bytes();
         let mut end = 1;
         loop {
-            let octal = |at: usize| bytes.get(end + at).is_some_and(|byte| (b'0'..=b'7').contains(byte));
+            let octal =
+                |at: usize| bytes.get(end + at).is_some_and(|byte| (b'0'..=b'7').contains(byte));
             match bytes.get(end) {
                 None | Some(b'\n') => return self.refuse(end, Rule::Open),
                 Some(b'"') => break,

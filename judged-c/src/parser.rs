@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use crate::lexer::{Kind, Place, Token, tokens};
 use crate::refused::{Refused, Rule};
 use crate::tree::{
-    Block, Definition, Expression, For, Function, Group, Item, Object, Parameter, Prefix, Statement,
-    Type, Unit, What, Word,
+    Block, Definition, Expression, For, Function, Group, Item, Object, Parameter, Prefix,
+    Statement, Type, Unit, What, Word,
 };
 
 /// Blocks inside each other. C99 guarantees 127, and what is generated stays within that.
@@ -18,7 +18,8 @@ const MOST_EXPRESSIONS: u16 = 500;
 
 /// Words of types that are no names.
 const BASE: [&str; 11] = [
-    "void", "bool", "_Bool", "char", "short", "int", "long", "signed", "unsigned", "float", "double",
+    "void", "bool", "_Bool", "char", "short", "int", "long", "signed", "unsigned", "float",
+    "double",
 ];
 /// Words that no object or function can have as its name, whatever the rules of names say.
 const WORDS: [&str; 17] = [
@@ -27,14 +28,8 @@ const WORDS: [&str; 17] = [
 ];
 
 /// Binary operators by binding, the loosest first.
-const OPERATORS: [&[&str]; 6] = [
-    &["||"],
-    &["&&"],
-    &["==", "!="],
-    &["<", "<=", ">", ">="],
-    &["+", "-"],
-    &["*", "/", "%"],
-];
+const OPERATORS: [&[&str]; 6] =
+    [&["||"], &["&&"], &["==", "!="], &["<", "<=", ">", ">="], &["+", "-"], &["*", "/", "%"]];
 
 type Parsed<T> = Result<T, Refused>;
 
@@ -209,7 +204,8 @@ impl<'a> Parser<'a> {
     fn is_type(&self, further: usize) -> bool {
         const TAGS: [&str; 3] = ["struct", "union", "enum"];
         let token = self.peek(further);
-        let is_word = token.text == "const" || BASE.contains(&token.text) || TAGS.contains(&token.text);
+        let is_word =
+            token.text == "const" || BASE.contains(&token.text) || TAGS.contains(&token.text);
         token.kind == Kind::Name && (is_word || self.types.contains(token.text))
     }
 
@@ -302,7 +298,10 @@ impl<'a> Parser<'a> {
             return self.block();
         }
         self.blocks += 1;
-        if self.blocks > MOST_BLOCKS || self.is_declaration() {
+        if self.blocks > MOST_BLOCKS {
+            return Err(self.peek(0).refused(Rule::Depth));
+        }
+        if self.is_declaration() {
             return Err(self.peek(0).refused(Rule::Expected("`{` was expected")));
         }
         let statement = self.statement()?;

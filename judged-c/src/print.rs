@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 
 use crate::language::Language;
 use crate::tree::{
-    Block, Definition, Expression, Function, Item, Object, Parameter, Prefix, Statement, Type, Unit,
-    What,
+    Block, Definition, Expression, Function, Item, Object, Parameter, Prefix, Statement, Type,
+    Unit, What,
 };
 use crate::types::Ty;
 
@@ -53,9 +53,11 @@ fn names(unit: &Unit) -> BTreeSet<String> {
                 names.insert(function.name.text.clone());
                 let parameters = function.parameters.iter().filter_map(|p| p.name.as_ref());
                 names.extend(parameters.map(|name| name.text.clone()));
-                function.body.iter().for_each(|body| declared(body, &mut |object| {
-                    names.insert(object.name.text.clone());
-                }));
+                function.body.iter().for_each(|body| {
+                    declared(body, &mut |object| {
+                        names.insert(object.name.text.clone());
+                    })
+                });
             }
         }
     }
@@ -98,7 +100,9 @@ impl Printer<'_> {
             Item::Definition(name, Definition::Struct(fields)) => {
                 self.text.push_str("typedef struct\n{\n");
                 for (ctype, field, length) in fields {
-                    let length = length.as_ref().map_or(String::new(), |length| format!("[{}]", length.text));
+                    let length = length
+                        .as_ref()
+                        .map_or(String::new(), |length| format!("[{}]", length.text));
                     _ = writeln!(self.text, "    {}{length};", typed(ctype, &field.text));
                 }
                 _ = writeln!(self.text, "}} {};", name.text);
@@ -113,7 +117,8 @@ impl Printer<'_> {
         let declaration = self.declaration(object, name);
         _ = writeln!(self.text, "static {declaration}");
         let ctype = &object.ctype;
-        let constant = ctype.constant && ctype.stars.is_empty() || ctype.stars.last() == Some(&true);
+        let constant =
+            ctype.constant && ctype.stars.is_empty() || ctype.stars.last() == Some(&true);
         if constant || self.language.state.contains_key(&object.name.text) {
             return;
         }
@@ -125,9 +130,11 @@ impl Printer<'_> {
     }
 
     fn declaration(&self, object: &Object, name: &str) -> String {
-        let length = object.length.as_ref().map_or(String::new(), |length| format!("[{}]", length.text));
+        let length =
+            object.length.as_ref().map_or(String::new(), |length| format!("[{}]", length.text));
         let initial = object.initial.as_ref();
-        let initial = initial.map_or(String::new(), |value| format!(" = {}", self.expression(value)));
+        let initial =
+            initial.map_or(String::new(), |value| format!(" = {}", self.expression(value)));
         format!("{}{length}{initial};", typed(&object.ctype, name))
     }
 
@@ -152,7 +159,8 @@ impl Printer<'_> {
             typed(&parameter.ctype, name)
         };
         let parameters: Vec<String> = parameters.iter().map(parameter).collect();
-        let parameters = if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
+        let parameters =
+            if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
         let storage = if *is_static { "static " } else { "" };
         let head = typed(result, &format!("{}({parameters})", name.text));
         _ = write!(self.text, "{storage}{head}");
@@ -221,7 +229,8 @@ impl Printer<'_> {
                 for group in groups {
                     for (_, label) in &group.labels {
                         let label = label.as_ref().map(|label| self.expression(label));
-                        let label = label.map_or("default:".to_owned(), |label| format!("case {label}:"));
+                        let label =
+                            label.map_or("default:".to_owned(), |label| format!("case {label}:"));
                         self.line(depth + 1, &label);
                     }
                     group.body.iter().for_each(|statement| self.statement(statement, depth + 2));
@@ -232,7 +241,9 @@ impl Printer<'_> {
                 self.line(depth, "}");
             }
             Statement::Return(_, value) => {
-                let value = value.as_ref().map_or(String::new(), |value| format!(" {}", self.expression(value)));
+                let value = value
+                    .as_ref()
+                    .map_or(String::new(), |value| format!(" {}", self.expression(value)));
                 self.line(depth, &format!("return{value};"));
             }
         }
@@ -261,11 +272,15 @@ impl Printer<'_> {
                 format!("{} {sign} {}", self.expression(left), self.expression(right))
             }
             What::Parentheses(inside) => format!("({})", self.expression(inside)),
-            What::Cast(ctype, operand) => format!("({}){}", typed(ctype, "").trim_end(), self.expression(operand)),
+            What::Cast(ctype, operand) => {
+                format!("({}){}", typed(ctype, "").trim_end(), self.expression(operand))
+            }
             What::Call(name, arguments) => format!("{}({})", name.text, list(arguments)),
             What::Field(of, name) => format!("{}.{name}", self.expression(of)),
             What::Arrow(of, name) => format!("{}->{name}", self.expression(of)),
-            What::Index(of, index) => format!("{}[{}]", self.expression(of), self.expression(index)),
+            What::Index(of, index) => {
+                format!("{}[{}]", self.expression(of), self.expression(index))
+            }
             What::Braces(values) => format!("{{ {} }}", list(values)),
         }
     }
@@ -274,7 +289,8 @@ impl Printer<'_> {
 /// `const char *const name`
 fn typed(ctype: &Type, name: &str) -> String {
     let constant = if ctype.constant { "const " } else { "" };
-    let stars: String = ctype.stars.iter().map(|constant| if *constant { "*const " } else { "*" }).collect();
+    let stars: String =
+        ctype.stars.iter().map(|constant| if *constant { "*const " } else { "*" }).collect();
     format!("{constant}{} {stars}{name}", ctype.words.join(" "))
 }
 
@@ -282,7 +298,8 @@ fn typed(ctype: &Type, name: &str) -> String {
 fn arbitrary(text: &mut String, language: &Language, place: &str, ty: &Ty) {
     let name = match ty {
         Ty::Array(of, length) => {
-            return (0..*length).for_each(|index| arbitrary(text, language, &format!("{place}[{index}]"), of));
+            return (0..*length)
+                .for_each(|index| arbitrary(text, language, &format!("{place}[{index}]"), of));
         }
         Ty::Struct(name) => {
             for (field, ty) in language.structs.get(name).into_iter().flatten() {
@@ -291,7 +308,10 @@ fn arbitrary(text: &mut String, language: &Language, place: &str, ty: &Ty) {
             return;
         }
         Ty::Bool => {
-            _ = writeln!(text, "    {{ bool any; __CPROVER_assume(any == 0 || any == 1); {place} = any; }}");
+            _ = writeln!(
+                text,
+                "    {{ bool any; __CPROVER_assume(any == 0 || any == 1); {place} = any; }}"
+            );
             return;
         }
         Ty::Text => {
@@ -362,4 +382,3 @@ fn without_comments(text: &str) -> String {
     }
     plain
 }
-

@@ -26,7 +26,9 @@ pub enum Rule {
     #[error("two question marks can begin another character, also in comments; write one")]
     Trigraph,
     /// `<%`
-    #[error("it is another spelling of a bracket or `#`; write a blank between the two characters, or the bracket")]
+    #[error(
+        "it is another spelling of a bracket or `#`; write a blank between the two characters, or the bracket"
+    )]
     Digraph,
     /// `/* /*`, `\` in a comment.
     #[error("it could hide what is compiled: no `\\` and no begin of another comment in a comment")]
@@ -35,7 +37,9 @@ pub enum Rule {
     #[error("it never ends")]
     Open,
     /// Preprocessor lines.
-    #[error("the preprocessor could change what is compared: only the generated lines, at the begin")]
+    #[error(
+        "the preprocessor could change what is compared: only the generated lines, at the begin"
+    )]
     Preprocessor,
     /// The generated preprocessor lines are not all there.
     #[error("the generated `#include` lines must stand at the begin, in their order")]
@@ -44,7 +48,9 @@ pub enum Rule {
     #[error("in a text only \\\" \\\\ \\n \\t \\? and three octal digits are known")]
     Escape,
     /// `0x1F`, `1l`, `010`.
-    #[error("numbers are decimal, in range, and without a suffix, with U, LL or ULL, or with F behind a fraction")]
+    #[error(
+        "numbers are decimal, in range, and without a suffix, with U, LL or ULL, or with F behind a fraction"
+    )]
     Number,
     /// A word or sign where another one should be.
     #[error("it is not of the C that is generated; {0}")]
@@ -53,7 +59,9 @@ pub enum Rule {
     #[error("it is nested too deeply; name a part of it")]
     Depth,
     /// `long`, `union x`.
-    #[error("it is no type of the agent's headers, nor bool, float, double, or an integer of a fixed width")]
+    #[error(
+        "it is no type of the agent's headers, nor bool, float, double, or an integer of a fixed width"
+    )]
     Type,
     /// A `typedef` that is not generated, or was changed.
     #[error("types must be the generated ones, unchanged")]
@@ -95,7 +103,9 @@ pub enum Rule {
     #[error("functions must be static, unless the generated header declares them")]
     Static,
     /// An interface function with another signature.
-    #[error("its result and parameters must be those of the generated header or of its first declaration")]
+    #[error(
+        "its result and parameters must be those of the generated header or of its first declaration"
+    )]
     Signature,
     /// A function is declared, but not defined.
     #[error("it is declared, but not defined here")]
@@ -122,11 +132,15 @@ pub enum Rule {
     #[error("this operation is not defined for its type")]
     Operation,
     /// A comparison of what has no defined equality.
-    #[error("whether such values are equal is left to the compiler, or not exact; only integers, truth values and \
-             events are compared with == and !=")]
+    #[error(
+        "whether such values are equal is left to the compiler, or not exact; only integers, truth values and \
+             events are compared with == and !="
+    )]
     Equality,
     /// `&x` elsewhere than as the argument of a static function.
-    #[error("an address can only be passed to a static function that stores a result or reads a value there")]
+    #[error(
+        "an address can only be passed to a static function that stores a result or reads a value there"
+    )]
     Address,
     /// Something constant is written.
     #[error("it is constant, a parameter, or counts a loop: it cannot be changed")]
@@ -135,8 +149,10 @@ pub enum Rule {
     #[error("it is no place that can be changed")]
     Place,
     /// An effect whose order C does not define.
-    #[error("the call can change what is read beside it, and C does not define which is first; keep its result in a \
-             constant before")]
+    #[error(
+        "the call can change what is read beside it, and C does not define which is first; keep its result in a \
+             constant before"
+    )]
     Order,
     /// A value that is not used.
     #[error("its value is not used; write `(void)` before it")]
@@ -145,13 +161,17 @@ pub enum Rule {
     #[error("loops are `for (uint32_t i = 0U; i < 3U; i++)`, also with `&&` and another condition")]
     Loop,
     /// A `case` that falls through, or is not constant.
-    #[error("each case ends with break or return, is a constant of the value's type, stands once, and declares nothing \
-             outside of a block")]
+    #[error(
+        "each case ends with break or return, is a constant of the value's type, stands once, and declares nothing \
+             outside of a block"
+    )]
     Case,
     /// Code that is never reached.
     #[error("it is never reached")]
     Unreachable,
     /// The agent's own C is not of the language.
-    #[error("the translation of this agent itself is not of the language that is judged, for its types")]
+    #[error(
+        "the translation of this agent itself is not of the language that is judged, for its types"
+    )]
     Translation,
 }

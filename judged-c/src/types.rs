@@ -7,7 +7,10 @@ use crate::tree::Type;
 pub(crate) enum Ty {
     Void,
     Bool,
-    Integer { bits: u32, signed: bool },
+    Integer {
+        bits: u32,
+        signed: bool,
+    },
     Float32,
     Float64,
     /// `const char *`
@@ -16,7 +19,10 @@ pub(crate) enum Ty {
     Enum(String),
     /// Only passed on.
     Opaque(String),
-    Pointer { constant: bool, to: Box<Named> },
+    Pointer {
+        constant: bool,
+        to: Box<Named>,
+    },
     Array(Box<Ty>, u64),
 }
 
@@ -144,7 +150,9 @@ pub(crate) fn common(left: &Typed, right: &Typed) -> Option<Ty> {
         Ty::Integer { bits: a.max(b), signed: s }
     } else {
         let (unsigned, signed) = if s { (b, a) } else { (a, b) };
-        if signed > unsigned { Ty::Integer { bits: signed, signed: true } } else {
+        if signed > unsigned {
+            Ty::Integer { bits: signed, signed: true }
+        } else {
             Ty::Integer { bits: unsigned, signed: false }
         }
     };

@@ -45,9 +45,7 @@ use std::collections::HashSet;
 pub use backend::matrix::TraceRow;
 use backend::rust::{camel_case, snake_case};
 pub use code::Code;
-pub use comparison::{
-    COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM,
-};
+pub use comparison::{COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
 use configuration::{Configuration, Instance};
 use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};

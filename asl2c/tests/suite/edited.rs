@@ -94,21 +94,42 @@ fn edits(c: &str) -> Vec<(&'static str, String)> {
         edits.push((what, text));
     }
     let lines = |line: fn(&str) -> String| c.lines().map(line).collect::<String>();
-    edits.push(("another name of a local", renamed(&renamed(c, "outcome", "result"), "handled", "done")));
-    edits.push(("another name of a parameter", renamed(&renamed(c, "argument1", "given"), "event", "next")));
-    edits.push(("another name of a function", renamed(&renamed(c, "take_event", "next_event"), "run_achieve_rest", "do_rest")));
-    edits.push(("a function before another", moved(c, "static void forget_events", "/* Pre-empting")));
-    edits.push(("functions of the interface in another order", moved(c, "uint32_t refused_events", "uint32_t unhandled_events")));
-    edits.push(("more comments", lines(|line| match line.ends_with(';') {
-        true => format!("{line} // as it was; \"quoted\" /\n/* and so on */\n"),
-        false => format!("{line}\n"),
-    })));
+    edits.push((
+        "another name of a local",
+        renamed(&renamed(c, "outcome", "result"), "handled", "done"),
+    ));
+    edits.push((
+        "another name of a parameter",
+        renamed(&renamed(c, "argument1", "given"), "event", "next"),
+    ));
+    edits.push((
+        "another name of a function",
+        renamed(&renamed(c, "take_event", "next_event"), "run_achieve_rest", "do_rest"),
+    ));
+    edits.push((
+        "a function before another",
+        moved(c, "static void forget_events", "/* Pre-empting"),
+    ));
+    edits.push((
+        "functions of the interface in another order",
+        moved(c, "uint32_t refused_events", "uint32_t unhandled_events"),
+    ));
+    edits.push((
+        "more comments",
+        lines(|line| match line.ends_with(';') {
+            true => format!("{line} // as it was; \"quoted\" /\n/* and so on */\n"),
+            false => format!("{line}\n"),
+        }),
+    ));
     edits.push(("no comments", uncommented(c)));
     edits.push(("tabs", c.replace("    ", "\t")));
-    edits.push(("nearly one line", lines(|line| match line.starts_with('#') {
-        true => format!("{line}\n"),
-        false => format!(" {} ", line.trim()),
-    })));
+    edits.push((
+        "nearly one line",
+        lines(|line| match line.starts_with('#') {
+            true => format!("{line}\n"),
+            false => format!(" {} ", line.trim()),
+        }),
+    ));
     edits.push(("braces at the ends of lines", c.replace(")\n{\n", ") {\n")));
     edits
 }

@@ -10,7 +10,9 @@ use std::time::Duration;
 
 use asl2c::{Agent, Cbmc, validate};
 use judged_c::judge;
-use translator::{Comparison, EXERCISE, EXERCISE_SEED, EXERCISE_STEPS, Exercise, comparison, exercise};
+use translator::{
+    Comparison, EXERCISE, EXERCISE_SEED, EXERCISE_STEPS, Exercise, comparison, exercise,
+};
 
 use crate::harness::{cbmc, from_environment, skip};
 
@@ -213,9 +215,10 @@ impl Attacked {
         let compared = comparison(&agent.configuration, &agent.text).unwrap();
         let exercise = exercise(&agent.configuration, &agent.text).unwrap();
         let basics = &compared.files[2].text;
-        let action = basics.lines().filter_map(|line| line.strip_prefix("void ")).find_map(|line| {
-            line.strip_suffix("(void);").filter(|name| *name != "updateBeliefs")
-        });
+        let action = basics
+            .lines()
+            .filter_map(|line| line.strip_prefix("void "))
+            .find_map(|line| line.strip_suffix("(void);").filter(|name| *name != "updateBeliefs"));
         let action = action.unwrap().to_owned();
         let mut attacked = Self { name, compared, exercise, action, traces: Vec::new() };
         attacked.traces = traces(&attacked.exercise, attacked.c(), None);
@@ -231,7 +234,10 @@ impl Attacked {
     fn with(&self, (_, top, statement): Kind, place: &str, number: usize) -> Option<String> {
         let filled = |text: &str| {
             let text = text.replace("@A", &format!("{}();", self.action));
-            text.replace("@F", &self.action).replace("@k", &number.to_string()).replace("@\\", &format!("{}\\", &self.action[..1])).replace("\nA", &format!("\n{}();", &self.action[1..]))
+            text.replace("@F", &self.action)
+                .replace("@k", &number.to_string())
+                .replace("@\\", &format!("{}\\", &self.action[..1]))
+                .replace("\nA", &format!("\n{}();", &self.action[1..]))
         };
         let (before, after) = self.c().split_once(place)?;
         let first = before.find("\nstatic outcome_t ").or_else(|| before.find("\n/* Result"))?;
@@ -241,7 +247,10 @@ impl Attacked {
 
     fn is_other(&self, c: &str) -> bool {
         let found = traces(&self.exercise, c, Some(&self.traces));
-        found.iter().zip(&self.traces).any(|(found, expected)| !found.is_empty() && found != expected)
+        found
+            .iter()
+            .zip(&self.traces)
+            .any(|(found, expected)| !found.is_empty() && found != expected)
     }
 }
 
@@ -258,7 +267,9 @@ fn traces(exercise: &Exercise, c: &str, expected: Option<&[String]>) -> Vec<Stri
     write(&exercise.files[0].name, c);
     write("main.c", &MAIN.replace("_IONBF, 0", "_IOFBF, 1 << 16"));
     let mut traces = Vec::new();
-    for (compiler, standard, level) in [("gcc", "-std=gnu99", "-O0"), ("gcc", "-std=c99", "-O2"), ("clang", "-std=gnu11", "-O1")] {
+    for (compiler, standard, level) in
+        [("gcc", "-std=gnu99", "-O0"), ("gcc", "-std=c99", "-O2"), ("clang", "-std=gnu11", "-O1")]
+    {
         let mut run = String::new();
         _ = write!(
             run,
@@ -266,7 +277,8 @@ fn traces(exercise: &Exercise, c: &str, expected: Option<&[String]>) -> Vec<Stri
              2>&1 >/dev/null || exit 0; (ulimit -t 5; ulimit -f 20000; ulimit -c 0; timeout 5 ./program); echo \"status $?\"",
             exercise.files[0].name
         );
-        let output = Command::new("sh").arg("-c").arg(&run).current_dir(folder.path()).output().unwrap();
+        let output =
+            Command::new("sh").arg("-c").arg(&run).current_dir(folder.path()).output().unwrap();
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         let trace = if text.contains("status ") { text } else { String::new() };
         let differs = expected.is_some_and(|of| !trace.is_empty() && of[traces.len()] != trace);

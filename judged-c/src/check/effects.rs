@@ -130,7 +130,9 @@ pub(crate) fn operands(expression: &Expression) -> impl Iterator<Item = &Express
             | What::Cast(_, inner)
             | What::Field(inner, _)
             | What::Arrow(inner, _) => (Some(inner), None, &[]),
-            What::Binary(_, left, right) | What::Index(left, right) => (Some(left), Some(right), &[]),
+            What::Binary(_, left, right) | What::Index(left, right) => {
+                (Some(left), Some(right), &[])
+            }
             What::Call(_, inner) | What::Braces(inner) => (None, None, inner),
         };
     first.into_iter().chain(second).chain(rest)

@@ -40,7 +40,8 @@ impl Checker<'_> {
                 let to = self.language.named(ctype)?;
                 self.type_names(ctype)?;
                 let from = self.typed(operand)?;
-                let integers = matches!((&from.ty, &to.ty), (Ty::Integer { .. }, Ty::Integer { .. }));
+                let integers =
+                    matches!((&from.ty, &to.ty), (Ty::Integer { .. }, Ty::Integer { .. }));
                 require(integers && ctype.stars.is_empty(), &to.name, place, Rule::Cast)?;
                 Ok(to.ty.into())
             }
@@ -59,7 +60,8 @@ impl Checker<'_> {
                 };
                 let index = self.typed(index)?;
                 let number = matches!(index.ty, Ty::Integer { .. });
-                let inside = index.value.is_none_or(|index| (0..i128::from(length)).contains(&index));
+                let inside =
+                    index.value.is_none_or(|index| (0..i128::from(length)).contains(&index));
                 require(number && inside, "[", place, Rule::Operation)?;
                 Ok((*element).into())
             }
@@ -97,7 +99,12 @@ impl Checker<'_> {
         Ok(ty.into())
     }
 
-    fn prefixed(&mut self, whole: &Expression, prefix: Prefix, operand: &Expression) -> Checked<Typed> {
+    fn prefixed(
+        &mut self,
+        whole: &Expression,
+        prefix: Prefix,
+        operand: &Expression,
+    ) -> Checked<Typed> {
         let place = whole.place;
         // Only in an argument, where it does not come here.
         require(prefix != Prefix::Address, "&", place, Rule::Address)?;
@@ -226,14 +233,17 @@ impl Checker<'_> {
                 Ty::Pointer { constant, .. } => constant,
                 _ => true,
             },
-            None => root(place).and_then(|name| self.variable(name)).is_none_or(|root| root.constant),
+            None => {
+                root(place).and_then(|name| self.variable(name)).is_none_or(|root| root.constant)
+            }
         };
         require(!constant, &shown(place), place.place, Rule::Written)
     }
 
     /// Whether it can change something that outlives it.
     pub(super) fn has_effect(&self, expression: &Expression) -> bool {
-        let calls = matches!(&expression.what, What::Call(name, _) if self.effects.contains(&name.text));
+        let calls =
+            matches!(&expression.what, What::Call(name, _) if self.effects.contains(&name.text));
         calls || operands(expression).any(|operand| self.has_effect(operand))
     }
 

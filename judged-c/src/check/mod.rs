@@ -16,6 +16,13 @@ use crate::types::{Ty, Typed, is_kept, listed_macro};
 
 pub(crate) type Checked<T> = Result<T, Refused>;
 
+/// Words of the language that are no names: a macro of one of them would change it.
+const WORDS: [&str; 26] = [
+    "static", "const", "typedef", "struct", "enum", "if", "else", "for", "switch", "case",
+    "default", "break", "return", "void", "bool", "_Bool", "true", "false", "char", "short", "int",
+    "long", "signed", "unsigned", "float", "double",
+];
+
 /// Elements of an array: each is made arbitrary by a statement of its own.
 const MOST_ELEMENTS: u64 = 1024;
 
@@ -70,6 +77,9 @@ pub(crate) fn check(
     }
     let all = unit.lines.len() == language.lines.len();
     require(all, "the begin", Place { line: 1, column: 1 }, Rule::Includes)?;
+    for word in WORDS {
+        require(!macros.contains(word), word, Place { line: 1, column: 1 }, Rule::Macro)?;
+    }
     language.check_definitions(unit)?;
     let effects = effects(unit, language)?;
     let mut checker = Checker {
@@ -86,14 +96,16 @@ pub(crate) fn check(
         checker.item(item)?;
     }
     checker.end(unit.end)?;
+    let words = WORDS.into_iter().filter(|word| !matches!(*word, "bool" | "true" | "false"));
+    checker.names.extend(words.map(|word| (word.to_owned(), Place::default())));
     Ok(checker.names)
 }
 
 /// Names of the comparison's own: its functions, variables and macros, and the state that it passes.
 fn is_of_comparison(name: &str) -> bool {
-    ["plain", "PLAIN", "asl2c", "ASL2C"]
-        .iter()
-        .any(|first| name == *first || name.strip_prefix(first).is_some_and(|rest| rest.starts_with('_')))
+    ["plain", "PLAIN", "asl2c", "ASL2C"].iter().any(|first| {
+        name == *first || name.strip_prefix(first).is_some_and(|rest| rest.starts_with('_'))
+    })
 }
 
 impl Checker<'_> {
@@ -154,7 +166,12 @@ impl Checker<'_> {
     fn declare(&mut self, word: &Word, variable: Variable) -> Checked<()> {
         let is_state = self.scopes.len() == 1 && self.language.state.contains_key(&word.text);
         if is_state {
-            require(!self.scopes[0].contains_key(&word.text), &word.text, word.place, Rule::Declared)?;
+            require(
+                !self.scopes[0].contains_key(&word.text),
+                &word.text,
+                word.place,
+                Rule::Declared,
+            )?;
             self.name(&word.text, word.place)?;
         } else {
             self.fresh(word, false)?;
@@ -186,13 +203,19 @@ impl Checker<'_> {
         let pointer = matches!(named.ty, Ty::Pointer { .. });
         require(!pointer, &name.text, place, Rule::Pointer)?;
         let mut ty = named.ty;
-        if let Some(state) = self.language.state.get(&name.text).filter(|_| self.scopes.len() == 1) {
-            let same = *outlives && !constant && length.is_none() && initial.is_none() && *state == ty;
+        if let Some(state) = self.language.state.get(&name.text).filter(|_| self.scopes.len() == 1)
+        {
+            let same =
+                *outlives && !constant && length.is_none() && initial.is_none() && *state == ty;
             require(same, &name.text, place, Rule::State)?;
             return self.declare(name, Variable { ty, constant: false, outlives: true });
         }
         if let Some(length) = length {
-            let number = length.text.parse::<u64>().ok().filter(|number| (1..=MOST_ELEMENTS).contains(number));
+            let number = length
+                .text
+                .parse::<u64>()
+                .ok()
+                .filter(|number| (1..=MOST_ELEMENTS).contains(number));
             require(*outlives && number.is_some(), &length.text, length.place, Rule::Array)?;
             ty = Ty::Array(Box::new(ty), number.unwrap_or(1));
         }
@@ -288,8 +311,10 @@ impl Checker<'_> {
                 }
             }
         }
-        let is_defined = self.functions.get(text).is_some_and(|own| own.is_defined) || body.is_some();
-        self.functions.insert(text.clone(), Own { signature: signature.clone(), place: *place, is_defined });
+        let is_defined =
+            self.functions.get(text).is_some_and(|own| own.is_defined) || body.is_some();
+        self.functions
+            .insert(text.clone(), Own { signature: signature.clone(), place: *place, is_defined });
         self.declared.clear();
         self.scopes.push(HashMap::new());
         for (parameter, named) in parameters.iter().zip(&signature.parameters) {
@@ -297,10 +322,13 @@ impl Checker<'_> {
             require(named.ty != Ty::Void, text, *place, Rule::Type)?;
             match &parameter.name {
                 Some(word) => {
-                    let variable = Variable { ty: named.ty.clone(), constant: true, outlives: false };
+                    let variable =
+                        Variable { ty: named.ty.clone(), constant: true, outlives: false };
                     self.declare(word, variable)?;
                 }
-                None => require(body.is_none(), text, *place, Rule::Expected("a name was expected"))?,
+                None => {
+                    require(body.is_none(), text, *place, Rule::Expected("a name was expected"))?
+                }
             }
         }
         if let Some(body) = body {
@@ -324,7 +352,9 @@ fn inner(expression: &Expression) -> &Expression {
 /// A word for an expression in a message.
 fn shown(expression: &Expression) -> String {
     match &expression.what {
-        What::Name(text) | What::Integer(text) | What::Float(text) | What::Text(text) => text.clone(),
+        What::Name(text) | What::Integer(text) | What::Float(text) | What::Text(text) => {
+            text.clone()
+        }
         What::Call(name, _) => name.text.clone(),
         What::Binary(sign, ..) => (*sign).to_owned(),
         What::Field(_, name) | What::Arrow(_, name) => name.clone(),

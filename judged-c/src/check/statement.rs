@@ -121,7 +121,9 @@ impl Checker<'_> {
             variable.constant = true;
         }
         require(is_number && counter.length.is_none(), count, place, Rule::Loop)?;
-        let constant = |value: &Option<Expression>| value.as_ref().is_some_and(|v| matches!(v.what, What::Integer(_)));
+        let constant = |value: &Option<Expression>| {
+            value.as_ref().is_some_and(|v| matches!(v.what, What::Integer(_)))
+        };
         require(constant(&counter.initial), count, place, Rule::Loop)?;
         require(step.text == *count, &step.text, step.place, Rule::Loop)?;
         self.truth(condition)?;
@@ -147,7 +149,8 @@ impl Checker<'_> {
                     has_default = true;
                     continue;
                 };
-                self.constant(label).map_err(|refused| crate::Refused { rule: Rule::Case, ..refused })?;
+                self.constant(label)
+                    .map_err(|refused| crate::Refused { rule: Rule::Case, ..refused })?;
                 let of = self.expression(label)?;
                 let name = match (&of.value, &inner(label).what) {
                     (Some(value), _) => value.to_string(),
