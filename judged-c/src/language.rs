@@ -52,7 +52,7 @@ impl Language {
             for item in parse_header(header)?.items {
                 match item {
                     Item::Definition(name, definition) => {
-                        language.define(&name.text, &definition)?
+                        language.define(&name.text, &definition)?;
                     }
                     Item::Function(function) => {
                         let signature = language.declared(&function)?;

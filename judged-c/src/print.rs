@@ -53,11 +53,11 @@ fn names(unit: &Unit) -> BTreeSet<String> {
                 names.insert(function.name.text.clone());
                 let parameters = function.parameters.iter().filter_map(|p| p.name.as_ref());
                 names.extend(parameters.map(|name| name.text.clone()));
-                function.body.iter().for_each(|body| {
+                if let Some(body) = &function.body {
                     declared(body, &mut |object| {
                         names.insert(object.name.text.clone());
-                    })
-                });
+                    });
+                }
             }
         }
     }
@@ -71,15 +71,21 @@ fn declared<'a>(block: &'a Block, each: &mut impl FnMut(&'a Object)) {
             Statement::Block(block) => declared(block, each),
             Statement::Object(object) => each(object),
             Statement::If(arms, otherwise) => {
-                arms.iter().for_each(|(_, block)| declared(block, each));
-                otherwise.iter().for_each(|block| declared(block, each));
+                for (_, block) in arms {
+                    declared(block, each);
+                }
+                if let Some(block) = otherwise {
+                    declared(block, each);
+                }
             }
             Statement::For(repeated) => {
                 each(&repeated.counter);
                 declared(&repeated.body, each);
             }
             Statement::Switch(_, groups) => {
-                groups.iter().for_each(|group| declared(&group.body, each));
+                for group in groups {
+                    declared(&group.body, each);
+                }
             }
             Statement::Assign(..)
             | Statement::Count(..)
@@ -179,7 +185,9 @@ impl Printer<'_> {
 
     fn block(&mut self, block: &Block, depth: usize) {
         self.line(depth, "{");
-        block.iter().for_each(|statement| self.statement(statement, depth + 1));
+        for statement in block {
+            self.statement(statement, depth + 1);
+        }
         self.line(depth, "}");
     }
 
@@ -233,7 +241,9 @@ impl Printer<'_> {
                             label.map_or("default:".to_owned(), |label| format!("case {label}:"));
                         self.line(depth + 1, &label);
                     }
-                    group.body.iter().for_each(|statement| self.statement(statement, depth + 2));
+                    for statement in &group.body {
+                        self.statement(statement, depth + 2);
+                    }
                     if group.breaks {
                         self.line(depth + 2, "break;");
                     }
@@ -330,16 +340,15 @@ fn arbitrary(text: &mut String, language: &Language, place: &str, ty: &Ty) {
 
 /// Names of the macros that a header's text defines, or would if other conditions held.
 pub(crate) fn macros(header: &str) -> HashSet<String> {
-    let text = header.replace("??=", "#").replace("??/", "\\").replace("\r", "");
+    let text = header.replace("??=", "#").replace("??/", "\\").replace('\r', "");
     // Lines are joined first, also with blanks behind the sign, as compilers do.
     let mut joined = String::with_capacity(text.len());
     for line in text.lines() {
-        match line.trim_end().strip_suffix('\\') {
-            Some(begun) => joined.push_str(begun),
-            None => {
-                joined.push_str(line);
-                joined.push('\n');
-            }
+        if let Some(begun) = line.trim_end().strip_suffix('\\') {
+            joined.push_str(begun);
+        } else {
+            joined.push_str(line);
+            joined.push('\n');
         }
     }
     let plain = without_comments(&joined);

@@ -23,7 +23,7 @@ pub(crate) enum Ty {
         constant: bool,
         to: Box<Named>,
     },
-    Array(Box<Ty>, u64),
+    Array(Box<Self>, u64),
 }
 
 /// A type with its name: where addresses are passed, equal ranges do not make equal types.
@@ -189,7 +189,7 @@ pub(crate) fn is_kept(value: &Typed, ty: &Ty) -> bool {
             // What may be written may also be only read.
             (Ty::Pointer { to: from, .. }, Ty::Pointer { constant: true, to }) => from == to,
             (from @ Ty::Integer { .. }, to @ Ty::Integer { .. }) => contains(to, from),
-            (Ty::Array(..), _) | (_, Ty::Array(..)) | (Ty::Void, _) => false,
+            (Ty::Array(..) | Ty::Void, _) | (_, Ty::Array(..)) => false,
             (from, to) => from == to,
         },
     }

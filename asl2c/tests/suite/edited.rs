@@ -116,18 +116,17 @@ fn edits(c: &str) -> Vec<(&'static str, String)> {
     ));
     edits.push((
         "more comments",
-        lines(|line| match line.ends_with(';') {
-            true => format!("{line} // as it was; \"quoted\" /\n/* and so on */\n"),
-            false => format!("{line}\n"),
+        lines(|line| {
+            let more = " // as it was; \"quoted\" /\n/* and so on */";
+            format!("{line}{}\n", if line.ends_with(';') { more } else { "" })
         }),
     ));
     edits.push(("no comments", uncommented(c)));
     edits.push(("tabs", c.replace("    ", "\t")));
     edits.push((
         "nearly one line",
-        lines(|line| match line.starts_with('#') {
-            true => format!("{line}\n"),
-            false => format!(" {} ", line.trim()),
+        lines(|line| {
+            if line.starts_with('#') { format!("{line}\n") } else { format!(" {} ", line.trim()) }
         }),
     ));
     edits.push(("braces at the ends of lines", c.replace(")\n{\n", ") {\n")));

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use crate::language::{Language, Owner};
 use crate::lexer::refused;
 use crate::refused::{Refused, Rule};
-use crate::tree::{Block, Expression, Function, Item, Object, Prefix, Statement, Unit, What};
+use crate::tree::{Block, Expression, Function, Item, Object, Statement, Unit, What};
 
 /// What a function does by itself.
 #[derive(Default)]
@@ -98,7 +98,9 @@ impl<'a> Doing<'a> {
                     self.expression(condition);
                     self.block(block);
                 }
-                otherwise.iter().for_each(|block| self.block(block));
+                if let Some(block) = otherwise {
+                    self.block(block);
+                }
             }
             Statement::For(repeated) => {
                 self.object(&repeated.counter);
@@ -107,7 +109,9 @@ impl<'a> Doing<'a> {
             }
             Statement::Switch(value, groups) => {
                 self.expression(value);
-                groups.iter().for_each(|group| self.block(&group.body));
+                for group in groups {
+                    self.block(&group.body);
+                }
             }
         }
     }
@@ -143,7 +147,6 @@ pub(crate) fn root(place: &Expression) -> Option<&str> {
     match &place.what {
         What::Name(name) => Some(name),
         What::Parentheses(inner) | What::Field(inner, _) | What::Index(inner, _) => root(inner),
-        What::Prefix(Prefix::Content, _) => None,
         _ => None,
     }
 }

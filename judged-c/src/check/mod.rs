@@ -258,11 +258,13 @@ impl Checker<'_> {
     /// It is a constant expression.
     fn constant(&self, initial: &Expression) -> Checked<()> {
         let constant = match &initial.what {
-            What::Integer(_) | What::Float(_) | What::Text(_) => true,
             What::Name(name) => {
                 listed_macro(name).is_some() || self.language.enumerators.contains_key(name)
             }
-            What::Prefix(crate::tree::Prefix::Minus | crate::tree::Prefix::Not, _)
+            What::Integer(_)
+            | What::Float(_)
+            | What::Text(_)
+            | What::Prefix(crate::tree::Prefix::Minus | crate::tree::Prefix::Not, _)
             | What::Binary(..)
             | What::Parentheses(_)
             | What::Braces(_) => true,
@@ -327,7 +329,7 @@ impl Checker<'_> {
                     self.declare(word, variable)?;
                 }
                 None => {
-                    require(body.is_none(), text, *place, Rule::Expected("a name was expected"))?
+                    require(body.is_none(), text, *place, Rule::Expected("a name was expected"))?;
                 }
             }
         }
