@@ -90,6 +90,8 @@ const REFUSED: &[Case] = &[
     (Rule::Expected(""), "", "asm volatile (\"hlt\");"),
     (Rule::Type, "static long x = 0;", ""),
     (Rule::Type, "static union x y = 0;", ""),
+    (Rule::Type, "static void x = 0;", ""),
+    (Rule::Type, "static void own(void x, bool y) { (void)y; }", ""),
     (Rule::Typedef, "typedef enum { A } own_t;", ""),
     (Rule::Array, "", "int32_t x[2] = { 1, 2 };"),
     (Rule::Array, "static int32_t x[2000] = { 0 };", ""),
