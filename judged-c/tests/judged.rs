@@ -7,7 +7,7 @@ use translator::{Comparison, comparison, parse_configuration};
 
 const LAMP: &str = "settings { input = a.asl; output = lamp.c; header = lamp.h; basics = b.h; };
     structs { place_t { double x; int8_t y; }; };
-    basics { void on(void); void say(const char *); int now(void); void at(place_t); };
+    basics { void on(void); void say(const char *); int now(void); void at(place_t); void hear(uint32_t *); };
     types { light(void); level(uint8_t); }; triggerables { +!light; }; settables { level; };";
 
 fn lamp() -> Comparison {
@@ -73,6 +73,8 @@ const REFUSED: &[Case] = &[
     (Rule::Digraph, "", "<% on(); %>"),
     (Rule::Digraph, "%:define x", ""),
     (Rule::Comment, "/* *\\\n/", ""),
+    (Rule::Comment, "/* a \\ b */", ""),
+    (Rule::Comment, "// a \\ b", ""),
     (Rule::Comment, "// /* x", ""),
     (Rule::Open, "static const char *const x = \"abc", ""),
     (Rule::Preprocessor, "#define x", ""),
@@ -129,6 +131,7 @@ const REFUSED: &[Case] = &[
     (Rule::Equality, "", "if (1.5 == 1.5) { on(); }"),
     (Rule::Equality, "", "if (\"a\" == \"a\") { on(); }"),
     (Rule::Address, "", "(void)&agent;"),
+    (Rule::Address, "", "hear(&agent.unhandled);"),
     (Rule::Address, "", "if (&agent == &agent) { on(); }"),
     (Rule::Written, "static const uint32_t x = 1U;", "x = 2U;"),
     (Rule::Written, "static const uint32_t x = 1U;\nstatic void own(uint32_t *to) { *to = 1U; }", "own(&x);"),
@@ -182,6 +185,16 @@ fn what_is_missing_or_a_macro_is_refused() {
     assert_eq!(without("static agent_t agent;\n"), Rule::Undeclared);
     let clear = &c[c.find("void clear(").unwrap()..];
     assert_eq!(without(&clear[..clear.find("\n}\n").unwrap() + 3]), Rule::Missing);
+    let other = |from: &str, to: &str| {
+        assert!(c.contains(from), "{from}");
+        judged(&c.replacen(from, to, 1), &[]).unwrap_err().rule
+    };
+    let state = "static agent_t agent;\n";
+    assert_eq!(other(state, "static agent_t agent = { 0 };\n"), Rule::State);
+    assert_eq!(other(state, "static const agent_t agent = { 0 };\n"), Rule::State);
+    let line = "#include \"b.h\"\n";
+    assert_eq!(other(line, "#include <stdlib.h>\n"), Rule::Preprocessor);
+    assert_eq!(other(line, "#include \"b.h\"\n#include <errno.h>\n"), Rule::Preprocessor);
     let field =
         c.replacen("    uint32_t unhandled;\n", "    uint32_t unhandled;\n    uint32_t more;\n", 1);
     assert_eq!(judged(&field, &[]).unwrap_err().rule, Rule::Typedef);
