@@ -1,8 +1,12 @@
 //! An agent on disk: a configuration, and the file that it names.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use translator::{GeneratedFile, ParsedConfiguration, TranslateError, parse_configuration};
+
+/// Names of headers that are tried; most are no files.
+const MOST_HEADERS: usize = 10_000;
 
 /// Errors on reading an agent.
 #[derive(Debug, thiserror::Error)]
@@ -64,6 +68,30 @@ impl Agent {
             Some(header)
         });
         headers.collect()
+    }
+
+    /// The texts of all headers in its folder that its C includes, also by others: their macros can change what C means.
+    pub fn headers(&self) -> Vec<String> {
+        // Such files in the folder would be taken for those of the compiler.
+        let always = ["stdbool.h", "stdint.h"].map(str::to_owned);
+        let mut names: Vec<PathBuf> = always
+            .into_iter()
+            .chain(self.configuration.included_files())
+            .map(PathBuf::from)
+            .collect();
+        let mut known = BTreeSet::new();
+        let mut texts = Vec::new();
+        while let Some(name) = names.pop() {
+            if known.len() >= MOST_HEADERS || !known.insert(name.clone()) {
+                continue;
+            }
+            let Ok(text) = read(&self.folder().join(&name)) else { continue };
+            for included in text.split(['"', '<', '>']).filter(|name| !name.contains('\n')) {
+                names.extend([folder(&name).join(included), PathBuf::from(included)]);
+            }
+            texts.push(text);
+        }
+        texts
     }
 
     /// The files that it was read from.

@@ -45,9 +45,7 @@ use std::collections::HashSet;
 pub use backend::matrix::TraceRow;
 use backend::rust::{camel_case, snake_case};
 pub use code::Code;
-pub use comparison::{
-    COMPARISON, Comparison, ENOUGH_ROOM, Incomparable, ONLY_END, ONLY_ROOM, ROOM,
-};
+pub use comparison::{COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
 use configuration::{Configuration, Instance};
 use diagnostic::Source;
 pub use diagnostic::{Diagnostic, Diagnostics, Located, Severity};
@@ -58,6 +56,7 @@ pub use model::{Happening, Model};
 pub use obligations::{ANSWERS, CALLS, HARNESS, Obligations, Promise, STEPS};
 pub use report::Report;
 use reserved::is_rust_word;
+pub use reserved::{is_c_word, is_library as is_c_library};
 pub use scripted::{Act, TESTS, traced};
 use syntax::Document;
 use syntax::ast::{Agent, Name};

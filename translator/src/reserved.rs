@@ -113,13 +113,13 @@ pub(crate) fn is_c(name: &str) -> bool {
 
 /// Whether the name has a meaning in any position: a keyword, or a macro of the headers that generated C
 /// includes.
-pub(crate) fn is_c_word(name: &str) -> bool {
+pub fn is_c_word(name: &str) -> bool {
     let is_in = |words: &str| words.split_ascii_whitespace().any(|word| word == name);
     name.starts_with('_') || is_in(WORDS) || is_integer_type(name) || is_integer_macro(name)
 }
 
 /// Whether a function of the library has the name.
-pub(crate) fn is_library(name: &str) -> bool {
+pub fn is_library(name: &str) -> bool {
     let is_in = |words: &str, name: &str| words.split_ascii_whitespace().any(|word| word == name);
     let variant =
         |ending: &&str| name.strip_suffix(ending).is_some_and(|stem| is_in(MATHEMATICS, stem));

@@ -39,7 +39,7 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         | CommandError::Tool(_)
         | CommandError::Certify(_)
         | CommandError::Target(_)
-        | CommandError::Incomparable(_) => general("not-checked", None),
+        | CommandError::Refused(_) => general("not-checked", None),
     }
 }
 

@@ -20,9 +20,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser as _;
-use translator::{
-    Code, Diagnostic, Diagnostics, Incomparable, Severity, TranslateError, translate,
-};
+use judged_c::Refused;
+use translator::{Code, Diagnostic, Diagnostics, Severity, TranslateError, translate};
 
 use self::arguments::{Arguments, Task, Verify, is_json};
 use self::messages::{denied, error_lines, line, lines};
@@ -50,7 +49,7 @@ enum CommandError {
     #[error(transparent)]
     Prove(#[from] ProveError),
     #[error("nothing is proved: {0}")]
-    Incomparable(#[from] Incomparable),
+    Refused(#[from] Refused),
     #[error(transparent)]
     Tool(#[from] ToolError),
     #[error(transparent)]
@@ -216,7 +215,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
             | CommandError::Prove(_)
             | CommandError::Certify(_)
             | CommandError::Target(_)
-            | CommandError::Incomparable(_)
+            | CommandError::Refused(_)
     );
     let prefix = if ours { "error: " } else { "" };
     complain_of(&if as_json { error_lines(error) } else { format!("{prefix}{error}") });
@@ -226,7 +225,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
             | CommandError::Prove(_)
             | CommandError::Certify(CertifyError::Tool(_))
             | CommandError::Target(_)
-            | CommandError::Incomparable(_)
+            | CommandError::Refused(_)
             | CommandError::Translate(TranslateError::Unprovable { .. })
     );
     if nothing_known { NOT_CHECKED.into() } else { ExitCode::FAILURE }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
+use judged_c::judge;
 use serde_json::json;
 use translator::{Happening, comparison};
 
@@ -33,7 +34,9 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
         let unread =
             |source| ProveError::Io { what: format!("cannot read {}", c.display()), source };
         let bytes = std::fs::read(c).map_err(unread)?;
-        comparison.replace_c(String::from_utf8_lossy(&bytes).into_owned())?;
+        let text = String::from_utf8_lossy(&bytes);
+        // From here on there is only C of a known language: it is compared and, in the search, executed.
+        judge(&comparison, &text, &agent.headers())?.put_into(&mut comparison);
     }
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?;
     let folder = tempfile::tempdir()

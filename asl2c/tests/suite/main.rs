@@ -5,6 +5,7 @@
 #![allow(clippy::disallowed_methods, reason = "tests wait for programs and time them")]
 
 mod certified;
+mod edited;
 mod files;
 mod first_agent;
 mod fmt;
@@ -19,5 +20,6 @@ mod run;
 #[cfg(target_os = "linux")]
 mod stopped;
 mod tool;
+mod tricks;
 mod validated;
 mod verification;

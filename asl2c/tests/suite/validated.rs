@@ -5,6 +5,7 @@ use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
 use asl2c::{Agent, Cbmc, ProveError, Session, on_host, replay, validate};
+use judged_c::judge;
 use translator::{Comparison, comparison, exercise, parse_configuration};
 
 use crate::harness::{cbmc, from_environment, skip};
@@ -88,12 +89,15 @@ fn programs_of_the_conformance_suite_are_proved() {
     let hard = "variables are taken along, and the context is not asked again";
     let mut times = Vec::new();
     for (title, comparison) in programs.iter().step_by(every) {
+        // What is judged is printed from the tree.
+        let mut printed = comparison.clone();
+        judge(comparison, &comparison.files[0].text, &[]).unwrap().put_into(&mut printed);
         if title.ends_with(hard) {
             continue;
         }
         let folder = tempfile::tempdir().unwrap();
         let begun = Instant::now();
-        let result = validate(comparison, &cbmc, folder.path(), folder.path(), TIME).unwrap();
+        let result = validate(&printed, &cbmc, folder.path(), folder.path(), TIME).unwrap();
         times.push((begun.elapsed().as_secs_f64(), title));
         assert!(result.is_proved(), "{title}: {result:?}");
     }
@@ -204,10 +208,11 @@ fn c_with_a_mistake_is_not_proved() {
         for (what, c) in found.iter().step_by(step) {
             let mut compared = compared.clone();
             tried += 1;
-            if compared.replace_c(c.clone()).is_err() {
+            let Ok(judged) = judge(&compared, c, &[]) else {
                 refused += 1;
                 continue;
-            }
+            };
+            judged.put_into(&mut compared);
             let folder = tempfile::tempdir().unwrap();
             match validate(&compared, &cbmc, folder.path(), Path::new(GALLERY), TIME) {
                 Ok(result) if result.is_proved() => {
@@ -421,7 +426,7 @@ fn what_the_relation_does_not_know_is_not_proved() {
     assert!(status == Some(1) && text.contains("raises +!emergency"), "{text}");
     let endless = "\n    updateBeliefs();\n    while (agent.belief_stopped_held) { }\n";
     let (status, text) = judged(update, endless);
-    assert!(status == Some(3) && text.contains("NOT DECIDED"), "{text}");
+    assert!(status == Some(3) && text.contains("`while` cannot be judged"), "{text}");
     let (status, text) = judged(update, "\n    updateBeliefs();\n    exit(0);\n");
     assert!(status == Some(3) && text.contains("`exit` cannot be judged"), "{text}");
 }

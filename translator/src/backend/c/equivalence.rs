@@ -31,6 +31,9 @@ pub const ONLY_END: &str = "PLAIN_ONLY_END";
 /// Assertion that [`ROOM`] is sufficient.
 pub const ENOUGH_ROOM: &str = "room for the answers";
 
+/// State of C that is not translated, none here.
+pub(crate) const NO_OWN_STATE: &str = "static void plain_own(void)\n{\n}\n";
+
 /// The C file that compares the agent's C, which it includes, with the plain translation in it. Executions of its
 /// `main` have this beginning, if there is one; its other functions are of no use then.
 pub(crate) fn comparison(program: &Program, beginning: &[Act]) -> String {
@@ -425,7 +428,8 @@ impl Comparison<'_> {
 
     /// Any state of the C.
     fn havoc(&self, text: &mut String) {
-        text.push_str("static void plain_havoc(void)\n{\n");
+        text.push_str(NO_OWN_STATE);
+        text.push_str("\nstatic void plain_havoc(void)\n{\n    plain_own();\n");
         let event = self.names.interface("event_t");
         let number = self.any(&CType::named("uint32_t"));
         for field in layout(self.program).fields {

@@ -29,7 +29,7 @@ use super::writer::Writer;
 use crate::program::Program;
 
 pub use self::equivalence::{ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
-pub(crate) use self::equivalence::{cases, comparison, unwinding};
+pub(crate) use self::equivalence::{NO_OWN_STATE, cases, comparison, unwinding};
 pub use self::exercise::{EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS};
 pub(crate) use self::exercise::{
     environment_symbols, exercise, interface_symbols, uncreatable_type,

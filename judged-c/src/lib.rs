@@ -1,0 +1,73 @@
+//! The C in which agents are written: a listed part of the language, in which C that was edited by hand is judged.
+//!
+//! `asl2c validate --c FILE` has to be right about any text. Therefore nothing is forbidden piece by piece: [`judge`]
+//! parses the constructs that the translator itself writes, and a few that people write in their place, checks their
+//! names, types and order of evaluation, and refuses everything else with its place. What a model checker or compiler
+//! gets is printed from the tree, never the given text.
+//!
+//! Nothing here reads a file or starts a program.
+
+mod check;
+mod language;
+mod lexer;
+mod parser;
+mod print;
+mod refused;
+mod tree;
+mod types;
+
+use std::collections::HashSet;
+
+use translator::Comparison;
+
+use self::language::Language;
+pub use self::refused::{Refused, Rule};
+
+/// C of the language.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[must_use = "it has to be compared"]
+pub struct Judged {
+    text: String,
+    arbitrary: String,
+    names: Vec<String>,
+}
+
+impl Judged {
+    /// The C, printed from its tree.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Statements of a model checker that make all objects arbitrary which outlive a call, but for the agent's state.
+    pub fn arbitrary(&self) -> &str {
+        &self.arbitrary
+    }
+
+    /// Puts the C in the place of the translation.
+    pub fn put_into(self, comparison: &mut Comparison) {
+        comparison.replace_c(self.text, &self.arbitrary, &self.names);
+    }
+}
+
+/// Judges C in the place of the translation in a comparison. `headers` are the texts of all headers of the environment
+/// that the generated ones include: their macros must not have names that the C uses.
+///
+/// # Errors
+/// If something in it is not of the language: the first one, with its place.
+pub fn judge(comparison: &Comparison, text: &str, headers: &[String]) -> Result<Judged, Refused> {
+    let mut files = comparison.files.iter();
+    let own = files.next().map_or("", |file| file.text.as_str());
+    let generated = files.filter(|file| !file.setting.is_empty());
+    let generated: Vec<&str> = generated.map(|file| file.text.as_str()).collect();
+    let language = Language::new(own, &generated).map_err(|refused| Refused {
+        line: 1,
+        column: 1,
+        rule: Rule::Translation,
+        ..refused
+    })?;
+    let macros: HashSet<String> = headers.iter().flat_map(|header| print::macros(header)).collect();
+    let unit = parser::parse(text, &language.types())?;
+    let names = check::check(&unit, &language, &macros)?;
+    let (text, arbitrary) = print::print(&unit, &language);
+    Ok(Judged { text, arbitrary, names: names.into_keys().collect() })
+}
