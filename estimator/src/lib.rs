@@ -192,6 +192,8 @@ pub struct Estimator {
     altitude: AltitudeFilter,
     /// Time and value of the last altitude.
     altitude_at: Option<(f64, f64)>,
+    /// The last two altitudes of a drone that stands.
+    standing_m: [f64; 2],
     identification: Identification,
     plausibility: Plausibility,
     response: Response,
@@ -245,6 +247,7 @@ impl Estimator {
             velocity_gate: VelocityGate::default(),
             altitude: AltitudeFilter::default(),
             altitude_at: None,
+            standing_m: [0.0; 2],
             identification: Identification::new(config.airframe, config.limits),
             plausibility: Plausibility::default(),
             response: Response::default(),
@@ -486,6 +489,7 @@ impl Estimator {
         let at_s = made_s - self.config.altitude_delay.as_secs_f64();
         if !sample.airborne {
             self.altitude.stand();
+            self.standing_m = [self.standing_m[1], sample.altitude_m];
             self.altitude_at = Some((at_s, sample.altitude_m));
             return false;
         }
@@ -663,6 +667,13 @@ impl Estimator {
     /// The identified response of this airframe.
     pub fn airframe(&self) -> &Airframe {
         self.identification.airframe()
+    }
+
+    /// Altitude of a drone that stands: of the last two the one that is nearer to the floor, because a single one may be a
+    /// wrong echo.
+    pub fn standing_altitude_m(&self) -> f64 {
+        let [before_m, last_m] = self.standing_m;
+        if before_m.abs() < last_m.abs() { before_m } else { last_m }
     }
 
     /// Whether navdata are plausible.

@@ -44,6 +44,9 @@ impl HealthyFlight {
 ///
 /// # Errors
 /// [`SimulationError`] if it never ends.
+///
+/// # Panics
+/// If it makes a plan that cannot be flown, which is a mistake here.
 pub fn fly(seed: u64) -> Result<HealthyFlight, SimulationError> {
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x6865_616c);
     let random = &mut random;

@@ -222,16 +222,17 @@ impl Vehicle {
 
     /// A drone with implausible navdata must not take off.
     fn problems_of_the_sensors(&self, now: Duration) -> Option<NotReady> {
-        let demo = self.demo()?;
+        self.demo()?;
         let trust = self.flight.estimator.trust();
+        let altitude_m = self.flight.estimator.standing_altitude_m();
         let heard = self.session.silence(now).is_some_and(|age| age <= OLDEST_NAVDATA);
         let old = heard && self.blind_for(now) > OLDEST_NAVDATA;
         if trust != Trust::Sound {
             Some(NotReady::Distrust(trust))
         } else if old {
             Some(NotReady::OldNavdata { age: self.blind_for(now) })
-        } else if self.on_ground() && demo.altitude_m.abs() > HIGHEST_ON_GROUND_M {
-            Some(NotReady::NotOnFloor { altitude_m: demo.altitude_m })
+        } else if self.on_ground() && altitude_m.abs() > HIGHEST_ON_GROUND_M {
+            Some(NotReady::NotOnFloor { altitude_m })
         } else {
             None
         }

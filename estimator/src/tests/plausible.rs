@@ -209,3 +209,16 @@ fn a_height_that_does_not_follow_the_sticks_is_noticed() {
     let at_s = frozen(&mut flight).unwrap();
     assert!((0.4..0.7).contains(&at_s), "{at_s}");
 }
+
+#[test]
+fn one_wrong_echo_does_not_lift_a_drone_that_stands() {
+    let mut estimator = Estimator::default();
+    let mut stand = |packet: u32, altitude_m: f64| {
+        let arrival = Duration::from_millis(66) * packet;
+        estimator.update(&Sample { arrival, altitude_m, ..Sample::default() });
+        estimator.standing_altitude_m()
+    };
+    let read_m = [0.02, 2.4, 0.03, 1.1, 1.2];
+    let seen_m: Vec<f64> = (0..).zip(read_m).map(|(packet, m)| stand(packet, m)).collect();
+    assert_eq!(seen_m, [0.0, 0.02, 0.03, 0.03, 1.1]);
+}
