@@ -53,21 +53,31 @@ impl Agent {
         folder(&self.path)
     }
 
-    /// The headers that the configuration includes and that are in its folder or below: C that is compiled elsewhere
-    /// needs them beside it.
+    /// The headers that the configuration includes, and those that they include in turn, as far as they are in its folder
+    /// or below: C that is compiled elsewhere needs them beside it.
     pub(crate) fn own_headers(&self) -> Vec<GeneratedFile> {
-        let names = self.configuration.included_files();
-        let names = names.filter(|name| {
-            Path::new(name).is_relative() && !name.split('/').any(|part| part == "..")
-        });
-        // Most of the names are those of system headers.
-        let headers = names.filter_map(|name| {
+        let mut names: Vec<String> =
+            self.configuration.included_files().filter_map(|name| plain(&name)).collect();
+        let mut headers: Vec<GeneratedFile> = Vec::new();
+        while let Some(name) = names.pop() {
+            if headers.iter().any(|header| header.name == name) {
+                continue;
+            }
+            // Most of the names are those of system headers.
+            let Ok(text) = read(&self.folder().join(&name)) else { continue };
+            let beside = name.rsplit_once('/').map_or(".", |(folder, _)| folder);
+            for included in included(&text) {
+                // Beside the header, or beside the configuration, as compilers look for it.
+                names.extend(
+                    [format!("{beside}/{included}"), included].iter().filter_map(|n| plain(n)),
+                );
+            }
             let mut header = GeneratedFile::default();
-            header.text = read(&self.folder().join(&name)).ok()?;
-            header.name = name;
-            Some(header)
-        });
-        headers.collect()
+            (header.name, header.text) = (name, text);
+            headers.push(header);
+        }
+        headers.sort_by(|one, other| one.name.cmp(&other.name));
+        headers
     }
 
     /// The texts of all headers in its folder that its C includes, also by others: their macros can change what C means.
@@ -98,6 +108,33 @@ impl Agent {
     pub(crate) fn sources(&self) -> [PathBuf; 2] {
         [self.folder().join(self.configuration.input()), self.path.clone()]
     }
+}
+
+/// The path of a header below a folder, without `.` and `..`; `None` if it is not below.
+fn plain(name: &str) -> Option<String> {
+    if name.starts_with('/') {
+        return None;
+    }
+    let mut parts: Vec<&str> = Vec::new();
+    for part in name.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => _ = parts.pop()?,
+            part => parts.push(part),
+        }
+    }
+    (!parts.is_empty()).then(|| parts.join("/"))
+}
+
+/// The files that a header includes.
+fn included(text: &str) -> impl Iterator<Item = String> {
+    text.lines().filter_map(|line| {
+        let rest = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("include")?;
+        let rest = rest.trim_start();
+        let end = if rest.starts_with('<') { '>' } else { '"' };
+        let name = rest.strip_prefix(['<', '"'])?.split(end).next()?;
+        Some(name.to_owned())
+    })
 }
 
 fn folder(path: &Path) -> &Path {

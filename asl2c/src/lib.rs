@@ -16,6 +16,7 @@
 
 mod agent;
 mod certify;
+mod checksum;
 pub mod command_line;
 mod coverage;
 mod lsp;
@@ -28,6 +29,7 @@ mod spin;
 mod target;
 mod tool;
 mod verify;
+mod written;
 
 pub use agent::{Agent, ReadError};
 pub use certify::{

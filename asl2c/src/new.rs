@@ -1,5 +1,7 @@
 //! `asl2c new`: a small agent as a starting point, which builds and runs at once.
 
+use std::fs::File;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Errors on creating an agent.
@@ -161,8 +163,9 @@ fn fill(folder: &Path, name: &str, made: &mut Vec<PathBuf>) -> Result<(), NewErr
         ("Makefile".to_owned(), MAKEFILE),
     ] {
         let path = folder.join(file);
+        let mut created = File::create_new(&path).map_err(failed(&path))?;
         made.push(path.clone());
-        std::fs::write(&path, text.replace("NAME", name)).map_err(failed(&path))?;
+        created.write_all(text.replace("NAME", name).as_bytes()).map_err(failed(&path))?;
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Checks a model with SPIN: one exhaustive search for each property.
 
+use std::hash::{BuildHasher as _, RandomState};
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -43,6 +44,11 @@ impl Verdict {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SpinError {
+    /// A search does not find what every agent does.
+    #[error(
+        "nothing is checked: the search that `{SPIN}` and `cc` make does not refute a property that is false; reinstall them"
+    )]
+    Untrusted,
     /// A program cannot be run.
     #[error("cannot run `{program}`: {source}; `apt install spin gcc` may help")]
     Missing {
@@ -74,8 +80,14 @@ pub(crate) fn check(
 ) -> Result<Vec<(Promise, Verdict)>, SpinError> {
     let folder = tempfile::tempdir().map_err(SpinError::Write)?;
     let folder = folder.path();
-    prepare(model, folder, Compiler::for_searches(numbers.len()))?;
-    let searched = in_parallel(numbers, |number| run(model, folder, number, &IN_DEPTH, DEPTH));
+    let key = prepare(model, folder, Compiler::for_searches(numbers.len()))?;
+    let run =
+        |number, search: &Search, option: &str| run(model, folder, number ^ key, search, option);
+    // A tool that proves a known falsehood proves nothing.
+    if !matches!(result(&run(model.falsehood(), &IN_DEPTH, DEPTH)?), Found::Failure) {
+        return Err(SpinError::Untrusted);
+    }
+    let searched = in_parallel(numbers, |number| run(number, &IN_DEPTH, DEPTH));
     let searched = searched.into_iter().map(|said| Ok(result(&said?)));
     let searched = searched.collect::<Result<Vec<Found>, SpinError>>()?;
     if searched.iter().any(|found| matches!(found, Found::Failure)) {
@@ -89,8 +101,8 @@ pub(crate) fn check(
                 Found::Nothing => Verdict::Holds,
                 Found::NoEnd(said) => Verdict::Undecided(said),
                 Found::Failure => {
-                    run(model, folder, *number, &IN_BREADTH, DEPTH)?;
-                    Verdict::Fails(model.explain(&run(model, folder, *number, &IN_BREADTH, "-r")?))
+                    run(*number, &IN_BREADTH, DEPTH)?;
+                    Verdict::Fails(model.explain(&run(*number, &IN_BREADTH, "-r")?))
                 }
             };
             Ok((promise.clone(), verdict))
@@ -102,16 +114,21 @@ pub(crate) fn check(
 pub(crate) fn is_refuted(model: &Model, number: usize) -> Result<bool, SpinError> {
     let folder = tempfile::tempdir().map_err(SpinError::Write)?;
     let folder = folder.path();
-    prepare(model, folder, Compiler::Fast)?;
-    Ok(matches!(result(&run(model, folder, number, &IN_DEPTH, DEPTH)?), Found::Failure))
+    let key = prepare(model, folder, Compiler::Fast)?;
+    Ok(matches!(result(&run(model, folder, number ^ key, &IN_DEPTH, DEPTH)?), Found::Failure))
 }
 
-/// Writes and compiles a model's search in depth.
-fn prepare(model: &Model, folder: &Path, compiler: Compiler) -> Result<(), SpinError> {
-    std::fs::write(folder.join("model.pml"), model.promela()).map_err(SpinError::Write)?;
+/// Writes and compiles a model's search in depth. Returns the key by which numbers of properties are hidden: it differs
+/// each time, and only who reads the model knows which is searched.
+fn prepare(model: &Model, folder: &Path, compiler: Compiler) -> Result<usize, SpinError> {
+    const KEYS: u64 = 0x4000;
+    let key = RandomState::new().hash_one(folder) % KEYS;
+    let text = model.promela().replacen("atoi(", &format!("{key} ^ atoi("), 1);
+    std::fs::write(folder.join("model.pml"), text).map_err(SpinError::Write)?;
     let mut spin = Command::new(SPIN);
     succeed(SPIN, spin.args(["-a", "model.pml"]).current_dir(folder))?;
-    compile(folder, &IN_DEPTH, compiler)
+    compile(folder, &IN_DEPTH, compiler)?;
+    Ok(usize::try_from(key).unwrap_or_default())
 }
 
 fn compile(folder: &Path, search: &Search, compiler: Compiler) -> Result<(), SpinError> {
@@ -157,6 +174,10 @@ fn run(
     let mut program = Command::new(folder.join(search.program));
     program.arg(option).env(model.selector(), number.to_string()).current_dir(own);
     let output = output("pan", &mut program)?;
+    if output.status.code().is_none() {
+        // A signal ended it: what it printed before is no result.
+        return Err(SpinError::Refused { program: "pan", output: output.status.to_string() });
+    }
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 

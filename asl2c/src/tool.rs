@@ -1,8 +1,10 @@
 //! Other programs: compilers, checkers and profilers.
 
-use std::io;
+use std::fs::File;
+use std::io::{self, Read as _, Seek as _};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 /// Why a program has no result.
 #[derive(Debug, thiserror::Error)]
@@ -24,6 +26,14 @@ pub enum ToolError {
         /// Its complaint.
         said: String,
     },
+    /// It did not end.
+    #[error("{program} did not end in {seconds} s, and was ended")]
+    Endless {
+        /// The program.
+        program: String,
+        /// Its time limit.
+        seconds: u64,
+    },
     /// A file, or a program that cannot be run.
     #[error("{what}: {source}")]
     Io {
@@ -37,7 +47,11 @@ pub enum ToolError {
 /// Maximum lines of a complaint.
 const MOST_LINES: usize = 5;
 
+/// How long a program may run. Steps of an agent end, but their length doubles with each level of goals.
+const MOST_SECONDS: u64 = 120;
+
 /// Runs a program in a folder. Returns its output.
+#[allow(clippy::disallowed_methods, reason = "other programs get a limited time")]
 pub(crate) fn output(
     folder: &Path,
     program: &str,
@@ -46,13 +60,45 @@ pub(crate) fn output(
     let path = folder.join(program);
     let mut command =
         if program.contains('/') { Command::new(path) } else { Command::new(program) };
-    command.args(arguments).current_dir(folder).output().map_err(|source| {
+    let failed = |source: io::Error| {
         if source.kind() == io::ErrorKind::NotFound {
             ToolError::Missing { program: program.to_owned(), package: package(program) }
         } else {
             ToolError::Io { what: format!("cannot run {program}"), source }
         }
+    };
+    // Files, because the output may exceed the capacity of a pipe while the process is waited for.
+    let (mut said, mut errors) =
+        (tempfile::tempfile().map_err(failed)?, tempfile::tempfile().map_err(failed)?);
+    command.stdin(Stdio::null()).stdout(said.try_clone().map_err(failed)?);
+    command.stderr(errors.try_clone().map_err(failed)?);
+    let mut child = command.args(arguments).current_dir(folder).spawn().map_err(failed)?;
+    let begun = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().map_err(failed)? {
+            break status;
+        }
+        if begun.elapsed() >= Duration::from_secs(MOST_SECONDS) {
+            // It may have ended already.
+            _ = child.kill();
+            child.wait().map_err(failed)?;
+            return Err(ToolError::Endless { program: program.to_owned(), seconds: MOST_SECONDS });
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    };
+    Ok(Output {
+        status,
+        stdout: whole(&mut said).map_err(failed)?,
+        stderr: whole(&mut errors).map_err(failed)?,
     })
+}
+
+/// All bytes of a file.
+pub(crate) fn whole(file: &mut File) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.rewind()?;
+    file.read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Runs a program that must succeed. Returns its standard output.

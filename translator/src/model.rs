@@ -66,6 +66,11 @@ impl Model {
         &self.program.configuration.settings.input
     }
 
+    /// The number by which a property is selected that is false in each agent: some step ends.
+    pub fn falsehood(&self) -> usize {
+        self.properties.len() + 1
+    }
+
     /// The model in Promela.
     pub fn promela(&self) -> String {
         emit(&self.program)

@@ -192,8 +192,11 @@ impl Evidence {
         self.plans.iter().filter(|plan| plan.tests.is_empty()).collect()
     }
 
-    /// Result of the proofs of the properties.
+    /// Result of the proofs of the properties. An agent of which nothing is required is not shown to be right.
     pub fn properties_status(&self) -> Status {
+        if self.properties.is_empty() {
+            return Status::Undecided;
+        }
         worst(self.properties.iter().map(|property| property.verdict.status()))
     }
 

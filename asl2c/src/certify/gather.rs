@@ -19,12 +19,14 @@ use super::trust::{assumptions, tools};
 use crate::agent::Agent;
 use crate::coverage::{Coverage, CoverageError, OwnTest, cover};
 use crate::measure::measure;
+use crate::output::known_again;
 use crate::prove::{
     Cbmc, DeadBranches, Found, Limits as SearchLimits, Plan, ProveError, Searched, Validated,
     dead_branches, prove, search, validate,
 };
 use crate::run::Session;
 use crate::tool::ToolError;
+use crate::written::WriteError;
 
 /// Why there is no evidence.
 #[derive(Debug, thiserror::Error)]
@@ -47,6 +49,9 @@ pub enum CertifyError {
         /// The system's error.
         source: std::io::Error,
     },
+    /// A file of the evidence is somebody else's, or cannot be written.
+    #[error("{0}")]
+    Write(String),
     /// The folder holds something else.
     #[error(
         "{folder} is not empty and holds no evidence, so it is not changed; `-o DIR` names another folder"
@@ -58,6 +63,12 @@ pub enum CertifyError {
     /// A test of one's own cannot be executed, or the agent does something else.
     #[error("nothing is certified: {0}")]
     Test(String),
+}
+
+impl From<WriteError> for CertifyError {
+    fn from(error: WriteError) -> Self {
+        Self::Write(error.to_string())
+    }
 }
 
 impl From<CoverageError> for CertifyError {
@@ -169,7 +180,8 @@ pub fn certify(
         assumptions: assumptions(),
     };
     files.extend(own_files(agent, &evidence)?);
-    let generated = translation.files.into_iter();
+    // Whoever translates the agent again gets the same files.
+    let generated = known_again(translation.files).into_iter();
     files.extend(generated.map(|GeneratedFile { name: file, text, .. }| (name(C, &file), text)));
     let transcripts = evidence.tests.iter().zip(coverage.tests);
     files.extend(transcripts.map(|(test, made)| (test.file.clone(), made.transcript)));

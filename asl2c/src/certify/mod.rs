@@ -1,6 +1,5 @@
 //! The evidence for an agent: what was proved, checked, measured and tested, with everything needed to do it again.
 
-mod checksum;
 mod evidence;
 mod files;
 mod flow;

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::checksum::checksum;
 use super::evidence::{Evidence, PlanEvidence, PropertyEvidence, Status, Verdict};
 use super::gather::Certified;
 use super::reach::Reached;
+use crate::checksum::checksum;
 
 const STYLE: &str = include_str!("page.css");
 
@@ -52,7 +52,7 @@ pub(super) fn page(certified: &Certified) -> String {
                 p { "SHA-256 of the files; " code { "sha256sum -c SHA256SUMS" } " checks them." }
                 table {
                     @for (name, text) in files {
-                        tr { td { a href=(name) { (name) } } td { code { (checksum(text)) } } }
+                        tr { td { a href=(name) { (name) } } td { code { (checksum(text.as_bytes())) } } }
                     }
                 }
                 h2 #agent { (evidence.agent) }

@@ -52,9 +52,8 @@ pub struct Reach {
 }
 
 /// Functions of the interface that the proofs do not call, without the agent's prefix: nothing is said of them.
-const NOT_CALLED: [&str; 7] = [
+const NOT_CALLED: [&str; 6] = [
     "init",
-    "clear",
     "can_add_event",
     "unhandled_events",
     "refused_events",

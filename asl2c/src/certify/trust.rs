@@ -53,8 +53,8 @@ pub(super) fn assumptions() -> Vec<String> {
         "The properties say what is meant: they are read and agreed with by people.",
         "The environment calls the agent's functions one after the other, never one inside another, and its own \
          functions return. In the proofs it may do anything else: raise every event with any arguments, set beliefs \
-         to any values, and answer each query differently. The proofs of properties are of executions that begin with \
-         init() and have no call of clear(); the comparison is of all calls.",
+         to any values, and answer each query differently. All proofs have calls of clear() and of init() at any time; \
+         after them nothing is due.",
         "In the proofs of properties the agent's state is passed in; where the C has a static state they hold for the same \
          plans and the same cycle with the other access to the state. The comparison is of the C as it is.",
         "An int has 32 bits, integers are two's complement, and floats and doubles are those of IEEE 754, as on all \

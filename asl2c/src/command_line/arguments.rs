@@ -8,7 +8,8 @@ use translator::Code;
 /// Translate an AgentSpeak agent to C without heap, recursion or unbounded loops.
 ///
 /// Writes the files that the configuration's `settings` name: the C file, its header, the header of the basic
-/// actions and, with `rust = FILE`, the Rust bindings. If there is an error nothing is written.
+/// actions and, with `rust = FILE`, the Rust bindings. If there is an error nothing is written. A file
+/// is replaced only if it was generated and nobody has changed it since.
 #[derive(Debug, Parser)]
 #[command(
     name = "asl2c",
@@ -28,6 +29,10 @@ pub(super) struct Arguments {
     /// Folder of the generated files [default: the configuration's folder]
     #[arg(short, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
+    /// Replace files that were changed since they were generated, or that somebody else wrote. Files that are
+    /// translated or included are never replaced, and nothing is written through a link
+    #[arg(short, long)]
+    pub(super) force: bool,
     /// Print the agent's cost: memory, call depth, calls of each action in a step. If gcc and callgrind are
     /// installed, also the stack and the longest path of a step (gcc) and the costliest step under random
     /// events (callgrind)
@@ -271,7 +276,8 @@ pub(super) struct Certify {
     /// The agent's configuration
     #[arg(value_name = "AGENT.CONF")]
     pub(super) configuration: PathBuf,
-    /// Folder of the evidence: a new or empty one, or one with earlier evidence, which is replaced
+    /// Folder of the evidence: a new or empty one, or one with earlier evidence, which is replaced if nobody has
+    /// changed it
     #[arg(short, value_name = "DIR", required = true)]
     pub(super) output: PathBuf,
     /// Folder with tests of your own: transcripts of `asl2c run`, in files NAME.transcript

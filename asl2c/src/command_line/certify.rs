@@ -68,7 +68,12 @@ fn own_tests(folder: &Path) -> Result<Vec<OwnTest>, CertifyError> {
 
 fn as_text(evidence: &Evidence) -> String {
     let proved = evidence.properties.iter().filter(|p| p.verdict == Verdict::Proved).count();
-    let proved = format!("{proved} of {}", evidence.properties.len());
+    let proved = if evidence.properties.is_empty() {
+        "none is stated: the section `properties` of the configuration says what must hold"
+            .to_owned()
+    } else {
+        format!("{proved} of {}", evidence.properties.len())
+    };
     let outcomes = evidence.reach.outcomes;
     let tests = format!(
         "{} tests; of {} outcomes of conditions {} tested, {} unreachable, {} open",

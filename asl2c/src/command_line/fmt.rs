@@ -9,7 +9,7 @@ use translator::format;
 use super::arguments::{Fmt, is_json};
 use super::{CommandError, complain, print};
 use crate::agent::ReadError;
-use crate::output::rewrite;
+use crate::written::rewrite;
 
 /// Formats each file. The others are formatted if one fails.
 pub(super) fn run(asked: &Fmt) -> Result<ExitCode, CommandError> {
@@ -44,7 +44,7 @@ fn one(path: &Path, check: bool) -> Result<bool, CommandError> {
     if piped {
         print("the text", &formatted)?;
     } else if formatted != text {
-        rewrite(path, &formatted)?;
+        rewrite(path, &text, &formatted)?;
     }
     Ok(true)
 }

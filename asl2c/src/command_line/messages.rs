@@ -27,7 +27,9 @@ pub(super) fn error_lines(error: &CommandError) -> String {
             format!("{}\n{}", lines(found), line("error", "denied", &denied(found), None))
         }
         CommandError::Read(ReadError::File { path, .. }) => general("not-read", Some(path)),
-        CommandError::Output(OutputError::Write { path, .. }) => general("not-written", Some(path)),
+        CommandError::Output(OutputError::Write(error)) | CommandError::Write(error) => {
+            general("not-written", Some(error.path()))
+        }
         CommandError::Print { .. } => general("not-printed", None),
         CommandError::Typed(_) => general("not-read", None),
         CommandError::New(_) => general("not-made", None),

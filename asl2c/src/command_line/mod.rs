@@ -36,6 +36,7 @@ use crate::prove::ProveError;
 use crate::target::TargetError;
 use crate::tool::ToolError;
 use crate::verify::{VerifyError, verify};
+use crate::written::WriteError;
 
 /// Errors of the program.
 #[derive(Debug, thiserror::Error)]
@@ -58,6 +59,8 @@ enum CommandError {
     Target(#[from] TargetError),
     #[error(transparent)]
     Output(#[from] OutputError),
+    #[error(transparent)]
+    Write(#[from] WriteError),
     #[error(transparent)]
     New(#[from] NewError),
     /// Denied warnings, and the other enabled ones.
@@ -161,7 +164,8 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
     let mut translation = translate(&agent.configuration, &agent.text)?;
     let warnings = warnings(arguments, &translation.warnings)?;
     let folder = arguments.output.as_deref().unwrap_or(agent.folder());
-    output::write(&agent, &translation.files, folder)?;
+    let files = output::known_again(translation.files.clone());
+    output::write(&agent, &files, folder, arguments.force)?;
     if !warnings.is_empty() && !arguments.quiet {
         complain_of(&if json { lines(&warnings) } else { warnings.to_string() });
     }
@@ -210,7 +214,8 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
             | CommandError::Print { .. }
             | CommandError::Typed(_)
             | CommandError::New(_)
-            | CommandError::Output(OutputError::Write { .. })
+            | CommandError::Output(OutputError::Write(_))
+            | CommandError::Write(_)
             | CommandError::Verify(_)
             | CommandError::Prove(_)
             | CommandError::Certify(_)

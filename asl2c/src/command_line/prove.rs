@@ -13,6 +13,7 @@ use super::{CommandError, NOT_CHECKED, print, stop};
 use crate::agent::Agent;
 use crate::prove::{Cbmc, Found, Limits, Plan, Proof, ProveError, Searched, prove, search};
 use crate::run::Session;
+use crate::written::{check_script, write_script};
 
 /// A result, with its saved counterexample.
 struct Saved {
@@ -29,6 +30,11 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     let mut obligations = obligations(configuration, text)?;
     obligations.files.extend(agent.own_headers());
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
+    let output = asked.output.as_deref().unwrap_or(agent.folder());
+    for promise in &obligations.properties {
+        // Not after the proof, whose result would be lost.
+        check_script(output, &script_name(&asked.configuration, &promise.name))?;
+    }
     let folder = tempfile::tempdir()
         .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;
     let proof = prove(&obligations, &cbmc, folder.path(), &Plan::ALL)?;
@@ -38,7 +44,6 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
         let limits = Limits { transitions: asked.length, time: Duration::from_secs(asked.time) };
         found = search(&proof, configuration, &session, &cbmc, folder.path(), limits)?;
     }
-    let output = asked.output.as_deref().unwrap_or(agent.folder());
     let mut saved = Vec::new();
     for (index, searched) in found.into_iter().enumerate() {
         let path = save(&searched, index, &asked.configuration, output)?;
@@ -71,16 +76,13 @@ fn save(
     folder: &Path,
 ) -> Result<Option<PathBuf>, CommandError> {
     let Some(text) = searched.script() else { return Ok(None) };
-    let stem = configuration.file_stem().unwrap_or_default().to_string_lossy();
     let what = searched.property.clone().unwrap_or_else(|| format!("run_time_{}", index + 1));
-    let path = folder.join(format!("{stem}.{what}.script"));
-    std::fs::write(&path, text).map_err(|source| {
-        CommandError::Prove(ProveError::Io {
-            what: format!("cannot write {}", path.display()),
-            source,
-        })
-    })?;
-    Ok(Some(path))
+    Ok(Some(write_script(folder, &script_name(configuration, &what), &text)?))
+}
+
+fn script_name(configuration: &Path, what: &str) -> String {
+    let stem = configuration.file_stem().unwrap_or_default().to_string_lossy();
+    format!("{stem}.{what}.script")
 }
 
 fn as_text(

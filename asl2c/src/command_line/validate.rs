@@ -16,6 +16,7 @@ use super::{CommandError, NOT_CHECKED, print, stop};
 use crate::agent::Agent;
 use crate::prove::{Budget, Cbmc, Difference, ProveError, Validated, Watch as _, validate_watched};
 use crate::run::Session;
+use crate::written::{check_script, write_script};
 
 /// A difference, what the agent does on the way to it, and its script.
 struct Shown {
@@ -38,6 +39,9 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
         // From here on there is only C of a known language: it is compared and, in the search, executed.
         judge(&comparison, &text, &agent.headers())?.put_into(&mut comparison);
     }
+    let output = asked.output.as_deref().unwrap_or(agent.folder());
+    // Not after the proofs, whose result would be lost.
+    check_script(output, &script_name(&asked.configuration))?;
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?;
     let folder = tempfile::tempdir()
         .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;
@@ -64,7 +68,6 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
         (way, none) = search.way()?;
         if let Some(way) = way {
             let session = Session::new(configuration, text)?;
-            let output = asked.output.as_deref().unwrap_or(agent.folder());
             let (story, path) = show(&way.difference, &session, &asked.configuration, output)?;
             shown = Some(Shown { way, story, path });
         }
@@ -89,6 +92,11 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     })
 }
 
+fn script_name(configuration: &Path) -> String {
+    let stem = configuration.file_stem().unwrap_or_default().to_string_lossy();
+    format!("{stem}.differs.script")
+}
+
 /// Writes the way to a difference as a script. Returns what the agent does on it, and the script's path.
 fn show(
     difference: &Difference,
@@ -96,19 +104,12 @@ fn show(
     configuration: &Path,
     folder: &Path,
 ) -> Result<(Vec<Happening>, PathBuf), CommandError> {
-    let stem = configuration.file_stem().unwrap_or_default().to_string_lossy();
-    let path = folder.join(format!("{stem}.differs.script"));
     let mut text = format!("// The C differs: {}\n", difference.said);
     for line in &difference.lines {
         // Writing to a string cannot fail.
         _ = writeln!(text, "{line}");
     }
-    std::fs::write(&path, text).map_err(|source| {
-        CommandError::Prove(ProveError::Io {
-            what: format!("cannot write {}", path.display()),
-            source,
-        })
-    })?;
+    let path = write_script(folder, &script_name(configuration), &text)?;
     let mut session = session.clone();
     let story = difference.lines.iter().flat_map(|line| session.happenings(line)).collect();
     Ok((story, path))

@@ -46,7 +46,7 @@ pub(super) fn status(checked: &[Checked]) -> ExitCode {
 
 fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> String {
     let mut text = String::new();
-    let mut fails = false;
+    let (mut holds, mut fails) = (false, false);
     // Writing to a string cannot fail.
     for Checked { property: promise, verdict } in checked {
         let tags = match promise.requirements.as_slice() {
@@ -55,7 +55,10 @@ fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> St
         };
         let head = format!("{}{tags}", promise.name);
         match verdict {
-            Verdict::Holds => _ = writeln!(text, "{head}: holds in every environment"),
+            Verdict::Holds => {
+                holds = true;
+                _ = writeln!(text, "{head}: holds in every environment");
+            }
             Verdict::Undecided(reason) => {
                 _ = writeln!(text, "{head}: NOT DECIDED: {reason}");
             }
@@ -69,6 +72,9 @@ fn text<'a>(model: &Model, checked: impl IntoIterator<Item = &'a Checked>) -> St
                 }
             }
         }
+    }
+    if holds {
+        text += "(environments that call init() again, or clear(), are not in the model: `asl2c prove` has them)\n";
     }
     if fails {
         text += "(a counterexample is one of the model, which has no values: `asl2c prove` tells whether the agent does it)\n";

@@ -1,17 +1,18 @@
 //! Runs CBMC, the model checker for C.
 
 use std::collections::BTreeSet;
-use std::io::{Read as _, Seek as _};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use translator::HARNESS;
 
+use super::goals::{Goals, Place};
 use super::trace::{Trace, traces};
-use super::{Checks, ProveError, in_file};
+use super::{Checks, ProveError, in_file, write};
+use crate::tool::whole;
 
 /// The program.
 pub const CBMC: &str = "cbmc";
@@ -38,17 +39,31 @@ pub(crate) struct Failure {
 impl Failure {
     /// Its property.
     pub(crate) fn property(&self) -> Option<&str> {
-        self.said.strip_prefix("property ")
+        self.said.strip_prefix(PROPERTY)
     }
 }
 
-/// What of CBMC's output is read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Said {
-    /// Only standard output.
-    Output,
-    /// Also standard error.
-    All,
+/// What CBMC printed. Errors are kept apart: in the middle of a line they would hide a result.
+#[derive(Debug)]
+struct Said {
+    /// Its exit status; `None` if a signal ended it.
+    status: Option<i32>,
+    output: String,
+    errors: String,
+}
+
+/// Exit status if everything holds, or there was nothing to prove.
+const ALL_HOLDS: i32 = 0;
+/// Exit status if an assertion fails.
+const SOMETHING_FAILS: i32 = 10;
+
+/// What CBMC says of the assertions of a program, without the goals of known truth that stand beside them.
+#[derive(Debug)]
+struct Judged {
+    /// Each assertion, and whether it holds.
+    assertions: Vec<(Failure, bool)>,
+    /// Whether some execution is known to come to the end of the function.
+    reaches_end: bool,
 }
 
 impl Cbmc {
@@ -101,22 +116,37 @@ impl Cbmc {
     }
 
     /// Checks a function of the harness in a folder. Returns the failures other than candidates, and the
-    /// candidates that hold.
+    /// candidates that hold. Each of the `expected` assertions must be judged.
     pub(super) fn check(
         &self,
         folder: &Path,
         function: &str,
         (chosen, unwinding): (&[usize], usize),
         checks: Checks,
+        expected: &[String],
     ) -> Result<(Vec<Failure>, Vec<usize>), ProveError> {
-        let unwinding = unwinding.to_string();
-        let bound: &[&str] = if checks == Checks::All { &["--unwind", &unwinding] } else { &[] };
-        let text = self.run(folder, function, checks, bound)?;
-        is_proved(&text)?;
+        let mut arguments: Vec<String> = options(checks).map(str::to_owned).into();
+        if checks == Checks::All {
+            arguments.extend(["--unwind".to_owned(), unwinding.to_string()]);
+        }
+        let judged =
+            self.judged(folder, (HARNESS, function), &arguments, Place::Around, || false)?;
+        let Judged { assertions, reaches_end } = judged.ok_or(ProveError::Stopped)?;
+        if !reaches_end {
+            let function = function.to_owned();
+            return Err(ProveError::Vacuous { function });
+        }
+        let is_judged = |said: &str| assertions.iter().any(|(assertion, _)| assertion.said == said);
+        let candidates = chosen.iter().map(|index| format!("{CANDIDATE}{index}"));
+        if let Some(missing) =
+            expected.iter().cloned().chain(candidates).find(|said| !is_judged(said))
+        {
+            return Err(self.untrusted(format!("it does not judge `{missing}`")));
+        }
         let mut others = Vec::new();
         let mut failing = Vec::new();
-        for found in text.lines().filter_map(failure) {
-            let candidate = found.said.strip_prefix("candidate ");
+        for (found, _) in assertions.into_iter().filter(|(_, holds)| !holds) {
+            let candidate = found.said.strip_prefix(CANDIDATE);
             match candidate.and_then(|index| index.parse::<usize>().ok()) {
                 Some(index) => failing.push(index),
                 None => others.push(found),
@@ -133,54 +163,114 @@ impl Cbmc {
         function: &str,
         property: &str,
     ) -> Result<bool, ProveError> {
-        let run = |arguments: &[&str]| self.run(folder, function, Checks::Properties, arguments);
-        let listed = run(&["--show-properties"])?;
-        let name = assertion(&listed, property)
-            .ok_or_else(|| ProveError::NoResult { output: end(&listed) })?;
-        Ok(!is_proved(&run(&["--slice-formula", "--property", name])?)?)
+        let goals = Goals::new(Place::Before);
+        let place = (HARNESS, function);
+        let mut list = self.program(folder, place, &goals)?;
+        list.args(options(Checks::Properties)).arg("--show-properties");
+        let listed = self.said(&mut list, || false)?.ok_or(ProveError::Stopped)?;
+        let wanted =
+            |said: &str| said == format!("{PROPERTY}{property}") || goals.number(said).is_some();
+        let names = assertions(&listed.output, wanted);
+        let mut check = self.program(folder, place, &goals)?;
+        check.args(options(Checks::Properties)).arg("--slice-formula");
+        check.args(names.iter().flat_map(|name| ["--property", name]));
+        let said = self.said(&mut check, || false)?.ok_or(ProveError::Stopped)?;
+        let judged = self.judge(&goals, &said)?;
+        match judged.assertions.as_slice() {
+            [(_, holds)] => Ok(!holds),
+            _ => Err(said.no_result()),
+        }
     }
 
-    /// Its output and errors.
-    fn run(
+    /// What is said of all assertions of a function; `None` if it was given up.
+    fn judged(
         &self,
         folder: &Path,
-        function: &str,
-        checks: Checks,
-        arguments: &[&str],
-    ) -> Result<String, ProveError> {
-        let mut command = self.command(folder, function, checks);
-        let text = self.output(command.args(arguments), Said::All, || false)?;
-        text.ok_or(ProveError::Stopped)
+        place: (&str, &str),
+        arguments: &[String],
+        goals: Place,
+        give_up: impl Fn() -> bool,
+    ) -> Result<Option<Judged>, ProveError> {
+        let goals = Goals::new(goals);
+        let mut command = self.program(folder, place, &goals)?;
+        let said = self.said(command.args(arguments), give_up)?;
+        said.map(|said| self.judge(&goals, &said)).transpose()
     }
 
-    fn command(&self, folder: &Path, function: &str, checks: Checks) -> Command {
-        let mut command = self.program(folder, HARNESS, function);
-        command.args(options(checks));
-        command
+    /// Reads a result, and refuses that of a tool which contradicts itself or misjudges the goals.
+    fn judge(&self, goals: &Goals, said: &Said) -> Result<Judged, ProveError> {
+        let all_holds = said.output.contains("VERIFICATION SUCCESSFUL");
+        let something_fails = said.output.contains("VERIFICATION FAILED");
+        match (said.status, all_holds, something_fails) {
+            (Some(SOMETHING_FAILS), false, true) | (Some(ALL_HOLDS), true, false) => {}
+            (_, false, false) => return Err(said.no_result()),
+            (status, ..) => {
+                let status = status.map_or("a signal".to_owned(), |status| status.to_string());
+                let why = format!("its exit status, {status}, is not that of the result it prints");
+                return Err(self.untrusted(why));
+            }
+        }
+        let mut known = Vec::new();
+        let mut assertions = Vec::new();
+        let lines = said.output.lines().skip_while(|line| *line != RESULTS);
+        for (assertion, holds) in lines.filter_map(judgement) {
+            let Some(holds) = holds else { return Err(said.no_result()) };
+            match goals.number(&assertion.said) {
+                Some(number) => known.push((number, holds)),
+                None => assertions.push((assertion, holds)),
+            }
+        }
+        let holds = |number| known.iter().find(|(other, _)| *other == number).map(|known| known.1);
+        goals.judge(holds).map_err(|why| self.untrusted(why.to_owned()))?;
+        let failed = known.iter().filter(|(_, holds)| !holds).count()
+            + assertions.iter().filter(|(_, holds)| !holds).count();
+        let counted = format!("** {failed} of {} failed", known.len() + assertions.len());
+        // It lists and counts nothing if there is nothing to prove.
+        let is_counted = known.len() + assertions.len() == 0
+            || said.output.lines().any(|line| line.starts_with(&counted));
+        if !is_counted || all_holds != (failed == 0) {
+            return Err(self.untrusted("it counts other results than it lists".to_owned()));
+        }
+        Ok(Judged { assertions, reaches_end: goals.reaches_end(holds) })
+    }
+
+    fn untrusted(&self, why: String) -> ProveError {
+        ProveError::Untrusted { path: self.path.clone(), why }
+    }
+
+    /// CBMC for a function of a file, and goals beside it. They are written to the folder.
+    fn program(
+        &self,
+        folder: &Path,
+        (file, function): (&str, &str),
+        goals: &Goals,
+    ) -> Result<Command, ProveError> {
+        write(folder, &goals.file(), &goals.program(file, function))?;
+        Ok(self.command(folder, &goals.file(), goals.function()))
     }
 
     /// CBMC for a function of a file.
-    fn program(&self, folder: &Path, file: &str, function: &str) -> Command {
+    fn command(&self, folder: &Path, file: &str, function: &str) -> Command {
         let mut command = Command::new(&self.path);
         command.args([file, "--function", function]).current_dir(folder);
         command
     }
 
     /// Checks all assertions, run-time errors and bounds of loops of a function, with more arguments; `None`
-    /// if it was given up.
+    /// if it was given up. Without goals beside it, it may only be asked what another proof asks again.
     pub(crate) fn failures(
         &self,
         folder: &Path,
-        (file, function): (&str, &str),
+        place: (&str, &str),
         arguments: &[String],
+        goals: Place,
         give_up: impl Fn() -> bool,
     ) -> Result<Option<Vec<Failure>>, ProveError> {
-        let mut command = self.program(folder, file, function);
-        let Some(text) = self.output(command.args(arguments), Said::Output, give_up)? else {
-            return Ok(None);
+        let judged = self.judged(folder, place, arguments, goals, give_up)?;
+        let failing = |Judged { assertions, .. }: Judged| {
+            assertions.into_iter().filter(|(_, holds)| !holds).map(|(failure, _)| failure).collect()
         };
-        is_proved(&text)?;
-        Ok(Some(text.lines().filter_map(failure).collect()))
+        Ok(judged.map(failing))
     }
 
     /// The traces to all assertions of a function that fail; `None` if it was given up.
@@ -191,33 +281,41 @@ impl Cbmc {
         arguments: &[String],
         give_up: impl Fn() -> bool,
     ) -> Result<Option<Vec<Trace>>, ProveError> {
-        let mut command = self.program(folder, file, function);
+        // Without the goals of known truth: what is shown is executed, and their random numbers would lead to other
+        // traces each time.
+        let mut command = self.command(folder, file, function);
         command.args(["--trace", "--json-ui", "--object-bits", "20"]).args(arguments);
-        let Some(text) = self.output(&mut command, Said::Output, give_up)? else { return Ok(None) };
-        traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
+        let Some(said) = self.said(&mut command, give_up)? else { return Ok(None) };
+        let found = traces(&said.output).ok_or_else(|| said.no_result())?;
+        let expected = if found.is_empty() { ALL_HOLDS } else { SOMETHING_FAILS };
+        if said.status != Some(expected) {
+            let why = "its exit status is not that of the traces it prints";
+            return Err(self.untrusted(why.to_owned()));
+        }
+        Ok(Some(found))
     }
 
     /// What it prints; `None` if it was given up, or all proofs were ended.
-    fn output(
+    fn said(
         &self,
         command: &mut Command,
-        said: Said,
         give_up: impl Fn() -> bool,
-    ) -> Result<Option<String>, ProveError> {
+    ) -> Result<Option<Said>, ProveError> {
         let no_file = |source| ProveError::Io { what: "no temporary file".to_owned(), source };
-        // A file, because the output may exceed the capacity of a pipe while the process is waited for.
-        let mut printed = tempfile::tempfile().map_err(no_file)?;
-        let output = || printed.try_clone().map_err(no_file);
-        let errors = match said {
-            Said::All => output()?.into(),
-            Said::Output => Stdio::null(),
-        };
+        // Files, because the output may exceed the capacity of a pipe while the process is waited for.
+        let mut output = tempfile::tempfile().map_err(no_file)?;
+        let mut errors = tempfile::tempfile().map_err(no_file)?;
         let mut child = command
-            .stdout(output()?)
-            .stderr(errors)
+            .stdout(output.try_clone().map_err(no_file)?)
+            .stderr(errors.try_clone().map_err(no_file)?)
             .spawn()
             .map_err(in_file("cannot run", &self.path))?;
-        while child.try_wait().map_err(in_file("cannot wait for", &self.path))?.is_none() {
+        let status = loop {
+            if let Some(status) =
+                child.try_wait().map_err(in_file("cannot wait for", &self.path))?
+            {
+                break status;
+            }
             if give_up() || self.check_stop().is_err() {
                 // It may have ended already.
                 _ = child.kill();
@@ -225,11 +323,13 @@ impl Cbmc {
                 return Ok(None);
             }
             std::thread::sleep(Duration::from_millis(5));
-        }
-        let mut bytes = Vec::new();
-        let read = printed.rewind().and_then(|()| printed.read_to_end(&mut bytes));
-        read.map_err(in_file("cannot read the output of", &self.path))?;
-        Ok(Some(String::from_utf8_lossy(&bytes).into_owned()))
+        };
+        let text = |file| {
+            let bytes = whole(file).map_err(in_file("cannot read the output of", &self.path))?;
+            Ok(String::from_utf8_lossy(&bytes).into_owned())
+        };
+        let (output, errors) = (text(&mut output)?, text(&mut errors)?);
+        Ok(Some(Said { status: status.code(), output, errors }))
     }
 
     /// The branches of a file that a function of the harness cannot take.
@@ -239,11 +339,20 @@ impl Cbmc {
         function: &str,
         file: &str,
     ) -> Result<DeadBranches, ProveError> {
-        let text = self.run(folder, function, Checks::Properties, &["--cover", "branch"])?;
-        if !text.contains(" covered (") {
-            return Err(ProveError::NoResult { output: end(&text) });
+        let goals = Goals::new(Place::Before);
+        write(folder, &goals.file(), &goals.branches(HARNESS, function))?;
+        let mut command = self.command(folder, &goals.file(), goals.function());
+        command.args(options(Checks::Properties)).args(["--cover", "branch"]);
+        let said = self.said(&mut command, || false)?.ok_or(ProveError::Stopped)?;
+        if said.status != Some(ALL_HOLDS) || !said.output.contains(" covered (") {
+            return Err(said.no_result());
         }
-        Ok(dead_branches(&text, file))
+        let known = dead_branches(&said.output, &goals.file());
+        let never = |line: usize, value: bool| {
+            if value { &known.never_true } else { &known.never_false }.contains(&line)
+        };
+        goals.judge_branches(never).map_err(|why| self.untrusted(why.to_owned()))?;
+        Ok(dead_branches(&said.output, file))
     }
 
     /// Searches for counterexamples from the initial state, up to this number of transitions; `None` on a
@@ -258,31 +367,56 @@ impl Cbmc {
         let is_property = |failure: &&Failure| failure.property().is_some();
         let only_properties = wanted.iter().all(is_property);
         let checks = if only_properties { Checks::Properties } else { Checks::All };
-        let mut command = self.command(folder, "main", checks);
-        command
-            .args(["--trace", "--json-ui"])
-            // Each transition has its own objects.
-            .args(["--object-bits", "20"])
-            .args(["--unwindset", &format!("main.0:{transitions}"), "--no-unwinding-assertions"])
-            .args(wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]));
+        let mut arguments: Vec<String> = options(checks).map(str::to_owned).into();
+        arguments.extend(["--unwindset".to_owned(), format!("main.0:{transitions}")]);
+        arguments.push("--no-unwinding-assertions".to_owned());
+        let names = wanted.iter().flat_map(|failure| ["--property", failure.name.as_str()]);
+        arguments.extend(names.map(str::to_owned));
         let late = || until.is_some_and(|until| Instant::now() >= until);
-        let Some(text) = self.output(&mut command, Said::Output, late)? else {
-            return self.check_stop().map(|()| None);
-        };
-        traces(&text).map(Some).ok_or_else(|| ProveError::NoResult { output: end(&text) })
+        match self.traces(folder, (HARNESS, "main"), &arguments, late)? {
+            Some(traces) => Ok(Some(traces)),
+            None => self.check_stop().map(|()| None),
+        }
     }
 }
 
-/// The failure in a line of CBMC: `[induction.assertion.1] line 12 candidate 3: FAILURE`.
-fn failure(line: &str) -> Option<Failure> {
-    let line = line.strip_suffix(": FAILURE")?;
-    let (name, said) = line.split_once(']').unwrap_or((line, line));
-    let said = said.trim();
+impl Said {
+    /// The error of an output without a result.
+    fn no_result(&self) -> ProveError {
+        // gcc, as the preprocessor, or CBMC itself: one of them says where.
+        let said = || self.errors.lines().chain(self.output.lines());
+        if let Some(line) =
+            said().find(|line| line.contains("fatal error: ") || line.contains("PARSING ERROR"))
+        {
+            return ProveError::NotCompiled { said: line.trim().to_owned() };
+        }
+        let lines: Vec<&str> = self.output.lines().chain(self.errors.lines()).collect();
+        ProveError::NoResult { output: lines[lines.len().saturating_sub(20)..].join("\n") }
+    }
+}
+
+/// Before the results in CBMC's output.
+const RESULTS: &str = "** Results:";
+/// Begins the description of a property's assertion.
+const PROPERTY: &str = "property ";
+/// Begins the description of an assertion of a candidate for the invariant.
+const CANDIDATE: &str = "candidate ";
+
+/// An assertion in a line of CBMC, `[induction.assertion.1] line 12 candidate 3: FAILURE`, and whether it holds; `None`
+/// for what CBMC has not decided.
+fn judgement(line: &str) -> Option<(Failure, Option<bool>)> {
+    let (name, rest) = line.strip_prefix('[')?.split_once("] ")?;
+    let (said, result) = rest.rsplit_once(": ")?;
     let said = match said.strip_prefix("line ") {
         Some(rest) => rest.split_once(' ').map_or(rest, |(_, text)| text),
         None => said,
     };
-    Some(Failure { name: name.trim_start_matches('[').to_owned(), said: said.to_owned() })
+    let holds = match result {
+        "SUCCESS" => Some(true),
+        "FAILURE" => Some(false),
+        _ => None,
+    };
+    Some((Failure { name: name.to_owned(), said: said.to_owned() }, holds))
 }
 
 /// Branches of the C that no execution takes.
@@ -319,41 +453,25 @@ fn dead_branches(text: &str, file: &str) -> DeadBranches {
     dead
 }
 
-/// Whether CBMC's output says that all assertions hold.
-fn is_proved(text: &str) -> Result<bool, ProveError> {
-    if text.contains("VERIFICATION FAILED") {
-        Ok(false)
-    } else if text.contains("VERIFICATION SUCCESSFUL") {
-        Ok(true)
-    } else {
-        Err(ProveError::NoResult { output: end(text) })
-    }
-}
-
-/// CBMC's name of a property's assertion, from its list: the name, the place and the property, a line each.
-fn assertion<'a>(listed: &'a str, property: &str) -> Option<&'a str> {
+/// CBMC's names of assertions, from its list: the name, the place and the description, a line each.
+fn assertions(listed: &str, wanted: impl Fn(&str) -> bool) -> Vec<&str> {
     let mut name = None;
+    let mut found = Vec::new();
     for line in listed.lines() {
         if let Some(next) = line.strip_prefix("Property ") {
             name = next.strip_suffix(':');
-        } else if line.trim().strip_prefix("property ") == Some(property) {
-            return name;
+        } else if let Some(name) = name.filter(|_| wanted(line.trim())) {
+            found.push(name);
         }
     }
-    None
+    found
 }
 
-fn options(checks: Checks) -> &'static [&'static str] {
+fn options(checks: Checks) -> [&'static str; 1] {
     match checks {
-        Checks::Properties => &["--no-standard-checks"],
-        Checks::All => &["--conversion-check"],
+        Checks::Properties => ["--no-standard-checks"],
+        Checks::All => ["--conversion-check"],
     }
-}
-
-/// The last lines.
-fn end(said: &str) -> String {
-    let lines: Vec<&str> = said.lines().collect();
-    lines[lines.len().saturating_sub(20)..].join("\n")
 }
 
 #[cfg(test)]
@@ -376,8 +494,9 @@ mod tests {
     fn an_assertion_is_found_by_its_property() {
         let listed = "\nProperty step.assertion.1:\n  file harness.c line 5 function step\n  property one\n  a == 1u\n\n\
                       Property step.assertion.2:\n  file harness.c line 7 function step\n  property one_more\n  b == 1u\n";
-        assert_eq!(assertion(listed, "one"), Some("step.assertion.1"));
-        assert_eq!(assertion(listed, "one_more"), Some("step.assertion.2"));
-        assert_eq!(assertion(listed, "more"), None);
+        let named = |name: &str| assertions(listed, |said| said == format!("property {name}"));
+        assert_eq!(named("one"), ["step.assertion.1"]);
+        assert_eq!(named("one_more"), ["step.assertion.2"]);
+        assert_eq!(named("more"), [""; 0]);
     }
 }

@@ -7,6 +7,7 @@
 
 #[allow(clippy::disallowed_methods, reason = "other programs get a limited time")]
 mod cbmc;
+mod goals;
 #[allow(clippy::disallowed_methods, reason = "the search gets a limited time")]
 mod search;
 mod shrink;
@@ -53,6 +54,34 @@ pub enum ProveError {
     /// Stopped by [`Cbmc::stopped_by`].
     #[error("nothing is proved: stopped")]
     Stopped,
+    /// It misjudges goals whose truth is known, or contradicts itself.
+    #[error(
+        "nothing is proved: {path} cannot be trusted: {why}; reinstall CBMC, or select another one by `--cbmc PATH`"
+    )]
+    Untrusted {
+        /// The program.
+        path: PathBuf,
+        /// What it does wrong.
+        why: String,
+    },
+    /// The C of the proof is not complete.
+    #[error(
+        "nothing is proved: the C cannot be compiled: {said}; headers that the agent includes, and those that they \
+         include, are looked for beside its configuration"
+    )]
+    NotCompiled {
+        /// The first error.
+        said: String,
+    },
+    /// The assertions of a function hold because no execution comes to its end.
+    #[error(
+        "nothing is proved: no execution comes to the end of `{function}()`, so that whatever is said of it is empty; \
+         please report this as an error of asl2c"
+    )]
+    Vacuous {
+        /// The function of the harness.
+        function: String,
+    },
     /// CBMC printed no result.
     #[error("CBMC gave no result:\n{output}")]
     NoResult {
@@ -122,10 +151,15 @@ pub fn prove(
     write_files(obligations, folder)?;
     let candidates = obligations.candidates();
     let tried = tried(obligations, plan.known);
+    let properties = obligations.properties.iter();
+    let expected: Vec<String> =
+        properties.map(|promise| format!("property {}", promise.name)).collect();
     let check = |function: &str, chosen: &[usize], checks| {
         let invariant = obligations.invariant(chosen);
         write(folder, &invariant.name, &invariant.text)?;
-        cbmc.check(folder, function, (chosen, obligations.unwinding), checks)
+        // There is no step in the start.
+        let expected = if function == "base" { &[] } else { expected.as_slice() };
+        cbmc.check(folder, function, (chosen, obligations.unwinding), checks, expected)
     };
     let mut chosen = check("base", &tried, Checks::Properties)?.1;
     let mut open = loop {

@@ -10,6 +10,7 @@ use translator::configuration::Configuration;
 use translator::{COMPARISON, Comparison, ENOUGH_ROOM, ONLY_END, ONLY_ROOM, ROOM};
 
 use super::cbmc::{Cbmc, Failure};
+use super::goals::Place;
 use super::trace::Way;
 use super::watch::{Budget, End, Part, Watch};
 use super::{ProveError, in_file, write};
@@ -206,7 +207,9 @@ fn prove(
         // taken for one that is never entered.
         arguments.extend(["--nondet-static", "--no-self-loops-to-assumptions"].map(str::to_owned));
         arguments.extend(more.iter().copied().map(str::to_owned));
-        cbmc.failures(folder, (COMPARISON, function), &arguments, &give_up)
+        // What is asked of one assertion is asked again of all.
+        let goals = if more.is_empty() { Place::Before } else { Place::Nowhere };
+        cbmc.failures(folder, (COMPARISON, function), &arguments, goals, &give_up)
     };
     let only = |asked: &str, room: u32| {
         let define = format!("-D{asked}");

@@ -38,6 +38,13 @@ impl Monitors {
         Self { states: vec![State::default(); configuration.properties.len()] }
     }
 
+    /// The environment has dropped all events, and with them what is due.
+    pub(crate) fn clear(&mut self) {
+        for state in &mut self.states {
+            state.due = 0;
+        }
+    }
+
     /// The environment has raised an event that was accepted.
     pub(crate) fn raised(
         &mut self,

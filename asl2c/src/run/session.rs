@@ -56,7 +56,8 @@ impl Session {
     pub fn new(configuration: &ParsedConfiguration, text: &str) -> Result<Self, TranslateError> {
         let agent = Interpreter::new(configuration, text)?;
         let configuration = configuration.declarations().clone();
-        let mut world = World::default();
+        let trace = configuration.settings.trace.as_ref().map(|name| name.text.clone());
+        let mut world = World { trace, ..World::default() };
         for basic in &configuration.basics {
             if basic.result.kind != TypeKind::Void {
                 let first = zero(&basic.result, &configuration);
@@ -133,6 +134,9 @@ impl Session {
                 let belief = with_values(belief, values);
                 return vec![at(0, format!("the environment sets {belief}"))];
             }
+            Some(Statement::Clear) => {
+                return vec![at(0, "the environment drops all events: clear()".to_owned())];
+            }
             Some(Statement::Step(_)) => {}
             // Results of functions are shown where the functions are called.
             _ => return Vec::new(),
@@ -156,7 +160,10 @@ impl Session {
                 self.now.monitors = Monitors::new(&self.configuration);
                 self.now.steps = 0;
             }
-            Statement::Clear => self.now.agent.clear(),
+            Statement::Clear => {
+                self.now.agent.clear();
+                self.now.monitors.clear();
+            }
             Statement::Step(count) => self.make_steps(count, shown)?,
             Statement::Run(most) => self.run(most, shown)?,
             Statement::Mind => shown.extend(self.mind()),

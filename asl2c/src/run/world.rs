@@ -29,6 +29,8 @@ pub(super) struct World {
     pub(super) answers: BTreeMap<String, Answers>,
     /// The actions of the step, as shown in transcripts.
     pub(super) shown: Vec<String>,
+    /// The trace function, which generated C calls with each plan that is chosen.
+    pub(super) trace: Option<String>,
     /// Number of calls of each basic action or function in the step.
     pub(super) calls: BTreeMap<String, u32>,
     /// Events of the step, with their causes.
@@ -68,6 +70,12 @@ impl Environment for World {
             return None;
         }
         self.answers.get_mut(name).and_then(Answers::next)
+    }
+
+    fn chosen(&mut self) {
+        if let Some(trace) = &self.trace {
+            *self.calls.entry(trace.clone()).or_default() += 1;
+        }
     }
 
     fn story(&mut self) -> Option<&mut Vec<Happening>> {

@@ -129,6 +129,71 @@ fn other_peoples_folders_are_not_changed() {
     assert_eq!(files(folder.path()).len(), 1);
 }
 
+/// Other people's checksums are no evidence, and their files are not removed; nor is a changed evidence.
+#[test]
+fn only_unchanged_evidence_is_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("main.c"), "int main;\n").unwrap();
+    std::fs::write(folder.path().join("SHA256SUMS"), "00  main.c\n").unwrap();
+    let Some(output) = certify(&gallery("lift"), folder.path()) else { return };
+    assert_eq!(output.status.code(), Some(3));
+    assert_eq!(files(folder.path()).len(), 2);
+    let evidence = tempfile::tempdir().unwrap();
+    certify(&gallery("lift"), evidence.path()).unwrap();
+    let page = evidence.path().join("index.html");
+    let text = std::fs::read_to_string(&page).unwrap();
+    std::fs::write(&page, format!("{text}<!-- seen -->")).unwrap();
+    let before = files(evidence.path());
+    let output = certify(&gallery("lift"), evidence.path()).unwrap();
+    assert_eq!(output.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("is not as asl2c left it"));
+    assert_eq!(files(evidence.path()), before);
+    #[cfg(unix)]
+    {
+        let other = tempfile::tempdir().unwrap();
+        let victim = other.path().join("victim");
+        std::fs::write(&victim, &text).unwrap();
+        std::fs::remove_file(&page).unwrap();
+        std::os::unix::fs::symlink(&victim, &page).unwrap();
+        let output = certify(&gallery("lift"), evidence.path()).unwrap();
+        assert_eq!(output.status.code(), Some(3));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("is a link"));
+        assert_eq!(std::fs::read_to_string(victim).unwrap(), text);
+    }
+}
+
+/// Nothing is required, so nothing is shown; and headers bring those that they include.
+#[test]
+fn without_properties_nothing_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+        includes { #include <stdbool.h>\n#include <stdint.h>\n#include \"sub/own.h\"\n};\n\
+        basics { void on(void); }; types { light(void); }; triggerables { +!light; };\n";
+    std::fs::create_dir(folder.path().join("sub")).unwrap();
+    for (name, text) in [
+        ("a.conf", text),
+        ("a.asl", "+!light <- on.\n"),
+        ("sub/own.h", "# include \"other.h\"\n"),
+        ("sub/other.h", "#include \"../deep.h\"\n"),
+        ("deep.h", "#ifndef DEEP_H\n#define DEEP_H\n#endif\n"),
+    ] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let out = folder.path().join("out");
+    let Some(output) = certify(&folder.path().join("a.conf"), &out) else { return };
+    let said = String::from_utf8_lossy(&output.stdout);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("properties    NOT DECIDED (none is stated"), "{said}{errors}");
+    assert!(out.join("c/deep.h").exists() && out.join("c/sub/other.h").exists());
+    std::fs::remove_file(folder.path().join("deep.h")).unwrap();
+    let mut prove = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    prove.arg("prove").arg(folder.path().join("a.conf")).arg("--cbmc").arg(cbmc().unwrap());
+    let output = prove.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(said.contains("the C cannot be compiled") && said.contains("deep.h"), "{said}");
+}
+
 #[test]
 fn a_missing_tool_is_no_evidence() {
     let folder = tempfile::tempdir().unwrap();

@@ -4,6 +4,8 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 const AGENT: &str = "+!light <- on.\n";
+/// A file as this program leaves it; it has no lines before the last.
+const OLD: &str = "/* asl2c wrote this: sha256 e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855 */\n";
 
 fn configuration(settings: &str) -> String {
     format!(
@@ -125,21 +127,26 @@ fn links_between_folders_are_noticed() {
     assert_eq!(contents(&place.path().join("x")), []);
 
     for (settings, at) in [
-        ("input = a.asl; output = out/a.c; header = a.h; basics = b.h;", "a.conf:1:36"),
-        ("input = a.asl; output = a.c; header = file.h; basics = b.h;", "a.conf:1:50"),
+        ("input = a.asl; output = out/a.c; header = a.h; basics = b.h;", "out"),
+        ("input = a.asl; output = a.c; header = file.h; basics = b.h;", "file.h"),
     ] {
         let (place, other) = (folder(settings), tempfile::tempdir().unwrap());
         symlink(other.path(), place.path().join("out")).unwrap();
         std::fs::write(other.path().join("file.h"), "mine").unwrap();
         symlink(other.path().join("file.h"), place.path().join("file.h")).unwrap();
-        refused(place.path(), &[], &[at, "out of the output's folder"]);
+        let link = at;
+        refused(place.path(), &[], &[link, "is a link"]);
+        refused(place.path(), &["--force"], &[link, "is a link"]);
         assert_eq!(contents(other.path()), [("file.h".to_owned(), "mine".to_owned())]);
     }
-    // A folder that is a link is allowed if no two outputs collide.
-    let place = folder("input = a.asl; output = y/a.c; header = y/a.h; basics = b.h;");
+    // The folder that is asked for may be one.
+    let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h;");
     std::fs::create_dir(place.path().join("x")).unwrap();
     symlink("x", place.path().join("y")).unwrap();
-    assert!(asl2c(place.path(), &[]).status.success());
+    assert!(asl2c(place.path(), &["-o", "y"]).status.success());
+    // A link to nothing.
+    symlink("nothing", place.path().join("a.c")).unwrap();
+    refused(place.path(), &[], &["a.c is a link"]);
 }
 
 #[test]
@@ -147,7 +154,7 @@ fn all_is_written_or_nothing() {
     let files = "input = a.asl; output = a.c; header = a.h; basics = b.h; matrix = m;";
     let old = |folder: &Path| {
         for name in ["a.c", "a.h"] {
-            std::fs::write(folder.join(name), "old").unwrap();
+            std::fs::write(folder.join(name), OLD).unwrap();
         }
     };
     // One cannot be written: a folder has its name, or its folder is missing.
@@ -161,7 +168,7 @@ fn all_is_written_or_nothing() {
     // One must not be written.
     let place = folder(files);
     old(place.path());
-    std::fs::write(place.path().join("b.h"), "mine").unwrap();
+    std::fs::write(place.path().join("b.h"), OLD).unwrap();
     let mut permissions = std::fs::metadata(place.path().join("b.h")).unwrap().permissions();
     permissions.set_readonly(true);
     std::fs::set_permissions(place.path().join("b.h"), permissions).unwrap();
@@ -174,7 +181,7 @@ fn all_is_written_or_nothing() {
 fn a_full_disk_changes_nothing() {
     let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h;");
     for name in ["a.c", "a.h", "b.h"] {
-        std::fs::write(place.path().join(name), "old").unwrap();
+        std::fs::write(place.path().join(name), OLD).unwrap();
     }
     let before = contents(place.path());
     let command =
@@ -188,22 +195,83 @@ fn a_full_disk_changes_nothing() {
 }
 
 #[test]
-fn what_is_written_replaces_what_was() {
-    let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h;");
-    std::fs::write(place.path().join("a.c"), "old").unwrap();
-    std::fs::create_dir(place.path().join("real")).unwrap();
+fn only_what_was_generated_and_is_unchanged_is_replaced() {
+    let place = folder("input = a.asl; output = a.c; header = a.h; basics = b.h; matrix = m;");
+    let path = |name: &str| place.path().join(name);
+    let append = |name: &str| {
+        let text = std::fs::read_to_string(path(name)).unwrap();
+        std::fs::write(path(name), text + "\n").unwrap();
+    };
+    let translate = |options: &[&str]| {
+        let output = asl2c(place.path(), options);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    };
+    translate(&[]);
+    // A changed agent changes all files, the matrix too.
+    std::fs::write(path("a.asl"), "// one\n+!light <- on; on.\n").unwrap();
+    let before = contents(place.path());
+    translate(&[]);
+    assert_ne!(contents(place.path()), before);
+    for name in ["a.c", "a.h", "b.h", "m.csv", "m.json"] {
+        append(name);
+        refused(place.path(), &[], &[name, "somebody else wrote or changed it", "--force"]);
+        translate(&["--force"]);
+        translate(&[]);
+    }
+    std::fs::write(path("a.c"), "int mine;\n").unwrap();
+    refused(place.path(), &["-q"], &["a.c", "nothing is changed"]);
+    // What is in the way is told, and not waited for.
+    std::fs::remove_file(path("a.c")).unwrap();
     #[cfg(unix)]
-    std::os::unix::fs::symlink("real/a.h", place.path().join("a.h")).unwrap();
-    std::fs::write(place.path().join("real/a.h"), "old").unwrap();
-    let output = asl2c(place.path(), &[]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let names: Vec<String> = contents(place.path()).into_iter().map(|(name, _)| name).collect();
-    assert_eq!(names, ["a.asl", "a.c", "a.conf", "a.h", "b.h", "real"]);
-    let read = |name: &str| std::fs::read_to_string(place.path().join(name)).unwrap();
-    assert!(read("a.c").contains("next_step"));
-    // A link stays a link.
+    {
+        assert!(Command::new("mkfifo").arg(path("a.c")).status().unwrap().success());
+        let output = asl2c(place.path(), &["--force"]);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.contains("a.c") && text.contains("not a regular file"), "{text}");
+    }
+}
+
+/// A counterexample is not written over the agent, through a link, or over somebody's script.
+#[test]
+fn scripts_replace_only_scripts() {
+    let Some(cbmc) = crate::harness::cbmc() else {
+        crate::harness::skip("cbmc");
+        return;
+    };
+    let settings = "output = a.c; header = a.h; basics = b.h;";
+    let cbmc = cbmc.to_str().unwrap();
+    let prove = |folder: &Path| asl2c(folder, &["prove", "--cbmc", cbmc]);
+    let place = |input: &str| {
+        let place = tempfile::tempdir().unwrap();
+        let text = configuration(&format!("input = {input}; {settings}"));
+        let text = format!("{text}properties {{ p: never(on); }};\n");
+        std::fs::write(place.path().join("a.conf"), text).unwrap();
+        std::fs::write(place.path().join(input), AGENT).unwrap();
+        place
+    };
+    let own = place("a.p.script");
+    let output = prove(own.path());
+    assert_eq!(output.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("is not as asl2c left it"));
+    assert_eq!(std::fs::read_to_string(own.path().join("a.p.script")).unwrap(), AGENT);
+    let usual = place("a.asl");
+    for _ in 0..2 {
+        assert_eq!(prove(usual.path()).status.code(), Some(1));
+    }
+    assert!(asl2c(usual.path(), &["run", "--script", "a.p.script"]).status.code() == Some(1));
     #[cfg(unix)]
-    assert!(place.path().join("a.h").is_symlink() && read("real/a.h").contains("ASL2C_A_H"));
+    {
+        let script = usual.path().join("a.p.script");
+        std::fs::remove_file(&script).unwrap();
+        std::os::unix::fs::symlink("nothing", &script).unwrap();
+        assert_eq!(prove(usual.path()).status.code(), Some(3));
+        assert!(!usual.path().join("nothing").exists());
+    }
+    let validated = place("a.differs.script");
+    let output = asl2c(validated.path(), &["validate", "-q", "--cbmc", cbmc]);
+    assert_eq!(output.status.code(), Some(3));
+    assert_eq!(std::fs::read_to_string(validated.path().join("a.differs.script")).unwrap(), AGENT);
 }
 
 #[cfg(unix)]

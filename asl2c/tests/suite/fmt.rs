@@ -86,13 +86,15 @@ fn bytes_that_are_not_utf8_are_left_alone() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_stays_a_link() {
+fn nothing_is_formatted_through_a_link() {
     let folder = folder();
     let link = folder.path().join("link.asl");
     std::os::unix::fs::symlink("a.asl", &link).unwrap();
-    assert!(fmt(folder.path(), &["link.asl"], "").status.success());
+    let output = fmt(folder.path(), &["link.asl"], "");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("link.asl is a link"));
     assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
-    assert_eq!(text(folder.path(), "a.asl"), FORMATTED);
+    assert_eq!(text(folder.path(), "a.asl"), UGLY);
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn a_missing_tool_is_no_pass() {
 #[cfg(unix)]
 #[test]
 fn another_tool_is_none() {
-    use std::os::unix::fs::PermissionsExt as _;
+    use std::os::unix::fs::PermissionsExt;
     let folder = folder("");
     for (version, said, expected) in [
         ("5.12 (cbmc-5.12)", "VERIFICATION SUCCESSFUL", "is `5.12"),
@@ -64,6 +64,81 @@ fn another_tool_is_none() {
         let text = complaint(&asl2c(folder.path(), Path::new("./cbmc"), &[]));
         assert!(text.contains(expected), "{text}");
     }
+}
+
+/// Stand-ins for CBMC that prove everything: none of them is believed by any task.
+#[cfg(unix)]
+#[test]
+fn a_tool_that_proves_falsehoods_is_refused() {
+    use std::os::unix::fs::PermissionsExt;
+    // The second and third print all assertions that they find in the C, as CBMC does.
+    const LISTED: &str = "n=0; f=0; echo '** Results:'\n\
+        for s in $(grep -ho '__CPROVER_assert(.*);' *.c *.h | sed 's/.*\"\\(.*\\)\".*/\\1/; s/ /~/g'); do n=$((n+1))\n\
+        echo \"[x.assertion.$n] line 1 $(echo $s | tr '~' ' '): RESULT\"; done\n";
+    let all_hold = LISTED.replace("RESULT", "SUCCESS");
+    let all_fail = LISTED.replace("RESULT", "FAILURE");
+    for (fake, tasks) in [
+        ("echo 'VERIFICATION SUCCESSFUL'".to_owned(), &["prove", "validate", "certify"][..]),
+        ("echo 'VERIFICATION SUCCESSFUL'; exit 10".to_owned(), &["prove", "validate"]),
+        ("echo 'VERIFICATION FAILED'".to_owned(), &["prove", "validate"]),
+        ("echo 'VERIFICATION FAILED'; exit 10".to_owned(), &["prove", "validate"]),
+        (
+            format!(
+                "{all_hold}echo \"** 0 of $n failed (1 iterations)\"\necho 'VERIFICATION SUCCESSFUL'"
+            ),
+            &["prove", "validate", "certify"],
+        ),
+        (
+            format!(
+                "{all_fail}echo \"** $n of $n failed (1 iterations)\"\necho 'VERIFICATION FAILED'; exit 10"
+            ),
+            &["prove"],
+        ),
+    ] {
+        let folder = folder("properties { p: never(on); };");
+        let script = folder.path().join("cbmc");
+        let text =
+            format!("#!/bin/bash\nif [ \"$1\" = --version ]; then echo 6.6.0; exit; fi\n{fake}\n");
+        std::fs::write(&script, text).unwrap();
+        std::fs::set_permissions(&script, PermissionsExt::from_mode(0o755)).unwrap();
+        for task in tasks {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+            command.args([task, "a.conf", "-q", "-o", "out", "--cbmc", "./cbmc"]);
+            let output = command.current_dir(folder.path()).output().unwrap();
+            let text = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(3), "{task}: {fake}: {text}");
+            assert!(output.stdout.is_empty(), "{task}: {fake}: {text}");
+            assert!(
+                text.contains("cannot be trusted") || text.contains("nothing is certified"),
+                "{task}: {fake}: {text}"
+            );
+            assert!(!folder.path().join("out/index.html").exists());
+        }
+    }
+}
+
+/// The environment may call `init()` and `clear()` at any time.
+#[test]
+fn the_environment_may_clear() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    // After clear() the initial goal runs again, with the beliefs as they are.
+    let text = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };\n\
+        basics { void on(void); void off(void); };\n\
+        types { go(void); rest(void); first(void); }; triggerables { +!go; };\n\
+        properties { again: only_after(on, +!go); answered: within(2, +!go, off); };\n";
+    let agent = "first.\n!rest.\n+!rest : first <- -first.\n+!rest <- on.\n+!go <- off.\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.conf"), text).unwrap();
+    std::fs::write(folder.path().join("a.asl"), agent).unwrap();
+    let output = asl2c(folder.path(), &cbmc, &[]);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(said.contains("drops all events: clear()"), "{said}");
+    // What is dropped is not due any more, for `run` as for the proof.
+    assert!(said.contains("answered: holds"), "{said}");
 }
 
 #[test]

@@ -369,3 +369,47 @@ fn what_cannot_be_checked_is_said() {
         model(&parse_configuration("a.conf", &text).unwrap(), "!wait. +!wait : level(_) <- on.");
     assert!(error.unwrap_err().to_string().starts_with("error: `limit` is never believed"));
 }
+
+/// What is proved by a search that finds nothing, whatever it is asked.
+#[cfg(unix)]
+#[test]
+fn a_search_that_finds_nothing_is_refused() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let text = configuration("", "", "+!light <- on.\n", "at_most_one(on)");
+    std::fs::write(folder.path().join("a.conf"), text).unwrap();
+    std::fs::write(folder.path().join("a.asl"), "+!light <- on.\n").unwrap();
+    let programs = tempfile::tempdir().unwrap();
+    let pan = "#!/bin/sh\necho 'State-vector 1 byte, depth reached 1, errors: 0'\n";
+    std::fs::write(programs.path().join("prepared"), pan).unwrap();
+    let cc = format!(
+        "#!/bin/sh\ncp {0}/prepared pan; cp {0}/prepared pan_breadth; chmod +x pan pan_breadth\n",
+        programs.path().display()
+    );
+    for (name, text) in [("spin", "#!/bin/sh\n"), ("cc", cc.as_str())] {
+        let path = programs.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        std::fs::set_permissions(&path, PermissionsExt::from_mode(0o755)).unwrap();
+    }
+    let path = format!("{}:{}", programs.path().display(), std::env::var("PATH").unwrap());
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    command.args(["verify", "a.conf"]).current_dir(folder.path()).env("PATH", path);
+    let output = command.output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(output.stdout.is_empty() && said.contains("does not refute"), "{said}");
+}
+
+/// The trace function is called for each chosen plan, whoever counts.
+#[test]
+fn calls_of_the_trace_function_count_everywhere() {
+    let text = configuration("trace = tr;", "", "+!light <- on.\n", "never(tr)");
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.conf"), text).unwrap();
+    std::fs::write(folder.path().join("a.asl"), "+!light <- on.\n").unwrap();
+    std::fs::write(folder.path().join("script"), "achieve_light();\nnext_step();\n").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    command.args(["run", "a.conf", "--script", "script"]).current_dir(folder.path());
+    let said = command.output().unwrap();
+    assert!(String::from_utf8_lossy(&said.stdout).contains("breaks `p`"));
+}

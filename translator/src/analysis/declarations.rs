@@ -64,6 +64,17 @@ impl Declarations {
                         .help("properties could not distinguish them: rename the class"),
                 );
             }
+            for (index, action) in class.actions.iter().enumerate() {
+                if class.actions[..index].iter().any(|other| other.text == action.text) {
+                    let message =
+                        format!("`{}` is in the class `{}` twice", action.text, class.name.text);
+                    findings.push(
+                        Code::DeclaredTwice
+                            .at(message, action.span.clone())
+                            .help("a call counts once for a class: remove one of them"),
+                    );
+                }
+            }
             for action in class.actions.iter().filter(|action| !declarations.is_basic(&action.text))
             {
                 findings.push(declarations.undeclared(action, "basics"));

@@ -37,6 +37,9 @@ pub trait Environment {
     fn story(&mut self) -> Option<&mut Vec<Happening>> {
         None
     }
+    /// Called with each plan that is chosen, and with the rest of one that waits each time it is tried: generated C
+    /// calls the trace function then.
+    fn chosen(&mut self) {}
     /// Called with each decision, for the measurement of coverage.
     fn decided(&mut self, _: Decision) {}
 }

@@ -56,6 +56,7 @@ impl Interpreter {
         environment: &mut dyn Environment,
     ) -> Outcome {
         let is_due = Self::is_due(&self.configuration, &waiting.due, environment);
+        environment.chosen();
         if let Some(wait) = waiting.next.checked_sub(1).and_then(|wait| waiting.plan.body.get(wait))
         {
             environment.decided(Decision::Condition { place: wait.span(), holds: is_due });
@@ -94,6 +95,7 @@ impl Interpreter {
                 Self::log_skipped(index, environment);
                 continue;
             };
+            environment.chosen();
             return self.body(plan, 0, theta, arguments, environment);
         }
         self.log_no_plan(key, environment);

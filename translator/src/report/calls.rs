@@ -4,7 +4,7 @@ use crate::coverage::always_finds_a_plan;
 use crate::program::{BasicId, ContextCall, Effect, HandlerId, Plan, Program, Raise, Step};
 
 /// Minimum and maximum number of calls of each basic action, then of each class of actions.
-type Bounds = Vec<(u32, u32)>;
+type Bounds = Vec<(u64, u64)>;
 
 /// Bounds of one step.
 #[derive(Debug, Clone)]
@@ -76,7 +76,7 @@ impl Counted {
     fn call(&self, basic: BasicId, certain: bool, bounds: &mut Bounds) {
         for counter in &self.counters[basic.0] {
             let (fewest, most) = bounds[*counter];
-            bounds[*counter] = (fewest.saturating_add(u32::from(certain)), most.saturating_add(1));
+            bounds[*counter] = (fewest.saturating_add(u64::from(certain)), most.saturating_add(1));
         }
     }
 }

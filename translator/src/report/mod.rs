@@ -18,8 +18,8 @@ use crate::types::TypeKind;
 pub struct Report {
     figures: Vec<(&'static str, String)>,
     /// Name, minimum and maximum number of calls in a step that handles an event.
-    actions: Vec<(String, u32, u32)>,
-    classes: Vec<(String, u32, u32)>,
+    actions: Vec<(String, u64, u64)>,
+    classes: Vec<(String, u64, u64)>,
     frames: Frames,
     /// Maximum stack, if a compiler has reported the frame sizes.
     stack: Option<(String, u64)>,
@@ -97,6 +97,11 @@ impl Report {
     }
 }
 
+/// A number of calls. They double with each level of goals, and are not counted any further than that.
+fn bound(calls: u64) -> String {
+    if calls == u64::MAX { format!("{calls} or more") } else { calls.to_string() }
+}
+
 /// Share of a 30 ms tick that this number of instructions takes on a slow machine.
 fn share_percent(instructions: u64) -> f64 {
     const PER_TICK: f64 = 0.03 * 1e9;
@@ -165,6 +170,7 @@ impl fmt::Display for Report {
                 writeln!(formatter, "\n{title}")?;
             }
             for (name, fewest, most) in rows {
+                let (fewest, most) = (bound(*fewest), bound(*most));
                 writeln!(formatter, "  {name:<26}{fewest} to {most}")?;
             }
         }

@@ -467,6 +467,7 @@ fn classes_are_checked() {
     for (classes, expected) in [
         ("all: act, fly;", "`fly` is not declared"),
         ("all: act; all: act;", "a second class `all`"),
+        ("all: act, act;", "`act` is in the class `all` twice"),
         ("all act;", "expected `:`, found `act`"),
         ("all: b;", "`b` is not declared"),
     ] {

@@ -2,8 +2,8 @@
 //!
 //! An execution is a sequence of *transitions*: the environment raises an event, sets a belief or clears all
 //! events, or the agent takes a step. `induction()` starts in any state of agent and monitors that satisfies
-//! the invariant, and makes one transition; `base()` starts in the state after `init()`. Assertions that hold
-//! in both hold after any number of transitions.
+//! the invariant, and makes one transition; `base()` starts in the state after an `init()` in any state, so that it may be
+//! called again at any time. Assertions that hold in both hold after any number of transitions.
 
 mod invariant;
 
@@ -338,6 +338,8 @@ impl Builder<'_> {
             writer.close("}");
             case += 1;
         }
+        writer.line(format!("case {case}U:"));
+        self.clear(writer);
         writer.line("default:");
         writer.line(format!("    __CPROVER_output(\"{STEPS}\", 0U);"));
         writer.line("    step(self);");
@@ -345,6 +347,18 @@ impl Builder<'_> {
         writer.close("}");
         writer.close("}");
         writer.line("");
+    }
+
+    /// All events are dropped, and with them what is due.
+    fn clear(&self, writer: &mut Writer) {
+        writer.line(format!("    __CPROVER_output(\"{CALLS} clear\", 0U);"));
+        writer.line(format!("    {}(self);", self.names.interface("clear")));
+        for property in self.properties() {
+            if let Formula::Within { .. } = &property.formula {
+                writer.line(format!("    due_{} = 0U;", property.name.text));
+            }
+        }
+        writer.line("    break;");
     }
 
     fn raise(&self, writer: &mut Writer, external: &External) {
@@ -380,7 +394,8 @@ impl Builder<'_> {
         let (state, init) = (self.names.state_type(), self.names.interface("init"));
         writer.line("/* The invariant holds initially. */");
         writer.open("int base(void)");
-        writer.line(format!("static {state} agent;"));
+        writer.line("/* In any state: it may be called again. */");
+        writer.line(format!("{state} agent;"));
         writer.line(format!("{init}(&agent, 0);"));
         writer.line("check_invariant(&agent);");
         writer.line("return 0;");

@@ -138,7 +138,10 @@ impl Emission<'_> {
 
     /// A step has ended.
     pub(super) fn after_step(&mut self) {
-        let cases = (1..).zip(self.properties().iter().map(|p| self.judged(p))).collect();
+        // The last one is of no property: it fails in each agent, or its steps do not end.
+        let falsehood = std::iter::once(vec![when("true", "assert(false)")]);
+        let judged = self.properties().iter().map(|p| self.judged(p));
+        let cases = (1..).zip(judged.chain(falsehood)).collect();
         self.of_the_checked(cases);
         self.writer.line("main_calls = 0; cause_calls = 0; until_calls = 0; lost = false;");
     }
