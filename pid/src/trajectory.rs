@@ -56,18 +56,6 @@ impl Profile {
         Self { jerk_m_s3: j, jerk_s: (length_m / (2.0 * j)).cbrt(), ..nothing }
     }
 
-    /// The shortest motion that reaches the largest speed; `None` if there is none.
-    fn through(limits: &MotionLimits) -> Option<Self> {
-        let MotionLimits { speed_m_s: v, acceleration_m_s2: a, jerk_m_s3: j } = *limits;
-        if v <= f64::EPSILON || a <= 0.0 || j <= 0.0 {
-            return None;
-        }
-        let jerk_s = (a / j).min((v / j).sqrt());
-        let ramp_s = if v * j < a * a { 2.0 * jerk_s } else { jerk_s + v / a };
-        let acceleration_s = ramp_s - 2.0 * jerk_s;
-        Some(Self { jerk_m_s3: j, jerk_s, acceleration_s, cruise_s: 0.0, length_m: v * ramp_s })
-    }
-
     fn phases(&self) -> [(f64, f64); 7] {
         let (j, jerk_s) = (self.jerk_m_s3, self.jerk_s);
         let constant = (self.acceleration_s, 0.0);
@@ -136,7 +124,7 @@ pub(crate) struct Trajectory {
     legs: ArrayVec<Leg, MAX_LEGS>,
 }
 
-/// Maximum number of motions added up at a time; beyond it they are replaced by one that stops.
+/// Maximum number of motions added up at a time; beyond it the oldest are treated as ended.
 const MAX_LEGS: usize = 4;
 
 impl Trajectory {
@@ -152,11 +140,7 @@ impl Trajectory {
             return;
         }
         if self.legs.is_full() {
-            self.stop(limits);
-        }
-        let way = target_m - self.target_m;
-        if way.norm() <= f64::EPSILON {
-            return;
+            self.origin_m += self.legs.remove(0).displacement_m();
         }
         self.legs.push(Leg {
             direction: way.normalize(),
@@ -164,23 +148,6 @@ impl Trajectory {
             elapsed_s: 0.0,
         });
         self.target_m = target_m;
-    }
-
-    /// Replaces all motions by one that goes on with their sum and comes to rest: the second half of a motion that
-    /// is as fast in its middle.
-    fn stop(&mut self, limits: &MotionLimits) {
-        let Reference { position_m, velocity_m_s, .. } = self.at(0.0);
-        self.legs.clear();
-        (self.origin_m, self.target_m) = (position_m, position_m);
-        let speed_m_s = velocity_m_s.norm();
-        let limits = MotionLimits { speed_m_s, ..*limits };
-        let Some(profile) = Profile::through(&limits) else { return };
-        let direction = velocity_m_s / speed_m_s;
-        let half_m = direction * (profile.length_m / 2.0);
-        self.origin_m -= half_m;
-        self.target_m += half_m;
-        let elapsed_s = profile.duration_s() / 2.0;
-        self.legs.push(Leg { direction, profile, elapsed_s });
     }
 
     pub(crate) fn advance(&mut self, step_s: f64) {

@@ -257,6 +257,7 @@ impl Vehicle {
             // The agent has yet to hear of the last one. To hold once more would let no place through.
             Mode::SentTo { place: last, offered: false } => {
                 *last = place;
+                self.events.push_back(FlightEvent::ManualTargetSet);
                 return;
             }
             _ => {}
