@@ -47,8 +47,10 @@ pub enum ToolError {
 /// Maximum lines of a complaint.
 const MOST_LINES: usize = 5;
 
-/// How long a program may run. Steps of an agent end, but their length doubles with each level of goals.
-const MOST_SECONDS: u64 = 120;
+/// How long a program may run.
+const MOST_SECONDS: u64 = 600;
+/// How long a program may run an agent. Its steps end, but their length doubles with each level of goals.
+const MOST_SECONDS_OF_STEPS: u64 = 60;
 
 /// Runs a program in a folder. Returns its output.
 #[allow(clippy::disallowed_methods, reason = "other programs get a limited time")]
@@ -73,16 +75,18 @@ pub(crate) fn output(
     command.stdin(Stdio::null()).stdout(said.try_clone().map_err(failed)?);
     command.stderr(errors.try_clone().map_err(failed)?);
     let mut child = command.args(arguments).current_dir(folder).spawn().map_err(failed)?;
+    let runs_steps = program == "valgrind" || program.starts_with("./");
+    let seconds = if runs_steps { MOST_SECONDS_OF_STEPS } else { MOST_SECONDS };
     let begun = Instant::now();
     let status = loop {
         if let Some(status) = child.try_wait().map_err(failed)? {
             break status;
         }
-        if begun.elapsed() >= Duration::from_secs(MOST_SECONDS) {
+        if begun.elapsed() >= Duration::from_secs(seconds) {
             // It may have ended already.
             _ = child.kill();
             child.wait().map_err(failed)?;
-            return Err(ToolError::Endless { program: program.to_owned(), seconds: MOST_SECONDS });
+            return Err(ToolError::Endless { program: program.to_owned(), seconds });
         }
         std::thread::sleep(Duration::from_millis(2));
     };

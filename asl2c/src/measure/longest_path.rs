@@ -136,7 +136,9 @@ impl<'a> Longest<'a> {
                 Flow::Next | Flow::Branch(_) | Flow::Jump(_) | Flow::Return => 0,
             };
             let rest = followers.iter().filter_map(|next| lengths[*next]).max().unwrap_or(0);
-            lengths[index] = Some(1 + called + rest);
+            // It doubles with each level of goals.
+            let length = called.checked_add(rest).and_then(|length| length.checked_add(1));
+            lengths[index] = Some(length.ok_or("it has more instructions than fit into 64 bits")?);
         }
         Ok(lengths.first().copied().flatten().unwrap_or(0))
     }
@@ -174,6 +176,11 @@ mod tests {
 
     #[test]
     fn what_has_no_longest_path_is_refused() {
+        let double =
+            |below: u32| format!("f{}:\n\tcall\tf{below}\n\tcall\tf{below}\n\tret\n", below + 1);
+        let doubled: Vec<String> = (0..79).map(double).collect();
+        let doubled = format!("f0:\n\tnop\n\tret\n{}", doubled.concat());
+        assert!(longest(&doubled, "f50").is_ok() && longest(&doubled, "f79").is_err());
         let looped = "f:\n.L1:\n\tnop\n\tjne\t.L1\n\tret\n";
         assert_eq!(longest(looped, "f"), Err("`f` has a loop".to_owned()));
         let recursive = "f:\n\tcall\tf\n\tret\n";

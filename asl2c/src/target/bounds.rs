@@ -48,7 +48,10 @@ impl<'a> Bounds<'a> {
                 let rest = followers.iter().filter_map(|next| known.get(next));
                 let rest = rest.copied().max().unwrap_or(0);
                 let inside = called.and_then(|callee| known.get(&callee)).copied().unwrap_or(0);
-                known.insert(address, 1 + inside + rest);
+                // It doubles with each level of goals.
+                let length = inside.checked_add(rest).and_then(|length| length.checked_add(1));
+                let length = length.ok_or("it has more instructions than fit into 64 bits")?;
+                known.insert(address, length);
                 on_the_way.remove(&address);
                 open.pop();
                 continue;

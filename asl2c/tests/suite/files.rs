@@ -335,3 +335,30 @@ fn without_properties_nothing_is_verified() {
     assert_eq!(output.status.code(), Some(3));
     assert!(String::from_utf8_lossy(&output.stderr).contains("has no properties"));
 }
+
+/// Each level of goals doubles the calls of a step: what cannot be counted or measured is said, and waited for only so long.
+#[test]
+fn a_step_too_long_to_be_measured_is_told() {
+    use std::fmt::Write as _;
+    const LEVELS: usize = 70;
+    let place = tempfile::tempdir().unwrap();
+    let mut agent = format!("+!light <- !g1.\n+!g{} <- on.\n", LEVELS + 1);
+    let mut types = String::new();
+    for level in 1..=LEVELS {
+        writeln!(agent, "+!g{level} <- !g{0}; !g{0}.", level + 1).unwrap();
+        write!(types, "g{level}(void); ").unwrap();
+    }
+    let text = configuration("input = a.asl; output = a.c; header = a.h; basics = b.h;");
+    let types = format!("light(void); {types}g{}(void);", LEVELS + 1);
+    std::fs::write(place.path().join("a.conf"), text.replace("light(void);", &types)).unwrap();
+    std::fs::write(place.path().join("a.asl"), agent).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
+    command.args(["-q", "--report", "a.conf"]);
+    let output = command.current_dir(place.path()).output().unwrap();
+    let report = String::from_utf8_lossy(&output.stdout);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(report.contains("18446744073709551615 or more"), "{report}");
+    // Without valgrind nothing is measured anyway.
+    assert!(said.contains("did not end") || said.contains("cannot be run"), "{said}");
+}
