@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The packages of the workspace and the packages that each may depend on.
-const MAY_USE: [(&str, &[&str]); 13] = [
+const MAY_USE: [(&str, &[&str]); 14] = [
     ("diagnostic", &[]),
     ("translator", &["diagnostic"]),
-    ("asl2c", &["diagnostic", "translator"]),
+    ("judged-c", &["diagnostic", "translator"]),
+    ("asl2c", &["diagnostic", "judged-c", "translator"]),
     ("ardrone-link", &[]),
     ("kinematics", &[]),
     ("estimator", &["kinematics"]),
