@@ -55,7 +55,9 @@ impl Activity {
     /// begin the hold anew at the place to which the drone has moved meanwhile, and many of them would let it go on.
     pub(super) fn place_to_stay(&self, pose: &Pose) -> Pose {
         match (self.pursuit, self.place) {
-            (Some((Pursuit::Staying, _)) | None, Some(place)) => place,
+            (Some((Pursuit::Staying, _)), Some(place)) => place,
+            // A course leads across only: the height and the heading of a set-point may be far away.
+            (None, Some(place)) => Pose { x_m: place.x_m, y_m: place.y_m, ..*pose },
             // How high it is decides when it is down.
             (Some((Pursuit::Descending, _)), Some(place)) => Pose { z_m: pose.z_m, ..place },
             _ => *pose,

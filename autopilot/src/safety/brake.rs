@@ -73,3 +73,41 @@ impl Brake {
 fn left(outside_m: f64) -> f64 {
     (1.0 - 2.0 * (outside_m - BEYOND_M) / BAND_M).clamp(-1.0, 1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use kinematics::Pose;
+
+    use super::*;
+    use crate::safety::tests::FINE;
+
+    /// What is left of full sticks to the right and up, in a fence of 4 m, 3 m high.
+    fn left_of_full(x_m: f64, velocity_m_s: [f64; 3], yaw_deg: f64) -> Sticks {
+        let now = Situation { pose: Pose { x_m, yaw_deg, ..FINE.pose }, velocity_m_s, ..FINE };
+        let (roll, gaz) = (1.0, 1.0);
+        Brake::of(&now, 4.0, 3.0).leave(&Sticks { roll, gaz, ..Sticks::default() })
+    }
+
+    #[test]
+    fn a_drone_that_could_only_just_stop_brakes_and_any_other_flies_as_it_likes() {
+        // From 2 m/s it stops within 0.4 m and 4 m² / (2 · 2.2) = 1.31 m.
+        assert!((left_of_full(2.8, [2.0, 0.0, 0.0], 0.0).roll - 1.0).abs() < 1e-9);
+        assert!((left_of_full(3.2, [2.0, 0.0, 0.0], 0.0).roll + 1.0).abs() < 1e-9);
+        assert!((left_of_full(3.2, [-2.0, 0.0, 0.0], 0.0).roll - 1.0).abs() < 1e-9, "it goes in");
+        assert!((left_of_full(4.3, [0.0; 3], 0.0).roll - 1.0).abs() < 1e-9, "it stands");
+        // It looks outward: what it must not tilt by is its pitch.
+        let sideways = left_of_full(3.2, [2.0, 0.0, 0.0], 90.0);
+        assert!((sideways.roll - 1.0).abs() < 1e-9 && sideways.pitch > 0.9, "{sideways:?}");
+    }
+
+    #[test]
+    fn a_climb_ends_below_the_ceiling() {
+        let gaz = |z_m| {
+            let pose = Pose { z_m, ..FINE.pose };
+            let now = Situation { pose, velocity_m_s: [0.0, 0.0, 0.7], ..FINE };
+            Brake::of(&now, 4.0, 3.0).leave(&Sticks { gaz: 1.0, ..Sticks::default() }).gaz
+        };
+        assert!((gaz(2.5) - 1.0).abs() < 1e-9);
+        assert!((gaz(3.2) + 1.0).abs() < 1e-9);
+    }
+}

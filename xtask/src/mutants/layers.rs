@@ -132,6 +132,15 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "a target is approached for ever",
         &[edit(AGENT, "approachTime(60000).", "approachTime(2000000000).")],
     ),
+    // Two layers against streams of orders: a hold that is not begun anew needs no brake.
+    covered(
+        "nothing brakes at the fence",
+        &[edit(
+            SAFETY,
+            "let left = self.brake.leave(demand);",
+            "let left = Brake::default().leave(demand);",
+        )],
+    ),
     // Two layers against blindness: the agent lands first.
     covered(
         "guard never lands blind",

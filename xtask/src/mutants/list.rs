@@ -329,16 +329,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "each order to hold begins the hold anew",
         &[edit(
             ACTIVITY,
-            "| None, Some(place)) => place,",
-            "| None, Some(place)) if pose.z_m.is_nan() => place,",
-        )],
-    ),
-    mutant(
-        "nothing brakes at the fence",
-        &[edit(
-            SAFETY,
-            "let left = self.brake.leave(demand);",
-            "let left = Brake::default().leave(demand);",
+            "(Some((Pursuit::Staying, _)), Some(place)) => place,",
+            "(Some((Pursuit::Staying, _)), Some(place)) if pose.z_m.is_nan() => place,",
         )],
     ),
     // Whoever flies from elsewhere.

@@ -4,8 +4,11 @@ use super::*;
 
 const THERE: Pose = Pose { x_m: 0.5, y_m: 0.5, z_m: 1.0, yaw_deg: 10.0 };
 
+/// Where the course has got to: a height and a heading that are wanted are not reached yet.
+const REACHED: Pose = Pose { x_m: 0.2, y_m: 0.3, ..THERE };
+
 fn following(age_ms: i64) -> Percepts {
-    let setpoint = Some(SetpointPercept { pose: THERE, reached: THERE, age_ms });
+    let setpoint = Some(SetpointPercept { pose: THERE, reached: REACHED, age_ms });
     Percepts { setpoint, ..HOVERING }
 }
 
@@ -13,11 +16,16 @@ fn silent(silent_for_ms: i64, percepts: Percepts) -> Percepts {
     Percepts { station: StationPercepts { silent_for_ms, ..percepts.station }, ..percepts }
 }
 
+/// The hold after set-points of a drone that is at `pose`.
+fn held(pose: Pose) -> AgentCommand {
+    AgentCommand::GoTo(Pose { x_m: REACHED.x_m, y_m: REACHED.y_m, ..pose })
+}
+
 #[test]
 fn setpoints_are_followed_until_they_stop() {
     let mut bench = Bench::new(following(0));
     assert!(bench.agent.achieve_follow());
-    let (there, here) = (AgentCommand::GoTo(THERE), HOVERING.pose.map(AgentCommand::GoTo));
+    let (there, here) = (AgentCommand::GoTo(THERE), HOVERING.pose.map(held));
     for age_ms in [0, 500] {
         bench.percepts.setpoint = following(age_ms).setpoint;
         assert_eq!(bench.step(), (Some(there), None));
