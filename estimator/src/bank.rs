@@ -89,20 +89,6 @@ impl<const LAGS: usize, const GAINS: usize> Bank<LAGS, GAINS> {
         }
     }
 
-    /// How many standard deviations a gain lies below `least`, by the hypothesis that explains the responses best;
-    /// negative if above.
-    pub(crate) fn below(&self, gain: usize, least: f64) -> f64 {
-        let log = |hypothesis: &&Hypothesis<GAINS>| {
-            hypothesis.prior - hypothesis.unexplained(&hypothesis.gains()) / 2.0
-        };
-        let best = self.hypotheses.iter().max_by(|a, b| log(a).total_cmp(&log(b)));
-        best.and_then(|hypothesis| {
-            let spread = hypothesis.information.cholesky()?.inverse()[(gain, gain)].sqrt();
-            Some((least - hypothesis.gains()[gain]) / spread)
-        })
-        .unwrap_or(f64::NEG_INFINITY)
-    }
-
     /// The lag in seconds and the gains.
     pub(crate) fn estimate(&self) -> (f64, SVector<f64, GAINS>) {
         let judged = self.hypotheses.map(|hypothesis| {
@@ -198,17 +184,6 @@ mod tests {
         ] {
             assert!((learnt(causes) - (4.0 * keep + gained)).abs() < 1e-9, "{causes:?}");
         }
-    }
-
-    #[test]
-    fn a_gain_is_too_small_by_its_own_uncertainty() {
-        let mut bank = small([1.0], 0.5);
-        assert!((bank.below(0, 0.5) + 1.0).abs() < 1e-9, "one spread of the prior above");
-        for _ in 0..100 {
-            bank.learn(0.01, &[SVector::<f64, 1>::new(0.1)]);
-        }
-        assert!(bank.below(0, 0.25) > 5.0, "a gain of a tenth, seen often");
-        assert!(bank.below(0, 0.05) < -1.0);
     }
 
     #[test]

@@ -226,12 +226,6 @@ impl Identification {
         }
     }
 
-    /// Whether the velocity answers to the tilt with less acceleration than any airframe: it is the measurement that is
-    /// wrong, not the drone.
-    pub(crate) fn has_impossible_thrust(&self) -> bool {
-        self.thrust.iter().any(|learner| learner.bank.below(0, LEAST_THRUST) > IMPOSSIBLE)
-    }
-
     pub(crate) fn airframe(&self) -> &Airframe {
         &self.airframe
     }
@@ -369,11 +363,6 @@ const LEAST_CLIMB_M: f64 = 0.04;
 const LEAST_TILT_RAD: f64 = 0.035;
 const LEAST_TURN_DEG: f64 = 4.0;
 const LEAST_SPEED_CHANGE_M_S: f64 = 0.25;
-
-/// The weakest published airframe has 0.49 of gravity's component, of which the delays of a slow link can hide a third.
-/// Less than this, by this many standard deviations, has no AR.Drone.
-const LEAST_THRUST: f64 = 0.25;
-const IMPOSSIBLE: f64 = 5.0;
 
 /// Range of the gains, wider than those of all known airframes.
 const MIN_GAIN: f64 = 0.4;

@@ -247,7 +247,8 @@ impl Estimator {
             velocity_gate: VelocityGate::default(),
             altitude: AltitudeFilter::default(),
             altitude_at: None,
-            standing_m: [0.0; 2],
+            // Nothing has been measured yet.
+            standing_m: [f64::INFINITY; 2],
             identification: Identification::new(config.airframe, config.limits),
             plausibility: Plausibility::default(),
             response: Response::default(),
@@ -413,10 +414,7 @@ impl Estimator {
         self.low_since_s = is_low.then(|| self.low_since_s.unwrap_or(at_s));
         let scrapes = self.low_since_s.is_some_and(|since_s| at_s - since_s >= ON_FLOOR_S);
         let unresponsive = self.response.watch(&measured, &self.orders, &self.config.limits);
-        let weak = self.config.identify && by_sticks && self.identification.has_impossible_thrust();
-        unresponsive
-            .or(weak.then_some(Quantity::Velocity))
-            .or(scrapes.then_some(Quantity::Altitude))
+        unresponsive.or(scrapes.then_some(Quantity::Altitude))
     }
 
     /// Returns whether the velocity was accepted.

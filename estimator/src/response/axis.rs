@@ -16,11 +16,6 @@ const AXIS_WINDOWS_S: [f64; 2] = [3.0, 8.0];
 /// ...a working flow shows more than this fraction of it, also while the drone compensates gusts; the noise
 /// of a dead one is less.
 const AXIS_SHARE: f64 = 0.3;
-/// A velocity that varies against what the tilt asks for, by at least this (standard deviation) in this time, and with this
-/// correlation, has the wrong sign.
-const AGAINST_M_S: f64 = 0.16;
-const AGAINST_S: f64 = 3.0;
-const AGAINST_SHARE: f64 = -0.85;
 /// A drone that starts to tilt by this fraction of full tilt, and keeps it for a while, accelerates or
 /// brakes. If it seems to stand this still (standard deviation, and mean), its flow is dead. A drone that has
 /// been tilted for longer may hold its position in the wind.
@@ -103,9 +98,8 @@ impl Axis {
             }
             let Self { least_m_s, measured_m_s, .. } = *self;
             self.recent.push_back(Moment { at_s, tilt_rad, least_m_s, measured_m_s });
-            self.is_dead = self.misses_swings(at_s)
-                || self.runs_against_tilt(at_s)
-                || self.stands_while_leaning(at_s, full_tilt_rad);
+            self.is_dead =
+                self.misses_swings(at_s) || self.stands_while_leaning(at_s, full_tilt_rad);
         }
     }
 
@@ -123,24 +117,6 @@ impl Axis {
             let measured_m_s = deviation(recent.map(|moment| moment.measured_m_s));
             expected_m_s >= AXIS_DEVIATION_M_S && measured_m_s < AXIS_SHARE * expected_m_s
         })
-    }
-
-    /// The velocity changes as the tilt asks for, but in the other direction. A drone that holds in gusts is pushed against
-    /// its tilt too, but not as far as it is pulled back.
-    fn runs_against_tilt(&self, at_s: f64) -> bool {
-        let recent = self.within(at_s, AGAINST_S);
-        let expected = recent.clone().map(|moment| moment.least_m_s);
-        let measured = recent.clone().map(|moment| moment.measured_m_s);
-        let [expected_m_s, measured_m_s] =
-            [deviation(expected.clone()), deviation(measured.clone())];
-        if expected_m_s < AGAINST_M_S || measured_m_s < expected_m_s {
-            return false;
-        }
-        let (by_tilt, by_flow) = (mean(expected), mean(measured));
-        let shared = mean(
-            recent.map(|moment| (moment.least_m_s - by_tilt) * (moment.measured_m_s - by_flow)),
-        );
-        shared < AGAINST_SHARE * expected_m_s * measured_m_s
     }
 
     /// The drone has started to tilt, and does not move.

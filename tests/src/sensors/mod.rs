@@ -165,7 +165,7 @@ fn shows(quantity: Quantity, fault: SensorFault) -> bool {
 }
 
 /// A velocity that shows too little is that of a weaker airframe or of stronger drag, and is found late if at all. One with
-/// the wrong sign is found, but after some metres.
+/// the wrong sign looks like a storm.
 fn is_weaker_airframe(quantity: Quantity, fault: SensorFault) -> bool {
     let is_velocity = matches!(quantity, Quantity::VelocityRight | Quantity::VelocityForward);
     is_velocity && matches!(fault, SensorFault::Gain(gain) if gain < 1.0)
