@@ -32,8 +32,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "a disproved quantity is believed at once",
         &[edit(
             PLAUSIBILITY,
-            "arrival_s - last_s < DISPROVED_TIME_S",
-            "arrival_s - last_s < 0.001",
+            "(arrival_s - last_s < DISPROVED_TIME_S).then_some((quantity, since_s))",
+            "(arrival_s - last_s < 0.001).then_some((quantity, since_s))",
         )],
     ),
     mutant(
