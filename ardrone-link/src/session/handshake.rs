@@ -30,6 +30,8 @@ pub(super) struct Handshake {
     /// This handshake makes the session ready.
     first: bool,
     dump: Vec<u8>,
+    /// Shortest time from a key to its acknowledgement.
+    round_trip: Option<Duration>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,7 +56,14 @@ impl Handshake {
             read_back,
             first: true,
             dump: Vec::new(),
+            round_trip: None,
         }
+    }
+
+    /// Shortest time from a key to its acknowledgement. A key that had to be sent again counts from the first time,
+    /// because either may have been acknowledged.
+    pub(super) fn round_trip(&self) -> Option<Duration> {
+        self.round_trip
     }
 
     /// Handshake for one setting of a session that is already ready.
@@ -70,6 +79,7 @@ impl Handshake {
     /// keys.
     pub(super) fn handle_state(
         &mut self,
+        now: Duration,
         state: DroneState,
         settings: &[Config],
         events: &mut VecDeque<Event>,
@@ -87,6 +97,8 @@ impl Handshake {
             }
             // Only an acknowledgement after the key was sent can refer to this key.
             Step::Set(key) if acknowledged && self.last_sent.is_some() => {
+                let taken = self.since.map(|since| now.saturating_sub(since));
+                self.round_trip = self.round_trip.into_iter().chain(taken).min();
                 let name = settings[key].key().to_owned();
                 events.push_back(Event::Configured { key: name });
                 self.enter(Step::Clear(key + 1));

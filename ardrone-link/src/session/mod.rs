@@ -182,6 +182,12 @@ impl Session {
         self.last_navdata.map(|heard| now.saturating_sub(heard.at))
     }
 
+    /// Shortest time from a setting to its acknowledgement, since all settings were last applied: the time on the link
+    /// there and back, besides what the drone needed and up to one interval of navdata.
+    pub fn round_trip(&self) -> Option<Duration> {
+        self.settings.round_trip()
+    }
+
     /// Counters since the start.
     pub fn statistics(&self) -> Statistics {
         self.statistics
@@ -241,7 +247,7 @@ impl Session {
             // The drone has lost its client and waits to be configured again.
             self.configure_anew();
         }
-        let acknowledged = self.settings.handle_state(navdata.state, &mut self.events);
+        let acknowledged = self.settings.handle_state(now, navdata.state, &mut self.events);
         self.sequence.confirm(acknowledged);
         self.pending.received = Some(Ok(navdata));
     }

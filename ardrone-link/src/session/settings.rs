@@ -41,6 +41,11 @@ impl Settings {
         self.handshake.is_done()
     }
 
+    /// Shortest time from a setting to its acknowledgement, when all settings were last applied.
+    pub(super) fn round_trip(&self) -> Option<Duration> {
+        self.handshake.round_trip()
+    }
+
     /// Requests a change. Once complete, it is one of the settings that are applied again.
     pub(super) fn request(&mut self, config: Config) {
         self.changes.push_back(config);
@@ -56,10 +61,15 @@ impl Settings {
     }
 
     /// Checks the acknowledge bit of a new packet; returns whether the drone has acknowledged one of our keys.
-    pub(super) fn handle_state(&mut self, state: DroneState, events: &mut VecDeque<Event>) -> bool {
-        let acknowledged = self.handshake.handle_state(state, &self.all, events);
+    pub(super) fn handle_state(
+        &mut self,
+        now: Duration,
+        state: DroneState,
+        events: &mut VecDeque<Event>,
+    ) -> bool {
+        let acknowledged = self.handshake.handle_state(now, state, &self.all, events);
         let Some(change) = &mut self.change else { return acknowledged };
-        let changed = change.handle_state(state, self.changes.make_contiguous(), events);
+        let changed = change.handle_state(now, state, self.changes.make_contiguous(), events);
         if change.is_done() {
             self.change = None;
             if let Some(config) = self.changes.pop_front() {
