@@ -43,6 +43,14 @@ pub(crate) struct Assumption<const GAINS: usize> {
     pub(crate) noise: f64,
 }
 
+impl<const GAINS: usize> Assumption<GAINS> {
+    /// Logarithm of the probability of a lag.
+    fn prior(&self, lag_s: f64) -> f64 {
+        let off = (lag_s / self.lag_s).ln() / self.lag_spread;
+        -off * off / 2.0
+    }
+}
+
 /// Hypotheses for several lags.
 #[derive(Debug, Clone)]
 pub(crate) struct Bank<const LAGS: usize, const GAINS: usize> {
@@ -56,22 +64,28 @@ const FORGETTING: f64 = 0.002;
 
 impl<const LAGS: usize, const GAINS: usize> Bank<LAGS, GAINS> {
     pub(crate) fn new(lags_s: [f64; LAGS], assumption: &Assumption<GAINS>) -> Self {
-        let Assumption { gains, spreads, lag_s, lag_spread, noise } = *assumption;
+        let Assumption { gains, spreads, noise, .. } = *assumption;
         let gains = SVector::from(gains);
         let information =
             SMatrix::from_diagonal(&SVector::from(spreads).map(|spread: f64| spread.powi(-2)));
         let hypotheses = lags_s.map(|candidate_s| {
             let moment = information * gains;
-            let off = (candidate_s / lag_s).ln() / lag_spread;
             Hypothesis {
                 lag_s: candidate_s,
-                prior: -off * off / 2.0,
+                prior: assumption.prior(candidate_s),
                 information,
                 moment,
                 square: gains.dot(&moment),
             }
         });
         Self { hypotheses, noise }
+    }
+
+    /// Sets the logarithms of the prior probabilities of the hypotheses, which the prior of the lag multiplies.
+    pub(crate) fn expect(&mut self, assumption: &Assumption<GAINS>, logs: &[f64; LAGS]) {
+        for (hypothesis, log) in self.hypotheses.iter_mut().zip(logs) {
+            hypothesis.prior = assumption.prior(hypothesis.lag_s) + log;
+        }
     }
 
     /// Learns from a response, and from the excitation that each lag's model derives from the sticks: the
@@ -91,19 +105,26 @@ impl<const LAGS: usize, const GAINS: usize> Bank<LAGS, GAINS> {
 
     /// The lag in seconds and the gains.
     pub(crate) fn estimate(&self) -> (f64, SVector<f64, GAINS>) {
+        let (lag_s, gains, _) = self.estimate_with(&[0.0; LAGS]);
+        (lag_s, gains)
+    }
+
+    /// The lag in seconds, the gains, and the mean of what else differs between the hypotheses.
+    pub(crate) fn estimate_with(&self, others: &[f64; LAGS]) -> (f64, SVector<f64, GAINS>, f64) {
         let judged = self.hypotheses.map(|hypothesis| {
             let gains = hypothesis.gains();
             (hypothesis, gains, hypothesis.prior - hypothesis.unexplained(&gains) / 2.0)
         });
         let best = judged.iter().map(|(.., log)| *log).fold(f64::NEG_INFINITY, f64::max);
-        let (mut sum, mut lag_s, mut gains) = (0.0, 0.0, SVector::zeros());
-        for (hypothesis, its_gains, log) in judged {
+        let (mut sum, mut lag_s, mut gains, mut mean) = (0.0, 0.0, SVector::zeros(), 0.0);
+        for ((hypothesis, its_gains, log), other) in judged.into_iter().zip(others) {
             let weight = (log - best).exp();
             sum += weight;
             lag_s += hypothesis.lag_s * weight;
             gains += its_gains * weight;
+            mean += other * weight;
         }
-        (lag_s / sum, gains / sum)
+        (lag_s / sum, gains / sum, mean / sum)
     }
 }
 

@@ -5,10 +5,13 @@
 //! height cancel: tilt and turn by the measured attitude, climb by the measured height, thrust and drag by
 //! the measured velocity.
 
+mod tilt;
+
 use std::collections::VecDeque;
 
 use nalgebra::{SVector, Vector2};
 
+use self::tilt::TiltLearner;
 use crate::bank::{Assumption, Bank};
 use crate::orders::{Order, Orders};
 use kinematics::GRAVITY_M_S2;
@@ -17,8 +20,6 @@ use kinematics::{Airframe, DroneLimits};
 
 /// Hypotheses of the climb's time constant.
 const CLIMB_LAGS_S: [f64; 7] = [0.15, 0.25, 0.38, 0.52, 0.72, 0.98, 1.3];
-/// Hypotheses of the tilt's time constant.
-const TILT_LAGS_S: [f64; 4] = [0.04, 0.09, 0.13, 0.19];
 /// Hypotheses of the turn's time constant.
 const TURN_LAGS_S: [f64; 5] = [0.03, 0.1, 0.2, 0.35, 0.55];
 /// Length of the window whose changes are compared.
@@ -86,7 +87,7 @@ impl<const LAGS: usize, const GAINS: usize> Followers<LAGS, GAINS> {
         Self { lags_s, value: zeros, way: zeros, at_s: None }
     }
 
-    /// Advances to a time.
+    /// Advances to the orders that were sent at a time.
     fn advance(
         &mut self,
         to_s: f64,
@@ -94,7 +95,7 @@ impl<const LAGS: usize, const GAINS: usize> Followers<LAGS, GAINS> {
         asked: impl Fn(Sticks) -> SVector<f64, GAINS>,
     ) {
         let from_s = self.at_s.replace(to_s).unwrap_or(to_s);
-        orders.steps(from_s, to_s, |_, step_s, order| {
+        orders.steps_sent(from_s, to_s, |_, step_s, order| {
             let asked = match order {
                 Order::Sticks(sticks) => asked(sticks),
                 Order::ByItself => SVector::zeros(),
@@ -121,13 +122,6 @@ struct ClimbLearner {
     bank: Bank<7, 2>,
     followers: Followers<7, 2>,
     window: Window<7, 2>,
-}
-
-/// Response of tilt to its stick; the same for both axes.
-#[derive(Debug, Clone)]
-struct TiltLearner {
-    bank: Bank<4, 1>,
-    axes: [(Followers<4, 1>, Window<4, 1>); 2],
 }
 
 /// Response of the heading to its stick.
@@ -173,13 +167,6 @@ impl Identification {
             lag_spread: 0.5,
             noise: 0.04,
         };
-        let tilt = Assumption {
-            gains: [airframe.tilt_gain],
-            spreads: [0.5],
-            lag_s: airframe.tilt_lag_s,
-            lag_spread: 0.6,
-            noise: 0.012,
-        };
         let turn = Assumption {
             gains: [airframe.turn_gain],
             spreads: [0.3],
@@ -210,10 +197,7 @@ impl Identification {
                 followers: Followers::new(CLIMB_LAGS_S),
                 window: Window::new(),
             },
-            tilt: TiltLearner {
-                bank: Bank::new(TILT_LAGS_S, &tilt),
-                axes: std::array::from_fn(|_| (Followers::new(TILT_LAGS_S), Window::new())),
-            },
+            tilt: TiltLearner::new(&airframe),
             turn: TurnLearner {
                 bank: Bank::new(TURN_LAGS_S, &turn),
                 followers: Followers::new(TURN_LAGS_S),
@@ -230,17 +214,23 @@ impl Identification {
         &self.airframe
     }
 
-    /// Adds a measured height. The caller leaves out floor steps and wrong echoes.
+    /// Adds a measured height. The caller leaves out floor steps and wrong echoes. With its stick at rest the drone goes
+    /// back by itself to where it was when the stick was released, which teaches nothing.
     pub(crate) fn height(&mut self, at_s: f64, height_m: f64, orders: &Orders) {
         if orders.at(at_s) == Order::ByItself {
-            self.forget_heights(at_s);
+            self.forget_heights(at_s, orders);
             return;
         }
         let most = self.limits.climb_m_s;
+        let sent_s = orders.sent_s(at_s, self.tilt.delay_s());
         let ClimbLearner { bank, followers, window } = &mut self.climb;
-        followers.advance(at_s, orders, |sticks| {
+        followers.advance(sent_s, orders, |sticks| {
             SVector::<f64, 2>::new(sticks.gaz.max(0.0), sticks.gaz.min(0.0)) * most
         });
+        if orders.is_level(at_s) {
+            window.answers.clear();
+            return;
+        }
         let answer = Answer { at_s, value: height_m, causes: followers.way };
         let change = window.change(answer).filter(|change| change.is_caused(LEAST_CLIMB_M));
         if let Some(change) = change {
@@ -253,49 +243,37 @@ impl Identification {
     }
 
     /// The height has jumped, or the drone moves autonomously: discards the window.
-    pub(crate) fn forget_heights(&mut self, at_s: f64) {
+    pub(crate) fn forget_heights(&mut self, at_s: f64, orders: &Orders) {
         self.climb.window.answers.clear();
-        self.climb.followers.rest(at_s);
+        self.climb.followers.rest(orders.sent_s(at_s, self.tilt.delay_s()));
+    }
+
+    /// The time on the link was measured before the flight.
+    pub(crate) fn expect_link_delay(&mut self, delay_s: f64) {
+        self.tilt.expect_delay(delay_s);
+    }
+
+    /// Time that an order and the packet that shows its effect spend on the link.
+    pub(crate) fn link_delay_s(&self) -> f64 {
+        self.tilt.delay_s()
     }
 
     /// Adds a measured tilt (right, forward).
     pub(crate) fn tilt(&mut self, at_s: f64, tilt_rad: Vector2<f64>, orders: &Orders) {
-        let TiltLearner { bank, axes } = &mut self.tilt;
-        let Order::Sticks(sticks) = orders.at(at_s) else {
-            for (followers, window) in axes {
-                window.answers.clear();
-                followers.rest(at_s);
-            }
-            return;
-        };
-        // Tilt saturates whatever its gain: responses at the limit are not used.
-        let largest = sticks.roll.abs().max(sticks.pitch.abs());
-        let saturated = largest * self.airframe.tilt_gain > 1.02;
-        let most = self.limits.tilt_rad;
-        for (axis, (followers, window)) in axes.iter_mut().enumerate() {
-            followers
-                .advance(at_s, orders, |sticks| SVector::<f64, 1>::new(sticks.tilt()[axis] * most));
-            let answer = Answer { at_s, value: tilt_rad[axis], causes: followers.value };
-            let change = window.change(answer).filter(|change| change.is_caused(LEAST_TILT_RAD));
-            if let Some(change) = change.filter(|_| !saturated) {
-                bank.learn(change.value, &change.causes);
-            }
-        }
-        let (lag_s, gains) = bank.estimate();
-        self.airframe.tilt_lag_s = lag_s;
-        self.airframe.tilt_gain = gains.x.clamp(MIN_GAIN, MAX_GAIN);
+        self.tilt.learn(at_s, tilt_rad, orders, &self.limits, &mut self.airframe);
     }
 
     /// Adds a measured heading, unwrapped.
     pub(crate) fn heading(&mut self, at_s: f64, yaw_deg: f64, orders: &Orders) {
         let TurnLearner { bank, followers, window } = &mut self.turn;
+        let sent_s = orders.sent_s(at_s, self.tilt.delay_s());
         if orders.at(at_s) == Order::ByItself {
             window.answers.clear();
-            followers.rest(at_s);
+            followers.rest(sent_s);
             return;
         }
         let most = self.limits.turn_deg_s;
-        followers.advance(at_s, orders, |sticks| SVector::<f64, 1>::new(sticks.yaw * most));
+        followers.advance(sent_s, orders, |sticks| SVector::<f64, 1>::new(sticks.yaw * most));
         let answer = Answer { at_s, value: yaw_deg, causes: followers.way };
         let change = window.change(answer).filter(|change| change.is_caused(LEAST_TURN_DEG));
         if let Some(change) = change {

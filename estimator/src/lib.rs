@@ -97,6 +97,8 @@ pub struct Sample {
     pub altitude_m: f64,
     /// Whether the drone is airborne; its velocity on the ground is meaningless.
     pub airborne: bool,
+    /// Whether it takes off or lands by itself, whatever its sticks ask for.
+    pub autonomous: bool,
     /// The quantity that the drone itself reports as lost, if any.
     pub reported_lost: Option<Quantity>,
 }
@@ -231,7 +233,7 @@ const ON_FLOOR_S: f64 = 0.4;
 const TAKE_OFF_S: f64 = 3.0;
 /// Time in which an order shows in the attitude, also through a link that delays it.
 const RECENT_S: f64 = 0.5;
-/// Furthest prediction beyond the newest sample.
+/// Furthest prediction beyond the newest sample, besides the delay of the link.
 const MAX_PREDICTION_S: f64 = 0.6;
 
 impl Estimator {
@@ -251,7 +253,7 @@ impl Estimator {
             standing_m: [f64::INFINITY; 2],
             identification: Identification::new(config.airframe, config.limits),
             plausibility: Plausibility::default(),
-            response: Response::default(),
+            response: Response::new(&config.limits),
             noise: NoiseOfAll::default(),
             uncertainty: Uncertainty::default(),
             low_since_s: None,
@@ -266,6 +268,18 @@ impl Estimator {
     /// An order was sent to the drone.
     pub fn order_sent(&mut self, sent_at: Duration, order: Order) {
         self.orders.push(sent_at, order);
+    }
+
+    /// The time on the link, to the drone and back, as measured before the flight. In flight it is identified by
+    /// the drone's response.
+    pub fn expect_link_delay(&mut self, delay: Duration) {
+        self.identification.expect_link_delay(delay.as_secs_f64());
+        self.orders.set_link_delay(self.identification.link_delay_s());
+    }
+
+    /// Time from an order to its effect in the samples.
+    pub fn order_delay(&self) -> Duration {
+        Duration::from_secs_f64(self.orders.delay_s().max(0.0))
     }
 
     /// Processes the next sample. Samples come in the order of the drone's packets; impossible values are not
@@ -283,6 +297,9 @@ impl Estimator {
         }
         let was_airborne = std::mem::replace(&mut self.airborne, sample.airborne);
         let attitude_s = made_s - self.config.attitude_delay.as_secs_f64();
+        if sample.autonomous {
+            self.orders.set_autonomous(made_s);
+        }
         let turned = self.update_attitude(attitude_s, sample);
         let believed = self.update_horizontal(made_s, sample, was_airborne);
         let floor_stepped = self.update_vertical(made_s, sample);
@@ -382,6 +399,7 @@ impl Estimator {
         if config.identify {
             let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
             identification.tilt(attitude_s, tilt_deg.map(f64::to_radians), orders);
+            orders.set_link_delay(identification.link_delay_s());
             let yaw_deg = heading.at(attitude_s, orders, &airframe, &config.limits);
             identification.heading(attitude_s, yaw_deg, orders);
         }
@@ -508,7 +526,7 @@ impl Estimator {
             }
             Echo::FloorStep => {
                 self.uncertainty.step_of_the_floor();
-                self.identification.forget_heights(at_s);
+                self.identification.forget_heights(at_s, &self.orders);
             }
             Echo::Good | Echo::First | Echo::Wrong => {}
         }
@@ -552,7 +570,8 @@ impl Estimator {
     /// far ahead as the dead time, because the orders until then are known.
     pub fn predicted(&self, at: Duration) -> Prediction {
         let at_s = at.as_secs_f64();
-        let until = |from_s: f64| at_s.clamp(from_s, from_s + MAX_PREDICTION_S);
+        let furthest_s = MAX_PREDICTION_S + self.identification.link_delay_s();
+        let until = |from_s: f64| at_s.clamp(from_s, from_s + furthest_s);
         let horizontal = match self.velocity_at_s {
             Some(from_s) if self.airborne => {
                 self.horizontal_at(self.horizontal, from_s, until(from_s))
@@ -695,7 +714,7 @@ impl Estimator {
         self.altitude_at = None;
         self.uncertainty.handle_restart();
         self.plausibility = Plausibility::default();
-        self.response = Response::default();
+        self.response = Response::new(&self.config.limits);
         self.noise = NoiseOfAll::default();
         if let Some(tags) = &mut self.tags {
             tags.handle_restart();

@@ -15,38 +15,90 @@ pub enum Order {
     Sticks(Sticks),
 }
 
-/// More than two seconds of ticks; nothing older is used.
-const MEMORY: usize = 80;
+/// More than two seconds of ticks, and the longest delay of a link besides; nothing older is used.
+const MEMORY: usize = 100;
 
-/// The newest orders, each with the time from which it takes effect, in seconds on the pilot's clock.
+/// The newest orders. All times are in seconds on the pilot's clock, as that of the samples: an order takes effect where
+/// the samples would show it.
 #[derive(Debug, Clone)]
 pub(crate) struct Orders {
     dead_time_s: f64,
+    /// Time on the link, to the drone and back.
+    link_delay_s: f64,
+    /// Until this time of the samples the drone took off or landed by itself, whatever it was sent.
+    autonomous_until_s: f64,
+    /// With the time at which each was sent.
     recent: VecDeque<(f64, Order)>,
 }
 
 impl Orders {
     pub(crate) fn new(dead_time: Duration) -> Self {
-        Self { dead_time_s: dead_time.as_secs_f64(), recent: VecDeque::with_capacity(MEMORY) }
+        Self {
+            dead_time_s: dead_time.as_secs_f64(),
+            link_delay_s: 0.0,
+            autonomous_until_s: f64::NEG_INFINITY,
+            recent: VecDeque::with_capacity(MEMORY),
+        }
     }
 
     pub(crate) fn push(&mut self, sent_at: Duration, order: Order) {
         if self.recent.len() == MEMORY {
             self.recent.pop_front();
         }
-        self.recent.push_back((sent_at.as_secs_f64() + self.dead_time_s, order));
+        self.recent.push_back((sent_at.as_secs_f64(), order));
+    }
+
+    pub(crate) fn set_link_delay(&mut self, delay_s: f64) {
+        self.link_delay_s = delay_s;
+    }
+
+    /// A sample shows that the drone takes off or lands by itself.
+    pub(crate) fn set_autonomous(&mut self, time_s: f64) {
+        self.autonomous_until_s = time_s;
+    }
+
+    /// Time from an order to its effect in the samples, by the present estimate of the link's delay.
+    pub(crate) fn delay_s(&self) -> f64 {
+        self.dead_time_s + self.link_delay_s
+    }
+
+    /// When the order in effect at a time was sent, if the link delays by this much.
+    pub(crate) fn sent_s(&self, time_s: f64, link_delay_s: f64) -> f64 {
+        time_s - self.dead_time_s - link_delay_s
     }
 
     /// The order in effect at a time.
     pub(crate) fn at(&self, time_s: f64) -> Order {
-        let newer = self.recent.partition_point(|(from_s, _)| *from_s <= time_s + 1e-9);
+        if time_s <= self.autonomous_until_s {
+            return Order::ByItself;
+        }
+        let sent_s = self.sent_s(time_s, self.link_delay_s);
+        let newer = self.recent.partition_point(|(at_s, _)| *at_s <= sent_s + 1e-9);
         newer.checked_sub(1).and_then(|i| self.recent.get(i)).map_or(Order::ByItself, |o| o.1)
+    }
+
+    /// Whether the stick of the climb is at rest at a time.
+    pub(crate) fn is_level(&self, time_s: f64) -> bool {
+        matches!(self.at(time_s), Order::Sticks(Sticks { gaz: 0.0, .. }))
+    }
+
+    /// Whether the drone moved by itself at any time of an interval, whatever the link's delay is up to this one.
+    pub(crate) fn may_move_by_itself(&self, time_s: f64, longest_delay_s: f64) -> bool {
+        let [from_s, to_s] = [longest_delay_s, 0.0].map(|delay_s| self.sent_s(time_s, delay_s));
+        let first = self.recent.partition_point(|(at_s, _)| *at_s <= from_s + 1e-9);
+        if time_s <= self.autonomous_until_s {
+            return true;
+        }
+        let Some(first) = first.checked_sub(1) else { return true };
+        let mut during = self.recent.range(first..).take_while(|(at_s, _)| *at_s <= to_s);
+        during.any(|(_, order)| *order == Order::ByItself)
     }
 
     /// How far the sticks moved in an interval, summed up, by the one that moved furthest; infinite if the drone moved by
     /// itself.
     pub(crate) fn variation(&self, from_s: f64, to_s: f64) -> f64 {
         let Order::Sticks(mut last) = self.at(from_s) else { return f64::INFINITY };
+        let [from_s, to_s] = [from_s, to_s].map(|time_s| self.sent_s(time_s, self.link_delay_s));
         let first = self.recent.partition_point(|(at_s, _)| *at_s <= from_s);
         let mut variation = [0.0; 4];
         for (_, order) in self.recent.range(first..).take_while(|(at_s, _)| *at_s <= to_s) {
@@ -65,13 +117,27 @@ impl Orders {
 
     /// Splits an interval into steps with one order each.
     pub(crate) fn steps(&self, from_s: f64, to_s: f64, mut step: impl FnMut(f64, f64, Order)) {
+        let delay_s = self.delay_s();
+        self.steps_sent(from_s - delay_s, to_s - delay_s, |sent_s, step_s, order| {
+            let at_s = sent_s + delay_s;
+            let autonomous = at_s < self.autonomous_until_s;
+            step(at_s, step_s, if autonomous { Order::ByItself } else { order });
+        });
+    }
+
+    /// As [`Self::steps`], for an interval in which the orders were sent.
+    pub(crate) fn steps_sent(&self, from_s: f64, to_s: f64, mut step: impl FnMut(f64, f64, Order)) {
         let mut now_s = from_s;
+        let mut newer = self.recent.partition_point(|(at_s, _)| *at_s <= now_s + 1e-9);
         while now_s < to_s - 1e-9 {
-            let newer = self.recent.partition_point(|(from_s, _)| *from_s <= now_s + 1e-9);
-            let change_s = self.recent.get(newer).map_or(f64::INFINITY, |(from_s, _)| *from_s);
+            let order = newer.checked_sub(1).and_then(|i| self.recent.get(i));
+            let change_s = self.recent.get(newer).map_or(f64::INFINITY, |(at_s, _)| *at_s);
             let end_s = (now_s + MAX_STEP_S).min(change_s).min(to_s);
-            step(now_s, end_s - now_s, self.at(now_s));
+            step(now_s, end_s - now_s, order.map_or(Order::ByItself, |(_, order)| *order));
             now_s = end_s;
+            while self.recent.get(newer).is_some_and(|(at_s, _)| *at_s <= now_s + 1e-9) {
+                newer += 1;
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use ardrone_link::navdata::{Demo, DroneState, Navdata};
+use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
 use estimator::{Estimator, Quantity, Sample};
 use kinematics::Pose;
 use nalgebra::Vector2;
@@ -102,6 +102,10 @@ pub(super) fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
         velocity_right_m_s: demo.velocity_right_m_s,
         altitude_m: demo.altitude_m,
         airborne: navdata.state.contains(DroneState::FLYING),
+        autonomous: matches!(
+            demo.control_state,
+            ControlState::TakingOff | ControlState::Landing | ControlState::Looping
+        ),
         reported_lost: reported_lost(navdata.state, demo),
     }
 }
@@ -119,8 +123,6 @@ fn reported_lost(state: DroneState, demo: &Demo) -> Option<Quantity> {
 
 #[cfg(test)]
 mod tests {
-    use ardrone_link::navdata::ControlState;
-
     use super::*;
 
     #[test]
@@ -148,6 +150,7 @@ mod tests {
             velocity_right_m_s: 5.0,
             altitude_m: 6.0,
             airborne: true,
+            autonomous: false,
             reported_lost: None,
         };
         assert_eq!(sample(arrival, &navdata, &demo), expected);

@@ -115,6 +115,7 @@ impl Vehicle {
                 self.events.push_back(FlightEvent::ConfigurationNotRead);
             }
             session::Event::Ready => {
+                self.expect_link_delay();
                 if matches!(self.phase, FlightPhase::Configuring { .. }) {
                     // In the air the drone is not level, so flat trim would set a wrong reference.
                     if self.on_ground() {

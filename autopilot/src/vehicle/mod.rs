@@ -273,10 +273,18 @@ impl Vehicle {
     /// Resets the state of the last flight.
     fn begin_flight(&mut self, now: Duration) {
         self.flight = Flight::new(&self.with_mission_tags(), now);
+        self.expect_link_delay();
         self.pending.waypoints = 0;
         self.pending.outcome = false;
         self.mission.rewind();
         self.mission_changed();
+    }
+
+    /// Tells the estimator how long the drone took to answer its settings.
+    fn expect_link_delay(&mut self) {
+        if let Some(delay) = self.session.round_trip() {
+            self.flight.estimator.expect_link_delay(delay);
+        }
     }
 
     /// Reserves room for all steps in the report, because a tick must not allocate.

@@ -16,7 +16,7 @@ fn found(
     measured: impl Fn(f64) -> Measured,
 ) -> Option<(f64, Quantity)> {
     let mut orders = Orders::new(Duration::ZERO);
-    let mut response = Response::default();
+    let mut response = Response::new(&DroneLimits::default());
     let limits = DroneLimits::default();
     (0..1000 * seconds / PERIOD_MS).find_map(|i| {
         let now = Duration::from_millis(PERIOD_MS * i);
@@ -30,7 +30,7 @@ fn found(
 fn finds_a_dead_velocity(measured: impl Fn(f64) -> Measured) -> bool {
     let mut orders = Orders::new(Duration::ZERO);
     orders.push(Duration::ZERO, Order::Sticks(Sticks::default()));
-    let mut response = Response::default();
+    let mut response = Response::new(&DroneLimits::default());
     (0..300).any(|i| {
         let measured = measured((PERIOD_MS * i) as f64 / 1000.0);
         let found = response.watch(&measured, &orders, &DroneLimits::default());
@@ -219,19 +219,12 @@ fn lagged(rate: f64, lag_s: f64, at_s: f64) -> f64 {
 
 #[test]
 fn what_the_sticks_ask_for_follows_with_the_lag_of_an_ordinary_airframe() {
-    let mut rate = Rate::new(CLIMB);
-    let now = 0.7 * (1.0 - (-1_f64).exp());
-    assert_near(rate.follow(0.7, 0.5, 0.5), now / 2.0 * 0.5);
-    let later = now + (0.7 - now) * (1.0 - (-1_f64).exp());
-    assert_near(rate.follow(0.7, 0.5, 0.5), f64::midpoint(now, later) * 0.5);
-    assert_near(rate.asked, now / 2.0 * 0.5 + f64::midpoint(now, later) * 0.5);
-
     let mut orders = Orders::new(Duration::ZERO);
     let sticks = Sticks { gaz: -1.0, yaw: 0.5, ..Sticks::default() };
     orders.push(Duration::ZERO, Order::Sticks(sticks));
     orders.push(Duration::from_secs(2), Order::ByItself);
     let (limits, airframe) = (DroneLimits::default(), Airframe::default());
-    let mut response = Response::default();
+    let mut response = Response::new(&DroneLimits::default());
     let mut watch = |twentieths: std::ops::RangeInclusive<u32>| {
         for at in twentieths {
             response.watch(&still(f64::from(at) / 20.0), &orders, &limits);
@@ -249,7 +242,7 @@ fn longer_gaps_are_not_judged() {
     let asked_m = |gap_s: f64| {
         let mut orders = Orders::new(Duration::ZERO);
         orders.push(Duration::ZERO, Order::Sticks(Sticks { gaz: 1.0, ..Sticks::default() }));
-        let mut response = Response::default();
+        let mut response = Response::new(&DroneLimits::default());
         for at_s in [0.0, gap_s] {
             response.watch(&still(at_s), &orders, &DroneLimits::default());
         }
@@ -264,7 +257,8 @@ fn what_was_missing_is_forgotten_once_the_drone_moves_by_itself() {
     let up = Order::Sticks(Sticks { gaz: 1.0, roll: 0.5, ..Sticks::default() });
     // For so many seconds the drone follows the sticks, and then for one it does not.
     let first_found = |sticks_s: f64, measured: &dyn Fn(f64) -> Measured| {
-        let (mut orders, mut response) = (Orders::new(Duration::ZERO), Response::default());
+        let (mut orders, mut response) =
+            (Orders::new(Duration::ZERO), Response::new(&DroneLimits::default()));
         (0..400_u64).find_map(|i| {
             let at_s = 0.06 * i as f64;
             let by_itself = at_s > sticks_s && at_s <= sticks_s + 1.0;
@@ -285,102 +279,4 @@ fn what_was_missing_is_forgotten_once_the_drone_moves_by_itself() {
         let after_s = interrupted_s - (at_once_s - 0.1 + 1.0);
         assert!(after_s > 0.7 * at_once_s, "{at_once_s}, {interrupted_s}");
     }
-}
-
-/// A rate with a given command, and what it is judged by.
-fn rate(now: f64) -> Rate {
-    Rate { now, last: Some(0.0), ..Rate::new(CLIMB) }
-}
-
-impl Rate {
-    /// Compares in units of a full rate of 0.7 m/s.
-    fn judge(mut self, moved: f64, asked: f64, step_s: f64) -> Self {
-        self.compare(moved, asked, step_s, 0.7, |metres| metres);
-        self
-    }
-}
-
-#[test]
-fn a_missing_response_is_what_the_weakest_airframe_would_have_shown() {
-    // 60 % of 0.05 m, less the drift of a healthy sensor, 0.03 m/s, in either direction.
-    assert_near(rate(0.0).judge(0.0, 0.05, 0.1).missing, 0.03 - 0.003);
-    assert_near(rate(0.0).judge(0.0, -0.05, 0.1).missing, 0.03 - 0.003);
-    assert_near(rate(0.0).judge(0.01, 0.05, 0.1).missing, 0.02 - 0.003);
-    assert_near(rate(0.0).judge(-0.01, -0.05, 0.1).missing, 0.02 - 0.003);
-    assert_near(rate(0.0).judge(0.04, 0.05, 0.1).missing, 0.0);
-    // It adds up, and what is old fades with ten seconds.
-    let lacking = Rate { missing: 0.2, ..rate(0.0) };
-    assert_near(lacking.judge(0.0, 0.05, 1.0).missing, 0.2 * (-0.1_f64).exp() + 0.03 - 0.03);
-}
-
-#[test]
-fn a_step_beyond_noise_and_motion_is_a_jump() {
-    // 0.1 m, plus 1 m/s for 0.05 s, around the 0.02 m that were asked for.
-    assert_near(rate(0.0).judge(-0.12, 0.02, 0.05).missing, 0.012 + 0.12 - 0.0015);
-    assert_near(rate(0.0).judge(-0.14, 0.02, 0.05).missing, 0.0);
-    assert_near(rate(0.0).judge(-CLIMB.jump, 0.0, 0.0).missing, CLIMB.jump);
-}
-
-#[test]
-fn a_drone_that_was_fast_the_other_way_may_still_be_braking() {
-    let ago = |now| Rate { fast_ago_s: [1.0; 2], ..rate(now) }.judge(0.0, 0.0, 0.05).fast_ago_s;
-    // A fifth of the full rate is fast.
-    assert_eq!(ago(-0.141), [0.0, 1.05]);
-    assert_eq!(ago(0.141), [1.05, 0.0]);
-    assert_eq!(ago(FAST_SHARE * 0.7), [1.05; 2]);
-    assert_eq!(ago(-FAST_SHARE * 0.7), [1.05; 2]);
-    // For two seconds it is not judged by what it is asked for in the other direction.
-    let lacking =
-        |fast_ago_s, asked| Rate { fast_ago_s, ..rate(0.0) }.judge(0.0, asked, 0.5).missing > 0.0;
-    for (ago_s, judged) in [(1.4, false), (1.5, true)] {
-        assert_eq!(lacking([ago_s, f64::INFINITY], 0.1), judged, "down, then up");
-        assert_eq!(lacking([f64::INFINITY, ago_s], -0.1), judged, "up, then down");
-    }
-    assert!(lacking([f64::INFINITY, 0.0], 0.1) && lacking([0.0, f64::INFINITY], -0.1));
-}
-
-#[test]
-fn a_slow_command_is_judged_after_two_seconds_by_all_of_it() {
-    let slow_for = |now| Rate { slow_for_s: 1.0, ..rate(now) }.judge(0.0, 0.0, 0.05).slow_for_s;
-    // 35 % of the full rate.
-    for (now, slow_for_s) in
-        [(0.244, 1.05), (-0.244, 1.05), (0.246, 0.0), (-0.246, 0.0), (SLOW_SHARE * 0.7, 0.0)]
-    {
-        assert_near(slow_for(now), slow_for_s);
-    }
-    let missing = |slow_for_s, moved, asked| {
-        let missing_slowly = [0.2, 0.1];
-        Rate { missing_slowly, slow_for_s, ..rate(0.1) }.judge(moved, asked, 0.5).missing_slowly
-    };
-    // What is old fades with ten seconds.
-    let old = [0.2, 0.1].map(|missing| missing * (-0.05_f64).exp());
-    assert_eq!(missing(1.5, 0.01, 0.05), old, "two seconds are not over");
-    let [ordinary, most] = missing(1.6, 0.01, 0.05);
-    assert_near(ordinary, old[0] + 0.04);
-    assert_near(most, old[1] + 0.04);
-    // Downwards the strongest airframe has 1.7 times the rate.
-    let [ordinary, most] = missing(1.6, -0.01, -0.05);
-    assert_near(ordinary, old[0] - 0.04);
-    assert_near(most, old[1] - (1.7 * 0.05 - 0.01));
-}
-
-#[test]
-fn a_response_is_missing_once_its_sum_is_too_large_for_a_while() {
-    let is_missing = |missing, missing_slowly| {
-        let before = Rate { missing, missing_slowly, missing_for_s: 0.1, ..rate(0.3) };
-        let now = before.judge(0.0, 0.0, 0.0);
-        now.missing_for_s > 0.0
-    };
-    assert!(is_missing(CLIMB.missing + 1e-3, [0.0; 2]));
-    assert!(!is_missing(CLIMB.missing, [0.0; 2]));
-    let slowly = CLIMB.missing_slowly;
-    let more = slowly + 1e-3;
-    assert!(is_missing(0.0, [more, more]) && is_missing(0.0, [-more, -more]));
-    assert!(!is_missing(0.0, [slowly, more]) && !is_missing(0.0, [more, slowly]));
-    assert!(!is_missing(0.0, [more, -more]), "a drone that drops faster than it climbs");
-    for (missing_for_s, found) in [(0.119, false), (MISSING_TIME_S, true)] {
-        assert_eq!(Rate { missing_for_s, ..rate(0.0) }.is_missing(), found);
-    }
-    let lasting = Rate { missing: 0.5, missing_for_s: 0.1, ..rate(0.3) }.judge(0.0, 0.0, 0.05);
-    assert_near(lasting.missing_for_s, 0.15);
 }
