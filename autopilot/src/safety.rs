@@ -114,6 +114,15 @@ impl Veto {
     }
 }
 
+/// Where the drone is, and how it moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Pose.
+    pub pose: Pose,
+    /// Velocity: right, forward, up.
+    pub velocity_m_s: [f64; 3],
+}
+
 /// Inputs of the safety monitor in one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Situation {
@@ -131,6 +140,8 @@ pub struct Situation {
     pub pose: Pose,
     /// Predicted velocity: right, forward, up.
     pub velocity_m_s: [f64; 3],
+    /// Predicted motion when an order of this tick takes effect: until then the drone does what it has been sent before.
+    pub soon: Motion,
     /// Wind disturbance towards right and forward, as a fraction of the acceleration at full tilt.
     pub wind: [f64; 2],
     /// Acceleration at full tilt in still air.
@@ -145,6 +156,8 @@ pub struct Situation {
     pub climb_lag_s: f64,
     /// Rate of descent at full stick, positive.
     pub sink_m_s: f64,
+    /// Rate of climb at full stick.
+    pub rise_m_s: f64,
 }
 
 /// Replaces unsafe commands of the agent; the last stage before the session.
@@ -199,7 +212,7 @@ impl SafetyMonitor {
         now: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
         let flies = !matches!(command, AgentCommand::Standby | AgentCommand::Land);
-        self.brake = Brake::of(now, self.fence.radius_m, self.fence.ceiling_m);
+        self.brake = Brake::of(now, &self.fence);
         if now.emergency && flies {
             return (AgentCommand::Standby, Some(Veto::Emergency));
         }
@@ -257,7 +270,7 @@ impl SafetyMonitor {
                 Some(Veto::TargetOutside),
             ),
             AgentCommand::Sticks if !self.stops_inside(now) => {
-                let stop = self.fence.nearest_inside(&stopping_place(now), INSIDE_M);
+                let stop = self.fence.nearest_inside(&stopping_place(&now.soon), INSIDE_M);
                 (AgentCommand::GoTo(stop), Some(Veto::NearFence))
             }
             _ => (command, None),
@@ -357,7 +370,7 @@ impl SafetyMonitor {
     }
 
     fn stops_inside(&self, now: &Situation) -> bool {
-        let (here, end) = (now.pose, stopping_place(now));
+        let (here, end) = (now.soon.pose, stopping_place(&now.soon));
         let (away_m, end_away_m) = (here.x_m.hypot(here.y_m), end.x_m.hypot(end.y_m));
         (end_away_m <= self.fence.radius_m - INSIDE_M || end_away_m < away_m)
             && (end.z_m <= self.fence.ceiling_m || end.z_m < here.z_m)
@@ -427,10 +440,10 @@ fn clamped(sticks: &Sticks, most: f64) -> Sticks {
 }
 
 /// Where the drone comes to rest if it begins to brake now.
-fn stopping_place(now: &Situation) -> Pose {
+fn stopping_place(soon: &Motion) -> Pose {
     let [right, forward, up] =
-        now.velocity_m_s.map(|speed_m_s| Stopping::CAUTIOUS.way_m(speed_m_s));
-    let Pose { x_m, y_m, z_m, yaw_deg } = now.pose;
+        soon.velocity_m_s.map(|speed_m_s| Stopping::CAUTIOUS.way_m(speed_m_s));
+    let Pose { x_m, y_m, z_m, yaw_deg } = soon.pose;
     Pose { x_m: x_m + right, y_m: y_m + forward, z_m: z_m + up, yaw_deg }
 }
 

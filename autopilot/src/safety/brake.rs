@@ -5,8 +5,9 @@
 use kinematics::{Sticks, body_from_world};
 use nalgebra::Vector2;
 
-use super::Situation;
 use super::stopping::Stopping;
+use super::{Motion, Situation};
+use crate::plan::FlightLimits;
 
 /// Distance beyond the fence up to which the drone may come to rest. A target on the fence is flown to with less.
 const BEYOND_M: f64 = 0.15;
@@ -15,6 +16,10 @@ const BAND_M: f64 = 0.2;
 /// Braking that is left in any wind, as a fraction of full tilt: in more of it the storm rules decide.
 const LEAST_BRAKING: f64 = 0.2;
 
+/// The longest time constant of the published airframes: above the floor, which is hard, no drone is believed to be quicker
+/// than that because it was once.
+const LONGEST_CLIMB_LAG_S: f64 = 1.25;
+
 /// What is left of the sticks in one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Brake {
@@ -22,20 +27,21 @@ pub(super) struct Brake {
     outward: Vector2<f64>,
     /// Largest stick in this direction.
     most: f64,
-    /// Largest gaz.
+    /// Smallest and largest gaz.
+    least_gaz: f64,
     most_gaz: f64,
 }
 
 impl Default for Brake {
     fn default() -> Self {
-        Self { outward: Vector2::zeros(), most: 1.0, most_gaz: 1.0 }
+        Self { outward: Vector2::zeros(), most: 1.0, least_gaz: -1.0, most_gaz: 1.0 }
     }
 }
 
 impl Brake {
-    /// For a fence of this radius and ceiling.
-    pub(super) fn of(now: &Situation, radius_m: f64, ceiling_m: f64) -> Self {
-        let [right_m_s, forward_m_s, up_m_s] = now.velocity_m_s;
+    /// For a fence.
+    pub(super) fn of(now: &Situation, fence: &FlightLimits) -> Self {
+        let Motion { pose, velocity_m_s: [right_m_s, forward_m_s, soon_m_s] } = now.soon;
         let velocity_m_s = Vector2::new(right_m_s, forward_m_s);
         let speed_m_s = velocity_m_s.norm();
         let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
@@ -43,19 +49,29 @@ impl Brake {
         let braking_m_s2 =
             now.full_tilt_m_s2 * tilted.max(LEAST_BRAKING) + now.drag_1_s * speed_m_s / 2.0;
         let stopping = Stopping { delay_s: now.tilts_after_s, braking_m_s2 };
-        let stop_m = Vector2::new(now.pose.x_m, now.pose.y_m) + along * stopping.way_m(speed_m_s);
+        let stop_m = Vector2::new(pose.x_m, pose.y_m) + along * stopping.way_m(speed_m_s);
         let outward = stop_m / stop_m.norm().max(f64::EPSILON);
         let leaves = velocity_m_s.dot(&outward) > 0.0;
-        let climbing = Stopping {
-            delay_s: now.climb_delay_s,
-            // The rate of climb follows its stick with a lag, and falls the faster the higher it is.
-            braking_m_s2: (now.sink_m_s + up_m_s / 2.0) / now.climb_lag_s,
+        // An airframe that is slower than it was identified still sinks or climbs as now.
+        let now_m_s = now.velocity_m_s[2];
+        let up_m_s = if soon_m_s.abs() > now_m_s.abs() { soon_m_s } else { now_m_s };
+        // The rate of climb follows its stick with a lag, and changes the faster the further it is from the one asked for.
+        let (opposite_m_s, lag_s) = if up_m_s > 0.0 {
+            (now.sink_m_s, now.climb_lag_s)
+        } else {
+            (now.rise_m_s, now.climb_lag_s.max(LONGEST_CLIMB_LAG_S))
         };
-        let stop_z_m = now.pose.z_m + climbing.way_m(up_m_s.max(0.0));
+        let stopping = Stopping {
+            delay_s: now.climb_delay_s,
+            braking_m_s2: (opposite_m_s + up_m_s.abs() / 2.0) / lag_s,
+        };
+        let stop_z_m = pose.z_m + stopping.way_m(up_m_s);
         Self {
-            outward: body_from_world(outward, now.pose.yaw_deg),
-            most: if leaves { left(stop_m.norm() - radius_m) } else { 1.0 },
-            most_gaz: if up_m_s > 0.0 { left(stop_z_m - ceiling_m) } else { 1.0 },
+            outward: body_from_world(outward, pose.yaw_deg),
+            most: if leaves { left(stop_m.norm() - fence.radius_m - BEYOND_M) } else { 1.0 },
+            // Not far below the floor of the fence is the room's.
+            least_gaz: if up_m_s < 0.0 { -left(2.0 * (fence.floor_m - stop_z_m)) } else { -1.0 },
+            most_gaz: if up_m_s > 0.0 { left(stop_z_m - fence.ceiling_m - BEYOND_M) } else { 1.0 },
         }
     }
 
@@ -65,13 +81,14 @@ impl Brake {
         let excess = tilt.dot(&self.outward) - self.most;
         let tilt =
             if self.most < 1.0 && excess > 0.0 { tilt - self.outward * excess } else { tilt };
-        Sticks { roll: tilt.x, pitch: -tilt.y, gaz: sticks.gaz.min(self.most_gaz), ..*sticks }
+        let gaz = sticks.gaz.min(self.most_gaz).max(self.least_gaz);
+        Sticks { roll: tilt.x, pitch: -tilt.y, gaz, ..*sticks }
     }
 }
 
 /// What is left of a stick that leads to a rest this far outside.
 fn left(outside_m: f64) -> f64 {
-    (1.0 - 2.0 * (outside_m - BEYOND_M) / BAND_M).clamp(-1.0, 1.0)
+    (1.0 - 2.0 * outside_m / BAND_M).clamp(-1.0, 1.0)
 }
 
 #[cfg(test)]
@@ -79,13 +96,18 @@ mod tests {
     use kinematics::Pose;
 
     use super::*;
+    use crate::plan::ZOrigin;
     use crate::safety::tests::FINE;
+
+    const FENCE: FlightLimits =
+        FlightLimits { radius_m: 4.0, ceiling_m: 3.0, floor_m: 0.3, z_origin: ZOrigin::Floor };
 
     /// What is left of full sticks to the right and up, in a fence of 4 m, 3 m high.
     fn left_of_full(x_m: f64, velocity_m_s: [f64; 3], yaw_deg: f64) -> Sticks {
-        let now = Situation { pose: Pose { x_m, yaw_deg, ..FINE.pose }, velocity_m_s, ..FINE };
+        let pose = Pose { x_m, yaw_deg, ..FINE.pose };
+        let now = Situation { soon: Motion { pose, velocity_m_s }, ..FINE };
         let (roll, gaz) = (1.0, 1.0);
-        Brake::of(&now, 4.0, 3.0).leave(&Sticks { roll, gaz, ..Sticks::default() })
+        Brake::of(&now, &FENCE).leave(&Sticks { roll, gaz, ..Sticks::default() })
     }
 
     #[test]
@@ -104,10 +126,24 @@ mod tests {
     fn a_climb_ends_below_the_ceiling() {
         let gaz = |z_m| {
             let pose = Pose { z_m, ..FINE.pose };
-            let now = Situation { pose, velocity_m_s: [0.0, 0.0, 0.7], ..FINE };
-            Brake::of(&now, 4.0, 3.0).leave(&Sticks { gaz: 1.0, ..Sticks::default() }).gaz
+            let soon = Motion { pose, velocity_m_s: [0.0, 0.0, 0.7] };
+            let now = Situation { soon, ..FINE };
+            Brake::of(&now, &FENCE).leave(&Sticks { gaz: 1.0, ..Sticks::default() }).gaz
         };
         assert!((gaz(2.5) - 1.0).abs() < 1e-9);
         assert!((gaz(3.2) + 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_descent_ends_above_the_floor() {
+        let gaz = |z_m, up_m_s| {
+            let pose = Pose { z_m, ..FINE.pose };
+            let soon = Motion { pose, velocity_m_s: [0.0, 0.0, up_m_s] };
+            let now = Situation { soon, ..FINE };
+            Brake::of(&now, &FENCE).leave(&Sticks { gaz: -1.0, ..Sticks::default() }).gaz
+        };
+        assert!((gaz(1.0, -0.7) + 1.0).abs() < 1e-9);
+        assert!((gaz(0.3, -0.7) - 1.0).abs() < 1e-9);
+        assert!((gaz(0.3, 0.0) + 1.0).abs() < 1e-9, "it stands");
     }
 }

@@ -8,6 +8,10 @@ pub(super) const FINE: Situation = Situation {
     landing: false,
     pose: Pose { x_m: 0.0, y_m: 0.0, z_m: 1.0, yaw_deg: 0.0 },
     velocity_m_s: [0.0; 3],
+    soon: Motion {
+        pose: Pose { x_m: 0.0, y_m: 0.0, z_m: 1.0, yaw_deg: 0.0 },
+        velocity_m_s: [0.0; 3],
+    },
     wind: [0.0; 2],
     full_tilt_m_s2: 2.0,
     drag_1_s: 0.2,
@@ -15,7 +19,14 @@ pub(super) const FINE: Situation = Situation {
     climb_delay_s: 0.1,
     climb_lag_s: 0.5,
     sink_m_s: 0.7,
+    rise_m_s: 0.7,
 };
+
+/// A drone that moves evenly.
+fn moving(pose: Pose, velocity_m_s: [f64; 3]) -> Situation {
+    Situation { pose, velocity_m_s, soon: Motion { pose, velocity_m_s }, ..FINE }
+}
+
 const TARGET: Pose = Pose { x_m: 1.0, ..FINE.pose };
 const GO_TO: AgentCommand = AgentCommand::GoTo(TARGET);
 
@@ -263,7 +274,7 @@ fn by_hand_the_drone_may_rest_at_the_floor_and_at_the_ceiling_of_its_fence() {
         (ceiling_m + 0.1, 0.0, false),
     ] {
         let pose = Pose { z_m, ..FINE.pose };
-        let now = Situation { pose, velocity_m_s: [0.0, 0.0, up_m_s], ..FINE };
+        let now = moving(pose, [0.0, 0.0, up_m_s]);
         let (_, veto) = monitor().check(AgentCommand::Sticks, &now);
         assert_eq!(veto, (!stays).then_some(Veto::NearFence), "{z_m} {up_m_s}");
     }
@@ -272,14 +283,17 @@ fn by_hand_the_drone_may_rest_at_the_floor_and_at_the_ceiling_of_its_fence() {
 #[test]
 fn manual_control_stops_before_the_fence_and_may_fly_back() {
     let near_the_fence = Pose { x_m: 9.0, ..FINE.pose };
-    let moving = |x, up| Situation { pose: near_the_fence, velocity_m_s: [x, 0.0, up], ..FINE };
+    let moving = |x, up| moving(near_the_fence, [x, 0.0, up]);
     let check = |now| monitor().check(AgentCommand::Sticks, &now).1;
     assert_eq!(check(moving(1.0, 0.0)), Some(Veto::NearFence));
     assert_eq!(check(moving(-1.0, 0.0)), None);
     assert_eq!(check(moving(0.4, 0.0)), None);
     assert_eq!(check(moving(0.0, 3.0)), Some(Veto::NearFence));
     // Nearer to the fence than it may rest, the drone may only come away from it.
-    let nearer = |x| Situation { pose: Pose { x_m: 9.8, ..FINE.pose }, ..moving(x, 0.0) };
+    let nearer = |x| Situation {
+        soon: Motion { pose: Pose { x_m: 9.8, ..FINE.pose }, velocity_m_s: [x, 0.0, 0.0] },
+        ..FINE
+    };
     assert_eq!(check(nearer(0.0)), Some(Veto::NearFence));
     assert_eq!(check(nearer(-0.1)), None);
 }
@@ -386,8 +400,8 @@ fn a_descent_against_the_wind_ends_at_its_height_and_with_its_time() {
 #[test]
 fn a_drone_stops_after_its_reaction_and_its_braking() {
     let pose = Pose { x_m: 1.0, y_m: 2.0, ..FINE.pose };
-    let now = Situation { pose, velocity_m_s: [1.2, -0.6, 0.3], ..FINE };
-    let Pose { x_m, y_m, z_m, .. } = stopping_place(&now);
+    let soon = Motion { pose, velocity_m_s: [1.2, -0.6, 0.3] };
+    let Pose { x_m, y_m, z_m, .. } = stopping_place(&soon);
     for (stops_m, expected_m) in [(x_m, 2.8), (y_m, 1.4), (z_m, 1.225)] {
         assert!((stops_m - expected_m).abs() < 1e-9, "{stops_m} {expected_m}");
     }

@@ -12,12 +12,13 @@ use super::{Vehicle, pose};
 use crate::agent::AgentCommand;
 
 impl Vehicle {
-    /// Converts the agent's command to the session's order. `state` is the predicted motion at `now`.
+    /// Converts the agent's command to the session's order. `state` is the predicted motion at `now`, `soon` that when the
+    /// order takes effect.
     pub(super) fn carry_out(
         &mut self,
         now: Duration,
         command: AgentCommand,
-        state: &Prediction,
+        [state, soon]: [&Prediction; 2],
         step_s: f64,
     ) -> Order {
         self.flight.target = None;
@@ -40,15 +41,16 @@ impl Vehicle {
                 self.flight.target = Some(target);
                 let limit = self.mission.max_control();
                 let turned = self.turned_to_learn(now, &target, step_s);
-                let demand = self.demand(now, &turned, step_s);
+                let demand = self.demand(soon, &turned, step_s);
                 let demand = self.flight.safety.limit(
                     &demand,
                     limit,
-                    state.position_m.z,
+                    soon.position_m.z,
                     self.config.estimator.limits.climb_m_s,
                 );
-                let full_m_s2 = self.full_tilt_m_s2();
-                self.flight.saturation.watch(&demand, limit, state, &target, full_m_s2, step_s);
+                let drag_1_s = self.flight.estimator.airframe().drag_1_s.min();
+                let resists = [self.full_tilt_m_s2(), drag_1_s];
+                self.flight.saturation.watch(&demand, limit, state, &target, resists, step_s);
                 sent = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }
@@ -58,7 +60,7 @@ impl Vehicle {
                 let demand = self.flight.safety.limit(
                     &demand,
                     self.mission.max_control(),
-                    state.position_m.z,
+                    soon.position_m.z,
                     self.config.estimator.limits.climb_m_s,
                 );
                 sent = Some(demand);
@@ -73,13 +75,10 @@ impl Vehicle {
         order
     }
 
-    /// Stick demand that steers towards `target`.
-    fn demand(&mut self, now: Duration, target: &Pose, step_s: f64) -> Sticks {
-        // A command takes effect after the dead time, so it is computed for the state predicted at that
-        // moment.
-        let state = self.state(now + self.config.estimator.dead_time);
+    /// Stick demand that steers towards `target`, computed for the state when it takes effect.
+    fn demand(&mut self, soon: &Prediction, target: &Pose, step_s: f64) -> Sticks {
         // A tag that is seen again moves the estimate by a step, which comes as a motion.
-        let state = self.flight.estimator.smooth(&state);
+        let state = self.flight.estimator.smooth(soon);
         self.flight.controller.step(&Inputs {
             pose: &pose(&state),
             velocity: &Velocity {

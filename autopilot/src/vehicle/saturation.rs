@@ -25,6 +25,9 @@ const HERE_M: f64 = 0.2;
 
 /// Change of the disturbance that counts as a storm, as a fraction of full tilt.
 const STORM_SHARE: f64 = 0.5;
+/// The strongest drag of the published airframes, in 1/s. A disturbance against the motion may be drag that is not identified
+/// yet.
+const STRONGEST_DRAG_1_S: f64 = 1.95;
 /// Averaging time of the disturbance, in seconds.
 const GUST_TIME_S: f64 = 1.5;
 
@@ -64,7 +67,7 @@ impl Way {
 }
 
 impl Saturation {
-    /// Handles one tick of flying to a target. The counter does not start anew with a tick of progress, but runs
+    /// Handles one tick of flying to a target, with a drone of this identified drag. The counter does not start anew with a tick of progress, but runs
     /// down twice as fast as it ran up: progress now and then is not enough to hold a position.
     pub(super) fn watch(
         &mut self,
@@ -72,10 +75,10 @@ impl Saturation {
         limit: f64,
         state: &Prediction,
         target: &Pose,
-        full_tilt_m_s2: f64,
+        [full_tilt_m_s2, drag_1_s]: [f64; 2],
         step_s: f64,
     ) {
-        let disturbance_m_s2 = state.disturbance_m_s2;
+        let disturbance_m_s2 = without_drag(state, drag_1_s);
         self.disturbance_m_s2 +=
             (disturbance_m_s2 - self.disturbance_m_s2) * (step_s / GUST_TIME_S).min(1.0);
         let storm = (self.disturbance_m_s2 - self.usual_m_s2).norm() > STORM_SHARE * full_tilt_m_s2;
@@ -107,6 +110,16 @@ impl Saturation {
         let for_ms = (self.for_s * 1e3).round() as i64;
         for_ms
     }
+}
+
+/// The disturbance without what the strongest drag explains.
+fn without_drag(state: &Prediction, drag_1_s: f64) -> Vector2<f64> {
+    let velocity_m_s = state.velocity_m_s.xy();
+    let speed_m_s = velocity_m_s.norm();
+    let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
+    let most_m_s2 = (STRONGEST_DRAG_1_S - drag_1_s).max(0.0) * speed_m_s;
+    let against_m_s2 = -state.disturbance_m_s2.dot(&along);
+    state.disturbance_m_s2 + along * against_m_s2.clamp(0.0, most_m_s2)
 }
 
 /// Whether a drone at this distance from its target, which grows at this speed, does not get there.
@@ -149,7 +162,7 @@ mod tests {
                 ..Prediction::default()
             };
             let mut saturation = Saturation::default();
-            saturation.watch(&full, 1.0, &state, &target, 2.0, 0.01);
+            saturation.watch(&full, 1.0, &state, &target, [2.0, STRONGEST_DRAG_1_S], 0.01);
             saturation.for_ms() > 0
         };
         assert!(is_counted([0.4, 0.0, 0.0], [0.15, 0.0, 0.0]));
@@ -167,7 +180,7 @@ mod tests {
         let right = Prediction { position_m: Vector3::new(1.0, 0.0, 1.0), ..Prediction::default() };
         let is_full = |demand: Sticks| {
             let mut saturation = Saturation::default();
-            saturation.watch(&demand, 0.5, &right, &TARGET, 2.0, 0.01);
+            saturation.watch(&demand, 0.5, &right, &TARGET, [2.0, STRONGEST_DRAG_1_S], 0.01);
             saturation.for_ms() > 0
         };
         assert!(is_full(Sticks { roll: -0.48, ..Sticks::default() }));
@@ -185,7 +198,7 @@ mod tests {
         };
         let mut saturation = Saturation { for_s: 1.0, ..Saturation::default() };
         for _ in 0..25 {
-            saturation.watch(&full, 1.0, &moving(-0.5), &TARGET, 2.0, 0.01);
+            saturation.watch(&full, 1.0, &moving(-0.5), &TARGET, [2.0, STRONGEST_DRAG_1_S], 0.01);
         }
         assert_eq!(saturation.for_ms(), 500);
         for _ in 0..25 {
@@ -213,7 +226,7 @@ mod tests {
         };
         let mut saturation = Saturation::default();
         for _ in 0..100 {
-            saturation.watch(&demand, 1.0, &state, &TARGET, 2.0, 0.01);
+            saturation.watch(&demand, 1.0, &state, &TARGET, [2.0, STRONGEST_DRAG_1_S], 0.01);
         }
         saturation.for_ms()
     }
@@ -245,7 +258,14 @@ mod tests {
             let here = Pose { z_m: 0.0, ..TARGET };
             for _ in 0..500 {
                 let state = disturbed(then_m_s2);
-                saturation.watch(&Sticks::default(), 1.0, &state, &here, 2.0, 0.01);
+                saturation.watch(
+                    &Sticks::default(),
+                    1.0,
+                    &state,
+                    &here,
+                    [2.0, STRONGEST_DRAG_1_S],
+                    0.01,
+                );
             }
             saturation.for_ms()
         };
@@ -261,14 +281,28 @@ mod tests {
         let here = Pose { z_m: 0.0, ..TARGET };
         let mut saturation = Saturation::default();
         for _ in 0..150 {
-            saturation.watch(&Sticks::default(), 1.0, &disturbed, &here, 9.0, 0.01);
+            saturation.watch(
+                &Sticks::default(),
+                1.0,
+                &disturbed,
+                &here,
+                [9.0, STRONGEST_DRAG_1_S],
+                0.01,
+            );
         }
         let average_m_s2 = saturation.disturbance_m_s2.x;
         assert!((average_m_s2 - 0.632).abs() < 0.01, "{average_m_s2}");
         // A tick longer than a gust makes the average the newest value.
         for (full_tilt_m_s2, storm) in [(2.0, false), (1.9, true)] {
             let mut saturation = Saturation::default();
-            saturation.watch(&Sticks::default(), 1.0, &disturbed, &here, full_tilt_m_s2, 2.0);
+            saturation.watch(
+                &Sticks::default(),
+                1.0,
+                &disturbed,
+                &here,
+                [full_tilt_m_s2, STRONGEST_DRAG_1_S],
+                2.0,
+            );
             assert_eq!(saturation.for_ms() > 0, storm, "{full_tilt_m_s2}");
         }
     }
@@ -281,7 +315,14 @@ mod tests {
                 let x_m = 3.0 - speed_m_s * 0.01 * f64::from(step);
                 let position_m = Vector3::new(x_m, 0.0, 1.0);
                 let state = Prediction { position_m, ..Prediction::default() };
-                saturation.watch(&Sticks::default(), 1.0, &state, &TARGET, 2.0, 0.01);
+                saturation.watch(
+                    &Sticks::default(),
+                    1.0,
+                    &state,
+                    &TARGET,
+                    [2.0, STRONGEST_DRAG_1_S],
+                    0.01,
+                );
             }
             saturation.for_ms()
         };
@@ -296,5 +337,19 @@ mod tests {
             saturation.rest(&Prediction::default(), 0.02);
         }
         assert_eq!(saturation.for_ms(), 0);
+    }
+
+    #[test]
+    fn a_disturbance_against_the_motion_may_be_drag() {
+        let state = |velocity: [f64; 2], disturbance: [f64; 2]| Prediction {
+            velocity_m_s: Vector2::from(velocity).push(0.0),
+            disturbance_m_s2: disturbance.into(),
+            ..Prediction::default()
+        };
+        let left = |velocity, disturbance| without_drag(&state(velocity, disturbance), 0.95);
+        assert!((left([0.5, 0.0], [-0.8, 0.3]) - Vector2::new(-0.3, 0.3)).norm() < 1e-9);
+        assert!((left([0.5, 0.0], [-0.4, 0.3]) - Vector2::new(0.0, 0.3)).norm() < 1e-9);
+        assert!((left([0.5, 0.0], [0.8, 0.3]) - Vector2::new(0.8, 0.3)).norm() < 1e-9, "along");
+        assert!((left([0.0, 0.0], [-0.8, 0.3]) - Vector2::new(-0.8, 0.3)).norm() < 1e-9);
     }
 }

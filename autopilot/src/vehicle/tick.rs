@@ -14,7 +14,7 @@ use super::{
     Waypoint, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Percepts, StationPercepts};
-use crate::safety::Situation;
+use crate::safety::{Motion, Situation};
 
 impl Vehicle {
     /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
@@ -58,7 +58,9 @@ impl Vehicle {
         done(Stage::Agent);
         // An agent without a command hovers.
         let wanted = step.command.unwrap_or(AgentCommand::Hover);
-        let situation = self.situation(now, &state);
+        // An order acts after a delay: by then the drone does what it has been sent before.
+        let soon = self.state(now + self.flight.estimator.order_delay());
+        let situation = self.situation(now, &state, &soon);
         let (command, veto) = self.flight.safety.check(wanted, &situation);
         if let Some(veto) = veto.filter(|_| veto != self.flight.veto) {
             self.events.push_back(FlightEvent::Veto(veto));
@@ -67,7 +69,7 @@ impl Vehicle {
             }
         }
         self.flight.veto = veto;
-        let order = self.carry_out(now, command, &state, step_s);
+        let order = self.carry_out(now, command, [&state, &soon], step_s);
         self.decision = Some(Decision {
             at: now,
             phase: self.phase.phase(),
@@ -205,11 +207,14 @@ impl Vehicle {
             (disturbance_m_s2 - self.flight.wind_m_s2) * (step_s / WIND_TIME_S);
     }
 
-    pub(super) fn situation(&self, now: Duration, state: &Prediction) -> Situation {
+    pub(super) fn situation(
+        &self,
+        now: Duration,
+        state: &Prediction,
+        soon: &Prediction,
+    ) -> Situation {
         let full_tilt_m_s2 = self.full_tilt_m_s2() * self.least_thrust();
         let airframe = self.flight.estimator.airframe();
-        // An order is sent in a tick and holds until the next.
-        let delay_s = (self.config.estimator.dead_time + TICK).as_secs_f64();
         Situation {
             now,
             blind_for: self.blind_for(now),
@@ -218,13 +223,16 @@ impl Vehicle {
             landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
             pose: pose(state),
             velocity_m_s: state.velocity_m_s.into(),
+            soon: Motion { pose: pose(soon), velocity_m_s: soon.velocity_m_s.into() },
             wind: (state.disturbance_m_s2 / full_tilt_m_s2).into(),
             full_tilt_m_s2,
             drag_1_s: airframe.drag_1_s.min(),
-            tilts_after_s: delay_s + airframe.tilt_lag_s,
-            climb_delay_s: delay_s,
+            // An order holds until the next.
+            tilts_after_s: TICK.as_secs_f64() + airframe.tilt_lag_s,
+            climb_delay_s: TICK.as_secs_f64(),
             climb_lag_s: airframe.climb_lag_s,
             sink_m_s: self.config.estimator.limits.climb_m_s * airframe.drop_gain,
+            rise_m_s: self.config.estimator.limits.climb_m_s * airframe.climb_gain,
         }
     }
 

@@ -128,7 +128,7 @@ fn wind_is_a_share_of_the_weakest_acceleration_at_full_tilt() {
         disturbance_m_s2: nalgebra::Vector2::new(0.0, -full_m_s2 / 2.0),
         ..Prediction::default()
     };
-    let situation = vehicle.situation(SECOND, &state);
+    let situation = vehicle.situation(SECOND, &state, &state);
     assert!(situation.wind[0].abs() < 1e-9 && (situation.wind[1] + 0.5).abs() < 0.01);
     assert!((situation.full_tilt_m_s2 - full_m_s2).abs() < 0.01, "{}", situation.full_tilt_m_s2);
     assert!((situation.drag_1_s - 0.6).abs() < 1e-9);
@@ -240,7 +240,8 @@ fn a_drone_that_is_sent_forward_and_does_not_come_nearer_is_saturated_until_it_h
     let mut bench = Bench::in_the_air(STAY);
     let saturated_ms = |bench: &Bench| bench.vehicle.decision().unwrap().percepts.saturated_for_ms;
     bench.accepted(OperatorOrder::GoTo(Place::at(0.0, 5.0)));
-    bench.run(SECOND);
+    // It takes a while to learn that something holds it.
+    bench.run(2 * SECOND);
     let forward = match bench.commands[1] {
         ardrone_link::at::Command::Pcmd(ardrone_link::at::Motion::Progressive {
             pitch, ..
