@@ -21,6 +21,10 @@ const LIMITS: FlightLimits =
     FlightLimits { radius_m: 12.0, ceiling_m: 6.0, floor_m: 0.3, z_origin: ZOrigin::Hover };
 /// The strongest wind of these days; the weakest airframe resists 2 m/s.
 const MOST_WIND_M_S: f64 = 0.5;
+/// Shortest and longest time that a datagram is under way, in milliseconds.
+const DELAY_MS: [u64; 2] = [20, 150];
+/// Up to this time of a datagram, in milliseconds, a link is an ordinary one: 40 to 150 ms there and back.
+const ORDINARY_MS: u128 = 75;
 /// Interval at which a held key repeats.
 const REPEATED: Duration = Duration::from_millis(100);
 
@@ -31,6 +35,8 @@ pub struct HealthyFlight {
     pub description: String,
     /// How it ended.
     pub outcome: Outcome,
+    /// Whether the link was one of 40 to 150 ms there and back; else it was one of up to 300 ms.
+    pub is_ordinary: bool,
 }
 
 impl HealthyFlight {
@@ -44,10 +50,21 @@ impl HealthyFlight {
 ///
 /// # Errors
 /// [`SimulationError`] if it never ends.
+pub fn fly(seed: u64) -> Result<HealthyFlight, SimulationError> {
+    let (simulation, plan, description) = prepared(seed);
+    let flight = simulation.fly(plan)?;
+    Ok(HealthyFlight {
+        description: format!("{:.1} s of {description}", flight.duration.as_secs_f64()),
+        outcome: flight.outcome,
+        is_ordinary: simulation.world.link.delay.as_millis() <= ORDINARY_MS,
+    })
+}
+
+/// The flight of a seed, its plan, and its description.
 ///
 /// # Panics
 /// If it makes a plan that cannot be flown, which is a mistake here.
-pub fn fly(seed: u64) -> Result<HealthyFlight, SimulationError> {
+pub fn prepared(seed: u64) -> (Simulation, Plan, String) {
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x6865_616c);
     let random = &mut random;
     let airframe = AIRFRAMES[random.random_range(0..AIRFRAMES.len())];
@@ -55,7 +72,7 @@ pub fn fly(seed: u64) -> Result<HealthyFlight, SimulationError> {
     let sensors = if is_hard { SensorModel::hard() } else { SensorModel::nominal() };
     let link = LinkFaults {
         loss: random.random_range(0.0..0.1),
-        delay: Duration::from_millis(random.random_range(20..=75)),
+        delay: Duration::from_millis(random.random_range(DELAY_MS[0]..=DELAY_MS[1])),
         jitter: Duration::from_millis(random.random_range(0..20)),
         ..LinkFaults::default()
     };
@@ -77,21 +94,17 @@ pub fn fly(seed: u64) -> Result<HealthyFlight, SimulationError> {
         ..Simulation::default()
     };
     let parsed = Plan::parse_within("healthy", &text, &LIMITS).unwrap_or_else(|e| panic!("{e}"));
-    let flight = simulation.fly(parsed)?;
-    Ok(HealthyFlight {
-        description: format!(
-            "{seed} {} {}, loss {:.1} %, delay {} ms, wind {:.1} {:.1}, {:.1} s: {}; by hand{by_hand}",
-            airframe.name,
-            if is_hard { "hard" } else { "nominal" },
-            100.0 * link.loss,
-            link.delay.as_millis(),
-            wind_m_s.x,
-            wind_m_s.y,
-            flight.duration.as_secs_f64(),
-            text.trim().replace('\n', "; "),
-        ),
-        outcome: flight.outcome,
-    })
+    let description = format!(
+        "{seed} {} {}, loss {:.1} %, delay {} ms, wind {:.1} {:.1}: {}; by hand{by_hand}",
+        airframe.name,
+        if is_hard { "hard" } else { "nominal" },
+        100.0 * link.loss,
+        link.delay.as_millis(),
+        wind_m_s.x,
+        wind_m_s.y,
+        text.trim().replace('\n', "; "),
+    );
+    (simulation, parsed, description)
 }
 
 /// From short to long, with turns and climbs.

@@ -20,6 +20,12 @@ pub(crate) fn run(flights: u64, first: u64) -> Result<(String, bool), Simulation
     for flight in &needless {
         _ = writeln!(text, "{}: {}", flight.description, flight.outcome);
     }
-    _ = writeln!(text, "{} healthy flights: {} landed without need", flown.len(), needless.len());
+    for (link, is_ordinary) in [("40 to 150", true), ("150 to 300", false)] {
+        let count = |flights: &mut dyn Iterator<Item = &HealthyFlight>| {
+            flights.filter(|flight| flight.is_ordinary == is_ordinary).count()
+        };
+        let (landed, all) = (count(&mut needless.iter().copied()), count(&mut flown.iter()));
+        _ = writeln!(text, "{link} ms there and back: {landed} of {all} landed without need");
+    }
     Ok((text, needless.len() as u64 * 1000 <= ACCEPTED_PER_THOUSAND * flights))
 }
