@@ -44,7 +44,8 @@ impl Truth {
             let wanted_m_s = sticks.gaz * LIMITS.climb_m_s * gain;
             self.climb_m_s += (wanted_m_s - self.climb_m_s) * step_s / airframe.climb_lag_s;
             self.height_m += self.climb_m_s * step_s;
-            let wanted = sticks.tilt() * (LIMITS.tilt_rad * airframe.tilt_gain);
+            let most = LIMITS.tilt_rad;
+            let wanted = sticks.tilt().map(|s| (s * most * airframe.tilt_gain).clamp(-most, most));
             self.tilt_rad += (wanted - self.tilt_rad) * (step_s / airframe.tilt_lag_s);
             let wanted_deg_s = sticks.yaw * LIMITS.turn_deg_s * airframe.turn_gain;
             self.turn_deg_s += (wanted_deg_s - self.turn_deg_s) * step_s / airframe.turn_lag_s;
@@ -257,27 +258,25 @@ fn swung(stick: f64) -> f64 {
 
 #[test]
 fn a_tilt_at_the_limit_says_nothing_of_the_gain() {
-    // The expected gain of one saturates beyond 2 % more than full stick.
-    let unmoved = swung(0.0);
-    assert_eq!([1.03, 1.1, -1.1].map(swung), [unmoved; 3]);
-    assert!([1.02, -1.02].map(swung).iter().all(|gain| *gain < 0.9));
-    // What is found is what saturates: at 0.9 nothing does, and the gain is found.
-    assert_share(swung(0.95), 0.8, 0.02);
-    // Of a drone that tilts more, less stick saturates: its gain falls unnoticed.
-    let falling = |stick: f64| {
-        let airframe = |at_s| {
-            let tilt_gain = if at_s < 10.0 { 1.3 } else { 1.0 };
-            Airframe { tilt_gain, ..Airframe::default() }
+    for stick in [0.5, 1.0, -1.0] {
+        assert_share(swung(stick), 0.8, 0.05);
+    }
+    // First with half stick, then with this one.
+    let found = |gain_later: f64, stick: f64| {
+        let airframe = |at_s| Airframe {
+            tilt_gain: if at_s < 10.0 { 1.5 } else { gain_later },
+            ..Airframe::default()
         };
         let to_and_fro = |at_s| if at_s % 1.4 < 0.7 { 1.0 } else { -1.0 };
-        let found = identified_while(airframe, 60, |at_s| Sticks {
+        let sticks = |at_s| Sticks {
             roll: to_and_fro(at_s) * if at_s < 10.0 { 0.5 } else { stick },
             ..Sticks::default()
-        });
-        found.tilt_gain
+        };
+        identified_while(airframe, 60, sticks).tilt_gain
     };
-    assert_share(falling(0.9), 1.3, 0.02);
-    assert!(falling(0.5) < 1.2);
+    assert_share(found(1.5, 1.0), 1.5, 0.05);
+    // A gain that falls is noticed all the same.
+    assert!(found(1.0, 0.9) < 1.2);
 }
 
 #[test]

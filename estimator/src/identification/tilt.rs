@@ -6,7 +6,7 @@ use nalgebra::{SVector, Vector2};
 
 use super::{Answer, Followers, LEAST_TILT_RAD, MAX_GAIN, MIN_GAIN, Window};
 use crate::bank::{Assumption, Bank};
-use crate::orders::{Order, Orders};
+use crate::orders::Orders;
 use kinematics::{Airframe, DroneLimits};
 
 /// Hypotheses of the tilt's time constant.
@@ -92,23 +92,18 @@ impl TiltLearner {
             }
             return;
         }
-        // Tilt saturates whatever its gain: responses at the limit are not used.
-        let largest = match orders.at(at_s) {
-            Order::Sticks(sticks) => sticks.roll.abs().max(sticks.pitch.abs()),
-            Order::ByItself => 0.0,
-        };
-        let saturated = largest * airframe.tilt_gain > 1.02;
+        // Tilt saturates whatever its gain: what the stick asks for beyond the limit is not asked for.
+        let full = 1.0 / airframe.tilt_gain.max(1.0);
         let most = limits.tilt_rad;
         for (axis, Axis { followers, window }) in self.axes.iter_mut().enumerate() {
             for (followers, delay_s) in followers.iter_mut().zip(DELAYS_S) {
                 followers.advance(orders.sent_s(at_s, delay_s), orders, |sticks| {
-                    SVector::<f64, 1>::new(sticks.tilt()[axis] * most)
+                    SVector::<f64, 1>::new(sticks.tilt()[axis].clamp(-full, full) * most)
                 });
             }
             let causes = std::array::from_fn(|i| followers[i / LAGS].value[i % LAGS]);
             let change = window.change(Answer { at_s, value: tilt_rad[axis], causes });
-            let change = change.filter(|change| change.is_caused(LEAST_TILT_RAD) && !saturated);
-            if let Some(change) = change {
+            if let Some(change) = change.filter(|change| change.is_caused(LEAST_TILT_RAD)) {
                 self.bank.learn(change.value, &change.causes);
             }
         }

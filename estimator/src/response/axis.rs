@@ -34,7 +34,8 @@ const AXIS_MEMORY: usize = 176;
 pub(super) struct Axis {
     /// Velocity that the most sluggish airframe would have from the tilt, in m/s.
     least_m_s: f64,
-    /// The measured velocity, smoothed.
+    /// That velocity and the measured one, smoothed alike: the flow does not follow the fastest swings.
+    expected_m_s: f64,
     measured_m_s: f64,
     recent: VecDeque<Moment>,
     /// The tilt moves the drone, but the velocity does not show it. Evaluated only for each moment that is
@@ -47,14 +48,14 @@ pub(super) struct Axis {
 struct Moment {
     at_s: f64,
     tilt_rad: f64,
-    least_m_s: f64,
+    expected_m_s: f64,
     measured_m_s: f64,
 }
 
 impl Axis {
     pub(super) fn new() -> Self {
         let recent = VecDeque::with_capacity(AXIS_MEMORY);
-        Self { least_m_s: 0.0, measured_m_s: 0.0, recent, is_dead: false }
+        Self { least_m_s: 0.0, expected_m_s: 0.0, measured_m_s: 0.0, recent, is_dead: false }
     }
 
     /// Turns what is remembered along with the body, clockwise: a steady wind, and the tilt that holds the drone in
@@ -68,10 +69,11 @@ impl Axis {
             (*right, *forward) = (turned.x, turned.y);
         };
         turn(&mut right.least_m_s, &mut forward.least_m_s);
+        turn(&mut right.expected_m_s, &mut forward.expected_m_s);
         turn(&mut right.measured_m_s, &mut forward.measured_m_s);
         for (right, forward) in right.recent.iter_mut().zip(&mut forward.recent) {
             turn(&mut right.tilt_rad, &mut forward.tilt_rad);
-            turn(&mut right.least_m_s, &mut forward.least_m_s);
+            turn(&mut right.expected_m_s, &mut forward.expected_m_s);
             turn(&mut right.measured_m_s, &mut forward.measured_m_s);
         }
     }
@@ -91,13 +93,14 @@ impl Axis {
         let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * tilt_rad.tan();
         self.least_m_s += (pull_m_s2 - LARGEST_DRAG_1_S * self.least_m_s) * step_s;
         let share = 1.0 - (-step_s / SMOOTHING_S).exp();
+        self.expected_m_s += (self.least_m_s - self.expected_m_s) * share;
         self.measured_m_s += (velocity_m_s - self.measured_m_s) * share;
         if self.recent.back().is_none_or(|last| at_s - last.at_s >= AXIS_INTERVAL_S) {
             if self.recent.len() == AXIS_MEMORY {
                 self.recent.pop_front();
             }
-            let Self { least_m_s, measured_m_s, .. } = *self;
-            self.recent.push_back(Moment { at_s, tilt_rad, least_m_s, measured_m_s });
+            let Self { expected_m_s, measured_m_s, .. } = *self;
+            self.recent.push_back(Moment { at_s, tilt_rad, expected_m_s, measured_m_s });
             self.is_dead =
                 self.misses_swings(at_s) || self.stands_while_leaning(at_s, full_tilt_rad);
         }
@@ -113,7 +116,7 @@ impl Axis {
     fn misses_swings(&self, at_s: f64) -> bool {
         AXIS_WINDOWS_S.iter().any(|window_s| {
             let recent = self.within(at_s, *window_s);
-            let expected_m_s = deviation(recent.clone().map(|moment| moment.least_m_s));
+            let expected_m_s = deviation(recent.clone().map(|moment| moment.expected_m_s));
             let measured_m_s = deviation(recent.map(|moment| moment.measured_m_s));
             expected_m_s >= AXIS_DEVIATION_M_S && measured_m_s < AXIS_SHARE * expected_m_s
         })
@@ -135,6 +138,7 @@ impl Axis {
 
     pub(super) fn rest(&mut self) {
         self.least_m_s = 0.0;
+        self.expected_m_s = 0.0;
         self.measured_m_s = 0.0;
         self.recent.clear();
         self.is_dead = false;

@@ -60,6 +60,8 @@ pub(super) struct Rate<const N: usize> {
     last: Option<f64>,
     /// Whether the stick asked for anything since the last measurement.
     asks: bool,
+    /// How fast the drone moves is not known yet.
+    is_new: bool,
     missing_for_s: f64,
 }
 
@@ -98,6 +100,7 @@ impl<const N: usize> Rate<N> {
             asked: 0.0,
             last: None,
             asks: false,
+            is_new: true,
             missing_for_s: 0.0,
         }
     }
@@ -115,6 +118,10 @@ impl<const N: usize> Rate<N> {
     pub(super) fn compare(&mut self, value: f64, step_s: f64, difference: fn(f64) -> f64) {
         let Some(last) = self.last.replace(value) else { return };
         let moved = difference(value - last);
+        if std::mem::take(&mut self.is_new) {
+            self.begin(moved / step_s.max(f64::EPSILON));
+            return;
+        }
         let Tolerance { jump, jump_1_s, missing, missing_slowly, .. } = self.tolerance;
         let off = self.hypotheses.iter().map(|its| (moved - its.way).abs());
         let jumped = off.fold(f64::INFINITY, f64::min) > jump + jump_1_s * step_s;
@@ -137,6 +144,15 @@ impl<const N: usize> Rate<N> {
         self.missing_for_s = if is_missing { self.missing_for_s + step_s } else { 0.0 };
     }
 
+    /// The drone follows its stick from now on, and moves at this rate.
+    fn begin(&mut self, rate: f64) {
+        self.asks = false;
+        for its in &mut self.hypotheses {
+            let most = self.tolerance.full * its.answer.down;
+            *its = Hypothesis { now: rate.clamp(-most, most), ..Hypothesis::new(its.answer) };
+        }
+    }
+
     /// Change that the stick has asked for since the flight began.
     pub(super) fn asked(&self) -> f64 {
         self.asked
@@ -150,6 +166,7 @@ impl<const N: usize> Rate<N> {
     pub(super) fn rest(&mut self, value: f64) {
         self.hypotheses = self.hypotheses.map(|its| Hypothesis::new(its.answer));
         self.asks = false;
+        self.is_new = true;
         self.missing_for_s = 0.0;
         self.last = Some(value);
     }

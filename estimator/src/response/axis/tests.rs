@@ -12,18 +12,21 @@ fn assert_near(value: f64, expected: f64) {
 fn what_is_remembered_turns_with_the_body() {
     let (mut right, mut forward) = (axis([(0.0, 0.1, 1.0, 2.0)]), axis([(0.0, 0.2, 3.0, 4.0)]));
     (right.least_m_s, forward.least_m_s) = (5.0, 6.0);
+    (right.expected_m_s, forward.expected_m_s) = (9.0, 10.0);
     (right.measured_m_s, forward.measured_m_s) = (7.0, 8.0);
     // A quarter to the right: what was forward is to the left now, and what was to the right is ahead.
     Axis::turn(&mut right, &mut forward, 90.0);
-    for (axis, [tilt_rad, least_m_s, measured_m_s], now_m_s) in
-        [(&right, [-0.2, -3.0, -4.0], [-6.0, -8.0]), (&forward, [0.1, 1.0, 2.0], [5.0, 7.0])]
-    {
+    for (axis, [tilt_rad, expected_m_s, measured_m_s], now_m_s) in [
+        (&right, [-0.2, -3.0, -4.0], [-6.0, -8.0, -10.0]),
+        (&forward, [0.1, 1.0, 2.0], [5.0, 7.0, 9.0]),
+    ] {
         let moment = axis.recent[0];
         assert_near(moment.tilt_rad, tilt_rad);
-        assert_near(moment.least_m_s, least_m_s);
+        assert_near(moment.expected_m_s, expected_m_s);
         assert_near(moment.measured_m_s, measured_m_s);
         assert_near(axis.least_m_s, now_m_s[0]);
         assert_near(axis.measured_m_s, now_m_s[1]);
+        assert_near(axis.expected_m_s, now_m_s[2]);
     }
 }
 
@@ -35,6 +38,7 @@ fn the_weakest_airframe_accelerates_by_its_tilt_and_is_slowed_by_drag() {
     assert_near(axis.least_m_s, pull_m_s2 * 0.2);
     let share = 1.0 - (-1_f64).exp();
     assert_near(axis.measured_m_s, share);
+    assert_near(axis.expected_m_s, share * pull_m_s2 * 0.2);
     axis.watch(0.2, 0.2, -1.0, -0.2, FULL_RAD);
     let before_m_s = pull_m_s2 * 0.2;
     assert_near(axis.least_m_s, before_m_s - (pull_m_s2 + 1.95 * before_m_s) * 0.2);
@@ -58,10 +62,10 @@ fn moments_are_kept_at_intervals_within_a_window() {
 
 /// An axis with these moments: time, tilt, velocity of the weakest airframe and measured velocity.
 fn axis(moments: impl IntoIterator<Item = (f64, f64, f64, f64)>) -> Axis {
-    let moment = |(at_s, tilt_rad, least_m_s, measured_m_s)| Moment {
+    let moment = |(at_s, tilt_rad, expected_m_s, measured_m_s)| Moment {
         at_s,
         tilt_rad,
-        least_m_s,
+        expected_m_s,
         measured_m_s,
     };
     Axis { recent: moments.into_iter().map(moment).collect(), ..Axis::new() }

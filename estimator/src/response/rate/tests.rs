@@ -78,7 +78,13 @@ fn a_slow_command_is_judged_after_two_seconds_by_all_of_it() {
 
 /// An axis of which one measurement was 0.
 fn axis(hypotheses: [Hypothesis; 2]) -> Rate<2> {
-    Rate { hypotheses, last: Some(0.0), asks: true, ..Rate::new(TOLERANCE, [ORDINARY, SLUGGISH]) }
+    Rate {
+        hypotheses,
+        last: Some(0.0),
+        asks: true,
+        is_new: false,
+        ..Rate::new(TOLERANCE, [ORDINARY, SLUGGISH])
+    }
 }
 
 #[test]
@@ -134,5 +140,22 @@ fn a_drone_whose_stick_is_at_rest_goes_back_to_where_it_was_released() {
     assert_near(axis.hypotheses[0].missing, missing);
     axis.follow(0.7, 0.05);
     axis.compare(-0.2, 0.05, |metres| metres);
-    assert!(axis.hypotheses[0].missing > missing + 0.1);
+    assert!(axis.hypotheses[0].missing > missing + 0.09);
+}
+
+/// After a gap, or after it moved by itself.
+#[test]
+fn a_drone_begins_with_the_rate_that_it_has() {
+    let mut axis = Rate::new(TOLERANCE, [ORDINARY, SLUGGISH]);
+    axis.rest(1.0);
+    axis.follow(0.7, 0.05);
+    axis.compare(0.97, 0.05, |metres| metres);
+    for its in axis.hypotheses {
+        assert_near(its.now, -0.6);
+        assert_near(its.missing, 0.0);
+    }
+    axis.rest(1.0);
+    axis.compare(0.9, 0.05, |metres| metres);
+    assert_near(axis.hypotheses[0].now, -0.7);
+    assert_near(axis.hypotheses[1].now, -0.7 * 1.7);
 }
