@@ -154,10 +154,10 @@ pub struct Situation {
     pub climb_delay_s: f64,
     /// See [`Situation::climb_delay_s`].
     pub climb_lag_s: f64,
+    /// Rate of climb that full stick asks for.
+    pub climb_m_s: f64,
     /// Rate of descent at full stick, positive.
     pub sink_m_s: f64,
-    /// Rate of climb at full stick.
-    pub rise_m_s: f64,
 }
 
 /// Replaces unsafe commands of the agent; the last stage before the session.
@@ -212,7 +212,7 @@ impl SafetyMonitor {
         now: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
         let flies = !matches!(command, AgentCommand::Standby | AgentCommand::Land);
-        self.brake = Brake::of(now, &self.fence);
+        self.brake = Brake::of(now, self.sticks.gaz, &self.fence);
         if now.emergency && flies {
             return (AgentCommand::Standby, Some(Veto::Emergency));
         }

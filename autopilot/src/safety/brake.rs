@@ -16,9 +16,11 @@ const BAND_M: f64 = 0.2;
 /// Braking that is left in any wind, as a fraction of full tilt: in more of it the storm rules decide.
 const LEAST_BRAKING: f64 = 0.2;
 
-/// The longest time constant of the published airframes: above the floor, which is hard, no drone is believed to be quicker
-/// than that because it was once.
+/// The slowest, the strongest and the weakest of the published airframes: time constant of the climb, gains of a descent and
+/// of a climb. Above the floor, which is hard, nothing that was identified is trusted to be better.
 const LONGEST_CLIMB_LAG_S: f64 = 1.25;
+const STRONGEST_DROP: f64 = 1.7;
+const WEAKEST_CLIMB: f64 = 0.85;
 
 /// What is left of the sticks in one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,8 +41,8 @@ impl Default for Brake {
 }
 
 impl Brake {
-    /// For a fence.
-    pub(super) fn of(now: &Situation, fence: &FlightLimits) -> Self {
+    /// For a fence. The gaz that was last sent is `gaz`.
+    pub(super) fn of(now: &Situation, gaz: f64, fence: &FlightLimits) -> Self {
         let Motion { pose, velocity_m_s: [right_m_s, forward_m_s, soon_m_s] } = now.soon;
         let velocity_m_s = Vector2::new(right_m_s, forward_m_s);
         let speed_m_s = velocity_m_s.norm();
@@ -55,11 +57,14 @@ impl Brake {
         // An airframe that is slower than it was identified still sinks or climbs as now.
         let now_m_s = now.velocity_m_s[2];
         let up_m_s = if soon_m_s.abs() > now_m_s.abs() { soon_m_s } else { now_m_s };
+        // One that sinks faster than it was identified will do so.
+        let sinks_m_s = gaz.min(0.0) * STRONGEST_DROP * now.climb_m_s;
+        let up_m_s = if up_m_s < 0.0 { up_m_s.min(sinks_m_s) } else { up_m_s };
         // The rate of climb follows its stick with a lag, and changes the faster the further it is from the one asked for.
         let (opposite_m_s, lag_s) = if up_m_s > 0.0 {
             (now.sink_m_s, now.climb_lag_s)
         } else {
-            (now.rise_m_s, now.climb_lag_s.max(LONGEST_CLIMB_LAG_S))
+            (WEAKEST_CLIMB * now.climb_m_s, now.climb_lag_s.max(LONGEST_CLIMB_LAG_S))
         };
         let stopping = Stopping {
             delay_s: now.climb_delay_s,
@@ -107,7 +112,7 @@ mod tests {
         let pose = Pose { x_m, yaw_deg, ..FINE.pose };
         let now = Situation { soon: Motion { pose, velocity_m_s }, ..FINE };
         let (roll, gaz) = (1.0, 1.0);
-        Brake::of(&now, &FENCE).leave(&Sticks { roll, gaz, ..Sticks::default() })
+        Brake::of(&now, 0.0, &FENCE).leave(&Sticks { roll, gaz, ..Sticks::default() })
     }
 
     #[test]
@@ -128,7 +133,7 @@ mod tests {
             let pose = Pose { z_m, ..FINE.pose };
             let soon = Motion { pose, velocity_m_s: [0.0, 0.0, 0.7] };
             let now = Situation { soon, ..FINE };
-            Brake::of(&now, &FENCE).leave(&Sticks { gaz: 1.0, ..Sticks::default() }).gaz
+            Brake::of(&now, 0.0, &FENCE).leave(&Sticks { gaz: 1.0, ..Sticks::default() }).gaz
         };
         assert!((gaz(2.5) - 1.0).abs() < 1e-9);
         assert!((gaz(3.2) + 1.0).abs() < 1e-9);
@@ -140,10 +145,15 @@ mod tests {
             let pose = Pose { z_m, ..FINE.pose };
             let soon = Motion { pose, velocity_m_s: [0.0, 0.0, up_m_s] };
             let now = Situation { soon, ..FINE };
-            Brake::of(&now, &FENCE).leave(&Sticks { gaz: -1.0, ..Sticks::default() }).gaz
+            Brake::of(&now, 0.0, &FENCE).leave(&Sticks { gaz: -1.0, ..Sticks::default() }).gaz
         };
         assert!((gaz(1.0, -0.7) + 1.0).abs() < 1e-9);
         assert!((gaz(0.3, -0.7) - 1.0).abs() < 1e-9);
         assert!((gaz(0.3, 0.0) + 1.0).abs() < 1e-9, "it stands");
+        // From 0.55 m it stops at 0.45 m, unless it sinks as the strongest does.
+        let soon = Motion { pose: Pose { z_m: 0.55, ..FINE.pose }, velocity_m_s: [0.0, 0.0, -0.3] };
+        let least = |gaz| Brake::of(&Situation { soon, ..FINE }, gaz, &FENCE).least_gaz;
+        assert!((least(-0.3) + 1.0).abs() < 1e-9);
+        assert!(least(-0.6) > -0.9, "{}", least(-0.6));
     }
 }

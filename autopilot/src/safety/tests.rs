@@ -18,8 +18,8 @@ pub(super) const FINE: Situation = Situation {
     tilts_after_s: 0.2,
     climb_delay_s: 0.1,
     climb_lag_s: 0.5,
+    climb_m_s: 0.7,
     sink_m_s: 0.7,
-    rise_m_s: 0.7,
 };
 
 /// A drone that moves evenly.

@@ -231,8 +231,8 @@ impl Vehicle {
             tilts_after_s: TICK.as_secs_f64() + airframe.tilt_lag_s,
             climb_delay_s: TICK.as_secs_f64(),
             climb_lag_s: airframe.climb_lag_s,
+            climb_m_s: self.config.estimator.limits.climb_m_s,
             sink_m_s: self.config.estimator.limits.climb_m_s * airframe.drop_gain,
-            rise_m_s: self.config.estimator.limits.climb_m_s * airframe.climb_gain,
         }
     }
 
