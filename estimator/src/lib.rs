@@ -304,7 +304,9 @@ impl Estimator {
         let believed = self.update_horizontal(made_s, sample, was_airborne);
         let floor_stepped = self.update_vertical(made_s, sample);
         let by_itself = self.orders.at(attitude_s) == Order::ByItself;
-        let is_low = sample.altitude_m < CLEAR_OF_GROUND_M;
+        // Not by one echo, which may be wrong.
+        let height_m = self.altitude.state().height_m;
+        let is_low = self.altitude.above_floor_m(height_m) < CLEAR_OF_GROUND_M;
         let since_s = *self.airborne_since_s.get_or_insert(arrival_s);
         if !sample.airborne {
             self.airborne_since_s = None;
@@ -320,6 +322,7 @@ impl Estimator {
                 (false, false) => None,
             },
             near_ground: by_itself && is_low && takes_off,
+            flow_rests: sample.autonomous && is_low,
             asked_rise_m: self.response.asked_rise_m(),
             asked_turn_deg: self.response.asked_turn_deg(),
             lateness_s,

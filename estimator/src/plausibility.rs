@@ -196,6 +196,9 @@ pub(crate) struct Verdict {
     pub(crate) step: Option<Quantity>,
     /// The drone takes off autonomously near the ground, where its sensors may not work yet.
     pub(crate) near_ground: bool,
+    /// It takes off or lands by itself that near to the ground: however long its motors take to lift it, the flow has
+    /// nothing to see.
+    pub(crate) flow_rests: bool,
     /// Climb and turn that the sticks have asked for since the flight began.
     pub(crate) asked_rise_m: f64,
     pub(crate) asked_turn_deg: f64,
@@ -300,7 +303,8 @@ impl Plausibility {
             };
             let patience_s = if is_quiet { QUIET_FROZEN_TIME_S } else { FROZEN_TIME_S };
             let lasts = arrival_s - repetition.since_s >= patience_s;
-            if repetition.count >= FROZEN_PACKETS && lasts && !verdict.near_ground {
+            let rests = quantity == Quantity::Velocity && verdict.flow_rests;
+            if repetition.count >= FROZEN_PACKETS && lasts && !verdict.near_ground && !rests {
                 frozen = frozen.or(Some((quantity, repetition.since_s)));
             }
         }

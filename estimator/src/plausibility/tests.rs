@@ -6,6 +6,7 @@ const FINE: Verdict = Verdict {
     unresponsive: None,
     step: None,
     near_ground: false,
+    flow_rests: false,
     asked_rise_m: 0.0,
     asked_turn_deg: 0.0,
     lateness_s: 0.0,

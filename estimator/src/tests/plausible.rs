@@ -222,3 +222,28 @@ fn one_wrong_echo_does_not_lift_a_drone_that_stands() {
     let seen_m: Vec<f64> = (0..).zip(read_m).map(|(packet, m)| stand(packet, m)).collect();
     assert_eq!(seen_m, [0.02, 0.02, 0.03, 0.03, 1.1]);
 }
+
+#[test]
+fn motors_may_take_as_long_as_they_like_to_lift_the_drone() {
+    let mut flight = taking_off(Order::ByItself, 0.0);
+    flight.shown.autonomous = true;
+    // Every sensor rattles but the flow, which has nothing to see; now and then an echo is wrong.
+    let mut step = |autonomous: bool, i: u32| {
+        let rattle = 0.01 * f64::from(i % 3);
+        flight.packet += 1;
+        flight.estimator.update(&Sample {
+            arrival: flight.now(),
+            yaw_deg: rattle,
+            roll_deg: rattle,
+            pitch_deg: -rattle,
+            altitude_m: if i % 30 == 17 { 0.6 } else { rattle },
+            autonomous,
+            ..flight.shown
+        });
+        flight.estimator.trust()
+    };
+    for i in 0..100 {
+        assert_eq!(step(true, i), Trust::Sound, "{i}");
+    }
+    assert!((100..110).any(|i| step(false, i) == Trust::Frozen(Quantity::Velocity)));
+}

@@ -322,16 +322,38 @@ fn sensor(random: &mut impl Rng) -> Action {
     let value = random.random_range(-most..most);
     let long = seconds(random, 0.2, 30.0);
     let short = seconds(random, 0.2, 8.0);
-    let (fault, time) = match random.random_range(0..7) {
+    let (fault, time) = match random.random_range(0..9) {
         0 => (SensorFault::Stuck, long),
         1 => (SensorFault::StuckAt(0.5 * value), long),
         2 => (SensorFault::DeadAt(0.0), long),
         3 => (SensorFault::Offset(value), short),
         4 => (SensorFault::Ramp(0.2 * value), short),
         5 if quantity.is_float() => (SensorFault::NotANumber, long),
+        6 => (SensorFault::Noise(noise(random, quantity)), long),
+        7 => (SensorFault::Gain(gain(random, quantity)), long),
         _ => (SensorFault::Late(seconds(random, 0.05, 1.0)), short),
     };
     Action::Sensor(quantity, fault, time)
+}
+
+/// Standard deviation of noise, from what is hardly noticed to what is worthless.
+fn noise(random: &mut impl Rng, quantity: Quantity) -> f64 {
+    match quantity {
+        Quantity::VelocityRight | Quantity::VelocityForward | Quantity::Altitude => {
+            random.random_range(0.1..1.0)
+        }
+        Quantity::Yaw | Quantity::Roll | Quantity::Pitch => random.random_range(2.0..20.0),
+        Quantity::Clock => random.random_range(0.01..0.1),
+    }
+}
+
+/// A wrong gain. A velocity that shows too little is that of a weaker airframe, and is not judged.
+fn gain(random: &mut impl Rng, quantity: Quantity) -> f64 {
+    match quantity {
+        Quantity::VelocityRight | Quantity::VelocityForward => random.random_range(1.2..3.0),
+        _ if random.random_bool(0.3) => -1.0,
+        _ => random.random_range(0.2..3.0),
+    }
 }
 
 fn direction(random: &mut impl Rng) -> Direction {
