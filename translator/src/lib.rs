@@ -257,6 +257,8 @@ pub fn obligations(
         unwinding: backend::c::unwinding(&program),
         state_type: format!("{prefix}agent_t"),
         candidates: harness.candidates,
+        fixed: harness.fixed,
+        moments: harness.moments,
         properties,
     })
 }

@@ -1,8 +1,10 @@
 //! Input of a model checker for proving an agent's properties.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::GeneratedFile;
+use crate::backend::c::Moment;
 
 pub use crate::backend::c::{ANSWERS, CALLS, STEPS};
 
@@ -25,6 +27,8 @@ pub struct Obligations {
     pub unwinding: usize,
     pub(crate) state_type: String,
     pub(crate) candidates: Vec<String>,
+    pub(crate) fixed: BTreeMap<usize, String>,
+    pub(crate) moments: Vec<Moment>,
     /// The properties: each has an assertion `property NAME`.
     pub properties: Vec<Promise>,
 }
@@ -50,26 +54,40 @@ impl Obligations {
     /// The file `invariant.h` of an invariant of these candidates; each has an assertion
     /// `candidate INDEX`.
     pub fn invariant(&self, chosen: &[usize]) -> GeneratedFile {
-        let chosen =
+        self.restricted(chosen, &[])
+    }
+
+    /// Files like [`Self::invariant`] that restrict the states to those whose next step handles a goal of this name:
+    /// one for each way in which it can be pending.
+    pub fn invariants_at(&self, chosen: &[usize], goal: &str) -> Vec<GeneratedFile> {
+        let moments = self.moments.iter().filter(|moment| moment.goal == goal);
+        moments.map(|moment| self.restricted(chosen, &moment.sets)).collect()
+    }
+
+    fn restricted(&self, chosen: &[usize], sets: &[String]) -> GeneratedFile {
+        let conditions =
             || chosen.iter().filter_map(|index| Some((index, self.candidates.get(*index)?)));
         let mut text = String::new();
         // Writing to a string cannot fail.
-        self.open(&mut text, "assume_invariant");
-        for (_, candidate) in chosen() {
-            _ = writeln!(text, "    __CPROVER_assume({candidate});");
+        _ = writeln!(text, "static void assume_invariant({} *self)\n{{", self.state_type);
+        text += "    (void)self;\n";
+        // An assumption follows each assignment, so that both say the same of an arbitrary state. But a constant that is
+        // assigned is known before paths are followed; without, most that are followed cannot be taken.
+        let fixed = chosen.iter().filter_map(|index| self.fixed.get(index));
+        for set in fixed.chain(sets) {
+            _ = writeln!(text, "    {set}");
+        }
+        for (_, condition) in conditions() {
+            _ = writeln!(text, "    __CPROVER_assume({condition});");
         }
         text += "}\n\n";
-        self.open(&mut text, "check_invariant");
-        for (index, candidate) in chosen() {
-            _ = writeln!(text, "    __CPROVER_assert({candidate}, \"candidate {index}\");");
+        _ = writeln!(text, "static void check_invariant(const {} *self)\n{{", self.state_type);
+        text += "    (void)self;\n";
+        for (index, condition) in conditions() {
+            _ = writeln!(text, "    __CPROVER_assert({condition}, \"candidate {index}\");");
         }
         text += "}\n";
         GeneratedFile { name: "invariant.h".to_owned(), text, setting: "" }
-    }
-
-    fn open(&self, text: &mut String, function: &str) {
-        let state = &self.state_type;
-        _ = writeln!(text, "static void {function}(const {state} *self)\n{{\n    (void)self;");
     }
 }
 
@@ -100,6 +118,63 @@ mod tests {
         assert!(obligations.candidates().len() > 5);
         let invariant = obligations.invariant(&[0, 999]);
         assert!(invariant.text.contains("\"candidate 0\"") && !invariant.text.contains("999"));
+    }
+
+    #[test]
+    fn what_is_constant_is_assigned_and_assumed() {
+        let configuration = parse_configuration("a.conf", LAMP).unwrap();
+        let obligations = obligations(&configuration, "lit(7). +!light <- on.").unwrap();
+        let chosen: Vec<usize> = (0..obligations.candidates().len()).collect();
+        let text = obligations.invariant(&chosen).text;
+        for part in [
+            "    self->belief_lit_1 = 7;\n",
+            "__CPROVER_assume((self->belief_lit_1 == 7));",
+            "__CPROVER_assert((self->belief_lit_1 == 7), ",
+            "    self->belief_lit_held = true;\n",
+        ] {
+            assert!(text.contains(part), "{part}:\n{text}");
+        }
+        assert!(text.rfind(" = true;") < text.find("__CPROVER_assume("), "{text}");
+        // What is not chosen is not said.
+        let text = obligations.invariant(&[]).text;
+        assert!(!text.contains("lit"), "{text}");
+    }
+
+    /// Other values are equal to a constant than it: 0.0 and -0.0.
+    #[test]
+    fn what_has_equals_is_not_assigned() {
+        let text = LAMP.replace("lit(int)", "lit(double)");
+        let configuration = parse_configuration("a.conf", &text).unwrap();
+        let obligations = obligations(&configuration, "lit(0.0). +!light <- on.").unwrap();
+        let chosen: Vec<usize> = (0..obligations.candidates().len()).collect();
+        let text = obligations.invariant(&chosen).text;
+        assert!(text.contains("assume((self->belief_lit_1 == 0.0))"), "{text}");
+        assert!(!text.contains("self->belief_lit_1 = "), "{text}");
+    }
+
+    #[test]
+    fn a_step_may_handle_a_goal_in_each_way_in_which_it_can_be_pending() {
+        let text = LAMP
+            .replace("+!light; };", "+!light; +!stop; }; preemptive { +!stop; };")
+            .replace("light(void);", "light(void); stop(void);");
+        let configuration = parse_configuration("a.conf", &text).unwrap();
+        let agent = "+!light <- on; !light. +!stop <- on.";
+        let obligations = obligations(&configuration, agent).unwrap();
+        let first = |goal: &str| -> Vec<String> {
+            let files = obligations.invariants_at(&[], goal);
+            files.into_iter().map(|file| file.text).collect()
+        };
+        let [posted, raised] = &first("light")[..] else { panic!("{:?}", first("light")) };
+        for part in ["preemptive_achieve_stop_pending = false", "posted = LAMP_EVENT_POSTED_"] {
+            assert!(posted.contains(part), "{part}:\n{posted}");
+        }
+        for part in ["posted = LAMP_EVENT_NONE", "inbox_count = 1U", "inbox_queue[0] = LAMP_EVENT_"]
+        {
+            assert!(raised.contains(part), "{part}:\n{raised}");
+        }
+        let [urgent] = &first("stop")[..] else { panic!("{:?}", first("stop")) };
+        assert!(urgent.contains("preemptive_achieve_stop_pending = true"), "{urgent}");
+        assert_eq!(first("dim"), [""; 0]);
     }
 
     #[test]

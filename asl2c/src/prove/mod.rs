@@ -185,6 +185,9 @@ pub fn prove(
 /// Whether some transition from a state that satisfies these conditions violates a property. Much faster than
 /// [`prove`], which also shows that the conditions are an invariant.
 ///
+/// The states whose next step handles one of these goals come first: where one of them violates it, the others are not
+/// looked at.
+///
 /// # Errors
 /// If a file cannot be written, there is no such property, or CBMC gives no result.
 pub fn violates(
@@ -192,12 +195,18 @@ pub fn violates(
     cbmc: &Cbmc,
     folder: &Path,
     known: &[String],
-    property: &str,
+    (property, goals): (&str, &[&str]),
 ) -> Result<bool, ProveError> {
     write_files(obligations, folder)?;
-    let invariant = obligations.invariant(&tried(obligations, known));
-    write(folder, &invariant.name, &invariant.text)?;
-    cbmc.violates(folder, "induction", property)
+    let tried = tried(obligations, known);
+    let at_goals = goals.iter().flat_map(|goal| obligations.invariants_at(&tried, goal));
+    for invariant in at_goals.chain([obligations.invariant(&tried)]) {
+        write(folder, &invariant.name, &invariant.text)?;
+        if cbmc.violates(folder, "induction", property)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// The branches of the agent's C that no execution takes, after a [`prove`] of all in the same folder: from no state that

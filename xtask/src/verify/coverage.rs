@@ -81,8 +81,9 @@ pub(super) fn measure() -> Result<Coverage, VerifyError> {
     tested.lock().map_err(in_file("cannot wait for", &lock))?;
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut tests = Command::new(&cargo);
-    tests.args(["test", "--locked", "--quiet", "-p", "autopilot", "-p", "system-tests"]);
-    tests.args(["--lib", "--test", "system", "--"]).args(TESTS);
+    // Of the whole workspace: of two packages alone, dependencies have other features, and would be built again.
+    tests.args(["test", "--locked", "--quiet", "--workspace", "--lib", "--test", "system", "--"]);
+    tests.args(TESTS);
     let output = tests.env("AGENT_COVERAGE", &counted).output();
     let output = output.map_err(in_file("cannot run", Path::new(&cargo)))?;
     if !output.status.success() {

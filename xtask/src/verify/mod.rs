@@ -16,9 +16,9 @@ use asl2c::{Cbmc, Checked, Checks, Plan, Proof};
 use translator::TranslateError;
 
 use self::mutants::{MUTANTS, Mutant, Place, RUN_TIME};
-use self::proof::{broken, prove, violates};
+use self::proof::{broken, prove, violates, write_program};
 use self::report::Report;
-use self::run_time::alarms;
+use self::run_time::{alarms, coarse_alarms};
 use self::tools::{Missing, Tools};
 use crate::parallel;
 
@@ -210,13 +210,18 @@ impl Verifier {
         let configuration = changed(Place::Configuration, AUTOPILOT.configuration);
         let text = changed(Place::Agent, AUTOPILOT.text);
         let agent = Agent { configuration: &configuration, text: &text, ..AUTOPILOT };
-        let runs_wrong = mutant.breaks == RUN_TIME;
-        let checks = if runs_wrong { Checks::All } else { Checks::Properties };
         let spoil = |file: &str| mutant.apply(Place::C, file);
+        if mutant.breaks == RUN_TIME {
+            write_program(&agent, folder, spoil)?;
+            let is_seen = !coarse_alarms(folder)?.is_empty();
+            let broken = is_seen.then(|| RUN_TIME.to_owned()).into_iter().collect();
+            return Ok(Caught { mutant, broken, on_model: None });
+        }
         // The agent keeps the property in each transition from a state that satisfies its invariant. A mutant that
         // does not is caught at once; another may break the invariant first.
-        let at_once =
-            !runs_wrong && violates(&agent, &self.cbmc, folder, invariant, mutant.breaks, spoil)?;
+        let goals = mutant.goals(AUTOPILOT.text);
+        let wanted = (mutant.breaks, goals.as_slice());
+        let at_once = violates(&agent, &self.cbmc, folder, invariant, wanted, spoil)?;
         // If the property also fails on the model, the agent's invariant suffices to find it on the C.
         // Otherwise all candidates are needed, because a failed proof with fewer conditions says nothing
         // about the mutant.
@@ -225,11 +230,8 @@ impl Verifier {
             vec![mutant.breaks.to_owned()]
         } else {
             let known = if on_model { invariant } else { &[] };
-            let plan = Plan { checks, known, enough: Some(mutant.breaks) };
-            let mut proof = prove(&agent, &self.cbmc, folder, &plan, spoil)?;
-            if runs_wrong {
-                proof.run_time.extend(alarms(folder)?);
-            }
+            let plan = Plan { checks: Checks::Properties, known, enough: Some(mutant.breaks) };
+            let proof = prove(&agent, &self.cbmc, folder, &plan, spoil)?;
             broken(&proof).into_iter().map(str::to_owned).collect()
         };
         let on_model = on_model.then(|| model::is_refuted(&agent, mutant.breaks)).transpose()?;

@@ -33,6 +33,26 @@ impl Mutant {
         (place == self.place && text.contains(self.from))
             .then(|| text.replacen(self.from, self.to, 1))
     }
+
+    /// Goals whose events probably show the mistake: that of the changed plan, and one to which the property applies.
+    pub(super) fn goals(&self, agent: &'static str) -> Vec<&'static str> {
+        let end = agent.find(self.from).map_or(0, |start| start + self.from.len());
+        let mut plans = agent[..end].lines().rev();
+        let changed = plans.find_map(|line| line.strip_prefix("+!").or(line.strip_prefix("-!")));
+        let changed = changed.and_then(|plan| plan.split(|c: char| !c.is_alphanumeric()).next());
+        let meant = match self.breaks {
+            "landing_is_honoured" => "land",
+            "take_off_is_not_blind" => "takeOff",
+            "a_search_ends" | "a_search_keeps_a_reserve" | "a_search_stays_inside" => "search",
+            "settling_above_a_tag_ends" => "overTag",
+            "old_setpoints_are_not_flown" => "follow",
+            // It watches over the flight.
+            _ => "wait",
+        };
+        let mut goals = vec![changed.unwrap_or(meant), meant];
+        goals.dedup();
+        goals
+    }
 }
 
 const fn agent(
@@ -513,3 +533,22 @@ pub(super) const MUTANTS: [Mutant; 76] = [
         "one_command",
     ),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::AUTOPILOT;
+
+    #[test]
+    fn a_mistake_is_looked_for_where_it_is() {
+        let goals = |name: &str| {
+            let mutant = MUTANTS.iter().find(|mutant| mutant.name == name).unwrap();
+            mutant.goals(AUTOPILOT.text)
+        };
+        assert_eq!(goals("a hold cancels a landing"), ["hold", "wait"]);
+        assert_eq!(goals("above a tag in danger it hovers"), ["overTag", "wait"]);
+        assert_eq!(goals("blindness is accepted for weeks"), ["wait"]);
+        assert_eq!(goals("a search may take weeks"), ["search"]);
+        assert_eq!(goals("the C forgets a landing order"), ["land"]);
+    }
+}

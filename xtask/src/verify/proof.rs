@@ -6,7 +6,7 @@ use asl2c::{Cbmc, Plan, Proof};
 use translator::{Obligations, obligations, parse_configuration};
 
 use super::mutants::RUN_TIME;
-use super::{Agent, VerifyError};
+use super::{Agent, VerifyError, in_file, write};
 
 /// What was not proved.
 pub(super) fn broken(proof: &Proof) -> Vec<&str> {
@@ -26,16 +26,30 @@ pub(super) fn prove(
     Ok(asl2c::prove(&to_prove(agent, change)?, cbmc, folder, plan)?)
 }
 
-/// Whether some transition from a state that satisfies the invariant violates a property.
+/// Whether some transition from a state that satisfies the invariant violates a property; states at these goals come
+/// first.
 pub(super) fn violates(
     agent: &Agent<'_>,
     cbmc: &Cbmc,
     folder: &Path,
     invariant: &[String],
-    property: &str,
+    wanted: (&str, &[&str]),
     change: impl Fn(&str) -> Option<String>,
 ) -> Result<bool, VerifyError> {
-    Ok(asl2c::violates(&to_prove(agent, change)?, cbmc, folder, invariant, property)?)
+    Ok(asl2c::violates(&to_prove(agent, change)?, cbmc, folder, invariant, wanted)?)
+}
+
+/// Writes what is proved, for another tool.
+pub(super) fn write_program(
+    agent: &Agent<'_>,
+    folder: &Path,
+    change: impl Fn(&str) -> Option<String>,
+) -> Result<(), VerifyError> {
+    std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
+    let obligations = to_prove(agent, change)?;
+    let nothing = obligations.invariant(&[]);
+    let mut files = obligations.files.iter().chain([&nothing]);
+    files.try_for_each(|file| write(folder, &file.name, &file.text))
 }
 
 fn to_prove(

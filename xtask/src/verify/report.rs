@@ -222,6 +222,7 @@ Each of these mutants is the shipped agent, its configuration or its C with one 
 the intended property: the proof on the C fails, and on the model (unless the mistake is in the
 C) SPIN finds a counterexample. On the C, most of them violate the property in one transition from a state that satisfies
 the shipped agent's invariant; of the others, conditions are removed until the rest is inductive and the property fails.
+An error at run time is found by Frama-C: for CBMC, an array in the state ends where the state does.
 
 ";
 

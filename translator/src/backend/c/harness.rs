@@ -6,7 +6,11 @@
 //! called again at any time. Assertions that hold in both hold after any number of transitions.
 
 mod invariant;
+mod moment;
 
+use std::collections::BTreeMap;
+
+pub(crate) use self::moment::Moment;
 use super::cycle::event_name;
 use super::names::{Names, argument_names, typed_arguments};
 use super::state::{Slot, belief_value, external_name, held, inbox_ring, pending};
@@ -33,6 +37,10 @@ pub(crate) struct Harness {
     pub(crate) source: String,
     /// C expressions over `self` and the monitors that are candidates for the invariant.
     pub(crate) candidates: Vec<String>,
+    /// By index of a candidate: the assignment to an arbitrary state that says the same.
+    pub(crate) fixed: BTreeMap<usize, String>,
+    /// What a step may handle.
+    pub(crate) moments: Vec<Moment>,
 }
 
 /// Types without a way to create arbitrary values.
@@ -51,7 +59,8 @@ pub(crate) fn unknown_type(program: &Program) -> Option<String> {
 pub(crate) fn harness(program: &Program) -> Harness {
     let names = Names::new(program);
     let builder = Builder { program, names };
-    Harness { source: builder.source(), candidates: builder.candidates() }
+    let (candidates, fixed) = builder.candidates();
+    Harness { source: builder.source(), candidates, fixed, moments: builder.moments() }
 }
 
 struct Builder<'a> {

@@ -36,7 +36,7 @@ pub(crate) use self::exercise::{
 };
 pub(crate) use self::handlers::plan_name;
 pub use self::harness::{ANSWERS, CALLS, STEPS};
-pub(crate) use self::harness::{harness, unknown_type};
+pub(crate) use self::harness::{Moment, harness, unknown_type};
 pub(crate) use self::names::{action_symbol, comment_safe, symbol_prefix};
 pub(crate) use self::scripted::scripted;
 pub(crate) use self::state::{Counter, Field, FieldType, counters, handler_name, layout};

@@ -1,5 +1,7 @@
 //! Candidates for the invariant of a proof, which keeps those that are inductive.
 
+use std::collections::BTreeMap;
+
 use super::{Builder, occupied};
 use crate::backend::c::cycle::{event_name, no_event};
 use crate::backend::c::state::{
@@ -8,11 +10,14 @@ use crate::backend::c::state::{
 };
 use crate::configuration::{Cause, Formula, Property};
 use crate::program::{Belief, Value};
+use crate::types::TypeKind;
 
 impl Builder<'_> {
-    /// The candidates. Wrong ones do no harm: they are removed.
-    pub(super) fn candidates(&self) -> Vec<String> {
+    /// The candidates, and by index the assignments to arbitrary states that say the same. Wrong ones do no harm: they
+    /// are removed.
+    pub(super) fn candidates(&self) -> (Vec<String>, BTreeMap<usize, String>) {
         let mut candidates = Vec::new();
+        let mut fixed = BTreeMap::new();
         let posted: Vec<String> = (self.program.posted.iter())
             .map(|id| event_name(&self.names, Slot::Posted, &handler_name(self.program, *id)))
             .collect();
@@ -35,11 +40,17 @@ impl Builder<'_> {
                 let pending = pending(Slot::Perceived, &handler_name(self.program, handler));
                 candidates.push(format!("(!self->{pending} || {held})"));
             }
+            fixed.insert(candidates.len(), format!("{held} = false;"));
             candidates.push(format!("(!{held})"));
+            fixed.insert(candidates.len(), format!("{held} = true;"));
             candidates.push(held);
             for (index, value) in belief.initial.iter().flatten().enumerate() {
-                if let Value::Constant(text, _) = value {
+                if let Value::Constant(text, ctype) = value {
                     let field = belief_value(&belief.name, index);
+                    // Other types have several values that are equal to one: 0.0 and -0.0.
+                    if let TypeKind::Signed { .. } | TypeKind::Unsigned { .. } = ctype.kind {
+                        fixed.insert(candidates.len(), format!("self->{field} = {text};"));
+                    }
                     candidates.push(format!("(self->{field} == {text})"));
                 }
             }
@@ -47,7 +58,7 @@ impl Builder<'_> {
         for property in self.properties() {
             self.monitor_candidates(property, &posted, &mut candidates);
         }
-        candidates
+        (candidates, fixed)
     }
 
     fn rings_are_sound(&self, candidates: &mut Vec<String>) {
