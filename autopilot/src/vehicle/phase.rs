@@ -442,6 +442,10 @@ impl Vehicle {
     /// air, or lost, continues to be landed.
     pub(super) fn end(&mut self, now: Duration, outcome: Outcome) {
         if self.flight.outcome.is_none() {
+            let outcome = match (outcome, self.flight.witnesses.contradicts()) {
+                (Outcome::Completed, Some(by)) => Outcome::Contradicted { by },
+                (outcome, _) => outcome,
+            };
             self.flight.outcome = Some(outcome);
             self.pending.outcome = true;
         }
