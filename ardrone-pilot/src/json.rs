@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use autopilot::plan::Step;
-use autopilot::vehicle::{FlightEvent, ManualControl, Status};
+use autopilot::vehicle::{FlightEvent, FlightReport, ManualControl, Status, Witness};
 use diagnostic::is_printable;
 use serde_json::{Value, json};
 
@@ -88,6 +88,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
             "steps_done": report.steps_done,
             "flight_time_s": report.flight_time().map(|time| time.as_secs_f64()),
             "final_error_m": report.final_error_m(),
+            "known": known(report),
         }),
         Message::Waypoint(waypoint) => json!({
             "type": "target",
@@ -114,6 +115,9 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "distance_m": distance_m,
                 "battery_percent": battery_percent,
                 "horizontal_deviation_m": status.horizontal_deviation_m,
+                "horizontal_deviation_holds": status.rests_on.to_string(),
+                "rests_on": status.rests_on.name(),
+                "contradicted_by": status.contradicted_by.map(Witness::name),
                 "vertical_deviation_m": status.vertical_deviation_m,
                 "tags": status.tags.as_ref().map(|tags| json!({
                     "known": tags.known.count(),
@@ -150,7 +154,19 @@ pub(crate) fn end(
         "steps_done": report.steps_done,
         "flight_time_s": report.flight_time().map(|time| time.as_secs_f64()),
         "final_error_m": report.final_error_m(),
+        "known": known(report),
         "log": recorded.map(|recorded| recorded.path.display().to_string()),
+    })
+}
+
+/// How well the place of the last target was known, and what that rests on.
+fn known(report: &FlightReport) -> Value {
+    report.waypoints.last().map_or(Value::Null, |waypoint| {
+        json!({
+            "deviation_m": waypoint.horizontal_deviation_m,
+            "holds": waypoint.rests_on.to_string(),
+            "rests_on": waypoint.rests_on.name(),
+        })
     })
 }
 

@@ -4,11 +4,11 @@
 // holds, and carries the plan out to its end. Every plan issues exactly one AT command, so the
 // drone hears from us in every step.
 //
-// The environment tells where the drone is and how it is (`position`, `battery`, `blindFor`,
-// `doubt`, `saturatedFor`, `wind`), for how long it has been doing the same (`takingOffFor`,
-// `approachingFor`, `searchingFor`, `overTagFor`, `stayingFor`, `descendingFor`), how long ago a tag on
-// the floor was seen (`tagAge`), how far it is to the fence (`fenceRoom`) and
-// how orders are to be flown (`reachDistance`, `stayDistance`, `stayTime`), and whether whoever flies it is still
+// The environment tells where the drone is, or while it stays or comes down, where that is to be
+// (`position`), how it is (`battery`, `blindFor`, `doubt`, `saturatedFor`, `wind`), for how long it has been doing
+// the same (`takingOffFor`, `approachingFor`, `searchingFor`, `overTagFor`, `stayingFor`, `descendingFor`), how long
+// ago a tag on the floor was seen (`tagAge`), how far it is to the fence (`fenceRoom`), how orders are to be
+// flown (`reachDistance`, `stayDistance`, `stayTime`), and whether whoever flies it is still
 // there (`setpointAge`, `stationSilentFor`); it orders `takeOff`, `goTo`,
 // `findTag`, `landOnTag`, `newMission`, `hold`, `steer`, `follow` and `land`. The last five pre-empt whatever runs,
 // but nothing ends a landing.

@@ -2,11 +2,18 @@
 
 use std::fmt;
 
+use crate::vehicle::Witness;
+
 /// How a flight ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
     /// The plan was flown to its end and the drone has landed.
     Completed,
+    /// The plan was flown to its end and the drone has landed, but the place by which it was flown is contradicted.
+    Contradicted {
+        /// What contradicts it.
+        by: Witness,
+    },
     /// No drone answered.
     NoDrone,
     /// The drone stopped answering in flight.
@@ -38,6 +45,7 @@ impl Outcome {
             Self::PreflightRefused { .. } => 30,
             Self::Failsafe { .. } => 40,
             Self::Emergency => 50,
+            Self::Contradicted { .. } => 60,
             Self::Interrupted | Self::LeftLanding => 130,
         }
     }
@@ -47,6 +55,10 @@ impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Completed => f.write_str("plan flown to its end"),
+            Self::Contradicted { by } => write!(
+                f,
+                "all steps flown, but {by} contradicts the place: the targets may not have been reached"
+            ),
             Self::NoDrone => f.write_str(
                 "no drone answered: is this machine on the drone's Wi-Fi, and the address right?",
             ),

@@ -652,7 +652,13 @@ impl Estimator {
 
     /// The known tags and their status; `None` if tags are not used.
     pub fn tag_status(&self, now: Duration) -> Option<TagStatus> {
-        self.tags.as_ref().map(|tags| tags.status(now.as_secs_f64()))
+        let tags = self.tags.as_ref()?;
+        let at_s = self.velocity_at_s.unwrap_or_default();
+        let deviation_m = self.horizontal_deviation_m(now);
+        Some(TagStatus {
+            is_due: self.airborne && tags.is_due(at_s, self.heading_at(at_s), deviation_m),
+            ..tags.status(now.as_secs_f64())
+        })
     }
 
     /// Whether a tag is in view and a turn of some degrees would reveal the sign of its orientation, without

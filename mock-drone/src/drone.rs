@@ -15,6 +15,7 @@ use crate::airframe::{Airframe, Profile, STEP_S};
 use crate::camera::{Camera, CameraModel, FloorTag};
 use crate::faults::{Quantity, Reported, SensorFault, SensorFaults};
 use crate::firmware::{Firmware, Phase};
+use crate::gauss_markov::GaussMarkov;
 use crate::sensors::{SensorModel, Sensors};
 use crate::telemetry::{Tag27, Telemetry};
 use crate::wind::Wind;
@@ -43,6 +44,8 @@ pub struct DroneConfig {
     pub gusts_m_s: f64,
     /// Content of option 27.
     pub tag_27: Tag27,
+    /// Standard deviation of its GPS on each axis. The error stays for about a minute.
+    pub gps_error_m: f64,
     /// Maximum error of the level reference, unknown to the pilot.
     pub trim_error_deg: f64,
 }
@@ -60,6 +63,7 @@ impl Default for DroneConfig {
             wind_m_s: Vector2::zeros(),
             gusts_m_s: 0.0,
             tag_27: Tag27::Absent,
+            gps_error_m: 0.0,
             trim_error_deg: 0.3,
         }
     }
@@ -138,6 +142,7 @@ impl Claims {
 pub struct Drone {
     config: DroneConfig,
     wind: Wind,
+    gps_error_m: GaussMarkov,
     /// When it was switched on.
     switched_on: Duration,
     faults: SensorFaults,
@@ -157,6 +162,8 @@ pub struct Drone {
     outgoing: VecDeque<Bytes>,
 }
 
+/// How long an error of the GPS stays: its satellites and reflections change slowly.
+const GPS_ERROR_TIME_S: f64 = 60.0;
 const STEP: Duration = Duration::from_micros(2500);
 /// Pictures per number of steps: 30 per second.
 const PICTURES: (u64, u64) = (3, 40);
@@ -197,6 +204,11 @@ impl Drone {
         Self {
             config: config.clone(),
             wind: Wind::new(config.wind_m_s, config.gusts_m_s, config.seed),
+            gps_error_m: GaussMarkov::settled(
+                config.gps_error_m,
+                GPS_ERROR_TIME_S,
+                ChaCha8Rng::seed_from_u64(config.seed ^ 0x6770_7320),
+            ),
             switched_on: Duration::ZERO,
             faults: SensorFaults::new(config.seed),
             claims: Claims::default(),
@@ -222,6 +234,7 @@ impl Drone {
             let thrust = self.firmware.step(time, &self.airframe);
             let contacts = self.airframe.floor_contacts();
             self.airframe.step(thrust, self.wind.step());
+            self.gps_error_m.step();
             if self.firmware.phase() == Phase::Flying {
                 self.floor_contacts += self.airframe.floor_contacts() - contacts;
             }
@@ -350,7 +363,7 @@ impl Drone {
     /// Changes the steady wind, which blows towards (right, forward), and its gusts.
     pub fn set_wind(&mut self, steady_m_s: Vector2<f64>, gusts_m_s: f64) {
         self.wind.steady_m_s = steady_m_s;
-        self.wind.gust_deviation_m_s = gusts_m_s;
+        self.wind.gusts_m_s.deviation = gusts_m_s;
     }
 
     /// Sets the reduction of the measured charge at full load.
@@ -424,6 +437,7 @@ impl Drone {
                 wind_m_s: self.wind.steady_m_s,
                 clock,
                 tag_27: self.config.tag_27,
+                gps_error_m: self.gps_error_m.value(),
             };
             let firmware = &self.firmware;
             // The demo option is always sent.

@@ -24,6 +24,7 @@ mod configuration;
 mod drone;
 mod faults;
 pub mod firmware;
+mod gauss_markov;
 mod link;
 pub mod scenario;
 mod second_pilot;

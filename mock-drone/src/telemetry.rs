@@ -41,6 +41,7 @@ pub(crate) struct Telemetry<'a> {
     /// The drone's own clock.
     pub(crate) clock: Duration,
     pub(crate) tag_27: Tag27,
+    pub(crate) gps_error_m: Vector2<f64>,
 }
 
 /// Battery voltage when empty, and the difference to a full charge.
@@ -109,17 +110,17 @@ impl Telemetry<'_> {
         })
     }
 
-    /// A receiver somewhere in Paris, with north where the drone looked at its start. It is exact: nothing is flown
-    /// by it.
+    /// A receiver somewhere in Paris, with north where the drone looked at its start.
     fn gps(&self) -> Gps {
         const METRES_PER_DEGREE: f64 = 111_320.0;
         const START_DEG: [f64; 2] = [48.879_12, 2.367_77];
         const START_M: f64 = 61.0;
         let place_m = self.airframe.position_m();
+        let across_m = place_m.xy() + self.gps_error_m;
         let [latitude_deg, longitude_deg] = START_DEG;
-        let east_deg = place_m.x / (METRES_PER_DEGREE * latitude_deg.to_radians().cos());
+        let east_deg = across_m.x / (METRES_PER_DEGREE * latitude_deg.to_radians().cos());
         Gps {
-            latitude_deg: latitude_deg + place_m.y / METRES_PER_DEGREE,
+            latitude_deg: latitude_deg + across_m.y / METRES_PER_DEGREE,
             longitude_deg: longitude_deg + east_deg,
             elevation_m: START_M + place_m.z,
             start_latitude_deg: latitude_deg,

@@ -9,6 +9,7 @@ pub mod rules;
 pub mod sensors;
 pub mod sim;
 pub mod streams;
+pub mod witnesses;
 
 use autopilot::Plan;
 use autopilot::vehicle::Waypoint;

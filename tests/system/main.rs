@@ -36,3 +36,4 @@ mod vehicle;
 mod video;
 mod video_faults;
 mod video_rate;
+mod witnesses;

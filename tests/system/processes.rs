@@ -2,11 +2,14 @@
 
 use std::fs::File;
 use std::io::{BufRead as _, BufReader};
+use std::net::{Ipv4Addr, UdpSocket};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Output, Stdio};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use ardrone_link::at::{self, Datagram, Motion, Ref};
 use ardrone_pilot::recording::Log;
 use mock_drone::WorldConfig;
 use mock_drone::firmware::Phase;
@@ -219,17 +222,11 @@ fn a_real_terminal_that_is_closed_lands_and_ends() {
     assert!(closed.elapsed() > Duration::from_secs(1), "it lands first");
 }
 
-/// No process of ours is left: the drone's own watchdog lands it where it is.
-#[test]
-fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
-    let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+/// A pilot for a drone in this process, whose truth can be seen.
+fn pilot_of(mock: &MockDrone, plan: &Path) -> Command {
     let ports = mock.ports();
     let mut pilot = program("ardrone-pilot");
-    let plan = plan_file(LONG);
-    let folder = tempfile::tempdir().unwrap();
-    let flight_log = folder.path().join("flight.mcap");
-    pilot.arg("--plan").arg(plan.path()).args(["--drone", "127.0.0.1"]);
-    pilot.arg("--log").arg(&flight_log);
+    pilot.arg("--plan").arg(plan).args(["--drone", "127.0.0.1"]);
     for (name, port) in [
         ("--at-port", ports.at),
         ("--navdata-port", ports.navdata),
@@ -237,7 +234,61 @@ fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
     ] {
         pilot.args([name, &port.to_string()]);
     }
-    let (mut child, log) = start(&mut pilot);
+    pilot
+}
+
+/// Another client sends orders to fly, numbered far ahead of the pilot's, until it is told to end.
+fn fly_on(mock: &MockDrone, first: u32, ends: &AtomicBool) {
+    let socket = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    let ports = mock.ports();
+    let mut number = first;
+    while !ends.load(Ordering::Relaxed) {
+        let mut datagram = Datagram::new();
+        datagram.push(number, &at::Command::Ref(Ref::TakeOff)).unwrap();
+        datagram.push(number + 1, &at::Command::Pcmd(Motion::Hover)).unwrap();
+        socket.send_to(datagram.as_bytes(), (ports.host, ports.at)).unwrap();
+        number += 2;
+        std::thread::sleep(Duration::from_millis(33));
+    }
+}
+
+/// The numbers of another client are above ours: the drone drops what we send, until a landing escalates.
+#[test]
+fn another_clients_numbers_do_not_drown_control_c() {
+    for first in [10_000_000, 2_000_000_000] {
+        let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+        let plan = plan_file(LONG);
+        let (child, log) = start(pilot_of(&mock, plan.path()).arg("--no-log"));
+        wait_for(log.path(), "step 3/4");
+        let ends = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            scope.spawn(|| fly_on(&mock, first, &ends));
+            std::thread::sleep(Duration::from_millis(500));
+            let before = mock.truth().phase;
+            signal(&child, "-INT");
+            let ordered = Instant::now();
+            while mock.truth().phase == Phase::Flying && ordered.elapsed() < Duration::from_secs(8)
+            {
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            let taken = ordered.elapsed();
+            ends.store(true, Ordering::Relaxed);
+            assert_eq!(before, Phase::Flying);
+            assert!(taken <= Duration::from_secs(2), "{first}: it lands after {taken:?}");
+        });
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130), "{}", text(&output));
+    }
+}
+
+/// No process of ours is left: the drone's own watchdog lands it where it is.
+#[test]
+fn a_killed_pilot_leaves_the_drone_to_its_own_landing() {
+    let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+    let plan = plan_file(LONG);
+    let folder = tempfile::tempdir().unwrap();
+    let flight_log = folder.path().join("flight.mcap");
+    let (mut child, log) = start(pilot_of(&mock, plan.path()).arg("--log").arg(&flight_log));
     wait_for(log.path(), "step 3/4");
     // While moving it would keep its last sticks for the 2 s of its watchdog.
     std::thread::sleep(Duration::from_secs(3));

@@ -211,6 +211,17 @@ fn navdata_that_stay_frozen_or_lie_too_much_land_the_drone() {
     }
 }
 
+/// Its packets arrive, so the link is not lost, but they are dated ever later.
+#[test]
+fn a_slow_clock_lands_the_drone_and_is_told_as_what_it_is() {
+    let slow = Action::Sensor(Sensor::Clock, SensorFault::Ramp(-0.5), 60 * SECOND);
+    let scenario = Scenario::default().and(When::SinceTakeOff(5 * SECOND), slow);
+    let world = WorldConfig { scenario, ..WorldConfig::default() };
+    let flight = Simulation { world, ..Simulation::default() }.fly(plan(SQUARE)).unwrap();
+    let reason = LandingReason::NavdataLate.to_string();
+    assert_eq!(flight.outcome, Outcome::Failsafe { reason });
+}
+
 /// Whatever was wrong: the motors do not start.
 #[test]
 fn a_drone_that_lies_from_the_first_packet_does_not_take_off() {

@@ -8,6 +8,7 @@ use clap::{Parser, Subcommand};
 
 use crate::{
     campaign, fly, healthy, mavlink, mutants, sensors, soak, streams, tags, target, verify,
+    witnesses,
 };
 
 /// Measurements of the whole system, in simulated time.
@@ -73,6 +74,16 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 4_000, value_parser = clap::value_parser!(u64).range(1..))]
         streams: u64,
         /// The first seed; each further stream takes the next one
+        #[arg(long, value_name = "SEED", default_value_t = 1)]
+        first: u64,
+    },
+    /// Fly where tags or a GPS know the place too, with a right velocity and a wrong one, and report how often they
+    /// contradicted it; fails if they contradicted a right one
+    Witnesses {
+        /// How many flights of each case
+        #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u64).range(1..))]
+        flights: u64,
+        /// The first seed; each further flight takes the next one
         #[arg(long, value_name = "SEED", default_value_t = 1)]
         first: u64,
     },
@@ -146,6 +157,9 @@ pub(crate) fn main() -> ExitCode {
         }
         Command::Streams { streams, first } => {
             streams::run(streams, first).map_err(|error| error.to_string())
+        }
+        Command::Witnesses { flights, first } => {
+            witnesses::run(flights, first).map_err(|error| error.to_string())
         }
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each),
         Command::Mutants { all: true, shard, .. } => {

@@ -18,6 +18,7 @@ mod table;
 mod tags;
 mod target;
 mod verify;
+mod witnesses;
 
 fn main() -> std::process::ExitCode {
     command_line::main()

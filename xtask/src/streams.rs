@@ -13,8 +13,8 @@ pub(crate) fn run(streams: u64, first: u64) -> Result<(String, bool), Simulation
     let seeds: Vec<u64> = (first..first.saturating_add(streams)).collect();
     let flown = parallel::map(&seeds, fly)?;
     let mut text = format!(
-        "{:<10}{:>9}{:>12}{:>12}{:>8}\n",
-        "airframe", "streams", "outside [m]", "further [m]", "bad"
+        "{:<10}{:>9}{:>12}{:>12}{:>8}{:>8}\n",
+        "airframe", "streams", "outside [m]", "further [m]", "floor", "bad"
     );
     for (airframe, model) in AIRFRAMES.iter().enumerate() {
         let on: Vec<&Flown> = flown.iter().filter(|flown| flown.airframe == airframe).collect();
@@ -24,11 +24,12 @@ pub(crate) fn run(streams: u64, first: u64) -> Result<(String, bool), Simulation
         let bad = on.iter().filter(|flown| flown.is_bad()).count();
         _ = writeln!(
             text,
-            "{:<10}{:>9}{:>12.2}{:>12.2}{bad:>8}",
+            "{:<10}{:>9}{:>12.2}{:>12.2}{:>8}{bad:>8}",
             model.name,
             on.len(),
             most(|flown| flown.outside_m),
             most(|flown| flown.further_m),
+            on.iter().filter(|flown| flown.touches > 0).count(),
         );
     }
     let bad: Vec<&Flown> = flown.iter().filter(|flown| flown.is_bad()).collect();

@@ -23,6 +23,7 @@ Exit status:
    30  the pre-flight check refused to take off
    40  a failsafe landed the drone
    50  emergency: the drone cut its motors
+   60  all steps were flown, but a tag or the GPS contradicts the place: the targets may not have been reached
   130  the operator landed it (Ctrl-C)
 
 Without --plan it is 0 if an operator quit with the drone down, whatever the outcomes of its flights.
@@ -282,7 +283,7 @@ mod tests {
     #[test]
     fn help_lists_the_exit_statuses() {
         let help = Arguments::command().render_long_help().to_string();
-        for status in ["0", "1", "2", "10", "20", "30", "40", "50", "130"] {
+        for status in ["0", "1", "2", "10", "20", "30", "40", "50", "60", "130"] {
             assert!(help.lines().any(|line| line.split_whitespace().next() == Some(status)));
         }
     }

@@ -169,7 +169,7 @@ mod tests {
 
     use super::*;
     use autopilot::agent::ChosenPlans;
-    use autopilot::vehicle::Trust;
+    use autopilot::vehicle::{RestsOn, Trust};
     use kinematics::Airframe;
 
     #[test]
@@ -196,6 +196,8 @@ mod tests {
             distance_m: Some(0.88),
             battery_percent: Some(87),
             horizontal_deviation_m: 0.1,
+            rests_on: RestsOn::Velocity,
+            contradicted_by: None,
             vertical_deviation_m: 0.02,
             tags: None,
             gps: None,

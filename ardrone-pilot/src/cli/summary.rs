@@ -54,11 +54,8 @@ impl fmt::Display for Summary<'_> {
             writeln!(f, "  final error     {error_m:.2} m (estimate to last target)")?;
         }
         if let Some(waypoint) = report.waypoints.last() {
-            let deviation_m = waypoint.horizontal_deviation_m;
-            writeln!(
-                f,
-                "  place known to  {deviation_m:.2} m (standard deviation, grows with time)"
-            )?;
+            let (deviation_m, rests_on) = (waypoint.horizontal_deviation_m, waypoint.rests_on);
+            writeln!(f, "  place known to  {deviation_m:.2} m (standard deviation), {rests_on}")?;
         }
         let largest = |value: fn(&TrueWaypoint) -> f64| {
             self.truths.iter().map(value).fold(None, |largest: Option<f64>, value| {

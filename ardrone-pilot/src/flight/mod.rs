@@ -352,7 +352,12 @@ impl TickLoop {
         let down = match &end {
             Ok(_) if self.stay == Stay::UntilLeft => self.vehicle.is_at_rest(),
             Ok(outcome) => {
-                matches!(outcome, Outcome::Completed | Outcome::PreflightRefused { .. })
+                matches!(
+                    outcome,
+                    Outcome::Completed
+                        | Outcome::Contradicted { .. }
+                        | Outcome::PreflightRefused { .. }
+                )
             }
             Err(_) => false,
         };

@@ -1,9 +1,11 @@
 //! Messages of the flight log: JSON objects whose fields have the same names in the file and here.
 
+use std::time::Duration;
+
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::{GpsFix, Packet};
 use ardrone_link::session::FlightOrder;
-use autopilot::vehicle::{Decision, KnownTag, TagStatus};
+use autopilot::vehicle::{Decision, KnownTag, RestsOn, TagStatus};
 use kinematics::Pose;
 use serde::{Deserialize, Serialize};
 
@@ -71,6 +73,9 @@ pub struct Estimate {
     pub vz_m_s: f64,
     /// Standard deviation of the position on each horizontal axis.
     pub horizontal_deviation_m: f64,
+    /// Time since the tag was seen on which that rests; `None` if it rests on the drone's velocity alone.
+    #[serde(default)]
+    pub tag_seen_s: Option<f64>,
     /// Standard deviation of the height.
     pub vertical_deviation_m: f64,
 }
@@ -242,6 +247,10 @@ impl Tick {
             vy_m_s: short(state.velocity_m_s.y),
             vz_m_s: short(state.velocity_m_s.z),
             horizontal_deviation_m: short(percepts.position_sd_m),
+            tag_seen_s: decision
+                .tags
+                .and_then(|tags| tags.seen_ago)
+                .map(|ago| short(ago.as_secs_f64())),
             vertical_deviation_m: short(decision.vertical_deviation_m),
         };
         Self {
@@ -255,6 +264,15 @@ impl Tick {
             timing: Timing { late_ms: short(timing.late_ms), work_ms: short(timing.work_ms) },
             datagram: String::from_utf8_lossy(datagram).into_owned(),
         }
+    }
+}
+
+impl Estimate {
+    /// What its horizontal deviation rests on.
+    pub fn rests_on(&self) -> RestsOn {
+        // What no duration is comes from a forged log.
+        let seen_ago = self.tag_seen_s.and_then(|ago| Duration::try_from_secs_f64(ago).ok());
+        seen_ago.map_or(RestsOn::Velocity, |seen_ago| RestsOn::Tag { seen_ago })
     }
 }
 

@@ -158,6 +158,10 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
     let away =
         flight.ticks.iter().filter_map(|(_, tick)| tick.estimate).map(|at| at.x_m.hypot(at.y_m));
     fact("furthest from the start", format!("{:.2} m", away.fold(0.0, f64::max)));
+    if let Some(last) = flight.ticks.iter().rev().find_map(|(_, tick)| tick.estimate) {
+        let known = format!("place known to at the end, {}", last.rests_on());
+        fact(&escaped(&known), format!("{:.2} m", last.horizontal_deviation_m));
+    }
     let height = flight.ticks.iter().filter_map(|(_, tick)| tick.estimate).map(|at| at.z_m);
     fact("highest", format!("{:.2} m", height.fold(0.0, f64::max)));
     let late = flight.lateness_ms();

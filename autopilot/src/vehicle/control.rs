@@ -21,7 +21,7 @@ impl Vehicle {
         [state, soon]: [&Prediction; 2],
         step_s: f64,
     ) -> Order {
-        self.flight.target = None;
+        let last_target = self.flight.target.take();
         self.flight.estimator.advance_smooth(step_s);
         if !matches!(command, AgentCommand::GoTo(_)) {
             self.flight.saturation.rest(state, step_s);
@@ -39,6 +39,12 @@ impl Vehicle {
             }
             AgentCommand::GoTo(target) => {
                 self.flight.target = Some(target);
+                // Who is told to stay elsewhere than it was going stops here: the reference of the way there may be far
+                // ahead, above all after targets that changed in every tick.
+                let stays = self.flight.activity.stays() && self.flight.veto.is_none();
+                if stays && last_target != Some(target) {
+                    self.flight.controller.rest();
+                }
                 let limit = self.mission.max_control();
                 let turned = self.turned_to_learn(now, &target, step_s);
                 let demand = self.demand(soon, &turned, step_s);

@@ -9,6 +9,7 @@ use nalgebra::Vector2;
 use pid::PositionController;
 
 use super::manual::Manual;
+use super::place::Witnesses;
 use super::saturation::Saturation;
 use super::{FlightReport, LandingReason, SignSearch, VehicleConfig};
 use crate::agent::{Activity, Agent};
@@ -41,6 +42,7 @@ pub(super) struct Flight {
     pub(super) wind_m_s2: Vector2<f64>,
     pub(super) saturation: Saturation,
     pub(super) sign_search: SignSearch,
+    pub(super) witnesses: Witnesses,
     pub(super) target: Option<Pose>,
     /// When the drone was first asked for full navdata, or else when the flight began.
     pub(super) asked_at: Duration,
@@ -81,6 +83,7 @@ impl Flight {
             wind_m_s2: Vector2::zeros(),
             saturation: Saturation::default(),
             sign_search: SignSearch::default(),
+            witnesses: Witnesses::default(),
             target: None,
             asked_at: begins,
             has_begun: false,

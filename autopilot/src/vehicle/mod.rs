@@ -13,6 +13,7 @@ mod manual;
 mod operators;
 mod orders;
 mod phase;
+mod place;
 mod protocol;
 mod readiness;
 mod report;
@@ -43,6 +44,7 @@ pub use self::operators::{Operator, Station};
 pub use self::orders::{OperatorOrder, Place, Refused};
 use self::phase::FlightPhase;
 pub use self::phase::{LandingReason, Phase};
+pub use self::place::{RestsOn, Witness};
 use self::protocol::Pending;
 pub use self::protocol::{Input, Output, Transmit};
 pub use self::readiness::NotReady;
@@ -358,6 +360,7 @@ impl Vehicle {
             Some(decision) => pose(&decision.state),
             None => self.pose(now),
         };
+        let tags = self.flight.estimator.tag_status(now);
         Status {
             phase: self.phase.phase(),
             airborne: self.navdata.is_some() && !self.on_ground(),
@@ -376,7 +379,9 @@ impl Vehicle {
             battery_percent: self.demo().map(|demo| demo.battery_percent),
             horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
-            tags: self.flight.estimator.tag_status(now),
+            rests_on: RestsOn::of(tags.as_ref()),
+            contradicted_by: self.flight.witnesses.contradicts(),
+            tags,
             gps: self.gps(now),
             trust: self.flight.estimator.trust(),
             airframe: *self.flight.estimator.airframe(),

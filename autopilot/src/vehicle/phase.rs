@@ -108,6 +108,8 @@ impl fmt::Display for Phase {
 
 /// Longest time for an order to reach the drone and for its effect to show in navdata.
 pub(super) const ON_ITS_WAY: Duration = Duration::from_millis(600);
+/// The link to a drone that was heard so recently is not lost.
+const HEARD: Duration = Duration::from_millis(500);
 /// A drone that rises within this time after landing follows an old order of ours. Later than that, another
 /// pilot flies it.
 pub(super) const OURS: Duration = Duration::from_secs(2);
@@ -124,6 +126,8 @@ pub enum LandingReason {
     },
     /// The drone stopped answering.
     LinkLost,
+    /// Packets arrive, but what they tell is old, or they are dated wrongly.
+    NavdataLate,
     /// The drone has restarted.
     DroneRestarted,
     /// The agent could not carry out a step.
@@ -162,6 +166,9 @@ impl fmt::Display for LandingReason {
             Self::Operator => f.write_str("the operator's order"),
             Self::Battery { percent } => write!(f, "battery at {percent} %"),
             Self::LinkLost => f.write_str("link lost"),
+            Self::NavdataLate => {
+                f.write_str("navdata are out of date, or the drone's clock is wrong")
+            }
             Self::DroneRestarted => f.write_str("the drone has restarted"),
             Self::StepFailed { step } => write!(f, "step {} failed", step + 1),
             Self::StepTimedOut { step } => write!(f, "step {} exceeded its time limit", step + 1),
@@ -346,6 +353,9 @@ impl Vehicle {
             Danger::StationGone => LandingReason::StationGone,
             Danger::BatteryEmpty => LandingReason::Battery { percent },
             Danger::Blind => match self.flight.estimator.trust() {
+                Trust::Sound if self.session.silence(now).is_some_and(|age| age <= HEARD) => {
+                    LandingReason::NavdataLate
+                }
                 Trust::Sound => LandingReason::LinkLost,
                 trust => LandingReason::Distrust(trust),
             },
@@ -432,6 +442,10 @@ impl Vehicle {
     /// air, or lost, continues to be landed.
     pub(super) fn end(&mut self, now: Duration, outcome: Outcome) {
         if self.flight.outcome.is_none() {
+            let outcome = match (outcome, self.flight.witnesses.contradicts()) {
+                (Outcome::Completed, Some(by)) => Outcome::Contradicted { by },
+                (outcome, _) => outcome,
+            };
             self.flight.outcome = Some(outcome);
             self.pending.outcome = true;
         }

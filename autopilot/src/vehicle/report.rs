@@ -8,7 +8,7 @@ use diagnostic::printable;
 use estimator::{TagStatus, Trust};
 use kinematics::{Airframe, Pose};
 
-use super::{LandingReason, ManualControl, Operator, Phase};
+use super::{LandingReason, ManualControl, Operator, Phase, RestsOn, Witness};
 use crate::agent::{ChosenPlans, distance};
 use crate::safety::Veto;
 
@@ -66,6 +66,11 @@ pub enum FlightEvent {
     NoTagFound,
     /// The tag to land on is not seen any more: the drone lands where it is.
     TagLost,
+    /// Something else that knows of the place contradicts it.
+    PlaceContradicted {
+        /// What.
+        by: Witness,
+    },
     /// The drone's emergency state was cleared.
     EmergencyCleared,
     /// The drone is on the ground again.
@@ -146,6 +151,7 @@ impl FlightEvent {
             | Self::SearchingTag
             | Self::NoTagFound
             | Self::TagLost
+            | Self::PlaceContradicted { .. }
             | Self::FlownByAnother
             | Self::ControlsTaken { .. }
             | Self::SetpointsSilent
@@ -193,6 +199,9 @@ impl fmt::Display for FlightEvent {
             Self::NoTagFound => f.write_str("no tag found"),
             Self::TagLost => {
                 f.write_str("the tag to land on is not seen any more: landing here")
+            }
+            Self::PlaceContradicted { by } => {
+                write!(f, "{by} contradicts the place: the drone may be elsewhere")
             }
             Self::EmergencyCleared => f.write_str("emergency cleared"),
             Self::Landed => f.write_str("landed"),
@@ -248,6 +257,8 @@ pub struct Waypoint {
     pub pose: Pose,
     /// Standard deviation of that estimate on each horizontal axis.
     pub horizontal_deviation_m: f64,
+    /// What that deviation rests on.
+    pub rests_on: RestsOn,
     /// Time of the end of the stay.
     pub at: Duration,
 }
@@ -316,6 +327,10 @@ pub struct Status {
     /// Standard deviation of the position on each horizontal axis. It grows with time, because velocity is
     /// integrated.
     pub horizontal_deviation_m: f64,
+    /// What that deviation rests on.
+    pub rests_on: RestsOn,
+    /// What has contradicted the position in this flight.
+    pub contradicted_by: Option<Witness>,
     /// Standard deviation of the height.
     pub vertical_deviation_m: f64,
     /// What is known by tags, if they are used.
@@ -377,6 +392,7 @@ mod tests {
             target,
             pose,
             horizontal_deviation_m: 0.1,
+            rests_on: RestsOn::Velocity,
             at: Duration::from_secs(9),
         };
         let near = Pose { x_m: 1.3, y_m: 0.6, ..target };

@@ -33,9 +33,13 @@ const GUST_TIME_S: f64 = 1.5;
 
 /// A drone that is far from its target and gets less than this nearer, in metres, within this time, in
 /// seconds, makes no progress whatever its sticks do: either the wind holds it, or its velocity measurement
-/// is frozen and it is flying away.
+/// is frozen and it is flying away. Nor does one that flies all this time, near its target but never there: it circles
+/// around it, because its velocity measurement is late.
 const WAY_M: f64 = 0.05;
 const NO_WAY_S: f64 = 6.0;
+
+/// Speed from which a drone flies, in m/s: one that holds its position is slower.
+const FLIES_M_S: f64 = 0.4;
 
 /// How long the drone has been drifting away with saturated sticks.
 #[derive(Debug, Clone, Copy, Default)]
@@ -57,11 +61,12 @@ struct Way {
 
 impl Way {
     /// Whether the drone makes no progress.
-    fn is_blocked(&mut self, target: &Pose, distance_m: f64, step_s: f64) -> bool {
+    fn is_blocked(&mut self, target: &Pose, distance_m: f64, speed_m_s: f64, step_s: f64) -> bool {
         if *target != self.target || distance_m < self.nearest_m - WAY_M {
             *self = Self { target: *target, nearest_m: distance_m, for_s: 0.0 };
         }
-        self.for_s = if distance_m > FAR_M { self.for_s + step_s } else { 0.0 };
+        let circles = distance_m > HERE_M && speed_m_s > FLIES_M_S;
+        self.for_s = if distance_m > FAR_M || circles { self.for_s + step_s } else { 0.0 };
         self.for_s > NO_WAY_S
     }
 }
@@ -89,7 +94,8 @@ impl Saturation {
         let is_full = |stick: f64| stick.abs() >= FULL * limit;
         let across = is_full(demand.roll.hypot(demand.pitch)) && drifts_off(across_m, drift_m_s);
         let up = is_full(demand.gaz) && drifts_off(away.z.abs(), climbs_off_m_s);
-        let blocked = self.way.is_blocked(target, away.norm(), step_s);
+        let speed_m_s = state.velocity_m_s.xy().norm();
+        let blocked = self.way.is_blocked(target, away.norm(), speed_m_s, step_s);
         let change_s = if across || up || storm || blocked { step_s } else { -2.0 * step_s };
         self.for_s = (self.for_s + change_s).max(0.0);
     }
@@ -209,13 +215,16 @@ mod tests {
 
     #[test]
     fn no_way_is_made_only_far_from_the_target_and_after_its_time() {
-        let ticks_until_blocked = |distance_m| {
+        let ticks_until_blocked = |distance_m, speed_m_s| {
             let mut way = Way::default();
-            (1..100).find(|_| way.is_blocked(&TARGET, distance_m, 0.5))
+            (1..100).find(|_| way.is_blocked(&TARGET, distance_m, speed_m_s, 0.5))
         };
         // Exactly six seconds are twelve ticks.
-        assert_eq!(ticks_until_blocked(3.0), Some(13));
-        assert_eq!(ticks_until_blocked(FAR_M), None);
+        assert_eq!(ticks_until_blocked(3.0, 0.0), Some(13));
+        assert_eq!(ticks_until_blocked(FAR_M, 0.0), None);
+        assert_eq!(ticks_until_blocked(0.45, 0.9), Some(13), "it circles");
+        assert_eq!(ticks_until_blocked(0.45, FLIES_M_S), None, "it holds, aside");
+        assert_eq!(ticks_until_blocked(HERE_M, 0.9), None, "it is there");
     }
 
     fn after_a_second(demand: Sticks, position: [f64; 3], velocity: [f64; 3]) -> i64 {

@@ -10,8 +10,8 @@ use nalgebra::Vector2;
 
 use super::{
     Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, LandingReason, NotReady,
-    Outcome, READINESS_TICKS, Report, Stage, TICK, TagStatus, Target, Vehicle, WIND_TIME_S,
-    Waypoint, pose,
+    Outcome, READINESS_TICKS, Report, RestsOn, Stage, TICK, TagStatus, Target, Vehicle,
+    WIND_TIME_S, Waypoint, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Percepts, StationPercepts};
 use crate::safety::{Motion, Situation};
@@ -45,6 +45,7 @@ impl Vehicle {
         let state = if self.config.law.predicts() { prediction } else { self.measured_state() };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
         let tags = self.flight.estimator.tag_status(now);
+        self.hear_witnesses(now, tags.as_ref(), step_s);
         self.advance_setpoint(&state, step_s);
         let percepts = self.percepts(now, &state, tags.as_ref());
         let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, percepts);
@@ -319,6 +320,7 @@ impl Vehicle {
                     target: target.pose,
                     pose,
                     horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
+                    rests_on: RestsOn::of(self.flight.estimator.tag_status(now).as_ref()),
                     at: now,
                 };
                 self.flight.report.waypoints.push(waypoint);

@@ -53,6 +53,30 @@ impl Look {
     }
 }
 
+/// Error of the camera and its mounting that tags do not reveal, as a fraction of the height.
+const CAMERA_ERROR: f64 = 0.1;
+
+/// Whether a roundel is whole in the picture, wherever within `margin_m` of this offset (right, forward, levelled) it lies.
+pub(super) fn is_surely_whole(
+    offset_m: Vector2<f64>,
+    margin_m: f64,
+    moment: &Moment,
+    config: &TagConfig,
+) -> bool {
+    let height_m = moment.height_m;
+    let half_m = config.size_m / 2.0 + margin_m + CAMERA_ERROR * height_m;
+    let tilt_rad = moment.tilt_deg.map(f64::to_radians);
+    let [focal_x, focal_y] = config.focal_units;
+    let [centre_x, centre_y] = config.centre_units;
+    [-half_m, half_m].iter().all(|aside_m| {
+        let right_rad = ((offset_m.x + aside_m) / height_m).atan() + tilt_rad.x;
+        let forward_rad = ((offset_m.y + aside_m) / height_m).atan() - tilt_rad.y;
+        let x = centre_x + focal_x * right_rad.tan();
+        let y = centre_y - focal_y * forward_rad.tan();
+        !touches_rim(x, 0.0) && !touches_rim(y, 0.0)
+    })
+}
+
 fn touches_rim(centre: f64, size: f64) -> bool {
     centre - size / 2.0 < 1.0 || centre + size / 2.0 > 999.0
 }
@@ -114,6 +138,25 @@ mod tests {
             let wide = Sight { width: sight.width * share, ..sight };
             assert_eq!(look(&wide).is_some(), fits, "{share}");
         }
+    }
+
+    #[test]
+    fn a_tag_is_surely_seen_only_where_all_errors_leave_it_in_the_picture() {
+        let whole = |offset_m: Vector2<f64>, margin_m| {
+            is_surely_whole(offset_m, margin_m, &MOMENT, &TagConfig::default())
+        };
+        // 1.5 m high the picture's sides are 0.70 m away, its top 0.46 m and its bottom 0.57 m; half a tag and the camera's
+        // error are 0.245 m.
+        assert!(whole(Vector2::new(0.45, 0.0), 0.0) && !whole(Vector2::new(0.46, 0.0), 0.0));
+        assert!(whole(Vector2::new(0.0, 0.21), 0.0) && !whole(Vector2::new(0.0, 0.23), 0.0));
+        assert!(whole(Vector2::new(0.0, -0.31), 0.0) && !whole(Vector2::new(0.0, -0.33), 0.0));
+        assert!(whole(Vector2::zeros(), 0.21) && !whole(Vector2::zeros(), 0.23));
+        // A nose that is down by 5 degrees looks back by 0.13 m.
+        let down = Moment { tilt_deg: Vector2::new(0.0, -5.0), ..MOMENT };
+        let looks = |forward_m| {
+            is_surely_whole(Vector2::new(0.0, forward_m), 0.0, &down, &TagConfig::default())
+        };
+        assert!(!looks(0.12) && looks(-0.32));
     }
 
     #[test]

@@ -32,7 +32,7 @@ use self::map::Map;
 use self::orientation::Orientation;
 pub use self::orientation::OrientationSign;
 use self::take_back::TakeBack;
-use kinematics::world_from_body;
+use kinematics::{body_from_world, world_from_body};
 
 /// Maximum number of known tags.
 pub const MAX_TAGS: usize = 8;
@@ -111,6 +111,10 @@ pub struct TagStatus {
     pub heading_held: bool,
     /// Drift of the odometry: right and forward.
     pub drift_m: Vector2<f64>,
+    /// Number of tags that were given up, because they and the odometry moved against each other.
+    pub given_up: u32,
+    /// Whether a known tag should be in the picture, wherever within four of its deviations the drone is.
+    pub is_due: bool,
 }
 
 /// Largest turn rate with a sharp and timely picture.
@@ -125,6 +129,11 @@ const MOST_BIAS_M_S: f64 = 0.09;
 const CAUTIOUS_S: f64 = 30.0;
 /// Time since a sighting during which a tag counts as in view.
 const IN_VIEW_S: f64 = 0.5;
+/// A tag is due that these errors of the position leave in the picture, from a drone this high and no faster: its picture
+/// is whole, sharp and timely.
+const DUE_DEVIATIONS: f64 = 4.0;
+const DUE_LOWEST_M: f64 = 0.7;
+const DUE_SLOW_M_S: f64 = 0.5;
 
 /// Correction of the odometry.
 #[derive(Debug, Clone)]
@@ -144,6 +153,8 @@ pub(crate) struct Tags {
     unseen_m2: f64,
     /// It has lifted off since it last stood.
     has_risen: bool,
+    /// Tags that were given up because they moved.
+    given_up: u32,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -187,6 +198,7 @@ impl Tags {
             cautious_until_s: f64::NEG_INFINITY,
             unseen_m2: 0.0,
             has_risen: false,
+            given_up: 0,
             config: *config,
         }
     }
@@ -323,6 +335,7 @@ impl Tags {
         const LED_ASTRAY_M: f64 = 0.2;
         if self.map.moves(tag) || self.filter.bias_m_s().norm() > MOST_BIAS_M_S {
             self.map.forget_moving(&mut self.filter, tag);
+            self.given_up = self.given_up.saturating_add(1);
             self.orientation.forget(tag);
             self.filter.forget_bias();
             self.filter.doubt_place(LED_ASTRAY_M * LED_ASTRAY_M);
@@ -396,7 +409,25 @@ impl Tags {
             seen_ago: self.fix.map(|fix| Duration::from_secs_f64((now_s - fix.at_s).max(0.0))),
             heading_held: self.orientation.sign().is_some(),
             drift_m: -self.filter.correction().place_m,
+            given_up: self.given_up,
+            is_due: false,
         }
+    }
+
+    /// Whether a known tag should be in the picture of a drone at this moment, wherever within [`DUE_DEVIATIONS`] of this
+    /// deviation it is.
+    pub(crate) fn is_due(&self, now_s: f64, moment_yaw_deg: f64, deviation_m: f64) -> bool {
+        let Some(moment) = self.history.at(now_s, moment_yaw_deg) else { return false };
+        if moment.height_m < DUE_LOWEST_M || moment.speed_m_s > DUE_SLOW_M_S {
+            return false;
+        }
+        let (here_m, yaw_deg) = (self.place_m(moment.place_m), self.heading_deg(moment.yaw_deg));
+        let known = self.map.known_tags(&self.filter, now_s);
+        known.iter().any(|tag| {
+            let offset_m = body_from_world(tag.place_m - here_m, yaw_deg);
+            let margin_m = DUE_DEVIATIONS * deviation_m.hypot(tag.deviation_m);
+            camera::is_surely_whole(offset_m, margin_m, &moment, &self.config)
+        })
     }
 
     /// Whether a turn would reveal the sign of orientations.

@@ -123,6 +123,8 @@ pub enum Fault {
     NotFlown,
     /// The plan was not completed although nothing prevented it.
     GivenUpForNothing,
+    /// The position was called contradicted although nothing was wrong with it.
+    ContradictedForNothing,
     /// The flight ended, and the drone was reported as down, while it was in the air.
     EndedInTheAir {
         /// Its phase.
@@ -157,6 +159,7 @@ impl Fault {
             Self::TargetMissed { .. } => "success without its target".to_owned(),
             Self::NotFlown => "success without a flight".to_owned(),
             Self::GivenUpForNothing => "given up on a fair day".to_owned(),
+            Self::ContradictedForNothing => "contradicted for nothing".to_owned(),
             Self::EndedInTheAir { .. } => "called over in the air".to_owned(),
             Self::UncommandedTakeOff => "uncommanded take-off".to_owned(),
             Self::TrimmedInFlight => "trimmed in flight".to_owned(),
@@ -192,6 +195,7 @@ impl fmt::Display for Fault {
             | Self::FlownForNobody { .. }
             | Self::NotFlown
             | Self::GivenUpForNothing
+            | Self::ContradictedForNothing
             | Self::UncommandedTakeOff
             | Self::TrimmedInFlight
             | Self::Hanging => Ok(()),

@@ -120,6 +120,12 @@ impl Injected {
             || self.begun(now).any(|(_, action)| is_moved(action))
     }
 
+    /// Whether tags could rightly contradict the position.
+    pub(super) fn may_be_contradicted(&self, now: Duration) -> bool {
+        let is_gone = |action: &Action| matches!(action, Action::MoveTag(..));
+        self.has_lied_of_place(now) || self.begun(now).any(|(_, action)| is_gone(action))
+    }
+
     /// How far a drifting velocity has led a pilot that trusts it, including the distance until that speed is
     /// lost again.
     pub(super) fn velocity_drift_m(&self, now: Duration) -> f64 {

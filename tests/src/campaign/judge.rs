@@ -409,6 +409,7 @@ impl Judge {
         let says_down = match &flown.outcome {
             // Nobody exits early here, so an unconfirmed landing did not work.
             Outcome::Completed
+            | Outcome::Contradicted { .. }
             | Outcome::Interrupted
             | Outcome::LeftLanding
             | Outcome::Emergency => true,
@@ -422,6 +423,10 @@ impl Judge {
             self.find(end, Fault::EndedInTheAir { phase });
         }
         if flown.outcome != Outcome::Completed {
+            let contradicted = matches!(flown.outcome, Outcome::Contradicted { .. });
+            if contradicted && !self.injected.may_be_contradicted(end) {
+                self.find(end, Fault::ContradictedForNothing);
+            }
             if flight.is_fair() {
                 self.find(end, Fault::GivenUpForNothing);
             }

@@ -299,7 +299,9 @@ function drawGauges() {
   $("off").textContent = status.target ? `${status.distance_m.toFixed(2)} m` : "–";
   $("tagged").hidden = !status.tags;
   if (status.tags) $("tagsknown").textContent = map.tagsText();
-  $("known").textContent = `${status.horizontal_deviation_m.toFixed(2)} m`;
+  const known = status.contradicted_by ? `contradicted by ${status.contradicted_by}` : status.horizontal_deviation_holds;
+  $("known").textContent = `${status.horizontal_deviation_m.toFixed(2)} m, ${known}`;
+  $("known").classList.toggle("ill", Boolean(status.contradicted_by));
 }
 
 function drawSteps() {

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{FlightEvent, NotReady, Phase, Status};
+use autopilot::vehicle::{FlightEvent, NotReady, Phase, RestsOn, Status};
 use diagnostic::printable;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -318,7 +318,7 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
             ),
             _ => "target  -".to_owned(),
         },
-        format!("known   to {:.2} m{}", status.horizontal_deviation_m, last_seen(status)),
+        format!("known   to {:.2} m, {}", status.horizontal_deviation_m, known_by(status)),
         ticks(&view.ticks),
     ];
     if !view.not_ready.is_empty() {
@@ -338,12 +338,12 @@ fn draw_gauges(frame: &mut Frame<'_>, area: Rect, view: &View) {
     frame.render_widget(Paragraph::new(lines.join("\n")), text);
 }
 
-/// Time since the last sighting of a tag, if tags are used.
-fn last_seen(status: &Status) -> String {
-    let Some(tags) = &status.tags else { return String::new() };
-    match tags.seen_ago {
-        Some(ago) => format!(", tag {:.1} s ago", ago.as_secs_f64()),
-        None => ", no tag seen yet".to_owned(),
+/// What this rests on, in the room that there is.
+fn known_by(status: &Status) -> String {
+    match (status.contradicted_by, status.rests_on) {
+        (Some(by), _) => format!("CONTRADICTED: {}", by.name()),
+        (None, RestsOn::Velocity) => "by its speed alone".to_owned(),
+        (None, RestsOn::Tag { seen_ago }) => format!("tag {:.1} s ago", seen_ago.as_secs_f64()),
     }
 }
 
@@ -403,6 +403,8 @@ mod tests {
             distance_m: Some(1.0 - share),
             battery_percent: Some(87),
             horizontal_deviation_m: 0.12,
+            rests_on: RestsOn::Velocity,
+            contradicted_by: None,
             vertical_deviation_m: 0.02,
             tags: None,
             gps: None,
@@ -457,7 +459,8 @@ mod tests {
             ..TagStatus::default()
         };
         let mut view = View::new(&FlightLimits::default());
-        let status = Status { tags: Some(tags), ..status(0.5) };
+        let rests_on = RestsOn::of(Some(&tags));
+        let status = Status { tags: Some(tags), rests_on, ..status(0.5) };
         view.take_in(&Message::Status(Duration::from_secs(3), status, TickHealth::default()));
         let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
         terminal.draw(|frame| draw(frame, &view)).unwrap();

@@ -76,7 +76,7 @@ impl Bench {
         Self::new().stands_by(plan)
     }
 
-    fn stands_by(mut self, plan: &str) -> Self {
+    pub(super) fn stands_by(mut self, plan: &str) -> Self {
         let bench = &mut self;
         bench.run(3 * SECOND);
         assert_eq!(bench.phase(), Phase::Standby);
@@ -96,7 +96,7 @@ impl Bench {
         Self::with(config).stands_by(plan).takes_off()
     }
 
-    fn takes_off(mut self) -> Self {
+    pub(super) fn takes_off(mut self) -> Self {
         let bench = &mut self;
         bench.accepted(START);
         bench.until(SECOND, |bench| bench.reference() == Some(Ref::TakeOff));

@@ -1,6 +1,7 @@
 //! Landings and what else ends a flight.
 
 use ardrone_link::at::Ref;
+use ardrone_link::navdata::Gps;
 
 use super::super::phase::ON_ITS_WAY;
 use super::bench::{Bench, SECOND};
@@ -153,4 +154,35 @@ fn a_target_that_is_not_reached_in_time_is_the_operators_or_the_plans() {
     };
     assert_eq!(reason(true), Some(LandingReason::ManualTargetTimedOut));
     assert_eq!(reason(false), Some(LandingReason::StepTimedOut { step: 1 }));
+}
+
+#[test]
+fn a_plan_whose_place_is_contradicted_is_not_called_flown() {
+    let gps = |north_m: f64| Gps {
+        plugged: 1,
+        data_available: 1,
+        satellite_count: 7,
+        latitude_deg: 48.9 + north_m / 111_320.0,
+        longitude_deg: 2.4,
+        horizontal_error_m: 3.0,
+        ..Gps::default()
+    };
+    let config = VehicleConfig { read_back: false, gps: true, ..VehicleConfig::default() };
+    let by = Witness::Gps;
+    for (north_m, outcome, status) in
+        [(10.0, Outcome::Completed, 0), (60.0, Outcome::Contradicted { by }, 60)]
+    {
+        let mut bench = Bench::with(&config);
+        bench.gps = Some(gps(0.0));
+        let mut bench = bench.stands_by(PLAN).takes_off();
+        bench.gps = Some(gps(north_m));
+        bench.run(7 * SECOND);
+        bench.comes_down();
+        bench.until(SECOND, |bench| !bench.outcomes.is_empty());
+        assert_eq!(bench.outcomes, std::slice::from_ref(&outcome));
+        assert_eq!(outcome.exit_status(), status);
+        let told = FlightEvent::PlaceContradicted { by };
+        let tells = bench.events.iter().filter(|event| **event == told).count();
+        assert_eq!(tells, usize::from(status == 60), "once");
+    }
 }

@@ -1,23 +1,23 @@
 //! Random streams of operators' orders, 1 to 400 of them each second. However fast they come, and from however many
-//! operators, the drone stays inside its fence, and orders that stop it never lead further than the worst single one
-//! of them does from the same motion. Only the truth is judged.
+//! operators, the drone stays inside its fence and off the floor, and orders that stop it never lead further than the
+//! worst single one of them does from the same motion. Only the truth is judged.
+
+mod orders;
 
 use std::fmt;
 use std::time::Duration;
 
-use ardrone_link::settings::Camera;
 use autopilot::Plan;
-use autopilot::plan::{Commands, FlightLimits, ZOrigin};
-use autopilot::vehicle::{
-    Heading, Horizontal, Operator, OperatorOrder, Place, Setpoint, Station, VehicleConfig, Vertical,
-};
-use kinematics::Sticks;
+use autopilot::plan::{FlightLimits, ZOrigin};
+use autopilot::vehicle::{Operator, OperatorOrder, Station, VehicleConfig};
 use mock_drone::firmware::Phase;
 use mock_drone::sensors::SensorModel;
-use mock_drone::{DroneConfig, Truth, WorldConfig};
-use nalgebra::{Vector2, Vector3};
-use rand::{Rng, RngExt as _, SeedableRng as _};
+use mock_drone::{DroneConfig, LinkFaults, Truth, WorldConfig};
+use nalgebra::Vector3;
+use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
+
+use self::orders::{Moving, direction, give, nonsense, present, rate, seconds, stopping};
 
 use crate::sensors::AIRFRAMES;
 use crate::sim::{Simulation, SimulationError};
@@ -38,9 +38,14 @@ const FURTHER_M: f64 = 0.3;
 /// Steady wind at most, in m/s: all airframes can brake against it.
 const WIND_M_S: f64 = 0.6;
 
-/// Another operator at this machine, and one elsewhere.
+/// Most of the datagrams that are lost, each way.
+const LOSS: f64 = 0.1;
+
+/// Other operators at this machine, one elsewhere, and a ground station.
 const PROGRAM: Operator = Operator::PROGRAM;
 const PAGE: Operator = Operator { station: Station::Browser, number: 1, local: false };
+const GROUND_STATION: Operator =
+    Operator { station: Station::Mavlink, number: 0xff_be, local: true };
 
 const START: OperatorOrder = OperatorOrder::Start { when_ready: true };
 
@@ -57,6 +62,8 @@ pub struct Flown {
     pub outside_m: f64,
     /// How much further the drone went than after the worst single order, from the first order to stop on, in metres.
     pub further_m: f64,
+    /// How often it touched the floor before it was to land.
+    pub touches: u32,
     /// A landing in the stream was not completed in time, or was taken back.
     pub landing_ignored: bool,
     /// The stream.
@@ -66,7 +73,10 @@ pub struct Flown {
 impl Flown {
     /// Whether something happened that must not.
     pub fn is_bad(&self) -> bool {
-        self.outside_m > OUTSIDE_M || self.further_m > FURTHER_M || self.landing_ignored
+        self.outside_m > OUTSIDE_M
+            || self.further_m > FURTHER_M
+            || self.touches > 0
+            || self.landing_ignored
     }
 }
 
@@ -79,6 +89,9 @@ impl fmt::Display for Flown {
             "seed {seed} on {name}: {outside_m:.2} m outside, {further_m:.2} m further than "
         )?;
         write!(f, "a single order, {what}")?;
+        if self.touches > 0 {
+            write!(f, ", touched the floor {} times", self.touches)?;
+        }
         if self.landing_ignored { write!(f, ", landing ignored") } else { Ok(()) }
     }
 }
@@ -93,8 +106,7 @@ pub fn fly(seed: u64) -> Result<Flown, SimulationError> {
     let mut single_m = f64::NEG_INFINITY;
     // Whatever replaces what the drone does begins with a hold, and what changes nothing else may go on with the mission.
     for kind in stream.kinds.iter().chain([&OperatorOrder::Hold, &START]) {
-        let by = Operator::TERMINAL;
-        let once = (stream.stops_at, by, kind.clone());
+        let once = (stream.stops_at, stream.by, kind.clone());
         let single = stream.course(stream.moves.iter().cloned().chain([once]).collect())?;
         single_m = single_m.max(single.reach_m);
     }
@@ -105,6 +117,7 @@ pub fn fly(seed: u64) -> Result<Flown, SimulationError> {
         airframe: stream.airframe,
         outside_m: course.outside_m,
         further_m: if compared { course.reach_m - single_m } else { 0.0 },
+        touches: course.touches,
         landing_ignored: course.landing_ignored,
         what: stream.what.clone(),
     })
@@ -127,6 +140,9 @@ pub fn bad(seeds: impl IntoIterator<Item = u64>) -> Result<Vec<String>, Simulati
 struct Stream {
     airframe: usize,
     simulation: Simulation,
+    plan: Plan,
+    /// Who orders it to stop.
+    by: Operator,
     moves: Vec<Given>,
     stops_at: Duration,
     stops: Vec<Given>,
@@ -144,6 +160,7 @@ struct Course {
     reach_m: f64,
     /// Speed at the first order to stop, in m/s.
     speed_m_s: f64,
+    touches: u32,
     landing_ignored: bool,
 }
 
@@ -170,10 +187,16 @@ impl Stream {
             1 => &[Operator::TERMINAL, PAGE],
             _ => &[Operator::TERMINAL],
         };
+        // Numbers of their own: the streams of a seed stay what they were without these.
+        let further = &mut ChaCha8Rng::seed_from_u64(seed ^ 0x6c69_6e6b);
+        let loss = if further.random_bool(0.5) { further.random_range(0.0..LOSS) } else { 0.0 };
+        let is_low = further.random_bool(0.2);
+        let others = if further.random_bool(0.3) { &[GROUND_STATION] } else { others };
+        let by = others[0];
         let stops_at = BEGINS + seconds(random, 0.6, 4.0);
-        let moving = Moving::of(random);
+        let moving = Moving::of(random, by);
         let moves_1_s = rate(random);
-        let mut moves = Vec::new();
+        let mut moves = moving.begin(BEGINS);
         give(random, others, BEGINS, stops_at, moves_1_s, &mut moves, |random| {
             moving.order(random)
         });
@@ -183,7 +206,7 @@ impl Stream {
         }
         let ends = stops_at + seconds(random, 1.0, 4.0);
         let stops_1_s = rate(random);
-        let mut stops = vec![(stops_at, Operator::TERMINAL, kinds[0].clone())];
+        let mut stops = vec![(stops_at, by, kinds[0].clone())];
         give(random, others, stops_at, ends, stops_1_s, &mut stops, |random| {
             if random.random_bool(0.15) {
                 nonsense(random)
@@ -197,19 +220,27 @@ impl Stream {
             stops.push((at, others[others.len() - 1], OperatorOrder::Land));
             at
         });
+        moves.extend(present(by, BEGINS, ends + SETTLES));
         let names: Vec<_> = kinds.iter().map(OperatorOrder::name).collect();
         let what = format!(
-            "{moving:?} at {moves_1_s:.0} Hz, from {:.2} s on {} at {stops_1_s:.0} Hz, {} operators, wind {wind_m_s:.1} m/s",
+            "{moving:?} at {moves_1_s:.0} Hz, from {:.2} s on {} at {stops_1_s:.0} Hz by {by} and {} others, wind \
+             {wind_m_s:.1} m/s, {:.0} % lost{}",
             stops_at.as_secs_f64(),
             names.join(" "),
-            others.len(),
+            others.len() - 1,
+            100.0 * loss,
+            if is_low { ", from near the floor" } else { "" },
         );
+        let link = LinkFaults { loss, ..LinkFaults::default() };
+        let up_m = if is_low { -0.5 } else { 0.3 };
         let simulation = Simulation {
-            world: WorldConfig { drone, ..WorldConfig::default() },
+            world: WorldConfig { drone, link, ..WorldConfig::default() },
             pilot: VehicleConfig { limits: FENCE, ..VehicleConfig::default() },
             ..Simulation::default()
         };
-        Self { airframe, simulation, moves, stops_at, stops, kinds, ends, lands_at, what }
+        let plan =
+            plan(&format!("takeoff\ngoto 0 0 {up_m} 0\nsetStayTime 90\ngoto 0 0 {up_m} 0\nland\n"));
+        Self { airframe, simulation, plan, by, moves, stops_at, stops, kinds, ends, lands_at, what }
     }
 
     /// Whether the drone flew when it was first ordered to stop, so that the way that it needs means something.
@@ -226,15 +257,16 @@ impl Stream {
             .find(|(.., order)| *order == OperatorOrder::Land)
             .map_or(lands_at, |(at, ..)| *at);
         let simulation = Simulation { others: orders, ..self.simulation.clone() };
-        let plan = plan("takeoff\ngoto 0 0 0.3 0\nsetStayTime 90\ngoto 0 0 0.3 0\nland\n");
         let mut course = Course {
             outside_m: f64::NEG_INFINITY,
             reach_m: f64::NEG_INFINITY,
             speed_m_s: 0.0,
+            touches: 0,
             landing_ignored: false,
         };
+        let mut touched_before = None;
         let mut begins: Option<(Vector3<f64>, Vector3<f64>)> = None;
-        simulation.fly_watched(plan, |moment| {
+        simulation.fly_watched(self.plan.clone(), |moment| {
             let truth = &moment.truth;
             let is_up = matches!(truth.phase, Phase::Flying | Phase::Landing);
             if moment.now > ordered_to_land + LANDS_WITHIN && is_up {
@@ -244,6 +276,10 @@ impl Stream {
                 return;
             }
             course.outside_m = course.outside_m.max(outside_m(truth));
+            if moment.now >= BEGINS {
+                let before = *touched_before.get_or_insert(truth.floor_contacts);
+                course.touches = truth.floor_contacts - before;
+            }
             if moment.now >= self.stops_at {
                 let (from_m, way) = *begins.get_or_insert_with(|| {
                     course.speed_m_s = truth.velocity_m_s.norm();
@@ -264,147 +300,6 @@ fn outside_m(truth: &Truth) -> f64 {
     across_m.max(above_m) - truth.drift_m().norm()
 }
 
-/// The orders that move the drone: most lead in one direction.
-#[derive(Debug)]
-struct Moving {
-    sticks: Sticks,
-    /// Share of other orders.
-    others: f64,
-}
-
-impl Moving {
-    fn of(random: &mut impl Rng) -> Self {
-        let way = direction(random);
-        let climbs = random.random_bool(0.3);
-        let sticks = Sticks {
-            roll: way.x,
-            pitch: way.y,
-            gaz: if climbs { random.random_range(-1.0..1.0) } else { 0.0 },
-            yaw: if random.random_bool(0.2) { random.random_range(-1.0..1.0) } else { 0.0 },
-        };
-        Self { sticks, others: [0.0, 0.3, 0.5, 0.8][random.random_range(0..4)] }
-    }
-
-    fn order(&self, random: &mut impl Rng) -> OperatorOrder {
-        if !random.random_bool(self.others) {
-            return OperatorOrder::Steer(self.sticks);
-        }
-        match random.random_range(0..9) {
-            0 => OperatorOrder::Steer(Sticks {
-                roll: random.random_range(-1.0..1.0),
-                pitch: random.random_range(-1.0..1.0),
-                ..self.sticks
-            }),
-            1 => OperatorOrder::GoTo(place(random, 9.0)),
-            2 => OperatorOrder::Follow(setpoint(random)),
-            3 => OperatorOrder::Setpoint(setpoint(random)),
-            4 => mission(random),
-            5 => nonsense(random),
-            _ => stopping(random),
-        }
-    }
-}
-
-/// An order after which the drone stops, or flies back.
-fn stopping(random: &mut impl Rng) -> OperatorOrder {
-    match random.random_range(0..9) {
-        0..=3 => OperatorOrder::Hold,
-        4 | 5 => OperatorOrder::Clear,
-        6 => OperatorOrder::GoTo(place(random, 1.5)),
-        7 => OperatorOrder::Follow(Setpoint {
-            horizontal: Horizontal::Velocity { x_m_s: 0.0, y_m_s: 0.0 },
-            vertical: Vertical::Climb(0.0),
-            heading: Heading::Keep,
-        }),
-        _ => OperatorOrder::Load(plan("takeoff\ngoto 0 0 0.3 0\nsetStayTime 90\ngoto 0 0 0.3 0\n")),
-    }
-}
-
-/// An order after which the drone does what it did.
-fn nonsense(random: &mut impl Rng) -> OperatorOrder {
-    match random.random_range(0..9) {
-        0 => OperatorOrder::Camera(Camera::Bottom),
-        1 => OperatorOrder::Take,
-        2 => OperatorOrder::Release,
-        3 => OperatorOrder::Present,
-        4 => OperatorOrder::Recover,
-        5 => OperatorOrder::GoTo(Place::at(f64::NAN, 0.0)),
-        6 => Commands::parse("stream", "setSpeed 2")
-            .map_or(OperatorOrder::Present, OperatorOrder::Append),
-        7 => OperatorOrder::Setpoint(Setpoint {
-            vertical: Vertical::Climb(f64::NAN),
-            ..setpoint(random)
-        }),
-        _ => OperatorOrder::Start { when_ready: random.random_bool(0.5) },
-    }
-}
-
-/// A plan with settings, which may be given in the air.
-fn mission(random: &mut impl Rng) -> OperatorOrder {
-    let (x, y) = (random.random_range(-2.7..2.7), random.random_range(-2.7..2.7));
-    let most = random.random_range(0.2..1.0);
-    OperatorOrder::Load(plan(&format!(
-        "takeoff\nsetReference $START$\nsetMaxControl {most:.1}\ngoto {x:.1} {y:.1} 1 0\nsetStayTime 90\ngoto {x:.1} {y:.1} 1 0\n"
-    )))
-}
-
 fn plan(text: &str) -> Plan {
     Plan::parse_within("stream", text, &FENCE).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn setpoint(random: &mut impl Rng) -> Setpoint {
-    let [x, y] = [random.random_range(-2.0..2.0), random.random_range(-2.0..2.0)];
-    Setpoint {
-        horizontal: match random.random_range(0..3) {
-            0 => Horizontal::Place { x_m: 4.0 * x, y_m: 4.0 * y },
-            1 => Horizontal::Velocity { x_m_s: x, y_m_s: y },
-            _ => Horizontal::BodyVelocity { right_m_s: x, forward_m_s: y },
-        },
-        vertical: if random.random_bool(0.6) {
-            Vertical::Height(random.random_range(0.5..3.5))
-        } else {
-            Vertical::Climb(random.random_range(-1.0..1.0))
-        },
-        heading: Heading::Keep,
-    }
-}
-
-fn place(random: &mut impl Rng, most_m: f64) -> Place {
-    let away_m = random.random_range(0.0..most_m);
-    let at_m = direction(random) * away_m;
-    let height_m = random.random_bool(0.3).then(|| random.random_range(0.5..3.5));
-    Place { height_m, ..Place::at(at_m.x, at_m.y) }
-}
-
-/// Orders of these operators, so many each second.
-fn give<R: Rng>(
-    random: &mut R,
-    operators: &[Operator],
-    from: Duration,
-    to: Duration,
-    each_second: f64,
-    into: &mut Vec<Given>,
-    mut order: impl FnMut(&mut R) -> OperatorOrder,
-) {
-    let period = Duration::from_secs_f64(1.0 / each_second);
-    let mut at = from;
-    while at < to {
-        let by = operators[random.random_range(0..operators.len())];
-        into.push((at, by, order(random)));
-        at += period;
-    }
-}
-
-/// From 1 to 400 each second, as many slow ones as fast ones.
-fn rate(random: &mut impl Rng) -> f64 {
-    400_f64.powf(random.random_range(0.0..1.0))
-}
-
-fn direction(random: &mut impl Rng) -> Vector2<f64> {
-    let (sin, cos) = random.random_range(0.0..std::f64::consts::TAU).sin_cos();
-    Vector2::new(sin, cos)
-}
-
-fn seconds(random: &mut impl Rng, from: f64, to: f64) -> Duration {
-    Duration::from_secs_f64(random.random_range(from..to))
 }
