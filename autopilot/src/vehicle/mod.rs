@@ -282,10 +282,13 @@ impl Vehicle {
         self.mission_changed();
     }
 
-    /// Tells the estimator how long the drone took to answer its settings.
+    /// Tells the estimator how long the drone took to answer its settings. An answer waits for the next packet, for half an
+    /// interval on average; the shortest of them hardly less, because each setting is sent just after a packet.
     fn expect_link_delay(&mut self) {
-        if let Some(delay) = self.session.round_trip() {
-            self.flight.estimator.expect_link_delay(delay);
+        if let Some(round_trip) = self.session.round_trip() {
+            let interval =
+                Duration::from_secs_f64(self.navdata_hz.max(readiness::LEAST_NAVDATA_HZ).recip());
+            self.flight.estimator.expect_link_delay(round_trip.saturating_sub(interval / 2));
         }
     }
 

@@ -12,7 +12,7 @@ const LEAST_BATTERY_PERCENT: u32 = 20;
 /// Oldest navdata accepted for take-off.
 const OLDEST_NAVDATA: Duration = Duration::from_millis(500);
 /// Minimum navdata rate in packets per second: a third of the slower of the drone's two rates (15 and 200).
-const LEAST_NAVDATA_HZ: f64 = 5.0;
+pub(super) const LEAST_NAVDATA_HZ: f64 = 5.0;
 /// Maximum roll or pitch on the ground. Beyond it the ground is not level, or the sensors are wrong.
 const LARGEST_TILT_DEG: f64 = 8.0;
 
