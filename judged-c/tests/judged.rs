@@ -24,8 +24,7 @@ fn with(top: &str, inside: &str) -> String {
 }
 
 fn judged(c: &str, headers: &[&str]) -> Result<String, Refused> {
-    let headers: Vec<String> = headers.iter().map(|text| (*text).to_owned()).collect();
-    judge(&lamp(), c, &headers).map(|judged| judged.text().to_owned())
+    judge(&lamp(), c, headers.iter().copied()).map(|judged| judged.text().to_owned())
 }
 
 /// Words without comments and blanks.
@@ -54,7 +53,7 @@ fn the_gallery_is_printed_as_it_is() {
         let configuration = parse_configuration("a.conf", &configuration).unwrap();
         let compared = comparison(&configuration, &text).unwrap();
         let c = &compared.files[0].text;
-        let judged = judge(&compared, c, &[]).unwrap_or_else(|refused| panic!("{name}: {refused}"));
+        let judged = judge(&compared, c, []).unwrap_or_else(|refused| panic!("{name}: {refused}"));
         assert_eq!(words(c), words(judged.text()), "{name}");
         assert_eq!(judged.arbitrary(), "");
     }
@@ -250,7 +249,7 @@ fn state_is_printed_outside_of_functions_and_is_arbitrary() {
         "static bool kept = true;\nstatic const bool FIXED = true;",
         "static uint32_t own[2] = { 1U, 2U }; own[0]++; (void)FIXED; (void)kept;",
     );
-    let judged = judge(&lamp(), &c, &[]).unwrap();
+    let judged = judge(&lamp(), &c, []).unwrap();
     assert!(
         judged
             .text()
