@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::Duration;
 
+use judged_c::judge;
 use translator::{
     GeneratedFile, Obligations, TraceRow, TranslateError, comparison, obligations, trace_rows,
     translate,
@@ -282,6 +283,15 @@ fn validation(
 ) -> Result<ValidationEvidence, CertifyError> {
     let mut comparison = comparison(&agent.configuration, &agent.text)?;
     let own = agent.own_headers(&comparison.files)?;
+    let headers = own.iter().map(|header| header.text.as_str());
+    match judge(&comparison, &comparison.files[0].text, headers) {
+        Ok(judged) => judged.put_into(&mut comparison),
+        Err(refused) => {
+            let open = vec![refused.to_string()];
+            let status = Status::Undecided;
+            return Ok(ValidationEvidence { status, proofs: 0, calls: 0, timeouts: 0, open });
+        }
+    }
     comparison.files.extend(own);
     let folder = temporary_folder()?;
     let validated = validate(&comparison, cbmc, folder.path(), limits.time)?;
