@@ -340,7 +340,7 @@ fn arbitrary(text: &mut String, language: &Language, place: &str, ty: &Ty) {
 
 /// Names of the macros that a header's text defines, or would if other conditions held.
 pub fn macros(header: &str) -> HashSet<String> {
-    let text = header.replace("??=", "#").replace("??/", "\\").replace('\r', "");
+    let text = header.replace("??/", "\\").replace('\r', "");
     // Lines are joined first, also with blanks behind the sign, as compilers do.
     let mut joined = String::with_capacity(text.len());
     for line in text.lines() {
