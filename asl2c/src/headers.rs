@@ -46,7 +46,16 @@ pub enum HeaderError {
         /// The file.
         name: String,
     },
-    /// The compiler is missing, or finds an error.
+    /// A header is missing, or has an error.
+    #[error(
+        "the C cannot be compiled: {said}; headers that the agent includes, and those that they include, are looked for \
+         beside its configuration or below, and nowhere else"
+    )]
+    NotCompiled {
+        /// What the compiler says.
+        said: String,
+    },
+    /// The compiler is missing.
     #[error(transparent)]
     Tool(#[from] ToolError),
 }
@@ -156,7 +165,11 @@ fn check_included(
     files().try_for_each(|file| write(folder.path(), &file.name, &file.text))?;
     let c = generated.first().map_or("", |file| file.name.as_str());
     // It leaves out the compiler's own headers, and what only these include.
-    let said = run(folder.path(), "gcc", &["-std=c99", "-MM", "-MT", "c", "-I.", c])?;
+    let said = run(folder.path(), "gcc", &["-std=c99", "-MM", "-MT", "c", "-I.", c]);
+    let said = said.map_err(|error| match error {
+        ToolError::Failed { said, .. } => HeaderError::NotCompiled { said },
+        error => error.into(),
+    })?;
     let known: HashSet<String> = files().filter_map(|file| plain(&file.name)).collect();
     let read = said.trim_start_matches("c:").replace("\\\n", " ").replace("\\ ", "\0");
     for name in read.split_whitespace().map(|name| name.replace('\0', " ")) {
