@@ -83,7 +83,6 @@ pub(crate) fn run() -> Result<(String, bool), MeasureError> {
 fn measure(name: &'static str, path: &Path) -> Result<Measured, MeasureError> {
     let agent = Agent::read(path)?;
     let exercise = translator::exercise(&agent.configuration, &agent.text)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
     let found = on_target(&exercise, &exercise, STEPS)?;
     let trace = on_host(&exercise, STEPS)?;
     let basics = &agent.configuration.declarations().basics;
