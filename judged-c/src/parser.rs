@@ -226,7 +226,6 @@ impl<'a> Parser<'a> {
                 text if BASE.contains(&text) && !has_name => ctype.words.push(text.to_owned()),
                 text if token.kind == Kind::Name
                     && ctype.words.is_empty()
-                    && !WORDS.contains(&text)
                     && (self.header || self.types.contains(text)) =>
                 {
                     ctype.words.push(text.to_owned());

@@ -75,7 +75,7 @@ pub enum Rule {
     /// An array outside of a `static` declaration.
     #[error("only static objects can be arrays, with a number as length")]
     Array,
-    /// A pointer that is a local or static variable.
+    /// A pointer that is a local or static variable, or a result.
     #[error("pointers can only be parameters of static functions")]
     Pointer,
     /// No initial value.

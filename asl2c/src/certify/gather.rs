@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::Duration;
 
+use judged_c::judge;
 use translator::{
     GeneratedFile, Obligations, TraceRow, TranslateError, comparison, obligations, trace_rows,
     translate,
@@ -18,6 +19,7 @@ use super::reach::reach;
 use super::trust::{assumptions, tools};
 use crate::agent::Agent;
 use crate::coverage::{Coverage, CoverageError, OwnTest, cover};
+use crate::headers::HeaderError;
 use crate::measure::measure;
 use crate::output::known_again;
 use crate::prove::{
@@ -38,6 +40,9 @@ pub enum CertifyError {
     /// CBMC is missing or gave no result.
     #[error(transparent)]
     Prove(#[from] ProveError),
+    /// A header of the agent's own.
+    #[error("nothing is certified: {0}")]
+    Header(#[from] HeaderError),
     /// Another tool is missing or failed.
     #[error("nothing is certified: {0}")]
     Tool(#[from] ToolError),
@@ -75,6 +80,7 @@ impl From<CoverageError> for CertifyError {
     fn from(error: CoverageError) -> Self {
         match error {
             CoverageError::Translate(error) => error.into(),
+            CoverageError::Header(error) => error.into(),
             CoverageError::Tool(error) => error.into(),
             CoverageError::Test(said) => Self::Test(said),
         }
@@ -122,21 +128,20 @@ pub fn certify(
     let Agent { configuration, text, .. } = agent;
     // A missing tool is told before an hour of proofs.
     let tools = tools(cbmc)?;
-    let include = agent.folder();
     let mut translation = translate(configuration, text)?;
     // So is an agent that cannot be proved.
     let mut obligations = obligations(configuration, text)?;
-    let own = agent.own_headers();
-    translation.files.extend(own.iter().cloned());
-    obligations.files.extend(own);
+    let own = agent.own_headers(&translation.files)?;
+    translation.files.extend(own);
+    obligations.files.extend(agent.own_headers(&obligations.files)?);
     let mut tell = |doing: &str| cbmc.check_stop().map(|()| tell(doing));
     tell("checks the rules of MISRA C:2012")?;
-    let deviations = deviations(&translation.files, include)?;
+    let deviations = deviations(&translation.files)?;
     tell("measures stack and time")?;
     let missing = measure(&mut translation, configuration, text);
     let bounds = Bounds { report: translation.report.to_string(), missing };
     tell("makes tests and executes them on the C")?;
-    let coverage = cover(agent, own_tests, include)?;
+    let coverage = cover(agent, own_tests)?;
     tell("proves the properties")?;
     let Proved { properties, run_time_errors, invariant, mut files, c: proved_c, dead } =
         proved(agent, obligations, cbmc, limits)?;
@@ -276,9 +281,20 @@ fn validation(
     cbmc: &Cbmc,
     limits: Limits,
 ) -> Result<ValidationEvidence, CertifyError> {
-    let comparison = comparison(&agent.configuration, &agent.text)?;
+    let mut comparison = comparison(&agent.configuration, &agent.text)?;
+    let own = agent.own_headers(&comparison.files)?;
+    let headers = own.iter().map(|header| header.text.as_str());
+    match judge(&comparison, &comparison.files[0].text, headers) {
+        Ok(judged) => judged.put_into(&mut comparison),
+        Err(refused) => {
+            let open = vec![refused.to_string()];
+            let status = Status::Undecided;
+            return Ok(ValidationEvidence { status, proofs: 0, calls: 0, timeouts: 0, open });
+        }
+    }
+    comparison.files.extend(own);
     let folder = temporary_folder()?;
-    let validated = validate(&comparison, cbmc, folder.path(), agent.folder(), limits.time)?;
+    let validated = validate(&comparison, cbmc, folder.path(), limits.time)?;
     let status = if validated.is_proved() {
         Status::Shown
     } else if validated.differs() {

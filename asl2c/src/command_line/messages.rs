@@ -36,7 +36,8 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         CommandError::Certify(CertifyError::Io { .. } | CertifyError::Occupied { .. }) => {
             general("not-written", None)
         }
-        CommandError::Verify(_)
+        CommandError::Header(_)
+        | CommandError::Verify(_)
         | CommandError::Prove(_)
         | CommandError::Tool(_)
         | CommandError::Certify(_)

@@ -28,7 +28,7 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     let agent = Agent::read(&asked.configuration)?;
     let Agent { configuration, text, .. } = &agent;
     let mut obligations = obligations(configuration, text)?;
-    obligations.files.extend(agent.own_headers());
+    obligations.files.extend(agent.own_headers(&obligations.files)?);
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
     let output = asked.output.as_deref().unwrap_or(agent.folder());
     for promise in &obligations.properties {

@@ -30,15 +30,20 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let agent = Agent::read(&asked.configuration)?;
     let Agent { configuration, text, .. } = &agent;
     let mut comparison = comparison(configuration, text)?;
-    if let Some(c) = &asked.c {
-        // Not the exit status of a C file that differs.
-        let unread =
-            |source| ProveError::Io { what: format!("cannot read {}", c.display()), source };
-        let bytes = std::fs::read(c).map_err(unread)?;
-        let text = String::from_utf8_lossy(&bytes);
-        // From here on there is only C of a known language: it is compared and, in the search, executed.
-        judge(&comparison, &text, &agent.headers())?.put_into(&mut comparison);
-    }
+    let c = match &asked.c {
+        Some(c) => {
+            // Not the exit status of a C file that differs.
+            let unread =
+                |source| ProveError::Io { what: format!("cannot read {}", c.display()), source };
+            String::from_utf8_lossy(&std::fs::read(c).map_err(unread)?).into_owned()
+        }
+        None => comparison.files[0].text.clone(),
+    };
+    // From here on there is only C of a known language: it is compared and, in the search, executed.
+    let own = agent.own_headers(&comparison.files)?;
+    judge(&comparison, &c, own.iter().map(|header| header.text.as_str()))?
+        .put_into(&mut comparison);
+    comparison.files.extend(own);
     let output = asked.output.as_deref().unwrap_or(agent.folder());
     // Not after the proofs, whose result would be lost.
     check_script(output, &script_name(&asked.configuration))?;
@@ -49,8 +54,7 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let budget = Budget::begin(each, Some(total));
     let quiet = asked.quiet || is_json(&asked.message_format);
     let progress = Progress::new(quiet, stop::flag()?);
-    let folders = (folder.path(), agent.folder());
-    let validated = validate_watched(&comparison, &cbmc, folders, budget, &progress)?;
+    let validated = validate_watched(&comparison, &cbmc, folder.path(), budget, &progress)?;
     let mut none = 0;
     let mut shown = None;
     if validated.differs() {

@@ -252,7 +252,7 @@ impl Cbmc {
     /// CBMC for a function of a file.
     fn command(&self, folder: &Path, file: &str, function: &str) -> Command {
         let mut command = Command::new(&self.path);
-        command.args([file, "--function", function]).current_dir(folder);
+        command.args([file, "-I.", "--function", function]).current_dir(folder);
         command
     }
 

@@ -67,7 +67,7 @@ pub enum ProveError {
     /// The C of the proof is not complete.
     #[error(
         "nothing is proved: the C cannot be compiled: {said}; headers that the agent includes, and those that they \
-         include, are looked for beside its configuration"
+         include, are looked for beside its configuration or below, and nowhere else"
     )]
     NotCompiled {
         /// The first error.

@@ -12,6 +12,7 @@ mod fmt;
 mod gallery;
 mod guide;
 mod harness;
+mod headers;
 mod lsp;
 mod on_target;
 mod prove;
