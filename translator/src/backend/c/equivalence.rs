@@ -166,6 +166,8 @@ impl Comparison<'_> {
                     });
                     format!("return {};", same.collect::<Vec<_>>().join(" && "))
                 }
+                // It may be a number, of which a NaN is not equal to itself. The C cannot tell one from another.
+                TypeKind::Opaque => "return a == b || (a != a && b != b);".to_owned(),
                 _ => "return a == b;".to_owned(),
             };
             _ = writeln!(text, "static bool plain_same_{index}({name} a, {name} b) {{ {same} }}");
