@@ -1,5 +1,6 @@
 //! An agent on disk: a configuration, and the file that it names.
 
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use translator::{ParsedConfiguration, TranslateError, parse_configuration};
@@ -27,6 +28,8 @@ pub enum ReadError {
 pub struct Agent {
     /// The configuration.
     pub configuration: ParsedConfiguration,
+    /// The configuration's text.
+    pub(crate) written: String,
     /// The AgentSpeak text.
     pub text: String,
     /// Path of the configuration, as given.
@@ -39,9 +42,10 @@ impl Agent {
     /// # Errors
     /// If a file cannot be read, or the configuration has errors.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
-        let configuration = parse_configuration(&path.display().to_string(), &read(path)?)?;
+        let written = read(path)?;
+        let configuration = parse_configuration(&path.display().to_string(), &written)?;
         let text = read(&folder(path).join(configuration.input()))?;
-        Ok(Self { configuration, text, path: path.to_owned() })
+        Ok(Self { configuration, written, text, path: path.to_owned() })
     }
 
     /// The configuration's folder.
@@ -59,10 +63,18 @@ fn folder(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
+/// Bytes of the longest text that is read: a device can be endless.
+const MOST: u64 = 16 << 20;
+
 /// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, ReadError> {
-    let bytes =
-        std::fs::read(path).map_err(|source| ReadError::File { path: path.to_owned(), source })?;
+    let failed = |source| ReadError::File { path: path.to_owned(), source };
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(failed)?;
+    file.take(MOST + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MOST {
+        return Err(failed(std::io::Error::other("it has more than 16 MB")));
+    }
     // Invalid UTF-8 becomes a character that the lexer refuses, with line and column.
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }

@@ -7,8 +7,8 @@
 use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
-use judged_c::{macros, words};
-use translator::{GeneratedFile, is_c_word};
+use judged_c::{Refused, judge_header, macros, words};
+use translator::{GeneratedFile, TranslateError, is_c_word, translate};
 
 use crate::agent::{Agent, read};
 use crate::tool::{ToolError, run, write};
@@ -37,6 +37,14 @@ pub enum HeaderError {
         /// The macro.
         name: String,
     },
+    /// It is more than declarations.
+    #[error("{path}, {refused}")]
+    Judged {
+        /// The header.
+        path: PathBuf,
+        /// What is not.
+        refused: Refused,
+    },
     /// It is neither in the agent's folder nor one of the compiler's.
     #[error(
         "{name} is included, which is neither a header of the compiler nor found, by its plain name, in the agent's \
@@ -55,6 +63,9 @@ pub enum HeaderError {
         /// What the compiler says.
         said: String,
     },
+    /// The agent has errors.
+    #[error(transparent)]
+    Translate(#[from] TranslateError),
     /// The compiler is missing.
     #[error(transparent)]
     Tool(#[from] ToolError),
@@ -65,21 +76,41 @@ impl Agent {
     /// generated files: C that is compiled elsewhere needs them beside it.
     ///
     /// # Errors
-    /// If one could take the place of a header of the compiler, changes what the generated files mean, or includes anything
-    /// that is neither such a header nor one of the compiler.
+    /// If one could take the place of a header of the compiler, is more than declarations, or includes anything that is
+    /// neither such a header nor one of the compiler.
     pub fn own_headers(
         &self,
         generated: &[GeneratedFile],
     ) -> Result<Vec<GeneratedFile>, HeaderError> {
         let headers = self.named_headers(generated)?;
-        self.check_macros(&headers, generated)?;
+        // In proofs some of the agent's own names have others.
+        let own = translate(&self.configuration, &self.text)?.files;
+        let files = generated.iter().chain(&own);
+        let used: HashSet<String> = files.flat_map(|file| words(&file.text)).collect();
+        self.check_macros(&headers, &used)?;
         let includes = &self.configuration.declarations().includes;
         let is_usual =
             |line: &String| matches!(line.as_str(), "#include <stdbool.h>" | "#include <stdint.h>");
         if !includes.iter().all(is_usual) {
             check_included(&headers, generated)?;
         }
+        for header in &headers {
+            judge_header(&header.text, &used).map_err(|refused| {
+                let path = self.folder().join(&header.name);
+                HeaderError::Judged { path, refused }
+            })?;
+        }
         Ok(headers)
+    }
+
+    /// The files that it is made of: configuration, text and headers.
+    ///
+    /// # Errors
+    /// If a header could take the place of one of the compiler.
+    pub(crate) fn inputs(&self) -> Result<Vec<PathBuf>, HeaderError> {
+        let headers = self.named_headers(&[])?;
+        let headers = headers.iter().map(|header| self.folder().join(&header.name));
+        Ok(self.sources().into_iter().chain(headers).collect())
     }
 
     /// The headers in the folder or below that are included, but for those that are generated.
@@ -121,9 +152,8 @@ impl Agent {
     fn check_macros(
         &self,
         headers: &[GeneratedFile],
-        generated: &[GeneratedFile],
+        used: &HashSet<String>,
     ) -> Result<(), HeaderError> {
-        let used: HashSet<String> = generated.iter().flat_map(|file| words(&file.text)).collect();
         // Names with an underscore belong to the compiler, but are often those of guards against double inclusion.
         let is_of_c = |name: &str| {
             is_c_word(name) && !(name.starts_with('_') && name.to_uppercase().contains("_H"))

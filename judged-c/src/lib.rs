@@ -8,6 +8,7 @@
 //! Nothing here reads a file or starts a program.
 
 mod check;
+mod header;
 mod language;
 mod lexer;
 mod parser;
@@ -20,6 +21,7 @@ use std::collections::HashSet;
 
 use translator::Comparison;
 
+pub use self::header::judge_header;
 use self::language::Language;
 pub use self::print::{macros, words};
 pub use self::refused::{Refused, Rule};

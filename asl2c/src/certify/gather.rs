@@ -1,7 +1,7 @@
 //! Proves, checks, measures and tests an agent, and gathers the results.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use judged_c::judge;
@@ -65,6 +65,24 @@ pub enum CertifyError {
         /// The folder.
         folder: String,
     },
+    /// Its list of evidence has what evidence has not.
+    #[error(
+        "{path} is listed as evidence in that folder, but is not what asl2c writes there, so nothing is changed; `-o DIR` \
+         names another folder"
+    )]
+    Unlikely {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Its list of evidence has a file that is read.
+    #[error(
+        "{path}, of which evidence is made, is listed in that folder as earlier evidence, which would be replaced; \
+         nothing is changed; `-o DIR` names another folder"
+    )]
+    Input {
+        /// The file.
+        path: PathBuf,
+    },
     /// A test of one's own cannot be executed, or the agent does something else.
     #[error("nothing is certified: {0}")]
     Test(String),
@@ -110,9 +128,9 @@ pub struct Certified {
 pub(super) const AGENT: &str = "agent";
 /// Folder of the generated files.
 pub(super) const C: &str = "c";
-const TESTS: &str = "tests";
-const OWN_TESTS: &str = "tests/own";
-const COUNTEREXAMPLES: &str = "counterexamples";
+pub(super) const TESTS: &str = "tests";
+pub(super) const OWN_TESTS: &str = "tests/own";
+pub(super) const COUNTEREXAMPLES: &str = "counterexamples";
 
 /// Gathers the evidence for an agent, with tests of one's own; `tell` hears what is being done.
 ///
@@ -184,7 +202,7 @@ pub fn certify(
         tools,
         assumptions: assumptions(),
     };
-    files.extend(own_files(agent, &evidence)?);
+    files.extend(own_files(agent, &evidence));
     // Whoever translates the agent again gets the same files.
     let generated = known_again(translation.files).into_iter();
     files.extend(generated.map(|GeneratedFile { name: file, text, .. }| (name(C, &file), text)));
@@ -195,17 +213,11 @@ pub fn certify(
 }
 
 /// The texts that the agent was read from.
-fn own_files(agent: &Agent, evidence: &Evidence) -> Result<Vec<(String, String)>, CertifyError> {
-    let read = |path: &Path| {
-        std::fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).map_err(
-            |source| CertifyError::Io { what: format!("cannot read {}", path.display()), source },
-        )
-    };
-    let files = vec![
+fn own_files(agent: &Agent, evidence: &Evidence) -> [(String, String); 2] {
+    [
         (evidence.agent.clone(), agent.text.clone()),
-        (evidence.configuration.clone(), read(&agent.path)?),
-    ];
-    Ok(files)
+        (evidence.configuration.clone(), agent.written.clone()),
+    ]
 }
 
 struct Proved {

@@ -36,6 +36,9 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         CommandError::Certify(CertifyError::Io { .. } | CertifyError::Occupied { .. }) => {
             general("not-written", None)
         }
+        CommandError::Certify(CertifyError::Unlikely { path } | CertifyError::Input { path }) => {
+            general("not-written", Some(path))
+        }
         CommandError::Header(_)
         | CommandError::Verify(_)
         | CommandError::Prove(_)

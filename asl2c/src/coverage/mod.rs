@@ -218,7 +218,8 @@ mod tests {
         let text = "limit(4711).\n+!light(X) : dark & level(Y) & limit(Max) & Y < Max <- shine(X); !light(Y).\n\
             +!light(3) <- warn.\n+!light(_).\n";
         let configuration = translator::parse_configuration("lamp.conf", configuration).unwrap();
-        Agent { configuration, text: text.to_owned(), path: "lamp.conf".into() }
+        let text = text.to_owned();
+        Agent { configuration, written: String::new(), text, path: "lamp.conf".into() }
     }
 
     #[test]

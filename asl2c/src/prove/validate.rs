@@ -141,7 +141,7 @@ pub fn validate_watched(
         match result {
             Ok(Some((failures, calls))) => {
                 validated.calls = validated.calls.max(calls);
-                let open = |failure: Failure| Open { part: part.what.clone(), said: failure.said };
+                let open = |failure: Failure| Open { part: part.what.clone(), said: said(failure) };
                 validated.open.extend(failures.into_iter().map(open));
             }
             Ok(None) => validated.timeouts += 1,
@@ -189,6 +189,15 @@ fn end(result: &Result<Option<(Vec<Failure>, u32)>, ProveError>) -> End {
 /// Whether a failure tells of something done differently, and not of a bound.
 fn is_difference(said: &str) -> bool {
     said != ENDLESS && said != ENOUGH_ROOM && !said.starts_with("unwinding assertion")
+}
+
+/// What is not proved. CBMC words its own checks as if everybody knew that they are about errors.
+fn said(Failure { name, said }: Failure) -> String {
+    if is_difference(&said) && !name.contains(".assertion.") {
+        format!("a possible error at run time: {said}")
+    } else {
+        said
+    }
 }
 
 /// Proves one function; with as much room for calls as it needs. `None` if it was given up.
@@ -286,7 +295,8 @@ pub(crate) fn difference(
         for trace in traces {
             if let Some(way) = Way::new(&trace, configuration) {
                 let lines = way.lines().collect();
-                let difference = Some(Difference { said: trace.said, lines });
+                let said = said(Failure { name: trace.name, said: trace.said });
+                let difference = Some(Difference { said, lines });
                 return Ok(SearchedWay { difference, none: length - 1 });
             }
         }

@@ -9,7 +9,7 @@ pub(crate) type Case = (Rule, &'static str, &'static str);
 pub(crate) const REFUSED: &[Case] = &[
     (Rule::Character, "static uint32_t ä = 0U;", ""),
     (Rule::Character, "/* \u{202e} */", ""),
-    (Rule::Character, "", "on();\r"),
+    (Rule::LineEnd, "", "on();\r"),
     (Rule::Trigraph, "// why ??/", ""),
     (Rule::Trigraph, "", "say(\"??<\");"),
     (Rule::Digraph, "", "<% on(); %>"),
