@@ -4,6 +4,7 @@
 //! names of its types. But nothing in it may depend on who reads it, or change the meaning of what follows.
 
 use std::collections::HashSet;
+use std::hash::BuildHasher;
 
 use crate::lexer::{Kind, Place, Token, header_tokens};
 use crate::refused::{Refused, Rule};
@@ -53,7 +54,7 @@ type Judged<T> = Result<T, Refused>;
 ///
 /// # Errors
 /// If something in it is more than a declaration: the first one, with its place.
-pub fn judge_header(text: &str, used: &HashSet<String>) -> Judged<()> {
+pub fn judge_header<S: BuildHasher>(text: &str, used: &HashSet<String, S>) -> Judged<()> {
     let tokens = header_tokens(text, Place { line: 1, column: 1 })?;
     let tokens = without_guard(without_other_language(tokens)?)?;
     let mut item: Vec<Token<'_>> = Vec::new();
@@ -207,7 +208,7 @@ fn word(token: &Token<'_>) -> Judged<()> {
 }
 
 /// The names that a declaration gives are no others' names.
-fn declared(item: &[Token<'_>], used: &HashSet<String>) -> Judged<()> {
+fn declared<S: BuildHasher>(item: &[Token<'_>], used: &HashSet<String, S>) -> Judged<()> {
     let is_type = item.first().is_some_and(|first| first.text == "typedef");
     let mut depth = 0_u32;
     for pair in item.windows(2) {

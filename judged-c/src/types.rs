@@ -109,16 +109,12 @@ pub(crate) fn integer(text: &str) -> Option<Typed> {
 /// A floating-point constant as the shortest one with its value, correctly rounded to its type; `None` if it is infinite.
 /// Programs round what has many digits differently: CBMC takes a number a hair above the middle of two for the middle.
 pub(crate) fn float(text: &str) -> Option<String> {
-    match text.strip_suffix('F') {
-        Some(digits) => {
-            let value = digits.parse().ok().filter(|value: &f32| value.is_finite())?;
-            Some(format!("{value:?}F"))
-        }
-        None => {
-            let value = text.parse().ok().filter(|value: &f64| value.is_finite())?;
-            Some(format!("{value:?}"))
-        }
+    if let Some(digits) = text.strip_suffix('F') {
+        let value = digits.parse().ok().filter(|value: &f32| value.is_finite())?;
+        return Some(format!("{value:?}F"));
     }
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite())?;
+    Some(format!("{value:?}"))
 }
 
 /// Whether an integer is in the range of a type.

@@ -4,7 +4,8 @@
 use judged_c::{Rule, judge_header};
 
 fn judged(header: &str) -> Result<(), Rule> {
-    let used = ["on", "own_t", "value"].map(str::to_owned).into();
+    let used: std::collections::HashSet<String> =
+        ["on", "own_t", "value"].map(str::to_owned).into();
     judge_header(header, &used).map_err(|refused| refused.rule)
 }
 

@@ -42,15 +42,12 @@ pub(crate) fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnos
     match ctype.kind {
         TypeKind::Float64 | TypeKind::Float32 => {
             // The shortest constant with the value, because programs round what has many digits differently.
-            let (value, constant) = match ctype.kind {
-                TypeKind::Float64 => {
-                    let value: f64 = number.digits.parse().unwrap_or(f64::INFINITY);
-                    (value, format!("{value:?}"))
-                }
-                _ => {
-                    let value: f32 = number.digits.parse().unwrap_or(f32::INFINITY);
-                    (value.into(), format!("{value:?}F"))
-                }
+            let (value, constant) = if ctype.kind == TypeKind::Float64 {
+                let value: f64 = number.digits.parse().unwrap_or(f64::INFINITY);
+                (value, format!("{value:?}"))
+            } else {
+                let value: f32 = number.digits.parse().unwrap_or(f32::INFINITY);
+                (value.into(), format!("{value:?}F"))
             };
             let mantissa = number.digits.split(['e', 'E']).next().unwrap_or_default();
             let is_zero = mantissa.bytes().all(|byte| matches!(byte, b'0' | b'.'));
