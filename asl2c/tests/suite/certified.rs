@@ -82,7 +82,7 @@ fn the_evidence_is_whole_and_the_same_each_time() {
         std::fs::create_dir_all(second.join(&name).parent().unwrap()).unwrap();
         std::fs::write(second.join(name), text).unwrap();
     }
-    list(&second, "tests/old.transcript", "old");
+    list(&second, "tests/test_099.transcript", "old");
     std::fs::write(second.join("review.txt"), "seen").unwrap();
     certify(&gallery("lift"), &second).unwrap();
     std::fs::remove_file(second.join("review.txt")).unwrap();

@@ -169,11 +169,10 @@ impl Checker<'_> {
 /// Whether it is the same place before and after any effect.
 fn is_fixed_place(checker: &Checker<'_>, place: &Expression) -> bool {
     match &place.what {
-        What::Name(_) => true,
+        // Pointers are parameters, which stay the same.
+        What::Name(_) | What::Arrow(..) | What::Prefix(..) => true,
         What::Parentheses(of) | What::Field(of, _) => is_fixed_place(checker, of),
         What::Index(of, index) => is_fixed_place(checker, of) && checker.is_fixed(index),
-        // Pointers are parameters, which stay the same.
-        What::Arrow(..) | What::Prefix(..) => true,
         _ => false,
     }
 }
