@@ -19,6 +19,7 @@ mod certify;
 mod checksum;
 pub mod command_line;
 mod coverage;
+mod headers;
 mod lsp;
 mod measure;
 mod new;
@@ -40,6 +41,7 @@ pub use certify::{
 pub use coverage::{
     Counts, Coverage, CoverageError, Independence, LineCount, OwnTest, Share, Test, cover,
 };
+pub use headers::HeaderError;
 pub use measure::measure;
 pub use prove::{
     Budget, CBMC, Cbmc, Checks, Difference, End, Open, Part, Plan, Proof, ProveError, Validated,

@@ -98,7 +98,7 @@ fn resolved(path: &Path) -> Option<PathBuf> {
 }
 
 /// Whether two paths are the same file, existing or not.
-fn is_same(one: &Path, other: &Path) -> bool {
+pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
     if resolved(one).is_some_and(|one| Some(one) == resolved(other)) {
         return true;
     }

@@ -133,14 +133,6 @@ pub(crate) fn write(folder: &Path, name: &str, text: &str) -> Result<(), ToolErr
     })
 }
 
-/// A compiler's option for a folder with headers, wherever the compiler is run.
-pub(crate) fn include_option(folder: &Path) -> String {
-    // A bare file name has no folder.
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-    format!("-I{}", folder.display())
-}
-
 fn package(program: &str) -> &'static str {
     match program {
         "cppcheck" => "cppcheck",

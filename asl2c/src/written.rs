@@ -267,8 +267,15 @@ pub(crate) fn write_script(folder: &Path, name: &str, text: &str) -> Result<Path
     Ok(folder.join(name))
 }
 
-/// Whether a script can be written, which is known before it is.
+/// Whether a script can be written, as far as it is known before: the folder is there, and no other file in its place.
 pub(crate) fn check_script(folder: &Path, name: &str) -> Result<(), WriteError> {
+    let folder = or_here(folder);
+    let path = || folder.to_owned();
+    let data =
+        std::fs::metadata(folder).map_err(|source| WriteError::Io { path: path(), source })?;
+    if !data.is_dir() {
+        return Err(WriteError::Io { path: path(), source: ErrorKind::NotADirectory.into() });
+    }
     check(folder, &script(name, ""))
 }
 

@@ -57,18 +57,42 @@ const SIGNS: [&str; 32] = [
     "->", "++", "--", "+=", "-=", "==", "!=", "<=", ">=", "&&", "||", "(", ")", "{", "}", "[", "]",
     ";", ",", ":", "=", "<", ">", "+", "-", "*", "/", "%", "!", "&", ".", "#",
 ];
+/// Signs that are known only in headers.
+const HEADER_SIGNS: [char; 4] = ['|', '~', '^', '?'];
 /// Other spellings of signs.
 const DIGRAPHS: [&str; 5] = ["<%", "%>", "<:", ":>", "%:"];
+
+/// Why a character cannot begin a word.
+fn unknown(character: char) -> Rule {
+    match character {
+        '\r' => Rule::LineEnd,
+        '?' => Rule::Sign("choose with `if` and `else`"),
+        '|' | '^' | '~' => Rule::Sign("there are no operations on bits, only `&&`, `||` and `!`"),
+        '\'' => Rule::Sign("write the number of the character"),
+        _ => Rule::Character,
+    }
+}
 
 struct Lexer<'a> {
     rest: &'a str,
     place: Place,
     tokens: Vec<Token<'a>>,
+    /// A header of the agent's own, or a line of one: its values are not computed with.
+    is_header: bool,
 }
 
 /// The words of a text, and the place behind them.
 pub(crate) fn tokens(text: &str) -> Result<Vec<Token<'_>>, Refused> {
-    let mut lexer = Lexer { rest: text, place: Place { line: 1, column: 1 }, tokens: Vec::new() };
+    all(text, Place { line: 1, column: 1 }, false)
+}
+
+/// The words of a header of the agent's own, with preprocessor lines anywhere, or of a part of one at this place.
+pub(crate) fn header_tokens(text: &str, place: Place) -> Result<Vec<Token<'_>>, Refused> {
+    all(text, place, true)
+}
+
+fn all(text: &str, place: Place, is_header: bool) -> Result<Vec<Token<'_>>, Refused> {
+    let mut lexer = Lexer { rest: text, place, tokens: Vec::new(), is_header };
     while !lexer.rest.is_empty() {
         lexer.next()?;
     }
@@ -129,9 +153,11 @@ impl<'a> Lexer<'a> {
                 if DIGRAPHS.iter().any(|digraph| self.rest.starts_with(digraph)) {
                     return self.refuse(2, Rule::Digraph);
                 }
+                let more = self.is_header && HEADER_SIGNS.contains(&first);
                 match SIGNS.iter().find(|sign| self.rest.starts_with(**sign)) {
                     Some(sign) => self.push(Kind::Sign, sign.len()),
-                    None => self.refuse(self.first_length(), Rule::Character)?,
+                    None if more => self.push(Kind::Sign, 1),
+                    None => self.refuse(self.first_length(), unknown(first))?,
                 }
             }
         }
@@ -142,7 +168,8 @@ impl<'a> Lexer<'a> {
     fn comment(&mut self) -> Result<(), Refused> {
         let block = self.rest.starts_with("/*");
         let start = self.place;
-        self.take(2);
+        // In `//*` another comment begins with the second character, for compilers that know only that kind.
+        self.take(if block { 2 } else { 1 });
         loop {
             let Some(character) = self.rest.chars().next() else {
                 return if block { Err(refused("/*", start, Rule::Open)) } else { Ok(()) };
@@ -163,7 +190,8 @@ impl<'a> Lexer<'a> {
             // What replaces bytes that are no text could be anything.
             let shown = is_printable(character) && character != char::REPLACEMENT_CHARACTER;
             if !shown && !matches!(character, '\t' | '\n') {
-                return self.refuse(self.first_length(), Rule::Character);
+                let rule = if character == '\r' { Rule::LineEnd } else { Rule::Character };
+                return self.refuse(self.first_length(), rule);
             }
             self.take(character.len_utf8());
         }
@@ -173,7 +201,10 @@ impl<'a> Lexer<'a> {
     fn line(&mut self) -> Result<(), Refused> {
         let length = self.rest.find('\n').unwrap_or(self.rest.len());
         let line = self.rest[..length].trim_end_matches([' ', '\t']);
-        if self.tokens.iter().any(|token| token.kind != Kind::Line) {
+        let is_alone = self.tokens.iter().all(|token| {
+            token.kind == Kind::Line || self.is_header && token.place.line < self.place.line
+        });
+        if !is_alone {
             return self.refuse(line.len(), Rule::Preprocessor);
         }
         self.push(Kind::Line, line.len());
@@ -208,6 +239,11 @@ impl<'a> Lexer<'a> {
 
     /// `3`, `3U`, `3LL`, `3ULL`, `3.0`, `3e5`, `3.0e-5F`.
     fn number(&mut self) -> Result<(), Refused> {
+        if self.is_header {
+            let end = self.rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '.');
+            self.push(Kind::Integer, end.unwrap_or(self.rest.len()));
+            return Ok(());
+        }
         let bytes = self.rest.as_bytes();
         let digits = |from: usize| {
             from + bytes.iter().skip(from).take_while(|byte| byte.is_ascii_digit()).count()

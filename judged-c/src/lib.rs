@@ -8,6 +8,7 @@
 //! Nothing here reads a file or starts a program.
 
 mod check;
+mod header;
 mod language;
 mod lexer;
 mod parser;
@@ -20,7 +21,9 @@ use std::collections::HashSet;
 
 use translator::Comparison;
 
+pub use self::header::judge_header;
 use self::language::Language;
+pub use self::print::{macros, words};
 pub use self::refused::{Refused, Rule};
 
 /// C of the language.
@@ -54,7 +57,11 @@ impl Judged {
 ///
 /// # Errors
 /// If something in it is not of the language: the first one, with its place.
-pub fn judge(comparison: &Comparison, text: &str, headers: &[String]) -> Result<Judged, Refused> {
+pub fn judge<'a>(
+    comparison: &Comparison,
+    text: &str,
+    headers: impl IntoIterator<Item = &'a str>,
+) -> Result<Judged, Refused> {
     let mut files = comparison.files.iter();
     let own = files.next().map_or("", |file| file.text.as_str());
     let generated = files.filter(|file| !file.setting.is_empty());
@@ -65,7 +72,7 @@ pub fn judge(comparison: &Comparison, text: &str, headers: &[String]) -> Result<
         rule: Rule::Translation,
         ..refused
     })?;
-    let macros: HashSet<String> = headers.iter().flat_map(|header| print::macros(header)).collect();
+    let macros: HashSet<String> = headers.into_iter().flat_map(macros).collect();
     let unit = parser::parse(text, &language.types())?;
     let names = check::check(&unit, &language, &macros)?;
     let (text, arbitrary) = print::print(&unit, &language);

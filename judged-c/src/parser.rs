@@ -8,6 +8,7 @@ use crate::tree::{
     Block, Definition, Expression, For, Function, Group, Item, Object, Parameter, Prefix,
     Statement, Type, Unit, What, Word,
 };
+use crate::types::float;
 
 /// Blocks inside each other. C99 guarantees 127, and what is generated stays within that.
 const MOST_BLOCKS: u32 = 127;
@@ -226,7 +227,6 @@ impl<'a> Parser<'a> {
                 text if BASE.contains(&text) && !has_name => ctype.words.push(text.to_owned()),
                 text if token.kind == Kind::Name
                     && ctype.words.is_empty()
-                    && !WORDS.contains(&text)
                     && (self.header || self.types.contains(text)) =>
                 {
                     ctype.words.push(text.to_owned());
@@ -343,6 +343,14 @@ impl<'a> Parser<'a> {
         }
         if self.is("while") || self.is("do") {
             return Err(token.refused(Rule::Loop));
+        }
+        if self.is(";") {
+            let empty = "a statement was expected; an empty one is `{ }`, or nothing";
+            return Err(token.refused(Rule::Expected(empty)));
+        }
+        if self.is("goto") || self.is("continue") {
+            let jump = "nothing jumps but `return`, and `break` of a case; use `if` and blocks";
+            return Err(token.refused(Rule::Expected(jump)));
         }
         let statement = self.action()?;
         self.expect(";", "`;` was expected")?;
@@ -535,7 +543,10 @@ impl<'a> Parser<'a> {
         let text = || token.text.to_owned();
         let what = match token.kind {
             Kind::Integer => What::Integer(text()),
-            Kind::Float => What::Float(text()),
+            Kind::Float => match float(token.text) {
+                Some(number) => What::Float(number),
+                None => return Err(token.refused(Rule::Number)),
+            },
             Kind::Text => What::Text(text()),
             Kind::Sign if token.text == "(" => {
                 self.deeper()?;

@@ -339,8 +339,8 @@ fn arbitrary(text: &mut String, language: &Language, place: &str, ty: &Ty) {
 }
 
 /// Names of the macros that a header's text defines, or would if other conditions held.
-pub(crate) fn macros(header: &str) -> HashSet<String> {
-    let text = header.replace("??=", "#").replace("??/", "\\").replace('\r', "");
+pub fn macros(header: &str) -> HashSet<String> {
+    let text = header.replace("??/", "\\").replace('\r', "");
     // Lines are joined first, also with blanks behind the sign, as compilers do.
     let mut joined = String::with_capacity(text.len());
     for line in text.lines() {
@@ -364,6 +364,13 @@ pub(crate) fn macros(header: &str) -> HashSet<String> {
         }
     }
     names
+}
+
+/// The words of C that it uses outside of comments.
+pub fn words(text: &str) -> HashSet<String> {
+    let plain = without_comments(text);
+    let words = plain.split(|c: char| !c.is_alphanumeric() && c != '_' && c != '$');
+    words.filter(|word| !word.is_empty()).map(str::to_owned).collect()
 }
 
 /// A text with blanks for comments.

@@ -22,6 +22,12 @@ pub enum Rule {
     /// Characters outside of comments.
     #[error("only printable ASCII characters, tabs and line ends may stand here")]
     Character,
+    /// A sign that is not of the language.
+    #[error("this sign is not of the C that is generated; {0}")]
+    Sign(&'static str),
+    /// `\r`
+    #[error("lines end with CR and LF; convert the file, with `dos2unix` for example")]
+    LineEnd,
     /// `??`
     #[error("two question marks can begin another character, also in comments; write one")]
     Trigraph,
@@ -49,7 +55,7 @@ pub enum Rule {
     Escape,
     /// `0x1F`, `1l`, `010`.
     #[error(
-        "numbers are decimal, in range, and without a suffix, with U, LL or ULL, or with F behind a fraction"
+        "numbers are decimal (16 for 0x10), in range, and without a suffix, with U, LL or ULL, or with F behind a fraction"
     )]
     Number,
     /// A word or sign where another one should be.
@@ -75,7 +81,7 @@ pub enum Rule {
     /// An array outside of a `static` declaration.
     #[error("only static objects can be arrays, with a number as length")]
     Array,
-    /// A pointer that is a local or static variable.
+    /// A pointer that is a local or static variable, or a result.
     #[error("pointers can only be parameters of static functions")]
     Pointer,
     /// No initial value.
@@ -158,7 +164,9 @@ pub enum Rule {
     #[error("its value is not used; write `(void)` before it")]
     Unused,
     /// A loop without a known bound.
-    #[error("loops are `for (uint32_t i = 0U; i < 3U; i++)`, also with `&&` and another condition")]
+    #[error(
+        "loops are `for (uint32_t i = 0U; i < 3U; i++)`, also with `&&` and another condition, not `while`"
+    )]
     Loop,
     /// A `case` that falls through, or is not constant.
     #[error(
@@ -169,6 +177,26 @@ pub enum Rule {
     /// Code that is never reached.
     #[error("it is never reached")]
     Unreachable,
+    /// Preprocessor lines of a header.
+    #[error(
+        "in a header of the agent's own, only a guard against double inclusion around all of it, `#include`, `#define` of \
+             a constant, and what stands in `#ifdef __cplusplus` are known: a condition could make it another header for a \
+             model checker than for the compiler"
+    )]
+    Directive,
+    /// `#define`
+    #[error(
+        "a header of the agent's own defines only constants: numbers, texts, names and operators, in a line"
+    )]
+    Define,
+    /// What is no declaration of data.
+    #[error(
+        "a header of the agent's own declares types, data and functions, in plain C and each with its `;`"
+    )]
+    Header,
+    /// A declaration in a header of what the generated C means by a name.
+    #[error("the generated files use this name; rename it")]
+    Used,
     /// The agent's own C is not of the language.
     #[error(
         "the translation of this agent itself is not of the language that is judged, for its types"

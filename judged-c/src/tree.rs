@@ -44,6 +44,7 @@ pub(crate) struct Expression {
 pub(crate) enum What {
     Name(String),
     Integer(String),
+    /// In its shortest form.
     Float(String),
     Text(String),
     Prefix(Prefix, Box<Expression>),

@@ -106,6 +106,17 @@ pub(crate) fn integer(text: &str) -> Option<Typed> {
     fits(value, &ty).then_some(Typed { ty, value: Some(value) })
 }
 
+/// A floating-point constant as the shortest one with its value, correctly rounded to its type; `None` if it is infinite.
+/// Programs round what has many digits differently: CBMC takes a number a hair above the middle of two for the middle.
+pub(crate) fn float(text: &str) -> Option<String> {
+    if let Some(digits) = text.strip_suffix('F') {
+        let value = digits.parse().ok().filter(|value: &f32| value.is_finite())?;
+        return Some(format!("{value:?}F"));
+    }
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite())?;
+    Some(format!("{value:?}"))
+}
+
 /// Whether an integer is in the range of a type.
 pub(crate) fn fits(value: i128, ty: &Ty) -> bool {
     let Ty::Integer { bits, signed } = ty else { return false };

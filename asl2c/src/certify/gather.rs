@@ -1,9 +1,10 @@
 //! Proves, checks, measures and tests an agent, and gathers the results.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::PathBuf;
 use std::time::Duration;
 
+use judged_c::judge;
 use translator::{
     GeneratedFile, Obligations, TraceRow, TranslateError, comparison, obligations, trace_rows,
     translate,
@@ -18,6 +19,7 @@ use super::reach::reach;
 use super::trust::{assumptions, tools};
 use crate::agent::Agent;
 use crate::coverage::{Coverage, CoverageError, OwnTest, cover};
+use crate::headers::HeaderError;
 use crate::measure::measure;
 use crate::output::known_again;
 use crate::prove::{
@@ -38,6 +40,9 @@ pub enum CertifyError {
     /// CBMC is missing or gave no result.
     #[error(transparent)]
     Prove(#[from] ProveError),
+    /// A header of the agent's own.
+    #[error("nothing is certified: {0}")]
+    Header(#[from] HeaderError),
     /// Another tool is missing or failed.
     #[error("nothing is certified: {0}")]
     Tool(#[from] ToolError),
@@ -60,6 +65,24 @@ pub enum CertifyError {
         /// The folder.
         folder: String,
     },
+    /// Its list of evidence has what evidence has not.
+    #[error(
+        "{path} is listed as evidence in that folder, but is not what asl2c writes there, so nothing is changed; `-o DIR` \
+         names another folder"
+    )]
+    Unlikely {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Its list of evidence has a file that is read.
+    #[error(
+        "{path}, of which evidence is made, is listed in that folder as earlier evidence, which would be replaced; \
+         nothing is changed; `-o DIR` names another folder"
+    )]
+    Input {
+        /// The file.
+        path: PathBuf,
+    },
     /// A test of one's own cannot be executed, or the agent does something else.
     #[error("nothing is certified: {0}")]
     Test(String),
@@ -75,6 +98,7 @@ impl From<CoverageError> for CertifyError {
     fn from(error: CoverageError) -> Self {
         match error {
             CoverageError::Translate(error) => error.into(),
+            CoverageError::Header(error) => error.into(),
             CoverageError::Tool(error) => error.into(),
             CoverageError::Test(said) => Self::Test(said),
         }
@@ -104,9 +128,9 @@ pub struct Certified {
 pub(super) const AGENT: &str = "agent";
 /// Folder of the generated files.
 pub(super) const C: &str = "c";
-const TESTS: &str = "tests";
-const OWN_TESTS: &str = "tests/own";
-const COUNTEREXAMPLES: &str = "counterexamples";
+pub(super) const TESTS: &str = "tests";
+pub(super) const OWN_TESTS: &str = "tests/own";
+pub(super) const COUNTEREXAMPLES: &str = "counterexamples";
 
 /// Gathers the evidence for an agent, with tests of one's own; `tell` hears what is being done.
 ///
@@ -122,21 +146,20 @@ pub fn certify(
     let Agent { configuration, text, .. } = agent;
     // A missing tool is told before an hour of proofs.
     let tools = tools(cbmc)?;
-    let include = agent.folder();
     let mut translation = translate(configuration, text)?;
     // So is an agent that cannot be proved.
     let mut obligations = obligations(configuration, text)?;
-    let own = agent.own_headers();
-    translation.files.extend(own.iter().cloned());
-    obligations.files.extend(own);
+    let own = agent.own_headers(&translation.files)?;
+    translation.files.extend(own);
+    obligations.files.extend(agent.own_headers(&obligations.files)?);
     let mut tell = |doing: &str| cbmc.check_stop().map(|()| tell(doing));
     tell("checks the rules of MISRA C:2012")?;
-    let deviations = deviations(&translation.files, include)?;
+    let deviations = deviations(&translation.files)?;
     tell("measures stack and time")?;
     let missing = measure(&mut translation, configuration, text);
     let bounds = Bounds { report: translation.report.to_string(), missing };
     tell("makes tests and executes them on the C")?;
-    let coverage = cover(agent, own_tests, include)?;
+    let coverage = cover(agent, own_tests)?;
     tell("proves the properties")?;
     let Proved { properties, run_time_errors, invariant, mut files, c: proved_c, dead } =
         proved(agent, obligations, cbmc, limits)?;
@@ -179,7 +202,7 @@ pub fn certify(
         tools,
         assumptions: assumptions(),
     };
-    files.extend(own_files(agent, &evidence)?);
+    files.extend(own_files(agent, &evidence));
     // Whoever translates the agent again gets the same files.
     let generated = known_again(translation.files).into_iter();
     files.extend(generated.map(|GeneratedFile { name: file, text, .. }| (name(C, &file), text)));
@@ -190,17 +213,11 @@ pub fn certify(
 }
 
 /// The texts that the agent was read from.
-fn own_files(agent: &Agent, evidence: &Evidence) -> Result<Vec<(String, String)>, CertifyError> {
-    let read = |path: &Path| {
-        std::fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).map_err(
-            |source| CertifyError::Io { what: format!("cannot read {}", path.display()), source },
-        )
-    };
-    let files = vec![
+fn own_files(agent: &Agent, evidence: &Evidence) -> [(String, String); 2] {
+    [
         (evidence.agent.clone(), agent.text.clone()),
-        (evidence.configuration.clone(), read(&agent.path)?),
-    ];
-    Ok(files)
+        (evidence.configuration.clone(), agent.written.clone()),
+    ]
 }
 
 struct Proved {
@@ -276,9 +293,20 @@ fn validation(
     cbmc: &Cbmc,
     limits: Limits,
 ) -> Result<ValidationEvidence, CertifyError> {
-    let comparison = comparison(&agent.configuration, &agent.text)?;
+    let mut comparison = comparison(&agent.configuration, &agent.text)?;
+    let own = agent.own_headers(&comparison.files)?;
+    let headers = own.iter().map(|header| header.text.as_str());
+    match judge(&comparison, &comparison.files[0].text, headers) {
+        Ok(judged) => judged.put_into(&mut comparison),
+        Err(refused) => {
+            let open = vec![refused.to_string()];
+            let status = Status::Undecided;
+            return Ok(ValidationEvidence { status, proofs: 0, calls: 0, timeouts: 0, open });
+        }
+    }
+    comparison.files.extend(own);
     let folder = temporary_folder()?;
-    let validated = validate(&comparison, cbmc, folder.path(), agent.folder(), limits.time)?;
+    let validated = validate(&comparison, cbmc, folder.path(), limits.time)?;
     let status = if validated.is_proved() {
         Status::Shown
     } else if validated.differs() {

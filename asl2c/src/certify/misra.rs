@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 use translator::GeneratedFile;
 
-use crate::tool::{ToolError, include_option, output, write};
+use crate::tool::{ToolError, output, write};
 
 /// A violated rule or a complaint.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -30,18 +30,15 @@ const SUPPRESSED: [&str; 2] = ["--suppress=missingIncludeSystem", "--suppress=un
 /// Between the parts of a finding.
 const PARTS: &str = "--template={file}\t{line}\t{id}\t{message}";
 
-/// The deviations of generated C; `include` is the folder of the configuration's own headers.
+/// The deviations of generated C.
 ///
 /// # Errors
 /// If cppcheck or its addon does not run.
-pub(super) fn deviations(
-    files: &[GeneratedFile],
-    include: &Path,
-) -> Result<Vec<Deviation>, ToolError> {
+pub(super) fn deviations(files: &[GeneratedFile]) -> Result<Vec<Deviation>, ToolError> {
     let no_folder = |source| ToolError::Io { what: "no temporary folder".to_owned(), source };
     let folder = tempfile::tempdir().map_err(no_folder)?;
     write(folder.path(), "bad.c", BAD)?;
-    let awake = checked(folder.path(), "bad.c", Path::new("."))?;
+    let awake = checked(folder.path(), "bad.c")?;
     if !awake.iter().any(|found| found.rule == BROKEN_RULE) {
         return Err(ToolError::Failed {
             program: CPPCHECK.to_owned(),
@@ -49,12 +46,11 @@ pub(super) fn deviations(
         });
     }
     files.iter().try_for_each(|file| write(folder.path(), &file.name, &file.text))?;
-    checked(folder.path(), &files[0].name, include)
+    checked(folder.path(), &files[0].name)
 }
 
-fn checked(folder: &Path, file: &str, include: &Path) -> Result<Vec<Deviation>, ToolError> {
-    let include = include_option(include);
-    let options = ["--addon=misra", "--enable=all", "--std=c99", "--quiet", PARTS, &include];
+fn checked(folder: &Path, file: &str) -> Result<Vec<Deviation>, ToolError> {
+    let options = ["--addon=misra", "--enable=all", "--std=c99", "--quiet", PARTS, "-I."];
     let result = output(folder, CPPCHECK, &[&options[..], &SUPPRESSED, &[file]].concat())?;
     let said = String::from_utf8_lossy(&result.stderr);
     let said: Vec<&str> = said.lines().filter(|line| !line.is_empty()).collect();

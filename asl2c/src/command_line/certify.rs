@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::arguments::Certify;
 use super::{CommandError, NOT_CHECKED, complain_of, print, stop};
-use crate::agent::Agent;
+use crate::agent::{Agent, read};
 use crate::certify::{
     CertifyError, Evidence, Limits, Status, Verdict, certify, check_folder, write,
 };
@@ -17,8 +17,12 @@ use crate::prove::Cbmc;
 /// Gathers the evidence, writes it and prints a summary.
 pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
     let agent = Agent::read(&asked.configuration)?;
+    let own_tests = asked.tests.as_deref().map_or(Ok(Vec::new()), own_tests)?;
+    let tests = asked.tests.as_deref().unwrap_or(agent.folder());
+    let mut inputs = agent.inputs().map_err(CertifyError::from)?;
+    inputs.extend(own_tests.iter().map(|test| tests.join(&test.name)));
     // Not after an hour of proofs.
-    check_folder(&asked.output)?;
+    check_folder(&asked.output, &inputs)?;
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
     let limits = Limits { time: Duration::from_secs(asked.time), transitions: asked.length };
     let mut tell = |doing: &str| {
@@ -26,9 +30,8 @@ pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
             complain_of(&format!("asl2c {doing}"));
         }
     };
-    let own_tests = asked.tests.as_deref().map_or(Ok(Vec::new()), own_tests)?;
     let certified = certify(&agent, &own_tests, &cbmc, limits, &mut tell)?;
-    write(&certified, &asked.output)?;
+    write(&certified, &asked.output, &inputs)?;
     let evidence = &certified.evidence;
     let mut text = as_text(evidence);
     // Writing to a string cannot fail.
@@ -42,25 +45,22 @@ pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
 }
 
 /// The transcripts of a folder, by their names.
-fn own_tests(folder: &Path) -> Result<Vec<OwnTest>, CertifyError> {
+fn own_tests(folder: &Path) -> Result<Vec<OwnTest>, CommandError> {
     let unread =
         |source| CertifyError::Io { what: format!("cannot read {}", folder.display()), source };
     let mut tests = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(unread)? {
         let path = entry.map_err(unread)?.path();
         if path.extension().is_some_and(|extension| extension == "transcript") {
-            let bytes = std::fs::read(&path).map_err(|source| CertifyError::Io {
-                what: format!("cannot read {}", path.display()),
-                source,
-            })?;
-            let transcript = String::from_utf8_lossy(&bytes).into_owned();
+            let transcript = read(&path)?;
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             tests.push(OwnTest { name, transcript });
         }
     }
     if tests.is_empty() {
         let folder = folder.display();
-        return Err(CertifyError::Test(format!("{folder} has no file NAME.transcript")));
+        let none = format!("{folder} has no file NAME.transcript");
+        return Err(CertifyError::Test(none).into());
     }
     tests.sort_by(|left, right| left.name.cmp(&right.name));
     Ok(tests)

@@ -71,7 +71,7 @@ impl Search<'_> {
     }
 
     fn by_tests(&self) -> Result<Option<Differing>, CommandError> {
-        testable(differing(self.agent, self.c(), self.agent.folder())).map(Option::flatten)
+        testable(differing(self.agent, self.c())).map(Option::flatten)
     }
 
     fn after_beginnings(&self) -> Result<Option<Differing>, CommandError> {
@@ -91,7 +91,7 @@ impl Search<'_> {
             let what = format!("a difference where {next} is next, after {} acts", acts.len());
             if let Some(found) = self.after(acts, &what, budget)? {
                 let lines = &found.lines;
-                let known = shorter(self.agent, lines, self.c(), self.agent.folder());
+                let known = shorter(self.agent, lines, self.c());
                 let known = testable(known)?.flatten();
                 let transitions = u32::try_from(lines.len()).unwrap_or(u32::MAX);
                 let Difference { said, lines } = found;
@@ -111,6 +111,7 @@ impl Search<'_> {
         let Agent { configuration, text, .. } = self.agent;
         let mut comparison = comparison_after(configuration, text, beginning)?;
         self.c().clone_into(&mut comparison.files[0].text);
+        comparison.files.extend(self.agent.own_headers(&comparison.files)?);
         let folder = self.folder.join("beginning");
         write_comparison(&comparison, &folder)?;
         let budget = budget.at_most(AFTER);
@@ -125,10 +126,9 @@ impl Search<'_> {
         budget: Budget,
     ) -> Result<SearchedWay, CommandError> {
         let declared = self.agent.configuration.declarations();
-        let folders = (folder, self.agent.folder());
         let limits = (budget, self.watch);
         let lengths = (self.validated.calls, length);
-        Ok(difference(comparison, declared, self.cbmc, folders, (lengths, what), limits)?)
+        Ok(difference(comparison, declared, self.cbmc, folder, (lengths, what), limits)?)
     }
 }
 
@@ -138,6 +138,7 @@ fn testable<T>(tested: Result<T, CoverageError>) -> Result<Option<T>, CommandErr
         Ok(tested) => Ok(Some(tested)),
         // No test is somebody's own.
         Err(CoverageError::Translate(_) | CoverageError::Test(_)) => Ok(None),
+        Err(CoverageError::Header(error)) => Err(error.into()),
         Err(CoverageError::Tool(error)) => Err(error.into()),
     }
 }

@@ -36,7 +36,11 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         CommandError::Certify(CertifyError::Io { .. } | CertifyError::Occupied { .. }) => {
             general("not-written", None)
         }
-        CommandError::Verify(_)
+        CommandError::Certify(CertifyError::Unlikely { path } | CertifyError::Input { path }) => {
+            general("not-written", Some(path))
+        }
+        CommandError::Header(_)
+        | CommandError::Verify(_)
         | CommandError::Prove(_)
         | CommandError::Tool(_)
         | CommandError::Certify(_)

@@ -28,6 +28,7 @@ use self::messages::{denied, error_lines, line, lines};
 use self::verdicts::Detail;
 use crate::agent::{Agent, ReadError};
 use crate::certify::CertifyError;
+use crate::headers::HeaderError;
 use crate::lsp;
 use crate::measure::measure;
 use crate::new::{NewError, make};
@@ -43,6 +44,8 @@ use crate::written::WriteError;
 enum CommandError {
     #[error(transparent)]
     Read(#[from] ReadError),
+    #[error(transparent)]
+    Header(#[from] HeaderError),
     #[error(transparent)]
     Translate(#[from] TranslateError),
     #[error(transparent)]
@@ -170,7 +173,7 @@ fn translate_files(arguments: &Arguments, path: &Path) -> Result<ExitCode, Comma
         complain_of(&if json { lines(&warnings) } else { warnings.to_string() });
     }
     if arguments.report {
-        translation.files.extend(agent.own_headers());
+        translation.files.extend(agent.own_headers(&translation.files)?);
         for unknown in measure(&mut translation, &agent.configuration, &agent.text) {
             complain_of(&if json {
                 line("warning", "not-measured", &unknown, None)
@@ -211,6 +214,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
     let ours = matches!(
         error,
         CommandError::Read(ReadError::File { .. })
+            | CommandError::Header(_)
             | CommandError::Print { .. }
             | CommandError::Typed(_)
             | CommandError::New(_)

@@ -9,18 +9,19 @@ use serde_json::{Value, json};
 use translator::{ParsedConfiguration, Promise, obligations};
 
 use super::arguments::Prove;
+use super::validate::to_replay;
 use super::{CommandError, NOT_CHECKED, print, stop};
 use crate::agent::Agent;
 use crate::prove::{Cbmc, Found, Limits, Plan, Proof, ProveError, Searched, prove, search};
 use crate::run::Session;
-use crate::written::{check_script, write_script};
+use crate::written::{WriteError, check_script, write_script};
 
 /// A result, with its saved counterexample.
 struct Saved {
     /// Result of the search.
     searched: Searched,
-    /// The script, if there is a counterexample.
-    path: Option<PathBuf>,
+    /// The script, if there is a counterexample. That it cannot be written is no reason to lose the result.
+    path: Option<Result<PathBuf, WriteError>>,
 }
 
 /// Proves what can be proved, searches for counterexamples to the rest, and saves them.
@@ -28,13 +29,13 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     let agent = Agent::read(&asked.configuration)?;
     let Agent { configuration, text, .. } = &agent;
     let mut obligations = obligations(configuration, text)?;
-    obligations.files.extend(agent.own_headers());
-    let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
+    obligations.files.extend(agent.own_headers(&obligations.files)?);
     let output = asked.output.as_deref().unwrap_or(agent.folder());
     for promise in &obligations.properties {
         // Not after the proof, whose result would be lost.
         check_script(output, &script_name(&asked.configuration, &promise.name))?;
     }
+    let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
     let folder = tempfile::tempdir()
         .map_err(|source| ProveError::Io { what: "no temporary folder".to_owned(), source })?;
     let proof = prove(&obligations, &cbmc, folder.path(), &Plan::ALL)?;
@@ -46,7 +47,7 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     }
     let mut saved = Vec::new();
     for (index, searched) in found.into_iter().enumerate() {
-        let path = save(&searched, index, &asked.configuration, output)?;
+        let path = save(&searched, index, &asked.configuration, output);
         saved.push(Saved { searched, path });
     }
     let text = if asked.json {
@@ -68,16 +69,22 @@ fn status(proof: &Proof, saved: &[Saved]) -> ExitCode {
     }
 }
 
-/// Writes a counterexample as a script. Returns its path.
+/// Writes a counterexample as a script, if there is one. Returns its path.
 fn save(
     searched: &Searched,
     index: usize,
     configuration: &Path,
     folder: &Path,
-) -> Result<Option<PathBuf>, CommandError> {
-    let Some(text) = searched.script() else { return Ok(None) };
+) -> Option<Result<PathBuf, WriteError>> {
+    let text = searched.script()?;
     let what = searched.property.clone().unwrap_or_else(|| format!("run_time_{}", index + 1));
-    Ok(Some(write_script(folder, &script_name(configuration, &what), &text)?))
+    Some(write_script(folder, &script_name(configuration, &what), &text))
+}
+
+/// The path of its script.
+fn written(saved: &Saved) -> Option<String> {
+    let path = saved.path.as_ref()?.as_ref().ok()?;
+    Some(path.display().to_string())
 }
 
 fn script_name(configuration: &Path, what: &str) -> String {
@@ -129,7 +136,6 @@ fn tell(
     asked: &Prove,
 ) {
     let formula = formula.map_or(String::new(), |formula| format!("  {formula}\n"));
-    let path = saved.path.as_ref().map_or(String::new(), |path| path.display().to_string());
     match &saved.searched.found {
         Found::Way(_, story) => {
             _ = writeln!(
@@ -140,10 +146,11 @@ fn tell(
             for happening in story {
                 _ = writeln!(text, "    {happening}");
             }
-            let agent = asked.configuration.display();
-            _ = writeln!(text, "  to replay it: asl2c run {agent} --script {path}");
+            let replay = saved.path.as_ref().map(|path| to_replay(&asked.configuration, path));
+            _ = writeln!(text, "  {}", replay.unwrap_or_default());
         }
         Found::Unconfirmed(_) => {
+            let path = written(saved).unwrap_or_else(|| "which could not be written".to_owned());
             _ = writeln!(
                 text,
                 "{head}: NOT DECIDED\n{formula}  CBMC found a counterexample in the C, {path}, that the reference \
@@ -168,8 +175,7 @@ fn as_json(proof: &Proof, saved: &[Saved]) -> String {
             Some(Found::Way(_, story)) => ("fails", json!(story)),
             _ => ("undecided", Value::Null),
         };
-        let script =
-            saved.and_then(|saved| saved.path.as_ref()).map(|path| path.display().to_string());
+        let script = saved.and_then(written);
         (named, trace, script)
     };
     let properties = proof.properties.iter().map(|(promise, holds)| {

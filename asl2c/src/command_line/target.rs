@@ -11,8 +11,9 @@ const STEPS: u32 = 5000;
 
 /// Measures the agent on the target. Returns the text for the report, and whether the traces are equal.
 pub(super) fn measured(agent: &Agent) -> Result<(String, bool), CommandError> {
-    let exercise = translator::exercise(&agent.configuration, &agent.text)?;
-    let found = on_target(&exercise, &exercise, agent.folder(), STEPS)?;
+    let mut exercise = translator::exercise(&agent.configuration, &agent.text)?;
+    exercise.files.extend(agent.own_headers(&exercise.files)?);
+    let found = on_target(&exercise, &exercise, STEPS)?;
     Ok((as_text(&found), found.difference.is_none()))
 }
 

@@ -13,16 +13,16 @@ use super::arguments::{Validate, is_json};
 use super::difference::{Search, Way};
 use super::progress::Progress;
 use super::{CommandError, NOT_CHECKED, print, stop};
-use crate::agent::Agent;
+use crate::agent::{Agent, read};
 use crate::prove::{Budget, Cbmc, Difference, ProveError, Validated, Watch as _, validate_watched};
 use crate::run::Session;
-use crate::written::{check_script, write_script};
+use crate::written::{WriteError, check_script, write_script};
 
 /// A difference, what the agent does on the way to it, and its script.
 struct Shown {
     way: Way,
     story: Vec<Happening>,
-    path: PathBuf,
+    path: Result<PathBuf, WriteError>,
 }
 
 /// Compares, searches for a way to what differs, and saves it.
@@ -30,15 +30,15 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let agent = Agent::read(&asked.configuration)?;
     let Agent { configuration, text, .. } = &agent;
     let mut comparison = comparison(configuration, text)?;
-    if let Some(c) = &asked.c {
-        // Not the exit status of a C file that differs.
-        let unread =
-            |source| ProveError::Io { what: format!("cannot read {}", c.display()), source };
-        let bytes = std::fs::read(c).map_err(unread)?;
-        let text = String::from_utf8_lossy(&bytes);
-        // From here on there is only C of a known language: it is compared and, in the search, executed.
-        judge(&comparison, &text, &agent.headers())?.put_into(&mut comparison);
-    }
+    let c = match &asked.c {
+        Some(c) => read(c)?,
+        None => comparison.files[0].text.clone(),
+    };
+    // From here on there is only C of a known language: it is compared and, in the search, executed.
+    let own = agent.own_headers(&comparison.files)?;
+    judge(&comparison, &c, own.iter().map(|header| header.text.as_str()))?
+        .put_into(&mut comparison);
+    comparison.files.extend(own);
     let output = asked.output.as_deref().unwrap_or(agent.folder());
     // Not after the proofs, whose result would be lost.
     check_script(output, &script_name(&asked.configuration))?;
@@ -49,8 +49,7 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let budget = Budget::begin(each, Some(total));
     let quiet = asked.quiet || is_json(&asked.message_format);
     let progress = Progress::new(quiet, stop::flag()?);
-    let folders = (folder.path(), agent.folder());
-    let validated = validate_watched(&comparison, &cbmc, folders, budget, &progress)?;
+    let validated = validate_watched(&comparison, &cbmc, folder.path(), budget, &progress)?;
     let mut none = 0;
     let mut shown = None;
     if validated.differs() {
@@ -68,7 +67,7 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
         (way, none) = search.way()?;
         if let Some(way) = way {
             let session = Session::new(configuration, text)?;
-            let (story, path) = show(&way.difference, &session, &asked.configuration, output)?;
+            let (story, path) = show(&way.difference, &session, &asked.configuration, output);
             shown = Some(Shown { way, story, path });
         }
     }
@@ -92,27 +91,38 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     })
 }
 
+/// How a script is replayed, or why it is not there.
+pub(super) fn to_replay(agent: &Path, script: &Result<PathBuf, WriteError>) -> String {
+    match script {
+        Ok(path) => {
+            format!("to replay it: asl2c run {} --script {}", agent.display(), path.display())
+        }
+        Err(error) => format!("there is no script to replay it: {error}"),
+    }
+}
+
 fn script_name(configuration: &Path) -> String {
     let stem = configuration.file_stem().unwrap_or_default().to_string_lossy();
     format!("{stem}.differs.script")
 }
 
-/// Writes the way to a difference as a script. Returns what the agent does on it, and the script's path.
+/// Writes the way to a difference as a script. Returns what the agent does on it, and the script's path; that it cannot be
+/// written is no reason to lose the result.
 fn show(
     difference: &Difference,
     session: &Session,
     configuration: &Path,
     folder: &Path,
-) -> Result<(Vec<Happening>, PathBuf), CommandError> {
+) -> (Vec<Happening>, Result<PathBuf, WriteError>) {
     let mut text = format!("// The C differs: {}\n", difference.said);
     for line in &difference.lines {
         // Writing to a string cannot fail.
         _ = writeln!(text, "{line}");
     }
-    let path = write_script(folder, &script_name(configuration), &text)?;
+    let path = write_script(folder, &script_name(configuration), &text);
     let mut session = session.clone();
     let story = difference.lines.iter().flat_map(|line| session.happenings(line)).collect();
-    Ok((story, path))
+    (story, path)
 }
 
 fn as_text(
@@ -137,8 +147,7 @@ fn as_text(
                 "  (there may be a shorter way, of more than {none} events, beliefs and steps)"
             );
         }
-        let (agent, path) = (agent.path.display(), path.display());
-        _ = writeln!(text, "  to replay it: asl2c run {agent} --script {path}");
+        _ = writeln!(text, "  {}", to_replay(&agent.path, path));
     } else if validated.is_proved() {
         _ = writeln!(text, "{c}: does what {input} says, in every environment");
         _ = writeln!(
@@ -183,7 +192,7 @@ fn as_json(c: &str, validated: &Validated, shown: Option<&Shown>) -> String {
         "is_shortest": shown.map(|shown| shown.way.is_shortest),
         "difference": shown.map(|shown| &shown.way.difference.said),
         "trace": shown.map(|shown| &shown.story),
-        "script": shown.map(|shown| shown.path.display().to_string()),
+        "script": shown.and_then(|shown| shown.path.as_ref().ok()).map(|path| path.display().to_string()),
     });
     format!("{object:#}\n")
 }

@@ -1,8 +1,6 @@
 //! Looks for an execution in which another C file does not do what an agent's text says: the tests that are made from the
 //! text are executed on it, and one that fails is shortened.
 
-use std::path::Path;
-
 use translator::interpreter::Interpreter;
 use translator::{Act, GeneratedFile, TESTS, scripted};
 
@@ -11,7 +9,7 @@ use super::world::Execution;
 use super::{CoverageError, act_line};
 use crate::agent::Agent;
 use crate::run::test_acts;
-use crate::tool::{ToolError, include_option, output, run, write};
+use crate::tool::{ToolError, output, run, write};
 
 /// An execution from the start, at whose end the C differs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,14 +32,10 @@ struct Failed {
 }
 
 /// Finds a short execution in which the C differs from the agent; `None` if all tests pass.
-pub(crate) fn differing(
-    agent: &Agent,
-    c: &str,
-    include: &Path,
-) -> Result<Option<Differing>, CoverageError> {
+pub(crate) fn differing(agent: &Agent, c: &str) -> Result<Option<Differing>, CoverageError> {
     let found = search(&agent.configuration, &agent.text)?;
     let attempts = found.into_iter().map(|test| test.acts).collect();
-    shortened(agent, attempts, c, include)
+    shortened(agent, attempts, c)
 }
 
 /// Leaves out what an execution does not need for the C to differ; `None` if it does not differ.
@@ -49,11 +43,10 @@ pub(crate) fn shorter(
     agent: &Agent,
     lines: &[String],
     c: &str,
-    include: &Path,
 ) -> Result<Option<Differing>, CoverageError> {
     let configuration = agent.configuration.declarations();
     match test_acts("way", &lines.join("\n"), configuration) {
-        Ok(acts) => shortened(agent, vec![acts], c, include),
+        Ok(acts) => shortened(agent, vec![acts], c),
         // The script is our own, so this cannot happen; the way is as good as it was.
         Err(_) => Ok(None),
     }
@@ -69,11 +62,10 @@ fn shortened(
     agent: &Agent,
     mut attempts: Vec<Vec<Act>>,
     c: &str,
-    include: &Path,
 ) -> Result<Option<Differing>, CoverageError> {
     let mut best: Option<Failed> = None;
     loop {
-        let failed = failed(agent, &attempts, c, include)?;
+        let failed = failed(agent, &attempts, c)?;
         let Some(shortest) = failed.into_iter().min_by_key(|failed| failed.acts.len()) else {
             break;
         };
@@ -108,12 +100,7 @@ fn with_less(acts: &[Act]) -> Vec<Vec<Act>> {
 }
 
 /// Those of the executions in which the C differs, up to there.
-fn failed(
-    agent: &Agent,
-    attempts: &[Vec<Act>],
-    c: &str,
-    include: &Path,
-) -> Result<Vec<Failed>, CoverageError> {
+fn failed(agent: &Agent, attempts: &[Vec<Act>], c: &str) -> Result<Vec<Failed>, CoverageError> {
     let interpreter = Interpreter::new(&agent.configuration, &agent.text)?;
     let first = Execution::new(interpreter, agent.configuration.declarations());
     let mut tests: Vec<(Vec<Act>, String)> = Vec::new();
@@ -126,8 +113,8 @@ fn failed(
     let acts: Vec<Vec<Act>> = tests.iter().map(|(acts, _)| acts.clone()).collect();
     let mut files = scripted(&agent.configuration, &agent.text, &acts)?;
     c.clone_into(&mut files[0].text);
-    files.extend(agent.own_headers());
-    let said = executed(&files, acts.len(), include)?;
+    files.extend(agent.own_headers(&files)?);
+    let said = executed(&files, acts.len())?;
     // After a crash the traces of further tests are missing, and the last one ends early.
     let traces = said.split("# ").skip(1);
     Ok(tests
@@ -152,7 +139,7 @@ fn executing(tests: usize) -> String {
 }
 
 /// Compiles and runs the tests. Returns their trace, as far as they come.
-fn executed(files: &[GeneratedFile], tests: usize, include: &Path) -> Result<String, ToolError> {
+fn executed(files: &[GeneratedFile], tests: usize) -> Result<String, ToolError> {
     let io = |what: &str| {
         let what = what.to_owned();
         move |source| ToolError::Io { what, source }
@@ -160,9 +147,8 @@ fn executed(files: &[GeneratedFile], tests: usize, include: &Path) -> Result<Str
     let folder = tempfile::tempdir().map_err(io("no temporary folder"))?;
     let folder = folder.path();
     files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
-    let include = include_option(include);
     let c = &files[0].name;
-    run(folder, "gcc", &["-std=c99", "-O0", "-w", "-I.", &include, c, TESTS, "-o", "tests"])?;
+    run(folder, "gcc", &["-std=c99", "-O0", "-w", "-I.", c, TESTS, "-o", "tests"])?;
     // Its status does not matter: a crash is a difference, too.
     output(folder, "sh", &["-c", &executing(tests)])?;
     let trace = std::fs::read(folder.join("trace")).map_err(io("cannot read the trace"))?;

@@ -8,7 +8,6 @@ mod values;
 mod world;
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use translator::interpreter::Value;
 use translator::{Act, GeneratedFile, TESTS, TranslateError, scripted};
@@ -18,8 +17,9 @@ pub use self::gcov::{Counts, LineCount, Share};
 pub use self::independence::Independence;
 use self::search::{Found, search};
 use crate::agent::Agent;
+use crate::headers::HeaderError;
 use crate::run::{Session, call_name, replay, test_acts};
-use crate::tool::{ToolError, include_option, run, write};
+use crate::tool::{ToolError, run, write};
 
 /// Why there is no coverage.
 #[derive(Debug, thiserror::Error)]
@@ -28,6 +28,9 @@ pub enum CoverageError {
     /// The agent has errors, or cannot be tested because only the environment can create its values.
     #[error(transparent)]
     Translate(#[from] TranslateError),
+    /// A header of the agent's own.
+    #[error(transparent)]
+    Header(#[from] HeaderError),
     /// A tool is missing or failed.
     #[error(transparent)]
     Tool(#[from] ToolError),
@@ -74,18 +77,17 @@ pub struct Coverage {
 }
 
 /// Makes tests that reach as much of an agent as is found, and executes them, and those that somebody wrote, on its C.
-/// `include` is the folder with the configuration's own headers.
 ///
 /// # Errors
 /// See [`CoverageError`].
-pub fn cover(agent: &Agent, own: &[OwnTest], include: &Path) -> Result<Coverage, CoverageError> {
+pub fn cover(agent: &Agent, own: &[OwnTest]) -> Result<Coverage, CoverageError> {
     let mut found = search(&agent.configuration, &agent.text)?;
     for test in own {
         found.push(executable(agent, test)?);
     }
     let first_own = found.len() - own.len();
     let files = program(agent, &found)?;
-    let (said, counts) = executed(&files, include)?;
+    let (said, counts) = executed(&files)?;
     let mut tests = Vec::new();
     for ((index, test), difference) in found.iter().enumerate().zip(differences(&found, &said)) {
         let plans = test.plans.iter().map(|place| line(&agent.text, *place)).collect();
@@ -120,10 +122,10 @@ fn executable(agent: &Agent, test: &OwnTest) -> Result<Found, CoverageError> {
 }
 
 /// The agent's C and a program that executes the tests on it.
-fn program(agent: &Agent, tests: &[Found]) -> Result<Vec<GeneratedFile>, TranslateError> {
+fn program(agent: &Agent, tests: &[Found]) -> Result<Vec<GeneratedFile>, CoverageError> {
     let acts: Vec<Vec<Act>> = tests.iter().map(|test| test.acts.clone()).collect();
     let mut files = scripted(&agent.configuration, &agent.text, &acts)?;
-    files.extend(agent.own_headers());
+    files.extend(agent.own_headers(&files)?);
     Ok(files)
 }
 
@@ -138,14 +140,13 @@ fn differences(tests: &[Found], said: &str) -> Vec<Option<String>> {
 }
 
 /// Compiles and runs the program. Returns its trace and the counts of the C.
-fn executed(files: &[GeneratedFile], include: &Path) -> Result<(String, Counts), ToolError> {
+fn executed(files: &[GeneratedFile]) -> Result<(String, Counts), ToolError> {
     let no_folder = |source| ToolError::Io { what: "no temporary folder".to_owned(), source };
     let folder = tempfile::tempdir().map_err(no_folder)?;
     let folder = folder.path();
     files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
-    let include = include_option(include);
     let c = &files[0].name;
-    let compiled = ["-std=c99", "-O0", "-w", "-I.", &include];
+    let compiled = ["-std=c99", "-O0", "-w", "-I."];
     run(folder, "gcc", &[&compiled[..], &["--coverage", "-c", c, "-o", "agent.o"]].concat())?;
     run(folder, "gcc", &[&compiled[..], &["-c", TESTS, "-o", "tests.o"]].concat())?;
     run(folder, "gcc", &["--coverage", "agent.o", "tests.o", "-o", "tests"])?;
@@ -217,12 +218,13 @@ mod tests {
         let text = "limit(4711).\n+!light(X) : dark & level(Y) & limit(Max) & Y < Max <- shine(X); !light(Y).\n\
             +!light(3) <- warn.\n+!light(_).\n";
         let configuration = translator::parse_configuration("lamp.conf", configuration).unwrap();
-        Agent { configuration, text: text.to_owned(), path: "lamp.conf".into() }
+        let text = text.to_owned();
+        Agent { configuration, written: String::new(), text, path: "lamp.conf".into() }
     }
 
     #[test]
     fn tests_reach_what_can_be_reached() {
-        let found = cover(&lamp(), &[], Path::new(".")).unwrap();
+        let found = cover(&lamp(), &[]).unwrap();
         assert!(found.tests.iter().all(|test| test.difference.is_none()), "{:?}", found.tests);
         let plans: std::collections::BTreeSet<usize> =
             found.tests.iter().flat_map(|test| test.plans.iter().copied()).collect();
@@ -232,7 +234,7 @@ mod tests {
         assert!(missed.count() <= 1, "{:?}", found.counts);
         assert!(found.tests.iter().any(|test| test.transcript.contains("4711")));
         // The same ones each time.
-        assert_eq!(cover(&lamp(), &[], Path::new(".")).unwrap(), found);
+        assert_eq!(cover(&lamp(), &[]).unwrap(), found);
     }
 
     #[test]
@@ -240,7 +242,7 @@ mod tests {
         let of = |transcript: &str| {
             let own =
                 OwnTest { name: "own.transcript".to_owned(), transcript: transcript.to_owned() };
-            cover(&lamp(), &[own], Path::new("."))
+            cover(&lamp(), &[own])
         };
         let found = of("> // A test.\n> achieve_light(3); step 1\nwarn()\n").unwrap();
         let last = found.tests.last().unwrap();
@@ -266,7 +268,7 @@ mod tests {
             let changed = files[0].text.replacen(from, to, 1);
             assert!(from == to || changed != files[0].text, "{from}:\n{}", files[0].text);
             files[0].text = changed;
-            let (said, _) = executed(&files, Path::new(".")).unwrap();
+            let (said, _) = executed(&files).unwrap();
             differences(&found, &said).into_iter().flatten().next()
         };
         assert_eq!(judged("", ""), None);

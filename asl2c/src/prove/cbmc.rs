@@ -252,7 +252,7 @@ impl Cbmc {
     /// CBMC for a function of a file.
     fn command(&self, folder: &Path, file: &str, function: &str) -> Command {
         let mut command = Command::new(&self.path);
-        command.args([file, "--function", function]).current_dir(folder);
+        command.args([file, "-I.", "--function", function]).current_dir(folder);
         command
     }
 
@@ -383,12 +383,15 @@ impl Cbmc {
 impl Said {
     /// The error of an output without a result.
     fn no_result(&self) -> ProveError {
-        // gcc, as the preprocessor, or CBMC itself: one of them says where.
-        let said = || self.errors.lines().chain(self.output.lines());
-        if let Some(line) =
-            said().find(|line| line.contains("fatal error: ") || line.contains("PARSING ERROR"))
-        {
-            return ProveError::NotCompiled { said: line.trim().to_owned() };
+        // gcc, as the preprocessor, or CBMC itself, which says what is wrong in the line before: one of them says where.
+        let mut before = "";
+        for line in self.errors.lines().chain(self.output.lines()).map(str::trim) {
+            let is_last = matches!(line, "PARSING ERROR" | "CONVERSION ERROR");
+            if is_last || line.contains("fatal error: ") {
+                let said = if is_last && !before.is_empty() { before } else { line };
+                return ProveError::NotCompiled { said: said.to_owned() };
+            }
+            before = line;
         }
         let lines: Vec<&str> = self.output.lines().chain(self.errors.lines()).collect();
         ProveError::NoResult { output: lines[lines.len().saturating_sub(20)..].join("\n") }

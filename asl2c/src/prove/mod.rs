@@ -67,7 +67,8 @@ pub enum ProveError {
     /// The C of the proof is not complete.
     #[error(
         "nothing is proved: the C cannot be compiled: {said}; headers that the agent includes, and those that they \
-         include, are looked for beside its configuration"
+         include, are looked for beside its configuration or below, and nowhere else, and need a guard against double \
+         inclusion"
     )]
     NotCompiled {
         /// The first error.

@@ -75,8 +75,8 @@ pub struct Difference {
     pub lines: Vec<String>,
 }
 
-/// Proves the comparison, with `include` as a folder of the environment's own headers. Creates `folder` for the
-/// generated files. Each proof has a limited time. Ends with the first difference.
+/// Proves the comparison, whose files are all that is read, but for headers of the compiler. Creates `folder` for them.
+/// Each proof has a limited time. Ends with the first difference.
 ///
 /// # Errors
 /// If a file cannot be written, or CBMC gives no result: C that cannot be compiled, for example.
@@ -84,10 +84,9 @@ pub fn validate(
     comparison: &Comparison,
     cbmc: &Cbmc,
     folder: &Path,
-    include: &Path,
     time: Duration,
 ) -> Result<Validated, ProveError> {
-    validate_watched(comparison, cbmc, (folder, include), Budget::begin(time, None), &())
+    validate_watched(comparison, cbmc, folder, Budget::begin(time, None), &())
 }
 
 /// As [`validate`], with a limit for all proofs together, and somebody who follows them and may stop them.
@@ -97,7 +96,7 @@ pub fn validate(
 pub fn validate_watched(
     comparison: &Comparison,
     cbmc: &Cbmc,
-    (folder, include): (&Path, &Path),
+    folder: &Path,
     budget: Budget,
     watch: &dyn Watch,
 ) -> Result<Validated, ProveError> {
@@ -120,7 +119,7 @@ pub fn validate_watched(
                         watch.begins(part);
                         let late = budget.late(watch);
                         let give_up = || needless() || late();
-                        let result = prove(comparison, cbmc, folder, include, function, give_up);
+                        let result = prove(comparison, cbmc, folder, function, give_up);
                         watch.ends(part, end(&result), begun.elapsed());
                         result
                     };
@@ -142,7 +141,7 @@ pub fn validate_watched(
         match result {
             Ok(Some((failures, calls))) => {
                 validated.calls = validated.calls.max(calls);
-                let open = |failure: Failure| Open { part: part.what.clone(), said: failure.said };
+                let open = |failure: Failure| Open { part: part.what.clone(), said: said(failure) };
                 validated.open.extend(failures.into_iter().map(open));
             }
             Ok(None) => validated.timeouts += 1,
@@ -192,17 +191,25 @@ fn is_difference(said: &str) -> bool {
     said != ENDLESS && said != ENOUGH_ROOM && !said.starts_with("unwinding assertion")
 }
 
+/// What is not proved. CBMC words its own checks as if everybody knew that they are about errors.
+fn said(Failure { name, said }: Failure) -> String {
+    if is_difference(&said) && !name.contains(".assertion.") {
+        format!("a possible error at run time: {said}")
+    } else {
+        said
+    }
+}
+
 /// Proves one function; with as much room for calls as it needs. `None` if it was given up.
 fn prove(
     comparison: &Comparison,
     cbmc: &Cbmc,
     folder: &Path,
-    include: &Path,
     function: &str,
     give_up: impl Fn() -> bool,
 ) -> Result<Option<(Vec<Failure>, u32)>, ProveError> {
     let run = |room: u32, more: &[&str]| {
-        let mut arguments = arguments(comparison, include, room);
+        let mut arguments = arguments(comparison, room);
         // The relation does not know other variables than those of the state, and a loop that never ends must not be
         // taken for one that is never entered.
         arguments.extend(["--nondet-static", "--no-self-loops-to-assumptions"].map(str::to_owned));
@@ -237,16 +244,8 @@ fn prove(
     Ok(Some((found, room)))
 }
 
-fn arguments(comparison: &Comparison, include: &Path, room: u32) -> Vec<String> {
-    // Made absolute, because CBMC is run in another folder. A bare file name has no folder.
-    let include = if include.as_os_str().is_empty() { Path::new(".") } else { include };
-    let include = std::path::absolute(include).unwrap_or_else(|_| include.to_owned());
-    vec![
-        format!("-D{ROOM}={room}"),
-        format!("-I{}", include.display()),
-        "--unwind".to_owned(),
-        comparison.unwinding.to_string(),
-    ]
+fn arguments(comparison: &Comparison, room: u32) -> Vec<String> {
+    vec![format!("-D{ROOM}={room}"), "--unwind".to_owned(), comparison.unwinding.to_string()]
 }
 
 /// Result of the search for an execution in which the two differ.
@@ -267,7 +266,7 @@ pub(crate) fn difference(
     comparison: &Comparison,
     configuration: &Configuration,
     cbmc: &Cbmc,
-    (folder, include): (&Path, &Path),
+    folder: &Path,
     ((calls, length), what): ((u32, u32), &str),
     (budget, watch): (Budget, &dyn Watch),
 ) -> Result<SearchedWay, ProveError> {
@@ -278,7 +277,7 @@ pub(crate) fn difference(
         let part = Part { number: length as usize - 1, of, what };
         watch.begins(&part);
         let begun = Instant::now();
-        let mut arguments = arguments(comparison, include, calls.max(*ROOMS.start()));
+        let mut arguments = arguments(comparison, calls.max(*ROOMS.start()));
         // One more than the number of rounds: the last one only leaves the loop.
         arguments.extend(["--unwindset".to_owned(), format!("main.0:{}", length + 1)]);
         arguments.push("--no-unwinding-assertions".to_owned());
@@ -296,7 +295,8 @@ pub(crate) fn difference(
         for trace in traces {
             if let Some(way) = Way::new(&trace, configuration) {
                 let lines = way.lines().collect();
-                let difference = Some(Difference { said: trace.said, lines });
+                let said = said(Failure { name: trace.name, said: trace.said });
+                let difference = Some(Difference { said, lines });
                 return Ok(SearchedWay { difference, none: length - 1 });
             }
         }

@@ -23,10 +23,9 @@ pub(crate) const SEED: &str = "88172645463325252ULL";
 /// Time limit of QEMU: an execution takes a second.
 const PATIENCE: Duration = Duration::from_mins(5);
 
-/// The folder of an exercise, and where the configuration's own headers are.
+/// The folder of an exercise.
 pub(super) struct Build<'a> {
     pub(super) folder: &'a Path,
-    pub(super) include: &'a Path,
 }
 
 impl Build<'_> {
@@ -146,9 +145,6 @@ impl Build<'_> {
         let mut command =
             if program.contains('/') { Command::new(path) } else { Command::new(program) };
         command.args(arguments).current_dir(self.folder);
-        if arguments.contains(&"-I.") {
-            command.arg("-I").arg(self.include);
-        }
         let output = command.output().map_err(|source| in_run(program, source))?;
         if output.status.success() {
             return Ok(String::from_utf8_lossy(&output.stdout).into_owned());

@@ -10,7 +10,6 @@ mod observed;
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, BufReader};
-use std::path::Path;
 
 use translator::{EXERCISE_STATE, Exercise};
 
@@ -103,22 +102,19 @@ pub struct OnTarget {
 const COUNTED_STEPS: u32 = 500;
 
 /// Compiles an agent for a Cortex-M4, derives the bounds from the code, and runs it for this number of steps there and,
-/// as `reference`, on this machine. Both are usually the same; `include` is the folder with the configuration's own
-/// headers.
+/// as `reference`, on this machine. Both are usually the same, and have all files that are read but the compiler's.
 ///
 /// # Errors
 /// If a tool is missing or fails, the stack has no bound, or the compiler's frames are not those of the code.
 pub fn on_target(
     exercise: &Exercise,
     reference: &Exercise,
-    include: &Path,
     steps: u32,
 ) -> Result<OnTarget, TargetError> {
     let versions = versions()?;
-    let host = on_host(reference, include, steps)?;
+    let host = on_host(reference, steps)?;
     let folder = temporary_folder()?;
-    let include = include.canonicalize().unwrap_or_default();
-    let build = Build { folder: folder.path(), include: &include };
+    let build = Build { folder: folder.path() };
     build.write(exercise)?;
     let frames = build.compile(c_file(exercise))?;
     build.link(exercise, steps)?;
@@ -144,10 +140,9 @@ pub fn on_target(
 ///
 /// # Errors
 /// [`TargetError::Failed`] of `gcc` if the C does not compile, of another program if it does not end well.
-pub fn on_host(exercise: &Exercise, include: &Path, steps: u32) -> Result<String, TargetError> {
+pub fn on_host(exercise: &Exercise, steps: u32) -> Result<String, TargetError> {
     let folder = temporary_folder()?;
-    let include = include.canonicalize().unwrap_or_default();
-    let build = Build { folder: folder.path(), include: &include };
+    let build = Build { folder: folder.path() };
     build.write(exercise)?;
     build.on_host(c_file(exercise), steps)
 }

@@ -4,6 +4,7 @@
 #![allow(clippy::format_collect, reason = "tests build texts, and read better so")]
 #![allow(clippy::disallowed_methods, reason = "tests wait for programs and time them")]
 
+mod breaches;
 mod certified;
 mod edited;
 mod files;
@@ -12,6 +13,7 @@ mod fmt;
 mod gallery;
 mod guide;
 mod harness;
+mod headers;
 mod lsp;
 mod on_target;
 mod prove;

@@ -18,7 +18,7 @@ fn read(name: &str) -> Agent {
 
 /// The result, or `None` if a tool is missing.
 fn run(exercise: &Exercise, reference: &Exercise, steps: u32) -> Option<OnTarget> {
-    match on_target(exercise, reference, Path::new("."), steps) {
+    match on_target(exercise, reference, steps) {
         Ok(result) => Some(result),
         Err(TargetError::Missing { program }) => {
             skip(&program);
@@ -94,10 +94,11 @@ const TEXT: &str = "!wait.
 #[test]
 fn an_agent_with_all_types_is_compared_and_the_library_counts() {
     let configuration = translator::parse_configuration("a.conf", CONFIGURATION).unwrap();
-    let exercise = translator::exercise(&configuration, TEXT).unwrap();
-    let own = tempfile::tempdir().unwrap();
-    std::fs::write(own.path().join("own.h"), "enum { OWN = 1 };\n").unwrap();
-    let found = match on_target(&exercise, &exercise, own.path(), 1000) {
+    let mut exercise = translator::exercise(&configuration, TEXT).unwrap();
+    let mut own = exercise.files[1].clone();
+    (own.name, own.text) = ("own.h".to_owned(), "enum { OWN = 1 };\n".to_owned());
+    exercise.files.push(own);
+    let found = match on_target(&exercise, &exercise, 1000) {
         Ok(found) => found,
         Err(TargetError::Missing { program }) => return skip(&program),
         Err(error) => panic!("{error}"),
@@ -110,7 +111,8 @@ fn an_agent_with_all_types_is_compared_and_the_library_counts() {
     assert!(reason.contains("`__aeabi_"), "{reason}");
     assert!(step.stack >= found.observed.stack, "{found:?}");
     // Without the header nothing is compiled.
-    let error = on_target(&exercise, &exercise, "src".as_ref(), 10).unwrap_err();
+    exercise.files.pop();
+    let error = on_target(&exercise, &exercise, 10).unwrap_err();
     assert!(error.to_string().contains("own.h"), "{error}");
 }
 

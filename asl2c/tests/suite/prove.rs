@@ -101,6 +101,7 @@ fn a_tool_that_proves_falsehoods_is_refused() {
             format!("#!/bin/bash\nif [ \"$1\" = --version ]; then echo 6.6.0; exit; fi\n{fake}\n");
         std::fs::write(&script, text).unwrap();
         std::fs::set_permissions(&script, PermissionsExt::from_mode(0o755)).unwrap();
+        std::fs::create_dir(folder.path().join("out")).unwrap();
         for task in tasks {
             let mut command = Command::new(env!("CARGO_BIN_EXE_asl2c"));
             command.args([task, "a.conf", "-q", "-o", "out", "--cbmc", "./cbmc"]);

@@ -319,13 +319,13 @@ fn no_trick_is_proved() {
                 continue;
             }
             let mut compared = agent.compared.clone();
-            let Ok(judged) = judge(&agent.compared, &c, &[]) else {
+            let Ok(judged) = judge(&agent.compared, &c, []) else {
                 refused += 1;
                 continue;
             };
             judged.put_into(&mut compared);
             let folder = tempfile::tempdir().unwrap();
-            let result = validate(&compared, &cbmc, folder.path(), Path::new(GALLERY), TIME);
+            let result = validate(&compared, &cbmc, folder.path(), TIME);
             match result {
                 Ok(result) if !result.is_proved() => open += 1,
                 other => proved.push(format!("{name}: {other:?}")),

@@ -91,13 +91,13 @@ fn programs_of_the_conformance_suite_are_proved() {
     for (title, comparison) in programs.iter().step_by(every) {
         // What is judged is printed from the tree.
         let mut printed = comparison.clone();
-        judge(comparison, &comparison.files[0].text, &[]).unwrap().put_into(&mut printed);
+        judge(comparison, &comparison.files[0].text, []).unwrap().put_into(&mut printed);
         if title.ends_with(hard) {
             continue;
         }
         let folder = tempfile::tempdir().unwrap();
         let begun = Instant::now();
-        let result = validate(&printed, &cbmc, folder.path(), folder.path(), TIME).unwrap();
+        let result = validate(&printed, &cbmc, folder.path(), TIME).unwrap();
         times.push((begun.elapsed().as_secs_f64(), title));
         assert!(result.is_proved(), "{title}: {result:?}");
     }
@@ -202,23 +202,23 @@ fn c_with_a_mistake_is_not_proved() {
         let agent = Agent::read(Path::new(&format!("{GALLERY}/{name}.conf"))).unwrap();
         let compared = comparison(&agent.configuration, &agent.text).unwrap();
         let tested = exercise(&agent.configuration, &agent.text).unwrap();
-        let trace = on_host(&tested, Path::new(GALLERY), TESTED).unwrap();
+        let trace = on_host(&tested, TESTED).unwrap();
         let found = mistakes(&compared.files[0].text);
         let step = (found.len() * names.len() / wanted).max(1);
         for (what, c) in found.iter().step_by(step) {
             let mut compared = compared.clone();
             tried += 1;
-            let Ok(judged) = judge(&compared, c, &[]) else {
+            let Ok(judged) = judge(&compared, c, []) else {
                 refused += 1;
                 continue;
             };
             judged.put_into(&mut compared);
             let folder = tempfile::tempdir().unwrap();
-            match validate(&compared, &cbmc, folder.path(), Path::new(GALLERY), TIME) {
+            match validate(&compared, &cbmc, folder.path(), TIME) {
                 Ok(result) if result.is_proved() => {
                     let mut tested = tested.clone();
                     tested.files[0].text.clone_from(c);
-                    let same = on_host(&tested, Path::new(GALLERY), TESTED).unwrap() == trace;
+                    let same = on_host(&tested, TESTED).unwrap() == trace;
                     assert!(same, "{name}.c:{what}: proved, but does something else");
                     equal.push(format!("{name}.c:{what}"));
                 }
@@ -275,7 +275,7 @@ fn a_fault_of_the_back_end_is_caught() {
     let traced = |c: &str| {
         let mut tested = tested.clone();
         c.clone_into(&mut tested.files[0].text);
-        on_host(&tested, Path::new(GALLERY), TESTED).unwrap()
+        on_host(&tested, TESTED).unwrap()
     };
     let judged = |(fault, right, wrong): (&str, &str, &str)| {
         let mut faulty = compared.clone();
@@ -284,7 +284,7 @@ fn a_fault_of_the_back_end_is_caught() {
         *c = c.replace(right, wrong);
         let same = traced(c) == traced(&compared.files[0].text);
         let folder = tempfile::tempdir().unwrap();
-        let result = validate(&faulty, &cbmc, folder.path(), Path::new(GALLERY), TIME).unwrap();
+        let result = validate(&faulty, &cbmc, folder.path(), TIME).unwrap();
         (result, same)
     };
     for fault in FAULTS {
@@ -310,7 +310,7 @@ fn no_case_is_left_out() {
     let compared = comparison(&agent.configuration, &agent.text).unwrap();
     let judged = |compared: &Comparison| {
         let folder = tempfile::tempdir().unwrap();
-        validate(compared, &cbmc, folder.path(), Path::new(GALLERY), TIME).unwrap()
+        validate(compared, &cbmc, folder.path(), TIME).unwrap()
     };
     assert!(compared.cases.iter().any(|case| case.ends_with("(slot 1, 2 waiting)")));
     // Two events wait, from the second slot on.

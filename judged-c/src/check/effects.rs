@@ -103,7 +103,6 @@ impl<'a> Doing<'a> {
                 }
             }
             Statement::For(repeated) => {
-                self.object(&repeated.counter);
                 self.expression(&repeated.condition);
                 self.block(&repeated.body);
             }

@@ -27,9 +27,6 @@ impl Checker<'_> {
             What::Name(name) => self.named(expression, name),
             What::Integer(text) => integer(text).ok_or_else(|| refused(text, place, Rule::Number)),
             What::Float(text) => {
-                let number: Option<f64> = text.trim_end_matches('F').parse().ok();
-                let finite = number.is_some_and(f64::is_finite);
-                require(finite, text, place, Rule::Number)?;
                 Ok(if text.ends_with('F') { Ty::Float32 } else { Ty::Float64 }.into())
             }
             What::Text(_) => Ok(Ty::Text.into()),

@@ -147,15 +147,12 @@ impl Checker<'_> {
     /// Whether a new name may be given.
     fn fresh(&mut self, word: &Word, is_function: bool) -> Checked<()> {
         let Word { text, place } = word;
-        let reserved = text.starts_with('_')
-            || translator::is_c_word(text)
-            || is_function && translator::is_c_library(text);
+        let reserved = translator::is_c_word(text) || is_function && translator::is_c_library(text);
         require(!reserved, text, *place, Rule::Reserved)?;
         require(!is_of_comparison(text), text, *place, Rule::Comparison)?;
         let language = self.language;
         let known = language.functions.contains_key(text)
             || language.enumerators.contains_key(text)
-            || language.structs.contains_key(text)
             || language.types().contains(text)
             || self.functions.contains_key(text)
             || self.scopes.iter().any(|scope| scope.contains_key(text));
@@ -233,7 +230,6 @@ impl Checker<'_> {
     /// An initial value fits.
     fn initial(&mut self, initial: &Expression, ty: &Ty) -> Checked<()> {
         let What::Braces(values) = &initial.what else {
-            require(!matches!(ty, Ty::Array(..)), "=", initial.place, Rule::Mismatch)?;
             let value = self.expression(initial)?;
             return self.kept(initial, &value, ty);
         };
@@ -293,6 +289,8 @@ impl Checker<'_> {
         let Word { text, place } = name;
         let signature = self.language.signature(function)?;
         self.type_names(result)?;
+        let returns_pointer = matches!(signature.result.ty, Ty::Pointer { .. });
+        require(!returns_pointer, text, *place, Rule::Pointer)?;
         let outside = self.language.functions.get(text);
         match outside {
             Some((Owner::Interface, declared)) => {

@@ -42,7 +42,6 @@ impl Checker<'_> {
                 let counts = matches!(ty, Ty::Integer { bits: 32.., .. });
                 require(counts, sign, place.place, Rule::Operation)?;
                 self.written(place)?;
-                require(!self.has_effect(place), sign, place.place, Rule::Order)?;
             }
             Statement::Value(value) => self.value(value)?,
             Statement::If(arms, otherwise) => {
@@ -81,7 +80,7 @@ impl Checker<'_> {
             self.kept(value, &typed, &ty)?;
             // The place is that of before or after an effect.
             let fixed = is_fixed_place(self, place);
-            require(fixed || !self.has_effect(value), &shown(value), value.place, Rule::Order)?;
+            require(fixed || !self.has_effect(value), &shown(value), value.place, Rule::Order)
         } else {
             let sum = match &ty {
                 Ty::Integer { bits: 32.., .. } => is_kept(&typed, &ty),
@@ -89,9 +88,8 @@ impl Checker<'_> {
                 _ => return Err(refused(sign, place.place, Rule::Operation)),
             };
             require(sum, sign, place.place, Rule::Mismatch)?;
-            require(!self.has_effect(value), &shown(value), value.place, Rule::Order)?;
+            require(!self.has_effect(value), &shown(value), value.place, Rule::Order)
         }
-        require(!self.has_effect(place), &shown(place), place.place, Rule::Order)
     }
 
     /// A call without a result, or a value that is thrown away.
@@ -157,11 +155,12 @@ impl Checker<'_> {
                     (None, What::Name(name)) => name.clone(),
                     _ => String::new(),
                 };
-                let fits = is_kept(&of, &typed.ty) && !name.is_empty();
+                let fits = is_kept(&of, &typed.ty);
                 require(fits && known.insert(name), &shown(label), label.place, Rule::Case)?;
             }
-            let ends = self.block(&group.body)?;
-            returns &= ends && !group.breaks;
+            self.block(&group.body)?;
+            // It ends with `break` or `return`.
+            returns &= !group.breaks;
         }
         Ok(returns && has_default)
     }
@@ -170,11 +169,10 @@ impl Checker<'_> {
 /// Whether it is the same place before and after any effect.
 fn is_fixed_place(checker: &Checker<'_>, place: &Expression) -> bool {
     match &place.what {
-        What::Name(_) => true,
+        // Pointers are parameters, which stay the same.
+        What::Name(_) | What::Arrow(..) | What::Prefix(..) => true,
         What::Parentheses(of) | What::Field(of, _) => is_fixed_place(checker, of),
         What::Index(of, index) => is_fixed_place(checker, of) && checker.is_fixed(index),
-        // Pointers are parameters or parts of what is given: only a parameter stays the same.
-        What::Arrow(pointer, _) | What::Prefix(_, pointer) => checker.is_fixed(pointer),
         _ => false,
     }
 }

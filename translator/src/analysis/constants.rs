@@ -41,9 +41,13 @@ pub(crate) fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnos
     let sign = if number.negative { "-" } else { "" };
     match ctype.kind {
         TypeKind::Float64 | TypeKind::Float32 => {
-            let value = match ctype.kind {
-                TypeKind::Float64 => number.digits.parse().unwrap_or(f64::INFINITY),
-                _ => number.digits.parse().map_or(f64::INFINITY, |value: f32| value.into()),
+            // The shortest constant with the value, because programs round what has many digits differently.
+            let (value, constant) = if ctype.kind == TypeKind::Float64 {
+                let value: f64 = number.digits.parse().unwrap_or(f64::INFINITY);
+                (value, format!("{value:?}"))
+            } else {
+                let value: f32 = number.digits.parse().unwrap_or(f32::INFINITY);
+                (value.into(), format!("{value:?}F"))
             };
             let mantissa = number.digits.split(['e', 'E']).next().unwrap_or_default();
             let is_zero = mantissa.bytes().all(|byte| matches!(byte, b'0' | b'.'));
@@ -51,10 +55,7 @@ pub(crate) fn c_number(number: &Number, ctype: &CType) -> Result<String, Diagnos
             if !value.is_finite() || (value == 0.0 && !is_zero) {
                 return error(format!("number out of the range of `{}`", ctype.name));
             }
-            let fraction = if integral { ".0" } else { "" };
-            let suffix = if ctype.kind == TypeKind::Float32 { "F" } else { "" };
-            // C reads a leading zero of an integer as octal, but not in `00.5`.
-            Ok(format!("{sign}{}{fraction}{suffix}", number.digits))
+            Ok(format!("{sign}{constant}"))
         }
         TypeKind::Signed { bits } | TypeKind::Unsigned { bits } => {
             if !integral {
@@ -152,7 +153,14 @@ mod tests {
             ("0.123456789", "double", "0.123456789"),
             ("5", "double", "5.0"),
             ("-2", "float", "-2.0F"),
-            ("1e3", "double", "1e3"),
+            ("1e3", "double", "1000.0"),
+            ("00.50", "double", "0.5"),
+            ("0e999999999", "double", "0.0"),
+            ("-0", "float", "-0.0F"),
+            ("1.00000005960464477539062500000000000000000000000000001", "float", "1.0000001F"),
+            ("1.000000059604644775390625", "float", "1.0F"),
+            ("1.1754943508222875e-38", "float", "1.1754944e-38F"),
+            ("5e-324", "double", "5e-324"),
             ("2147483647", "int", "2147483647"),
             ("-2147483648", "int32_t", "((-2147483647) - 1)"),
             ("-9223372036854775808", "int64_t", "((-9223372036854775807LL) - 1LL)"),

@@ -83,9 +83,8 @@ pub(crate) fn run() -> Result<(String, bool), MeasureError> {
 fn measure(name: &'static str, path: &Path) -> Result<Measured, MeasureError> {
     let agent = Agent::read(path)?;
     let exercise = translator::exercise(&agent.configuration, &agent.text)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let found = on_target(&exercise, &exercise, folder, STEPS)?;
-    let trace = on_host(&exercise, folder, STEPS)?;
+    let found = on_target(&exercise, &exercise, STEPS)?;
+    let trace = on_host(&exercise, STEPS)?;
     let basics = &agent.configuration.declarations().basics;
     let calls = |name: &str| {
         let call = format!("{name}(");
@@ -96,7 +95,7 @@ fn measure(name: &'static str, path: &Path) -> Result<Measured, MeasureError> {
     for c in changes(&exercise.files[0].text, CHANGES) {
         let mut changed = exercise.clone();
         changed.files[0].text = c;
-        match on_host(&changed, folder, STEPS) {
+        match on_host(&changed, STEPS) {
             Ok(other) => seen.0 += usize::from(other != trace),
             // It compiles, but does not end well.
             Err(TargetError::Failed { program, .. }) if program != "gcc" => seen.0 += 1,
