@@ -92,6 +92,18 @@ pub enum Veto {
     CarriedOff,
 }
 
+impl Situation {
+    /// The motion from which the drone must stop when an order of this tick takes effect. One that is slower to answer than
+    /// was identified still moves as now: of both velocities that which leads further.
+    fn stops_from(&self) -> Motion {
+        let further = |axis: usize| {
+            let [now, soon] = [self.velocity_m_s[axis], self.soon.velocity_m_s[axis]];
+            if now.abs() > soon.abs() { now } else { soon }
+        };
+        Motion { pose: self.soon.pose, velocity_m_s: [0, 1, 2].map(further) }
+    }
+}
+
 impl Veto {
     /// Its name in logs.
     pub fn name(self) -> &'static str {
@@ -270,7 +282,7 @@ impl SafetyMonitor {
                 Some(Veto::TargetOutside),
             ),
             AgentCommand::Sticks if !self.stops_inside(now) => {
-                let stop = self.fence.nearest_inside(&stopping_place(&now.soon), INSIDE_M);
+                let stop = self.fence.nearest_inside(&stopping_place(&now.stops_from()), INSIDE_M);
                 (AgentCommand::GoTo(stop), Some(Veto::NearFence))
             }
             _ => (command, None),
@@ -370,7 +382,7 @@ impl SafetyMonitor {
     }
 
     fn stops_inside(&self, now: &Situation) -> bool {
-        let (here, end) = (now.soon.pose, stopping_place(&now.soon));
+        let (here, end) = (now.soon.pose, stopping_place(&now.stops_from()));
         let (away_m, end_away_m) = (here.x_m.hypot(here.y_m), end.x_m.hypot(end.y_m));
         (end_away_m <= self.fence.radius_m - INSIDE_M || end_away_m < away_m)
             && (end.z_m <= self.fence.ceiling_m || end.z_m < here.z_m)

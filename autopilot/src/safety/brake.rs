@@ -43,7 +43,7 @@ impl Default for Brake {
 impl Brake {
     /// For a fence. The gaz that was last sent is `gaz`.
     pub(super) fn of(now: &Situation, gaz: f64, fence: &FlightLimits) -> Self {
-        let Motion { pose, velocity_m_s: [right_m_s, forward_m_s, soon_m_s] } = now.soon;
+        let Motion { pose, velocity_m_s: [right_m_s, forward_m_s, up_m_s] } = now.stops_from();
         let velocity_m_s = Vector2::new(right_m_s, forward_m_s);
         let speed_m_s = velocity_m_s.norm();
         let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
@@ -54,9 +54,6 @@ impl Brake {
         let stop_m = Vector2::new(pose.x_m, pose.y_m) + along * stopping.way_m(speed_m_s);
         let outward = stop_m / stop_m.norm().max(f64::EPSILON);
         let leaves = velocity_m_s.dot(&outward) > 0.0;
-        // An airframe that is slower than it was identified still sinks or climbs as now.
-        let now_m_s = now.velocity_m_s[2];
-        let up_m_s = if soon_m_s.abs() > now_m_s.abs() { soon_m_s } else { now_m_s };
         // One that sinks faster than it was identified will do so.
         let sinks_m_s = gaz.min(0.0) * STRONGEST_DROP * now.climb_m_s;
         let up_m_s = if up_m_s < 0.0 { up_m_s.min(sinks_m_s) } else { up_m_s };

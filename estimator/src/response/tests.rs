@@ -1,5 +1,3 @@
-#![expect(clippy::float_cmp, reason = "the very same number, not a near one")]
-
 use std::time::Duration;
 
 use kinematics::GRAVITY_M_S2;
