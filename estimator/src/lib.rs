@@ -570,7 +570,7 @@ impl Estimator {
     }
 
     /// Position and motion at a time: the newest measurement, propagated by the model. The time may lie as
-    /// far ahead as the dead time, because the orders until then are known.
+    /// far ahead as [`Estimator::order_delay`], because the orders until then are known.
     pub fn predicted(&self, at: Duration) -> Prediction {
         let at_s = at.as_secs_f64();
         let furthest_s = MAX_PREDICTION_S + self.identification.link_delay_s();

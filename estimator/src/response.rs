@@ -32,8 +32,10 @@ fn climb(limits: &DroneLimits) -> Rate<6> {
         jump_1_s: 1.0,
         full: limits.climb_m_s,
     };
-    let lags_s = [Airframe::default().climb_lag_s, 0.17, 1.25];
-    let answers = [1.0, 1.7].map(|down| lags_s.map(|lag_s| Answer { lag_s, down }));
+    let [shortest_s, longest_s] = Airframe::CLIMB_LAGS_S;
+    let lags_s = [Airframe::default().climb_lag_s, shortest_s, longest_s];
+    let answers =
+        [1.0, Airframe::STRONGEST_DROP].map(|down| lags_s.map(|lag_s| Answer { lag_s, down }));
     Rate::new(tolerance, std::array::from_fn(|i| answers[i / 3][i % 3]))
 }
 
@@ -48,7 +50,8 @@ fn turn(limits: &DroneLimits) -> Rate<3> {
         jump_1_s: 60.0,
         full: limits.turn_deg_s,
     };
-    let lags_s = [Airframe::default().turn_lag_s, 0.02, 0.51];
+    let [shortest_s, longest_s] = Airframe::TURN_LAGS_S;
+    let lags_s = [Airframe::default().turn_lag_s, shortest_s, longest_s];
     Rate::new(tolerance, lags_s.map(|lag_s| Answer { lag_s, down: 1.0 }))
 }
 

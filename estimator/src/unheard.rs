@@ -1,5 +1,6 @@
 //! The velocity of a drone that did not receive all of its orders in a gap.
 
+use kinematics::Airframe;
 use nalgebra::Vector2;
 
 use crate::Estimator;
@@ -12,8 +13,6 @@ use crate::silence::{KEPT_S, TRIED, last_heard_s};
 const TILT_SETTLES_S: f64 = 0.4;
 const TILT_RAD: f64 = 0.03;
 const TILT_SHARE: f64 = 0.25;
-/// Largest gain of the tilt of the published airframes: one that has not tilted yet may have it.
-const STRONGEST_TILT: f64 = 2.0;
 /// Fine enough for a tilt that hardly changes.
 const STEP_S: f64 = 0.02;
 
@@ -69,8 +68,8 @@ impl Estimator {
         let by_itself = self.orders.at(from_s) == Order::ByItself || to_s - from_s >= KEPT_S;
         let kept_rad = kept.tilt_rad();
         let most_rad = TILT_RAD + TILT_SHARE * kept_rad.norm();
-        // The nearest of the tilts of airframes that tilt more.
-        let most = (STRONGEST_TILT / self.airframe().tilt_gain).max(1.0);
+        // One that has not tilted yet may tilt more than was assumed: the nearest of these tilts counts.
+        let most = (Airframe::STRONGEST_TILT / self.airframe().tilt_gain).max(1.0);
         let scale = kept_rad.dot(&tilt_rad) / kept_rad.norm_squared().max(f64::EPSILON);
         let nearest_rad = kept_rad * scale.clamp(1.0, most);
         by_itself || to_s - from_s < TILT_SETTLES_S || (nearest_rad - tilt_rad).norm() <= most_rad

@@ -44,6 +44,22 @@ pub struct Airframe {
     pub turn_lag_s: f64,
 }
 
+/// Ends of what the published models have, for whoever must not rely on what was identified.
+impl Airframe {
+    /// Largest gain of the tilt.
+    pub const STRONGEST_TILT: f64 = 2.0;
+    /// Smallest gain of the climb.
+    pub const WEAKEST_CLIMB: f64 = 0.85;
+    /// Largest gain of the descent.
+    pub const STRONGEST_DROP: f64 = 1.7;
+    /// Shortest and longest time constant of the climb.
+    pub const CLIMB_LAGS_S: [f64; 2] = [0.17, 1.25];
+    /// Shortest and longest time constant of the turn.
+    pub const TURN_LAGS_S: [f64; 2] = [0.02, 0.51];
+    /// Largest linear drag.
+    pub const STRONGEST_DRAG_1_S: f64 = 1.95;
+}
+
 impl Default for Airframe {
     /// The middle of the published models.
     fn default() -> Self {

@@ -2,7 +2,7 @@
 //!
 //! It reckons with what the drone does at full opposite stick, and only takes away: nobody is led anywhere by it.
 
-use kinematics::{Sticks, body_from_world};
+use kinematics::{Airframe, Sticks, body_from_world};
 use nalgebra::Vector2;
 
 use super::stopping::Stopping;
@@ -15,12 +15,6 @@ const BEYOND_M: f64 = 0.15;
 const BAND_M: f64 = 0.2;
 /// Braking that is left in any wind, as a fraction of full tilt: in more of it the storm rules decide.
 const LEAST_BRAKING: f64 = 0.2;
-
-/// The slowest, the strongest and the weakest of the published airframes: time constant of the climb, gains of a descent and
-/// of a climb. Above the floor, which is hard, nothing that was identified is trusted to be better.
-const LONGEST_CLIMB_LAG_S: f64 = 1.25;
-const STRONGEST_DROP: f64 = 1.7;
-const WEAKEST_CLIMB: f64 = 0.85;
 
 /// What is left of the sticks in one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,13 +49,15 @@ impl Brake {
         let outward = stop_m / stop_m.norm().max(f64::EPSILON);
         let leaves = velocity_m_s.dot(&outward) > 0.0;
         // One that sinks faster than it was identified will do so.
-        let sinks_m_s = gaz.min(0.0) * STRONGEST_DROP * now.climb_m_s;
+        let sinks_m_s = gaz.min(0.0) * Airframe::STRONGEST_DROP * now.climb_m_s;
         let up_m_s = if up_m_s < 0.0 { up_m_s.min(sinks_m_s) } else { up_m_s };
         // The rate of climb follows its stick with a lag, and changes the faster the further it is from the one asked for.
         let (opposite_m_s, lag_s) = if up_m_s > 0.0 {
             (now.sink_m_s, now.climb_lag_s)
         } else {
-            (WEAKEST_CLIMB * now.climb_m_s, now.climb_lag_s.max(LONGEST_CLIMB_LAG_S))
+            // The floor is hard: nothing that was identified is trusted to be better than the worst.
+            let [_, longest_lag_s] = Airframe::CLIMB_LAGS_S;
+            (Airframe::WEAKEST_CLIMB * now.climb_m_s, now.climb_lag_s.max(longest_lag_s))
         };
         let stopping = Stopping {
             delay_s: now.climb_delay_s,

@@ -9,7 +9,7 @@
 //! velocity measurement that drifts, which nothing else detects.
 
 use estimator::Prediction;
-use kinematics::{Pose, Sticks};
+use kinematics::{Airframe, Pose, Sticks};
 use nalgebra::{Vector2, Vector3};
 
 /// Sticks beyond this fraction of their limit count as saturated; the control law keeps a small reserve.
@@ -25,9 +25,6 @@ const HERE_M: f64 = 0.2;
 
 /// Change of the disturbance that counts as a storm, as a fraction of full tilt.
 const STORM_SHARE: f64 = 0.5;
-/// The strongest drag of the published airframes, in 1/s. A disturbance against the motion may be drag that is not identified
-/// yet.
-const STRONGEST_DRAG_1_S: f64 = 1.95;
 /// Averaging time of the disturbance, in seconds.
 const GUST_TIME_S: f64 = 1.5;
 
@@ -72,8 +69,8 @@ impl Way {
 }
 
 impl Saturation {
-    /// Handles one tick of flying to a target, with a drone of this identified drag. The counter does not start anew with a tick of progress, but runs
-    /// down twice as fast as it ran up: progress now and then is not enough to hold a position.
+    /// Handles one tick of flying to a target, with a drone of this identified drag. The counter does not start anew with a
+    /// tick of progress, but runs down twice as fast as it ran up: progress now and then is not enough to hold a position.
     pub(super) fn watch(
         &mut self,
         demand: &Sticks,
@@ -118,12 +115,12 @@ impl Saturation {
     }
 }
 
-/// The disturbance without what the strongest drag explains.
+/// The disturbance without what the strongest drag explains: against the motion it may be drag that is not identified yet.
 fn without_drag(state: &Prediction, drag_1_s: f64) -> Vector2<f64> {
     let velocity_m_s = state.velocity_m_s.xy();
     let speed_m_s = velocity_m_s.norm();
     let along = velocity_m_s / speed_m_s.max(f64::EPSILON);
-    let most_m_s2 = (STRONGEST_DRAG_1_S - drag_1_s).max(0.0) * speed_m_s;
+    let most_m_s2 = (Airframe::STRONGEST_DRAG_1_S - drag_1_s).max(0.0) * speed_m_s;
     let against_m_s2 = -state.disturbance_m_s2.dot(&along);
     state.disturbance_m_s2 + along * against_m_s2.clamp(0.0, most_m_s2)
 }
@@ -168,7 +165,14 @@ mod tests {
                 ..Prediction::default()
             };
             let mut saturation = Saturation::default();
-            saturation.watch(&full, 1.0, &state, &target, [2.0, STRONGEST_DRAG_1_S], 0.01);
+            saturation.watch(
+                &full,
+                1.0,
+                &state,
+                &target,
+                [2.0, Airframe::STRONGEST_DRAG_1_S],
+                0.01,
+            );
             saturation.for_ms() > 0
         };
         assert!(is_counted([0.4, 0.0, 0.0], [0.15, 0.0, 0.0]));
@@ -186,7 +190,14 @@ mod tests {
         let right = Prediction { position_m: Vector3::new(1.0, 0.0, 1.0), ..Prediction::default() };
         let is_full = |demand: Sticks| {
             let mut saturation = Saturation::default();
-            saturation.watch(&demand, 0.5, &right, &TARGET, [2.0, STRONGEST_DRAG_1_S], 0.01);
+            saturation.watch(
+                &demand,
+                0.5,
+                &right,
+                &TARGET,
+                [2.0, Airframe::STRONGEST_DRAG_1_S],
+                0.01,
+            );
             saturation.for_ms() > 0
         };
         assert!(is_full(Sticks { roll: -0.48, ..Sticks::default() }));
@@ -204,7 +215,14 @@ mod tests {
         };
         let mut saturation = Saturation { for_s: 1.0, ..Saturation::default() };
         for _ in 0..25 {
-            saturation.watch(&full, 1.0, &moving(-0.5), &TARGET, [2.0, STRONGEST_DRAG_1_S], 0.01);
+            saturation.watch(
+                &full,
+                1.0,
+                &moving(-0.5),
+                &TARGET,
+                [2.0, Airframe::STRONGEST_DRAG_1_S],
+                0.01,
+            );
         }
         assert_eq!(saturation.for_ms(), 500);
         for _ in 0..25 {
@@ -235,7 +253,14 @@ mod tests {
         };
         let mut saturation = Saturation::default();
         for _ in 0..100 {
-            saturation.watch(&demand, 1.0, &state, &TARGET, [2.0, STRONGEST_DRAG_1_S], 0.01);
+            saturation.watch(
+                &demand,
+                1.0,
+                &state,
+                &TARGET,
+                [2.0, Airframe::STRONGEST_DRAG_1_S],
+                0.01,
+            );
         }
         saturation.for_ms()
     }
@@ -272,7 +297,7 @@ mod tests {
                     1.0,
                     &state,
                     &here,
-                    [2.0, STRONGEST_DRAG_1_S],
+                    [2.0, Airframe::STRONGEST_DRAG_1_S],
                     0.01,
                 );
             }
@@ -295,7 +320,7 @@ mod tests {
                 1.0,
                 &disturbed,
                 &here,
-                [9.0, STRONGEST_DRAG_1_S],
+                [9.0, Airframe::STRONGEST_DRAG_1_S],
                 0.01,
             );
         }
@@ -309,7 +334,7 @@ mod tests {
                 1.0,
                 &disturbed,
                 &here,
-                [full_tilt_m_s2, STRONGEST_DRAG_1_S],
+                [full_tilt_m_s2, Airframe::STRONGEST_DRAG_1_S],
                 2.0,
             );
             assert_eq!(saturation.for_ms() > 0, storm, "{full_tilt_m_s2}");
@@ -329,7 +354,7 @@ mod tests {
                     1.0,
                     &state,
                     &TARGET,
-                    [2.0, STRONGEST_DRAG_1_S],
+                    [2.0, Airframe::STRONGEST_DRAG_1_S],
                     0.01,
                 );
             }

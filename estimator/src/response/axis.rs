@@ -2,13 +2,12 @@
 
 use std::collections::VecDeque;
 
-use kinematics::{GRAVITY_M_S2, body_from_world};
+use kinematics::{Airframe, GRAVITY_M_S2, body_from_world};
 use nalgebra::Vector2;
 
 /// The most sluggish airframe: the published ones accelerate with 0.5 to 1.03 of gravity's component at a
 /// tilt, and their drag is 0.45 to 1.95 1/s.
 const LEAST_THRUST: f64 = 0.4;
-const LARGEST_DRAG_1_S: f64 = 1.95;
 /// If the velocity of the weakest airframe would have varied this much (standard deviation) in this many
 /// seconds, either quickly or slowly...
 const AXIS_DEVIATION_M_S: f64 = 0.08;
@@ -91,7 +90,7 @@ impl Axis {
         full_tilt_rad: f64,
     ) {
         let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * tilt_rad.tan();
-        self.least_m_s += (pull_m_s2 - LARGEST_DRAG_1_S * self.least_m_s) * step_s;
+        self.least_m_s += (pull_m_s2 - Airframe::STRONGEST_DRAG_1_S * self.least_m_s) * step_s;
         let share = 1.0 - (-step_s / SMOOTHING_S).exp();
         self.expected_m_s += (self.least_m_s - self.expected_m_s) * share;
         self.measured_m_s += (velocity_m_s - self.measured_m_s) * share;
