@@ -192,6 +192,14 @@ impl Heading {
         })
     }
 
+    /// The heading that was measured at a time, if the newest one was.
+    pub(crate) fn measured_deg(&self, at_s: f64) -> Option<f64> {
+        self.measured
+            .back()
+            .filter(|(newest_s, _)| (newest_s - at_s).abs() < 1e-9)
+            .map(|(_, deg)| *deg)
+    }
+
     /// The newest measured heading.
     pub(crate) fn newest_deg(&self) -> f64 {
         self.measured.back().map_or(0.0, |(_, deg)| *deg)

@@ -403,8 +403,10 @@ impl Estimator {
             let tilt_deg = Vector2::new(sample.roll_deg, -sample.pitch_deg);
             identification.tilt(attitude_s, tilt_deg.map(f64::to_radians), orders);
             orders.set_link_delay(identification.link_delay_s());
-            let yaw_deg = heading.at(attitude_s, orders, &airframe, &config.limits);
-            identification.heading(attitude_s, yaw_deg, orders);
+            // While the compass hangs, the heading is what the airframe is already thought to do.
+            if let Some(yaw_deg) = heading.measured_deg(attitude_s) {
+                identification.heading(attitude_s, yaw_deg, orders);
+            }
         }
         stepped
     }

@@ -227,6 +227,8 @@ fn a_compass_that_hangs_in_a_turn_does_not_turn_the_world() {
         let hangs = (10..16).contains(&packet);
         let compass_deg = wrap_deg(truth(if hangs { 0.066 * 9.0 } else { at_s }));
         steps += u32::from(heading.update(at_s, compass_deg, &orders, &airframe, &LIMITS));
+        // What it did not measure teaches nothing of how the drone turns.
+        assert_eq!(heading.measured_deg(at_s).is_some(), !hangs, "{packet}");
     }
     assert_eq!(steps, 0);
     let error_deg = heading.newest_deg() - truth(0.066 * 29.0);
