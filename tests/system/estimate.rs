@@ -50,8 +50,7 @@ fn every_airframe_is_learnt_in_one_flight() {
         assert_about("leo's climb lag", leo.climb_lag_s, 0.88, 0.2);
         let rec = learnt(Profile::rec(), seed);
         assert_about("rec's tilt", rec.tilt_gain, 1.0, 0.15);
-        // Its tilt is of second order, which looks like a delay of the link: that is not in the lag of its climb any more.
-        assert_about("rec's climb lag", rec.climb_lag_s, 0.5, 0.25);
+        assert_about("rec's climb lag", rec.climb_lag_s, 0.5, 0.15);
     }
 }
 

@@ -4,10 +4,10 @@
 
 use nalgebra::{SVector, Vector2};
 
-use super::{Answer, Followers, LEAST_TILT_RAD, MAX_GAIN, MIN_GAIN, Window};
+use super::{Answer, LEAST_TILT_RAD, MAX_GAIN, MIN_GAIN, Window};
 use crate::bank::{Assumption, Bank};
-use crate::orders::Orders;
-use kinematics::{Airframe, DroneLimits};
+use crate::orders::{Order, Orders};
+use kinematics::{Airframe, DroneLimits, Sticks};
 
 /// Hypotheses of the tilt's time constant.
 const LAGS_S: [f64; 4] = [0.04, 0.09, 0.13, 0.19];
@@ -18,8 +18,11 @@ const DELAYS: usize = DELAYS_S.len();
 const LONGEST_DELAY_S: f64 = DELAYS_S[DELAYS - 1];
 /// Standard deviation of the delay around the one that was measured before the flight.
 const DELAY_SPREAD_S: f64 = 0.04;
-/// One hypothesis for each lag with each delay.
-const ALL: usize = LAGS * DELAYS;
+/// Published attitude loops are of first order (tum, leo) or of second (rec). A second order begins as slowly as a first
+/// one behind a longer link: without a hypothesis of its own it would count as delay.
+const ORDERS: usize = 2;
+/// Of all delays, the hypotheses of each order and lag.
+const ALL: usize = LAGS * ORDERS * DELAYS;
 
 /// Identifies tilt and delay.
 #[derive(Debug, Clone)]
@@ -35,8 +38,56 @@ pub(super) struct TiltLearner {
 #[derive(Debug, Clone)]
 struct Axis {
     /// For each delay.
-    followers: [Followers<LAGS, 1>; DELAYS],
+    loops: [AttitudeLoops; DELAYS],
     window: Window<ALL, 1>,
+}
+
+/// Where the stick would have led attitude loops of each lag: of first order, and of second, as two equal stages one
+/// behind the other with the same lag in all.
+#[derive(Debug, Clone)]
+struct AttitudeLoops {
+    /// Both in radians.
+    first_rad: [f64; LAGS],
+    second_rad: [[f64; 2]; LAGS],
+    at_s: Option<f64>,
+}
+
+impl AttitudeLoops {
+    const AT_REST: Self = Self { first_rad: [0.0; LAGS], second_rad: [[0.0; 2]; LAGS], at_s: None };
+
+    /// Advances to the orders that were sent at a time. Nothing is asked for while the drone moves autonomously.
+    fn advance(&mut self, to_s: f64, orders: &Orders, asked_rad: impl Fn(Sticks) -> f64) {
+        let from_s = self.at_s.replace(to_s).unwrap_or(to_s);
+        orders.steps_sent(from_s, to_s, |_, step_s, order| {
+            let asked_rad = match order {
+                Order::Sticks(sticks) => asked_rad(sticks),
+                Order::ByItself => 0.0,
+            };
+            for (lag_s, (first_rad, stages_rad)) in
+                LAGS_S.into_iter().zip(self.first_rad.iter_mut().zip(&mut self.second_rad))
+            {
+                let stays = (-step_s / lag_s).exp();
+                *first_rad = asked_rad + (*first_rad - asked_rad) * stays;
+                // Each stage has half of the lag.
+                let (stays, [inner_rad, outer_rad]) = (stays * stays, stages_rad);
+                let before_rad = *inner_rad;
+                *inner_rad = asked_rad + (*inner_rad - asked_rad) * stays;
+                let led_rad = (before_rad + *inner_rad) / 2.0;
+                *outer_rad = led_rad + (*outer_rad - led_rad) * stays;
+            }
+        });
+    }
+
+    /// The drone moves autonomously, up to a time.
+    fn rest(&mut self, at_s: f64) {
+        *self = Self { at_s: Some(at_s), ..Self::AT_REST };
+    }
+
+    /// The tilt of a hypothesis.
+    fn tilt_rad(&self, hypothesis: usize) -> f64 {
+        let lag = hypothesis % LAGS;
+        if hypothesis / LAGS % ORDERS == 0 { self.first_rad[lag] } else { self.second_rad[lag][1] }
+    }
 }
 
 impl TiltLearner {
@@ -52,10 +103,10 @@ impl TiltLearner {
             bank: Bank::new(std::array::from_fn(|i| LAGS_S[i % LAGS]), &assumption),
             assumption,
             axes: std::array::from_fn(|_| Axis {
-                followers: std::array::from_fn(|_| Followers::new(LAGS_S)),
+                loops: [AttitudeLoops::AT_REST; DELAYS],
                 window: Window::new(),
             }),
-            delays_s: std::array::from_fn(|i| DELAYS_S[i / LAGS]),
+            delays_s: std::array::from_fn(|i| DELAYS_S[i / (LAGS * ORDERS)]),
             delay_s: 0.0,
         };
         learner.expect_delay(0.0);
@@ -84,10 +135,10 @@ impl TiltLearner {
         airframe: &mut Airframe,
     ) {
         if orders.may_move_by_itself(at_s, LONGEST_DELAY_S) {
-            for Axis { followers, window } in &mut self.axes {
+            for Axis { loops, window } in &mut self.axes {
                 window.answers.clear();
-                for (followers, delay_s) in followers.iter_mut().zip(DELAYS_S) {
-                    followers.rest(orders.sent_s(at_s, delay_s));
+                for (loops, delay_s) in loops.iter_mut().zip(DELAYS_S) {
+                    loops.rest(orders.sent_s(at_s, delay_s));
                 }
             }
             return;
@@ -95,13 +146,14 @@ impl TiltLearner {
         // Tilt saturates whatever its gain: what the stick asks for beyond the limit is not asked for.
         let full = 1.0 / airframe.tilt_gain.max(1.0);
         let most = limits.tilt_rad;
-        for (axis, Axis { followers, window }) in self.axes.iter_mut().enumerate() {
-            for (followers, delay_s) in followers.iter_mut().zip(DELAYS_S) {
-                followers.advance(orders.sent_s(at_s, delay_s), orders, |sticks| {
-                    SVector::<f64, 1>::new(sticks.tilt()[axis].clamp(-full, full) * most)
+        for (axis, Axis { loops, window }) in self.axes.iter_mut().enumerate() {
+            for (loops, delay_s) in loops.iter_mut().zip(DELAYS_S) {
+                loops.advance(orders.sent_s(at_s, delay_s), orders, |sticks| {
+                    sticks.tilt()[axis].clamp(-full, full) * most
                 });
             }
-            let causes = std::array::from_fn(|i| followers[i / LAGS].value[i % LAGS]);
+            let tilt_rad_of = |i: usize| loops[i / (LAGS * ORDERS)].tilt_rad(i);
+            let causes = std::array::from_fn(|i| SVector::<f64, 1>::new(tilt_rad_of(i)));
             let change = window.change(Answer { at_s, value: tilt_rad[axis], causes });
             if let Some(change) = change.filter(|change| change.is_caused(LEAST_TILT_RAD)) {
                 self.bank.learn(change.value, &change.causes);
