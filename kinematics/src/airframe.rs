@@ -56,7 +56,9 @@ impl Airframe {
     pub const CLIMB_LAGS_S: [f64; 2] = [0.17, 1.25];
     /// Shortest and longest time constant of the turn.
     pub const TURN_LAGS_S: [f64; 2] = [0.02, 0.51];
-    /// Largest linear drag.
+    /// Smallest and largest linear drag.
+    pub const WEAKEST_DRAG_1_S: f64 = 0.45;
+    /// See [`Airframe::WEAKEST_DRAG_1_S`].
     pub const STRONGEST_DRAG_1_S: f64 = 1.95;
 }
 

@@ -5,11 +5,13 @@ use std::collections::VecDeque;
 use kinematics::{Airframe, GRAVITY_M_S2, body_from_world};
 use nalgebra::Vector2;
 
-/// The most sluggish airframe: the published ones accelerate with 0.5 to 1.03 of gravity's component at a
-/// tilt, and their drag is 0.45 to 1.95 1/s.
+/// The most sluggish airframe: the published ones accelerate with 0.5 to 1.03 of gravity's component at a tilt.
 const LEAST_THRUST: f64 = 0.4;
+/// Hypotheses of the drag: the published ones. With much of it a drone soon forgets how fast it was before it braked, with
+/// little it comes to rest by braking.
+const DRAGS_1_S: [f64; 2] = [Airframe::STRONGEST_DRAG_1_S, Airframe::WEAKEST_DRAG_1_S];
 /// If the velocity of the weakest airframe would have varied this much (standard deviation) in this many
-/// seconds, either quickly or slowly...
+/// seconds, either quickly or slowly, with any drag...
 const AXIS_DEVIATION_M_S: f64 = 0.08;
 const AXIS_WINDOWS_S: [f64; 2] = [3.0, 8.0];
 /// ...a working flow shows more than this fraction of it, also while the drone compensates gusts; the noise
@@ -31,10 +33,10 @@ const AXIS_MEMORY: usize = 176;
 /// Whether the measured velocity follows the measured tilt, along one body axis.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
-    /// Velocity that the most sluggish airframe would have from the tilt, in m/s.
-    least_m_s: f64,
-    /// That velocity and the measured one, smoothed alike: the flow does not follow the fastest swings.
-    expected_m_s: f64,
+    /// Velocity that the most sluggish airframe of each drag would have from the tilt, in m/s.
+    least_m_s: [f64; DRAGS_1_S.len()],
+    /// These velocities and the measured one, smoothed alike: the flow does not follow the fastest swings.
+    expected_m_s: [f64; DRAGS_1_S.len()],
     measured_m_s: f64,
     recent: VecDeque<Moment>,
     /// The tilt moves the drone, but the velocity does not show it. Evaluated only for each moment that is
@@ -47,14 +49,14 @@ pub(super) struct Axis {
 struct Moment {
     at_s: f64,
     tilt_rad: f64,
-    expected_m_s: f64,
+    expected_m_s: [f64; DRAGS_1_S.len()],
     measured_m_s: f64,
 }
 
 impl Axis {
     pub(super) fn new() -> Self {
-        let recent = VecDeque::with_capacity(AXIS_MEMORY);
-        Self { least_m_s: 0.0, expected_m_s: 0.0, measured_m_s: 0.0, recent, is_dead: false }
+        let (zeros, recent) = ([0.0; DRAGS_1_S.len()], VecDeque::with_capacity(AXIS_MEMORY));
+        Self { least_m_s: zeros, expected_m_s: zeros, measured_m_s: 0.0, recent, is_dead: false }
     }
 
     /// Turns what is remembered along with the body, clockwise: a steady wind, and the tilt that holds the drone in
@@ -67,12 +69,15 @@ impl Axis {
             let turned = body_from_world(Vector2::new(*right, *forward), deg);
             (*right, *forward) = (turned.x, turned.y);
         };
-        turn(&mut right.least_m_s, &mut forward.least_m_s);
-        turn(&mut right.expected_m_s, &mut forward.expected_m_s);
+        let turn_each = |right: &mut [f64], forward: &mut [f64]| {
+            right.iter_mut().zip(forward).for_each(|(right, forward)| turn(right, forward));
+        };
+        turn_each(&mut right.least_m_s, &mut forward.least_m_s);
+        turn_each(&mut right.expected_m_s, &mut forward.expected_m_s);
         turn(&mut right.measured_m_s, &mut forward.measured_m_s);
         for (right, forward) in right.recent.iter_mut().zip(&mut forward.recent) {
             turn(&mut right.tilt_rad, &mut forward.tilt_rad);
-            turn(&mut right.expected_m_s, &mut forward.expected_m_s);
+            turn_each(&mut right.expected_m_s, &mut forward.expected_m_s);
             turn(&mut right.measured_m_s, &mut forward.measured_m_s);
         }
     }
@@ -90,9 +95,12 @@ impl Axis {
         full_tilt_rad: f64,
     ) {
         let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * tilt_rad.tan();
-        self.least_m_s += (pull_m_s2 - Airframe::STRONGEST_DRAG_1_S * self.least_m_s) * step_s;
         let share = 1.0 - (-step_s / SMOOTHING_S).exp();
-        self.expected_m_s += (self.least_m_s - self.expected_m_s) * share;
+        let hypotheses = self.least_m_s.iter_mut().zip(&mut self.expected_m_s);
+        for ((least_m_s, expected_m_s), drag_1_s) in hypotheses.zip(DRAGS_1_S) {
+            *least_m_s += (pull_m_s2 - drag_1_s * *least_m_s) * step_s;
+            *expected_m_s += (*least_m_s - *expected_m_s) * share;
+        }
         self.measured_m_s += (velocity_m_s - self.measured_m_s) * share;
         if self.recent.back().is_none_or(|last| at_s - last.at_s >= AXIS_INTERVAL_S) {
             if self.recent.len() == AXIS_MEMORY {
@@ -115,9 +123,11 @@ impl Axis {
     fn misses_swings(&self, at_s: f64) -> bool {
         AXIS_WINDOWS_S.iter().any(|window_s| {
             let recent = self.within(at_s, *window_s);
-            let expected_m_s = deviation(recent.clone().map(|moment| moment.expected_m_s));
-            let measured_m_s = deviation(recent.map(|moment| moment.measured_m_s));
-            expected_m_s >= AXIS_DEVIATION_M_S && measured_m_s < AXIS_SHARE * expected_m_s
+            let measured_m_s = deviation(recent.clone().map(|moment| moment.measured_m_s));
+            (0..DRAGS_1_S.len()).all(|i| {
+                let expected_m_s = deviation(recent.clone().map(|moment| moment.expected_m_s[i]));
+                expected_m_s >= AXIS_DEVIATION_M_S && measured_m_s < AXIS_SHARE * expected_m_s
+            })
         })
     }
 
@@ -136,8 +146,8 @@ impl Axis {
     }
 
     pub(super) fn rest(&mut self) {
-        self.least_m_s = 0.0;
-        self.expected_m_s = 0.0;
+        self.least_m_s = [0.0; DRAGS_1_S.len()];
+        self.expected_m_s = [0.0; DRAGS_1_S.len()];
         self.measured_m_s = 0.0;
         self.recent.clear();
         self.is_dead = false;

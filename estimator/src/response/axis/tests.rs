@@ -11,8 +11,8 @@ fn assert_near(value: f64, expected: f64) {
 #[test]
 fn what_is_remembered_turns_with_the_body() {
     let (mut right, mut forward) = (axis([(0.0, 0.1, 1.0, 2.0)]), axis([(0.0, 0.2, 3.0, 4.0)]));
-    (right.least_m_s, forward.least_m_s) = (5.0, 6.0);
-    (right.expected_m_s, forward.expected_m_s) = (9.0, 10.0);
+    (right.least_m_s, forward.least_m_s) = ([5.0; 2], [6.0; 2]);
+    (right.expected_m_s, forward.expected_m_s) = ([9.0; 2], [10.0; 2]);
     (right.measured_m_s, forward.measured_m_s) = (7.0, 8.0);
     // A quarter to the right: what was forward is to the left now, and what was to the right is ahead.
     Axis::turn(&mut right, &mut forward, 90.0);
@@ -22,11 +22,13 @@ fn what_is_remembered_turns_with_the_body() {
     ] {
         let moment = axis.recent[0];
         assert_near(moment.tilt_rad, tilt_rad);
-        assert_near(moment.expected_m_s, expected_m_s);
         assert_near(moment.measured_m_s, measured_m_s);
-        assert_near(axis.least_m_s, now_m_s[0]);
         assert_near(axis.measured_m_s, now_m_s[1]);
-        assert_near(axis.expected_m_s, now_m_s[2]);
+        for drag in 0..2 {
+            assert_near(moment.expected_m_s[drag], expected_m_s);
+            assert_near(axis.least_m_s[drag], now_m_s[0]);
+            assert_near(axis.expected_m_s[drag], now_m_s[2]);
+        }
     }
 }
 
@@ -35,13 +37,18 @@ fn the_weakest_airframe_accelerates_by_its_tilt_and_is_slowed_by_drag() {
     let mut axis = Axis::new();
     let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * 0.2_f64.tan();
     axis.watch(0.0, 0.2, 1.0, 0.2, FULL_RAD);
-    assert_near(axis.least_m_s, pull_m_s2 * 0.2);
     let share = 1.0 - (-1_f64).exp();
     assert_near(axis.measured_m_s, share);
-    assert_near(axis.expected_m_s, share * pull_m_s2 * 0.2);
+    for drag in 0..2 {
+        assert_near(axis.least_m_s[drag], pull_m_s2 * 0.2);
+        assert_near(axis.expected_m_s[drag], share * pull_m_s2 * 0.2);
+    }
     axis.watch(0.2, 0.2, -1.0, -0.2, FULL_RAD);
     let before_m_s = pull_m_s2 * 0.2;
-    assert_near(axis.least_m_s, before_m_s - (pull_m_s2 + 1.95 * before_m_s) * 0.2);
+    for (drag, drag_1_s) in [1.95, 0.45].into_iter().enumerate() {
+        let slower_m_s = (pull_m_s2 + drag_1_s * before_m_s) * 0.2;
+        assert_near(axis.least_m_s[drag], before_m_s - slower_m_s);
+    }
     assert_near(axis.measured_m_s, share + (-1.0 - share) * share);
 }
 
@@ -65,7 +72,7 @@ fn axis(moments: impl IntoIterator<Item = (f64, f64, f64, f64)>) -> Axis {
     let moment = |(at_s, tilt_rad, expected_m_s, measured_m_s)| Moment {
         at_s,
         tilt_rad,
-        expected_m_s,
+        expected_m_s: [expected_m_s; 2],
         measured_m_s,
     };
     Axis { recent: moments.into_iter().map(moment).collect(), ..Axis::new() }
@@ -95,6 +102,26 @@ fn a_flow_that_shows_less_than_a_share_of_the_swings_is_dead() {
         axis(moments).misses_swings(seconds)
     };
     assert!(slow(7.5) && !slow(20.0));
+}
+
+/// A drone that brakes to a standstill, seen from when it still tilts.
+#[test]
+fn a_standstill_that_any_drag_explains_is_no_dead_flow() {
+    let braked = |measured_m_s: &dyn Fn(f64) -> f64| {
+        let mut axis = Axis::new();
+        (0..120).any(|i| {
+            let at_s = 0.05 * f64::from(i);
+            let tilt_rad = match at_s {
+                ..1.0 => 0.2,
+                ..2.1 => -0.2,
+                _ => 0.0,
+            };
+            axis.watch(at_s, 0.05, measured_m_s(at_s), tilt_rad, FULL_RAD);
+            at_s > 4.9 && axis.is_dead()
+        })
+    };
+    // With little drag it is at rest when the tilt ends, and with much it would fly back.
+    assert!(!braked(&|at_s| if at_s < 2.1 { 0.8 - (at_s - 1.0).abs() * 0.8 } else { 0.0 }));
 }
 
 #[test]
