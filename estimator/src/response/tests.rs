@@ -255,8 +255,8 @@ fn longer_gaps_are_not_judged() {
 #[test]
 fn what_was_missing_is_forgotten_once_the_drone_moves_by_itself() {
     let up = Order::Sticks(Sticks { gaz: 1.0, roll: 0.5, ..Sticks::default() });
-    // For so many seconds the drone follows the sticks, and then for one it does not.
-    let first_found = |sticks_s: f64, measured: &dyn Fn(f64) -> Measured| {
+    // Until `sticks_s` the drone follows the sticks, then for a second it does not. The watch begins at `from_s`.
+    let found_after = |from_s: f64, sticks_s: f64, measured: &dyn Fn(f64) -> Measured| {
         let (mut orders, mut response) =
             (Orders::new(Duration::ZERO), Response::new(&DroneLimits::default()));
         (0..400_u64).find_map(|i| {
@@ -264,7 +264,10 @@ fn what_was_missing_is_forgotten_once_the_drone_moves_by_itself() {
             let by_itself = at_s > sticks_s && at_s <= sticks_s + 1.0;
             let order = if by_itself { Order::ByItself } else { up };
             orders.push(Duration::from_millis(60 * i), order);
-            response.watch(&measured(at_s), &orders, &DroneLimits::default()).map(|_| at_s)
+            let is_watched = at_s > from_s;
+            let found = is_watched
+                && response.watch(&measured(at_s), &orders, &DroneLimits::default()).is_some();
+            found.then_some(at_s)
         })
     };
     let climbing = |at_s: f64| Measured { altitude_m: 1.0 + lagged(0.7, 0.5, at_s), ..still(at_s) };
@@ -274,9 +277,10 @@ fn what_was_missing_is_forgotten_once_the_drone_moves_by_itself() {
         ..swinging(0.0)(at_s)
     };
     for measured in [&still as &dyn Fn(f64) -> Measured, &dead_flow] {
-        let at_once_s = first_found(100.0, measured).unwrap();
-        let interrupted_s = first_found(at_once_s - 0.1, measured).unwrap();
-        let after_s = interrupted_s - (at_once_s - 0.1 + 1.0);
-        assert!(after_s > 0.6 * at_once_s, "{at_once_s}, {interrupted_s}");
+        let at_once_s = found_after(-1.0, 100.0, measured).unwrap();
+        let sticks_s = at_once_s - 0.1;
+        let interrupted_s = found_after(-1.0, sticks_s, measured).unwrap();
+        // As by one that has seen nothing of the time before.
+        assert_eq!(Some(interrupted_s), found_after(sticks_s, sticks_s, measured), "{at_once_s}");
     }
 }
