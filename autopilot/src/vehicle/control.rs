@@ -56,7 +56,12 @@ impl Vehicle {
                 );
                 let drag_1_s = self.flight.estimator.airframe().drag_1_s.min();
                 let resists = [self.full_tilt_m_s2(), drag_1_s];
-                self.flight.saturation.watch(&demand, limit, state, &target, resists, step_s);
+                // Whether it gets there is measured: by what it was sent it should.
+                let measured = Prediction {
+                    disturbance_m_s2: state.disturbance_m_s2,
+                    ..self.measured_state()
+                };
+                self.flight.saturation.watch(&demand, limit, &measured, &target, resists, step_s);
                 sent = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
             }

@@ -129,7 +129,7 @@ impl Vehicle {
     }
 
     /// Position and motion at the last measurement.
-    fn measured_state(&self) -> Prediction {
+    pub(super) fn measured_state(&self) -> Prediction {
         let estimate = self.flight.estimator.estimate();
         Prediction {
             position_m: estimate.position_m,

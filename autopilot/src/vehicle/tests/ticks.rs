@@ -240,8 +240,7 @@ fn a_drone_that_is_sent_forward_and_does_not_come_nearer_is_saturated_until_it_h
     let mut bench = Bench::in_the_air(STAY);
     let saturated_ms = |bench: &Bench| bench.vehicle.decision().unwrap().percepts.saturated_for_ms;
     bench.accepted(OperatorOrder::GoTo(Place::at(0.0, 5.0)));
-    // It takes a while to learn that something holds it.
-    bench.run(2 * SECOND);
+    bench.run(SECOND);
     let forward = match bench.commands[1] {
         ardrone_link::at::Command::Pcmd(ardrone_link::at::Motion::Progressive {
             pitch, ..
