@@ -190,6 +190,7 @@ impl Vehicle {
     pub(super) fn advance_setpoint(&mut self, state: &Prediction, step_s: f64) {
         let fence = self.config.limits;
         let limits = self.course_limits();
+        let drag_1_s = self.flight.estimator.airframe().drag_1_s.min();
         // It hovered by itself, and may be elsewhere.
         let flown = self.flight.target.is_some();
         self.flight.manual.flown = None;
@@ -201,7 +202,7 @@ impl Vehicle {
             }
             let pose = pose(state);
             let radius_m = (fence.radius_m - INSIDE_M).max(0.0);
-            setpoint.advance(course, &pose, &limits, radius_m, step_s);
+            setpoint.advance(course, &pose, (&limits, drag_1_s), radius_m, step_s);
             let wanted = setpoint.target(target, course, &pose, step_s);
             *target = fence.nearest_inside(&wanted, INSIDE_M);
             self.flight.manual.flown = Some(*course);

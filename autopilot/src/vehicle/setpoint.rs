@@ -94,12 +94,12 @@ impl Setpoint {
     }
 
     /// Moves a course as this set-point wants, for `step_s`. The drone is at `pose`; the course stays within `radius_m` from
-    /// the origin.
+    /// the origin. A drone that slows down is also braked by its drag.
     pub(super) fn advance(
         &self,
         course: &mut Course,
         pose: &Pose,
-        limits: &MotionLimits,
+        (limits, drag_1_s): (&MotionLimits, f64),
         radius_m: f64,
         step_s: f64,
     ) {
@@ -115,7 +115,11 @@ impl Setpoint {
         let wanted_m_s = capped(wanted_m_s, limits.speed_m_s);
         let here_m = Vector2::new(pose.x_m, pose.y_m);
         let inside_m_s = kept_inside_m_s(wanted_m_s, course, &here_m, radius_m);
-        course.advance(inside_m_s, limits, step_s);
+        let speed_m_s = course.velocity_m_s.norm();
+        let slows = course.velocity_m_s.dot(&(inside_m_s - course.velocity_m_s)) < 0.0;
+        let drag_m_s2 = if slows { drag_1_s * speed_m_s / 2.0 } else { 0.0 };
+        let acceleration_m_s2 = limits.acceleration_m_s2 + drag_m_s2;
+        course.advance(inside_m_s, &MotionLimits { acceleration_m_s2, ..*limits }, step_s);
         course.position_m = here_m + (course.position_m - here_m).cap_magnitude(LEASH_M);
     }
 
@@ -200,7 +204,7 @@ mod tests {
         let (mut course, mut target, mut pose) = (at_rest(), HERE, HERE);
         let mut time_s = 0.0;
         while time_s < seconds {
-            setpoint.advance(&mut course, &pose, &LIMITS, radius_m, STEP_S);
+            setpoint.advance(&mut course, &pose, (&LIMITS, 0.0), radius_m, STEP_S);
             target = setpoint.target(&target, &course, &pose, STEP_S);
             let (x_m, y_m) = (course.position_m.x, course.position_m.y);
             pose = Pose { x_m, y_m, ..pose };
@@ -236,7 +240,7 @@ mod tests {
             let mut furthest_m: f64 = 0.0;
             let (mut course, mut pose) = (at_rest(), HERE);
             for _ in 0..900 {
-                setpoint(horizontal).advance(&mut course, &pose, &LIMITS, 4.0, STEP_S);
+                setpoint(horizontal).advance(&mut course, &pose, (&LIMITS, 0.0), 4.0, STEP_S);
                 pose = Pose { x_m: course.position_m.x, y_m: course.position_m.y, ..pose };
                 furthest_m = furthest_m.max(course.position_m.norm());
             }
@@ -262,7 +266,7 @@ mod tests {
         let horizontal = Horizontal::Velocity { x_m_s: 99.0, y_m_s: 0.0 };
         let moves = Setpoint { horizontal, vertical, heading };
         let mut course = Course::new(Vector2::new(50.0, 2.0), Vector2::zeros());
-        moves.advance(&mut course, &HERE, &LIMITS, 99.0, STEP_S);
+        moves.advance(&mut course, &HERE, (&LIMITS, 0.0), 99.0, STEP_S);
         let target = moves.target(&far, &course, &HERE, STEP_S);
         assert_pose(&target, [1.0 + LEASH_M, 2.0, 1.0 + CLIMB_LEASH_M, 45.0]);
         let target = moves.target(&HERE, &course, &HERE, 1.0);
