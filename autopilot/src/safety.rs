@@ -296,15 +296,21 @@ impl SafetyMonitor {
 
     /// Limits the sticks to `most`, and their change since the last tick. Where the drone could not stop inside the
     /// fence any more they brake, with all that there is. The descent is limited further so
-    /// that the drone can stop above the fence's floor; full gaz descends at `climb_m_s`.
-    pub fn limit(&mut self, demand: &Sticks, most: f64, height_m: f64, climb_m_s: f64) -> Sticks {
+    /// that the drone can stop above the fence's floor; full gaz descends at `full_sink_m_s`.
+    pub fn limit(
+        &mut self,
+        demand: &Sticks,
+        most: f64,
+        height_m: f64,
+        full_sink_m_s: f64,
+    ) -> Sticks {
         let asked = most.clamp(0.0, 1.0);
         let demand = &clamped(demand, asked);
         let left = self.brake.leave(demand);
         let most = if left == *demand { asked } else { 1.0 };
         let room_m = height_m - self.fence.floor_m;
         let sink_m_s = if room_m < 0.0 { 0.0 } else { SINK_AT_FLOOR_M_S + SINK_1_S * room_m };
-        let sink = sink_m_s / climb_m_s.max(f64::EPSILON);
+        let sink = sink_m_s / full_sink_m_s.max(f64::EPSILON);
         let within = |wanted: f64, last: f64| {
             wanted.clamp(-most, most).clamp(last - LARGEST_JUMP, last + LARGEST_JUMP)
         };

@@ -52,7 +52,7 @@ impl Vehicle {
                     &demand,
                     limit,
                     soon.position_m.z,
-                    self.config.estimator.limits.climb_m_s,
+                    self.full_sink_m_s(),
                 );
                 let drag_1_s = self.flight.estimator.airframe().drag_1_s.min();
                 let resists = [self.full_tilt_m_s2(), drag_1_s];
@@ -72,7 +72,7 @@ impl Vehicle {
                     &demand,
                     self.mission.max_control(),
                     soon.position_m.z,
-                    self.config.estimator.limits.climb_m_s,
+                    self.full_sink_m_s(),
                 );
                 sent = Some(demand);
                 Order { flight: FlightOrder::StayAirborne, motion: motion(&demand) }
@@ -84,6 +84,11 @@ impl Vehicle {
         let sent = sent.map_or(estimator::Order::ByItself, estimator::Order::Sticks);
         self.flight.estimator.order_sent(now, sent);
         order
+    }
+
+    /// Descent at full stick; not less than was configured before more is known.
+    fn full_sink_m_s(&self) -> f64 {
+        self.config.estimator.limits.climb_m_s * self.flight.estimator.airframe().drop_gain.max(1.0)
     }
 
     /// Stick demand that steers towards `target`, computed for the state when it takes effect.
