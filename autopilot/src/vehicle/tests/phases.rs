@@ -34,6 +34,19 @@ fn a_plan_is_flown_from_the_first_packet_to_the_ground() {
     assert!(bench.vehicle.is_at_rest());
 }
 
+/// An order that comes before the flight has ended, but after its landing, changes nothing of how it ended.
+#[test]
+fn a_hold_on_the_ground_after_the_plan_is_no_landing_on_order() {
+    let mut bench = Bench::in_the_air("takeoff\nland\n");
+    bench.run(SECOND);
+    bench.comes_down();
+    bench.until(SECOND, |bench| bench.vehicle.report().steps_done == 2);
+    assert!(bench.outcomes.is_empty(), "it ends in the next tick");
+    assert_eq!(bench.order(OperatorOrder::Hold), Err(Refused::OnGround));
+    bench.run(SECOND);
+    assert_eq!(bench.outcomes, [Outcome::Completed]);
+}
+
 #[test]
 fn phases_are_named_like_their_variants_except_for_none() {
     for phase in [
