@@ -38,6 +38,8 @@ pub(super) struct Axis {
     /// These velocities and the measured one, smoothed alike: the flow does not follow the fastest swings.
     expected_m_s: [f64; DRAGS_1_S.len()],
     measured_m_s: f64,
+    /// The newest tilt.
+    tilt_rad: f64,
     recent: VecDeque<Moment>,
     /// The tilt moves the drone, but the velocity does not show it. Evaluated only for each moment that is
     /// kept, because full navdata come four times as often.
@@ -56,7 +58,14 @@ struct Moment {
 impl Axis {
     pub(super) fn new() -> Self {
         let (zeros, recent) = ([0.0; DRAGS_1_S.len()], VecDeque::with_capacity(AXIS_MEMORY));
-        Self { least_m_s: zeros, expected_m_s: zeros, measured_m_s: 0.0, recent, is_dead: false }
+        Self {
+            least_m_s: zeros,
+            expected_m_s: zeros,
+            measured_m_s: 0.0,
+            tilt_rad: 0.0,
+            recent,
+            is_dead: false,
+        }
     }
 
     /// Turns what is remembered along with the body, clockwise: a steady wind, and the tilt that holds the drone in
@@ -75,6 +84,7 @@ impl Axis {
         turn_each(&mut right.least_m_s, &mut forward.least_m_s);
         turn_each(&mut right.expected_m_s, &mut forward.expected_m_s);
         turn(&mut right.measured_m_s, &mut forward.measured_m_s);
+        turn(&mut right.tilt_rad, &mut forward.tilt_rad);
         for (right, forward) in right.recent.iter_mut().zip(&mut forward.recent) {
             turn(&mut right.tilt_rad, &mut forward.tilt_rad);
             turn_each(&mut right.expected_m_s, &mut forward.expected_m_s);
@@ -94,7 +104,9 @@ impl Axis {
         tilt_rad: f64,
         full_tilt_rad: f64,
     ) {
-        let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * tilt_rad.tan();
+        // When it tilted in a gap is not known.
+        let mean_rad = f64::midpoint(std::mem::replace(&mut self.tilt_rad, tilt_rad), tilt_rad);
+        let pull_m_s2 = LEAST_THRUST * GRAVITY_M_S2 * mean_rad.tan();
         let share = 1.0 - (-step_s / SMOOTHING_S).exp();
         let hypotheses = self.least_m_s.iter_mut().zip(&mut self.expected_m_s);
         for ((least_m_s, expected_m_s), drag_1_s) in hypotheses.zip(DRAGS_1_S) {
@@ -149,6 +161,7 @@ impl Axis {
         self.least_m_s = [0.0; DRAGS_1_S.len()];
         self.expected_m_s = [0.0; DRAGS_1_S.len()];
         self.measured_m_s = 0.0;
+        self.tilt_rad = 0.0;
         self.recent.clear();
         self.is_dead = false;
     }
