@@ -58,11 +58,13 @@ const SINKS_M_S: f64 = 0.4;
 const UPWIND_TARGET_M: f64 = 2.0;
 /// Without usable navdata for this time the drone is landed instead of flown back or down.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
-/// Largest rate of descent at the fence's floor; below it nobody flies down. Towards the floor the descent is limited to
+/// Largest rate of descent at the fence's floor. Towards the floor the descent is limited to
 /// what the slowest airframe can stop.
 const SINK_AT_FLOOR_M_S: f64 = 0.15;
 /// Increase of that limit for each metre above the floor, in m/s.
 const SINK_1_S: f64 = 0.5;
+/// Least climb below the floor, for each metre, in 1/s: nobody flies on down there.
+const RISE_1_S: f64 = 1.0;
 /// Largest change of a stick within one tick.
 const LARGEST_JUMP: f64 = 1.0;
 
@@ -309,7 +311,8 @@ impl SafetyMonitor {
         let left = self.brake.leave(demand);
         let most = if left == *demand { asked } else { 1.0 };
         let room_m = height_m - self.fence.floor_m;
-        let sink_m_s = if room_m < 0.0 { 0.0 } else { SINK_AT_FLOOR_M_S + SINK_1_S * room_m };
+        let sink_m_s =
+            if room_m < 0.0 { room_m * RISE_1_S } else { SINK_AT_FLOOR_M_S + SINK_1_S * room_m };
         let sink = sink_m_s / full_sink_m_s.max(f64::EPSILON);
         let within = |wanted: f64, last: f64| {
             wanted.clamp(-most, most).clamp(last - LARGEST_JUMP, last + LARGEST_JUMP)
