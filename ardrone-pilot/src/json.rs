@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use autopilot::plan::Step;
-use autopilot::vehicle::{FlightEvent, FlightReport, ManualControl, Status, Witness};
+use autopilot::vehicle::{CrossCheck, FlightEvent, FlightReport, ManualControl, Status};
 use diagnostic::is_printable;
 use serde_json::{Value, json};
 
@@ -117,7 +117,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "horizontal_deviation_m": status.horizontal_deviation_m,
                 "horizontal_deviation_holds": status.rests_on.to_string(),
                 "rests_on": status.rests_on.name(),
-                "contradicted_by": status.contradicted_by.map(Witness::name),
+                "contradicted_by": status.contradicted_by.map(CrossCheck::name),
                 "vertical_deviation_m": status.vertical_deviation_m,
                 "tags": status.tags.as_ref().map(|tags| json!({
                     "known": tags.known.count(),

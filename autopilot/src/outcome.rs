@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::vehicle::Witness;
+use crate::vehicle::CrossCheck;
 
 /// How a flight ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,7 +12,7 @@ pub enum Outcome {
     /// The plan was flown to its end and the drone has landed, but the place by which it was flown is contradicted.
     Contradicted {
         /// What contradicts it.
-        by: Witness,
+        by: CrossCheck,
     },
     /// No drone answered.
     NoDrone,

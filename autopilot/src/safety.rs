@@ -94,18 +94,6 @@ pub enum Veto {
     CarriedOff,
 }
 
-impl Situation {
-    /// The motion from which the drone must stop when an order of this tick takes effect. One that is slower to answer than
-    /// was identified still moves as now: of both velocities that which leads further.
-    fn stops_from(&self) -> Motion {
-        let further = |axis: usize| {
-            let [now, soon] = [self.velocity_m_s[axis], self.soon.velocity_m_s[axis]];
-            if now.abs() > soon.abs() { now } else { soon }
-        };
-        Motion { pose: self.soon.pose, velocity_m_s: [0, 1, 2].map(further) }
-    }
-}
-
 impl Veto {
     /// Its name in logs.
     pub fn name(self) -> &'static str {
@@ -162,16 +150,28 @@ pub struct Situation {
     pub full_tilt_m_s2: f64,
     /// Linear drag: deceleration in still air divided by speed, in 1/s.
     pub drag_1_s: f64,
+    /// Time for which an order holds until the next, in seconds.
+    pub tick_s: f64,
     /// Time from an order to tilt until the drone has tilted, in seconds.
     pub tilts_after_s: f64,
-    /// Time from an order until the rate of climb begins to follow it, and the time constant of this, in seconds.
-    pub climb_delay_s: f64,
-    /// See [`Situation::climb_delay_s`].
+    /// Time constant with which the rate of climb follows its order, in seconds.
     pub climb_lag_s: f64,
     /// Rate of climb that full stick asks for.
     pub climb_m_s: f64,
     /// Rate of descent at full stick, positive.
     pub sink_m_s: f64,
+}
+
+impl Situation {
+    /// The motion from which the drone must stop when an order of this tick takes effect. One that is slower to answer than
+    /// was identified still moves as now: of both velocities that which leads further.
+    fn stops_from(&self) -> Motion {
+        let further = |axis: usize| {
+            let [now, soon] = [self.velocity_m_s[axis], self.soon.velocity_m_s[axis]];
+            if now.abs() > soon.abs() { now } else { soon }
+        };
+        Motion { pose: self.soon.pose, velocity_m_s: [0, 1, 2].map(further) }
+    }
 }
 
 /// Replaces unsafe commands of the agent; the last stage before the session.

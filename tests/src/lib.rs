@@ -3,13 +3,13 @@
 
 mod alone;
 pub mod campaign;
+pub mod cross_checks;
 pub mod healthy;
 pub mod landings;
 pub mod rules;
 pub mod sensors;
 pub mod sim;
 pub mod streams;
-pub mod witnesses;
 
 use autopilot::Plan;
 use autopilot::vehicle::Waypoint;

@@ -7,8 +7,8 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::{
-    campaign, fly, healthy, mavlink, mutants, sensors, soak, streams, tags, target, verify,
-    witnesses,
+    campaign, cross_checks, fly, healthy, mavlink, mutants, sensors, soak, streams, tags, target,
+    verify,
 };
 
 /// Measurements of the whole system, in simulated time.
@@ -79,7 +79,7 @@ enum Command {
     },
     /// Fly where tags or a GPS know the place too, with a right velocity and a wrong one, and report how often they
     /// contradicted it; fails if they contradicted a right one
-    Witnesses {
+    CrossChecks {
         /// How many flights of each case
         #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u64).range(1..))]
         flights: u64,
@@ -158,8 +158,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Streams { streams, first } => {
             streams::run(streams, first).map_err(|error| error.to_string())
         }
-        Command::Witnesses { flights, first } => {
-            witnesses::run(flights, first).map_err(|error| error.to_string())
+        Command::CrossChecks { flights, first } => {
+            cross_checks::run(flights, first).map_err(|error| error.to_string())
         }
         Command::Tags { seeds, only, each } => tags::run(seeds, only.as_deref(), each),
         Command::Mutants { all: true, shard, .. } => {

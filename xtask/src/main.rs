@@ -4,6 +4,7 @@
 mod campaign;
 mod cases;
 mod command_line;
+mod cross_checks;
 mod fly;
 mod healthy;
 mod mavlink;
@@ -18,7 +19,6 @@ mod table;
 mod tags;
 mod target;
 mod verify;
-mod witnesses;
 
 fn main() -> std::process::ExitCode {
     command_line::main()

@@ -60,7 +60,7 @@ impl Brake {
             (Airframe::WEAKEST_CLIMB * now.climb_m_s, now.climb_lag_s.max(longest_lag_s))
         };
         let stopping = Stopping {
-            delay_s: now.climb_delay_s,
+            delay_s: now.tick_s,
             braking_m_s2: (opposite_m_s + up_m_s.abs() / 2.0) / lag_s,
         };
         let stop_z_m = pose.z_m + stopping.way_m(up_m_s);

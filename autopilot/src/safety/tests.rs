@@ -16,7 +16,7 @@ pub(super) const FINE: Situation = Situation {
     full_tilt_m_s2: 2.0,
     drag_1_s: 0.2,
     tilts_after_s: 0.2,
-    climb_delay_s: 0.1,
+    tick_s: 0.1,
     climb_lag_s: 0.5,
     climb_m_s: 0.7,
     sink_m_s: 0.7,

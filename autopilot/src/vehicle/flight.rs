@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 use pid::PositionController;
 
 use super::manual::Manual;
-use super::place::Witnesses;
+use super::place::CrossChecks;
 use super::saturation::Saturation;
 use super::{FlightReport, LandingReason, SignSearch, VehicleConfig};
 use crate::agent::{Activity, Agent};
@@ -42,7 +42,7 @@ pub(super) struct Flight {
     pub(super) wind_m_s2: Vector2<f64>,
     pub(super) saturation: Saturation,
     pub(super) sign_search: SignSearch,
-    pub(super) witnesses: Witnesses,
+    pub(super) cross_checks: CrossChecks,
     pub(super) target: Option<Pose>,
     /// When the drone was first asked for full navdata, or else when the flight began.
     pub(super) asked_at: Duration,
@@ -83,7 +83,7 @@ impl Flight {
             wind_m_s2: Vector2::zeros(),
             saturation: Saturation::default(),
             sign_search: SignSearch::default(),
-            witnesses: Witnesses::default(),
+            cross_checks: CrossChecks::default(),
             target: None,
             asked_at: begins,
             has_begun: false,

@@ -44,7 +44,7 @@ pub use self::operators::{Operator, Station};
 pub use self::orders::{OperatorOrder, Place, Refused};
 use self::phase::FlightPhase;
 pub use self::phase::{LandingReason, Phase};
-pub use self::place::{RestsOn, Witness};
+pub use self::place::{CrossCheck, RestsOn};
 use self::protocol::Pending;
 pub use self::protocol::{Input, Output, Transmit};
 pub use self::readiness::NotReady;
@@ -383,7 +383,7 @@ impl Vehicle {
             horizontal_deviation_m: self.flight.estimator.horizontal_deviation_m(now),
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
             rests_on: RestsOn::of(tags.as_ref()),
-            contradicted_by: self.flight.witnesses.contradicts(),
+            contradicted_by: self.flight.cross_checks.contradicts(),
             tags,
             gps: self.gps(now),
             trust: self.flight.estimator.trust(),

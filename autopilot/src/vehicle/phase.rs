@@ -442,7 +442,7 @@ impl Vehicle {
     /// air, or lost, continues to be landed.
     pub(super) fn end(&mut self, now: Duration, outcome: Outcome) {
         if self.flight.outcome.is_none() {
-            let outcome = match (outcome, self.flight.witnesses.contradicts()) {
+            let outcome = match (outcome, self.flight.cross_checks.contradicts()) {
                 (Outcome::Completed, Some(by)) => Outcome::Contradicted { by },
                 (outcome, _) => outcome,
             };

@@ -57,14 +57,14 @@ impl fmt::Display for RestsOn {
 
 /// What contradicts the claimed place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Witness {
+pub enum CrossCheck {
     /// A tag on the floor moved against the drone's velocity, or was not seen where the place would have it.
     Tags,
     /// The flight recorder's GPS is further away than it and the place may be off.
     Gps,
 }
 
-impl Witness {
+impl CrossCheck {
     /// Its name in JSON.
     pub fn name(self) -> &'static str {
         match self {
@@ -74,7 +74,7 @@ impl Witness {
     }
 }
 
-impl fmt::Display for Witness {
+impl fmt::Display for CrossCheck {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Tags => "a tag on the floor",
@@ -99,17 +99,17 @@ const METRES_PER_DEGREE: f64 = 111_320.0;
 
 /// What was seen of the place in a flight besides what it was integrated from.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Witnesses {
-    contradicts: Option<Witness>,
+pub(super) struct CrossChecks {
+    contradicts: Option<CrossCheck>,
     unseen_s: f64,
     /// The GPS where the drone stood before the flight.
     start: Option<GpsFix>,
     gps_off_since: Option<Duration>,
 }
 
-impl Witnesses {
-    /// The first witness that contradicted the place.
-    pub(super) fn contradicts(&self) -> Option<Witness> {
+impl CrossChecks {
+    /// The first source that contradicted the place.
+    pub(super) fn contradicts(&self) -> Option<CrossCheck> {
         self.contradicts
     }
 
@@ -151,26 +151,26 @@ fn distance_m(from: &GpsFix, to: &GpsFix) -> f64 {
 
 impl Vehicle {
     /// Compares the claimed place with what else knows of it, in one tick.
-    pub(super) fn hear_witnesses(&mut self, now: Duration, tags: Option<&TagStatus>, step_s: f64) {
+    pub(super) fn cross_check(&mut self, now: Duration, tags: Option<&TagStatus>, step_s: f64) {
         let fix = self.gps(now);
         if self.on_ground() && self.flight.report.took_off_at.is_none() {
-            self.flight.witnesses.start = fix.or(self.flight.witnesses.start);
+            self.flight.cross_checks.start = fix.or(self.flight.cross_checks.start);
             return;
         }
         let heard = self.session.silence(now).is_some_and(|age| age <= HEARD);
         let flight = &mut self.flight;
         let place_m = flight.estimator.estimate().position_m.xy();
         let deviation_m = flight.estimator.horizontal_deviation_m(now);
-        let witnesses = &mut flight.witnesses;
+        let cross_checks = &mut flight.cross_checks;
         // In a silence nothing can be seen.
         let seen_s = if heard { step_s } else { 0.0 };
-        let by_tags = tags.is_some_and(|tags| witnesses.see_tags(tags, seen_s));
-        let by_gps = fix.is_some_and(|fix| witnesses.see_gps(now, &fix, place_m, deviation_m));
-        let found = by_tags.then_some(Witness::Tags).or(by_gps.then_some(Witness::Gps));
-        if witnesses.contradicts.is_none()
+        let by_tags = tags.is_some_and(|tags| cross_checks.see_tags(tags, seen_s));
+        let by_gps = fix.is_some_and(|fix| cross_checks.see_gps(now, &fix, place_m, deviation_m));
+        let found = by_tags.then_some(CrossCheck::Tags).or(by_gps.then_some(CrossCheck::Gps));
+        if cross_checks.contradicts.is_none()
             && let Some(by) = found
         {
-            witnesses.contradicts = Some(by);
+            cross_checks.contradicts = Some(by);
             self.events.push_back(FlightEvent::PlaceContradicted { by });
         }
     }
@@ -197,8 +197,8 @@ mod tests {
     #[test]
     fn a_tag_that_is_due_and_not_seen_contradicts_and_one_that_never_was_seen_does_not() {
         let contradicts = |tags: TagStatus| {
-            let mut witnesses = Witnesses::default();
-            (0..110).any(|_| witnesses.see_tags(&tags, TICK_S))
+            let mut cross_checks = CrossChecks::default();
+            (0..110).any(|_| cross_checks.see_tags(&tags, TICK_S))
         };
         let seen_ago = |s| Some(Duration::from_secs(s));
         let unseen = TagStatus { seen_ago: seen_ago(4), is_due: true, ..TagStatus::default() };
@@ -207,11 +207,11 @@ mod tests {
         assert!(!contradicts(TagStatus { seen_ago: seen_ago(0), ..unseen }));
         assert!(!contradicts(TagStatus { seen_ago: None, ..unseen }));
         assert!(contradicts(TagStatus { given_up: 1, ..TagStatus::default() }));
-        let mut witnesses = Witnesses::default();
+        let mut cross_checks = CrossChecks::default();
         let moments =
             (0..90).map(|_| unseen).chain([TagStatus { seen_ago: seen_ago(0), ..unseen }]);
         let mut moments = moments.chain((0..90).map(|_| unseen));
-        assert!(!moments.any(|tags| witnesses.see_tags(&tags, TICK_S)));
+        assert!(!moments.any(|tags| cross_checks.see_tags(&tags, TICK_S)));
     }
 
     /// Somewhere north of the start.
@@ -228,10 +228,11 @@ mod tests {
     #[test]
     fn a_gps_contradicts_that_is_further_off_than_both_may_be_for_long_enough() {
         let contradicts_after = |gps_m: f64, place_m: f64| {
-            let mut witnesses = Witnesses { start: Some(north(0.0)), ..Witnesses::default() };
+            let mut cross_checks =
+                CrossChecks { start: Some(north(0.0)), ..CrossChecks::default() };
             let place_m = Vector2::new(place_m, 0.0);
             (0..20).find(|second| {
-                witnesses.see_gps(Duration::from_secs(*second), &north(gps_m), place_m, 0.5)
+                cross_checks.see_gps(Duration::from_secs(*second), &north(gps_m), place_m, 0.5)
             })
         };
         // Four times 3 m √2, and four times half a metre: 19.0 m.
@@ -239,7 +240,7 @@ mod tests {
         assert_eq!(contradicts_after(19.2, 0.0), Some(5));
         assert_eq!(contradicts_after(28.0, 10.0), None, "in any direction");
         assert_eq!(contradicts_after(0.0, 19.2), Some(5), "it stands");
-        let mut fresh = Witnesses::default();
+        let mut fresh = CrossChecks::default();
         assert!(!fresh.see_gps(Duration::from_secs(9), &north(99.0), Vector2::zeros(), 0.0));
     }
 

@@ -8,7 +8,7 @@ use diagnostic::printable;
 use estimator::{TagStatus, Trust};
 use kinematics::{Airframe, Pose};
 
-use super::{LandingReason, ManualControl, Operator, Phase, RestsOn, Witness};
+use super::{CrossCheck, LandingReason, ManualControl, Operator, Phase, RestsOn};
 use crate::agent::{ChosenPlans, distance};
 use crate::safety::Veto;
 
@@ -69,7 +69,7 @@ pub enum FlightEvent {
     /// Something else that knows of the place contradicts it.
     PlaceContradicted {
         /// What.
-        by: Witness,
+        by: CrossCheck,
     },
     /// The drone's emergency state was cleared.
     EmergencyCleared,
@@ -330,7 +330,7 @@ pub struct Status {
     /// What that deviation rests on.
     pub rests_on: RestsOn,
     /// What has contradicted the position in this flight.
-    pub contradicted_by: Option<Witness>,
+    pub contradicted_by: Option<CrossCheck>,
     /// Standard deviation of the height.
     pub vertical_deviation_m: f64,
     /// What is known by tags, if they are used.

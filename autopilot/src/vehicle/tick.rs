@@ -45,7 +45,7 @@ impl Vehicle {
         let state = if self.config.law.predicts() { prediction } else { self.measured_state() };
         self.feel_wind(prediction.disturbance_m_s2, step_s);
         let tags = self.flight.estimator.tag_status(now);
-        self.hear_witnesses(now, tags.as_ref(), step_s);
+        self.cross_check(now, tags.as_ref(), step_s);
         self.advance_setpoint(&state, step_s);
         let percepts = self.percepts(now, &state, tags.as_ref());
         let step = AgentStep::run(&mut self.flight.agent, &mut self.flight.activity, percepts);
@@ -228,9 +228,8 @@ impl Vehicle {
             wind: (state.disturbance_m_s2 / full_tilt_m_s2).into(),
             full_tilt_m_s2,
             drag_1_s: airframe.drag_1_s.min(),
-            // An order holds until the next.
+            tick_s: TICK.as_secs_f64(),
             tilts_after_s: TICK.as_secs_f64() + airframe.tilt_lag_s,
-            climb_delay_s: TICK.as_secs_f64(),
             climb_lag_s: airframe.climb_lag_s,
             climb_m_s: self.config.estimator.limits.climb_m_s,
             sink_m_s: self.config.estimator.limits.climb_m_s * airframe.drop_gain,

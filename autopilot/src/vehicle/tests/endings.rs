@@ -168,7 +168,7 @@ fn a_plan_whose_place_is_contradicted_is_not_called_flown() {
         ..Gps::default()
     };
     let config = VehicleConfig { read_back: false, gps: true, ..VehicleConfig::default() };
-    let by = Witness::Gps;
+    let by = CrossCheck::Gps;
     for (north_m, outcome, status) in
         [(10.0, Outcome::Completed, 0), (60.0, Outcome::Contradicted { by }, 60)]
     {

@@ -191,7 +191,7 @@ fn plan(random: &mut impl Rng) -> Plan {
         _ = write!(text, "setStayTime {stay_s:.1}\ngoto {x:.2} {y:.2} {z:.2} {yaw:.0}\n");
     }
     text += "goto 0 0 1.5 0\nland\n";
-    Plan::parse_within("witnesses", &text, &FENCE).unwrap_or_else(|error| panic!("{error}"))
+    Plan::parse_within("cross-checks", &text, &FENCE).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn seconds(random: &mut impl Rng, from: f64, to: f64) -> Duration {

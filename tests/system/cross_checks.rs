@@ -1,9 +1,9 @@
-//! Tags and GPS never contradict a place that is right. `cargo xtask witnesses` is the same with more flights, and with
+//! Tags and GPS never contradict a place that is right. `cargo xtask cross-checks` is the same with more flights, and with
 //! places that are wrong.
 
 use std::thread;
 
-use system_tests::witnesses::{Knows, Wrong, fly};
+use system_tests::cross_checks::{Knows, Wrong, fly};
 
 /// Flights of each thread.
 const FLIGHTS: u64 = 15;

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
+use system_tests::cross_checks::{CASES, Told, Wrong, fly};
 use system_tests::sim::SimulationError;
-use system_tests::witnesses::{CASES, Told, Wrong, fly};
 
 use crate::parallel;
 
