@@ -64,7 +64,6 @@ fn what_lies_in_the_folder_is_no_header_of_the_compiler() {
         ("string.h", LIBRARY),
         ("bits/types.h", LIBRARY),
         ("features.h", LIBRARY),
-        ("a.h", "#error planted\n"),
         ("comparison.c", "#error planted\n"),
         ("cbmc", "#error planted\n"),
     ];
@@ -125,7 +124,7 @@ fn own_headers_change_nothing_else() {
         (
             "#include \"own.h\"",
             &[("own.h", "#include \"a.h\"\n"), ("a.h", "#error planted\n")],
-            None,
+            Some("a.h, line 1, differs"),
         ),
         (
             "#include \"stdint.h\"",
