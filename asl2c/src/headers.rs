@@ -158,6 +158,8 @@ impl Agent {
         let is_of_c = |name: &str| {
             is_c_word(name) && !(name.starts_with('_') && name.to_uppercase().contains("_H"))
                 || name.starts_with("__CPROVER")
+                // What a comparison adds.
+                || name.starts_with("plain_")
         };
         for header in headers {
             let found: BTreeSet<String> = macros(&header.text).into_iter().collect();
