@@ -63,15 +63,17 @@ fn a_verdict_is_about_the_files_that_lie_there() {
         &["validate", "-q", "agent/a.conf", "-o", "edited"][..],
         &["prove", "-q", "agent/a.conf", "-o", "edited"],
     ];
-    let plain_and_c = [&plain[..], &[with_c, in_place]].concat();
+    let of_c = [&plain[..], &elsewhere].concat();
+    let of_header = [&of_c[..], &[with_c, in_place]].concat();
+    let of_edited = [&elsewhere[..], &[with_c]].concat();
     for (file, refused, not_refused) in [
-        ("agent/src/a.c", &plain[..], &[with_c, in_place][..]),
-        ("agent/inc/a.h", &plain_and_c, &[]),
-        ("agent/inc/b.h", &plain_and_c, &[]),
-        ("edited/inc/a.h", &[with_c, elsewhere[0], elsewhere[1]], &plain),
-        ("edited/inc/b.h", &[with_c, elsewhere[0], elsewhere[1]], &plain),
-        ("edited/inc/own.h", &[with_c, elsewhere[0], elsewhere[1]], &plain),
-        ("edited/src/a.c", &elsewhere, &[plain[0], plain[1], plain[2], with_c, in_place]),
+        ("agent/src/a.c", &of_c, &[with_c, in_place][..]),
+        ("agent/inc/a.h", &of_header, &[]),
+        ("agent/inc/b.h", &of_header, &[]),
+        ("edited/inc/a.h", &of_edited, &plain),
+        ("edited/inc/b.h", &of_edited, &plain),
+        ("edited/inc/own.h", &of_edited, &plain),
+        ("edited/src/a.c", &elsewhere.to_vec(), &[plain[0], plain[1], plain[2], with_c, in_place]),
     ] {
         let folder = folder();
         let path = folder.path().join(file);
@@ -122,6 +124,21 @@ fn an_old_translation_is_told() {
     std::fs::create_dir(&c).unwrap();
     let output = asl2c(folder.path(), &validate, none);
     assert!(said(&output).contains("it is not a regular file"), "{}", said(&output));
+    std::fs::remove_dir(&c).unwrap();
+    // What cannot be looked at may be there.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("a.c", &c).unwrap();
+        let output = asl2c(folder.path(), &validate, none);
+        assert!(said(&output).contains("cannot read agent/src/a.c"), "{}", said(&output));
+        std::fs::remove_file(&c).unwrap();
+    }
+    // There is no file below what is no folder.
+    let scripts = folder.path().join("scripts");
+    std::fs::create_dir(&scripts).unwrap();
+    std::fs::write(scripts.join("src"), "").unwrap();
+    let elsewhere = [&validate[..], &["-o", "scripts"]].concat();
+    assert!(said(&asl2c(folder.path(), &elsewhere, none)).contains("/none"));
 }
 
 /// A header that is the compiler's for whatever is proved, and another one beside the C.

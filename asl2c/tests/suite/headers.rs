@@ -149,6 +149,11 @@ fn own_headers_change_nothing_else() {
             )],
             Some("a macro `plain_assert`"),
         ),
+        (
+            "#include \"own.h\"",
+            &[("own.h", "#define plain_index(index, length) (index)\n")],
+            Some("a macro `plain_index`"),
+        ),
         ("#include \"own.h\"", &[("own.h", "#define _Bool int\n")], Some("a macro `_Bool`")),
         ("#include \"own.h\"", &[("own.h", "#define while(x) if (0)\n")], Some("a macro `while`")),
         ("#include \"own.h\"", &[("own.h", absolute.as_str())], Some(named)),
