@@ -20,11 +20,14 @@ fn folder() -> tempfile::TempDir {
          properties { p: at_most_one(on); };\n";
     std::fs::write(agent.join("a.conf"), configuration).unwrap();
     std::fs::write(agent.join("a.asl"), AGENT).unwrap();
-    std::fs::write(agent.join("inc/own.h"), "typedef int own_t;\n").unwrap();
+    let own = "#ifndef OWN_H\n#define OWN_H\n#include \"more.h\"\n#endif\n";
+    std::fs::write(agent.join("inc/own.h"), own).unwrap();
+    let more = "#ifndef MORE_H\n#define MORE_H\ntypedef int more_t;\n#endif\n";
+    std::fs::write(agent.join("inc/more.h"), more).unwrap();
     std::fs::create_dir(agent.join("src")).unwrap();
     let output = asl2c(folder.path(), &["-q", "agent/a.conf"], None);
     assert!(output.status.success(), "{}", said(&output));
-    for name in ["src/a.c", "inc/a.h", "inc/b.h", "inc/own.h"] {
+    for name in ["src/a.c", "inc/a.h", "inc/b.h", "inc/own.h", "inc/more.h"] {
         let to = folder.path().join("edited").join(name);
         std::fs::create_dir_all(to.parent().unwrap()).unwrap();
         std::fs::copy(agent.join(name), to).unwrap();
@@ -73,6 +76,7 @@ fn a_verdict_is_about_the_files_that_lie_there() {
         ("edited/inc/a.h", &of_edited, &plain),
         ("edited/inc/b.h", &of_edited, &plain),
         ("edited/inc/own.h", &of_edited, &plain),
+        ("edited/inc/more.h", &of_edited, &plain),
         ("edited/src/a.c", &elsewhere.to_vec(), &[plain[0], plain[1], plain[2], with_c, in_place]),
     ] {
         let folder = folder();
