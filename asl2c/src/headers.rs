@@ -157,7 +157,8 @@ impl Agent {
         // Names with an underscore belong to the compiler, but are often those of guards against double inclusion.
         let is_of_c = |name: &str| {
             is_c_word(name) && !(name.starts_with('_') && name.to_uppercase().contains("_H"))
-                || name.starts_with("__CPROVER")
+                // What is added to C that is proved.
+                || name.starts_with("plain_")
         };
         for header in headers {
             let found: BTreeSet<String> = macros(&header.text).into_iter().collect();

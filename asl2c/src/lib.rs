@@ -19,6 +19,7 @@ mod certify;
 mod checksum;
 pub mod command_line;
 mod coverage;
+mod current;
 mod headers;
 mod lsp;
 mod measure;

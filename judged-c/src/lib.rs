@@ -23,7 +23,7 @@ use translator::Comparison;
 
 pub use self::header::judge_header;
 use self::language::Language;
-pub use self::print::{macros, words};
+pub use self::print::{CHECKED_INDEX, macros, words};
 pub use self::refused::{Refused, Rule};
 
 /// C of the language.
@@ -31,6 +31,7 @@ pub use self::refused::{Refused, Rule};
 #[must_use = "it has to be compared"]
 pub struct Judged {
     text: String,
+    checked: String,
     arbitrary: String,
     names: Vec<String>,
 }
@@ -46,9 +47,9 @@ impl Judged {
         &self.arbitrary
     }
 
-    /// Puts the C in the place of the translation.
+    /// Puts the C in the place of the translation, with checks that each index is inside its array.
     pub fn put_into(self, comparison: &mut Comparison) {
-        comparison.replace_c(self.text, &self.arbitrary, &self.names);
+        comparison.replace_c(self.checked, &self.arbitrary, &self.names);
     }
 }
 
@@ -75,6 +76,7 @@ pub fn judge<'a>(
     let macros: HashSet<String> = headers.into_iter().flat_map(macros).collect();
     let unit = parser::parse(text, &language.types())?;
     let names = check::check(&unit, &language, &macros)?;
-    let (text, arbitrary) = print::print(&unit, &language);
-    Ok(Judged { text, arbitrary, names: names.into_keys().collect() })
+    let (text, arbitrary) = print::print(&unit, &language, false);
+    let (checked, _) = print::print(&unit, &language, true);
+    Ok(Judged { text, checked, arbitrary, names: names.into_keys().collect() })
 }

@@ -10,10 +10,17 @@ use crate::tree::{
 };
 use crate::types::Ty;
 
-/// The text of a file, and statements that make its state arbitrary, but for that which is generated.
-pub(crate) fn print(unit: &Unit, language: &Language) -> (String, String) {
+/// A function of CBMC's that asserts that an index is inside an array of this length, in one line. CBMC 6 checks an index of an
+/// array in a struct that a pointer leads to against the end of the whole struct.
+pub const CHECKED_INDEX: &str = "static unsigned long long plain_index(unsigned long long plain_i, unsigned long long plain_n) \
+    { __CPROVER_assert(plain_i < plain_n, \"a possible error at run time: an index is outside its array\"); return plain_i; }";
+
+/// The text of a file, and statements that make its state arbitrary, but for that which is generated. With checks of indices,
+/// which compilers leave out, it is no longer of the language.
+pub(crate) fn print(unit: &Unit, language: &Language, is_checked: bool) -> (String, String) {
     let mut printer = Printer {
         language,
+        is_checked,
         taken: names(unit),
         renamed: HashMap::new(),
         text: String::new(),
@@ -21,6 +28,12 @@ pub(crate) fn print(unit: &Unit, language: &Language) -> (String, String) {
     };
     for line in &unit.lines {
         _ = writeln!(printer.text, "{}", line.text);
+    }
+    if is_checked {
+        _ = writeln!(
+            printer.text,
+            "#ifdef __CPROVER__\n{CHECKED_INDEX}\n#else\n#define plain_index(plain_i, plain_n) (plain_i)\n#endif"
+        );
     }
     for item in &unit.items {
         printer.text.push('\n');
@@ -31,6 +44,7 @@ pub(crate) fn print(unit: &Unit, language: &Language) -> (String, String) {
 
 struct Printer<'a> {
     language: &'a Language,
+    is_checked: bool,
     /// All names of the file.
     taken: BTreeSet<String>,
     /// Static objects of the current function, which are printed outside of it.
@@ -289,7 +303,13 @@ impl Printer<'_> {
             What::Field(of, name) => format!("{}.{name}", self.expression(of)),
             What::Arrow(of, name) => format!("{}->{name}", self.expression(of)),
             What::Index(of, index) => {
-                format!("{}[{}]", self.expression(of), self.expression(index))
+                let (of, number) = (self.expression(of), self.expression(index));
+                // A number is known to be inside.
+                if self.is_checked && !matches!(index.what, What::Integer(_)) {
+                    format!("{of}[plain_index({number}, sizeof ({of}) / sizeof ({of}[0]))]")
+                } else {
+                    format!("{of}[{number}]")
+                }
             }
             What::Braces(values) => format!("{{ {} }}", list(values)),
         }

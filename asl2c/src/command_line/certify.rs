@@ -12,6 +12,7 @@ use crate::certify::{
     CertifyError, Evidence, Limits, Status, Verdict, certify, check_folder, write,
 };
 use crate::coverage::OwnTest;
+use crate::current::check_current;
 use crate::prove::Cbmc;
 
 /// Gathers the evidence, writes it and prints a summary.
@@ -23,6 +24,7 @@ pub(super) fn run(asked: &Certify) -> Result<ExitCode, CommandError> {
     inputs.extend(own_tests.iter().map(|test| tests.join(&test.name)));
     // Not after an hour of proofs.
     check_folder(&asked.output, &inputs)?;
+    check_current(&agent, &[], agent.folder(), None)?;
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?.stopped_by(stop::flag()?);
     let limits = Limits { time: Duration::from_secs(asked.time), transitions: asked.length };
     let mut tell = |doing: &str| {

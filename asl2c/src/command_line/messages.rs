@@ -8,6 +8,7 @@ use translator::{Diagnostics, Located, Severity, TranslateError};
 use super::CommandError;
 use crate::agent::ReadError;
 use crate::certify::CertifyError;
+use crate::current::StaleError;
 use crate::output::OutputError;
 
 /// Maximum number of printed messages; each costs a scan of the text.
@@ -39,7 +40,9 @@ pub(super) fn error_lines(error: &CommandError) -> String {
         CommandError::Certify(CertifyError::Unlikely { path } | CertifyError::Input { path }) => {
             general("not-written", Some(path))
         }
+        CommandError::Stale(StaleError::Differs { path, .. }) => general("stale", Some(path)),
         CommandError::Header(_)
+        | CommandError::Stale(_)
         | CommandError::Verify(_)
         | CommandError::Prove(_)
         | CommandError::Tool(_)

@@ -28,6 +28,7 @@ use self::messages::{denied, error_lines, line, lines};
 use self::verdicts::Detail;
 use crate::agent::{Agent, ReadError};
 use crate::certify::CertifyError;
+use crate::current::StaleError;
 use crate::headers::HeaderError;
 use crate::lsp;
 use crate::measure::measure;
@@ -46,6 +47,8 @@ enum CommandError {
     Read(#[from] ReadError),
     #[error(transparent)]
     Header(#[from] HeaderError),
+    #[error(transparent)]
+    Stale(StaleError),
     #[error(transparent)]
     Translate(#[from] TranslateError),
     #[error(transparent)]
@@ -82,6 +85,16 @@ impl From<CertifyError> for CommandError {
             CertifyError::Translate(error) => error.into(),
             CertifyError::Prove(error) => error.into(),
             error => Self::Certify(error),
+        }
+    }
+}
+
+impl From<StaleError> for CommandError {
+    fn from(error: StaleError) -> Self {
+        match error {
+            StaleError::Translate(error) => error.into(),
+            StaleError::Read(error) => error.into(),
+            error @ StaleError::Differs { .. } => Self::Stale(error),
         }
     }
 }
@@ -215,6 +228,7 @@ fn complain(error: &CommandError, as_json: bool) -> ExitCode {
         error,
         CommandError::Read(ReadError::File { .. })
             | CommandError::Header(_)
+            | CommandError::Stale(_)
             | CommandError::Print { .. }
             | CommandError::Typed(_)
             | CommandError::New(_)

@@ -12,6 +12,7 @@ use super::arguments::Prove;
 use super::validate::to_replay;
 use super::{CommandError, NOT_CHECKED, print, stop};
 use crate::agent::Agent;
+use crate::current::check_current;
 use crate::prove::{Cbmc, Found, Limits, Plan, Proof, ProveError, Searched, prove, search};
 use crate::run::Session;
 use crate::written::{WriteError, check_script, write_script};
@@ -29,8 +30,10 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
     let agent = Agent::read(&asked.configuration)?;
     let Agent { configuration, text, .. } = &agent;
     let mut obligations = obligations(configuration, text)?;
-    obligations.files.extend(agent.own_headers(&obligations.files)?);
+    let own = agent.own_headers(&obligations.files)?;
     let output = asked.output.as_deref().unwrap_or(agent.folder());
+    check_current(&agent, &own, output, None)?;
+    obligations.files.extend(own);
     for promise in &obligations.properties {
         // Not after the proof, whose result would be lost.
         check_script(output, &script_name(&asked.configuration, &promise.name))?;

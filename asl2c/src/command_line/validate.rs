@@ -14,6 +14,7 @@ use super::difference::{Search, Way};
 use super::progress::Progress;
 use super::{CommandError, NOT_CHECKED, print, stop};
 use crate::agent::{Agent, read};
+use crate::current::check_current;
 use crate::prove::{Budget, Cbmc, Difference, ProveError, Validated, Watch as _, validate_watched};
 use crate::run::Session;
 use crate::written::{WriteError, check_script, write_script};
@@ -36,10 +37,11 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     };
     // From here on there is only C of a known language: it is compared and, in the search, executed.
     let own = agent.own_headers(&comparison.files)?;
+    let output = asked.output.as_deref().unwrap_or(agent.folder());
+    check_current(&agent, &own, output, asked.c.as_deref())?;
     judge(&comparison, &c, own.iter().map(|header| header.text.as_str()))?
         .put_into(&mut comparison);
     comparison.files.extend(own);
-    let output = asked.output.as_deref().unwrap_or(agent.folder());
     // Not after the proofs, whose result would be lost.
     check_script(output, &script_name(&asked.configuration))?;
     let cbmc = Cbmc::find(asked.cbmc.as_deref())?;

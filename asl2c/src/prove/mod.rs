@@ -8,6 +8,7 @@
 #[allow(clippy::disallowed_methods, reason = "other programs get a limited time")]
 mod cbmc;
 mod goals;
+mod indices;
 #[allow(clippy::disallowed_methods, reason = "the search gets a limited time")]
 mod search;
 mod shrink;
@@ -25,6 +26,7 @@ use translator::{Obligations, Promise};
 
 pub(crate) use self::cbmc::DeadBranches;
 pub use self::cbmc::{CBMC, Cbmc};
+use self::indices::with_checked_indices;
 pub(crate) use self::search::{Found, Limits, Searched, search};
 pub use self::validate::{Difference, Open, Validated, validate, validate_watched};
 pub(crate) use self::validate::{SearchedWay, difference, write_comparison};
@@ -234,7 +236,9 @@ fn tried(obligations: &Obligations, known: &[String]) -> Vec<usize> {
 
 fn write_files(obligations: &Obligations, folder: &Path) -> Result<(), ProveError> {
     std::fs::create_dir_all(folder).map_err(in_file("cannot make", folder))?;
-    obligations.files.iter().try_for_each(|file| write(folder, &file.name, &file.text))
+    let Some((c, others)) = obligations.files.split_first() else { return Ok(()) };
+    write(folder, &c.name, &with_checked_indices(&c.text))?;
+    others.iter().try_for_each(|file| write(folder, &file.name, &file.text))
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> Result<(), ProveError> {

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 use std::process::{Command, Output};
+use std::time::Duration;
+
+use asl2c::{Agent, Cbmc, Plan, prove, validate};
 
 use crate::harness::{cbmc, skip};
 
@@ -145,6 +148,46 @@ fn own_headers_are_judged_by_all_who_judge() {
     let (status, said) = asl2c(folder.path(), &["validate", "-q", "--cbmc", cbmc, "a.conf"]);
     assert!(status == Some(3) && said.contains("own.h line 1"), "{said}");
     assert!(said.contains("guard"), "{said}");
+}
+
+/// CBMC itself checks an array in a struct behind a pointer against the end of the struct, and the C of all proofs has one.
+#[test]
+fn an_index_is_inside_its_array_and_not_only_inside_the_state() {
+    let Some(cbmc) = cbmc() else { return skip("cbmc") };
+    let cbmc = Cbmc::find(Some(&cbmc)).unwrap();
+    let folder = agent("");
+    let path = folder.path().join("a.conf");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replace("basics = ", "instance = context; basics = ")).unwrap();
+    let Agent { configuration, text, .. } = Agent::read(&path).unwrap();
+    // The inbox has room for one event, and is not the end of the state.
+    let read = |index: &str| {
+        format!(
+            "    const uint32_t place = {index}U;\n    const a_event_t seen = self->inbox_queue[place];\n\n    (void)seen;\n"
+        )
+    };
+    let begin = "take_event(a_agent_t *self)\n{\n";
+    for (index, is_inside) in [("0", true), ("1", false)] {
+        let spoilt = |c: &str| {
+            assert!(c.contains(begin), "{c}");
+            c.replacen(begin, &format!("{begin}{}", read(index)), 1)
+        };
+        let proofs = tempfile::tempdir().unwrap();
+        let mut compared = translator::comparison(&configuration, &text).unwrap();
+        let c = spoilt(&compared.files[0].text);
+        judged_c::judge(&compared, &c, []).unwrap().put_into(&mut compared);
+        let validated = validate(&compared, &cbmc, proofs.path(), Duration::from_mins(1)).unwrap();
+        assert_eq!(validated.is_proved(), is_inside, "{validated:?}");
+        let said = |said: &str| said.contains("an index is outside its array");
+        assert!(is_inside || validated.open.iter().any(|open| said(&open.said)), "{validated:?}");
+
+        let proofs = tempfile::tempdir().unwrap();
+        let mut obligations = translator::obligations(&configuration, &text).unwrap();
+        obligations.files[0].text = spoilt(&obligations.files[0].text);
+        let proof = prove(&obligations, &cbmc, proofs.path(), &Plan::ALL).unwrap();
+        assert_eq!(proof.holds(), is_inside, "{proof:?}");
+        assert!(is_inside || proof.run_time.iter().all(|found| said(found)), "{proof:?}");
+    }
 }
 
 /// All files below a folder, and their texts.

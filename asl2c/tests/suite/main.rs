@@ -6,6 +6,7 @@
 
 mod breaches;
 mod certified;
+mod current;
 mod edited;
 mod files;
 mod first_agent;

@@ -23,7 +23,7 @@ mod spelling;
 mod state;
 mod trace;
 
-use self::names::{Names, include_path};
+use self::names::Names;
 use self::state::StateLayout;
 use super::writer::Writer;
 use crate::program::Program;
@@ -37,6 +37,7 @@ pub(crate) use self::exercise::{
 pub(crate) use self::handlers::plan_name;
 pub use self::harness::{ANSWERS, CALLS, STEPS};
 pub(crate) use self::harness::{Moment, harness, unknown_type};
+pub use self::names::include_path;
 pub(crate) use self::names::{action_symbol, comment_safe, symbol_prefix};
 pub(crate) use self::scripted::scripted;
 pub(crate) use self::state::{Counter, Field, FieldType, counters, handler_name, layout};

@@ -137,7 +137,7 @@ pub(crate) fn comment_safe(text: &str) -> String {
 }
 
 /// The path from the folder of one output to another, for `#include`.
-pub(super) fn include_path(from: &str, to: &str) -> String {
+pub fn include_path(from: &str, to: &str) -> String {
     let folder: Vec<&str> = from.split('/').collect();
     let folder = &folder[..folder.len() - 1];
     let target: Vec<&str> = to.split('/').collect();
