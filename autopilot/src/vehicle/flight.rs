@@ -38,6 +38,10 @@ pub(super) struct Flight {
     pub(super) refusals: Vec<String>,
     /// Start of the fault that the drone currently reports.
     pub(super) fault_since: Option<Duration>,
+    /// The drone has been in the air.
+    pub(super) has_lifted: bool,
+    /// Since when it is on the ground again without an order to land.
+    pub(super) down_since: Option<Duration>,
     /// Disturbance acceleration averaged over gusts: right, forward.
     pub(super) wind_m_s2: Vector2<f64>,
     pub(super) saturation: Saturation,
@@ -80,6 +84,8 @@ impl Flight {
             landing: None,
             refusals: Vec::new(),
             fault_since: None,
+            has_lifted: false,
+            down_since: None,
             wind_m_s2: Vector2::zeros(),
             saturation: Saturation::default(),
             sign_search: SignSearch::default(),

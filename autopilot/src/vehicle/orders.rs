@@ -301,7 +301,7 @@ impl Vehicle {
     /// Whether a flight has been started that has not lifted the drone yet.
     fn is_about_to_fly(&self) -> bool {
         // In the tick after the landing the flight has yet to end.
-        let has_flown = self.flight.report.took_off_at.is_some() && self.flight.due.is_none();
+        let has_flown = self.flight.has_lifted && self.flight.due.is_none();
         let takes_off =
             self.phase == FlightPhase::Flying && self.on_ground() && !self.lands() && !has_flown;
         self.departure.is_some() || takes_off

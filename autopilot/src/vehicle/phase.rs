@@ -270,6 +270,9 @@ impl Vehicle {
         if let Some(fault) = self.lasting_fault(now) {
             self.land(now, LandingReason::DroneFault(fault));
         }
+        if self.has_come_down(now) {
+            self.land(now, LandingReason::Safety(Veto::Landing));
+        }
         // Lands at once: a hovering drone could not show that its measurement responds again.
         let trust = self.flight.estimator.trust();
         if matches!(trust, Trust::Unresponsive(_)) {
@@ -295,6 +298,14 @@ impl Vehicle {
         fault.filter(|_| {
             self.flight.fault_since.is_some_and(|at| now.saturating_sub(at) >= FAULT_TIME)
         })
+    }
+
+    /// Whether the drone has landed by itself: the agent hears of it only if it had an order to carry out.
+    fn has_come_down(&mut self, now: Duration) -> bool {
+        self.flight.has_lifted |= !self.on_ground();
+        let down = self.flight.has_lifted && self.on_ground() && !self.lands();
+        self.flight.down_since = down.then(|| self.flight.down_since.unwrap_or(now));
+        self.flight.down_since.is_some_and(|since| now.saturating_sub(since) >= FAULT_TIME)
     }
 
     /// Whether another pilot has taken off with the drone while it was being prepared.

@@ -186,3 +186,21 @@ fn a_plan_whose_place_is_contradicted_is_not_called_flown() {
         assert_eq!(tells, usize::from(status == 60), "once");
     }
 }
+
+#[test]
+fn a_drone_that_is_held_and_lands_by_itself_has_ended_its_flight() {
+    let mut bench = Bench::in_the_air("takeoff\nsetStayTime 90\ngoto 0 0 0 0\nland");
+    bench.accepted(OperatorOrder::Hold);
+    bench.run(SECOND);
+    // A single packet may be damaged.
+    bench.comes_down();
+    bench.run(2 * TICK);
+    bench.rises();
+    bench.run(SECOND);
+    assert!(bench.outcomes.is_empty(), "{:?}", bench.outcomes);
+    bench.comes_down();
+    bench.run(SECOND);
+    let reason = "the drone lands by itself".to_owned();
+    assert_eq!(bench.outcomes, [Outcome::Failsafe { reason }]);
+    assert_eq!(bench.phase(), Phase::Standby);
+}
