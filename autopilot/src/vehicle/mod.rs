@@ -8,6 +8,7 @@
 mod control;
 mod decision;
 mod flight;
+mod landing_reason;
 mod link;
 mod manual;
 mod operators;
@@ -38,12 +39,13 @@ pub use pid::Law;
 
 pub use self::decision::Decision;
 use self::flight::{Active, Flight, sample};
+pub use self::landing_reason::LandingReason;
 pub use self::manual::ManualControl;
 use self::operators::Controls;
 pub use self::operators::{Operator, Station};
 pub use self::orders::{OperatorOrder, Place, Refused};
 use self::phase::FlightPhase;
-pub use self::phase::{LandingReason, Phase};
+pub use self::phase::Phase;
 pub use self::place::{CrossCheck, RestsOn};
 use self::protocol::Pending;
 pub use self::protocol::{Input, Output, Transmit};
