@@ -72,7 +72,7 @@ impl AttitudeLoops {
                 let (stays, [inner_rad, outer_rad]) = (stays * stays, stages_rad);
                 let before_rad = *inner_rad;
                 *inner_rad = asked_rad + (*inner_rad - asked_rad) * stays;
-                let led_rad = (before_rad + *inner_rad) / 2.0;
+                let led_rad = f64::midpoint(before_rad, *inner_rad);
                 *outer_rad = led_rad + (*outer_rad - led_rad) * stays;
             }
         });
@@ -86,7 +86,7 @@ impl AttitudeLoops {
     /// The tilt of a hypothesis.
     fn tilt_rad(&self, hypothesis: usize) -> f64 {
         let lag = hypothesis % LAGS;
-        if hypothesis / LAGS % ORDERS == 0 { self.first_rad[lag] } else { self.second_rad[lag][1] }
+        [self.first_rad[lag], self.second_rad[lag][1]][hypothesis / LAGS % ORDERS]
     }
 }
 
