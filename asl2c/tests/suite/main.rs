@@ -7,6 +7,7 @@
 mod breaches;
 mod certified;
 mod edited;
+mod environment;
 mod files;
 mod first_agent;
 mod fmt;
