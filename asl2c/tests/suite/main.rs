@@ -19,6 +19,7 @@ mod lsp;
 mod on_target;
 mod prove;
 mod proved;
+mod rounded;
 mod run;
 #[cfg(target_os = "linux")]
 mod stopped;
