@@ -38,7 +38,7 @@ fn build() -> Result<(), Box<dyn Error>> {
     let sources = counted.as_ref().unwrap_or(&out);
     std::fs::create_dir_all(sources)?;
     let mut c = cc::Build::new();
-    c.include(sources).std("c99").warnings(true).extra_warnings(true);
+    c.include(sources).std("c99").flag(translator::ROUNDED).warnings(true).extra_warnings(true);
     for file in &translation.files {
         // Cargo expects the bindings in `OUT_DIR`.
         std::fs::write(out.join(&file.name), &file.text)?;

@@ -91,7 +91,7 @@ int main(void)
 ";
 
 const MAKEFILE: &str = "\
-CFLAGS ?= -std=c99 -Wall -Wextra -O2
+CFLAGS ?= -std=c99 -Wall -Wextra -O2 -ffp-contract=off
 ASL2C ?= asl2c
 
 run: NAME

@@ -42,6 +42,12 @@ impl Judged {
         &self.text
     }
 
+    /// Whether it multiplies and may have floating-point numbers, so that a compiler may contract operations on them.
+    pub fn may_be_contracted(&self) -> bool {
+        let words = words(&self.text);
+        self.text.contains(" * ") && ["float", "double"].iter().any(|word| words.contains(*word))
+    }
+
     /// Statements of a model checker that make all objects arbitrary which outlive a call, but for the agent's state.
     pub fn arbitrary(&self) -> &str {
         &self.arbitrary

@@ -42,7 +42,7 @@ pub mod types;
 
 use std::collections::HashSet;
 
-pub use backend::c::include_path;
+pub use backend::c::{ROUNDED, include_path};
 pub use backend::matrix::TraceRow;
 use backend::rust::{camel_case, snake_case};
 pub use code::Code;

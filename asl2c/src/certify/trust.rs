@@ -51,14 +51,16 @@ pub(super) fn tools(cbmc: &Cbmc) -> Result<Vec<Tool>, ToolError> {
 pub(super) fn assumptions() -> Vec<String> {
     [
         "The properties say what is meant: they are read and agreed with by people.",
-        "The environment calls the agent's functions one after the other, never one inside another, and its own \
+        "The environment calls the agent's functions one after the other, never one inside another \
+         but for set_b() in updateBeliefs(), and its own \
          functions return. In the proofs it may do anything else: raise every event with any arguments, set beliefs \
          to any values, and answer each query differently. All proofs have calls of clear() and of init() at any time; \
          after them nothing is due.",
         "In the proofs of properties the agent's state is passed in; where the C has a static state they hold for the same \
          plans and the same cycle with the other access to the state. The comparison is of the C as it is.",
         "An int has 32 bits, integers are two's complement, and floats and doubles are those of IEEE 754, as on all \
-         usual machines.",
+         usual machines. Each operation is rounded: gcc and clang do so with -ffp-contract=off, with which everything \
+         here was compiled.",
         "The compiler of the product, its options and the processor do what the C says. asl2c --report --target \
          runs the compiled C of a microcontroller.",
         "What the environment's functions do is not part of this evidence.",

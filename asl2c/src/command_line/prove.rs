@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use serde_json::{Value, json};
-use translator::{ParsedConfiguration, Promise, obligations};
+use translator::{ParsedConfiguration, Promise, ROUNDED, obligations};
 
 use super::arguments::Prove;
 use super::validate::to_replay;
@@ -53,11 +53,15 @@ pub(super) fn run(asked: &Prove) -> Result<ExitCode, CommandError> {
         let path = save(&searched, index, &asked.configuration, output);
         saved.push(Saved { searched, path });
     }
-    let text = if asked.json {
+    let mut text = if asked.json {
         as_json(&proof, &saved)
     } else {
         as_text(&proof, &saved, configuration, asked)
     };
+    // The C says it in its head, where it matters.
+    if !asked.json && !asked.quiet && obligations.files[0].text.contains(ROUNDED) {
+        _ = writeln!(text, "(of the C as compiled with {ROUNDED})");
+    }
     print("the result", &text)?;
     Ok(status(&proof, &saved))
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use judged_c::judge;
 use serde_json::json;
-use translator::{Happening, comparison};
+use translator::{Happening, ROUNDED, comparison};
 
 use super::arguments::{Validate, is_json};
 use super::difference::{Search, Way};
@@ -39,8 +39,9 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     let own = agent.own_headers(&comparison.files)?;
     let output = asked.output.as_deref().unwrap_or(agent.folder());
     check_current(&agent, &own, output, asked.c.as_deref())?;
-    judge(&comparison, &c, own.iter().map(|header| header.text.as_str()))?
-        .put_into(&mut comparison);
+    let judged = judge(&comparison, &c, own.iter().map(|header| header.text.as_str()))?;
+    let compiled = judged.may_be_contracted().then_some(ROUNDED);
+    judged.put_into(&mut comparison);
     comparison.files.extend(own);
     // Not after the proofs, whose result would be lost.
     check_script(output, &script_name(&asked.configuration))?;
@@ -79,9 +80,9 @@ pub(super) fn run(asked: &Validate) -> Result<ExitCode, CommandError> {
     };
     progress.close();
     let text = if asked.json {
-        as_json(&c, &validated, shown.as_ref())
+        as_json(&c, &validated, shown.as_ref(), compiled)
     } else {
-        as_text(&c, &validated, (shown.as_ref(), none), &agent, progress.stops())
+        as_text((&c, compiled), &validated, (shown.as_ref(), none), &agent, progress.stops())
     };
     print("the result", &text)?;
     Ok(if shown.is_some() {
@@ -128,7 +129,7 @@ fn show(
 }
 
 fn as_text(
-    c: &str,
+    (c, compiled): (&str, Option<&str>),
     validated: &Validated,
     (shown, none): (Option<&Shown>, u32),
     agent: &Agent,
@@ -151,7 +152,9 @@ fn as_text(
         }
         _ = writeln!(text, "  {}", to_replay(&agent.path, path));
     } else if validated.is_proved() {
-        _ = writeln!(text, "{c}: does what {input} says, in every environment");
+        let compiled =
+            compiled.map_or(String::new(), |option| format!(", if compiled with {option}"));
+        _ = writeln!(text, "{c}: does what {input} says, in every environment{compiled}");
         _ = writeln!(
             text,
             "({} proofs, with up to {} answers of an action in a step)",
@@ -178,7 +181,12 @@ fn as_text(
     text
 }
 
-fn as_json(c: &str, validated: &Validated, shown: Option<&Shown>) -> String {
+fn as_json(
+    c: &str,
+    validated: &Validated,
+    shown: Option<&Shown>,
+    compiled: Option<&str>,
+) -> String {
     let verdict = match shown {
         Some(_) => "differs",
         None if validated.is_proved() => "proved",
@@ -190,6 +198,7 @@ fn as_json(c: &str, validated: &Validated, shown: Option<&Shown>) -> String {
         "proofs": validated.proofs,
         "timeouts": validated.timeouts,
         "calls": validated.calls,
+        "compile_with": compiled,
         "open": validated.open,
         "is_shortest": shown.map(|shown| shown.way.is_shortest),
         "difference": shown.map(|shown| &shown.way.difference.said),

@@ -2,7 +2,7 @@
 //! text are executed on it, and one that fails is shortened.
 
 use translator::interpreter::Interpreter;
-use translator::{Act, GeneratedFile, TESTS, scripted};
+use translator::{Act, GeneratedFile, ROUNDED, TESTS, scripted};
 
 use super::search::{self, search};
 use super::world::Execution;
@@ -148,7 +148,7 @@ fn executed(files: &[GeneratedFile], tests: usize) -> Result<String, ToolError> 
     let folder = folder.path();
     files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
     let c = &files[0].name;
-    run(folder, "gcc", &["-std=c99", "-O0", "-w", "-I.", c, TESTS, "-o", "tests"])?;
+    run(folder, "gcc", &["-std=c99", ROUNDED, "-O0", "-w", "-I.", c, TESTS, "-o", "tests"])?;
     // Its status does not matter: a crash is a difference, too.
     output(folder, "sh", &["-c", &executing(tests)])?;
     let trace = std::fs::read(folder.join("trace")).map_err(io("cannot read the trace"))?;

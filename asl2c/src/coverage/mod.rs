@@ -10,7 +10,7 @@ mod world;
 use std::fmt::Write as _;
 
 use translator::interpreter::Value;
-use translator::{Act, GeneratedFile, TESTS, TranslateError, scripted};
+use translator::{Act, GeneratedFile, ROUNDED, TESTS, TranslateError, scripted};
 
 pub(crate) use self::difference::{Differing, differing, places, shorter};
 pub use self::gcov::{Counts, LineCount, Share};
@@ -146,7 +146,7 @@ fn executed(files: &[GeneratedFile]) -> Result<(String, Counts), ToolError> {
     let folder = folder.path();
     files.iter().try_for_each(|file| write(folder, &file.name, &file.text))?;
     let c = &files[0].name;
-    let compiled = ["-std=c99", "-O0", "-w", "-I."];
+    let compiled = ["-std=c99", ROUNDED, "-O0", "-w", "-I."];
     run(folder, "gcc", &[&compiled[..], &["--coverage", "-c", c, "-o", "agent.o"]].concat())?;
     run(folder, "gcc", &[&compiled[..], &["-c", TESTS, "-o", "tests.o"]].concat())?;
     run(folder, "gcc", &["--coverage", "agent.o", "tests.o", "-o", "tests"])?;

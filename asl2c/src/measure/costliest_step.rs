@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use translator::{EXERCISE, EXERCISE_SEED, EXERCISE_STEPS, Exercise};
+use translator::{EXERCISE, EXERCISE_SEED, EXERCISE_STEPS, Exercise, ROUNDED};
 
 use crate::target::{HOST, SEED};
 use crate::tool::{ToolError, run, write};
@@ -43,10 +43,23 @@ fn profile(
     write(folder, "host.c", HOST)?;
     let (steps, seed) =
         (format!("-D{EXERCISE_STEPS}={STEPS}U"), format!("-D{EXERCISE_SEED}={SEED}"));
-    let own = ["-std=c99", OPTIMIZED, "-fno-jump-tables", "-g", "-w", "-c", agent, "-o", "agent.o"];
+    let own = [
+        "-std=c99",
+        ROUNDED,
+        OPTIMIZED,
+        "-fno-jump-tables",
+        "-g",
+        "-w",
+        "-c",
+        agent,
+        "-o",
+        "agent.o",
+    ];
     run(folder, "gcc", &own)?;
-    let rest =
-        ["-std=c99", "-g", "-w", &steps, &seed, EXERCISE, "host.c", "agent.o", "-o", "steps"];
+    let rest = [
+        "-std=c99", ROUNDED, "-g", "-w", &steps, &seed, EXERCISE, "host.c", "agent.o", "-o",
+        "steps",
+    ];
     run(folder, "gcc", &rest)?;
     let toggle = format!("--toggle-collect={entry}");
     let dump = format!("--dump-after={entry}");

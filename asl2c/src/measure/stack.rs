@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::process::Command;
 
-use translator::Translation;
+use translator::{ROUNDED, Translation};
 
 /// Compiler and options for which the figures hold.
 pub(super) const COMPILER: &str = "gcc -O2";
@@ -35,7 +35,16 @@ fn compile(folder: &Path, source: &str) -> Result<Compiled, String> {
     let output = Command::new("gcc")
         .current_dir(folder)
         // Without jump tables, which would hide the successors of an instruction.
-        .args(["-std=c99", "-O2", "-fno-jump-tables", "-fstack-usage", "-S", "-o", "agent.s"])
+        .args([
+            "-std=c99",
+            ROUNDED,
+            "-O2",
+            "-fno-jump-tables",
+            "-fstack-usage",
+            "-S",
+            "-o",
+            "agent.s",
+        ])
         .arg(source)
         .output()
         .map_err(|error| format!("gcc cannot be run: {error}"))?;

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use translator::{EXERCISE, EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS, Exercise};
+use translator::{EXERCISE, EXERCISE_SEED, EXERCISE_STATE, EXERCISE_STEPS, Exercise, ROUNDED};
 
 use super::TargetError;
 
@@ -48,9 +48,13 @@ impl Build<'_> {
     /// The trace of the exercise on this machine.
     pub(super) fn on_host(&self, c: &str, steps: u32) -> Result<String, TargetError> {
         let (steps, seed) = definitions(steps);
-        self.run("gcc", &["-std=c99", "-O2", "-w", "-I.", "-c", c, "-o", "platform/host.o"])?;
+        self.run(
+            "gcc",
+            &["-std=c99", ROUNDED, "-O2", "-w", "-I.", "-c", c, "-o", "platform/host.o"],
+        )?;
         let sources = [EXERCISE, "platform/host.c", "platform/host.o"];
-        let options = ["-std=c99", "-O2", "-w", "-I.", &steps, &seed, "-o", "platform/host"];
+        let options =
+            ["-std=c99", ROUNDED, "-O2", "-w", "-I.", &steps, &seed, "-o", "platform/host"];
         self.run("gcc", &[&options[..], &sources].concat())?;
         self.run("platform/host", &[])
     }
@@ -155,7 +159,7 @@ impl Build<'_> {
 }
 
 /// Compiler options of all code of the target.
-const FREE: [&str; 3] = ["-std=gnu99", "-O2", "-ffreestanding"];
+const FREE: [&str; 4] = ["-std=gnu99", ROUNDED, "-O2", "-ffreestanding"];
 
 /// The versions of the target's compiler and of QEMU.
 ///

@@ -8,6 +8,7 @@ mod breaches;
 mod certified;
 mod current;
 mod edited;
+mod environment;
 mod files;
 mod first_agent;
 mod fmt;
@@ -19,6 +20,7 @@ mod lsp;
 mod on_target;
 mod prove;
 mod proved;
+mod rounded;
 mod run;
 #[cfg(target_os = "linux")]
 mod stopped;

@@ -42,7 +42,17 @@ fn runs_alone(translation: &Translation, main: &str) -> String {
     }
     std::fs::write(folder.path().join("main.c"), main).unwrap();
     let mut compile = Command::new("gcc");
-    compile.args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-o", "pilot", "main.c", "pilot.c"]);
+    compile.args([
+        "-std=c99",
+        translator::ROUNDED,
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-o",
+        "pilot",
+        "main.c",
+        "pilot.c",
+    ]);
     let output = compile.current_dir(folder.path()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let output = Command::new(folder.path().join("pilot")).output().unwrap();

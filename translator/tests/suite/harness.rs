@@ -7,8 +7,9 @@ use std::process::Command;
 use translator::{TranslateError, Translation, parse_configuration, translate};
 
 /// The compilers' flags that generated C must pass.
-pub(crate) const STRICT: [&str; 10] = [
+pub(crate) const STRICT: [&str; 11] = [
     "-std=c99",
+    translator::ROUNDED,
     "-Wall",
     "-Wextra",
     "-Wconversion",

@@ -7,15 +7,16 @@
 
 mod beginning;
 mod cases;
+mod environment;
 mod relation;
 mod well_formed;
 
 use std::fmt::Write as _;
 
+pub(crate) use self::environment::NO_OWN_STATE;
 use super::cycle::{event_name, no_event};
 use super::names::{Names, typed_arguments};
-use super::state::{FieldType, counters, external_name, layout, rings};
-use crate::backend::c::harness::{ANSWERS, CALLS, STEPS};
+use crate::backend::c::harness::{ANSWERS, STEPS};
 use crate::plain;
 use crate::program::Program;
 use crate::scripted::Act;
@@ -30,9 +31,6 @@ pub const ONLY_ROOM: &str = "PLAIN_ONLY_ROOM";
 pub const ONLY_END: &str = "PLAIN_ONLY_END";
 /// Assertion that [`ROOM`] is sufficient.
 pub const ENOUGH_ROOM: &str = "room for the answers";
-
-/// State of C that is not translated, none here.
-pub(crate) const NO_OWN_STATE: &str = "static void plain_own(void)\n{\n}\n";
 
 /// The C file that compares the agent's C, which it includes, with the plain translation in it. Executions of its
 /// `main` have this beginning, if there is one; its other functions are of no use then.
@@ -109,6 +107,7 @@ impl Comparison<'_> {
         text.push_str("static int plain_token;\nstatic bool plain_searching;\n\n");
         text.push_str(&plain::state(self.program));
         self.values(&mut text);
+        self.control(&mut text);
         self.calls(&mut text);
         self.updates(&mut text);
         text.push_str(&plain::functions(self.program));
@@ -259,7 +258,7 @@ impl Comparison<'_> {
         _ = writeln!(text, "{result} {action}({})\n{{", parameters.join(", "));
         if self.names.is_context() {
             text.push_str(
-                "    plain_assert(environment == &plain_token, \"the environment's pointer\");\n",
+                "    plain_assert(environment == plain_environment, \"the environment's pointer\");\n",
             );
         }
         _ = writeln!(text, "    bool watched = plain_logged({});", number + 1);
@@ -287,6 +286,9 @@ impl Comparison<'_> {
             _ = writeln!(text, "    __CPROVER_output(\"{ANSWERS} {name}\", {answer});");
         }
         text.push_str("    (void)watched;\n");
+        if self.names.is_context() {
+            text.push_str("    plain_controlled();\n");
+        }
         if answers {
             _ = writeln!(text, "    return {answer};");
         }
@@ -309,72 +311,13 @@ impl Comparison<'_> {
         text.push_str("}\n\n");
     }
 
-    /// Beliefs that are set at the start of a step, the same for both.
-    fn updates(&self, text: &mut String) {
-        let settable = || self.program.beliefs.iter().filter(|belief| belief.settable);
-        for belief in settable() {
-            _ = writeln!(text, "static bool plain_updates_{};", belief.name);
-            for (index, ctype) in belief.types.iter().enumerate() {
-                _ = writeln!(text, "static {} plain_update_{}_{index};", ctype.name, belief.name);
-            }
-            let parameters: Vec<String> = typed_arguments(&belief.types).collect();
-            let parameters =
-                if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
-            _ = writeln!(text, "static void plain_set_{}({parameters});", belief.name);
-        }
-        let update = self.names.interface("updateBeliefs");
-        let parameters = if self.names.is_context() {
-            format!("{} *agent, void *environment", self.names.state_type())
-        } else {
-            "void".to_owned()
-        };
-        _ = writeln!(text, "void {update}({parameters})\n{{\n    (void)plain_logged(0);");
-        if self.names.is_context() {
-            text.push_str("    plain_assert(agent == self && environment == &plain_token, \"the environment's pointer\");\n");
-        }
-        for belief in settable() {
-            let name = &belief.name;
-            _ = writeln!(
-                text,
-                "    plain_updates_{name} = !plain_searching && {};",
-                self.any(&CType::named("bool"))
-            );
-            _ = writeln!(text, "    if (plain_updates_{name}) {{");
-            let mut values = Vec::new();
-            for (index, ctype) in belief.types.iter().enumerate() {
-                _ = writeln!(text, "        plain_update_{name}_{index} = {};", self.any(ctype));
-                values.push(format!("plain_update_{name}_{index}"));
-            }
-            let set = self.names.interface(&format!("set_{name}"));
-            _ = writeln!(text, "        {set}({});\n    }}", self.names.arguments(values));
-        }
-        text.push_str("}\nstatic void plain_update(void)\n{\n    (void)plain_expected(0);\n");
-        for belief in settable() {
-            let name = &belief.name;
-            let values: Vec<String> = (0..belief.types.len())
-                .map(|index| format!("plain_update_{name}_{index}"))
-                .collect();
-            _ = writeln!(
-                text,
-                "    if (plain_updates_{name}) plain_set_{name}({});",
-                values.join(", ")
-            );
-        }
-        text.push_str("}\n\n");
-    }
-
     fn interface_call(&self, name: &str, values: impl IntoIterator<Item = String>) -> String {
         format!("{}({})", self.names.interface(name), self.names.arguments(values))
     }
 
     fn entries(&self, text: &mut String) {
         self.havoc(text);
-        let init = if self.names.is_context() { "self, &plain_token" } else { "" };
-        let init = format!("    {}({init});\n    plain_init();\n", self.names.interface("init"));
-        _ = writeln!(
-            text,
-            "int plain_base(void)\n{{\n    plain_havoc();\n{init}    plain_compare();\n    plain_assert_end(false, \"the end\");\n    return 0;\n}}\n"
-        );
+        self.base(text);
         _ = writeln!(
             text,
             "static void plain_both_step(void)\n{{\n    plain_restart();\n    {};\n    plain_step();",
@@ -387,6 +330,7 @@ impl Comparison<'_> {
             text,
             "int plain_interface(void)\n{{\n    plain_start();\n    plain_call_by_environment();\n    plain_assert_end(false, \"the end\");\n    return 0;\n}}\n"
         );
+        let init = self.init();
         let mut begun = String::new();
         if !self.beginning.is_empty() {
             self.begin(text);
@@ -427,118 +371,6 @@ impl Comparison<'_> {
         });
         let alternatives = alternatives.collect::<Vec<_>>().join("\n        || ");
         _ = writeln!(text, "    plain_assert({alternatives}, \"some case\");\n    return 0;\n}}\n");
-    }
-
-    /// Any state of the C.
-    fn havoc(&self, text: &mut String) {
-        text.push_str(NO_OWN_STATE);
-        text.push_str("\nstatic void plain_havoc(void)\n{\n    plain_own();\n");
-        let event = self.names.interface("event_t");
-        let number = self.any(&CType::named("uint32_t"));
-        for field in layout(self.program).fields {
-            let value = match &field.content {
-                FieldType::Environment => "&plain_token".to_owned(),
-                FieldType::Flag => self.any(&CType::named("bool")),
-                FieldType::Count => number.clone(),
-                FieldType::Event => format!("({event}){number}"),
-                FieldType::Value(ctype) => self.any(ctype),
-            };
-            let place = self.names.field(&field.name);
-            match field.length {
-                Some(length) => {
-                    for slot in 0..length {
-                        _ = writeln!(text, "    {place}[{slot}] = {value};");
-                    }
-                }
-                None => _ = writeln!(text, "    {place} = {value};"),
-            }
-        }
-        // An index, even in states that are not well-formed.
-        for ring in rings(self.program) {
-            let first = self.names.field(&ring.field("first"));
-            _ = writeln!(text, "    __CPROVER_assume({first} < {}U);", ring.length);
-        }
-        text.push_str("    plain_searching = false;\n    plain_restart();\n");
-        _ = writeln!(text, "    plain_watched = {number};");
-        text.push_str("}\n\n/* Any two related states. */\nstatic void plain_start(void)\n{\n    plain_havoc();\n");
-        text.push_str(
-            "    __CPROVER_assume(plain_well_formed());\n    plain_relate(&plain);\n}\n\n",
-        );
-    }
-
-    fn calls_of_the_environment(&self, text: &mut String) {
-        text.push_str("static void plain_call_by_environment(void)\n{\n");
-        _ = writeln!(text, "    switch ({}) {{", self.any(&CType::named("uint32_t")));
-        let mut case = 0;
-        let mut open = |text: &mut String| {
-            _ = writeln!(text, "    case {case}U: {{");
-            case += 1;
-        };
-        for (number, external) in self.program.external.iter().enumerate() {
-            open(text);
-            let name = external_name(external);
-            let values = self.recorded(text, &name, &external.types);
-            let raised = self.interface_call(&name, values.clone());
-            let values = values.join(", ");
-            _ = writeln!(
-                text,
-                "        bool accepted = {raised};\n        bool expected = plain_raise_{number}({values});"
-            );
-            _ = writeln!(
-                text,
-                "        plain_assert(accepted == expected, \"another result of {name}\");\n        break;\n    }}"
-            );
-        }
-        for belief in self.program.beliefs.iter().filter(|belief| belief.settable) {
-            open(text);
-            let name = format!("set_{}", belief.name);
-            let values = self.recorded(text, &name, &belief.types);
-            let set = self.interface_call(&name, values.clone());
-            _ = writeln!(
-                text,
-                "        {set};\n        plain_set_{}({});\n        break;\n    }}",
-                belief.name,
-                values.join(", ")
-            );
-        }
-        open(text);
-        _ = writeln!(
-            text,
-            "        __CPROVER_output(\"{CALLS} clear\", 0U);\n        {};\n        plain_clear();\n        break;\n    }}",
-            self.interface_call("clear", [])
-        );
-        let room = self.interface_call("can_add_event", []);
-        _ = writeln!(
-            text,
-            "    default:\n        plain_assert({room} == plain_has_room(), \"another result of can_add_event\");"
-        );
-        for counter in counters(self.program) {
-            let name = counter.name;
-            let asked = self.interface_call(&format!("{name}_events"), []);
-            _ = writeln!(
-                text,
-                "        plain_assert({asked} == plain.{name}, \"another result of {name}_events\");"
-            );
-        }
-        text.push_str("        break;\n    }\n    plain_compare();\n}\n\n");
-    }
-
-    /// Declares arbitrary arguments of a call by the environment. Returns their names.
-    fn recorded(&self, text: &mut String, call: &str, types: &[CType]) -> Vec<String> {
-        let mut names = Vec::new();
-        for (index, ctype) in types.iter().enumerate() {
-            _ = writeln!(
-                text,
-                "        {} argument{} = {};",
-                ctype.name,
-                index + 1,
-                self.any(ctype)
-            );
-            names.push(format!("argument{}", index + 1));
-        }
-        let values = if names.is_empty() { "0U".to_owned() } else { names.join(", ") };
-        _ = writeln!(text, "        __CPROVER_output(\"{CALLS} {call}\", {values});");
-        names
     }
 
     fn event(&self, slot: super::state::Slot, trigger: &str) -> String {

@@ -246,6 +246,7 @@ impl PlanEmitter<'_> {
         let Operation { operator, left, right, ctype } = operation;
         let left = self.value(left);
         let right = self.value(right);
+        self.helpers.operation(*operator, ctype);
         if !operation.can_fail() {
             return format!("({left} {} {right})", symbol(*operator));
         }

@@ -13,6 +13,9 @@ pub(super) struct Helpers {
     /// Comparisons of structs: the type's name and the condition on `argument1` and `argument2`.
     structs: Vec<(String, String)>,
     checked: Vec<(Arithmetic, CType)>,
+    /// Operations on floating-point numbers that a compiler may contract: products and sums.
+    products: bool,
+    sums: bool,
 }
 
 impl Helpers {
@@ -27,6 +30,17 @@ impl Helpers {
         // Structs are passed by reference.
         let reference = if ctype.kind == TypeKind::Struct { "&" } else { "" };
         format!("equal_{}({reference}{left}, {reference}{right})", identifier(ctype))
+    }
+
+    /// Keeps that an operation is used.
+    pub(super) fn operation(&mut self, operator: Arithmetic, ctype: &CType) {
+        self.products |= ctype.is_float() && operator == Arithmetic::Multiply;
+        self.sums |= ctype.is_float() && matches!(operator, Arithmetic::Add | Arithmetic::Subtract);
+    }
+
+    /// Whether a compiler might round a product and a sum only once, which is another result.
+    pub(super) fn may_be_contracted(&self) -> bool {
+        self.products && self.sums
     }
 
     /// The name of the function for checked arithmetic.

@@ -43,6 +43,10 @@ pub(crate) use self::scripted::scripted;
 pub(crate) use self::state::{Counter, Field, FieldType, counters, handler_name, layout};
 pub use self::trace::traced;
 
+/// The option of gcc and clang without which a product and a sum of floating-point numbers may be rounded only once, where
+/// the processor has an instruction for both. The rules of AgentSpeak, and all proofs, round each.
+pub const ROUNDED: &str = "-ffp-contract=off";
+
 /// The generated C texts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Files {
@@ -72,6 +76,11 @@ fn source(program: &Program, names: &Names, layout: &StateLayout, input: &str) -
 
     let mut writer = Writer::default();
     header::banner(&mut writer, program, input);
+    if helpers.may_be_contracted() {
+        writer.line(format!(
+            "/* Compile with {ROUNDED}: each operation on floating-point numbers is rounded. */"
+        ));
+    }
     writer.line("");
     let settings = &program.configuration.settings;
     for included in [&settings.header, &settings.basics] {

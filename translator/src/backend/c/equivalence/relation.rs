@@ -58,15 +58,12 @@ impl Comparison<'_> {
         let mut text =
             format!("static void plain_relate(struct plain_state *to)\n{{\n{read}}}\n\n");
         self.well_formed(&mut text);
-        text.push_str("static void plain_compare(void)\n{\n    struct plain_state now;\n    plain_relate(&now);\n");
-        text.push_str(
-            "    plain_assert(plain_repeated == plain_made, \"another call, or none\");\n",
-        );
+        let mut conditions = vec![("well-formed".to_owned(), "plain_well_formed()".to_owned())];
         if self.names.is_context() {
-            text.push_str("    plain_assert(self->environment == &plain_token, \"another state: environment\");\n");
+            let same = "self->environment == plain_environment".to_owned();
+            conditions.push(("environment".to_owned(), same));
         }
-        text.push_str("    plain_assert(plain_well_formed(), \"another state: well-formed\");\n");
-        for element in relation.elements {
+        conditions.extend(relation.elements.into_iter().map(|element| {
             let (left, right) =
                 (format!("now.{}", element.place), format!("plain.{}", element.place));
             let same = match &element.ctype {
@@ -78,11 +75,20 @@ impl Comparison<'_> {
             } else {
                 format!("!({}) || {same}", element.matters)
             };
-            _ = writeln!(
-                text,
-                "    plain_assert({condition}, \"another state: {}\");",
-                element.name
-            );
+            (element.name, condition)
+        }));
+        let read = "    struct plain_state now;\n    plain_relate(&now);\n";
+        _ = writeln!(text, "static bool plain_related(void)\n{{\n{read}    bool related = true;");
+        for (_, condition) in &conditions {
+            _ = writeln!(text, "    related = related && ({condition});");
+        }
+        _ = writeln!(
+            text,
+            "    return related;\n}}\n\nstatic void plain_compare(void)\n{{\n{read}    \
+             plain_assert(plain_repeated == plain_made, \"another call, or none\");"
+        );
+        for (name, condition) in conditions {
+            _ = writeln!(text, "    plain_assert({condition}, \"another state: {name}\");");
         }
         text.push_str("}\n\n");
         text

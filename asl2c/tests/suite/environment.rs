@@ -1,0 +1,141 @@
+//! `asl2c validate --c` believes nothing of the environment that the guide does not promise: any setter may be called at
+//! any time, any number of times; memory holds anything before `init()`; queries come in any order.
+
+use std::time::Duration;
+
+use asl2c::{Cbmc, Validated, validate};
+use judged_c::judge;
+use translator::{comparison, parse_configuration};
+
+use crate::harness::{cbmc, skip};
+
+const AGENT: &str = include_str!("../../../translator/agents/infusion.asl");
+const CONFIGURATION: &str = include_str!("../../../translator/agents/infusion.conf");
+const TIME: Duration = Duration::from_mins(5);
+
+/// C that somebody made: what for, and pairs of old and new text.
+type Edit = (&'static str, &'static [(&'static str, &'static str)]);
+
+const STATE: &str = "static agent_t agent;\n";
+const UPDATE: &str = "    updateBeliefs();\n";
+const SET_AIR: &str = "void set_air(int32_t argument1)\n{\n";
+const SET_PRESSURE: &str = "void set_pressure(int32_t argument1)\n{\n";
+const CAN_ADD: &str = "bool can_add_event(void)\n{\n";
+const UNHANDLED: &str = "    return agent.unhandled;\n";
+const REFUSED: &str = "    return agent.refused;\n";
+
+/// Each does something else in an environment that may be, and what differs.
+#[rustfmt::skip]
+const WRONG: &[(Edit, &str)] = &[
+    (("a setter is called twice in a step", &[
+        (STATE, "static agent_t agent;\nstatic uint32_t sets = 0U;\n"),
+        (SET_AIR, "void set_air(int32_t argument1)\n{\n    if (sets < 5U)\n    {\n        sets = sets + 1U;\n    }\n"),
+        (UPDATE, "    sets = 0U;\n    updateBeliefs();\n    if (sets >= 2U)\n    {\n        runMotor();\n    }\n"),
+    ]), "another call, or none"),
+    (("setters are called in another order", &[
+        (STATE, "static agent_t agent;\nstatic bool first = false;\nstatic bool bad = false;\n"),
+        (SET_PRESSURE, "void set_pressure(int32_t argument1)\n{\n    first = true;\n"),
+        (SET_AIR, "void set_air(int32_t argument1)\n{\n    bad = first;\n"),
+        (UPDATE, "    first = false;\n    bad = false;\n    updateBeliefs();\n    if (bad)\n    {\n        runMotor();\n    }\n"),
+    ]), "another call, or none"),
+    (("the order is kept where no value of the state is", &[
+        (SET_PRESSURE, "void set_pressure(int32_t argument1)\n{\n    if (agent.posted != EVENT_POSTED_achieve_muted)\n    {\n        agent.posted_achieve_muted_1 = 77U;\n    }\n"),
+    ]), "set_pressure changes more than its belief"),
+    (("a setter is called before the C is ready for it", &[
+        (UPDATE, "    const uint32_t was = agent.aborted;\n    agent.aborted = 7U;\n    updateBeliefs();\n    agent.aborted = was;\n"),
+    ]), "another state before updateBeliefs"),
+    (("a query must come before another one", &[
+        (STATE, "static agent_t agent;\nstatic bool peeked = false;\n"),
+        (CAN_ADD, "bool can_add_event(void)\n{\n    peeked = true;\n"),
+        (UNHANDLED, "    uint32_t result = agent.unhandled;\n\n    if (!peeked)\n    {\n        result = 0U;\n    }\n    return result;\n"),
+    ]), "another result of unhandled_events"),
+    (("queries must come in turn", &[
+        (STATE, "static agent_t agent;\nstatic uint32_t turn = 0U;\n"),
+        (UNHANDLED, "    turn = 1U;\n    return agent.unhandled;\n"),
+        (REFUSED, "    uint32_t result = agent.refused;\n\n    if (turn != 1U)\n    {\n        result = 7U;\n    }\n    return result;\n"),
+    ]), "another result of refused_events"),
+];
+
+/// The same for an agent whose state is passed in: there may be several.
+#[rustfmt::skip]
+const WRONG_IN_CONTEXT: &[(Edit, &str)] = &[
+    (("memory that is not zero, an index", &[
+        ("    self->environment = environment;\n", "    const bool garbage = self->inbox_first >= 1U;\n    self->environment = environment;\n"),
+        ("    forget_events(self);\n}\n\nvoid infusion_clear", "    forget_events(self);\n    if (garbage)\n    {\n        self->belief_air_held = true;\n    }\n}\n\nvoid infusion_clear"),
+    ]), "another state: belief air"),
+    (("memory that is not zero, a number", &[
+        ("    self->environment = environment;\n", "    const bool garbage = self->inbox_count >= 2U;\n    self->environment = environment;\n"),
+        ("    forget_events(self);\n}\n\nvoid infusion_clear", "    forget_events(self);\n    if (garbage)\n    {\n        self->belief_air_held = true;\n    }\n}\n\nvoid infusion_clear"),
+    ]), "another state: belief air"),
+    (("the pointer is not kept", &[
+        ("    self->environment = environment;\n", "    (void)environment;\n"),
+    ]), "another state: environment"),
+    (("another instance's setter in between", &[
+        ("/* Result of the plans of one event. */", "static int32_t last = 0;\n\n/* Result of the plans of one event. */"),
+        ("void infusion_set_air(infusion_agent_t *self, int32_t argument1)\n{\n", "void infusion_set_air(infusion_agent_t *self, int32_t argument1)\n{\n    last = argument1;\n"),
+        ("    infusion_updateBeliefs(self, self->environment);\n", "    last = self->belief_air_1;\n    infusion_updateBeliefs(self, self->environment);\n    if (last != self->belief_air_1)\n    {\n        infusion_runMotor(self->environment);\n    }\n"),
+    ]), "another call, or none"),
+    (("another instance's step in an action", &[
+        ("/* Result of the plans of one event. */", "static uint32_t steps = 0U;\n\n/* Result of the plans of one event. */"),
+        ("    infusion_updateBeliefs(self, self->environment);\n", "    infusion_updateBeliefs(self, self->environment);\n    steps = 0U;\n"),
+        ("            infusion_stopMotor(self->environment);\n            infusion_alarm(self->environment);\n", "            steps = 1U;\n            infusion_stopMotor(self->environment);\n            if (steps == 1U)\n            {\n                infusion_alarm(self->environment);\n            }\n"),
+    ]), "another call, or none"),
+];
+
+/// What outlives a call may be there, as long as nothing depends on it.
+#[rustfmt::skip]
+const RIGHT: &[Edit] = &[
+    ("calls of a setter are counted", &[
+        (STATE, "static agent_t agent;\nstatic uint32_t sets = 0U;\n"),
+        (SET_AIR, "void set_air(int32_t argument1)\n{\n    if (sets < 5U)\n    {\n        sets = sets + 1U;\n    }\n"),
+    ]),
+    ("a value is kept from before the beliefs are set", &[
+        (UPDATE, "    const bool held = agent.belief_air_held;\n    updateBeliefs();\n    agent.belief_air_held = held || agent.belief_air_held;\n"),
+    ]),
+];
+
+fn judged(cbmc: &Cbmc, in_context: bool, (what, changes): &Edit) -> Validated {
+    let instance = if in_context { "settings { instance = context;" } else { "settings {" };
+    let configuration = CONFIGURATION.replacen("settings {", instance, 1);
+    let configuration = parse_configuration("infusion.conf", &configuration).unwrap();
+    let mut compared = comparison(&configuration, AGENT).unwrap();
+    let c = changes.iter().fold(compared.files[0].text.clone(), |c, (from, to)| {
+        assert!(c.contains(from), "{what}: {from}");
+        c.replacen(from, to, 1)
+    });
+    let judged = judge(&compared, &c, []).unwrap_or_else(|refused| panic!("{what}: {refused}"));
+    judged.put_into(&mut compared);
+    let folder = tempfile::tempdir().unwrap();
+    validate(&compared, cbmc, folder.path(), TIME).unwrap()
+}
+
+#[test]
+fn c_that_is_right_in_a_tame_environment_only_is_not_proved() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    let cbmc = Cbmc::find(Some(&cbmc)).unwrap();
+    for (in_context, all) in [(false, WRONG), (true, WRONG_IN_CONTEXT)] {
+        for (edit, said) in all {
+            let result = judged(&cbmc, in_context, edit);
+            let differs = result.open.iter().any(|open| open.said == *said);
+            assert!(differs, "{}: {result:?}", edit.0);
+        }
+    }
+}
+
+#[test]
+fn what_nothing_depends_on_may_outlive_a_call() {
+    let Some(cbmc) = cbmc() else {
+        skip("cbmc");
+        return;
+    };
+    let cbmc = Cbmc::find(Some(&cbmc)).unwrap();
+    for edit in RIGHT {
+        let result = judged(&cbmc, false, edit);
+        assert!(result.is_proved(), "{}: {result:?}", edit.0);
+    }
+    let result = judged(&cbmc, true, &("nothing is edited", &[]));
+    assert!(result.is_proved(), "{result:?}");
+}

@@ -1,0 +1,263 @@
+//! What the environment may do: before the first call, between calls, and while it has control in a step.
+//!
+//! In `updateBeliefs()` it may call the setters in any order and any number of times; with the state passed in, it may
+//! also call anything for other instances whenever it has control. No such sequence is executed: each call of a setter
+//! alone is a transition of its own, which changes nothing but its belief and from any related state does what the plain
+//! one does. Hence setters of several beliefs commute, and what any number of calls leaves is what one call for each
+//! belief leaves, or two for one whose changes are perceived: there and back again. Objects which the relation does not
+//! know are arbitrary afterwards.
+
+use std::fmt::Write as _;
+
+use super::Comparison;
+use crate::backend::c::harness::CALLS;
+use crate::backend::c::names::typed_arguments;
+use crate::backend::c::state::{
+    FieldType, Slot, belief_value, counters, external_name, handler_name, held, layout, pending,
+    rings,
+};
+use crate::program::Belief;
+use crate::types::CType;
+
+/// State of C that is not translated, none here.
+pub(crate) const NO_OWN_STATE: &str = "static void plain_own(void)\n{\n}\n";
+
+impl Comparison<'_> {
+    fn settable(&self) -> impl Iterator<Item = &Belief> {
+        self.program.beliefs.iter().filter(|belief| belief.settable)
+    }
+
+    /// What is arbitrary whenever the environment has had control, and its pointer.
+    pub(super) fn control(&self, text: &mut String) {
+        text.push_str(NO_OWN_STATE);
+        text.push_str(
+            "static bool plain_related(void);\n\
+             /* It has had control. A search only knows what a script can say. */\n\
+             static void plain_controlled(void) { if (!plain_searching) { plain_own(); } }\n",
+        );
+        if self.names.is_context() {
+            text.push_str("static void *plain_environment = &plain_token;\n");
+        }
+        text.push('\n');
+    }
+
+    /// Calls of setters at the start of a step, the same for both.
+    pub(super) fn updates(&self, text: &mut String) {
+        for belief in self.settable() {
+            let name = &belief.name;
+            for call in 0..calls(belief) {
+                _ = writeln!(text, "static bool plain_updates_{name}_{call};");
+                for (index, ctype) in belief.types.iter().enumerate() {
+                    let ctype = &ctype.name;
+                    _ = writeln!(text, "static {ctype} plain_update_{name}_{call}_{index};");
+                }
+            }
+            let parameters: Vec<String> = typed_arguments(&belief.types).collect();
+            let parameters =
+                if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
+            _ = writeln!(text, "static void plain_set_{name}({parameters});");
+        }
+        let update = self.names.interface("updateBeliefs");
+        let parameters = if self.names.is_context() {
+            format!("{} *agent, void *environment", self.names.state_type())
+        } else {
+            "void".to_owned()
+        };
+        _ = writeln!(text, "void {update}({parameters})\n{{\n    (void)plain_logged(0);");
+        if self.names.is_context() {
+            text.push_str("    plain_assert(agent == self && environment == plain_environment, \"the environment's pointer\");\n");
+        }
+        // The setters are only known to be right in such states.
+        text.push_str(
+            "    plain_assert(plain_searching || plain_related(), \"another state before updateBeliefs\");\n",
+        );
+        let mut plainly = String::new();
+        let any_bool = self.any(&CType::named("bool"));
+        for belief in self.settable() {
+            let name = &belief.name;
+            for call in 0..calls(belief) {
+                let chosen = format!("plain_updates_{name}_{call}");
+                _ = writeln!(text, "    {chosen} = !plain_searching && {any_bool};");
+                _ = writeln!(text, "    if ({chosen}) {{");
+                let mut values = Vec::new();
+                for (index, ctype) in belief.types.iter().enumerate() {
+                    let value = format!("plain_update_{name}_{call}_{index}");
+                    _ = writeln!(text, "        {value} = {};", self.any(ctype));
+                    values.push(value);
+                }
+                _ = writeln!(plainly, "    if ({chosen}) plain_set_{name}({});", values.join(", "));
+                let set = self.interface_call(&format!("set_{name}"), values);
+                _ = writeln!(text, "        {set};\n    }}");
+            }
+        }
+        _ = writeln!(
+            text,
+            "    plain_controlled();\n}}\nstatic void plain_update(void)\n{{\n    (void)plain_expected(0);\n{plainly}}}\n"
+        );
+    }
+
+    /// One call outside of a step.
+    pub(super) fn calls_of_the_environment(&self, text: &mut String) {
+        text.push_str("static void plain_call_by_environment(void)\n{\n");
+        _ = writeln!(text, "    switch ({}) {{", self.any(&CType::named("uint32_t")));
+        let mut case = 0;
+        let mut transition = |body: &str| {
+            _ = writeln!(text, "    case {case}U: {{\n{body}        break;\n    }}");
+            case += 1;
+        };
+        for (number, external) in self.program.external.iter().enumerate() {
+            let name = external_name(external);
+            let mut body = String::new();
+            let values = self.recorded(&mut body, &name, &external.types);
+            let raised = self.interface_call(&name, values.clone());
+            let values = values.join(", ");
+            _ = writeln!(
+                body,
+                "        bool accepted = {raised};\n        bool expected = plain_raise_{number}({values});\n        \
+                 plain_assert(accepted == expected, \"another result of {name}\");"
+            );
+            transition(&body);
+        }
+        for belief in self.settable() {
+            transition(&self.set_alone(belief));
+        }
+        let clear = self.interface_call("clear", []);
+        transition(&format!(
+            "        __CPROVER_output(\"{CALLS} clear\", 0U);\n        {clear};\n        plain_clear();\n"
+        ));
+        let counted = counters(self.program);
+        let counted = counted
+            .into_iter()
+            .map(|counter| (format!("{}_events", counter.name), format!("plain.{}", counter.name)));
+        let room = ("can_add_event".to_owned(), "plain_has_room()".to_owned());
+        for (name, expected) in std::iter::once(room).chain(counted) {
+            let asked = self.interface_call(&name, []);
+            transition(&format!(
+                "        plain_assert({asked} == {expected}, \"another result of {name}\");\n"
+            ));
+        }
+        text.push_str("    default:\n        break;\n    }\n    plain_compare();\n}\n\n");
+    }
+
+    /// A call of a setter: nothing but its belief changes.
+    fn set_alone(&self, belief: &Belief) -> String {
+        let name = format!("set_{}", belief.name);
+        let mut body = String::new();
+        let values = self.recorded(&mut body, &name, &belief.types);
+        let state = if self.names.is_context() { "*self" } else { "agent" };
+        _ = writeln!(body, "        {} before = {state};", self.names.state_type());
+        let set = self.interface_call(&name, values.clone());
+        let (values, unchanged) = (values.join(", "), self.unchanged(belief));
+        _ = writeln!(
+            body,
+            "        {set};\n        plain_set_{}({values});\n        \
+             plain_assert(plain_searching || ({unchanged}), \"{name} changes more than its belief\");",
+            belief.name
+        );
+        body
+    }
+
+    /// Whether the state is as in `before` but for a belief, as an expression.
+    fn unchanged(&self, belief: &Belief) -> String {
+        let mut changed = vec![held(&belief.name)];
+        changed.extend((0..belief.types.len()).map(|index| belief_value(&belief.name, index)));
+        let flag = belief.perceived.map(|handler| handler_name(self.program, handler));
+        changed.extend(flag.map(|handler| pending(Slot::Perceived, &handler)));
+        let mut same = vec!["true".to_owned()];
+        for field in layout(self.program).fields {
+            if changed.contains(&field.name) {
+                continue;
+            }
+            let (now, before) = (self.names.field(&field.name), format!("before.{}", field.name));
+            let mut add = |now: String, before: String| {
+                same.push(match &field.content {
+                    FieldType::Value(ctype) => self.same(ctype, &now, &before),
+                    _ => format!("{now} == {before}"),
+                });
+            };
+            match field.length {
+                Some(length) => (0..length)
+                    .for_each(|slot| add(format!("{now}[{slot}]"), format!("{before}[{slot}]"))),
+                None => add(now, before),
+            }
+        }
+        same.join("\n            && ")
+    }
+
+    /// The start: `init()` of memory that holds anything.
+    pub(super) fn base(&self, text: &mut String) {
+        let (init, state) = (self.init(), self.names.state_type());
+        let place = if self.names.is_context() { "*self" } else { "agent" };
+        _ = writeln!(
+            text,
+            "int plain_base(void)\n{{\n    plain_any_environment();\n    {{ {state} any; {place} = any; }}\n{init}    \
+             plain_compare();\n    plain_assert_end(false, \"the end\");\n    return 0;\n}}\n"
+        );
+    }
+
+    /// Both start.
+    pub(super) fn init(&self) -> String {
+        let init = if self.names.is_context() { "self, plain_environment" } else { "" };
+        format!("    {}({init});\n    plain_init();\n", self.names.interface("init"))
+    }
+
+    /// Any state of the C, and of all that it does not know.
+    pub(super) fn havoc(&self, text: &mut String) {
+        let number = self.any(&CType::named("uint32_t"));
+        text.push_str("\nstatic void plain_any_environment(void)\n{\n    plain_own();\n");
+        if self.names.is_context() {
+            text.push_str("    { void *any; plain_environment = any; }\n");
+        }
+        _ = writeln!(
+            text,
+            "    plain_searching = false;\n    plain_restart();\n    plain_watched = {number};\n}}\n"
+        );
+        text.push_str("static void plain_havoc(void)\n{\n    plain_any_environment();\n");
+        let event = self.names.interface("event_t");
+        for field in layout(self.program).fields {
+            let value = match &field.content {
+                FieldType::Environment => "plain_environment".to_owned(),
+                FieldType::Flag => self.any(&CType::named("bool")),
+                FieldType::Count => number.clone(),
+                FieldType::Event => format!("({event}){number}"),
+                FieldType::Value(ctype) => self.any(ctype),
+            };
+            let place = self.names.field(&field.name);
+            match field.length {
+                Some(length) => {
+                    for slot in 0..length {
+                        _ = writeln!(text, "    {place}[{slot}] = {value};");
+                    }
+                }
+                None => _ = writeln!(text, "    {place} = {value};"),
+            }
+        }
+        // An index, even in states that are not well-formed.
+        for ring in rings(self.program) {
+            let first = self.names.field(&ring.field("first"));
+            _ = writeln!(text, "    __CPROVER_assume({first} < {}U);", ring.length);
+        }
+        text.push_str(
+            "}\n\n/* Any two related states. */\nstatic void plain_start(void)\n{\n    plain_havoc();\n    \
+             __CPROVER_assume(plain_well_formed());\n    plain_relate(&plain);\n}\n\n",
+        );
+    }
+
+    /// Declares arbitrary arguments of a call by the environment. Returns their names.
+    fn recorded(&self, text: &mut String, call: &str, types: &[CType]) -> Vec<String> {
+        let mut names = Vec::new();
+        for (index, ctype) in types.iter().enumerate() {
+            let (name, any) = (format!("argument{}", index + 1), self.any(ctype));
+            _ = writeln!(text, "        {} {name} = {any};", ctype.name);
+            names.push(name);
+        }
+        let values = if names.is_empty() { "0U".to_owned() } else { names.join(", ") };
+        _ = writeln!(text, "        __CPROVER_output(\"{CALLS} {call}\", {values});");
+        names
+    }
+}
+
+/// How often a setter is called in `updateBeliefs()`, which stands for any number of calls.
+fn calls(belief: &Belief) -> usize {
+    if belief.perceived.is_some() && !belief.types.is_empty() { 2 } else { 1 }
+}
