@@ -58,8 +58,8 @@ const SINKS_M_S: f64 = 0.4;
 const UPWIND_TARGET_M: f64 = 2.0;
 /// Without usable navdata for this time the drone is landed instead of flown back or down.
 const BLIND_RETREAT: Duration = Duration::from_secs(1);
-/// Largest rate of descent at the fence's floor. Towards the floor the descent is limited to
-/// what the slowest airframe can stop.
+/// Largest rate of descent at the fence's floor. Towards the floor the descent is limited to what the slowest
+/// airframe can stop.
 const SINK_AT_FLOOR_M_S: f64 = 0.15;
 /// Increase of that limit for each metre above the floor, in m/s.
 const SINK_1_S: f64 = 0.5;
@@ -321,7 +321,7 @@ impl SafetyMonitor {
         self.sticks = Sticks {
             roll: within(left.roll, last.roll),
             pitch: within(left.pitch, last.pitch),
-            gaz: within(left.gaz, last.gaz).max(-sink),
+            gaz: within(left.gaz, last.gaz).max((-sink).min(most)),
             yaw: within(left.yaw, last.yaw),
         };
         self.sticks

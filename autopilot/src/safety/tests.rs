@@ -141,6 +141,9 @@ fn near_the_floor_the_drone_sinks_slowly() {
     // Below it the drone rises.
     assert!((gaz(0.3 - 1e-9)).abs() < 1e-6, "{}", gaz(0.3 - 1e-9));
     assert!((gaz(0.1) - 0.2 / 0.7).abs() < 1e-9, "{}", gaz(0.1));
+    // However far below, with no more than the sticks may.
+    let far_below = |most| monitor().limit(&down, most, -3.0, 0.7).gaz;
+    assert!((far_below(1.0) - 1.0).abs() < 1e-9 && (far_below(0.2) - 0.2).abs() < 1e-9);
     let up = Sticks { gaz: 1.0, ..Sticks::default() };
     assert!((monitor().limit(&up, 1.0, 0.1, 0.7).gaz - 1.0).abs() < 1e-9);
 }
