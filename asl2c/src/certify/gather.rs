@@ -18,7 +18,7 @@ use super::misra::deviations;
 use super::reach::reach;
 use super::trust::{assumptions, tools};
 use crate::agent::Agent;
-use crate::coverage::{Coverage, CoverageError, OwnTest, cover};
+use crate::coverage::{Coverage, CoverageError, OwnTest, Test, cover};
 use crate::headers::HeaderError;
 use crate::measure::measure;
 use crate::output::known_again;
@@ -86,6 +86,17 @@ pub enum CertifyError {
     /// A test of one's own cannot be executed, or the agent does something else.
     #[error("nothing is certified: {0}")]
     Test(String),
+    /// A property that CBMC has shown is broken by the agent in a test.
+    #[error(
+        "nothing is certified: CBMC shows `{property}`, which the agent breaks in the test that begins with\n{test}\n\
+         A tool that shows what is false cannot be trusted"
+    )]
+    Contradicted {
+        /// The property.
+        property: String,
+        /// The first lines of the test.
+        test: String,
+    },
 }
 
 impl From<WriteError> for CertifyError {
@@ -163,6 +174,7 @@ pub fn certify(
     tell("proves the properties")?;
     let Proved { properties, run_time_errors, invariant, mut files, c: proved_c, dead } =
         proved(agent, obligations, cbmc, limits)?;
+    check_not_contradicted(&properties, &coverage.tests)?;
     tell("compares the C with the agent's text")?;
     let validation = validation(agent, cbmc, limits)?;
     // Proofs that were ended are no result.
@@ -210,6 +222,26 @@ pub fn certify(
     files.extend(transcripts.map(|(test, made)| (test.file.clone(), made.transcript)));
     files.push((name(TESTS, &coverage.program.name), coverage.program.text));
     Ok(Certified { evidence, files })
+}
+
+/// A test that was executed knows better than a proof.
+fn check_not_contradicted(
+    properties: &[PropertyEvidence],
+    tests: &[Test],
+) -> Result<(), CertifyError> {
+    /// Lines of a test that are shown.
+    const SHOWN: usize = 12;
+    let shown = properties.iter().filter(|property| property.verdict == Verdict::Proved);
+    for property in shown {
+        if let Some(test) = tests.iter().find(|test| test.broken.contains(&property.name)) {
+            let lines: Vec<&str> = test.transcript.lines().take(SHOWN).collect();
+            return Err(CertifyError::Contradicted {
+                property: property.name.clone(),
+                test: lines.join("\n"),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// The texts that the agent was read from.
@@ -379,4 +411,36 @@ fn requirements(plans: &[PlanEvidence], properties: &[PropertyEvidence]) -> Vec<
 fn temporary_folder() -> Result<tempfile::TempDir, CertifyError> {
     tempfile::tempdir()
         .map_err(|source| CertifyError::Io { what: "no temporary folder".to_owned(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_property_that_a_test_breaks_is_not_shown() {
+        let folder = tempfile::tempdir().unwrap();
+        let configuration = "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
+            includes { #include <stdbool.h>
+            #include <stdint.h> };
+            basics { void go(void); };
+            types { tick(void); };
+            properties { never_goes: never(go); };\n";
+        std::fs::write(folder.path().join("a.conf"), configuration).unwrap();
+        std::fs::write(folder.path().join("a.asl"), "!tick.\n+!tick <- go; !!tick.\n").unwrap();
+        let agent = Agent::read(&folder.path().join("a.conf")).unwrap();
+        let coverage = cover(&agent, &[]).unwrap();
+        let judged = |verdict| {
+            let property = PropertyEvidence {
+                name: "never_goes".to_owned(),
+                requirements: Vec::new(),
+                formula: String::new(),
+                verdict,
+            };
+            check_not_contradicted(&[property], &coverage.tests)
+        };
+        let refused = judged(Verdict::Proved).unwrap_err().to_string();
+        assert!(refused.contains("`never_goes`") && refused.contains("next_step"), "{refused}");
+        assert!(judged(Verdict::Undecided).is_ok());
+    }
 }

@@ -58,6 +58,8 @@ pub struct Test {
     pub transcript: String,
     /// First lines of the plans that are chosen in it, in the agent's text.
     pub plans: Vec<usize>,
+    /// Names of the agent's properties that it breaks in this test, whatever was proved.
+    pub broken: Vec<String>,
     /// The first difference between the C and what it must do, if there is one.
     pub difference: Option<String>,
 }
@@ -82,8 +84,11 @@ pub struct Coverage {
 /// See [`CoverageError`].
 pub fn cover(agent: &Agent, own: &[OwnTest]) -> Result<Coverage, CoverageError> {
     let mut found = search(&agent.configuration, &agent.text)?;
+    let mut broken_by_own = Vec::new();
     for test in own {
-        found.push(executable(agent, test)?);
+        let (executable, broken) = executable(agent, test)?;
+        found.push(executable);
+        broken_by_own.push(broken);
     }
     let first_own = found.len() - own.len();
     let files = program(agent, &found)?;
@@ -91,21 +96,21 @@ pub fn cover(agent: &Agent, own: &[OwnTest]) -> Result<Coverage, CoverageError> 
     let mut tests = Vec::new();
     for ((index, test), difference) in found.iter().enumerate().zip(differences(&found, &said)) {
         let plans = test.plans.iter().map(|place| line(&agent.text, *place)).collect();
-        let own = index.checked_sub(first_own).and_then(|index| own.get(index));
-        let transcript = match own {
-            Some(own) => own.transcript.clone(),
+        let by_own = index.checked_sub(first_own).and_then(|i| own.get(i).zip(broken_by_own.get(i)));
+        let (transcript, broken) = match by_own {
+            Some((own, broken)) => (own.transcript.clone(), broken.clone()),
             None => transcript(agent, index + 1, test)?,
         };
-        let own = own.map(|own| own.name.clone());
-        tests.push(Test { own, transcript, plans, difference });
+        let own = by_own.map(|(own, _)| own.name.clone());
+        tests.push(Test { own, transcript, plans, broken, difference });
     }
     let independence = Independence::new(&counts, &files[0].text);
     let program = files.into_iter().rev().find(|file| file.name == TESTS).unwrap_or_default();
     Ok(Coverage { tests, program, counts, independence })
 }
 
-/// A test that somebody wrote, if the agent does what it says.
-fn executable(agent: &Agent, test: &OwnTest) -> Result<Found, CoverageError> {
+/// A test that somebody wrote, if the agent does what it says, and the properties that break in it.
+fn executable(agent: &Agent, test: &OwnTest) -> Result<(Found, Vec<String>), CoverageError> {
     let OwnTest { name, transcript } = test;
     let mut session = Session::new(&agent.configuration, &agent.text)?;
     let replayed = replay(&mut session, name, transcript);
@@ -118,7 +123,8 @@ fn executable(agent: &Agent, test: &OwnTest) -> Result<Found, CoverageError> {
     let acts = test_acts(name, transcript, agent.configuration.declarations());
     let acts = acts.map_err(CoverageError::Test)?;
     let too_long = || CoverageError::Test(format!("{name}: a step is too long"));
-    search::given(&agent.configuration, &agent.text, acts)?.ok_or_else(too_long)
+    let found = search::given(&agent.configuration, &agent.text, acts)?.ok_or_else(too_long)?;
+    Ok((found, replayed.broken))
 }
 
 /// The agent's C and a program that executes the tests on it.
@@ -175,9 +181,14 @@ fn line(text: &str, place: usize) -> usize {
     text.bytes().take(place).filter(|byte| *byte == b'\n').count() + 1
 }
 
-/// The test as a transcript, with the output of the reference interpreter.
-fn transcript(agent: &Agent, number: usize, test: &Found) -> Result<String, TranslateError> {
+/// The test as a transcript, with the output of the reference interpreter, and the properties that break in it.
+fn transcript(
+    agent: &Agent,
+    number: usize,
+    test: &Found,
+) -> Result<(String, Vec<String>), TranslateError> {
     let mut session = Session::new(&agent.configuration, &agent.text)?;
+    let mut broken = Vec::new();
     let mut text = format!("// Test {number}, made by asl2c.\n");
     for act in &test.acts {
         let line = act_line(act);
@@ -187,8 +198,9 @@ fn transcript(agent: &Agent, number: usize, test: &Found) -> Result<String, Tran
         for shown in session.execute(&line).unwrap_or_default() {
             _ = writeln!(text, "{shown}");
         }
+        broken.extend_from_slice(session.broken());
     }
-    Ok(text)
+    Ok((text, broken))
 }
 
 fn act_line(act: &Act) -> String {
