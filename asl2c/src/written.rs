@@ -4,7 +4,7 @@
 //! What the tool has written is known by its last line, a comment with the checksum of all lines before, or by a file with
 //! such a line that lists it. All files of a call are written, or none.
 
-use std::io::{ErrorKind, Read as _, Write as _};
+use std::io::{ErrorKind, Write as _};
 use std::path::{Component, Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile, TempPath};
@@ -90,50 +90,41 @@ pub(crate) struct New<'a> {
 pub(crate) fn write(folder: &Path, files: &[New<'_>], stale: &[New<'_>]) -> Result<(), WriteError> {
     let mut removed = Vec::new();
     for file in stale {
-        let path = folder.join(file.name);
-        if let Some(old) = existing(folder, file)? {
-            removed.push((path, old));
+        if let Some(text) = existing(folder, file)? {
+            removed.push((folder.join(file.name), text, file.help));
         }
     }
-    let mut prepared = Vec::new();
-    for file in files {
-        prepared.push(prepare(folder, file)?);
-    }
-    replace(prepared)?;
-    for (path, old) in removed {
-        let failed = |source| WriteError::Io { path: path.clone(), source };
-        old.check(&path)?;
-        std::fs::remove_file(&path).map_err(failed)?;
+    let prepared: Result<_, _> = files.iter().map(|file| prepare(folder, file)).collect();
+    replace(prepared?)?;
+    for (path, text, help) in removed {
+        match remove(&path, &text) {
+            Ok(true) => {}
+            Ok(false) => return Err(WriteError::Foreign { path, help }),
+            Err(source) => return Err(WriteError::Io { path, source }),
+        }
     }
     Ok(())
 }
 
-/// A file that was there before, under a second name: it is still to be had when another one is in its place.
-struct Old {
-    kept: TempPath,
-    text: Vec<u8>,
+/// A file that was written beside the place where it will be.
+struct Prepared<'a> {
+    path: PathBuf,
+    new: NamedTempFile,
+    text: &'a str,
+    /// What was judged there, if there is something.
+    old: Option<Vec<u8>>,
     help: &'static str,
 }
 
-impl Old {
-    /// Whether the file is what was judged: it may have been changed meanwhile.
-    fn check(&self, path: &Path) -> Result<(), WriteError> {
-        let now = std::fs::read(&self.kept)
-            .map_err(|source| WriteError::Io { path: path.to_owned(), source })?;
-        let foreign = || WriteError::Foreign { path: path.to_owned(), help: self.help };
-        if now == self.text { Ok(()) } else { Err(foreign()) }
-    }
-}
-
-/// A file that was written beside the one it will replace.
-struct Prepared {
+/// A file in its place, and where the one lies that was there before.
+struct Placed<'a> {
     path: PathBuf,
-    new: NamedTempFile,
-    old: Option<Old>,
+    text: &'a str,
+    before: Option<TempPath>,
 }
 
-/// The file in this place that may be replaced or removed, if there is one.
-fn existing(folder: &Path, file: &New<'_>) -> Result<Option<Old>, WriteError> {
+/// The text of the file in this place that may be replaced or removed, if there is one.
+fn existing(folder: &Path, file: &New<'_>) -> Result<Option<Vec<u8>>, WriteError> {
     let path = folder.join(file.name);
     let failed = |source| WriteError::Io { path: path.clone(), source };
     // A link is noticed before what it leads to is looked at, and so is what would not end, such as a pipe.
@@ -158,22 +149,12 @@ fn existing(folder: &Path, file: &New<'_>) -> Result<Option<Old>, WriteError> {
     if found.permissions().readonly() {
         return Err(failed(ErrorKind::PermissionDenied.into()));
     }
-    let parent = or_here(path.parent().unwrap_or(folder));
-    let keep = |kept: &Path| {
-        std::fs::hard_link(&path, kept).or_else(|_| std::fs::copy(&path, kept).map(|_| ()))
-    };
-    let kept = Builder::new().make_in(parent, keep).map_err(failed)?.into_temp_path();
-    // It may have become one since.
-    if std::fs::symlink_metadata(&kept).map_err(failed)?.is_symlink() {
-        return Err(WriteError::Link { path });
-    }
-    let mut text = Vec::new();
-    let read = std::fs::File::open(&kept).and_then(|mut file| file.read_to_end(&mut text));
-    read.map_err(failed)?;
+    // It may be another one when it is replaced: what comes back then is compared with this.
+    let text = std::fs::read(&path).map_err(failed)?;
     if !(file.replaces)(&text) {
         return Err(WriteError::Foreign { path, help: file.help });
     }
-    Ok(Some(Old { kept, text, help: file.help }))
+    Ok(Some(text))
 }
 
 /// Whether a file may be replaced, or is not there.
@@ -202,7 +183,7 @@ pub(crate) fn make_folders(folder: &Path, below: &Path) -> Result<(), WriteError
     Ok(())
 }
 
-fn prepare(folder: &Path, file: &New<'_>) -> Result<Prepared, WriteError> {
+fn prepare<'a>(folder: &Path, file: &New<'a>) -> Result<Prepared<'a>, WriteError> {
     let path = folder.join(file.name);
     let old = existing(folder, file)?;
     let failed = |source| WriteError::Io { path: path.clone(), source };
@@ -213,45 +194,93 @@ fn prepare(folder: &Path, file: &New<'_>) -> Result<Prepared, WriteError> {
         // As for any new file, so that the user's umask applies.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    let mut new = builder.tempfile_in(or_here(path.parent().unwrap_or(folder))).map_err(failed)?;
+    let mut new = builder.tempfile_in(folder_of(&path)).map_err(failed)?;
     new.write_all(file.text.as_bytes()).map_err(failed)?;
     new.as_file().sync_all().map_err(failed)?;
-    if let Some(old) = &old {
-        let permissions = std::fs::metadata(&old.kept).map_err(failed)?.permissions();
+    if old.is_some() {
+        let permissions = std::fs::metadata(&path).map_err(failed)?.permissions();
         std::fs::set_permissions(new.path(), permissions).map_err(failed)?;
     }
-    Ok(Prepared { path, new, old })
+    Ok(Prepared { path, new, text: file.text, old, help: file.help })
 }
 
-fn replace(prepared: Vec<Prepared>) -> Result<(), WriteError> {
-    let mut replaced: Vec<(PathBuf, Option<Old>)> = Vec::new();
-    let restore = |replaced: Vec<(PathBuf, Option<Old>)>| {
-        for (path, old) in replaced.into_iter().rev() {
-            // If restoring fails nothing more can be done; the original error is reported.
-            _ = match old {
-                Some(old) => old.kept.persist(&path).map_err(|error| error.error),
-                None => std::fs::remove_file(&path),
-            };
-        }
-    };
-    for Prepared { path, new, old } in prepared {
-        // A rename replaces a link, and leaves what it leads to as it is. What has come meanwhile is not replaced.
-        let moved = match &old {
-            Some(_) => new.persist(&path),
-            None => new.persist_noclobber(&path),
+fn replace(prepared: Vec<Prepared<'_>>) -> Result<(), WriteError> {
+    let mut placed: Vec<Placed<'_>> = Vec::new();
+    for Prepared { path, new, text, old, help } in prepared {
+        // What has come meanwhile is not replaced, and a link not followed.
+        let before = match &old {
+            Some(_) => exchange(new.into_temp_path(), &path).map(Some),
+            None => new.persist_noclobber(&path).map(|_| None).map_err(|error| error.error),
         };
-        if let Err(error) = moved {
-            restore(replaced);
-            return Err(WriteError::Io { path, source: error.error });
-        }
-        let checked = old.as_ref().map_or(Ok(()), |old| old.check(&path));
-        replaced.push((path, old));
-        if let Err(error) = checked {
-            restore(replaced);
+        let failed = match before {
+            Ok(before) => {
+                let is_judged = before.as_deref().and_then(regular) == old;
+                placed.push(Placed { path: path.clone(), text, before });
+                (!is_judged).then(|| WriteError::Foreign { path, help })
+            }
+            Err(source) => Some(WriteError::Io { path, source }),
+        };
+        if let Some(error) = failed {
+            placed.into_iter().rev().for_each(Placed::restore);
             return Err(error);
         }
     }
     Ok(())
+}
+
+impl Placed<'_> {
+    /// Puts back what was there before, unless the file is somebody else's by now. If that fails nothing more can be done:
+    /// the error that led to it is reported.
+    fn restore(self) {
+        let Self { path, text, before } = self;
+        let Some(before) = before else {
+            _ = remove(&path, text.as_bytes());
+            return;
+        };
+        if let Ok(taken) = exchange(before, &path)
+            && regular(&taken).as_deref() != Some(text.as_bytes())
+        {
+            _ = exchange(taken, &path);
+        }
+    }
+}
+
+/// Puts a file in the place of another one. Returns where that one lies now, until it is dropped.
+fn exchange(new: TempPath, path: &Path) -> std::io::Result<TempPath> {
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::fs::{CWD, RenameFlags, renameat_with};
+        use rustix::io::Errno;
+        match renameat_with(CWD, &*new, CWD, path, RenameFlags::EXCHANGE) {
+            Ok(()) => return Ok(new),
+            // Not every file system can.
+            Err(Errno::INVAL | Errno::NOSYS | Errno::OPNOTSUPP) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    // A second name: what is put into the place between this and the next line is lost.
+    let keep = |kept: &Path| {
+        std::fs::hard_link(path, kept).or_else(|_| std::fs::copy(path, kept).map(|_| ()))
+    };
+    let kept = Builder::new().make_in(folder_of(path), keep)?.into_temp_path();
+    new.persist(path).map_err(|error| error.error)?;
+    Ok(kept)
+}
+
+/// Removes a file if it has this text, and tells whether it had.
+fn remove(path: &Path, text: &[u8]) -> std::io::Result<bool> {
+    let take = |taken: &Path| std::fs::rename(path, taken);
+    let taken = Builder::new().make_in(folder_of(path), take)?.into_temp_path();
+    let is_it = regular(&taken).as_deref() == Some(text);
+    if !is_it {
+        taken.persist_noclobber(path).map_err(|error| error.error)?;
+    }
+    Ok(is_it)
+}
+
+/// The folder in which a file is.
+fn folder_of(path: &Path) -> &Path {
+    or_here(path.parent().unwrap_or(path))
 }
 
 /// The bytes of a regular file, if there is one in this place that is no link.
@@ -343,6 +372,16 @@ mod tests {
         std::fs::write(place("c"), "mine").unwrap();
         assert!(matches!(replace(prepared.into()), Err(WriteError::Io { .. })));
         assert_eq!((text("a"), text("c")), ("old".to_owned(), "mine".to_owned()));
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 3);
+        // Not only what is written into the file: another one can be moved there, by an editor for example.
+        let prepared = ["a", "b"].map(|name| prepare(folder.path(), &new(name)).unwrap());
+        std::fs::write(place("of an editor"), "mine").unwrap();
+        std::fs::rename(place("of an editor"), place("b")).unwrap();
+        assert!(matches!(replace(prepared.into()), Err(WriteError::Foreign { .. })));
+        assert_eq!((text("a"), text("b")), ("old".to_owned(), "mine".to_owned()));
+        std::fs::write(place("b"), "theirs").unwrap();
+        assert!(!remove(&place("b"), b"mine").unwrap());
+        assert_eq!(text("b"), "theirs");
+        assert!(remove(&place("b"), b"theirs").unwrap());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
     }
 }

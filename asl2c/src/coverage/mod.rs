@@ -96,7 +96,8 @@ pub fn cover(agent: &Agent, own: &[OwnTest]) -> Result<Coverage, CoverageError> 
     let mut tests = Vec::new();
     for ((index, test), difference) in found.iter().enumerate().zip(differences(&found, &said)) {
         let plans = test.plans.iter().map(|place| line(&agent.text, *place)).collect();
-        let by_own = index.checked_sub(first_own).and_then(|i| own.get(i).zip(broken_by_own.get(i)));
+        let by_own =
+            index.checked_sub(first_own).and_then(|i| own.get(i).zip(broken_by_own.get(i)));
         let (transcript, broken) = match by_own {
             Some((own, broken)) => (own.transcript.clone(), broken.clone()),
             None => transcript(agent, index + 1, test)?,
