@@ -17,6 +17,9 @@ const MOST_PARENTHESES: u32 = 100;
 /// .. and expressions: each operator of a chain is inside the next one.
 const MOST_EXPRESSIONS: u16 = 500;
 
+/// `else if` behind each other: for a compiler, each is inside the one before.
+const MOST_ARMS: usize = 500;
+
 /// Words of types that are no names.
 const BASE: [&str; 11] = [
     "void", "bool", "_Bool", "char", "short", "int", "long", "signed", "unsigned", "float",
@@ -220,6 +223,9 @@ impl<'a> Parser<'a> {
                 "const" if !ctype.constant => ctype.constant = true,
                 "struct" | "union" | "enum" if ctype.words.is_empty() => {
                     self.next += 1;
+                    if self.is("{") {
+                        return Err(token.refused(Rule::Typedef));
+                    }
                     let name = self.name()?;
                     ctype.words.push(format!("{} {}", token.text, name.text));
                     continue;
@@ -236,7 +242,12 @@ impl<'a> Parser<'a> {
             self.next += 1;
         }
         if ctype.words.is_empty() {
-            return Err(self.peek(0).refused(Rule::Expected("a declaration was expected")));
+            let token = self.peek(0);
+            let expected = match token.text {
+                "inline" => "a compiler finds by itself what to inline; leave the word out",
+                _ => "a declaration was expected",
+            };
+            return Err(token.refused(Rule::Expected(expected)));
         }
         while self.accept("*") {
             ctype.stars.push(self.accept("const"));
@@ -387,6 +398,9 @@ impl<'a> Parser<'a> {
             if !self.accept("if") {
                 otherwise = Some(self.body()?);
                 break;
+            }
+            if arms.len() == MOST_ARMS {
+                return Err(self.peek(0).refused(Rule::Depth));
             }
             arms.push((self.condition()?, self.body()?));
         }
@@ -560,6 +574,10 @@ impl<'a> Parser<'a> {
             Kind::Name if matches!(token.text, "true" | "false") => What::Name(text()),
             Kind::Name if self.is_at(1, "(") => return self.call(),
             Kind::Name => What::Name(self.name().inspect(|_| self.next -= 1)?.text),
+            Kind::Sign if matches!(token.text, "++" | "--") => {
+                let counted = "counting is a statement of its own: `count++;`";
+                return Err(token.refused(Rule::Expected(counted)));
+            }
             Kind::Sign | Kind::Line | Kind::End => {
                 return Err(token.refused(Rule::Expected("a value was expected")));
             }

@@ -44,7 +44,8 @@ pub enum Rule {
     Open,
     /// Preprocessor lines.
     #[error(
-        "the preprocessor could change what is compared: only the generated lines, at the begin"
+        "the preprocessor could change what is compared: only the generated lines, at the begin; write a constant as \
+             `static const int32_t limit = 3;`"
     )]
     Preprocessor,
     /// The generated preprocessor lines are not all there.
@@ -122,6 +123,9 @@ pub enum Rule {
     /// A function that calls itself.
     #[error("it calls itself, directly or through others")]
     Recursion,
+    /// A long chain of calls.
+    #[error("it is the begin of a chain of more than 200 calls inside each other")]
+    Calls,
     /// A function without a result at some end.
     #[error("some way through it ends without `return`, or goes on behind it")]
     Return,

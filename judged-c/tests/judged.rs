@@ -224,6 +224,29 @@ fn no_text_is_too_deep() {
         let refused = judged(&with("", &inside), &[]).unwrap_err();
         assert_eq!(refused.rule, Rule::Depth, "{}: {refused}", &inside[..20]);
     }
-    let wide = format!("if (false) {{ }} {}", many("else if (true) { on(); } "));
-    assert!(judged(&with("", &wide), &[]).is_ok());
+    let arms = |count| format!("if (false) {{ }} {}", "else if (true) { on(); } ".repeat(count));
+    assert!(judged(&with("", &arms(400)), &[]).is_ok());
+    assert_eq!(judged(&with("", &arms(20_000)), &[]).unwrap_err().rule, Rule::Depth);
+    let chain = |count: u32| {
+        let calls =
+            (1..count).map(|own| format!("static void own{own}(void) {{ own{}(); }}\n", own - 1));
+        "static void own0(void) { on(); }\n".to_owned() + &calls.collect::<String>()
+    };
+    assert!(judged(&with(&chain(150), ""), &[]).is_ok());
+    let refused = judged(&with(&chain(20_000), ""), &[]).unwrap_err();
+    assert_eq!((refused.rule, refused.found.as_str()), (Rule::Calls, "own200"));
+}
+
+#[test]
+fn what_people_may_write_instead_is_said() {
+    for (top, inside, advice) in [
+        ("#define LIMIT 3", "", "static const int32_t limit = 3;"),
+        ("#include <stddef.h>", "", "only the generated lines"),
+        ("enum { LIMIT = 3 };", "", "types must be the generated ones"),
+        ("static inline void own(void) { on(); }", "", "leave the word out"),
+        ("", "uint32_t x = 0U; ++x;", "`count++;`"),
+    ] {
+        let refused = judged(&with(top, inside), &[]).unwrap_err().to_string();
+        assert!(refused.contains(advice), "{refused}");
+    }
 }

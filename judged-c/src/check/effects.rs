@@ -1,11 +1,14 @@
 //! Which functions can change what others read, and that none calls itself.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{HashMap, HashSet, VecDeque};
 
 use crate::language::{Language, Owner};
 use crate::lexer::refused;
 use crate::refused::{Refused, Rule};
 use crate::tree::{Block, Expression, Function, Item, Object, Statement, Unit, What};
+
+/// Functions on a way of calls. What is generated has as many as goals are inside each other.
+const MOST_CALLS: usize = 200;
 
 /// What a function does by itself.
 #[derive(Default)]
@@ -34,26 +37,34 @@ pub(crate) fn effects(unit: &Unit, language: &Language) -> Result<HashSet<String
             effectful.insert(name.clone());
         }
     }
-    // The callers of what is known, until no more become known: who calls itself never does.
-    let mut known: HashSet<&str> = HashSet::new();
-    loop {
-        let ready = functions.iter().filter(|(name, (_, doing))| {
-            let waits = |called: &&str| functions.contains_key(called) && !known.contains(called);
-            !known.contains(*name) && !doing.called.iter().any(waits)
-        });
-        let ready: Vec<&str> = ready.map(|(name, _)| *name).collect();
-        if ready.is_empty() {
-            break;
+    let mut callers: HashMap<&str, Vec<&str>> = HashMap::new();
+    let mut waiting: HashMap<&str, usize> = HashMap::new();
+    for (name, (_, doing)) in &functions {
+        let own = doing.called.iter().filter(|called| functions.contains_key(**called));
+        waiting.insert(name, own.clone().count());
+        own.for_each(|called| callers.entry(called).or_default().push(name));
+    }
+    // A function is known when all that it calls are: who calls itself never is. Each has the length of its longest way.
+    let begin = waiting.iter().filter(|(_, count)| **count == 0);
+    let mut ready: VecDeque<(&str, usize)> = begin.map(|(name, _)| (*name, 1)).collect();
+    while let Some((name, length)) = ready.pop_front() {
+        let (function, doing) = &functions[name];
+        if length > MOST_CALLS {
+            return Err(refused(name, function.name.place, Rule::Calls));
         }
-        for name in ready {
-            let doing = &functions[name].1;
-            if doing.changes || doing.called.iter().any(|called| effectful.contains(*called)) {
-                effectful.insert(name.to_owned());
+        if doing.changes || doing.called.iter().any(|called| effectful.contains(*called)) {
+            effectful.insert(name.to_owned());
+        }
+        for caller in callers.get(name).into_iter().flatten() {
+            let Some(count) = waiting.get_mut(caller) else { continue };
+            *count -= 1;
+            if *count == 0 {
+                // The last one of those it calls is one with the longest way: they come by length.
+                ready.push_back((caller, length + 1));
             }
-            known.insert(name);
         }
     }
-    let recursive = functions.iter().filter(|(name, _)| !known.contains(*name));
+    let recursive = functions.iter().filter(|(name, _)| waiting[*name] > 0);
     match recursive.map(|(_, (function, _))| &function.name).min_by_key(|name| name.place.line) {
         Some(name) => Err(refused(&name.text, name.place, Rule::Recursion)),
         None => Ok(effectful),
