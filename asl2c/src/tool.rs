@@ -69,36 +69,44 @@ pub(crate) fn output(
             ToolError::Io { what: format!("cannot run {program}"), source }
         }
     };
-    // Files, because the output may exceed the capacity of a pipe while the process is waited for.
-    let (mut said, mut errors) =
-        (tempfile::tempfile().map_err(failed)?, tempfile::tempfile().map_err(failed)?);
-    command.stdin(Stdio::null()).stdout(said.try_clone().map_err(failed)?);
-    command.stderr(errors.try_clone().map_err(failed)?);
-    let mut child = command.args(arguments).current_dir(folder).spawn().map_err(failed)?;
+    command.args(arguments).current_dir(folder);
     let runs_steps = program == "valgrind" || program.starts_with("./");
     let seconds = if runs_steps { MOST_SECONDS_OF_STEPS } else { MOST_SECONDS };
     let begun = Instant::now();
+    let late = || begun.elapsed() >= Duration::from_secs(seconds);
+    let finished = finished(&mut command, late).map_err(failed)?;
+    finished.ok_or_else(|| ToolError::Endless { program: program.to_owned(), seconds })
+}
+
+/// What a program printed until its end; `None` if it was given up, and ended.
+#[allow(clippy::disallowed_methods, reason = "other programs are waited for")]
+pub(crate) fn finished(
+    command: &mut Command,
+    give_up: impl Fn() -> bool,
+) -> io::Result<Option<Output>> {
+    // Files, because the output may exceed the capacity of a pipe while the process is waited for.
+    let (mut said, mut errors) = (tempfile::tempfile()?, tempfile::tempfile()?);
+    command.stdin(Stdio::null()).stdout(said.try_clone()?).stderr(errors.try_clone()?);
+    // Compilers would look there for headers, before the folders that they are told of.
+    command.env_remove("CPATH").env_remove("C_INCLUDE_PATH");
+    let mut child = command.spawn()?;
     let status = loop {
-        if let Some(status) = child.try_wait().map_err(failed)? {
+        if let Some(status) = child.try_wait()? {
             break status;
         }
-        if begun.elapsed() >= Duration::from_secs(seconds) {
+        if give_up() {
             // It may have ended already.
             _ = child.kill();
-            child.wait().map_err(failed)?;
-            return Err(ToolError::Endless { program: program.to_owned(), seconds });
+            child.wait()?;
+            return Ok(None);
         }
         std::thread::sleep(Duration::from_millis(2));
     };
-    Ok(Output {
-        status,
-        stdout: whole(&mut said).map_err(failed)?,
-        stderr: whole(&mut errors).map_err(failed)?,
-    })
+    Ok(Some(Output { status, stdout: whole(&mut said)?, stderr: whole(&mut errors)? }))
 }
 
 /// All bytes of a file.
-pub(crate) fn whole(file: &mut File) -> io::Result<Vec<u8>> {
+fn whole(file: &mut File) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     file.rewind()?;
     file.read_to_end(&mut bytes)?;

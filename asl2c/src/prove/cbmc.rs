@@ -12,12 +12,14 @@ use translator::HARNESS;
 use super::goals::{Goals, Place};
 use super::trace::{Trace, traces};
 use super::{Checks, ProveError, in_file, write};
-use crate::tool::whole;
+use crate::tool::finished;
 
 /// The program.
 pub const CBMC: &str = "cbmc";
 /// Earlier versions have other options.
 const OLDEST: u32 = 6;
+/// A program that takes longer to tell its version is none that proves.
+const SPEAKS: Duration = Duration::from_secs(10);
 
 /// A CBMC that can be run.
 #[derive(Debug, Clone)]
@@ -60,10 +62,10 @@ const SOMETHING_FAILS: i32 = 10;
 /// What CBMC says of the assertions of a program, without the goals of known truth that stand beside them.
 #[derive(Debug)]
 struct Judged {
-    /// Each assertion, and whether it holds.
-    assertions: Vec<(Failure, bool)>,
-    /// Whether some execution is known to come to the end of the function.
-    reaches_end: bool,
+    /// Each assertion, and whether it holds; `None` behind an error at run time, which ends the executions that go there.
+    assertions: Vec<(Failure, Option<bool>)>,
+    /// Whether some execution is known to come to the end of the function, or to an assertion that fails.
+    comes_somewhere: bool,
 }
 
 impl Cbmc {
@@ -80,8 +82,11 @@ impl Cbmc {
         } else {
             path.to_owned()
         };
-        let output = Command::new(&path).arg("--version").output();
+        let asked = Instant::now();
+        let output = finished(Command::new(&path).arg("--version"), || asked.elapsed() > SPEAKS);
         let output = output.map_err(|_| missing("CBMC cannot be run".to_owned()))?;
+        let silent = || missing(format!("{} does not tell its version", path.display()));
+        let output = output.ok_or_else(silent)?;
         let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
         let major = version.split('.').next().and_then(|major| major.parse::<u32>().ok());
         if major.is_none_or(|major| major < OLDEST) {
@@ -131,8 +136,8 @@ impl Cbmc {
         }
         let judged =
             self.judged(folder, (HARNESS, function), &arguments, Place::Around, || false)?;
-        let Judged { assertions, reaches_end } = judged.ok_or(ProveError::Stopped)?;
-        if !reaches_end {
+        let Judged { assertions, comes_somewhere } = judged.ok_or(ProveError::Stopped)?;
+        if !comes_somewhere {
             let function = function.to_owned();
             return Err(ProveError::Vacuous { function });
         }
@@ -145,7 +150,7 @@ impl Cbmc {
         }
         let mut others = Vec::new();
         let mut failing = Vec::new();
-        for (found, _) in assertions.into_iter().filter(|(_, holds)| !holds) {
+        for (found, _) in assertions.into_iter().filter(|(_, holds)| *holds != Some(true)) {
             let candidate = found.said.strip_prefix(CANDIDATE);
             match candidate.and_then(|index| index.parse::<usize>().ok()) {
                 Some(index) => failing.push(index),
@@ -177,7 +182,7 @@ impl Cbmc {
         let said = self.said(&mut check, || false)?.ok_or(ProveError::Stopped)?;
         let judged = self.judge(&goals, &said)?;
         match judged.assertions.as_slice() {
-            [(_, holds)] => Ok(!holds),
+            [(_, Some(holds))] => Ok(!holds),
             _ => Err(said.no_result()),
         }
     }
@@ -214,16 +219,19 @@ impl Cbmc {
         let mut assertions = Vec::new();
         let lines = said.output.lines().skip_while(|line| *line != RESULTS);
         for (assertion, holds) in lines.filter_map(judgement) {
-            let Some(holds) = holds else { return Err(said.no_result()) };
             match goals.number(&assertion.said) {
                 Some(number) => known.push((number, holds)),
                 None => assertions.push((assertion, holds)),
             }
         }
-        let holds = |number| known.iter().find(|(other, _)| *other == number).map(|known| known.1);
+        let holds = |number| known.iter().find(|(other, _)| *other == number)?.1;
         goals.judge(holds).map_err(|why| self.untrusted(why.to_owned()))?;
-        let failed = known.iter().filter(|(_, holds)| !holds).count()
-            + assertions.iter().filter(|(_, holds)| !holds).count();
+        let all = known.iter().map(|known| known.1).chain(assertions.iter().map(|other| other.1));
+        let failed = all.clone().filter(|holds| *holds == Some(false)).count();
+        let fails = assertions.iter().any(|(_, holds)| *holds == Some(false));
+        if all.clone().any(|holds| holds.is_none()) && !fails {
+            return Err(said.no_result());
+        }
         let counted = format!("** {failed} of {} failed", known.len() + assertions.len());
         // It lists and counts nothing if there is nothing to prove.
         let is_counted = known.len() + assertions.len() == 0
@@ -231,7 +239,8 @@ impl Cbmc {
         if !is_counted || all_holds != (failed == 0) {
             return Err(self.untrusted("it counts other results than it lists".to_owned()));
         }
-        Ok(Judged { assertions, reaches_end: goals.reaches_end(holds) })
+        let comes_somewhere = goals.reaches_end(holds) || (fails && !goals.excludes_end(holds));
+        Ok(Judged { assertions, comes_somewhere })
     }
 
     fn untrusted(&self, why: String) -> ProveError {
@@ -268,7 +277,8 @@ impl Cbmc {
     ) -> Result<Option<Vec<Failure>>, ProveError> {
         let judged = self.judged(folder, place, arguments, goals, give_up)?;
         let failing = |Judged { assertions, .. }: Judged| {
-            assertions.into_iter().filter(|(_, holds)| !holds).map(|(failure, _)| failure).collect()
+            let failing = assertions.into_iter().filter(|(_, holds)| *holds == Some(false));
+            failing.map(|(failure, _)| failure).collect()
         };
         Ok(judged.map(failing))
     }
@@ -301,35 +311,14 @@ impl Cbmc {
         command: &mut Command,
         give_up: impl Fn() -> bool,
     ) -> Result<Option<Said>, ProveError> {
-        let no_file = |source| ProveError::Io { what: "no temporary file".to_owned(), source };
-        // Files, because the output may exceed the capacity of a pipe while the process is waited for.
-        let mut output = tempfile::tempfile().map_err(no_file)?;
-        let mut errors = tempfile::tempfile().map_err(no_file)?;
-        let mut child = command
-            .stdout(output.try_clone().map_err(no_file)?)
-            .stderr(errors.try_clone().map_err(no_file)?)
-            .spawn()
-            .map_err(in_file("cannot run", &self.path))?;
-        let status = loop {
-            if let Some(status) =
-                child.try_wait().map_err(in_file("cannot wait for", &self.path))?
-            {
-                break status;
-            }
-            if give_up() || self.check_stop().is_err() {
-                // It may have ended already.
-                _ = child.kill();
-                child.wait().map_err(in_file("cannot wait for", &self.path))?;
-                return Ok(None);
-            }
-            std::thread::sleep(Duration::from_millis(5));
-        };
-        let text = |file| {
-            let bytes = whole(file).map_err(in_file("cannot read the output of", &self.path))?;
-            Ok(String::from_utf8_lossy(&bytes).into_owned())
-        };
-        let (output, errors) = (text(&mut output)?, text(&mut errors)?);
-        Ok(Some(Said { status: status.code(), output, errors }))
+        let give_up = || give_up() || self.check_stop().is_err();
+        let output = finished(command, give_up).map_err(in_file("cannot run", &self.path))?;
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        Ok(output.map(|output| Said {
+            status: output.status.code(),
+            output: text(&output.stdout),
+            errors: text(&output.stderr),
+        }))
     }
 
     /// The branches of a file that a function of the harness cannot take.
@@ -491,6 +480,29 @@ mod tests {
         let dead = dead_branches(text, "a.c");
         assert_eq!(dead.functions, ["g".to_owned()].into());
         assert_eq!((dead.never_false, dead.never_true), ([7].into(), [8].into()));
+    }
+
+    /// What comes behind an error at run time is not judged: it is neither shown, nor CBMC's failure.
+    #[test]
+    fn what_is_not_judged_is_not_shown() {
+        let cbmc = Cbmc { path: CBMC.into(), version: String::new(), stop: Arc::default() };
+        let judge = |assertions: [&str; 3]| {
+            let failed = assertions.iter().filter(|result| **result == "FAILURE").count();
+            let results = assertions.map(|result| format!("[x.assertion.1] line 1 y: {result}"));
+            let (results, word) =
+                (results.join("\n"), if failed > 0 { "FAILED" } else { "SUCCESSFUL" });
+            let output = format!(
+                "{RESULTS}\n{results}\n** {failed} of 3 failed (1 iterations)\nVERIFICATION {word}"
+            );
+            let status = Some(if failed > 0 { SOMETHING_FAILS } else { ALL_HOLDS });
+            let said = Said { status, output, errors: String::new() };
+            let judged = cbmc.judge(&Goals::new(Place::Nowhere), &said);
+            judged.map(|judged| judged.assertions.into_iter().map(|(_, holds)| holds).collect())
+        };
+        let judged = judge(["SUCCESS", "FAILURE", "UNKNOWN"]);
+        assert_eq!(judged.unwrap(), vec![Some(true), Some(false), None]);
+        let judged: Result<Vec<_>, _> = judge(["SUCCESS", "SUCCESS", "UNKNOWN"]);
+        assert!(matches!(judged, Err(ProveError::NoResult { .. })));
     }
 
     #[test]

@@ -150,6 +150,11 @@ impl Goals {
         self.place == Place::Around && holds(self.end) == Some(false)
     }
 
+    /// Whether the goal after the function is proved: no execution comes to it.
+    pub(super) fn excludes_end(&self, holds: impl Fn(usize) -> Option<bool>) -> bool {
+        self.place == Place::Around && holds(self.end) == Some(true)
+    }
+
     /// C whose branches are taken or not: for each goal one that is taken if it does not hold, in a line of its own.
     /// The lines follow that of the function's brace.
     pub(super) fn branches(&self, file: &str, function: &str) -> String {
@@ -213,6 +218,21 @@ mod tests {
                 right(number).map(|holds| holds != (number == goals.before[0].number))
             };
             assert!(goals.judge(but_one).is_err());
+        }
+    }
+
+    #[test]
+    fn an_end_is_reached_if_its_goal_is_refuted() {
+        let ends = |place, said: Option<bool>| {
+            let goals = Goals::new(place);
+            let of_end = |number: usize| if number == goals.end { said } else { Some(false) };
+            (goals.reaches_end(of_end), goals.excludes_end(of_end))
+        };
+        assert_eq!(ends(Place::Around, Some(false)), (true, false));
+        assert_eq!(ends(Place::Around, Some(true)), (false, true));
+        assert_eq!(ends(Place::Around, None), (false, false));
+        for said in [None, Some(true), Some(false)] {
+            assert_eq!(ends(Place::Before, said), (false, false));
         }
     }
 

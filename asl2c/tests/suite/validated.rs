@@ -345,10 +345,18 @@ fn a_difference_is_shown_and_can_be_replayed() {
     let c = &comparison(&agent.configuration, &agent.text).unwrap().files[0].text;
     let wrong = c.replace("var_Left < 30U", "var_Left <= 30U");
     assert_ne!(*c, wrong);
+    // Behind an error at run time CBMC judges nothing, which is no error of CBMC's.
+    let dividing = c.replace("var_Left < 30U", "30U / var_Left > 1U");
+    assert_ne!(*c, dividing);
     let file = folder.path().join("wrong.c");
+    let path = folder.path().display().to_string();
+    std::fs::write(&file, dividing).unwrap();
+    let output = asl2c(&[&configuration, "--c", &file.display().to_string(), "-o", &path], &cbmc);
+    let text = shown(&output);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains("a possible error at run time: division by zero"), "{text}");
     std::fs::write(&file, wrong).unwrap();
-    let (file, path) = (file.display().to_string(), folder.path().display().to_string());
-    let output = asl2c(&[&configuration, "--c", &file, "-o", &path], &cbmc);
+    let output = asl2c(&[&configuration, "--c", &file.display().to_string(), "-o", &path], &cbmc);
     let text = shown(&output);
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(text.contains("DIFFERS from inspection.asl") && text.contains("charge(30)"), "{text}");
