@@ -85,7 +85,7 @@ pub(crate) struct New<'a> {
     pub(crate) help: &'static str,
 }
 
-/// Writes files into a folder that exists; all or none: each is first written completely under another name, and if one
+/// Writes files into a folder, which is made if it is missing; all or none: each is first written completely under another name, and if one
 /// cannot be moved to its place the others are restored. Then the `stale` ones are removed.
 pub(crate) fn write(folder: &Path, files: &[New<'_>], stale: &[New<'_>]) -> Result<(), WriteError> {
     let mut removed = Vec::new();
@@ -94,6 +94,7 @@ pub(crate) fn write(folder: &Path, files: &[New<'_>], stale: &[New<'_>]) -> Resu
             removed.push((folder.join(file.name), text, file.help));
         }
     }
+    make_folders(or_here(folder), Path::new(""))?;
     let prepared: Result<_, _> = files.iter().map(|file| prepare(folder, file)).collect();
     replace(prepared?)?;
     for (path, text, help) in removed {
@@ -216,7 +217,7 @@ fn replace(prepared: Vec<Prepared<'_>>) -> Result<(), WriteError> {
             Ok(before) => {
                 let is_judged = before.as_deref().and_then(regular) == old;
                 placed.push(Placed { path: path.clone(), text, before });
-                (!is_judged).then(|| WriteError::Foreign { path, help })
+                (!is_judged).then_some(WriteError::Foreign { path, help })
             }
             Err(source) => Some(WriteError::Io { path, source }),
         };
@@ -296,14 +297,18 @@ pub(crate) fn write_script(folder: &Path, name: &str, text: &str) -> Result<Path
     Ok(folder.join(name))
 }
 
-/// Whether a script can be written, as far as it is known before: the folder is there, and no other file in its place.
+/// Whether a script can be written, as far as it is known before: there is no other file in its place, nor in that of its
+/// folder, which is made for it.
 pub(crate) fn check_script(folder: &Path, name: &str) -> Result<(), WriteError> {
     let folder = or_here(folder);
     let path = || folder.to_owned();
-    let data =
-        std::fs::metadata(folder).map_err(|source| WriteError::Io { path: path(), source })?;
-    if !data.is_dir() {
-        return Err(WriteError::Io { path: path(), source: ErrorKind::NotADirectory.into() });
+    match std::fs::metadata(folder) {
+        Ok(data) if data.is_dir() => {}
+        Ok(_) => {
+            return Err(WriteError::Io { path: path(), source: ErrorKind::NotADirectory.into() });
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        Err(source) => return Err(WriteError::Io { path: path(), source }),
     }
     check(folder, &script(name, ""))
 }
