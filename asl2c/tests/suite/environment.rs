@@ -82,6 +82,22 @@ const WRONG_IN_CONTEXT: &[(Edit, &str)] = &[
     ]), "another call, or none"),
 ];
 
+const PERCEIVING: &str = "+level(L) : L > 50 <- on.\n+level(_) <- off.\n";
+const PERCEIVING_CONFIGURATION: &str =
+    "settings { input = a.asl; output = a.c; header = a.h; basics = b.h; };
+    includes { #include <stdbool.h>
+    #include <stdint.h> };
+    basics { void on(void); void off(void); };
+    types { level(uint8_t); };
+    settables { level; };
+    perceived { level; };";
+
+/// The same for an agent that is told of a change.
+#[rustfmt::skip]
+const WRONG_PERCEIVED: (Edit, &str) = (("a setter is called there and back again", &[
+    ("    updateBeliefs();\n", "    const agent_t was = agent;\n    updateBeliefs();\n    if (was.belief_level_held && (was.belief_level_1 == agent.belief_level_1))\n    {\n        agent.perceived_add_level_pending = was.perceived_add_level_pending;\n    }\n"),
+]), "another call, or none");
+
 /// What outlives a call may be there, as long as nothing depends on it.
 #[rustfmt::skip]
 const RIGHT: &[Edit] = &[
@@ -94,11 +110,18 @@ const RIGHT: &[Edit] = &[
     ]),
 ];
 
-fn judged(cbmc: &Cbmc, in_context: bool, (what, changes): &Edit) -> Validated {
+fn judged(cbmc: &Cbmc, in_context: bool, edit: &Edit) -> Validated {
     let instance = if in_context { "settings { instance = context;" } else { "settings {" };
-    let configuration = CONFIGURATION.replacen("settings {", instance, 1);
-    let configuration = parse_configuration("infusion.conf", &configuration).unwrap();
-    let mut compared = comparison(&configuration, AGENT).unwrap();
+    judged_of(cbmc, (&CONFIGURATION.replacen("settings {", instance, 1), AGENT), edit)
+}
+
+fn judged_of(
+    cbmc: &Cbmc,
+    (configuration, agent): (&str, &str),
+    (what, changes): &Edit,
+) -> Validated {
+    let configuration = parse_configuration("a.conf", configuration).unwrap();
+    let mut compared = comparison(&configuration, agent).unwrap();
     let c = changes.iter().fold(compared.files[0].text.clone(), |c, (from, to)| {
         assert!(c.contains(from), "{what}: {from}");
         c.replacen(from, to, 1)
@@ -123,6 +146,9 @@ fn c_that_is_right_in_a_tame_environment_only_is_not_proved() {
             assert!(differs, "{}: {result:?}", edit.0);
         }
     }
+    let (edit, said) = WRONG_PERCEIVED;
+    let result = judged_of(&cbmc, (PERCEIVING_CONFIGURATION, PERCEIVING), &edit);
+    assert!(result.open.iter().any(|open| open.said == said), "{}: {result:?}", edit.0);
 }
 
 #[test]
