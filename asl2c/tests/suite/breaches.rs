@@ -258,11 +258,12 @@ fn a_forged_list_loses_no_file() {
 #[test]
 fn what_cannot_end_well_is_told_at_once() {
     let folder = agent("");
-    for task in ["validate", "prove"] {
+    std::fs::write(folder.path().join("taken"), "").unwrap();
+    for (task, output) in [("validate", "taken"), ("prove", "taken"), ("prove", "taken/below")] {
         let (status, said) =
-            asl2c(folder.path(), &[task, "a.conf", "-o", "missing", "--cbmc", "/none"]);
+            asl2c(folder.path(), &[task, "a.conf", "-o", output, "--cbmc", "/none"]);
         assert_eq!(status, Some(3), "{said}");
-        assert!(said.contains("cannot write missing"), "{said}");
+        assert!(said.contains(&format!("cannot write {output}")), "{said}");
     }
     #[cfg(target_os = "linux")]
     for arguments in [&["validate", "a.conf", "--c", "/dev/zero"][..], &["/dev/zero"]] {
