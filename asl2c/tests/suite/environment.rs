@@ -70,6 +70,14 @@ const WRONG_IN_CONTEXT: &[(Edit, &str)] = &[
     (("the pointer is not kept", &[
         ("    self->environment = environment;\n", "    (void)environment;\n"),
     ]), "another state: environment"),
+    (("another pointer is passed on", &[
+        ("/* Result of the plans of one event. */", "static void *lost = { 0 };\n\n/* Result of the plans of one event. */"),
+        ("    infusion_updateBeliefs(self, self->environment);\n", "    infusion_updateBeliefs(self, lost);\n"),
+    ]), "the environment's pointer"),
+    (("another instance is updated", &[
+        ("/* Result of the plans of one event. */", "static infusion_agent_t other = { 0 };\n\nstatic void update(infusion_agent_t *which, void *environment)\n{\n    infusion_updateBeliefs(which, environment);\n}\n\n/* Result of the plans of one event. */"),
+        ("    infusion_updateBeliefs(self, self->environment);\n", "    update(&other, self->environment);\n"),
+    ]), "the environment's pointer"),
     (("another instance's setter in between", &[
         ("/* Result of the plans of one event. */", "static int32_t last = 0;\n\n/* Result of the plans of one event. */"),
         ("void infusion_set_air(infusion_agent_t *self, int32_t argument1)\n{\n", "void infusion_set_air(infusion_agent_t *self, int32_t argument1)\n{\n    last = argument1;\n"),
