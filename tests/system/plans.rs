@@ -148,7 +148,7 @@ impl Deviation {
                 Reference::TakeOff => self.take_off.unwrap(),
                 Reference::Pose(off) => off,
             },
-            Command::MoveBy(_) => self.target,
+            Command::MoveBy(_) | Command::Hold { .. } => self.target,
             Command::MoveByRelative(_) => here(),
             Command::SetReference(_) => {
                 self.reference = Reference::TakeOff;
@@ -258,7 +258,7 @@ fn random_pose(random: &mut ChaCha8Rng, reach_m: f64) -> String {
 
 fn random_lines(random: &mut ChaCha8Rng, limits: &FlightLimits) -> Vec<String> {
     let one = |line: String| vec![line];
-    match random.random_range(0..16) {
+    match random.random_range(0..17) {
         0..=2 => one(format!("goto {}", random_pose(random, 1.4))),
         3 => {
             // At the fence the actual hover height decides whether a target is inside.
@@ -277,6 +277,7 @@ fn random_lines(random: &mut ChaCha8Rng, limits: &FlightLimits) -> Vec<String> {
         11 => one(format!("setInitialReachDist {:.2}", random.random_range(0.15..0.3))),
         12 => one(format!("setStayWithinDist {:.2}", random.random_range(0.5..1.0))),
         13 => one(format!("setStayTime {:.3}", random.random_range(0.0..1.0))),
+        15 => one(format!("hold {:.2}", random.random_range(0.0..1.0))),
         14 => one(format!("setMaxControl {:.2}", random.random_range(0.5..1.0))),
         _ => {
             let ups = ["takeoff", "autoInit 500 800", "autoTakeover 500 800", "lockScaleFP"];
@@ -311,6 +312,7 @@ fn a_random_plan_is_flown_to_exactly_the_targets_that_check_prints() {
         "goto",
         "moveBy ",
         "moveByRel",
+        "hold",
         "setReference $POSE$\ntakeoff",
         "setReference $POSE$\ngoto",
         "setReference -",

@@ -33,7 +33,7 @@ impl Commands {
         if !diagnostics.is_empty() {
             return Err(PlanError::new(name, text, &diagnostics));
         }
-        let clears = lines.iter().any(Line::clears);
+        let clears = lines.iter().any(|line| line.clears);
         let lines = parser::clear_commands(lines);
         Ok(Self { text: text.to_owned(), lines, clears })
     }

@@ -55,6 +55,8 @@ pub(crate) struct Interpreter {
     settings: ApproachSettings,
     speed_m_s: Option<f64>,
     max_control: f64,
+    /// Stay time of the present target, if it is not that of the settings.
+    held_for_s: Option<f64>,
 }
 
 /// Reference of `goto`.
@@ -78,6 +80,7 @@ impl Interpreter {
             settings: ApproachSettings::default(),
             speed_m_s: None,
             max_control: 1.0,
+            held_for_s: None,
         }
     }
 
@@ -86,6 +89,7 @@ impl Interpreter {
     ///
     /// After a take-off, call [`Interpreter::take_off_ended`] before the next command.
     pub(crate) fn carry_out(&mut self, command: Command, pose: &Pose) -> Option<AgentOrder> {
+        self.held_for_s = None;
         match command {
             Command::TakeOff { .. } => return Some(AgentOrder::TakeOff),
             Command::Land => return Some(AgentOrder::Land),
@@ -94,18 +98,17 @@ impl Interpreter {
             Command::GoTo(to) => return Some(self.go_to(self.reference(), to)),
             Command::MoveBy(by) => return Some(self.go_to(self.target, by)),
             Command::MoveByRelative(by) => return Some(self.go_to(*pose, by)),
+            Command::Hold { time_s } => {
+                self.held_for_s = Some(time_s);
+                return Some(self.go_to(self.target, Pose::default()));
+            }
             Command::SetReference(to) => self.reference = Reference::FromOrigin(to),
             Command::SetReferenceHere => self.reference = Reference::Fixed(*pose),
             // The estimator's frame begins where the drone stood at the start of the flight.
             Command::SetReferenceStart => self.reference = Reference::Fixed(Pose::default()),
             Command::SetReachDistance { distance_m } => self.settings.reach_distance_m = distance_m,
             Command::SetStayDistance { distance_m } => self.settings.stay_distance_m = distance_m,
-            Command::SetStayTime { time_s } => {
-                // The parser limits it to 600 s.
-                #[allow(clippy::cast_possible_truncation)]
-                let stay_time_ms = (time_s * 1000.0).round() as i64;
-                self.settings.stay_time_ms = stay_time_ms;
-            }
+            Command::SetStayTime { time_s } => self.settings.stay_time_ms = milliseconds(time_s),
             Command::SetSpeed { speed_m_s } => self.speed_m_s = Some(speed_m_s),
             Command::SetMaxControl { fraction } => self.max_control = fraction,
         }
@@ -131,7 +134,11 @@ impl Interpreter {
 
     /// Current approach parameters.
     pub(crate) fn settings(&self) -> ApproachSettings {
-        self.settings
+        let held_ms = self.held_for_s.map(milliseconds);
+        ApproachSettings {
+            stay_time_ms: held_ms.unwrap_or(self.settings.stay_time_ms),
+            ..self.settings
+        }
     }
 
     /// Current limit of the horizontal speed in m/s, besides that of the controller.
@@ -163,6 +170,13 @@ impl Interpreter {
         self.target = self.limits.nearest_inside(&wanted, 0.0);
         AgentOrder::GoTo(Target { pose: self.target, wanted })
     }
+}
+
+/// A time that the language limits to 600 s.
+fn milliseconds(time_s: f64) -> i64 {
+    #[allow(clippy::cast_possible_truncation, reason = "the language limits it to 600 s")]
+    let milliseconds = (time_s * 1000.0).round() as i64;
+    milliseconds
 }
 
 /// The pose `by` away from `from`. Displacements are along the world's axes; headings add up.
@@ -223,6 +237,19 @@ mod tests {
         assert_target("takeoff\ngoto 1 0 0 0\nmoveByRel 0 1 0 0", [1.1, 0.9, 0.8, 2.0]);
         assert_target("takeoff\nmoveBy 1 1 0 0", [1.1, 0.9, 0.8, 2.0]);
         assert_target("takeoff\ngoto 0 0 0 181", [0.1, -0.1, 0.8, -177.0]);
+    }
+
+    #[test]
+    fn a_hold_stays_at_the_last_target_for_its_own_time() {
+        let mut interpreter = Interpreter::new(FlightLimits::default());
+        interpreter.take_off_ended(&FIRST_HOVER);
+        interpreter.carry_out(Command::SetStayTime { time_s: 0.5 }, &FIRST_HOVER);
+        let by = Pose { x_m: 1.0, ..Pose::default() };
+        let moved = interpreter.carry_out(Command::MoveBy(by), &FIRST_HOVER);
+        let held = interpreter.carry_out(Command::Hold { time_s: 2.5 }, &SECOND_HOVER);
+        assert_eq!((held, interpreter.settings().stay_time_ms), (moved, 2500));
+        interpreter.carry_out(Command::MoveBy(by), &FIRST_HOVER);
+        assert_eq!(interpreter.settings().stay_time_ms, 500);
     }
 
     #[test]

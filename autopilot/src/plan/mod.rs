@@ -15,6 +15,7 @@ mod commands;
 mod dry_run;
 mod expectation;
 mod interpreter;
+mod language;
 mod parser;
 mod tags;
 mod warnings;
@@ -30,6 +31,7 @@ pub(crate) use expectation::expected_time;
 pub use expectation::{Expectation, battery_percent, expectations};
 pub(crate) use interpreter::Interpreter;
 pub use interpreter::{AgentOrder, Target};
+pub use language::{Declaration, LANGUAGE, Number};
 pub use tags::{LOOK_AROUND_M, TagUse, given_tag_warnings};
 
 /// A flight plan without errors.
@@ -73,6 +75,11 @@ pub enum Command {
     MoveBy(Pose),
     /// `moveByRel x y z yaw`: from the drone's pose.
     MoveByRelative(Pose),
+    /// `hold seconds`: stay at the last target.
+    Hold {
+        /// Seconds.
+        time_s: f64,
+    },
     /// `setReference x y z yaw`: relative to the end of the first take-off.
     SetReference(Pose),
     /// `setReference $POSE$`: at the drone's pose.
@@ -104,6 +111,30 @@ pub enum Command {
         /// Fraction in (0, 1].
         fraction: f64,
     },
+}
+
+impl Command {
+    /// What it is to targets: `Some(true)` if the drone flies to some place by it, as the settings say, and `Some(false)` if
+    /// it is such a setting.
+    pub(crate) fn concerns_targets(self) -> Option<bool> {
+        match self {
+            Self::GoTo(_)
+            | Self::MoveBy(_)
+            | Self::MoveByRelative(_)
+            | Self::Hold { .. }
+            | Self::FindTag
+            | Self::LandOnTag => Some(true),
+            Self::SetReference(_)
+            | Self::SetReferenceHere
+            | Self::SetReferenceStart
+            | Self::SetReachDistance { .. }
+            | Self::SetStayDistance { .. }
+            | Self::SetStayTime { .. }
+            | Self::SetSpeed { .. } => Some(false),
+            // The limit of the sticks also applies to holding the position.
+            Self::TakeOff { .. } | Self::Land | Self::SetMaxControl { .. } => None,
+        }
+    }
 }
 
 /// Why a plan cannot be flown: all problems with file, line, column and advice.

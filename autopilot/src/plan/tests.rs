@@ -26,6 +26,18 @@ fn all_commands_and_comments_are_read() {
 }
 
 #[test]
+fn each_command_is_declared_with_a_line_that_has_it() {
+    for declared in LANGUAGE.iter().filter(|declared| !declared.example.is_empty()) {
+        assert_eq!(declared.example.split(' ').next(), Some(declared.name));
+        let (lines, problems) = parser::parse(declared.example);
+        assert!(problems.is_empty() && lines.len() == 1, "{problems:?}");
+        assert!(declared.optional <= declared.numbers.len());
+    }
+    let names: Vec<&str> = LANGUAGE.iter().map(|declared| declared.name).collect();
+    assert!(names.iter().all(|name| names.iter().filter(|other| *other == name).count() == 1));
+}
+
+#[test]
 fn every_bad_line_is_reported_with_line_column_and_advice() {
     insta::assert_snapshot!(
         error("takeof\ngoto 1 2 3\ngoto 1 2 x 4\n  setStayTime -1\nland now\nsetMaxControl 2\nfly"),
@@ -84,7 +96,7 @@ fn every_bad_line_is_reported_with_line_column_and_advice() {
     7 | fly
       | ^^^
       |
-      = help: commands are: takeoff, land, goto, moveBy, moveByRel, setReference, setInitialReachDist, setStayWithinDist, setStayTime, setSpeed, setMaxControl, tag, findTag, landOnTag, clearCommands, autoInit, autoTakeover, lockScaleFP
+      = help: commands are: takeoff, land, goto, moveBy, moveByRel, hold, setReference, setInitialReachDist, setStayWithinDist, setStayTime, setSpeed, setMaxControl, tag, findTag, landOnTag, clearCommands, autoInit, autoTakeover, lockScaleFP
     "
     );
 }

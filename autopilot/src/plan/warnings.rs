@@ -70,21 +70,7 @@ impl Review<'_> {
                 span,
                 "its place is known by navdata alone, and known worse the longer it hovers",
             ),
-            Command::SetReachDistance { .. }
-            | Command::SetStayDistance { .. }
-            | Command::SetStayTime { .. }
-            | Command::SetReferenceStart
-            | Command::SetSpeed { .. }
-            | Command::SetMaxControl { .. }
-            | Command::SetReference(_)
-            | Command::SetReferenceHere
-            | Command::TakeOff { .. }
-            | Command::Land
-            | Command::FindTag
-            | Command::LandOnTag
-            | Command::GoTo(_)
-            | Command::MoveBy(_)
-            | Command::MoveByRelative(_) => {}
+            _ => {}
         }
         // A target outside the fence is an error already.
         if let Some(target) = expected.target.filter(|_| !expected.outside) {
@@ -143,32 +129,16 @@ impl Review<'_> {
     fn unused_settings(&mut self, lines: &[Line]) {
         let before = self.diagnostics.len();
         for line in lines.iter().rev() {
-            match line.command {
-                Some(
-                    Command::GoTo(_)
-                    | Command::MoveBy(_)
-                    | Command::MoveByRelative(_)
-                    | Command::FindTag
-                    | Command::LandOnTag,
-                ) => break,
-                Some(
-                    Command::SetReachDistance { .. }
-                    | Command::SetStayDistance { .. }
-                    | Command::SetStayTime { .. }
-                    | Command::SetReference(_)
-                    | Command::SetReferenceHere
-                    | Command::SetReferenceStart
-                    | Command::SetSpeed { .. },
-                ) => {
+            match line.command.and_then(Command::concerns_targets) {
+                Some(true) => break,
+                Some(false) => {
                     self.warn(
                         "no target comes after this",
                         &line.span,
                         "put it before the targets",
                     );
                 }
-                // The stick limit also applies to holding the position.
-                Some(Command::SetMaxControl { .. } | Command::TakeOff { .. } | Command::Land)
-                | None => {}
+                None => {}
             }
         }
         self.diagnostics[before..].reverse();
