@@ -55,7 +55,8 @@ pub enum Category {
 }
 
 /// A camera.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Camera {
     /// The forward camera.
     Front,

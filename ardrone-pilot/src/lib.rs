@@ -16,7 +16,6 @@
 )]
 
 pub mod browser;
-mod camera;
 mod checked_plan;
 pub mod cli;
 mod drawing;
@@ -26,6 +25,7 @@ mod flights;
 mod flown_path;
 mod json;
 pub mod mavlink;
+mod ordered;
 pub mod plan_drawing;
 pub mod realtime;
 pub mod recording;

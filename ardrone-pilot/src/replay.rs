@@ -12,7 +12,7 @@ use autopilot::plan::{Plan, PlanError};
 use autopilot::vehicle::{CannotFly, Input, Output, Transmit, Vehicle};
 use diagnostic::printable;
 
-use crate::recording::{Entry, Log, OrderError, Tick, Timing};
+use crate::recording::{Entry, Log, Tick, Timing};
 use crate::settings::{Settings, SettingsError};
 
 /// Why a log cannot be replayed.
@@ -21,12 +21,9 @@ pub enum ReplayError {
     /// Its settings are invalid in this version.
     #[error("the log's settings are not valid in this version")]
     Settings(#[from] SettingsError),
-    /// Its plan is invalid in this version.
-    #[error("the log's plan is not valid in this version")]
+    /// Its plan, or one that was loaded, is invalid in this version.
+    #[error("a plan of the log is not valid in this version")]
     Plan(#[from] PlanError),
-    /// An order in it is invalid in this version.
-    #[error(transparent)]
-    Order(#[from] OrderError),
     /// Its limits cannot be encoded as drone settings.
     #[error(transparent)]
     Config(#[from] SettingError),
@@ -105,7 +102,7 @@ impl Replay {
                 Entry::Navdata(packet) => vehicle.handle(*at, Input::Navdata(packet)),
                 Entry::Control(bytes) => vehicle.handle(*at, Input::Control(bytes)),
                 Entry::Order(order) => {
-                    let (by, order) = order.given(&config.limits)?;
+                    let (by, order) = order.as_ref().clone().given(&config.limits)?;
                     vehicle.handle(*at, Input::Order(by, order));
                 }
                 Entry::Decoded(_)

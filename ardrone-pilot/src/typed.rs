@@ -1,41 +1,73 @@
 //! Orders typed by an operator.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use ardrone_link::settings::Camera;
-use autopilot::plan::{Commands, FlightLimits, Plan, PlanError};
+use autopilot::plan::{Commands, FlightLimits, LANGUAGE, Plan, PlanError};
 use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 
 use crate::flight::Controls;
 
-/// Words that are orders of their own; everything else is a command of the plan language.
-const ORDERS: [&str; 15] = [
-    "load", "append", "clear", "start", "hold", "resume", "land", "cut", "recover", "take",
-    "release", "front", "bottom", "quit", "help",
-];
-/// Commands of the plan language, for completion.
-const COMMANDS: [&str; 15] = [
-    "takeoff",
-    "goto",
-    "moveBy",
-    "moveByRel",
-    "setReference",
-    "setInitialReachDist",
-    "setStayWithinDist",
-    "setStayTime",
-    "setMaxControl",
-    "findTag",
-    "landOnTag",
-    "clearCommands",
-    "autoInit",
-    "autoTakeover",
-    "lockScaleFP",
+/// A word that is an order of its own; every other line is commands of the plan language.
+struct Word {
+    name: &'static str,
+    /// What to say of it besides its name.
+    note: &'static str,
+    means: Means,
+}
+
+/// What a word means.
+enum Means {
+    /// This order, without an argument.
+    Order(OperatorOrder),
+    /// To load the file behind it.
+    Load,
+    /// To append the commands behind it.
+    Append,
+    /// To end the program.
+    Quit,
+    /// To be told of the others.
+    Help,
+}
+
+const fn word(name: &'static str, note: &'static str, means: Means) -> Word {
+    Word { name, note, means }
+}
+
+static WORDS: [Word; 15] = [
+    word("load", " FILE", Means::Load),
+    word("start", "", Means::Order(OperatorOrder::Start { when_ready: false })),
+    word("hold", "", Means::Order(OperatorOrder::Hold)),
+    word("resume", "", Means::Order(OperatorOrder::Resume)),
+    word("clear", "", Means::Order(OperatorOrder::Clear)),
+    word("land", "", Means::Order(OperatorOrder::Land)),
+    word("cut", " (the motors)", Means::Order(OperatorOrder::Cut)),
+    word("recover", " (after an emergency)", Means::Order(OperatorOrder::Recover)),
+    word("take", " (the controls)", Means::Order(OperatorOrder::Take)),
+    word("release", " (them)", Means::Order(OperatorOrder::Release)),
+    word("front", " (camera)", Means::Order(OperatorOrder::Camera { camera: Camera::Front })),
+    word("bottom", " (camera)", Means::Order(OperatorOrder::Camera { camera: Camera::Bottom })),
+    word("append", " COMMANDS", Means::Append),
+    word("quit", "", Means::Quit),
+    word("help", "", Means::Help),
 ];
 
-/// Summary of the orders.
-pub(crate) const HELP: &str = "load FILE, start, hold, resume, clear, land, cut, recover (after an \
-    emergency), take or release (the controls), front or bottom (camera), quit; anything else is appended to the mission: takeoff, \
-    goto x y z yaw, moveBy, moveByRel, setReference, setStayTime, findTag, landOnTag, ...; `append land` appends a landing";
+/// Summary of the orders and commands.
+static HELP: LazyLock<String> = LazyLock::new(|| {
+    let words = WORDS.iter().map(|Word { name, note, .. }| format!("{name}{note}"));
+    let commands = LANGUAGE.iter().map(|declared| declared.name);
+    format!(
+        "{}; anything else is appended to the mission: {}",
+        words.collect::<Vec<_>>().join(", "),
+        commands.collect::<Vec<_>>().join(", ")
+    )
+});
+
+/// Words that are for the terminal in which the program runs.
+fn is_here(means: &Means) -> bool {
+    matches!(means, Means::Load | Means::Quit)
+}
 
 /// Why a typed line was not carried out.
 #[derive(Debug, thiserror::Error)]
@@ -50,7 +82,7 @@ pub(crate) enum TypedError {
     NoFile,
     #[error("`{0}` is for the terminal in which the program runs")]
     Here(String),
-    #[error("{HELP}")]
+    #[error("{}", *HELP)]
     Help,
     #[error(transparent)]
     Refused(#[from] Refused),
@@ -90,29 +122,23 @@ pub(crate) fn obey(
 pub(crate) fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedError> {
     let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
     let rest = rest.trim();
-    let order = match word {
-        "load" if rest.is_empty() => return Err(TypedError::NoFile),
-        "load" => OperatorOrder::Load(read(rest, limits)?),
-        "append" => OperatorOrder::Append(Commands::parse("command", rest)?),
-        _ if ORDERS.contains(&word) && !rest.is_empty() => {
-            return Err(TypedError::Alone(word.to_owned()));
-        }
-        "clear" => OperatorOrder::Clear,
-        "start" => OperatorOrder::Start { when_ready: false },
-        "hold" => OperatorOrder::Hold,
-        "resume" => OperatorOrder::Resume,
-        "land" => OperatorOrder::Land,
-        "cut" => OperatorOrder::Cut,
-        "recover" => OperatorOrder::Recover,
-        "front" => OperatorOrder::Camera(Camera::Front),
-        "bottom" => OperatorOrder::Camera(Camera::Bottom),
-        "take" => OperatorOrder::Take,
-        "release" => OperatorOrder::Release,
-        "quit" => return Ok(Typed::Quit),
-        "help" => return Err(TypedError::Help),
+    // `hold` is an order, and `hold 5` a command.
+    let known = WORDS.iter().find(|known| known.name == word);
+    let order = match known.map(|known| &known.means) {
+        Some(Means::Load) if rest.is_empty() => return Err(TypedError::NoFile),
+        Some(Means::Load) => OperatorOrder::Load(read(rest, limits)?),
+        Some(Means::Append) => OperatorOrder::Append(Commands::parse("command", rest)?),
+        Some(Means::Order(order)) if rest.is_empty() => order.clone(),
+        Some(Means::Quit) if rest.is_empty() => return Ok(Typed::Quit),
+        Some(Means::Help) if rest.is_empty() => return Err(TypedError::Help),
+        Some(_) if !takes_numbers(word) => return Err(TypedError::Alone(word.to_owned())),
         _ => OperatorOrder::Append(Commands::parse("command", line)?),
     };
     Ok(Typed::Order(order))
+}
+
+fn takes_numbers(word: &str) -> bool {
+    LANGUAGE.iter().any(|declared| declared.name == word && !declared.numbers.is_empty())
 }
 
 /// As [`parse`], of a line from elsewhere: nothing that reads files here or ends the program.
@@ -120,19 +146,26 @@ pub(crate) fn parse(line: &str, limits: &FlightLimits) -> Result<Typed, TypedErr
 /// # Errors
 /// [`TypedError`] if it is no order.
 pub(crate) fn parse_remote(line: &str, limits: &FlightLimits) -> Result<OperatorOrder, TypedError> {
-    match line.split_whitespace().next() {
-        Some(word @ ("load" | "quit")) => Err(TypedError::Here(word.to_owned())),
-        _ => match parse(line, limits)? {
-            Typed::Order(order) => Ok(order),
-            Typed::Quit => Err(TypedError::Here("quit".to_owned())),
-        },
+    let word = line.split_whitespace().next().unwrap_or_default();
+    if WORDS.iter().any(|known| known.name == word && is_here(&known.means)) {
+        return Err(TypedError::Here(word.to_owned()));
+    }
+    match parse(line, limits)? {
+        Typed::Order(order) => Ok(order),
+        Typed::Quit => Err(TypedError::Here(word.to_owned())),
     }
 }
 
 /// The words that a line can begin with, other than those of [`TypedError::Here`].
 pub(crate) fn remote_words() -> impl Iterator<Item = &'static str> {
-    let here = |word: &&str| !matches!(*word, "load" | "quit" | "help");
-    ORDERS.into_iter().filter(here).chain(COMMANDS)
+    let orders = WORDS.iter().filter(|word| !is_here(&word.means)).map(|word| word.name);
+    orders.chain(commands())
+}
+
+/// Commands of the plan language that are not also orders.
+fn commands() -> impl Iterator<Item = &'static str> {
+    let is_order = |name: &str| WORDS.iter().any(|word| word.name == name);
+    LANGUAGE.iter().map(|declared| declared.name).filter(move |name| !is_order(name))
 }
 
 fn read(path: &str, limits: &FlightLimits) -> Result<Plan, TypedError> {
@@ -146,8 +179,8 @@ pub(crate) fn completions(line: &str) -> Vec<String> {
     if let Some(path) = line.strip_prefix("load ") {
         return files(path).into_iter().map(|path| format!("load {path}")).collect();
     }
-    let words = ORDERS.iter().chain(&COMMANDS).filter(|word| word.starts_with(line));
-    words.map(ToString::to_string).collect()
+    let words = WORDS.iter().map(|word| word.name).chain(commands());
+    words.filter(|word| word.starts_with(line)).map(str::to_owned).collect()
 }
 
 fn files(start: &str) -> Vec<String> {
@@ -213,10 +246,17 @@ mod tests {
     }
 
     #[test]
-    fn all_commands_can_be_completed() {
-        for command in COMMANDS {
-            let error = Commands::parse("command", command).err().map(|error| error.to_string());
-            assert!(!error.is_some_and(|error| error.contains("unknown command")), "{command}");
+    fn a_word_may_be_an_order_and_a_command() {
+        assert_eq!(typed("hold"), Ok(Typed::Order(OperatorOrder::Hold)));
+        assert!(matches!(typed("hold 5"), Ok(Typed::Order(OperatorOrder::Append(_)))));
+        assert_eq!(completions("hol"), ["hold"]);
+    }
+
+    #[test]
+    fn all_that_can_be_typed_is_completed_and_told() {
+        for name in WORDS.iter().map(|word| word.name).chain(LANGUAGE.iter().map(|it| it.name)) {
+            assert!(completions(name).contains(&name.to_owned()), "{name}");
+            assert!(HELP.contains(name), "{name}");
         }
     }
 }

@@ -46,7 +46,7 @@ const MAY_USE: [(&str, &[&str]); 14] = [
 
 /// All external dependencies of the autopilot. None of them opens a socket or a file, reads a clock or starts
 /// a thread; review a new one before adding it.
-const PURE: [&str; 27] = [
+const PURE: [&str; 30] = [
     "annotate-snippets",
     "anstyle",
     "approx",
@@ -66,6 +66,9 @@ const PURE: [&str; 27] = [
     "quote",
     "rawpointer",
     "safe_arch",
+    "serde",
+    "serde_core",
+    "serde_derive",
     "simba",
     "syn",
     "thiserror",

@@ -125,7 +125,7 @@ impl Conversation {
 
     fn take_off(&mut self) {
         self.until_ready();
-        self.accepted(json!({ "order": "append", "command": "takeoff" }));
+        self.accepted(json!({ "order": "append", "commands": "takeoff" }));
         self.accepted(json!({ "order": "start" }));
         self.until_status(|status| status["pose"]["z_m"].as_f64() > Some(0.7));
     }
@@ -138,12 +138,12 @@ impl Conversation {
         self.until_status(|status| status["step"] == 1);
         self.accepted(json!({ "order": "hold" }));
         self.until_status(|status| status["mission_waits"] == true);
-        let outside = self.order(json!({ "order": "append", "command": "goto 50 0 0 0" }));
+        let outside = self.order(json!({ "order": "append", "commands": "goto 50 0 0 0" }));
         assert!(outside["reason"].as_str().unwrap().contains("beyond the fence"), "{outside}");
         self.accepted(
             json!({ "order": "load", "plan": "takeoff\nsetStayTime 0.5\ngoto -1 0 0 0\n" }),
         );
-        self.accepted(json!({ "order": "append", "command": "goto 0 0 0.3 90" }));
+        self.accepted(json!({ "order": "append", "commands": "goto 0 0 0.3 90" }));
         self.accepted(json!({ "order": "resume" }));
         assert_eq!(self.until_landed()["outcome"], "plan flown to its end");
     }
@@ -212,7 +212,7 @@ fn what_is_no_order_is_answered_and_changes_nothing() {
         (r#"{"order":"fly"}"#, "unknown variant"),
         (r#"{"order":"hold","why":1}"#, "unknown field"),
         (r#"{"order":"load","plan":"goto 0 1 0 0"}"#, "on the ground"),
-        (r#"{"order":"append","command":"gotoo"}"#, "did you mean `goto`?"),
+        (r#"{"order":"append","commands":"gotoo"}"#, "did you mean `goto`?"),
         (r#"{"order":"hold"}"#, "on the ground"),
         (r#"{"order":"recover"}"#, "no emergency"),
     ] {
@@ -240,7 +240,7 @@ fn a_landing_overtakes_all_that_waits_in_front_of_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut vehicle = Conversation::start(&folder.path().join("session.mcap"));
     vehicle.take_off();
-    let append = json!({ "order": "append", "command": "goto 0 0 0 0" }).to_string() + "\n";
+    let append = json!({ "order": "append", "commands": "goto 0 0 0 0" }).to_string() + "\n";
     let again = json!({ "id": "again", "order": "start" });
     let land = json!({ "id": "land", "order": "land" });
     vehicle.write(&format!("{}{again}\n{land}", append.repeat(3000)));

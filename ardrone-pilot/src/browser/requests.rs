@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
-use autopilot::vehicle::{OperatorOrder, Place};
-use kinematics::Sticks;
+use autopilot::vehicle::OperatorOrder;
 use serde::Deserialize;
+use serde_json::Value;
 
 use super::planning::Planning;
-use crate::camera::NamedCamera;
+use crate::ordered::{self, ReadError};
 use crate::typed;
 
 /// A cut must be confirmed within this time.
@@ -19,56 +19,31 @@ const FORGIVEN: u32 = 10;
 /// Orders refused as too fast before disconnecting: nobody reads the answers.
 const FLOOD: u32 = 500;
 
-/// A request of the page.
+/// A request of the page: an order as any program sends it, or one of these.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "order", rename_all = "lowercase", deny_unknown_fields)]
-enum Request {
-    /// Replaces the mission.
-    Load {
-        name: String,
-        plan: String,
-    },
+enum Own {
     /// A line as in the terminal.
-    Typed {
-        line: String,
-    },
-    Take,
-    Release,
-    Start,
-    Hold,
-    Resume,
-    Land,
-    GoTo {
-        x_m: f64,
-        y_m: f64,
-    },
-    Camera {
-        camera: NamedCamera,
-    },
-    /// Sticks of the page, repeated as long as one is not centred.
-    Steer {
-        roll: f64,
-        pitch: f64,
-        gaz: f64,
-        yaw: f64,
-    },
+    Typed { line: String },
     /// Announces a cut, which must be confirmed.
     Arm,
-    Cut,
+}
+
+/// A request that is understood.
+enum Request {
+    Own(Own),
+    Order(OperatorOrder),
 }
 
 /// Why a request is not carried out.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(super) enum RequestError {
-    /// Not a valid [`Request`].
+    /// No order.
     #[error("not understood: {0}")]
     Meaningless(String),
     /// A plan that cannot be flown, or a line that is no order.
     #[error("{0}")]
     Wrong(String),
-    /// A stick that is further out than it can be.
-    #[error("sticks are from -1 to 1")]
-    NoSticks,
     /// Orders arrive faster than a person could click.
     #[error("too fast")]
     TooFast,
@@ -99,14 +74,20 @@ impl Requests {
         text: &str,
         planning: &Planning,
     ) -> Result<Option<OperatorOrder>, RequestError> {
-        let request = serde_json::from_str(text).map_err(|error| {
-            self.meaningless += 1;
-            RequestError::Meaningless(error.to_string())
+        let request = request(text, planning).map_err(|error| match error {
+            ReadError::Plan(error) => RequestError::Wrong(error.to_string()),
+            error => {
+                self.meaningless += 1;
+                RequestError::Meaningless(error.to_string())
+            }
         })?;
         let since = now.saturating_sub(std::mem::replace(&mut self.last, now));
         self.recent = (self.recent - PER_S * since.as_secs_f64()).max(0.0) + 1.0;
         // However fast orders come, those that stop the drone are taken.
-        let stops = matches!(request, Request::Hold | Request::Land | Request::Arm | Request::Cut);
+        let stops = match &request {
+            Request::Own(own) => *own == Own::Arm,
+            Request::Order(order) => order.is_for_anyone(),
+        };
         if self.recent > PER_S && !stops {
             self.recent = PER_S;
             self.too_fast += 1;
@@ -114,49 +95,29 @@ impl Requests {
         }
         // Sticks that are held repeat themselves while somebody presses twice.
         let armed = match request {
-            Request::Steer { .. } | Request::Camera { .. } => self.armed,
+            Request::Order(OperatorOrder::Steer(_) | OperatorOrder::Camera { .. }) => self.armed,
             _ => self.armed.take(),
         };
         let is_armed = armed.is_some_and(|at| now.saturating_sub(at) < CUT_AGAIN);
-        Ok(Some(match request {
-            Request::Load { name, plan } => {
-                let plan = planning.parse(&name, &plan);
-                OperatorOrder::Load(plan.map_err(|error| RequestError::Wrong(error.to_string()))?)
+        match request {
+            Request::Order(OperatorOrder::Cut) if !is_armed => Err(RequestError::NotArmed),
+            Request::Order(order) => Ok(Some(order)),
+            Request::Own(Own::Arm) => {
+                self.armed = Some(now);
+                Ok(None)
             }
-            Request::Typed { line } => {
+            Request::Own(Own::Typed { line }) => {
                 let order = typed::parse_remote(&line, &planning.config.limits);
                 match order.map_err(|error| RequestError::Wrong(error.to_string()))? {
                     // As the button, twice.
                     OperatorOrder::Cut if !is_armed => {
                         self.armed = Some(now);
-                        return Ok(None);
+                        Ok(None)
                     }
-                    order => order,
+                    order => Ok(Some(order)),
                 }
             }
-            Request::Take => OperatorOrder::Take,
-            Request::Release => OperatorOrder::Release,
-            Request::Start => OperatorOrder::Start { when_ready: false },
-            Request::Hold => OperatorOrder::Hold,
-            Request::Resume => OperatorOrder::Resume,
-            Request::Land => OperatorOrder::Land,
-            Request::GoTo { x_m, y_m } => OperatorOrder::GoTo(Place::at(x_m, y_m)),
-            Request::Camera { camera } => OperatorOrder::Camera(camera.into()),
-            Request::Steer { roll, pitch, gaz, yaw } => {
-                let sticks = [roll, pitch, gaz, yaw];
-                if !sticks.iter().all(|stick| (-1.0..=1.0).contains(stick)) {
-                    self.meaningless += 1;
-                    return Err(RequestError::NoSticks);
-                }
-                OperatorOrder::Steer(Sticks { roll, pitch, gaz, yaw })
-            }
-            Request::Arm => {
-                self.armed = Some(now);
-                return Ok(None);
-            }
-            Request::Cut if is_armed => OperatorOrder::Cut,
-            Request::Cut => return Err(RequestError::NotArmed),
-        }))
+        }
     }
 
     /// Whether so many requests were malformed, or refused as too fast, that the client is not this page.
@@ -165,10 +126,19 @@ impl Requests {
     }
 }
 
+fn request(text: &str, planning: &Planning) -> Result<Request, ReadError> {
+    let object: Value = serde_json::from_str(text)?;
+    match object.get("order").and_then(Value::as_str) {
+        Some("typed" | "arm") => Ok(Request::Own(serde_json::from_value(object)?)),
+        _ => ordered::read(&object, &planning.config.limits, planning.tags()).map(Request::Order),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use ardrone_link::settings::Camera;
-    use autopilot::vehicle::VehicleConfig;
+    use autopilot::vehicle::{Place, VehicleConfig};
+    use kinematics::Sticks;
     use proptest::prelude::*;
 
     use super::*;
@@ -185,13 +155,11 @@ mod tests {
         assert_eq!(order(r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
         assert_eq!(order(r#"{"order":"resume"}"#), Ok(Some(OperatorOrder::Resume)));
         assert_eq!(order(r#"{"order":"land"}"#), Ok(Some(OperatorOrder::Land)));
-        let bottom = Ok(Some(OperatorOrder::Camera(Camera::Bottom)));
+        let bottom = Ok(Some(OperatorOrder::Camera { camera: Camera::Bottom }));
         assert_eq!(order(r#"{"order":"camera","camera":"bottom"}"#), bottom);
         let steer = OperatorOrder::Steer(Sticks { pitch: -0.5, ..Sticks::default() });
         let text = r#"{"order":"steer","roll":0,"pitch":-0.5,"gaz":0,"yaw":0}"#;
         assert_eq!(order(text), Ok(Some(steer)));
-        let too_far = r#"{"order":"steer","roll":0,"pitch":-1.5,"gaz":0,"yaw":0}"#;
-        assert_eq!(order(too_far), Err(RequestError::NoSticks));
         let go_to = OperatorOrder::GoTo(Place::at(1.5, -2.0));
         assert_eq!(order(r#"{"order":"goto","x_m":1.5,"y_m":-2}"#), Ok(Some(go_to)));
         for text in [
@@ -199,10 +167,10 @@ mod tests {
             "land",
             "{}",
             r#"{"order":"loop"}"#,
-            r#"{"order":"goto"}"#,
             r#"{"order":"goto","x_m":1.5,"y_m":null}"#,
             r#"{"order":"goto","x_m":1e999,"y_m":0}"#,
             r#"{"order":"goto","x_m":1,"y_m":0,"z_m":1}"#,
+            r#"{"order":"hold","for":1}"#,
         ] {
             assert!(matches!(order(text), Err(RequestError::Meaningless(_))), "{text}");
         }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use autopilot::agent::{PLANS, SOURCE, plan_text};
 use autopilot::outcome::Outcome;
-use autopilot::plan::{FlightLimits, Plan, Step, expectations};
+use autopilot::plan::{Declaration, FlightLimits, LANGUAGE, Plan, Step, expectations};
 use diagnostic::printable;
 use serde_json::{Value, json};
 
@@ -129,6 +129,7 @@ impl Snapshot {
             "ceiling_m": self.limits.ceiling_m,
             "plans": plans,
             "words": typed::remote_words().collect::<Vec<_>>(),
+            "commands": LANGUAGE.iter().map(command).collect::<Vec<_>>(),
             "trail": self.flown_path.places_m().collect::<Vec<_>>(),
             "events": self.events,
             "status": self.status,
@@ -136,6 +137,18 @@ impl Snapshot {
             "end": self.end,
         })
     }
+}
+
+/// A command of the plan language, for the editor.
+fn command(declared: &Declaration) -> Value {
+    let Declaration { name, help, example, numbers, .. } = declared;
+    json!({
+        "name": name,
+        "help": help,
+        "example": example,
+        "numbers": numbers.iter().map(|number| [number.name, number.unit]).collect::<Vec<_>>(),
+        "isTarget": declared.is_target(),
+    })
 }
 
 #[cfg(test)]

@@ -4,17 +4,15 @@ use std::io::{BufRead, BufReader, Read as _};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use autopilot::plan::{Commands, FlightLimits, Plan};
-use autopilot::vehicle::{Operator, OperatorOrder, Place, Refused};
+use autopilot::plan::{FlightLimits, TagUse};
+use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
-use kinematics::Sticks;
-use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::terminal;
-use crate::camera::NamedCamera;
 use crate::flight::Controls;
 use crate::json;
+use crate::ordered;
 use crate::typed::{self, Typed};
 
 /// Maximum length of a line, longer than any plan that can be flown.
@@ -36,45 +34,6 @@ pub(super) enum AtEnd {
     GoOn,
     /// No more orders can come: land and exit.
     Quit,
-}
-
-#[derive(Debug, PartialEq, Deserialize)]
-#[serde(tag = "order", rename_all = "lowercase", deny_unknown_fields)]
-enum Request {
-    Load {
-        plan: String,
-        #[serde(default)]
-        name: Option<String>,
-    },
-    Append {
-        command: String,
-    },
-    Clear {},
-    Start {
-        #[serde(default)]
-        when_ready: bool,
-    },
-    Hold {},
-    Resume {},
-    Steer {
-        roll: f64,
-        pitch: f64,
-        gaz: f64,
-        yaw: f64,
-    },
-    GoTo {
-        x_m: f64,
-        y_m: f64,
-    },
-    Land {},
-    Cut {},
-    Recover {},
-    Camera {
-        camera: NamedCamera,
-    },
-    Take {},
-    Release {},
-    Quit {},
 }
 
 /// Orders that may wait to be passed on. A line beyond them is refused at once, so that reading never stops:
@@ -325,63 +284,50 @@ fn parse_json(
         Err(error) => return unnamed(format!("not JSON: {error}")),
     };
     let id = object.as_object_mut().and_then(|object| object.remove("id")).unwrap_or(Value::Null);
-    let request = serde_json::from_value::<Request>(object).map_err(|error| error.to_string());
-    let wanted = request.and_then(|request| order(request, limits));
-    (Caller::Json(id), wanted.map(|order| order.map_or(Wanted::Quit, Wanted::Order)))
-}
-
-/// The order of a request; `None` for a request to quit.
-fn order(request: Request, limits: &FlightLimits) -> Result<Option<OperatorOrder>, String> {
-    Ok(Some(match request {
-        Request::Load { plan, name } => {
-            let name = name.as_deref().unwrap_or("plan");
-            let plan = Plan::parse_within(name, &plan, limits);
-            OperatorOrder::Load(plan.map_err(|error| error.to_string())?)
-        }
-        Request::Append { command } => {
-            let commands = Commands::parse("command", &command);
-            OperatorOrder::Append(commands.map_err(|error| error.to_string())?)
-        }
-        Request::Clear {} => OperatorOrder::Clear,
-        Request::Start { when_ready } => OperatorOrder::Start { when_ready },
-        Request::Hold {} => OperatorOrder::Hold,
-        Request::Resume {} => OperatorOrder::Resume,
-        Request::Steer { roll, pitch, gaz, yaw } => {
-            OperatorOrder::Steer(Sticks { roll, pitch, gaz, yaw })
-        }
-        Request::GoTo { x_m, y_m } => OperatorOrder::GoTo(Place::at(x_m, y_m)),
-        Request::Land {} => OperatorOrder::Land,
-        Request::Cut {} => OperatorOrder::Cut,
-        Request::Recover {} => OperatorOrder::Recover,
-        Request::Camera { camera } => OperatorOrder::Camera(camera.into()),
-        Request::Take {} => OperatorOrder::Take,
-        Request::Release {} => OperatorOrder::Release,
-        Request::Quit {} => return Ok(None),
-    }))
+    let wanted = match object.get("order").and_then(Value::as_str) {
+        Some("quit") => Ok(Wanted::Quit),
+        _ => ordered::read(&object, limits, TagUse::Unknown)
+            .map(Wanted::Order)
+            .map_err(|error| error.to_string()),
+    };
+    (Caller::Json(id), wanted)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use autopilot::vehicle::Place;
 
-    fn requested(line: &str) -> Result<Option<OperatorOrder>, String> {
-        let request = serde_json::from_str(line).map_err(|error| error.to_string())?;
-        order(request, &FlightLimits::default())
-    }
+    use super::*;
 
     #[test]
     fn objects_are_orders() {
-        assert_eq!(requested(r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
-        assert_eq!(requested(r#"{"order":"quit"}"#), Ok(None));
-        let start = Ok(Some(OperatorOrder::Start { when_ready: true }));
-        assert_eq!(requested(r#"{"order":"start","when_ready":true}"#), start);
-        let load = requested(r#"{"order":"load","plan":"takeoff\ngoto 0 1 0 0\nland\n"}"#);
-        assert!(matches!(load, Ok(Some(OperatorOrder::Load(plan))) if plan.steps().len() == 3));
-        let append = requested(r#"{"order":"append","command":"goto 1 0 0 0"}"#);
-        assert!(matches!(append, Ok(Some(OperatorOrder::Append(_)))));
-        assert!(requested(r#"{"order":"load","plan":"goto 0 1 0 0"}"#).is_err());
-        assert!(requested(r#"{"order":"hold","more":1}"#).is_err());
-        assert!(requested(r#"{"order":"fly"}"#).is_err());
+        let requested = |line: &str| {
+            let (caller, wanted) = parse_json(Ok(line.to_owned()), &FlightLimits::default());
+            assert_eq!(caller, Caller::Json(7.into()));
+            wanted
+        };
+        let order = |order| Ok(Wanted::Order(order));
+        assert_eq!(requested(r#"{"id":7,"order":"hold"}"#), order(OperatorOrder::Hold));
+        assert_eq!(requested(r#"{"id":7,"order":"quit"}"#), Ok(Wanted::Quit));
+        let start = requested(r#"{"id":7,"order":"start","when_ready":true}"#);
+        assert_eq!(start, order(OperatorOrder::Start { when_ready: true }));
+        let load = requested(r#"{"id":7,"order":"load","plan":"takeoff\ngoto 0 1 0 0\nland\n"}"#);
+        assert!(
+            matches!(load, Ok(Wanted::Order(OperatorOrder::Load(plan))) if plan.steps().len() == 3)
+        );
+        let append = requested(r#"{"id":7,"order":"append","commands":"goto 1 0 0 0"}"#);
+        assert!(matches!(append, Ok(Wanted::Order(OperatorOrder::Append(_)))));
+        let high = Place { height_m: Some(1.5), ..Place::default() };
+        let go_to = requested(r#"{"id":7,"order":"goto","height_m":1.5}"#);
+        assert_eq!(go_to, order(OperatorOrder::GoTo(high)));
+        for wrong in [
+            r#"{"id":7,"order":"load","plan":"goto 0 1 0 0"}"#,
+            r#"{"id":7,"order":"hold","more":1}"#,
+            r#"{"id":7,"order":"fly"}"#,
+            r#"{"id":7}"#,
+        ] {
+            assert!(requested(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -44,7 +44,7 @@ fn order() -> impl Strategy<Value = OperatorOrder> {
         (-2.0..2.0, -2.0..2.0).prop_map(|(x_m, y_m)| OperatorOrder::GoTo(Place::at(x_m, y_m))),
         Just(OperatorOrder::Land),
         Just(OperatorOrder::Recover),
-        Just(OperatorOrder::Camera(Camera::Bottom)),
+        Just(OperatorOrder::Camera { camera: Camera::Bottom }),
         Just(OperatorOrder::Take),
         Just(OperatorOrder::Release),
     ]
@@ -76,7 +76,7 @@ impl Rules {
                 None
             }
             // It takes no controls.
-            (holder, OperatorOrder::Camera(_)) => {
+            (holder, OperatorOrder::Camera { .. }) => {
                 holder.filter(|holder| *holder != by && !by.local)
             }
             (Some(holder), OperatorOrder::Hold | OperatorOrder::Land | OperatorOrder::Cut) => {

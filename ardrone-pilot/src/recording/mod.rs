@@ -19,7 +19,7 @@ pub use messages::{
     Agent, Bytes, ChosenPlan, Command, DecodedNavdata, Estimate, GpsPosition, Mission, Place, Tag,
     Tags, Tick, Timing,
 };
-pub use order::{Order, OrderError};
+pub use order::Order;
 pub use pictures::{RecordedPicture, pictures};
 pub use reader::{Entry, LARGEST_FILE_BYTES, Log, LogError};
 pub use recorder::{Recorded, Recorder, Recording, RecordingError, VideoRecorder};

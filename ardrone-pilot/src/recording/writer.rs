@@ -129,7 +129,7 @@ impl<W: Write + Seek> LogWriter<W> {
                 self.message(topic::CONTROL, *at, &bytes(block))
             }
             Record::Order { at, by, order } => {
-                self.message(topic::ORDERS, *at, &Order::new(*by, order))
+                self.message(topic::ORDERS, *at, &Order::new(*by, order.clone()))
             }
             Record::Mission { at, name, steps } => {
                 let steps = steps.iter().map(|step| step.text.clone()).collect();

@@ -239,10 +239,9 @@ impl Vehicle {
 
     pub(super) fn send_to(&mut self, now: Duration, to: &Place) {
         let present = self.flight.target.unwrap_or_else(|| self.pose(now));
-        let [x_m, y_m] = to.place_m.unwrap_or([present.x_m, present.y_m]);
         let wanted = Pose {
-            x_m,
-            y_m,
+            x_m: to.x_m.unwrap_or(present.x_m),
+            y_m: to.y_m.unwrap_or(present.y_m),
             z_m: to.height_m.unwrap_or(present.z_m),
             yaw_deg: to.yaw_deg.unwrap_or(present.yaw_deg),
         };

@@ -1,9 +1,9 @@
-//! Operator orders, and whether the vehicle accepts them.
+//! Whether the vehicle accepts an operator's order, and what it does then.
 
 use std::time::Duration;
 
 use super::readiness::NotReady;
-use super::{Authority, FlightEvent, FlightPhase, LandingReason, Operator, Setpoint, Vehicle};
+use super::{Authority, FlightEvent, FlightPhase, LandingReason, Operator, OperatorOrder, Vehicle};
 use crate::agent::AgentCommand;
 use crate::mission::{AppendError, Underway};
 use crate::outcome::Outcome;
@@ -12,84 +12,6 @@ use ardrone_link::navdata::DroneState;
 use ardrone_link::session::Request;
 use ardrone_link::settings::{Camera, Setting};
 use estimator::MAX_TAGS;
-use kinematics::Sticks;
-
-/// An order from an operator.
-///
-/// Anyone may give [`Hold`](Self::Hold), [`Land`](Self::Land) and [`Cut`](Self::Cut); every other order but
-/// [`Camera`](Self::Camera) needs the controls, see [`Operator`].
-#[derive(Debug, Clone, PartialEq)]
-pub enum OperatorOrder {
-    /// Replace the mission. On the ground the new mission waits for [`Start`](Self::Start). In the air the
-    /// drone holds and flies the new mission at once, unless the mission was paused. Coordinates are still
-    /// relative to the take-off of the current flight.
-    Load(Plan),
-    /// Append commands to the mission, before a landing that its plan does not contain but implies. After the
-    /// end of a mission they begin a new one.
-    Append(Commands),
-    /// Clear the mission. In the air the drone holds.
-    Clear,
-    /// Start the mission, or resume it where it was paused.
-    Start {
-        /// Wait, for a limited time, for a drone that is not ready yet.
-        when_ready: bool,
-    },
-    /// Hold position; the mission is paused.
-    Hold,
-    /// Resume the mission.
-    Resume,
-    /// Manual control: stick fractions with the drone's signs. They expire after 600 ms unless repeated, those of a
-    /// browser's page after 250 ms.
-    Steer(Sticks),
-    /// Fly to this place and stay there; the mission is paused. A place near or outside the fence is moved inside.
-    GoTo(Place),
-    /// Follow set-points, of which this is the first; the mission is paused. If the next ones stop coming for 0.5 s the
-    /// drone holds, and ten seconds later it lands.
-    Follow(Setpoint),
-    /// The next set-point, while they are followed.
-    Setpoint(Setpoint),
-    /// Nothing but that the operator's station is there. A station that speaks `MAVLink` and has the controls must be
-    /// heard: by this or any other order.
-    Present,
-    /// Land and give up the mission.
-    Land,
-    /// Cut the motors now. **The drone falls.**
-    Cut,
-    /// Clear the drone's emergency state so that it can fly again. The operator must have inspected the
-    /// drone.
-    Recover,
-    /// Show this camera in the video. It takes no controls; a remote operator must not switch the picture of somebody
-    /// else who has them.
-    Camera(Camera),
-    /// Have the controls, and change nothing else.
-    Take,
-    /// Release the controls.
-    Release,
-}
-
-/// A place to fly to, in the estimator's frame; what is not given stays as it is.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Place {
-    /// Metres to the right and forward of the start.
-    pub place_m: Option<[f64; 2]>,
-    /// Metres above the floor of the start.
-    pub height_m: Option<f64>,
-    /// Degrees clockwise from the heading of the start.
-    pub yaw_deg: Option<f64>,
-}
-
-impl Place {
-    /// This place, at the present height and heading.
-    pub const fn at(x_m: f64, y_m: f64) -> Self {
-        Self { place_m: Some([x_m, y_m]), height_m: None, yaw_deg: None }
-    }
-
-    /// Whether all its numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        let numbers = self.place_m.into_iter().flatten();
-        numbers.chain(self.height_m).chain(self.yaw_deg).all(f64::is_finite)
-    }
-}
 
 /// Why an order was refused. A refused order changes nothing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -138,9 +60,12 @@ pub enum Refused {
         /// Tags that are given by the settings or, in a flight, known.
         known: usize,
     },
-    /// A coordinate is not a finite number.
+    /// No coordinate is given, or one is not a finite number.
     #[error("this is not a place: its numbers must be finite")]
     NoPlace,
+    /// A stick is further out than it can be.
+    #[error("sticks are from -1 to 1")]
+    NoSticks,
     /// The drone is not in its emergency state, or not on the ground.
     #[error("there is no emergency to recover from on the ground")]
     NoEmergency,
@@ -150,55 +75,6 @@ pub enum Refused {
     /// The tick loop has ended.
     #[error("the vehicle has been left")]
     Left,
-}
-
-impl OperatorOrder {
-    /// Whether every operator may give this order at any time.
-    pub fn is_for_anyone(&self) -> bool {
-        matches!(self, Self::Hold | Self::Land | Self::Cut)
-    }
-
-    /// Whether the drone flies otherwise after it.
-    fn changes_the_flight(&self) -> bool {
-        match self {
-            Self::Take | Self::Release | Self::Present | Self::Camera(_) | Self::Recover => false,
-            Self::Load(_)
-            | Self::Append(_)
-            | Self::Clear
-            | Self::Start { .. }
-            | Self::Hold
-            | Self::Resume
-            | Self::Steer(_)
-            | Self::GoTo(_)
-            | Self::Follow(_)
-            | Self::Setpoint(_)
-            | Self::Land
-            | Self::Cut => true,
-        }
-    }
-
-    /// Its name in logs and in JSON.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Load(_) => "load",
-            Self::Append(_) => "append",
-            Self::Clear => "clear",
-            Self::Start { .. } => "start",
-            Self::Hold => "hold",
-            Self::Resume => "resume",
-            Self::Steer(_) => "steer",
-            Self::GoTo(_) => "goto",
-            Self::Follow(_) => "follow",
-            Self::Setpoint(_) => "setpoint",
-            Self::Present => "present",
-            Self::Land => "land",
-            Self::Cut => "cut",
-            Self::Recover => "recover",
-            Self::Camera(_) => "camera",
-            Self::Take => "take",
-            Self::Release => "release",
-        }
-    }
 }
 
 impl Vehicle {
@@ -247,7 +123,7 @@ impl Vehicle {
                 self.request(now, Request::EmergencyStop);
             }
             OperatorOrder::Recover => return self.recover(now),
-            OperatorOrder::Camera(camera) => return self.show_camera(now, by, camera),
+            OperatorOrder::Camera { camera } => return self.show_camera(now, by, camera),
             // They have been taken already; whoever is there was heard.
             OperatorOrder::Take | OperatorOrder::Present => {}
             OperatorOrder::Release => self.controls.release(by),
@@ -259,11 +135,14 @@ impl Vehicle {
                 self.can_be_held()?;
                 self.hold_here();
             }
-            OperatorOrder::Steer(demand) => {
-                self.can_be_held()?;
-                self.steer(now, by, demand);
+            OperatorOrder::Steer(sticks) if !sticks.are_possible() => {
+                return Err(Refused::NoSticks);
             }
-            OperatorOrder::GoTo(place) if place.is_finite() => {
+            OperatorOrder::Steer(sticks) => {
+                self.can_be_held()?;
+                self.steer(now, by, sticks);
+            }
+            OperatorOrder::GoTo(place) if place.is_place() => {
                 self.can_be_held()?;
                 self.send_to(now, &place);
             }
@@ -288,7 +167,7 @@ impl Vehicle {
             self.controls.admit_any(by);
         } else if !matches!(
             order,
-            OperatorOrder::Release | OperatorOrder::Camera(_) | OperatorOrder::Present
+            OperatorOrder::Release | OperatorOrder::Camera { .. } | OperatorOrder::Present
         ) {
             self.controls.admit(by).map_err(Refused::ControlsHeld)?;
         }

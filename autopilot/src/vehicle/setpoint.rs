@@ -3,6 +3,7 @@
 use kinematics::{Pose, world_from_body, wrap_deg};
 use nalgebra::Vector2;
 use pid::{Course, MotionLimits};
+use serde::{Deserialize, Serialize};
 
 use crate::safety::Stopping;
 
@@ -19,7 +20,8 @@ const CLIMB_LEASH_M: f64 = 1.2;
 const LEASH_DEG: f64 = 45.0;
 
 /// What an operator's program wants in this moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Setpoint {
     /// Horizontally.
     pub horizontal: Horizontal,
@@ -30,7 +32,8 @@ pub struct Setpoint {
 }
 
 /// Horizontal part of a [`Setpoint`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Horizontal {
     /// This place, in metres in the estimator's frame.
     Place {
@@ -56,22 +59,27 @@ pub enum Horizontal {
 }
 
 /// Vertical part of a [`Setpoint`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Vertical {
     /// This height, in metres above the floor of the start.
+    #[serde(rename = "height_m")]
     Height(f64),
     /// This rate of climb, in m/s.
+    #[serde(rename = "climb_m_s")]
     Climb(f64),
 }
 
 /// Heading of a [`Setpoint`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Heading {
     /// As it is.
+    #[serde(rename = "keep")]
     Keep,
     /// This one, in degrees clockwise from that of the start.
+    #[serde(rename = "yaw_deg")]
     Yaw(f64),
     /// This rate of turn, in degrees/s, clockwise.
+    #[serde(rename = "turn_deg_s")]
     Turn(f64),
 }
 

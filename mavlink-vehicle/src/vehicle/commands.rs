@@ -467,7 +467,8 @@ impl MavlinkVehicle {
         }
         let yaw_deg = asked.parameter(4).map(|yaw_rad| self.origin.yaw_deg(yaw_rad.into()));
         let to = Place {
-            place_m: place.ground_m.map(|(x_m, y_m)| [x_m, y_m]),
+            x_m: place.ground_m.map(|(x_m, _)| x_m),
+            y_m: place.ground_m.map(|(_, y_m)| y_m),
             height_m: place.z_m.map(|z_m| z_m.clamp(limits.floor_m, limits.ceiling_m)),
             yaw_deg,
         };

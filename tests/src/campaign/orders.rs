@@ -124,7 +124,7 @@ impl Orders {
         }
         self.watched = match *order {
             OperatorOrder::Hold => Some(Watched::Hold { at: *now, place_m: None }),
-            OperatorOrder::GoTo(Place { place_m: Some([x_m, y_m]), .. }) => {
+            OperatorOrder::GoTo(Place { x_m: Some(x_m), y_m: Some(y_m), .. }) => {
                 let wanted_m = Vector2::new(x_m, y_m);
                 let to_m = wanted_m.cap_magnitude(self.limits.radius_m - INSIDE_M);
                 let far_m = (to_m - truth.odometry_m).norm();

@@ -171,7 +171,7 @@ impl Silence {
     fn ordered(&mut self, moment: &Moment, by: Operator, order: &OperatorOrder) {
         let takes = by == Operator::TERMINAL;
         match order {
-            OperatorOrder::Present | OperatorOrder::Camera(_) => {}
+            OperatorOrder::Present | OperatorOrder::Camera { .. } => {}
             OperatorOrder::Release => self.holder = self.holder.filter(|holder| *holder != by),
             _ if takes || self.holder.is_none() => self.holder = Some(by),
             _ => {}
@@ -192,12 +192,12 @@ impl Silence {
             OperatorOrder::Setpoint(setpoint) if setpoint.is_finite() => {
                 self.setpoint_at = self.setpoint_at.map(|_| moment.now);
             }
-            OperatorOrder::GoTo(place) if !place.is_finite() => {}
+            OperatorOrder::GoTo(place) if !place.is_place() => {}
             OperatorOrder::Follow(_)
             | OperatorOrder::Setpoint(_)
             | OperatorOrder::Present
             | OperatorOrder::Append(_)
-            | OperatorOrder::Camera(_)
+            | OperatorOrder::Camera { .. }
             | OperatorOrder::Take
             | OperatorOrder::Release
             | OperatorOrder::Recover => {}

@@ -250,8 +250,10 @@ fn sticks(random: &mut impl Rng) -> Sticks {
 fn place(random: &mut impl Rng) -> Place {
     let mut number = |most: f64| random.random_range(-most..most);
     let (x_m, y_m, height_m, yaw_deg) = (number(6.0), number(6.0), number(3.0), number(180.0));
+    let given = random.random_bool(0.8);
     Place {
-        place_m: random.random_bool(0.8).then_some([x_m, y_m]),
+        x_m: given.then_some(x_m),
+        y_m: given.then_some(y_m),
         height_m: random.random_bool(0.5).then_some(height_m),
         yaw_deg: random.random_bool(0.5).then_some(yaw_deg),
     }

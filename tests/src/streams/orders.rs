@@ -111,7 +111,7 @@ pub(super) fn stopping(random: &mut impl Rng) -> OperatorOrder {
 /// An order after which the drone does what it did.
 pub(super) fn nonsense(random: &mut impl Rng) -> OperatorOrder {
     match random.random_range(0..9) {
-        0 => OperatorOrder::Camera(Camera::Bottom),
+        0 => OperatorOrder::Camera { camera: Camera::Bottom },
         1 => OperatorOrder::Take,
         2 => OperatorOrder::Release,
         3 => OperatorOrder::Present,

@@ -14,16 +14,9 @@ land
   const KEPT = "ardrone-pilot plan";
   // Time to confirm what cannot be taken back, in milliseconds.
   const AGAIN = 3000;
-  // The numbers of each command.
-  const POSE = [["x", "m right"], ["y", "m forward"], ["z", "m up"], ["heading", "° clockwise"]];
-  const FIELDS = {
-    goto: POSE, moveBy: POSE, moveByRel: POSE, setReference: POSE,
-    setStayTime: [["time", "s"]], setStayWithinDist: [["distance", "m"]], setInitialReachDist: [["distance", "m"]],
-    setSpeed: [["speed", "m/s"]], setMaxControl: [["fraction", "of the sticks"]],
-    tag: [["x", "m right"], ["y", "m forward"], ["heading", "° clockwise"]],
-  };
-  // Commands whose first two numbers move their target.
-  const TARGETS = new Set(["goto", "moveBy", "moveByRel"]);
+  // Of the plan language: { name, help, example, numbers: [[name, unit]], isTarget }.
+  let commands = [];
+  const declared = (name) => commands.find((command) => command.name === name);
 
   const text = $("plantext");
   let checked = null; // the checker's answer for the text
@@ -129,7 +122,7 @@ land
     const what = `line ${index + 1}, ${found[0].word}`;
     item.append(name);
     const numbers = found.slice(1).every(({ word }) => Number.isFinite(Number(word)));
-    const fields = numbers ? (FIELDS[found[0].word] ?? []).slice(0, found.length - 1) : [];
+    const fields = numbers ? (declared(found[0].word)?.numbers ?? []).slice(0, found.length - 1) : [];
     const inputs = fields.map(([field, unit], place) => {
       const input = document.createElement("input");
       Object.assign(input, { type: "number", step: unit.includes("°") ? 15 : 0.1, title: `${field}, ${unit}` });
@@ -177,7 +170,7 @@ land
     const lands = all.length && ends(words(all.at(-1))[0]?.word) && !ends(word) && word !== "takeoff";
     // Nothing is flown to from the ground.
     const starts = all.some((line) => ["takeoff", "autoTakeover", "autoInit"].includes(words(line)[0]?.word));
-    if (TARGETS.has(word) && !starts) all.unshift("takeoff");
+    if (declared(word)?.isTarget && !starts) all.unshift("takeoff");
     all.splice(all.length - (lands ? 1 : 0), 0, command);
     write(all.join("\n") + "\n");
   }
@@ -255,7 +248,7 @@ land
 
   function canBeDragged({ line }) {
     const found = words(lines()[line - 1] ?? "");
-    return TARGETS.has(found[0]?.word) && found.slice(1, 3).length === 2 && found.slice(1, 3).every(({ word }) => Number.isFinite(Number(word)));
+    return declared(found[0]?.word)?.isTarget && found.slice(1, 3).length === 2 && found.slice(1, 3).every(({ word }) => Number.isFinite(Number(word)));
   }
 
   // Draws the targets and the simulated flight; `size` is that of a mark in metres.
@@ -420,7 +413,7 @@ land
   $("addstep").onclick = () => {
     const command = $("newstep").value;
     const last = targets().at(-1) ?? { x: 0, y: 0 };
-    add(command === "goto" ? target({ x: last.x, y: last.y + 1 }) : command);
+    add(command.startsWith("goto ") ? target({ x: last.x, y: last.y + 1 }) : command);
   };
   text.oninput = changed;
 
@@ -429,6 +422,10 @@ land
     begin(message) {
       if (begun) return;
       begun = true;
+      commands = message.commands;
+      const options = commands.filter(({ example }) => example);
+      $("newstep").replaceChildren(...options.map(({ help, example }) => Object.assign(document.createElement("option"), { value: example, textContent: help })));
+      $("newstep").value = declared("goto").example;
       list();
       let kept = null;
       try {

@@ -43,7 +43,7 @@ fn orders_are_named_like_their_variants_and_three_are_for_anyone() {
         OperatorOrder::Land,
         OperatorOrder::Cut,
         OperatorOrder::Recover,
-        OperatorOrder::Camera(Camera::Bottom),
+        OperatorOrder::Camera { camera: Camera::Bottom },
         OperatorOrder::Take,
         OperatorOrder::Release,
     ];
@@ -59,7 +59,7 @@ fn orders_are_named_like_their_variants_and_three_are_for_anyone() {
 /// It takes no controls, and no remote operator switches the picture of whoever flies.
 #[test]
 fn the_camera_is_chosen_by_whoever_flies() {
-    const BOTTOM: OperatorOrder = OperatorOrder::Camera(Camera::Bottom);
+    const BOTTOM: OperatorOrder = OperatorOrder::Camera { camera: Camera::Bottom };
     let mut bench = Bench::in_the_air(STAY);
     let refused = Err(Refused::ControlsHeld(Operator::TERMINAL));
     assert_eq!(bench.vehicle.order(bench.now, REMOTE, BOTTOM), refused);
