@@ -36,8 +36,9 @@ pub(super) struct Flight {
     pub(super) landing: Option<LandingReason>,
     /// Why a drone that was taken over in the air must not be flown on.
     pub(super) refusals: Vec<String>,
-    /// Start of the fault that the drone currently reports.
+    /// Start of the fault that the drone currently reports, and of its emergency state.
     pub(super) fault_since: Option<Duration>,
+    pub(super) emergency_since: Option<Duration>,
     /// The drone has been in the air.
     pub(super) has_lifted: bool,
     /// Since when it is on the ground again without an order to land.
@@ -84,6 +85,7 @@ impl Flight {
             landing: None,
             refusals: Vec::new(),
             fault_since: None,
+            emergency_since: None,
             has_lifted: false,
             down_since: None,
             wind_m_s2: Vector2::zeros(),
@@ -110,13 +112,26 @@ pub(super) fn sample(now: Duration, navdata: &Navdata, demo: &Demo) -> Sample {
         velocity_forward_m_s: demo.velocity_forward_m_s,
         velocity_right_m_s: demo.velocity_right_m_s,
         altitude_m: demo.altitude_m,
-        airborne: navdata.state.contains(DroneState::FLYING),
+        airborne: is_airborne(navdata.state, demo.control_state),
         autonomous: matches!(
             demo.control_state,
             ControlState::TakingOff | ControlState::Landing | ControlState::Looping
         ),
         reported_lost: reported_lost(navdata.state, demo),
     }
+}
+
+/// Whether the drone says that it is in the air: by the bit for it, or by what it does. Either can be wrong alone, and a drone
+/// that is taken for one on the ground is not flown as it should be.
+pub(super) fn is_airborne(state: DroneState, control: ControlState) -> bool {
+    let flies = matches!(
+        control,
+        ControlState::Flying
+            | ControlState::Hovering
+            | ControlState::GoingToFixPoint
+            | ControlState::Looping
+    );
+    state.contains(DroneState::FLYING) || (flies && !state.contains(DroneState::EMERGENCY))
 }
 
 /// The quantity that the drone itself reports as unavailable.

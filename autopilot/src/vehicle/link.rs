@@ -28,6 +28,9 @@ impl Vehicle {
             self.flight.estimator.update(&sample(now, &navdata, demo));
         }
         self.navdata = Some(navdata);
+        if !self.says_on_ground() {
+            self.off_ground_at = Some(now);
+        }
         if (self.config.gps || self.config.estimator.tags.is_some())
             && let Ok(packet) = Packet::decode(datagram)
         {
@@ -141,9 +144,6 @@ impl Vehicle {
             }
             session::Event::Emergency => {
                 self.events.push_back(FlightEvent::Emergency);
-                if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
-                    self.end(now, Outcome::Emergency);
-                }
             }
             session::Event::EmergencyCleared => {
                 self.events.push_back(FlightEvent::EmergencyCleared);

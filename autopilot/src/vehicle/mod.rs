@@ -39,7 +39,7 @@ use pid::CascadeConfig;
 pub use pid::Law;
 
 pub use self::decision::Decision;
-use self::flight::{Active, Flight, sample};
+use self::flight::{Active, Flight, is_airborne, sample};
 pub use self::landing_reason::LandingReason;
 pub use self::manual::ManualControl;
 pub use self::operator_order::{CommandsText, OperatorOrder, OrderText, Place, PlanText};
@@ -148,6 +148,8 @@ const BLIND_LANDING_TIME: Duration = Duration::from_secs(4);
 const EVENTS: usize = 64;
 /// A fault bit that stays set for this long ends the flight.
 const FAULT_TIME: Duration = Duration::from_millis(300);
+/// A drone that has said for this long that it is on the ground is.
+const ON_GROUND_TIME: Duration = Duration::from_millis(500);
 /// Time constant of the average that removes gusts from the disturbance, in seconds.
 const WIND_TIME_S: f64 = 2.0;
 
@@ -178,8 +180,9 @@ pub struct Vehicle {
     last_tick: Option<Duration>,
     /// Navdata packets per second, low-pass filtered.
     navdata_hz: f64,
-    /// Arrival of the newest packet.
+    /// Arrival of the newest packet, and of the newest one from a drone that is not on the ground.
     packet_at: Option<Duration>,
+    off_ground_at: Option<Duration>,
     /// Reasons not to take off, and the ticks until they are checked again.
     readiness: Vec<NotReady>,
     readiness_in: u32,
@@ -256,6 +259,7 @@ impl Vehicle {
             last_tick: None,
             navdata_hz: 0.0,
             packet_at: None,
+            off_ground_at: None,
             readiness: Vec::with_capacity(1),
             readiness_in: 0,
             events: VecDeque::with_capacity(EVENTS),
@@ -409,10 +413,26 @@ impl Vehicle {
         self.session.state()
     }
 
+    /// Whether the drone has said without a break for [`ON_GROUND_TIME`] that it is on the ground: a single packet may be
+    /// damaged, and whoever is let go of in the air falls.
     fn on_ground(&self) -> bool {
-        let flying = self.drone_state().contains(DroneState::FLYING);
-        let landed = self.demo().is_none_or(|demo| demo.control_state == ControlState::Landed);
-        !flying && (landed || self.drone_state().contains(DroneState::EMERGENCY))
+        let lasts = match (self.packet_at, self.off_ground_at) {
+            (Some(now), Some(off)) => now.saturating_sub(off) >= ON_GROUND_TIME,
+            _ => true,
+        };
+        lasts && self.says_on_ground()
+    }
+
+    fn says_on_ground(&self) -> bool {
+        let state = self.drone_state();
+        match self.demo() {
+            Some(demo) => {
+                let landed = demo.control_state == ControlState::Landed;
+                let airborne = is_airborne(state, demo.control_state);
+                !airborne && (landed || state.contains(DroneState::EMERGENCY))
+            }
+            None => !state.contains(DroneState::FLYING),
+        }
     }
 }
 

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::time::Duration;
 
+use ardrone_link::navdata::DroneState;
+
 use super::readiness::NotReady;
 use super::{
     AgentOrder, Authority, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configured,
@@ -118,6 +120,9 @@ impl Vehicle {
     /// Advances the phase and detects the conditions that end a flight.
     pub(super) fn watch(&mut self, now: Duration) {
         let departs = self.departure.is_some();
+        if self.has_lasting_emergency(now) {
+            self.end(now, Outcome::Emergency);
+        }
         match self.phase {
             _ if self.is_flown_by_another() => {
                 if departs {
@@ -222,6 +227,15 @@ impl Vehicle {
         fault.filter(|_| {
             self.flight.fault_since.is_some_and(|at| now.saturating_sub(at) >= FAULT_TIME)
         })
+    }
+
+    /// Whether the drone has cut its motors in a flight, for [`FAULT_TIME`].
+    fn has_lasting_emergency(&mut self, now: Duration) -> bool {
+        let flies = matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. });
+        let emergency = flies && self.drone_state().contains(DroneState::EMERGENCY);
+        let since = &mut self.flight.emergency_since;
+        *since = emergency.then(|| since.unwrap_or(now));
+        since.is_some_and(|since| now.saturating_sub(since) >= FAULT_TIME)
     }
 
     /// Whether the drone has landed by itself: the agent hears of it only if it had an order to carry out.

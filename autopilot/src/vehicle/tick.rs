@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 use super::{
     Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, LandingReason, NotReady,
     Outcome, READINESS_TICKS, Report, RestsOn, Stage, TICK, TagStatus, Target, Vehicle,
-    WIND_TIME_S, Waypoint, pose,
+    WIND_TIME_S, Waypoint, is_airborne, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Percepts, StationPercepts};
 use crate::safety::{Motion, Situation};
@@ -146,12 +146,13 @@ impl Vehicle {
     fn percepts(&self, now: Duration, state: &Prediction, tags: Option<&TagStatus>) -> Percepts {
         let hovering = self.demo().is_some_and(|demo| {
             matches!(demo.control_state, ControlState::Hovering | ControlState::Flying)
+                && is_airborne(self.drone_state(), demo.control_state)
         });
         Percepts {
             now_ms: i64::try_from(now.as_millis()).unwrap_or(i64::MAX),
             pose: self.demo().map(|_| pose(state)),
             on_ground: self.on_ground(),
-            hovering: hovering && self.drone_state().contains(DroneState::FLYING),
+            hovering,
             battery_percent: self.battery_percent(),
             blind_for_ms: i64::try_from(self.blind_for(now).as_millis()).unwrap_or(i64::MAX),
             position_sd_m: self.flight.estimator.horizontal_deviation_m(now),

@@ -199,8 +199,41 @@ fn a_drone_that_is_held_and_lands_by_itself_has_ended_its_flight() {
     bench.run(SECOND);
     assert!(bench.outcomes.is_empty(), "{:?}", bench.outcomes);
     bench.comes_down();
-    bench.run(SECOND);
+    bench.run(2 * SECOND);
     let reason = "the drone lands by itself".to_owned();
     assert_eq!(bench.outcomes, [Outcome::Failsafe { reason }]);
     assert_eq!(bench.phase(), Phase::Standby);
+}
+
+/// A few packets can be damaged, or somebody else's: whoever believed them would let go of a drone in the air.
+#[test]
+fn a_drone_that_says_for_a_moment_that_it_is_down_is_still_landed() {
+    let wrong: [(&str, fn(&mut Bench)); 2] =
+        [("landed", Bench::comes_down), ("emergency", |bench| bench.state = DroneState::EMERGENCY)];
+    for (said, says) in wrong {
+        let mut bench = Bench::in_the_air("takeoff\nland");
+        bench.until(SECOND, |bench| bench.reference() == Some(Ref::Land));
+        bench.run(SECOND);
+        let (state, control_state) = (bench.state, bench.control_state);
+        says(&mut bench);
+        bench.run(8 * TICK);
+        (bench.state, bench.control_state) = (state, control_state);
+        bench.run(SECOND);
+        assert!(bench.outcomes.is_empty(), "{said}: {:?}", bench.outcomes);
+        assert_eq!(bench.reference(), Some(Ref::Land), "{said}");
+        bench.comes_down();
+        bench.until(2 * SECOND, |bench| !bench.outcomes.is_empty());
+        assert_eq!(bench.outcomes, [Outcome::Completed], "{said}");
+    }
+}
+
+/// Without the bit, what it does says that it flies.
+#[test]
+fn a_drone_that_hovers_is_in_the_air_whatever_its_bit_says() {
+    let mut bench = Bench::in_the_air("takeoff\nsetStayTime 90\ngoto 0 0 0 0\nland");
+    bench.state = bench.state.difference(DroneState::FLYING);
+    bench.run(3 * SECOND);
+    assert!(bench.vehicle.status(bench.now).airborne);
+    assert!(bench.vehicle.decision().unwrap().percepts.hovering);
+    assert!(bench.outcomes.is_empty(), "{:?}", bench.outcomes);
 }

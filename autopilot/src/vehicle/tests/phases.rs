@@ -153,8 +153,7 @@ fn a_drone_found_in_the_air_is_left_alone_until_it_stands() {
         assert_eq!((bench.phase(), bench.commands.len()), (Phase::Observing, 0));
     }
     bench.comes_down();
-    bench.step();
-    assert_eq!(bench.phase(), Phase::Configuring);
+    bench.until(SECOND, |bench| bench.phase() == Phase::Configuring);
     bench.until(3 * SECOND, |bench| bench.phase() == Phase::Standby);
     assert_eq!(bench.outcomes, []);
 }
