@@ -33,6 +33,7 @@ pub mod replay;
 pub mod report;
 pub mod settings;
 pub mod simulation;
+mod text_file;
 pub mod timing;
 mod typed;
 pub mod video;

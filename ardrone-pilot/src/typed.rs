@@ -8,6 +8,7 @@ use autopilot::plan::{Commands, FlightLimits, LANGUAGE, Plan, PlanError};
 use autopilot::vehicle::{Operator, OperatorOrder, Refused};
 
 use crate::flight::Controls;
+use crate::text_file;
 
 /// A word that is an order of its own; every other line is commands of the plan language.
 struct Word {
@@ -169,9 +170,9 @@ fn commands() -> impl Iterator<Item = &'static str> {
 }
 
 fn read(path: &str, limits: &FlightLimits) -> Result<Plan, TypedError> {
-    let bytes =
-        std::fs::read(path).map_err(|source| TypedError::Read { path: path.to_owned(), source })?;
-    Ok(Plan::parse_within(path, &String::from_utf8_lossy(&bytes), limits)?)
+    let text = text_file::read(Path::new(path));
+    let text = text.map_err(|source| TypedError::Read { path: path.to_owned(), source })?;
+    Ok(Plan::parse_within(path, &text, limits)?)
 }
 
 /// Completions of a line: orders, commands, and files after `load`.

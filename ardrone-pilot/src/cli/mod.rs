@@ -34,6 +34,7 @@ use crate::recording::{self, LARGEST_FILE_BYTES, Log, LogError, RecordingError};
 use crate::replay::{Replay, ReplayError};
 use crate::report::{self, ReportError};
 use crate::settings::{Settings, SettingsError};
+use crate::text_file;
 use crate::video::{self, ExportError};
 
 /// Why a command failed.
@@ -229,11 +230,9 @@ fn read_settings(path: Option<&Path>) -> Result<Settings, CommandError> {
 }
 
 fn read(what: &'static str, path: &Path) -> Result<String, CommandError> {
-    let bytes = std::fs::read(path).map_err(|source| CommandError::Read {
+    text_file::read(path).map_err(|source| CommandError::Read {
         what,
         path: path.display().to_string(),
         source,
-    })?;
-    // Invalid UTF-8 becomes replacement characters, which no valid input contains.
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    })
 }

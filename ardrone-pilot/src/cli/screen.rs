@@ -12,8 +12,9 @@ use autopilot::plan::FlightLimits;
 use crossterm::cursor::Show;
 use crossterm::execute;
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, size};
-use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
+use ratatui::layout::Rect;
+use ratatui::{Terminal, TerminalOptions, Viewport};
 use tracing_subscriber::fmt::MakeWriter;
 
 use self::view::View;
@@ -23,11 +24,15 @@ use crate::flight::Message;
 
 /// Minimum size in columns and rows; smaller terminals get lines.
 const LEAST: (u16, u16) = (70, 20);
+/// Of a larger terminal only this much is drawn on: one may say that it has 65535 columns and rows, whose cells need more
+/// memory than there is.
+const MOST: (u16, u16) = (500, 200);
 
 /// Draws the flight, and restores the terminal at the end.
 pub(super) struct Screen {
     /// Not dropped: it would panic if the terminal is gone, to say that the cursor could not be shown.
     terminal: ManuallyDrop<Terminal<CrosstermBackend<Stderr>>>,
+    area: Rect,
     view: View,
     warnings: Warnings,
     prompt: PromptLine,
@@ -40,11 +45,13 @@ impl Screen {
         warnings: &Warnings,
         prompt: PromptLine,
     ) -> Option<Self> {
-        let (columns, rows) = size().ok()?;
-        if columns < LEAST.0 || rows < LEAST.1 {
+        let area = area().ok()?;
+        if area.width < LEAST.0 || area.height < LEAST.1 {
             return None;
         }
-        let terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(stderr())).ok()?);
+        let options = TerminalOptions { viewport: Viewport::Fixed(area) };
+        let terminal = Terminal::with_options(CrosstermBackend::new(stderr()), options);
+        let terminal = ManuallyDrop::new(terminal.ok()?);
         execute!(stderr(), EnterAlternateScreen).ok()?;
         warnings.keep(true);
         let before = std::panic::take_hook();
@@ -53,7 +60,7 @@ impl Screen {
             before(panic);
         }));
         let mut screen =
-            Self { terminal, view: View::new(limits), warnings: warnings.clone(), prompt };
+            Self { terminal, area, view: View::new(limits), warnings: warnings.clone(), prompt };
         screen.draw();
         Some(screen)
     }
@@ -90,8 +97,20 @@ impl Screen {
     fn draw(&mut self) {
         self.view.prompt = self.prompt.shown();
         // The system signals the flight when the terminal is gone.
+        if let Ok(area) = area()
+            && area != self.area
+        {
+            self.area = area;
+            _ = self.terminal.resize(area);
+        }
         _ = self.terminal.draw(|frame| view::draw(frame, &self.view));
     }
+}
+
+/// What is drawn on.
+fn area() -> io::Result<Rect> {
+    let (columns, rows) = size()?;
+    Ok(Rect::new(0, 0, columns.min(MOST.0), rows.min(MOST.1)))
 }
 
 impl Drop for Screen {
