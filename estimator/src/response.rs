@@ -25,6 +25,7 @@ const MAX_GAP_S: f64 = 0.3;
 fn climb(limits: &DroneLimits) -> Rate<6> {
     let tolerance = Tolerance {
         share: 0.6,
+        most: 2.2,
         slack: 0.03,
         missing: 0.2,
         missing_slowly: 0.5,
@@ -43,6 +44,7 @@ fn climb(limits: &DroneLimits) -> Rate<6> {
 fn turn(limits: &DroneLimits) -> Rate<3> {
     let tolerance = Tolerance {
         share: 0.6,
+        most: 1.3,
         slack: 1.0,
         missing: 10.0,
         missing_slowly: 20.0,

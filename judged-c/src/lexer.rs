@@ -215,6 +215,7 @@ impl<'a> Lexer<'a> {
         let bytes = self.rest.as_bytes();
         let mut end = 1;
         loop {
+            let is_digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
             let octal =
                 |at: usize| bytes.get(end + at).is_some_and(|byte| (b'0'..=b'7').contains(byte));
             match bytes.get(end) {
@@ -222,8 +223,8 @@ impl<'a> Lexer<'a> {
                 Some(b'"') => break,
                 Some(b'\\') => match bytes.get(end + 1) {
                     Some(b'"' | b'\\' | b'n' | b't' | b'?') => end += 2,
-                    // At most \377.
-                    Some(b'0'..=b'3') if octal(2) && octal(3) => end += 4,
+                    // At most \377, and no digit behind it: CBMC would take that for one of them.
+                    Some(b'0'..=b'3') if octal(2) && octal(3) && !is_digit(end + 4) => end += 4,
                     _ => return self.refuse(end + 1, Rule::Escape),
                 },
                 Some(b'?') if bytes.get(end + 1) == Some(&b'?') => {

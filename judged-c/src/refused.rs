@@ -52,7 +52,9 @@ pub enum Rule {
     #[error("the generated `#include` lines must stand at the begin, in their order")]
     Includes,
     /// `\x41`
-    #[error("in a text only \\\" \\\\ \\n \\t \\? and three octal digits are known")]
+    #[error(
+        "in a text only \\\" \\\\ \\n \\t \\? and three octal digits are known, behind which no digit stands (5 is \\065)"
+    )]
     Escape,
     /// `0x1F`, `1l`, `010`.
     #[error(

@@ -21,6 +21,7 @@
 
 mod analysis;
 mod backend;
+mod c_string;
 mod code;
 mod comparison;
 pub mod configuration;

@@ -17,9 +17,11 @@ pub(super) const MISSING_TIME_S: f64 = 0.12;
 pub(super) struct Tolerance {
     /// Smallest fraction of the commanded rate that an airframe achieves.
     pub(super) share: f64,
+    /// More than this multiple of it none achieves.
+    pub(super) most: f64,
     /// Drift of a healthy sensor, and rates too small to judge, per second.
     pub(super) slack: f64,
-    /// Tolerated missing response in total: to all commands, and to slow commands.
+    /// Tolerated missing, or excessive, response in total: to all commands, and to slow commands.
     pub(super) missing: f64,
     pub(super) missing_slowly: f64,
     /// A measurement further than this from the expected one, plus this much per second, has jumped; jumps
@@ -46,6 +48,7 @@ struct Hypothesis {
     now: f64,
     way: f64,
     missing: f64,
+    excess: f64,
     missing_slowly: f64,
     slow_for_s: f64,
 }
@@ -67,7 +70,15 @@ pub(super) struct Rate<const N: usize> {
 
 impl Hypothesis {
     fn new(answer: Answer) -> Self {
-        Self { answer, now: 0.0, way: 0.0, missing: 0.0, missing_slowly: 0.0, slow_for_s: 0.0 }
+        Self {
+            answer,
+            now: 0.0,
+            way: 0.0,
+            missing: 0.0,
+            excess: 0.0,
+            missing_slowly: 0.0,
+            slow_for_s: 0.0,
+        }
     }
 
     fn follow(&mut self, wanted: f64, step_s: f64) -> f64 {
@@ -81,8 +92,11 @@ impl Hypothesis {
 
     fn compare(&mut self, moved: f64, step_s: f64, tolerance: &Tolerance) {
         let forgotten = (-step_s / FORGET_S).exp();
+        let slack = tolerance.slack * step_s;
         let lacking = self.way.signum() * (tolerance.share * self.way - moved);
-        self.missing = (self.missing * forgotten + lacking - tolerance.slack * step_s).max(0.0);
+        self.missing = (self.missing * forgotten + lacking - slack).max(0.0);
+        let exceeding = self.way.signum() * (moved - tolerance.most * self.way);
+        self.excess = (self.excess * forgotten + exceeding - slack).max(0.0);
         self.missing_slowly *= forgotten;
         let is_slow = self.now.abs() < SLOW_SHARE * tolerance.full;
         self.slow_for_s = if is_slow { self.slow_for_s + step_s } else { 0.0 };
@@ -139,6 +153,7 @@ impl<const N: usize> Rate<N> {
             self.hypotheses.iter().all(|its| is(its, most))
         };
         let is_missing = all(|its, most| its.missing > most, missing)
+            || all(|its, most| its.excess > most, missing)
             || all(|its, most| its.missing_slowly > most, missing_slowly)
             || all(|its, most| its.missing_slowly < -most, missing_slowly);
         self.missing_for_s = if is_missing { self.missing_for_s + step_s } else { 0.0 };

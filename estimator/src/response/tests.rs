@@ -197,6 +197,25 @@ fn an_altitude_that_drifts_down_is_noticed_before_the_drone_has_climbed_a_metre(
 }
 
 #[test]
+fn a_heading_that_turns_twice_as_far_is_noticed_before_a_right_angle() {
+    let sticks = Sticks { yaw: 0.5, ..Sticks::default() };
+    let turning = |gain: f64| {
+        found(sticks, 3, move |at_s| Measured {
+            yaw_deg: wrap_deg(gain * lagged(50.0, 0.15, at_s)),
+            ..still(at_s)
+        })
+    };
+    assert!(
+        matches!(turning(2.0), Some((at_s, Quantity::Heading)) if at_s < 0.9),
+        "{:?}",
+        turning(2.0)
+    );
+    for published in [0.7, 1.0] {
+        assert_eq!(turning(published), None);
+    }
+}
+
+#[test]
 fn a_jump_is_judged_elsewhere() {
     let stepping = |at_s: f64| Measured {
         altitude_m: 1.0 + 0.7 * at_s - if at_s > 1.0 { 0.8 } else { 0.0 },

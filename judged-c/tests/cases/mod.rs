@@ -147,6 +147,8 @@ pub(crate) const REFUSED: &[Case] = &[
     (Rule::Character, "", "say(\"\u{e4}\");"),
     (Rule::Escape, "", "say(\"\\1a1\");"),
     (Rule::Escape, "", "say(\"\\11a\");"),
+    (Rule::Escape, "", "say(\"\\0144own\");"),
+    (Rule::Escape, "", "say(\"\\0429\");"),
     (Rule::Number, "", "(void)3.;"),
     (Rule::Number, "", "(void)3e;"),
     (Rule::Number, "", "(void)1.2.3;"),

@@ -1,9 +1,8 @@
 //! Numbers and strings as C constants of the expected type.
 
-use std::fmt::Write as _;
-
 use diagnostic::{Diagnostic, Span};
 
+use crate::c_string::c_string;
 use crate::code::Code;
 use crate::program::Value;
 use crate::syntax::ast::{Expression, Number};
@@ -112,26 +111,6 @@ pub(crate) fn integer(value: &Value) -> Option<i128> {
         return Some(low);
     }
     text.trim_end_matches(['U', 'L']).parse().ok()
-}
-
-/// A C string constant: printable ASCII is copied, everything else becomes octal escapes, so that no
-/// trigraph, comment or source encoding can change it.
-fn c_string(text: &str) -> String {
-    let mut out = String::from("\"");
-    for byte in text.bytes() {
-        match byte {
-            b'"' => out.push_str("\\\""),
-            b'\\' => out.push_str("\\\\"),
-            b'\n' => out.push_str("\\n"),
-            b'\t' => out.push_str("\\t"),
-            b'?' => out.push_str("\\?"),
-            b' '..=b'~' => out.push(char::from(byte)),
-            // Writing to a string cannot fail.
-            _ => _ = write!(out, "\\{byte:03o}"),
-        }
-    }
-    out.push('"');
-    out
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@ use super::*;
 
 const TOLERANCE: Tolerance = Tolerance {
     share: 0.6,
+    most: 1.5,
     slack: 0.03,
     missing: 0.3,
     missing_slowly: 0.5,
@@ -54,6 +55,17 @@ fn a_missing_response_is_what_the_weakest_airframe_would_have_shown() {
     // It adds up, and what is old fades with ten seconds.
     let lacking = Hypothesis { missing: 0.2, ..gone(0.05) };
     assert_near(judged(lacking, 0.0, 1.0).missing, 0.2 * (-0.1_f64).exp() + 0.03 - 0.03);
+}
+
+#[test]
+fn an_excessive_response_is_more_than_the_strongest_airframe_would_have_shown() {
+    // More than 150 % of 0.04 m, and of a drift.
+    assert_near(judged(gone(0.04), 0.1, 0.1).excess, 0.04 - 0.003);
+    assert_near(judged(gone(-0.04), -0.1, 0.1).excess, 0.04 - 0.003);
+    assert_near(judged(gone(0.04), 0.05, 0.1).excess, 0.0);
+    assert_near(judged(gone(0.04), -0.1, 0.1).excess, 0.0);
+    let exceeding = Hypothesis { excess: 0.2, ..gone(0.04) };
+    assert_near(judged(exceeding, 0.1, 1.0).excess, 0.2 * (-0.1_f64).exp() + 0.04 - 0.03);
 }
 
 #[test]

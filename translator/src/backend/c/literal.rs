@@ -1,7 +1,6 @@
 //! Constants of C.
 
-use std::fmt::Write as _;
-
+use crate::c_string::c_string;
 use crate::interpreter::Value;
 use crate::program::Program;
 use crate::types::{CType, TypeKind};
@@ -23,7 +22,7 @@ pub(super) fn literal(program: &Program, value: Option<&Value>, ctype: &CType) -
         (Some(Value::Bool(value)), _) => value.to_string(),
         (Some(Value::Integer(value)), _) => integer(*value),
         (Some(Value::Float(value)), _) => number(*value),
-        (Some(Value::Text(text)), _) => quoted(text),
+        (Some(Value::Text(text)), _) => c_string(text),
         (None, TypeKind::Text) => "\"\"".to_owned(),
         (None, TypeKind::Bool) => "false".to_owned(),
         (None, _) => "0".to_owned(),
@@ -58,23 +57,6 @@ fn number(value: f64) -> String {
     }
 }
 
-/// A string constant.
-pub(super) fn quoted(text: &str) -> String {
-    // Writing to a string cannot fail.
-    let mut quoted = String::from("\"");
-    for byte in text.bytes() {
-        match byte {
-            b'"' | b'\\' => quoted.extend(['\\', byte.into()]),
-            b'\n' => quoted.push_str("\\n"),
-            // Three digits, so that a digit behind them is not taken for one of theirs.
-            0..0x20 | 0x7f.. | b'?' => _ = write!(quoted, "\\{byte:03o}"),
-            _ => quoted.push(byte.into()),
-        }
-    }
-    quoted.push('"');
-    quoted
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -86,6 +68,5 @@ mod tests {
         assert_eq!(number(-0.0), "-0.0");
         assert_eq!(number(5e-324), "5e-324");
         assert_eq!(number(f64::NEG_INFINITY), "(-1 / 0.0)");
-        assert_eq!(quoted("a\"?\\\n\u{e9}1"), "\"a\\\"\\077\\\\\\n\\303\\2511\"");
     }
 }

@@ -1,10 +1,11 @@
 //! A program that makes the calls of given tests and traces them.
 
-use super::literal::{literal, quoted};
+use super::literal::literal;
 use super::names::{Names, typed, typed_arguments};
 use super::state::{counters, external_name};
 use super::trace::{TRACE, trace_call, trace_value, traced};
 use crate::backend::writer::Writer;
+use crate::c_string::c_string;
 use crate::configuration::{Basic, ExternalTrigger};
 use crate::interpreter::Value;
 use crate::program::Program;
@@ -154,7 +155,7 @@ impl Builder<'_> {
                     let types = self.types(belief);
                     writer.line(format!(
                         "asl2c_trace_text({});",
-                        quoted(&format!("> {}\n", self.traced_call(&name, values, types)))
+                        c_string(&format!("> {}\n", self.traced_call(&name, values, types)))
                     ));
                     writer.line(format!("{};", self.call(&name, self.literals(values, types))));
                 }
@@ -194,7 +195,7 @@ impl Builder<'_> {
         };
         let name = external_name(external);
         let call = self.traced_call(&name, values, &external.types);
-        writer.line(format!("asl2c_trace_text({});", quoted(&format!("> {call} = "))));
+        writer.line(format!("asl2c_trace_text({});", c_string(&format!("> {call} = "))));
         let arguments = self.literals(values, &external.types);
         writer.line(format!("asl2c_trace_bool({});", self.call(&name, arguments)));
         writer.line("asl2c_trace_text(\"\\n\");");
