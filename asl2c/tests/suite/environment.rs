@@ -41,6 +41,18 @@ const WRONG: &[(Edit, &str)] = &[
     (("the order is kept where no value of the state is", &[
         (SET_PRESSURE, "void set_pressure(int32_t argument1)\n{\n    if (agent.posted != EVENT_POSTED_achieve_muted)\n    {\n        agent.posted_achieve_muted_1 = 77U;\n    }\n"),
     ]), "set_pressure changes more than its belief"),
+    (("the order is kept in a slot that is empty", &[
+        (SET_PRESSURE, "void set_pressure(int32_t argument1)\n{\n    if (agent.inbox_count == 0U)\n    {\n        agent.inbox_queue[0U] = EVENT_INBOX_achieve_silence;\n    }\n"),
+    ]), "set_pressure changes more than its belief"),
+    (("a value is that of long ago", &[
+        (UPDATE, "    if (agent.belief_air_held && (agent.belief_air_1 == 77))\n    {\n        runMotor();\n    }\n    updateBeliefs();\n"),
+    ]), "another call, or none"),
+    (("what was pending stays", &[
+        ("void clear(void)\n{\n    forget_events();\n", "void clear(void)\n{\n    if (agent.unhandled != 3U)\n    {\n        forget_events();\n    }\n"),
+    ]), "another state: the posted event"),
+    (("an event seems to be taken", &[
+        ("        /* The counter saturates. */\n    }\n    return accepted;\n", "        /* The counter saturates. */\n    }\n    return accepted || (agent.refused == 9U);\n"),
+    ]), "another result of achieve_start"),
     (("a setter is called before the C is ready for it", &[
         (UPDATE, "    const uint32_t was = agent.aborted;\n    agent.aborted = 7U;\n    updateBeliefs();\n    agent.aborted = was;\n"),
     ]), "another state before updateBeliefs"),
