@@ -6,7 +6,7 @@
 use kinematics::Pose;
 
 use crate::agent::bindings::{Beliefs, Environment};
-use crate::plan::FlightLimits;
+use crate::fence::FlightLimits;
 
 #[allow(
     unsafe_code,

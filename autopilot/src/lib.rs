@@ -15,6 +15,7 @@
 #![deny(unsafe_code)]
 
 pub mod agent;
+mod fence;
 pub mod mission;
 pub mod outcome;
 pub mod plan;

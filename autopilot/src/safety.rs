@@ -16,7 +16,7 @@ use self::brake::Brake;
 use self::carried::CarriedOff;
 pub(crate) use self::stopping::Stopping;
 use crate::agent::AgentCommand;
-use crate::plan::FlightLimits;
+use crate::fence::FlightLimits;
 
 /// Navdata older than this are too old to move by: the drone hovers.
 const STALE: Duration = Duration::from_millis(300);

@@ -12,9 +12,9 @@ use nalgebra::Vector2;
 
 use crate::climb::{ClimbLimits, ClimbReference};
 use crate::course::Course;
+use crate::inputs::Inputs;
 use crate::motion::MotionLimits;
 use crate::pid::{Pid, PidGains, PidInputs};
-use crate::position::Inputs;
 use crate::trajectory::{Reference, Trajectory};
 
 /// Gains and limits of the law.

@@ -8,6 +8,7 @@
 mod cascade;
 mod climb;
 mod course;
+mod inputs;
 mod motion;
 mod pid;
 mod position;
@@ -16,6 +17,7 @@ mod tum;
 
 pub use cascade::CascadeConfig;
 pub use course::Course;
+pub use inputs::Inputs;
 pub use motion::MotionLimits;
 pub use pid::{Pid, PidGains, PidInputs};
-pub use position::{Inputs, Law, PositionController};
+pub use position::{Law, PositionController};

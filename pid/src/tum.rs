@@ -7,7 +7,7 @@
 use kinematics::{Pose, Sticks, body_from_world, wrap_deg};
 use nalgebra::Vector2;
 
-use crate::position::Inputs;
+use crate::inputs::Inputs;
 
 const PROPORTIONAL: f64 = 0.5;
 const DERIVATIVE: f64 = 0.35;

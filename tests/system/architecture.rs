@@ -201,7 +201,7 @@ fn the_mock_drone_is_pure_without_its_features() {
 }
 
 /// Source files of a folder, except tests.
-fn sources(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -262,59 +262,6 @@ fn pure_crates_name_nothing_that_does_input_or_output() {
         }
     }
     assert!(looked_at > 40, "{looked_at}");
-}
-
-/// Sibling modules that a file imports.
-fn neighbours(file: &Path) -> Vec<PathBuf> {
-    let text = std::fs::read_to_string(file).unwrap();
-    let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
-    let folder = file.parent().unwrap();
-    // Links in comments are not imports.
-    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
-    let words = lines.flat_map(|line| line.split("super::").skip(1));
-    let names = words.map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next());
-    names
-        .filter_map(|name| {
-            let module = folder.join(name.filter(|name| !name.is_empty())?);
-            let found = [module.with_extension("rs"), module.join("mod.rs")];
-            found.into_iter().find(|path| path != file && path.exists())
-        })
-        .collect()
-}
-
-/// A circular import means that something is defined in the wrong file.
-#[test]
-fn no_files_of_a_folder_need_each_other() {
-    let packages = [
-        "diagnostic",
-        "translator",
-        "asl2c",
-        "kinematics",
-        "estimator",
-        "autopilot",
-        "mock-drone",
-        "ardrone-link",
-        "mavlink-vehicle",
-        "pid",
-        "ardrone-pilot",
-        "xtask",
-        "tests",
-    ];
-    let mut circles = BTreeSet::new();
-    for package in packages {
-        for file in sources(&Path::new("..").join(package).join("src")) {
-            let mut open = neighbours(&file);
-            let mut seen = BTreeSet::new();
-            while let Some(next) = open.pop() {
-                if next == file {
-                    circles.insert(file.clone());
-                } else if seen.insert(next.clone()) && !next.ends_with("mod.rs") {
-                    open.extend(neighbours(&next));
-                }
-            }
-        }
-    }
-    assert_eq!(circles, BTreeSet::new());
 }
 
 /// The pilot's output goes through one file, which makes foreign text printable.

@@ -7,6 +7,7 @@ mod allocation;
 mod architecture;
 mod browser;
 mod chromium;
+mod circles;
 mod client;
 mod command_line;
 mod conversation;

@@ -379,7 +379,7 @@ fn what_is_ordered_before_the_drone_has_lifted_keeps_it_down() {
         }
         let is_cut = order == OperatorOrder::Cut;
         bench.accepted(order);
-        bench.run(Duration::from_millis(400));
+        bench.run(Duration::from_millis(700));
         if is_cut {
             bench.accepted(OperatorOrder::Recover);
         }

@@ -1,37 +1,14 @@
 //! Flies every case with many seeds, on all cores, and reports how well it went.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
-use autopilot::Plan;
-use system_tests::sim::{Moment, SimulatedFlight, SimulationError};
-
 use crate::cases::{CASES, LAWS};
+use crate::job::{FlyError, Job, fly};
 use crate::parallel;
 use crate::plot;
 use crate::score::Scorer;
 use crate::table::{self, Flown};
-
-/// Failure of the measurement itself, not of a flight.
-#[derive(Debug, thiserror::Error)]
-pub(crate) enum FlyError {
-    #[error("a plan that is built in is wrong: {0}")]
-    Plan(String),
-    #[error(transparent)]
-    Simulation(#[from] SimulationError),
-    #[error("cannot write {}: {source}", path.display())]
-    Write { path: PathBuf, source: io::Error },
-}
-
-/// One flight of one case.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Job {
-    pub(crate) case: usize,
-    pub(crate) law: usize,
-    pub(crate) plan: usize,
-    pub(crate) seed: u64,
-}
 
 /// Returns the table, and the simulated time of all flights.
 pub(crate) fn run(
@@ -65,14 +42,6 @@ fn score(job: Job) -> Result<Flown, FlyError> {
     let flight = fly(job, |moment| scorer.watch(moment))?;
     let Job { case, law, plan, seed } = job;
     Ok(Flown { law, case, plan, seed, score: scorer.score(&flight) })
-}
-
-pub(crate) fn fly(job: Job, watch: impl FnMut(&Moment)) -> Result<SimulatedFlight, FlyError> {
-    let case = &CASES[job.case];
-    let plan = &case.plans[job.plan];
-    let plan =
-        Plan::parse(plan.name, plan.text).map_err(|error| FlyError::Plan(error.to_string()))?;
-    Ok(case.simulation(LAWS[job.law], job.seed).fly_watched(plan, watch)?)
 }
 
 #[cfg(test)]

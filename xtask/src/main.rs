@@ -7,6 +7,7 @@ mod command_line;
 mod cross_checks;
 mod fly;
 mod healthy;
+mod job;
 mod mavlink;
 mod mutants;
 mod parallel;

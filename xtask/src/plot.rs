@@ -9,7 +9,7 @@ use plotters::prelude::*;
 use autopilot::vehicle::Law;
 
 use crate::cases::{CASES, LAWS};
-use crate::fly::{FlyError, Job, fly};
+use crate::job::{FlyError, Job, fly};
 use crate::table::Row;
 
 /// Colours of the tum and the cascade law, distinguishable in print too.

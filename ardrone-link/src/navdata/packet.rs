@@ -6,11 +6,11 @@ use nom::{IResult, Parser};
 
 use super::options::{Demo, Gps, NavdataOption, Time, VisionDetect};
 use super::state::DroneState;
+use super::wire::OPTION_HEADER_BYTES;
 
 const MAGIC: u32 = 0x5566_7788;
 /// Size of the firmware's own buffer; no packet is longer.
 const MAX_PACKET_BYTES: usize = 4096;
-pub(super) const OPTION_HEADER_BYTES: usize = 4;
 const CHECKSUM_BYTES: usize = 8;
 const TAG_CHECKSUM: u16 = 0xFFFF;
 

@@ -8,6 +8,9 @@ use bytes::{Buf, BufMut};
 
 use super::state::ControlState;
 
+/// Tag and size in front of each option.
+pub(super) const OPTION_HEADER_BYTES: usize = 4;
+
 /// A field with a fixed offset in an option.
 pub(super) trait Wire {
     /// The decoded value.
@@ -185,7 +188,7 @@ macro_rules! option {
         }
 
         impl $name {
-            const PAYLOAD_BYTES: usize = $size - crate::navdata::packet::OPTION_HEADER_BYTES;
+            const PAYLOAD_BYTES: usize = $size - crate::navdata::wire::OPTION_HEADER_BYTES;
 
             /// Decodes the option; `None` if it is too short. Bytes appended by newer firmware are ignored.
             pub(in crate::navdata) fn read(payload: &[u8]) -> Option<Self> {

@@ -2,7 +2,7 @@
 
 use kinematics::Pose;
 
-use crate::plan::FlightLimits;
+use crate::fence::FlightLimits;
 
 /// Places to look from are at least this far inside the fence, in metres, so that overshoot does not lead over it.
 const INSIDE_M: f64 = 0.5;

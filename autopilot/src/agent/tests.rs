@@ -6,7 +6,7 @@ mod station;
 mod tags;
 
 use super::*;
-use crate::plan::ZOrigin;
+use crate::fence::ZOrigin;
 
 const GROUND: Percepts = Percepts {
     now_ms: 0,

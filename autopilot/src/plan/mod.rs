@@ -24,7 +24,7 @@ use diagnostic::{Diagnostic, Severity};
 use estimator::SurveyedTag;
 use kinematics::Pose;
 
-pub use check::{FlightLimits, ZOrigin};
+pub use crate::fence::{FlightLimits, ZOrigin};
 pub use commands::Commands;
 pub(crate) use dry_run::DryRun;
 pub(crate) use expectation::expected_time;

@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 
 use super::stopping::Stopping;
 use super::{Motion, Situation};
-use crate::plan::FlightLimits;
+use crate::fence::FlightLimits;
 
 /// Distance beyond the fence up to which the drone may come to rest. A target on the fence is flown to with less.
 const BEYOND_M: f64 = 0.15;
@@ -94,7 +94,7 @@ mod tests {
     use kinematics::Pose;
 
     use super::*;
-    use crate::plan::ZOrigin;
+    use crate::fence::ZOrigin;
     use crate::safety::tests::FINE;
 
     const FENCE: FlightLimits =

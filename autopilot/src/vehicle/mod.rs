@@ -6,7 +6,9 @@
 //! ground until an operator starts a mission, flies it, and rests again.
 
 mod control;
+mod cross_check;
 mod decision;
+mod event;
 mod flight;
 mod landing_reason;
 mod link;
@@ -18,12 +20,15 @@ mod phase;
 mod place;
 mod protocol;
 mod readiness;
+mod refused;
 mod report;
 mod saturation;
 mod setpoint;
 mod stage;
+mod status;
 mod tags;
 mod tick;
+mod watch;
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -38,23 +43,25 @@ use kinematics::Pose;
 use pid::CascadeConfig;
 pub use pid::Law;
 
+pub use self::cross_check::{CrossCheck, RestsOn};
 pub use self::decision::Decision;
+pub use self::event::FlightEvent;
 use self::flight::{Active, Flight, is_airborne, sample};
 pub use self::landing_reason::LandingReason;
 pub use self::manual::ManualControl;
 pub use self::operator_order::{CommandsText, OperatorOrder, OrderText, Place, PlanText};
 use self::operators::Controls;
 pub use self::operators::{Operator, Station};
-pub use self::orders::Refused;
 use self::phase::FlightPhase;
 pub use self::phase::Phase;
-pub use self::place::{CrossCheck, RestsOn};
 use self::protocol::Pending;
 pub use self::protocol::{Input, Output, Transmit};
 pub use self::readiness::NotReady;
-pub use self::report::{FlightEvent, FlightReport, Status, Waypoint};
+pub use self::refused::Refused;
+pub use self::report::{FlightReport, Waypoint};
 pub use self::setpoint::{Heading, Horizontal, Setpoint, Vertical};
 pub use self::stage::Stage;
+pub use self::status::Status;
 use self::tags::{SignSearch, sights};
 use crate::agent::{Danger, Report, distance};
 use crate::mission::Mission;

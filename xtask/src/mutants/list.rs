@@ -36,7 +36,7 @@ pub(super) const SAFETY: &str = "autopilot/src/safety.rs";
 const FLIGHT: &str = "autopilot/src/vehicle/flight.rs";
 const TICK: &str = "autopilot/src/vehicle/tick.rs";
 const CONTROL: &str = "autopilot/src/vehicle/control.rs";
-const PHASE: &str = "autopilot/src/vehicle/phase.rs";
+const WATCH: &str = "autopilot/src/vehicle/watch.rs";
 const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
 const OPERATORS: &str = "autopilot/src/vehicle/operators.rs";
 const MANUAL: &str = "autopilot/src/vehicle/manual.rs";
@@ -319,7 +319,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "the flight ends before the drone is down",
         &[edit(
-            PHASE,
+            WATCH,
             "let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;",
             "let landed = !blind;",
         )],

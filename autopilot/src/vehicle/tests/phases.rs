@@ -2,7 +2,7 @@
 
 use ardrone_link::at::Ref;
 
-use super::super::phase::OURS;
+use super::super::watch::OURS;
 use super::bench::{Bench, SECOND, START};
 use super::*;
 
