@@ -104,6 +104,8 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "type": "status",
                 "t_s": at.as_secs_f64(),
                 "phase": phase.name(),
+                "landing": status.landing.map(|reason| reason.to_string()),
+                "emergency": status.emergency,
                 "step": step,
                 "steps": steps,
                 "mission_waits": status.mission_waits,

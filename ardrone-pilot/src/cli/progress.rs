@@ -186,6 +186,8 @@ mod tests {
             step: Some(2),
             steps: 6,
             mission_waits: false,
+            landing: None,
+            emergency: false,
             airborne: true,
             altitude_m: None,
             manual: None,

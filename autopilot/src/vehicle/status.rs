@@ -6,7 +6,7 @@ use ardrone_link::navdata::GpsFix;
 use estimator::{TagStatus, Trust};
 use kinematics::{Airframe, Pose};
 
-use super::{CrossCheck, ManualControl, Operator, Phase, RestsOn};
+use super::{CrossCheck, LandingReason, ManualControl, Operator, Phase, RestsOn};
 use crate::agent::ChosenPlans;
 
 /// A snapshot for displays.
@@ -14,6 +14,10 @@ use crate::agent::ChosenPlans;
 pub struct Status {
     /// Phase of the flight.
     pub phase: Phase,
+    /// Why the drone is landed before the end of the plan, until the next flight.
+    pub landing: Option<LandingReason>,
+    /// The drone has cut its motors, and must be recovered before it can fly.
+    pub emergency: bool,
     /// Whether the drone is off the ground.
     pub airborne: bool,
     /// Index of the step being flown.

@@ -236,7 +236,7 @@ impl MavlinkVehicle {
             Some(1) if magic != 0.0 => DENIED,
             Some(1) => {
                 // Sooner than its reasons not to take off say so.
-                if self.emergency {
+                if self.present().is_some_and(|status| status.emergency) {
                     self.warn(format_args!("not ready: the drone is in its emergency state"));
                     return NOT_NOW;
                 }

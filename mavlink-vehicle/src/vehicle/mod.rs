@@ -81,9 +81,6 @@ pub struct MavlinkVehicle {
     next_ticket: u32,
     /// Mode and arming that were told last.
     told: Option<(Mode, bool)>,
-    /// A landing that nobody has ordered, or worse.
-    failsafe: bool,
-    emergency: bool,
 }
 
 impl MavlinkVehicle {
@@ -114,8 +111,6 @@ impl MavlinkVehicle {
             presence: None,
             next_ticket: 0,
             told: None,
-            failsafe: false,
-            emergency: false,
             config,
         }
     }
@@ -209,12 +204,8 @@ impl MavlinkVehicle {
         }
         if flies {
             self.arming = Arming::default();
-            self.emergency = false;
         } else if flew {
             self.disarm();
-        }
-        if !flies {
-            self.failsafe = false;
         }
     }
 
@@ -229,7 +220,6 @@ impl MavlinkVehicle {
     }
 
     fn take_event(&mut self, event: &FlightEvent) {
-        use autopilot::vehicle::LandingReason;
         match event {
             FlightEvent::StepStarted { .. } => return,
             // Whoever takes the controls does not expect that another's take-off follows.
@@ -241,10 +231,6 @@ impl MavlinkVehicle {
                 }
                 return;
             }
-            FlightEvent::LandingOrdered(LandingReason::Operator) => {}
-            FlightEvent::LandingOrdered(_) | FlightEvent::LinkLost => self.failsafe = true,
-            FlightEvent::Emergency => self.emergency = true,
-            FlightEvent::EmergencyCleared => self.emergency = false,
             _ => {}
         }
         let severity = match event {

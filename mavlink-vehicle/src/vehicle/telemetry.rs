@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use autopilot::vehicle::{Phase, Status, Trust};
+use autopilot::vehicle::{LandingReason, Phase, Status, Trust};
 use kinematics::{Pose, Velocity};
 use mavlink_core::types::CharArray;
 
@@ -177,11 +177,12 @@ impl View<'_> {
                 _ => Flag::MAV_MODE_FLAG_GUIDED_ENABLED | Flag::MAV_MODE_FLAG_AUTO_ENABLED,
             };
         base_mode.set(Flag::MAV_MODE_FLAG_SAFETY_ARMED, self.vehicle.is_armed());
+        let failsafe = self.status.landing.is_some_and(|why| why != LandingReason::Operator);
         let state = match self.status.phase {
-            _ if self.vehicle.emergency => MavState::MAV_STATE_EMERGENCY,
+            _ if self.status.emergency => MavState::MAV_STATE_EMERGENCY,
             Phase::Connecting => MavState::MAV_STATE_UNINIT,
             Phase::Configuring | Phase::Trimming => MavState::MAV_STATE_BOOT,
-            Phase::Flying | Phase::Landing if self.vehicle.failsafe => MavState::MAV_STATE_CRITICAL,
+            Phase::Flying | Phase::Landing if failsafe => MavState::MAV_STATE_CRITICAL,
             Phase::Flying | Phase::Landing | Phase::Observing => MavState::MAV_STATE_ACTIVE,
             Phase::Standby => MavState::MAV_STATE_STANDBY,
         };
@@ -220,7 +221,7 @@ impl View<'_> {
         // In flight the checks before it have been passed.
         let ready = self.vehicle.is_flying()
             || self.vehicle.not_ready.is_some_and(|reasons| reasons.is_empty());
-        health.set(Sensor::MAV_SYS_STATUS_PREARM_CHECK, ready && !self.vehicle.emergency);
+        health.set(Sensor::MAV_SYS_STATUS_PREARM_CHECK, ready && !self.status.emergency);
         let percent = self.status.battery_percent.and_then(|percent| i8::try_from(percent).ok());
         SYS_STATUS_DATA {
             onboard_control_sensors_present: present,

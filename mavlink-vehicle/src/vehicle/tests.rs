@@ -494,10 +494,12 @@ fn a_take_off_that_waits_is_given_up_by_what_is_ordered_after_it() {
 #[test]
 fn a_drone_in_its_emergency_state_is_not_armed() {
     let mut bench = Bench::new(Config::default());
-    bench.vehicle.handle(bench.now, Input::Event(&FlightEvent::Emergency));
+    bench.status.emergency = true;
+    bench.pass(Duration::from_millis(20));
     // Its reasons not to take off come later.
     bench.refuses(400, first(1.0));
-    bench.vehicle.handle(bench.now, Input::Event(&FlightEvent::EmergencyCleared));
+    bench.status.emergency = false;
+    bench.pass(Duration::from_millis(20));
     bench.accepts(400, first(1.0));
 }
 

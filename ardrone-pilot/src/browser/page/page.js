@@ -260,7 +260,7 @@ function drawButtons() {
 }
 
 function drawFacts() {
-  $("phase").textContent = over ? "over" : status.phase === "flying" && status.mission_waits ? "manual, mission paused" : status.phase;
+  $("phase").textContent = over ? "over" : status.emergency ? "EMERGENCY" : status.phase === "flying" && status.mission_waits ? "manual, mission paused" : status.phase;
   const grounded = !over && readiness && status.phase !== "flying" && status.phase !== "landing";
   $("ready").textContent = !grounded ? "–" : readiness.ready ? "yes" : `no: ${readiness.reasons.join("; ")}`;
   $("ready").classList.toggle("ill", grounded && !readiness.ready);

@@ -216,8 +216,9 @@ fn foot_line(view: &View) -> Paragraph<'_> {
 /// Phase, step, battery and link on one line.
 fn headline(view: &View) -> Paragraph<'_> {
     let Some(status) = &view.status else { return Paragraph::new("looking for the drone") };
+    let phase = if status.emergency { "EMERGENCY" } else { status.phase.name() };
     let mut parts = vec![Span::styled(
-        format!(" {:.1} s  {} ", view.at.as_secs_f64(), status.phase),
+        format!(" {:.1} s  {phase} ", view.at.as_secs_f64()),
         Style::new().add_modifier(Modifier::REVERSED),
     )];
     if let Some(step) = status.step {
@@ -393,6 +394,8 @@ mod tests {
             step: Some(2),
             steps: 4,
             mission_waits: false,
+            landing: None,
+            emergency: false,
             airborne: true,
             altitude_m: None,
             manual: None,
