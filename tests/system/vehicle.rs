@@ -2,9 +2,10 @@
 
 use std::time::Duration;
 
+use ardrone_link::at::{Command, Datagram, Ref};
 use ardrone_pilot::drive::{Driver, Passed};
 use autopilot::outcome::Outcome;
-use autopilot::plan::Commands;
+use autopilot::plan::{Commands, FlightLimits};
 use autopilot::vehicle::{
     FlightEvent, LandingReason, NotReady, Operator, OperatorOrder, Output, Phase, Refused, Station,
 };
@@ -34,7 +35,11 @@ impl Bench {
     }
 
     fn in_world(world: &WorldConfig) -> Self {
-        let driver = Driver::new(Vehicle::new(&VehicleConfig::default()).unwrap(), world);
+        Self::with(&VehicleConfig::default(), world)
+    }
+
+    fn with(config: &VehicleConfig, world: &WorldConfig) -> Self {
+        let driver = Driver::new(Vehicle::new(config).unwrap(), world);
         Self { driver, events: Vec::new(), outcomes: Vec::new(), ready: None, missions: 0 }
     }
 
@@ -425,4 +430,32 @@ fn a_cut_is_refused_where_nothing_may_be_sent() {
     let mut bench = Bench::in_world(&WorldConfig { drone, ..WorldConfig::default() });
     bench.until(SECOND, |bench| bench.phase() == Phase::Observing);
     assert_eq!(bench.order(OperatorOrder::Cut), Err(Refused::FlownByAnother));
+}
+
+/// A drone obeys nobody whose numbers are below those that it has seen: five datagrams of another client are enough. Its last
+/// tilt leads it out of the fence, unless it is made to hear the orders that brake it.
+#[test]
+fn numbers_of_another_client_do_not_carry_the_drone_far_out_of_its_fence() {
+    for number in [100_000, 2_000_000_000] {
+        let limits = FlightLimits { radius_m: 4.0, ..FlightLimits::default() };
+        let config = VehicleConfig { limits, ..VehicleConfig::default() };
+        let mut bench = Bench::with(&config, &WorldConfig::default());
+        bench.until(10 * SECOND, |bench| bench.ready.as_ref().is_some_and(Vec::is_empty));
+        bench.accepted(OperatorOrder::Load(plan("takeoff\ngoto 3.4 0 0 0\nland\n")));
+        bench.accepted(START);
+        bench.until(10 * SECOND, |bench| bench.truth().velocity_m_s.x > 1.0);
+        for further in 0..5 {
+            let mut datagram = Datagram::new();
+            datagram.push(number + further, &Command::Ref(Ref::TakeOff)).unwrap();
+            let now = bench.driver.now();
+            bench.driver.world.send_at(now, datagram.as_bytes());
+            bench.step();
+        }
+        let mut farthest_m = 0.0_f64;
+        bench.until(60 * SECOND, |bench| {
+            farthest_m = farthest_m.max(bench.truth().position_m.xy().norm());
+            !bench.outcomes.is_empty()
+        });
+        assert!(farthest_m < 4.8, "{farthest_m} m with numbers from {number}");
+    }
 }

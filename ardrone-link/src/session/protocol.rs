@@ -42,6 +42,9 @@ pub enum Request {
     /// Cut the motors at once, wherever the drone is: **it falls**. Repeated until the drone reports that
     /// they are cut.
     EmergencyStop,
+    /// Make sure that the next tick's commands are obeyed, whatever numbers another client has used: the drone does not do
+    /// what it was told. Repeat it as long as that lasts. Each time a delayed old datagram may be obeyed, too.
+    Insist,
     /// Clear an emergency so that the drone can fly again. Use it only on the ground, after a person has
     /// inspected the drone.
     EmergencyReset,

@@ -28,6 +28,8 @@ pub(super) struct Flight {
     pub(super) activity: Activity,
     pub(super) safety: SafetyMonitor,
     pub(super) veto: Option<Veto>,
+    /// Since when the drone does not tilt as it is told.
+    pub(super) disobeys_since: Option<Duration>,
     pub(super) manual: Manual,
     /// The step being flown.
     pub(super) due: Option<Active>,
@@ -79,6 +81,7 @@ impl Flight {
             activity: Activity::default(),
             safety: SafetyMonitor::new(config.limits),
             veto: None,
+            disobeys_since: None,
             manual: Manual::default(),
             due: None,
             ends_on_ground: false,

@@ -381,6 +381,8 @@ impl Vehicle {
         let tags = self.flight.estimator.tag_status(now);
         Status {
             phase: self.phase.phase(),
+            landing: self.flight.landing,
+            emergency: self.drone_state().contains(DroneState::EMERGENCY),
             airborne: self.navdata.is_some() && !self.on_ground(),
             step: self.flight.due.as_ref().map(|active| active.due.step),
             steps: self.flight.report.steps,

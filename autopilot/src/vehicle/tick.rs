@@ -2,8 +2,9 @@
 
 use std::time::Duration;
 
+use ardrone_link::at::Motion;
 use ardrone_link::navdata::{ControlState, DroneState};
-use ardrone_link::session::Input;
+use ardrone_link::session::{Input, Order, Request};
 use estimator::Prediction;
 use kinematics::{GRAVITY_M_S2, Pose};
 use nalgebra::Vector2;
@@ -14,7 +15,11 @@ use super::{
     WIND_TIME_S, Waypoint, is_airborne, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Percepts, StationPercepts};
-use crate::safety::{Motion, Situation};
+use crate::safety::{self, Situation};
+
+/// A drone obeys within this time, whatever the link delays and loses, and then leans to within this share of full tilt.
+const OBEYS_WITHIN: Duration = Duration::from_millis(500);
+const DISOBEDIENT: f64 = 0.7;
 
 impl Vehicle {
     /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
@@ -71,6 +76,7 @@ impl Vehicle {
         }
         self.flight.veto = veto;
         let order = self.carry_out(now, command, [&state, &soon], step_s);
+        self.watch_obedience(now, &order);
         self.decision = Some(Decision {
             at: now,
             phase: self.phase.phase(),
@@ -91,6 +97,25 @@ impl Vehicle {
         self.session.handle(now, Input::Tick(order));
         done(Stage::Encode);
         self.take_in(now);
+    }
+
+    /// Notices a drone that does not tilt as it is told, and makes it listen: it may have heard higher numbers than ours, of
+    /// another client. No wind and no airframe lets a drone lean the other way for so long.
+    fn watch_obedience(&mut self, now: Duration, order: &Order) {
+        let full_deg = self.config.estimator.limits.tilt_rad.to_degrees();
+        let off = match (order.motion, self.demo()) {
+            (Motion::Progressive { roll, pitch, .. }, Some(demo)) if !self.on_ground() => {
+                let off = [(roll, demo.roll_deg), (pitch, demo.pitch_deg)]
+                    .map(|(told, deg)| (f64::from(told.get()) - deg / full_deg).abs());
+                off[0].max(off[1])
+            }
+            _ => 0.0,
+        };
+        let since = &mut self.flight.disobeys_since;
+        *since = (off > DISOBEDIENT).then(|| since.unwrap_or(now));
+        if since.is_some_and(|since| now.saturating_sub(since) >= OBEYS_WITHIN) {
+            self.request(now, Request::Insist);
+        }
     }
 
     /// Checks the readiness every [`READINESS_TICKS`]. Only a change in the kinds of reasons is reported, not
@@ -225,7 +250,7 @@ impl Vehicle {
             landing: self.demo().is_some_and(|demo| demo.control_state == ControlState::Landing),
             pose: pose(state),
             velocity_m_s: state.velocity_m_s.into(),
-            soon: Motion { pose: pose(soon), velocity_m_s: soon.velocity_m_s.into() },
+            soon: safety::Motion { pose: pose(soon), velocity_m_s: soon.velocity_m_s.into() },
             wind: (state.disturbance_m_s2 / full_tilt_m_s2).into(),
             full_tilt_m_s2,
             drag_1_s: airframe.drag_1_s.min(),
