@@ -50,7 +50,7 @@ const MOST_LINES: usize = 5;
 /// How long a program may run.
 const MOST_SECONDS: u64 = 600;
 /// How long a program may run an agent. Its steps end, but their length doubles with each level of goals.
-const MOST_SECONDS_OF_STEPS: u64 = 60;
+const MOST_SECONDS_OF_STEPS: u64 = 30;
 
 /// Runs a program in a folder. Returns its output.
 #[allow(clippy::disallowed_methods, reason = "other programs get a limited time")]
