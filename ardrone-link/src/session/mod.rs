@@ -60,8 +60,6 @@ pub struct Session {
     /// Start of a landing order to a drone in the air, and whether it has begun to land.
     landing_since: Option<Duration>,
     lands: bool,
-    /// The next tick's commands must be obeyed.
-    insists: bool,
     /// The final landing orders have begun, see [`Input::Part`].
     parts: bool,
     emergency: EmergencySwitch,
@@ -116,7 +114,6 @@ impl Session {
             taking_off_since: None,
             landing_since: None,
             lands: false,
-            insists: false,
             parts: false,
             emergency: EmergencySwitch::default(),
             datagram: Datagram::new(),
@@ -212,7 +209,7 @@ impl Session {
                 self.take_off.withhold();
                 self.emergency.request(EmergencyWish::Stop);
             }
-            Request::Insist => self.insists = true,
+            Request::Insist => self.sequence.insist(),
             Request::EmergencyReset => self.emergency.request(EmergencyWish::Reset),
         }
     }

@@ -12,13 +12,22 @@ pub(super) struct SequenceNumbers {
     contested: Option<bool>,
     /// They have leapt since they were last settled.
     leapt: bool,
+    /// They are contested in the next datagram.
+    insists: bool,
 }
 
 impl SequenceNumbers {
     const FIRST: u32 = 1;
 
     pub(super) fn new() -> Self {
-        Self { next: Self::FIRST, greatest: 0, confirmed: false, contested: None, leapt: false }
+        Self {
+            next: Self::FIRST,
+            greatest: 0,
+            confirmed: false,
+            contested: None,
+            leapt: false,
+            insists: false,
+        }
     }
 
     /// Whether any number was used.
@@ -61,10 +70,19 @@ impl SequenceNumbers {
         if self.leapt { self.contest() } else { self.leap() }
     }
 
+    /// The drone does not do what it is told: the numbers stay contested for one datagram more.
+    pub(super) fn insist(&mut self) {
+        self.insists = true;
+    }
+
     /// The drone has obeyed, or need not any more.
     pub(super) fn settle(&mut self) {
-        self.contested = None;
-        self.leapt = false;
+        if std::mem::take(&mut self.insists) {
+            self.contest();
+        } else {
+            self.contested = None;
+            self.leapt = false;
+        }
     }
 
     /// Skips beyond the numbers that another client has reached in minutes. Number 1 would be accepted as well, but

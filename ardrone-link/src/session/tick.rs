@@ -125,14 +125,9 @@ impl Session {
     /// Detects a drone that flies on although landing is ordered: it may accept only numbers above those of
     /// another client. First our numbers leap; if that is not enough they are contested until the drone is down.
     fn watch_landing(&mut self, now: Duration, take_off: bool) {
-        let insists = std::mem::take(&mut self.insists);
         if take_off || !self.state.contains(DroneState::FLYING) {
             self.landing_since = None;
-            if insists {
-                self.sequence.contest();
-            } else {
-                self.sequence.settle();
-            }
+            self.sequence.settle();
             return;
         }
         if self.lands {
