@@ -12,7 +12,7 @@ use crate::plan::{Commands, FlightLimits, Plan, PlanError, TagUse};
 /// An order from an operator.
 ///
 /// Anyone may give [`Hold`](Self::Hold), [`Land`](Self::Land) and [`Cut`](Self::Cut); every other order but
-/// [`Camera`](Self::Camera) needs the controls, see [`Operator`].
+/// [`Camera`](Self::Camera) needs the controls, see [`Operator`](super::Operator).
 ///
 /// In logs and in what programs send a plan and commands are texts: [`OrderText`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
