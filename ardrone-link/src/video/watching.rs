@@ -1,4 +1,4 @@
-//! Pictures for somebody who watches now: those that are too late are left out.
+//! Drops late frames for live viewing.
 
 use std::collections::VecDeque;
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 pub(super) const MOST: usize = 16;
 /// After this silence one that was not given is forgotten.
 const FORGOTTEN_AFTER: Duration = Duration::from_secs(10);
-/// Where there is no room, one that has been silent for so long gives way. Heartbeats come every second.
+/// Age from which a silent peer is evicted when all slots are used. Heartbeats come every second.
 const GIVES_WAY_AFTER: Duration = Duration::from_secs(3);
 /// Datagrams of one peer that are taken at once, and how many more in each tick of 20 ms: half of what all may send. One that sends
 /// more for long floods, and takes no more room from others. A client that asks for one thing after the other as fast as it is

@@ -25,7 +25,7 @@ pub(crate) struct Differing {
 /// Attempts to shorten an execution, all in one program.
 const MOST_ATTEMPTS: usize = 200;
 
-/// Acts up to a difference.
+/// Shortest prefix of a test that shows a difference.
 struct Failed {
     acts: Vec<Act>,
     said: String,

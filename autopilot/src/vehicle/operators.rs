@@ -117,8 +117,8 @@ impl Controls {
         self.flies_for = Some((by, now));
     }
 
-    /// For how long has nobody been heard who has the controls, or for whom the drone flies, and must be heard; zero for any
-    /// other. Who takes the controls and only gives them back has ordered nothing.
+    /// Silence of the operator in control, or else of the one for whom the drone flies; zero for one who need not be heard.
+    /// Who takes the controls and only gives them back has ordered nothing.
     pub(super) fn silence(self, now: Duration) -> Duration {
         let watched = self.holder.map(|holder| (holder, self.heard)).or(self.flies_for);
         match watched {

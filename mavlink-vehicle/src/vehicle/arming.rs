@@ -9,7 +9,7 @@ use super::following::Following;
 use super::stations::Station;
 use crate::dialect::{MavResult, MavSeverity};
 
-/// Armed on the ground for so long without a take-off, the vehicle disarms.
+/// Auto-disarm timeout on the ground.
 const ARMED_TIME: Duration = Duration::from_secs(10);
 /// A take-off that was ordered before arming waits for so long.
 const PENDING_TIME: Duration = Duration::from_secs(5);
