@@ -141,7 +141,8 @@ fn foreign_log(
         .chunk_size(Some(4 << 20))
         .emit_message_indexes(false);
     let mut writer = options.create(Cursor::new(Vec::new())).unwrap();
-    let metadata = [("start_ns", "0"), ("plan", "p"), ("drone", "d"), ("version", "0")];
+    let metadata =
+        [("format", "4"), ("start_ns", "0"), ("plan", "p"), ("drone", "d"), ("version", "0")];
     let mut metadata: std::collections::BTreeMap<String, String> =
         metadata.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect();
     metadata.insert("z_origin".to_owned(), ZOrigin::Hover.name().to_owned());
@@ -404,7 +405,7 @@ fn a_refused_flight_is_not_reported_as_a_good_one() {
 }
 
 #[test]
-fn a_log_of_a_newer_format_is_refused_with_the_version_that_wrote_it() {
+fn a_log_of_another_format_is_refused_with_the_version_that_wrote_it() {
     let refused = |format: &str| {
         let mut file = Cursor::new(Vec::new());
         let mut writer = mcap::Writer::new(&mut file).unwrap();
@@ -416,9 +417,9 @@ fn a_log_of_a_newer_format_is_refused_with_the_version_that_wrote_it() {
         drop(writer);
         Log::read(&file.into_inner()).unwrap_err().to_string()
     };
-    for unknown in ["4", "0", "-1", "two"] {
+    for unknown in ["5", "3", "0", "-1", "two"] {
         let text = refused(unknown);
         assert!(text.contains(&format!("format is {unknown}")) && text.contains("9.8.7"), "{text}");
     }
-    assert!(refused("1").contains("has no"), "known, and the rest is missing");
+    assert!(refused("4").contains("has no"), "known, and the rest is missing");
 }

@@ -16,7 +16,7 @@ pub struct Tick {
     pub phase: String,
     /// Index of the plan step, from 0.
     pub step: Option<usize>,
-    /// Estimated state; `None` while it was unknown. Logs of format 1 contain zeros instead.
+    /// Estimated state; `None` while it was unknown.
     pub estimate: Option<Estimate>,
     /// Target of the position controller.
     pub target: Option<Place>,

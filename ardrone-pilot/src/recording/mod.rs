@@ -36,9 +36,8 @@ const SETTINGS_FILE: &str = "pilot.toml";
 /// The `name` of a log line: what it is about.
 const EVENT: &str = "event";
 const OUTCOME: &str = "outcome";
-/// Version of the message format. Version 1 did not have this number, and had zeros for an unknown pose;
-/// versions 1 and 2 contain one flight each, and orders without an operator.
-const FORMAT: u32 = 3;
+/// Version of the message format.
+const FORMAT: u32 = 4;
 /// Name of the metadata record.
 const FLIGHT: &str = "flight";
 

@@ -94,9 +94,9 @@ pub enum LogError {
         /// The missing part.
         missing: String,
     },
-    /// Written by a newer version with another message format.
-    #[error("its format is {format}, and this version reads up to {FORMAT}: take the version that wrote it, {}", printable(.version))]
-    Newer {
+    /// Written by a version with another message format.
+    #[error("its format is {format}, and this version reads {FORMAT}: take the version that wrote it, {}", printable(.version))]
+    OtherFormat {
         /// Its format version.
         format: String,
         /// The version of the program that wrote it.
@@ -139,12 +139,9 @@ impl Log {
         let metadata = |key: &str| {
             flight.get(key).cloned().ok_or_else(|| LogError::Foreign { missing: key.to_owned() })
         };
-        let format = flight.get("format").map_or("1", String::as_str);
-        if !format.parse().is_ok_and(|format: u32| (1..=FORMAT).contains(&format)) {
-            return Err(LogError::Newer {
-                format: format.to_owned(),
-                version: metadata("version")?,
-            });
+        let format = metadata("format")?;
+        if format.parse() != Ok(FORMAT) {
+            return Err(LogError::OtherFormat { format, version: metadata("version")? });
         }
         let start = metadata("start_ns")?
             .parse()

@@ -22,9 +22,8 @@ pub(super) const RAW_NAVDATA: Topic = Topic {
     text: include_str!("schemas/bytes.json"),
 };
 pub(super) const CONTROL: Topic = Topic { name: "/control/raw", ..RAW_NAVDATA };
-/// Called "hand" since format 1.
 pub(super) const ORDERS: Topic = Topic {
-    name: "/hand",
+    name: "/orders",
     schema: "ardrone_pilot.Order",
     text: include_str!("schemas/order.json"),
 };
