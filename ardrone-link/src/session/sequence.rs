@@ -78,7 +78,8 @@ impl SequenceNumbers {
     /// The drone has obeyed, or need not any more.
     pub(super) fn settle(&mut self) {
         if std::mem::take(&mut self.insists) {
-            self.contest();
+            // A drone that obeys again has heard our far number, so that the numbers go on behind it.
+            self.contested.get_or_insert(false);
         } else {
             self.contested = None;
             self.leapt = false;
@@ -98,5 +99,30 @@ impl SequenceNumbers {
         self.greatest = self.greatest.max(number);
         self.next = number.saturating_add(1);
         number
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// First numbers of datagrams with one command each.
+    fn first(numbers: &mut SequenceNumbers, insists: bool) -> u32 {
+        if insists {
+            numbers.insist();
+        }
+        numbers.settle();
+        numbers.begin_datagram();
+        numbers.take()
+    }
+
+    /// Were each datagram begun with number 1 from then on, any old one that is late would be obeyed.
+    #[test]
+    fn numbers_go_on_once_the_drone_obeys_again() {
+        let mut numbers = SequenceNumbers::new();
+        numbers.confirm(true);
+        assert_eq!([1, 2, 3], [(); 3].map(|()| first(&mut numbers, false)));
+        assert_eq!([1, 4, 1, 5], [(); 4].map(|()| first(&mut numbers, true)));
+        assert_eq!([6, 7], [(); 2].map(|()| first(&mut numbers, false)));
     }
 }

@@ -11,6 +11,7 @@ use pid::PositionController;
 use super::manual::Manual;
 use super::place::CrossChecks;
 use super::saturation::Saturation;
+use super::since::Since;
 use super::{FlightReport, LandingReason, SignSearch, VehicleConfig};
 use crate::agent::{Activity, Agent};
 use crate::mission::Due;
@@ -29,7 +30,7 @@ pub(super) struct Flight {
     pub(super) safety: SafetyMonitor,
     pub(super) veto: Option<Veto>,
     /// Since when the drone does not tilt as it is told.
-    pub(super) disobeys_since: Option<Duration>,
+    pub(super) disobeys: Since,
     pub(super) manual: Manual,
     /// The step being flown.
     pub(super) due: Option<Active>,
@@ -39,12 +40,12 @@ pub(super) struct Flight {
     /// Why a drone that was taken over in the air must not be flown on.
     pub(super) refusals: Vec<String>,
     /// Start of the fault that the drone currently reports, and of its emergency state.
-    pub(super) fault_since: Option<Duration>,
-    pub(super) emergency_since: Option<Duration>,
+    pub(super) fault: Since,
+    pub(super) emergency: Since,
     /// The drone has been in the air.
     pub(super) has_lifted: bool,
     /// Since when it is on the ground again without an order to land.
-    pub(super) down_since: Option<Duration>,
+    pub(super) down: Since,
     /// Disturbance acceleration averaged over gusts: right, forward.
     pub(super) wind_m_s2: Vector2<f64>,
     pub(super) saturation: Saturation,
@@ -81,16 +82,16 @@ impl Flight {
             activity: Activity::default(),
             safety: SafetyMonitor::new(config.limits),
             veto: None,
-            disobeys_since: None,
+            disobeys: Since::default(),
             manual: Manual::default(),
             due: None,
             ends_on_ground: false,
             landing: None,
             refusals: Vec::new(),
-            fault_since: None,
-            emergency_since: None,
+            fault: Since::default(),
+            emergency: Since::default(),
             has_lifted: false,
-            down_since: None,
+            down: Since::default(),
             wind_m_s2: Vector2::zeros(),
             saturation: Saturation::default(),
             sign_search: SignSearch::default(),

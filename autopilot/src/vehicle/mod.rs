@@ -24,6 +24,7 @@ mod refused;
 mod report;
 mod saturation;
 mod setpoint;
+mod since;
 mod stage;
 mod status;
 mod tags;

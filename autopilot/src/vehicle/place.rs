@@ -10,6 +10,7 @@ use estimator::TagStatus;
 use nalgebra::Vector2;
 
 use super::cross_check::IN_VIEW;
+use super::since::Since;
 use super::{CrossCheck, FlightEvent, Vehicle};
 
 /// A drone that was heard this recently is heard.
@@ -31,7 +32,7 @@ pub(super) struct CrossChecks {
     unseen_s: f64,
     /// The GPS where the drone stood before the flight.
     start: Option<GpsFix>,
-    gps_off_since: Option<Duration>,
+    gps_off: Since,
 }
 
 impl CrossChecks {
@@ -64,8 +65,7 @@ impl CrossChecks {
         let off_m = (distance_m(start, fix) - place_m.norm()).abs();
         let error_m = start.horizontal_error_m.hypot(fix.horizontal_error_m);
         let is_off = off_m > GPS_ERRORS * error_m + DEVIATIONS * deviation_m;
-        self.gps_off_since = is_off.then(|| self.gps_off_since.unwrap_or(now));
-        self.gps_off_since.is_some_and(|since| now.saturating_sub(since) >= GPS_LASTS)
+        self.gps_off.lasts(now, is_off, GPS_LASTS)
     }
 }
 

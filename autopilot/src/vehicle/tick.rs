@@ -17,9 +17,11 @@ use super::{
 use crate::agent::{AgentCommand, AgentStep, Percepts, StationPercepts};
 use crate::safety::{self, Situation};
 
-/// A drone obeys within this time, whatever the link delays and loses, and then leans to within this share of full tilt.
+/// A drone obeys within this time and the link's delay, and then leans to within this share of full tilt.
 const OBEYS_WITHIN: Duration = Duration::from_millis(500);
 const DISOBEDIENT: f64 = 0.7;
+/// Older navdata do not show whether it does.
+const HEARD: Duration = Duration::from_millis(150);
 
 impl Vehicle {
     /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
@@ -103,17 +105,18 @@ impl Vehicle {
     /// another client. No wind and no airframe lets a drone lean the other way for so long.
     fn watch_obedience(&mut self, now: Duration, order: &Order) {
         let full_deg = self.config.estimator.limits.tilt_rad.to_degrees();
+        // Of what is not heard nothing is known.
+        let heard = self.session.silence(now).is_some_and(|age| age <= HEARD);
         let off = match (order.motion, self.demo()) {
-            (Motion::Progressive { roll, pitch, .. }, Some(demo)) if !self.on_ground() => {
+            (Motion::Progressive { roll, pitch, .. }, Some(demo)) if heard && !self.on_ground() => {
                 let off = [(roll, demo.roll_deg), (pitch, demo.pitch_deg)]
                     .map(|(told, deg)| (f64::from(told.get()) - deg / full_deg).abs());
                 off[0].max(off[1])
             }
             _ => 0.0,
         };
-        let since = &mut self.flight.disobeys_since;
-        *since = (off > DISOBEDIENT).then(|| since.unwrap_or(now));
-        if since.is_some_and(|since| now.saturating_sub(since) >= OBEYS_WITHIN) {
+        let within = OBEYS_WITHIN + self.flight.estimator.order_delay();
+        if self.flight.disobeys.lasts(now, off > DISOBEDIENT, within) {
             self.request(now, Request::Insist);
         }
     }

@@ -127,27 +127,22 @@ impl Vehicle {
     /// be damaged.
     fn lasting_fault(&mut self, now: Duration) -> Option<&'static str> {
         let fault = if self.on_ground() { None } else { self.reported_fault() };
-        self.flight.fault_since = fault.map(|_| self.flight.fault_since.unwrap_or(now));
-        fault.filter(|_| {
-            self.flight.fault_since.is_some_and(|at| now.saturating_sub(at) >= FAULT_TIME)
-        })
+        let lasts = self.flight.fault.lasts(now, fault.is_some(), FAULT_TIME);
+        fault.filter(|_| lasts)
     }
 
     /// Whether the drone has cut its motors in a flight, for [`FAULT_TIME`].
     fn has_lasting_emergency(&mut self, now: Duration) -> bool {
         let flies = matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. });
         let emergency = flies && self.drone_state().contains(DroneState::EMERGENCY);
-        let since = &mut self.flight.emergency_since;
-        *since = emergency.then(|| since.unwrap_or(now));
-        since.is_some_and(|since| now.saturating_sub(since) >= FAULT_TIME)
+        self.flight.emergency.lasts(now, emergency, FAULT_TIME)
     }
 
     /// Whether the drone has landed by itself: the agent hears of it only if it had an order to carry out.
     fn has_come_down(&mut self, now: Duration) -> bool {
         self.flight.has_lifted |= !self.on_ground();
         let down = self.flight.has_lifted && self.on_ground() && !self.lands();
-        self.flight.down_since = down.then(|| self.flight.down_since.unwrap_or(now));
-        self.flight.down_since.is_some_and(|since| now.saturating_sub(since) >= FAULT_TIME)
+        self.flight.down.lasts(now, down, FAULT_TIME)
     }
 
     /// Whether another pilot has taken off with the drone while it was being prepared.
