@@ -67,7 +67,7 @@ impl Vehicle {
             }
             AgentCommand::Sticks => {
                 self.flight.controller.rest();
-                let demand = self.flight.manual.sticks(now).unwrap_or_default();
+                let demand = self.life.manual().sticks(now).unwrap_or_default();
                 let demand = self.flight.safety.limit(
                     &demand,
                     self.mission.max_control(),
@@ -109,7 +109,7 @@ impl Vehicle {
             step_s,
             limit: self.mission.max_control(),
             speed_m_s: self.mission.speed_m_s().unwrap_or(self.config.cascade.speed_max_m_s),
-            course: self.flight.manual.course(target),
+            course: self.life.manual().course(target),
         })
     }
 }

@@ -8,13 +8,11 @@ use kinematics::Pose;
 use nalgebra::Vector2;
 use pid::PositionController;
 
-use super::manual::Manual;
 use super::place::CrossChecks;
 use super::saturation::Saturation;
 use super::since::Since;
-use super::{FlightReport, LandingReason, SignSearch, VehicleConfig};
+use super::{FlightReport, SignSearch, VehicleConfig};
 use crate::agent::{Activity, Agent};
-use crate::mission::Due;
 use crate::outcome::Outcome;
 use crate::safety::{SafetyMonitor, Veto};
 
@@ -31,19 +29,9 @@ pub(super) struct Flight {
     pub(super) veto: Option<Veto>,
     /// Since when the drone does not tilt as it is told.
     pub(super) disobeys: Since,
-    pub(super) manual: Manual,
-    /// The step being flown.
-    pub(super) due: Option<Active>,
-    /// The mission was replaced during its landing step: the flight ends on the ground.
-    pub(super) ends_on_ground: bool,
-    pub(super) landing: Option<LandingReason>,
-    /// Why a drone that was taken over in the air must not be flown on.
-    pub(super) refusals: Vec<String>,
     /// Start of the fault that the drone currently reports, and of its emergency state.
     pub(super) fault: Since,
     pub(super) emergency: Since,
-    /// The drone has been in the air.
-    pub(super) has_lifted: bool,
     /// Since when it is on the ground again without an order to land.
     pub(super) down: Since,
     /// Disturbance acceleration averaged over gusts: right, forward.
@@ -54,19 +42,8 @@ pub(super) struct Flight {
     pub(super) target: Option<Pose>,
     /// When the drone was first asked for full navdata, or else when the flight began.
     pub(super) asked_at: Duration,
-    /// The agent was allowed to take off. A take-off that was ordered may lift the drone later.
-    pub(super) has_begun: bool,
     pub(super) report: FlightReport,
     pub(super) outcome: Option<Outcome>,
-}
-
-/// A step that is being flown.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Active {
-    pub(super) due: Due,
-    pub(super) since: Duration,
-    /// The order has been handed to the agent.
-    pub(super) offered: bool,
 }
 
 impl Flight {
@@ -83,14 +60,8 @@ impl Flight {
             safety: SafetyMonitor::new(config.limits),
             veto: None,
             disobeys: Since::default(),
-            manual: Manual::default(),
-            due: None,
-            ends_on_ground: false,
-            landing: None,
-            refusals: Vec::new(),
             fault: Since::default(),
             emergency: Since::default(),
-            has_lifted: false,
             down: Since::default(),
             wind_m_s2: Vector2::zeros(),
             saturation: Saturation::default(),
@@ -98,7 +69,6 @@ impl Flight {
             cross_checks: CrossChecks::default(),
             target: None,
             asked_at: begins,
-            has_begun: false,
             report: FlightReport::default(),
             outcome: None,
         }

@@ -6,7 +6,8 @@ use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{GpsFix, Navdata, Packet};
 use ardrone_link::session;
 
-use super::{Authority, FlightEvent, FlightPhase, LandingReason, Outcome, Vehicle, sample, sights};
+use super::life::{Life, Preparation};
+use super::{FlightEvent, LandingReason, Outcome, Phase, Vehicle, sample, sights};
 
 /// Time constant of the navdata rate's average, in seconds.
 const RATE_TIME_S: f64 = 1.0;
@@ -104,7 +105,7 @@ impl Vehicle {
     fn session_event(&mut self, now: Duration, event: session::Event) {
         match event {
             session::Event::Connected => {
-                if self.phase == FlightPhase::Connecting {
+                if self.life.phase() == Phase::Connecting {
                     self.found(now);
                     self.events.push_back(FlightEvent::Connected);
                 }
@@ -119,13 +120,12 @@ impl Vehicle {
             }
             session::Event::Ready => {
                 self.expect_link_delay();
-                if matches!(self.phase, FlightPhase::Configuring { .. }) {
+                if self.life.phase() == Phase::Configuring {
                     // In the air the drone is not level, so flat trim would set a wrong reference.
                     if self.on_ground() {
                         self.request(now, session::Request::FlatTrim);
                     }
-                    let received = self.session.statistics().received;
-                    self.phase = FlightPhase::Settling { since: now, received };
+                    self.life.prepare(Preparation::Trimming(self.watched_from(now)));
                     self.events.push_back(FlightEvent::Configured);
                 }
             }
@@ -134,11 +134,9 @@ impl Vehicle {
                 self.flight.estimator.handle_restart();
                 self.navdata = None;
                 self.gps = None;
-                match self.phase {
-                    FlightPhase::Flying => self.land(now, LandingReason::DroneRestarted),
-                    FlightPhase::Settling { .. } | FlightPhase::Standby { .. } => {
-                        self.begin_to_configure(now, self.authority);
-                    }
+                match self.life.phase() {
+                    Phase::Flying => self.land(now, LandingReason::DroneRestarted),
+                    Phase::Trimming | Phase::Standby => self.begin_to_configure(now),
                     _ => {}
                 }
             }
@@ -159,26 +157,24 @@ impl Vehicle {
     /// Handles the first answer of the drone.
     fn found(&mut self, now: Duration) {
         if self.on_ground() {
-            self.begin_to_configure(now, Authority::OnGround);
+            self.begin_to_configure(now);
         } else {
-            let received = self.session.statistics().received;
-            self.phase = FlightPhase::Observing { since: now, received };
+            self.life.prepare(Preparation::Observing(self.watched_from(now)));
         }
     }
 
     fn link_lost(&mut self, now: Duration) {
         self.events.push_back(FlightEvent::LinkLost);
         // In flight the agent lands once navdata have been missing for too long.
-        if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
+        if self.life.is_in_flight() {
             return;
         }
-        self.phase = FlightPhase::Connecting;
-        self.authority = Authority::None;
         self.navdata = None;
         self.gps = None;
-        if self.departure.is_some() {
+        if self.life.departure().is_some() {
             self.end(now, Outcome::NoDrone);
         }
+        self.life.enter(Life::BEGINNING);
     }
 
     pub(super) fn compare_configuration(&mut self, configuration: &Configuration) {

@@ -7,6 +7,7 @@ use kinematics::{Pose, Sticks};
 use nalgebra::Vector2;
 use pid::{Course, MotionLimits};
 
+use super::life::{Flying, Life};
 use super::{FlightEvent, Operator, Place, Refused, Setpoint, Station, Vehicle, pose};
 use crate::agent::{Report, SetpointPercept, distance};
 use crate::safety::INSIDE_M;
@@ -19,8 +20,6 @@ const PAGE_STICK_TIME: Duration = Duration::from_millis(250);
 /// Manual control of the current flight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Manual {
-    /// The mission is paused.
-    pub(super) holds_mission: bool,
     /// What the agent is told in the next tick. It handles one pre-empting goal in a step, so of several orders in a tick it
     /// gets the last; one that stayed for later would end whatever was ordered after it. Nothing else is offered meanwhile.
     goal: Option<Goal>,
@@ -40,9 +39,11 @@ pub(super) enum Goal {
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 enum Mode {
-    /// No manual control: the drone holds, or flies its mission.
+    /// No manual control: the mission is flown.
     #[default]
-    None,
+    Mission,
+    /// The mission is paused, and the drone holds.
+    Hold,
     Steered {
         sticks: Sticks,
         until: Duration,
@@ -91,6 +92,14 @@ impl ManualControl {
 }
 
 impl Manual {
+    /// Nobody flies by hand.
+    pub(super) const NONE: Self = Self { goal: None, mode: Mode::Mission, flown: None };
+
+    /// Whether the mission is paused.
+    pub(super) fn pauses_mission(&self) -> bool {
+        self.mode != Mode::Mission
+    }
+
     /// The current stick input; `None` once it has expired.
     pub(super) fn sticks(&self, now: Duration) -> Option<Sticks> {
         match self.mode {
@@ -101,11 +110,12 @@ impl Manual {
 
     /// What the operator does; `None` if the mission is not paused.
     pub(super) fn control(&self, now: Duration) -> Option<ManualControl> {
-        self.holds_mission.then_some(match self.mode {
+        Some(match self.mode {
+            Mode::Mission => return None,
             Mode::Steered { until, .. } if now < until => ManualControl::Sticks,
             Mode::SentTo { .. } => ManualControl::Target,
             Mode::Following { stopped: false, .. } => ManualControl::Setpoints,
-            Mode::None | Mode::Steered { .. } | Mode::Following { .. } => ManualControl::Hold,
+            Mode::Hold | Mode::Steered { .. } | Mode::Following { .. } => ManualControl::Hold,
         })
     }
 
@@ -132,6 +142,14 @@ impl Manual {
         }
     }
 
+    /// The mission was replaced. A paused mission stays paused.
+    pub(super) fn mission_replaced(&mut self) {
+        if self.pauses_mission() {
+            self.mode = Mode::Hold;
+        }
+        self.goal = Some(Goal::NewMission);
+    }
+
     /// Whether a manual target is being flown to.
     pub(super) fn sends(&self) -> bool {
         matches!(self.mode, Mode::SentTo { .. })
@@ -140,20 +158,19 @@ impl Manual {
 
 impl Vehicle {
     pub(super) fn hold_here(&mut self) {
-        self.begin_manual(FlightEvent::Held);
-        self.agent_holds();
+        self.fly_by_hand(Mode::Hold, Goal::Hold, FlightEvent::Held);
     }
 
     pub(super) fn steer(&mut self, now: Duration, by: Operator, sticks: Sticks) {
-        if self.flight.manual.sticks(now).is_none() {
-            self.begin_manual(FlightEvent::Steered);
-            self.flight.manual.goal = Some(Goal::Steer);
-        }
         let lasts = match by.station {
             Station::Browser => PAGE_STICK_TIME,
             Station::Terminal | Station::Program | Station::Mavlink => STICK_TIME,
         };
-        self.flight.manual.mode = Mode::Steered { sticks, until: now + lasts };
+        let mode = Mode::Steered { sticks, until: now + lasts };
+        match self.life.flying_mut() {
+            Some(flying) if flying.manual.sticks(now).is_some() => flying.manual.mode = mode,
+            _ => self.fly_by_hand(mode, Goal::Steer, FlightEvent::Steered),
+        }
     }
 
     /// Begins to follow set-points.
@@ -166,20 +183,19 @@ impl Vehicle {
         // A course begins where the last one, or the hold, has led: begun anew with the drone's motion in every tick it
         // would never brake it.
         let holds = self.flight.activity.stays() && self.flight.target.is_some();
-        let course = match self.flight.manual.flown {
+        let course = match self.life.manual().flown {
             Some(course) => course,
             None if holds => Course::new(Vector2::new(target.x_m, target.y_m), Vector2::zeros()),
             None => course_of(&state),
         };
-        self.begin_manual(FlightEvent::FollowingSetpoints);
-        self.flight.manual.goal = Some(Goal::Follow);
-        self.flight.manual.mode =
-            Mode::Following { setpoint, at: now, target, course, stopped: false };
+        let mode = Mode::Following { setpoint, at: now, target, course, stopped: false };
+        self.fly_by_hand(mode, Goal::Follow, FlightEvent::FollowingSetpoints);
     }
 
     /// The next set-point. After the agent has stopped following it only shows that its sender is there.
     pub(super) fn next_setpoint(&mut self, now: Duration, next: Setpoint) -> Result<(), Refused> {
-        let Mode::Following { setpoint, at, stopped, .. } = &mut self.flight.manual.mode else {
+        let mode = self.life.flying_mut().map(|flying| &mut flying.manual.mode);
+        let Some(Mode::Following { setpoint, at, stopped, .. }) = mode else {
             return Err(Refused::NotFollowing);
         };
         (*setpoint, *at) = (next, now);
@@ -193,10 +209,9 @@ impl Vehicle {
         let drag_1_s = self.flight.estimator.airframe().drag_1_s.min();
         // It hovered by itself, and may be elsewhere.
         let flown = self.flight.target.is_some();
-        self.flight.manual.flown = None;
-        if let Mode::Following { setpoint, target, course, stopped: false, .. } =
-            &mut self.flight.manual.mode
-        {
+        let Life::Flying(Flying { manual, .. }) = &mut self.life else { return };
+        manual.flown = None;
+        if let Mode::Following { setpoint, target, course, stopped: false, .. } = &mut manual.mode {
             if !flown {
                 *course = course_of(state);
             }
@@ -205,7 +220,7 @@ impl Vehicle {
             setpoint.advance(course, &pose, (&limits, drag_1_s), radius_m, step_s);
             let wanted = setpoint.target(target, course, &pose, step_s);
             *target = fence.nearest_inside(&wanted, INSIDE_M);
-            self.flight.manual.flown = Some(*course);
+            manual.flown = Some(*course);
         }
     }
 
@@ -221,17 +236,16 @@ impl Vehicle {
 
     /// The agent has set its order aside because whoever gave it is silent.
     pub(super) fn order_paused(&mut self) {
-        let manual = &mut self.flight.manual;
+        let Life::Flying(Flying { manual, .. }) = &mut self.life else { return };
         match &mut manual.mode {
             Mode::Following { stopped, .. } => {
                 *stopped = true;
                 self.events.push_back(FlightEvent::SetpointsSilent);
             }
             // It waits already.
-            Mode::None if manual.holds_mission => {}
+            Mode::Hold => {}
             mode => {
-                *mode = Mode::None;
-                manual.holds_mission = true;
+                *mode = Mode::Hold;
                 self.events.push_back(FlightEvent::PausedForStation);
             }
         }
@@ -246,56 +260,46 @@ impl Vehicle {
             yaw_deg: to.yaw_deg.unwrap_or(present.yaw_deg),
         };
         let place = self.mission.inside(&wanted, INSIDE_M);
-        match &mut self.flight.manual.mode {
+        match self.life.flying_mut().map(|flying| &mut flying.manual.mode) {
             // It is on its way there.
-            Mode::SentTo { place: last, .. }
+            Some(Mode::SentTo { place: last, .. })
                 if distance(last, &place) <= f64::EPSILON
-                    && last.yaw_deg.to_bits() == place.yaw_deg.to_bits() =>
-            {
-                return;
-            }
+                    && last.yaw_deg.to_bits() == place.yaw_deg.to_bits() => {}
             // The agent has yet to hear of the last one. To hold once more would let no place through.
-            Mode::SentTo { place: last, offered: false } => {
+            Some(Mode::SentTo { place: last, offered: false }) => {
                 *last = place;
                 self.events.push_back(FlightEvent::ManualTargetSet);
-                return;
             }
-            _ => {}
+            _ => {
+                let mode = Mode::SentTo { place, offered: false };
+                self.fly_by_hand(mode, Goal::Hold, FlightEvent::ManualTargetSet);
+            }
         }
-        self.begin_manual(FlightEvent::ManualTargetSet);
-        self.agent_holds();
-        self.flight.manual.mode = Mode::SentTo { place, offered: false };
     }
 
     pub(super) fn resume(&mut self, now: Duration) -> Result<(), Refused> {
-        if !self.flight.manual.holds_mission {
-            return Err(Refused::NothingHeld);
-        }
-        // This landing is final: the mission does not resume.
-        if self.flight.landing.is_some() {
-            return Err(Refused::Landing);
-        }
+        let flying = match &mut self.life {
+            Life::Flying(flying) if flying.manual.pauses_mission() => flying,
+            // This landing is final: the mission does not resume.
+            Life::Landing { .. } => return Err(Refused::Landing),
+            _ => return Err(Refused::NothingHeld),
+        };
         // The manual order is ended without a report, which would be taken for the report of the step.
-        self.agent_holds();
-        self.flight.manual.holds_mission = false;
-        self.events.push_back(FlightEvent::Resumed);
+        flying.manual.mode = Mode::Mission;
+        flying.manual.goal = Some(Goal::Hold);
         // The order of the step was pre-empted and must be offered again.
-        if let Some(active) = &mut self.flight.due {
+        if let Some(active) = &mut flying.due {
             active.offered = false;
             active.since = now;
         }
+        self.events.push_back(FlightEvent::Resumed);
         Ok(())
-    }
-
-    /// Ends manual control because the mission was replaced. A paused mission stays paused.
-    pub(super) fn manual_ends(&mut self) {
-        self.flight.manual.mode = Mode::None;
-        self.flight.manual.goal = Some(Goal::NewMission);
     }
 
     /// Tells the agent what the last order was; whether there was one.
     pub(super) fn offer_goal(&mut self) -> bool {
-        let Some(goal) = self.flight.manual.goal.take() else { return false };
+        let goal = self.life.flying_mut().and_then(|flying| flying.manual.goal.take());
+        let Some(goal) = goal else { return false };
         let agent = &mut self.flight.agent;
         // Pre-empting goals are always accepted.
         let accepted = match goal {
@@ -310,16 +314,18 @@ impl Vehicle {
 
     /// Hands the manual target to the agent once the agent holds.
     pub(super) fn offer_manual_target(&mut self) {
-        let flight = &mut self.flight;
-        if let Mode::SentTo { place, offered: offered @ false } = &mut flight.manual.mode {
-            *offered = flight.agent.achieve_go_to(place.x_m, place.y_m, place.z_m, place.yaw_deg);
+        let mode = self.life.flying_mut().map(|flying| &mut flying.manual.mode);
+        if let Some(Mode::SentTo { place, offered: offered @ false }) = mode {
+            let Pose { x_m, y_m, z_m, yaw_deg } = *place;
+            *offered = self.flight.agent.achieve_go_to(x_m, y_m, z_m, yaw_deg);
         }
     }
 
     /// The agent has reported how its order for the manual target ended.
     pub(super) fn manual_target_ended(&mut self, report: Report) {
-        if let Mode::SentTo { offered: true, .. } = self.flight.manual.mode {
-            self.flight.manual.mode = Mode::None;
+        let Life::Flying(Flying { manual, .. }) = &mut self.life else { return };
+        if let Mode::SentTo { offered: true, .. } = manual.mode {
+            manual.mode = Mode::Hold;
             // It fails only on the ground, which ends the flight with that reason.
             if report == Report::Done {
                 self.events.push_back(FlightEvent::ManualTargetReached);
@@ -327,17 +333,14 @@ impl Vehicle {
         }
     }
 
-    fn agent_holds(&mut self) {
-        self.flight.manual.mode = Mode::None;
-        self.flight.manual.goal = Some(Goal::Hold);
-    }
-
-    fn begin_manual(&mut self, event: FlightEvent) {
-        if !self.flight.manual.holds_mission || event != FlightEvent::Held {
+    /// Pauses the mission and does this instead.
+    fn fly_by_hand(&mut self, mode: Mode, goal: Goal, event: FlightEvent) {
+        let Life::Flying(Flying { manual, .. }) = &mut self.life else { return };
+        if !manual.pauses_mission() || event != FlightEvent::Held {
             self.events.push_back(event);
         }
-        self.flight.manual.holds_mission = true;
-        self.flight.manual.mode = Mode::None;
+        manual.mode = mode;
+        manual.goal = Some(goal);
     }
 }
 

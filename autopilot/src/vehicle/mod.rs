@@ -11,6 +11,7 @@ mod decision;
 mod event;
 mod flight;
 mod landing_reason;
+mod life;
 mod link;
 mod manual;
 mod operator_order;
@@ -47,13 +48,13 @@ pub use pid::Law;
 pub use self::cross_check::{CrossCheck, RestsOn};
 pub use self::decision::Decision;
 pub use self::event::FlightEvent;
-use self::flight::{Active, Flight, is_airborne, sample};
+use self::flight::{Flight, is_airborne, sample};
 pub use self::landing_reason::LandingReason;
+use self::life::{Life, Watched};
 pub use self::manual::ManualControl;
 pub use self::operator_order::{CommandsText, OperatorOrder, OrderText, Place, PlanText};
 use self::operators::Controls;
 pub use self::operators::{Operator, Station};
-use self::phase::FlightPhase;
 pub use self::phase::Phase;
 use self::protocol::Pending;
 pub use self::protocol::{Input, Output, Transmit};
@@ -176,10 +177,7 @@ pub struct Vehicle {
     configured: Configured,
     controls: Controls,
     mission: Mission,
-    phase: FlightPhase,
-    /// When a flight was ordered that has not begun yet.
-    departure: Option<Duration>,
-    authority: Authority,
+    life: Life,
     flight: Flight,
     navdata: Option<Navdata>,
     /// Position by the drone's flight recorder.
@@ -224,17 +222,6 @@ struct Configured {
     no_video_rate: bool,
 }
 
-/// Whether and why this program may send commands to the drone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Authority {
-    /// The drone has not been heard yet, or another pilot flies it. Nothing is sent.
-    None,
-    /// The drone was found on the ground.
-    OnGround,
-    /// The drone was found in the air, and the mission takes it over.
-    TakenOver,
-}
-
 impl Vehicle {
     /// A vehicle without a mission that has not received navdata yet.
     ///
@@ -258,9 +245,7 @@ impl Vehicle {
             configured: Configured::default(),
             controls: Controls::default(),
             mission: Mission::new(config.limits),
-            phase: FlightPhase::Connecting,
-            departure: None,
-            authority: Authority::None,
+            life: Life::BEGINNING,
             flight: Flight::new(config, Duration::ZERO),
             navdata: None,
             gps: None,
@@ -317,10 +302,9 @@ impl Vehicle {
         report.waypoints.reserve(steps.saturating_sub(report.waypoints.len()));
     }
 
-    /// Monitors the drone on the ground for a moment before take-off.
-    fn watch_before_take_off(&mut self, now: Duration) {
-        let received = self.session.statistics().received;
-        self.phase = FlightPhase::Settling { since: now, received };
+    /// The drone is monitored from now on.
+    fn watched_from(&self, now: Duration) -> Watched {
+        Watched { since: now, received: self.session.statistics().received }
     }
 
     /// A tick of a program that is about to exit: orders the landing through the session alone, so that it
@@ -353,8 +337,7 @@ impl Vehicle {
 
     /// Whether the program may exit: the vehicle neither flies nor lands, and no flight is about to begin.
     pub fn is_at_rest(&self) -> bool {
-        let flies = matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. });
-        !flies && self.departure.is_none()
+        !self.life.is_in_flight() && self.life.departure().is_none()
     }
 
     /// Reasons why the vehicle cannot take off now; empty if it can.
@@ -381,14 +364,14 @@ impl Vehicle {
         };
         let tags = self.flight.estimator.tag_status(now);
         Status {
-            phase: self.phase.phase(),
-            landing: self.flight.landing,
+            phase: self.life.phase(),
+            landing: self.life.landing_reason(),
             emergency: self.drone_state().contains(DroneState::EMERGENCY),
             airborne: self.navdata.is_some() && !self.on_ground(),
-            step: self.flight.due.as_ref().map(|active| active.due.step),
+            step: self.life.due().map(|active| active.due.step),
             steps: self.flight.report.steps,
-            mission_waits: self.flight.manual.holds_mission,
-            manual: self.flight.manual.control(now),
+            mission_waits: self.life.manual().pauses_mission(),
+            manual: self.life.manual().control(now),
             controls: self.controls.holder(),
             pose: self.session.silence(now).map(|_| pose),
             velocity_m_s: self

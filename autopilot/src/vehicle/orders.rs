@@ -2,10 +2,9 @@
 
 use std::time::Duration;
 
+use super::life::{Departure, Life, Preparation, Why};
 use super::readiness::NotReady;
-use super::{
-    Authority, FlightEvent, FlightPhase, LandingReason, Operator, OperatorOrder, Refused, Vehicle,
-};
+use super::{FlightEvent, LandingReason, Operator, OperatorOrder, Refused, Vehicle};
 use crate::agent::AgentCommand;
 use crate::mission::Underway;
 use crate::outcome::Outcome;
@@ -38,7 +37,7 @@ impl Vehicle {
 
     fn obey(&mut self, now: Duration, by: Operator, order: OperatorOrder) -> Result<(), Refused> {
         match order {
-            OperatorOrder::Load(plan) => return self.load(plan),
+            OperatorOrder::Load(plan) => return self.load(now, plan),
             OperatorOrder::Append(commands) => return self.append(now, commands),
             OperatorOrder::Clear => self.clear(now),
             OperatorOrder::Start { when_ready } => return self.start(now, when_ready),
@@ -47,13 +46,13 @@ impl Vehicle {
                 self.land(now, LandingReason::Operator);
             }
             // Nothing is sent to such a drone, so a cut would have no effect.
-            OperatorOrder::Cut if self.departure.is_none() && self.is_foreign() => {
+            OperatorOrder::Cut if self.life.departure().is_none() && self.is_foreign() => {
                 return Err(Refused::FlownByAnother);
             }
             OperatorOrder::Cut => {
                 // A start that waits is no reason to fly once the motors have been cut. A drone that is
                 // being taken over in the air is landed, in case the cut does not reach it.
-                if self.departure.is_some() {
+                if self.life.departure().is_some() {
                     self.land(now, LandingReason::Operator);
                 }
                 self.events.push_back(FlightEvent::CutOrdered);
@@ -116,11 +115,15 @@ impl Vehicle {
 
     /// Whether a flight has been started that has not lifted the drone yet.
     fn is_about_to_fly(&self) -> bool {
-        // In the tick after the landing the flight has yet to end.
-        let has_flown = self.flight.has_lifted && self.flight.due.is_none();
-        let takes_off =
-            self.phase == FlightPhase::Flying && self.on_ground() && !self.lands() && !has_flown;
-        self.departure.is_some() || takes_off
+        match &self.life {
+            Life::Preparing { departure, .. } => departure.is_some(),
+            Life::Flying(flying) => {
+                // In the tick after the landing the flight has yet to end.
+                let has_flown = flying.has_lifted && flying.due.is_none();
+                self.on_ground() && !self.lands() && !has_flown
+            }
+            Life::Standby { .. } | Life::Landing { .. } => false,
+        }
     }
 
     /// Whether the drone flies and is not landing, so that an operator may change what it does.
@@ -129,7 +132,7 @@ impl Vehicle {
             Err(Refused::Landing)
         } else if self.is_foreign() {
             Err(Refused::FlownByAnother)
-        } else if self.phase != FlightPhase::Flying || self.on_ground() {
+        } else if self.life.flying().is_none() || self.on_ground() {
             Err(Refused::OnGround)
         } else {
             Ok(())
@@ -138,28 +141,27 @@ impl Vehicle {
 
     /// Whether another client flies the drone.
     fn is_foreign(&self) -> bool {
-        self.authority == Authority::None && self.navdata.is_some() && !self.on_ground()
+        !self.life.commands() && self.navdata.is_some() && !self.on_ground()
     }
 
     /// Whether the drone is landing, either by order or because the mission has reached its landing step.
     pub(super) fn lands(&self) -> bool {
-        let step = self.flight.due.is_some_and(|active| active.due.order == AgentOrder::Land);
-        step || self.goes_down_onto_tag() || matches!(self.phase, FlightPhase::Landing { .. })
+        let step = self.life.due_order() == Some(AgentOrder::Land);
+        step || self.goes_down_onto_tag() || matches!(self.life, Life::Landing { .. })
     }
 
     /// Whether a landing on a tag has got to the way down: before that an operator may take it back.
     fn goes_down_onto_tag(&self) -> bool {
         let lands = self.decision.is_some_and(|decision| decision.wanted == AgentCommand::Land);
-        self.flight.due.is_some_and(|active| active.due.order == AgentOrder::LandOnTag)
+        self.life.due_order() == Some(AgentOrder::LandOnTag)
             && (lands || self.flight.activity.is_descending())
     }
 
-    fn load(&mut self, plan: Plan) -> Result<(), Refused> {
+    fn load(&mut self, now: Duration, plan: Plan) -> Result<(), Refused> {
         self.take_tags_of(&plan)?;
-        let airborne = self.phase == FlightPhase::Flying;
-        self.mission.load(plan, airborne);
+        self.mission.load(plan, self.life.flying().is_some());
         self.events.push_back(FlightEvent::MissionLoaded { steps: self.mission.steps().len() });
-        self.mission_replaced();
+        self.mission_replaced(now);
         Ok(())
     }
 
@@ -169,31 +171,28 @@ impl Vehicle {
         }
         self.mission.clear();
         self.events.push_back(FlightEvent::MissionCleared);
-        self.mission_replaced();
+        self.mission_replaced(now);
     }
 
     /// Drops the current step because the mission was replaced. A landing goes on and ends the flight.
-    fn mission_replaced(&mut self) {
+    fn mission_replaced(&mut self, now: Duration) {
         self.mission_changed();
-        if self.phase != FlightPhase::Flying {
-            return;
-        }
         if self.lands() {
-            self.flight.ends_on_ground = true;
-            return;
+            self.give_up(now, Why::Replaced);
+        } else if let Life::Flying(flying) = &mut self.life {
+            flying.due = None;
+            flying.manual.mission_replaced();
         }
-        self.flight.due = None;
-        self.manual_ends();
     }
 
     fn append(&mut self, now: Duration, commands: Commands) -> Result<(), Refused> {
         if self.lands() {
             return Err(Refused::Landing);
         }
-        let underway = (self.phase == FlightPhase::Flying).then(|| Underway {
+        let underway = self.life.flying().map(|flying| Underway {
             here: self.pose(now),
             airborne: !self.on_ground(),
-            due: self.flight.due.map(|active| active.due),
+            due: flying.due.map(|active| active.due),
         });
         self.mission.append(commands, underway)?;
         self.mission_changed();
@@ -202,12 +201,13 @@ impl Vehicle {
     }
 
     fn start(&mut self, now: Duration, when_ready: bool) -> Result<(), Refused> {
-        match self.phase {
-            FlightPhase::Landing { .. } => return Err(Refused::Landing),
-            FlightPhase::Flying if self.flight.manual.holds_mission => return self.resume(now),
-            FlightPhase::Flying => return Err(Refused::Flying),
-            _ if self.departure.is_some() => return Err(Refused::Flying),
-            _ => {}
+        match &self.life {
+            Life::Landing { .. } => return Err(Refused::Landing),
+            Life::Flying(flying) if flying.manual.pauses_mission() => return self.resume(now),
+            Life::Flying(_) | Life::Preparing { departure: Some(_), .. } => {
+                return Err(Refused::Flying);
+            }
+            Life::Standby { .. } | Life::Preparing { departure: None, .. } => {}
         }
         if self.mission.steps().is_empty() {
             return Err(Refused::NoMission);
@@ -215,23 +215,22 @@ impl Vehicle {
         if !self.mission.takes_off() {
             return Err(Refused::NeverTakesOff);
         }
-        if matches!(self.phase, FlightPhase::Standby { .. }) {
-            let reasons = self.reasons_not_to_fly(now);
-            if !reasons.is_empty() {
-                return Err(Refused::NotReady(reasons.iter().map(ToString::to_string).collect()));
-            }
-            self.begin_flight(now);
-            self.watch_before_take_off(now);
-        } else {
-            let takes_over =
-                matches!(self.phase, FlightPhase::Observing { .. }) && self.mission.takes_over();
-            if !when_ready && !takes_over {
-                let reasons = self.reasons_not_to_fly(now);
-                return Err(Refused::NotReady(reasons.iter().map(ToString::to_string).collect()));
-            }
-            self.begin_flight(now);
+        let reasons = self.reasons_not_to_fly(now);
+        let stage = match self.life {
+            // The drone is monitored for a moment before take-off.
+            Life::Preparing { stage, .. } => stage,
+            _ => Preparation::Trimming(self.watched_from(now)),
+        };
+        let waits = match stage {
+            Preparation::Observing(_) if self.mission.takes_over() => true,
+            _ => when_ready && matches!(self.life, Life::Preparing { .. }),
+        };
+        if !reasons.is_empty() && !waits {
+            return Err(Refused::NotReady(reasons.iter().map(ToString::to_string).collect()));
         }
-        self.departure = Some(now);
+        self.begin_flight(now);
+        let departure = Some(Departure { ordered: now, takes_over: false });
+        self.life.enter(Life::Preparing { stage, departure });
         Ok(())
     }
 
@@ -251,11 +250,11 @@ impl Vehicle {
 
     fn recover(&mut self, now: Duration) -> Result<(), Refused> {
         let emergency = self.drone_state().contains(DroneState::EMERGENCY);
-        if !emergency || !self.on_ground() || self.authority == Authority::None {
+        if !emergency || !self.on_ground() || !self.life.commands() {
             return Err(Refused::NoEmergency);
         }
         // A start that waits must not outlive the emergency.
-        if self.departure.is_some() {
+        if self.life.departure().is_some() {
             self.end(now, Outcome::Interrupted);
         }
         self.request(now, Request::EmergencyReset);

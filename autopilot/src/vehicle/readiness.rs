@@ -3,7 +3,8 @@
 use std::fmt;
 use std::time::Duration;
 
-use super::{Authority, ControlState, DroneState, FlightEvent, FlightPhase, Trust, Vehicle};
+use super::life::{Flying, Life, Preparation};
+use super::{ControlState, DroneState, FlightEvent, Trust, Vehicle};
 use crate::agent::LANDING_BATTERY_PERCENT;
 use crate::plan;
 
@@ -140,11 +141,11 @@ impl fmt::Display for NotReady {
 }
 
 impl Vehicle {
-    /// Begins the flight, or refuses it with all reasons. The drone was monitored for `watched`, in which
-    /// `packets` arrived.
-    pub(super) fn take_off_or_refuse(&mut self, now: Duration, watched: Duration, packets: u64) {
+    /// Begins the flight of a drone that has been monitored and sent so many packets per second, or refuses it with all
+    /// reasons.
+    pub(super) fn take_off_or_refuse(&mut self, now: Duration, hz: f64) {
         let mut reasons = self.problems_of_the_drone();
-        reasons.extend(self.problems_of_the_link(now, rate_hz(watched, packets)));
+        reasons.extend(self.problems_of_the_link(now, hz));
         reasons.extend(self.problems_of_the_battery());
         reasons.extend(self.problems_of_the_sensors(now));
         if !self.on_ground() && !self.mission.takes_over() {
@@ -152,9 +153,7 @@ impl Vehicle {
         }
         reasons.extend(self.problems_of_the_settings());
         if reasons.is_empty() {
-            self.departure = None;
-            self.flight.has_begun = true;
-            self.phase = FlightPhase::Flying;
+            self.life.enter(Life::Flying(Flying::default()));
         } else {
             self.refuse(now, reasons.iter().map(ToString::to_string).collect());
         }
@@ -163,15 +162,15 @@ impl Vehicle {
     /// Reasons why the vehicle cannot take off now with a short mission, evaluated while it does not fly.
     /// They are in the order in which an operator would resolve them.
     pub(super) fn not_ready(&self, now: Duration) -> Vec<NotReady> {
-        match self.phase {
-            FlightPhase::Observing { .. } if self.navdata.is_some() => vec![NotReady::NotLanded],
-            FlightPhase::Connecting | FlightPhase::Observing { .. } => vec![NotReady::NoDrone],
-            FlightPhase::Settling { .. } if self.departure.is_some() => vec![NotReady::InFlight],
-            FlightPhase::Configuring { .. } | FlightPhase::Settling { .. } => {
-                vec![NotReady::Configuring]
-            }
-            FlightPhase::Flying | FlightPhase::Landing { .. } => vec![NotReady::InFlight],
-            FlightPhase::Standby { .. } => {
+        match &self.life {
+            Life::Preparing { stage, departure } => vec![match stage {
+                Preparation::Observing(_) if self.navdata.is_some() => NotReady::NotLanded,
+                Preparation::Connecting | Preparation::Observing(_) => NotReady::NoDrone,
+                Preparation::Trimming(_) if departure.is_some() => NotReady::InFlight,
+                Preparation::Configuring { .. } | Preparation::Trimming(_) => NotReady::Configuring,
+            }],
+            Life::Flying(_) | Life::Landing { .. } => vec![NotReady::InFlight],
+            Life::Standby { .. } => {
                 let mut reasons = self.problems_of_the_drone();
                 reasons.extend(self.problems_of_the_link(now, self.navdata_hz));
                 reasons.extend(self.battery_empty());
@@ -195,20 +194,23 @@ impl Vehicle {
 
     /// Decides whether to take over a drone found in the air, from what it sends before it is configured: a
     /// drone that has lost its pilot sends nothing but its state until then.
-    pub(super) fn take_over_or_refuse(&mut self, now: Duration, watched: Duration, packets: u64) {
+    pub(super) fn take_over_or_refuse(&mut self, now: Duration, hz: f64) {
         let mut reasons = self.problems_of_the_drone();
         if self.demo().is_some() {
             reasons.extend(self.problems_of_the_battery());
             reasons.extend(self.problems_of_the_sensors(now));
         }
-        let link = self.problems_of_the_link(now, rate_hz(watched, packets));
+        let link = self.problems_of_the_link(now, hz);
         reasons.extend(link.filter(|reason| *reason != NotReady::Silent));
         if !self.mission.takes_over() {
             reasons.push(NotReady::NotLanded);
         }
         if reasons.is_empty() {
             self.events.push_back(FlightEvent::TakingOver);
-            self.begin_to_configure(now, Authority::TakenOver);
+            self.begin_to_configure(now);
+            if let Life::Preparing { departure: Some(departure), .. } = &mut self.life {
+                departure.takes_over = true;
+            }
         } else {
             self.refuse(now, reasons.iter().map(ToString::to_string).collect());
         }
@@ -285,8 +287,4 @@ impl Vehicle {
         let short = f64::from(percent) < needed;
         short.then_some(NotReady::ShortBattery { percent, flight, needed })
     }
-}
-
-fn rate_hz(watched: Duration, packets: u64) -> f64 {
-    packets as f64 / watched.as_secs_f64()
 }

@@ -14,7 +14,7 @@ use crate::agent::ChosenPlans;
 pub struct Status {
     /// Phase of the flight.
     pub phase: Phase,
-    /// Why the drone is landed before the end of the plan, until the next flight.
+    /// Why the drone is landed before the end of the plan, until it is down.
     pub landing: Option<LandingReason>,
     /// The drone has cut its motors, and must be recovered before it can fly.
     pub emergency: bool,

@@ -7,7 +7,7 @@ use estimator::{MAX_SIGHTS, MAX_TAGS, NoRoom, Prediction, Sight};
 use kinematics::Pose;
 use nalgebra::Vector2;
 
-use super::{FlightPhase, Refused, TagStatus, Vehicle, VehicleConfig};
+use super::{Refused, TagStatus, Vehicle, VehicleConfig};
 use crate::agent::TagPercepts;
 use crate::plan::Plan;
 
@@ -107,8 +107,7 @@ impl Vehicle {
         if given + declared > MAX_TAGS {
             return Err(Refused::TooManyTags { declared, known: given });
         }
-        let flies = matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. });
-        if !flies && self.departure.is_none() {
+        if !self.life.is_in_flight() && self.life.departure().is_none() {
             return Ok(());
         }
         let estimator = &mut self.flight.estimator;

@@ -10,6 +10,7 @@ use ardrone_link::configuration::Configuration;
 use ardrone_link::navdata::{Gps, NavdataOption, PacketWriter};
 use bytes::BytesMut;
 
+use super::life::Preparation;
 use super::link::{DETECTION_SECTION, GPS_MAX_AGE, NAVDATA_OPTIONS_KEY, VIDEO_SECTION};
 use super::*;
 use bench::{Bench, SECOND};
@@ -87,7 +88,8 @@ fn refusals(plan: &str, demo: Demo, packets: u64, later: Duration) -> Vec<String
     packet.option(&NavdataOption::Demo(demo)).unwrap();
     packet.finish();
     vehicle.handle(Duration::ZERO, Input::Navdata(&bytes));
-    vehicle.take_off_or_refuse(later, Duration::from_secs(1), packets);
+    vehicle.life.prepare(Preparation::Trimming(vehicle.watched_from(Duration::ZERO)));
+    vehicle.take_off_or_refuse(later, packets as f64);
     match vehicle.outcome() {
         Some(Outcome::PreflightRefused { reasons }) => reasons.clone(),
         None => Vec::new(),

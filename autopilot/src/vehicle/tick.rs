@@ -9,10 +9,10 @@ use estimator::Prediction;
 use kinematics::{GRAVITY_M_S2, Pose};
 use nalgebra::Vector2;
 
+use super::life::{Active, Life};
 use super::{
-    Active, AgentOrder, Authority, Decision, FlightEvent, FlightPhase, LandingReason, NotReady,
-    Outcome, READINESS_TICKS, Report, RestsOn, Stage, TICK, TagStatus, Target, Vehicle,
-    WIND_TIME_S, Waypoint, is_airborne, pose,
+    AgentOrder, Decision, FlightEvent, LandingReason, NotReady, Outcome, READINESS_TICKS, Report,
+    RestsOn, Stage, TICK, TagStatus, Target, Vehicle, WIND_TIME_S, Waypoint, is_airborne, pose,
 };
 use crate::agent::{AgentCommand, AgentStep, Percepts, StationPercepts};
 use crate::safety::{self, Situation};
@@ -42,7 +42,7 @@ impl Vehicle {
         self.last_tick = Some(now);
         self.watch_readiness(now);
         self.watch(now);
-        if self.navdata.is_none() || self.authority == Authority::None {
+        if self.navdata.is_none() || !self.life.commands() {
             self.pass_on(now, Input::Listen);
             return;
         }
@@ -81,8 +81,8 @@ impl Vehicle {
         self.watch_obedience(now, &order);
         self.decision = Some(Decision {
             at: now,
-            phase: self.phase.phase(),
-            step: self.flight.due.as_ref().map(|active| active.due.step),
+            phase: self.life.phase(),
+            step: self.life.due().map(|active| active.due.step),
             state,
             vertical_deviation_m: self.flight.estimator.vertical_deviation_m(now),
             tags,
@@ -130,7 +130,7 @@ impl Vehicle {
         }
         self.readiness_in = READINESS_TICKS;
         // A tick in flight must not allocate: there is room for one reason.
-        if matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. }) {
+        if self.life.is_in_flight() {
             if self.readiness != [NotReady::InFlight] {
                 self.readiness.clear();
                 self.readiness.push(NotReady::InFlight);
@@ -186,8 +186,8 @@ impl Vehicle {
             position_sd_m: self.flight.estimator.horizontal_deviation_m(now),
             saturated_for_ms: self.flight.saturation.for_ms(),
             wind: self.wind().norm(),
-            steering: self.flight.manual.sticks(now).is_some(),
-            setpoint: self.flight.manual.setpoint(now),
+            steering: self.life.manual().sticks(now).is_some(),
+            setpoint: self.life.manual().setpoint(now),
             station: self.station_percepts(now),
             settings: self.mission.settings(),
             speed_m_s: state.velocity_m_s.xy().norm(),
@@ -267,27 +267,26 @@ impl Vehicle {
 
     /// Hands the next order to the agent when the last one has ended.
     fn offer_order(&mut self, now: Duration) {
-        if self.phase != FlightPhase::Flying || self.offer_goal() {
+        if self.offer_goal() {
             return;
         }
-        if self.flight.manual.holds_mission {
+        if self.life.manual().pauses_mission() {
             self.offer_manual_target();
             return;
         }
-        if self.flight.due.is_none() {
+        if self.life.flying().is_some_and(|flying| flying.due.is_none()) {
             self.next_step(now);
         }
-        let Some(active) = &mut self.flight.due else { return };
-        if active.offered {
-            return;
-        }
+        let due = self.life.flying_mut().and_then(|flying| flying.due.as_mut());
+        let Some(active @ Active { offered: false, .. }) = due else { return };
+        let agent = &mut self.flight.agent;
         active.offered = match active.due.order {
-            AgentOrder::TakeOff => self.flight.agent.achieve_take_off(),
-            AgentOrder::Land => self.flight.agent.achieve_land(),
-            AgentOrder::FindTag => self.flight.agent.achieve_find_tag(),
-            AgentOrder::LandOnTag => self.flight.agent.achieve_land_on_tag(),
+            AgentOrder::TakeOff => agent.achieve_take_off(),
+            AgentOrder::Land => agent.achieve_land(),
+            AgentOrder::FindTag => agent.achieve_find_tag(),
+            AgentOrder::LandOnTag => agent.achieve_land_on_tag(),
             AgentOrder::GoTo(Target { pose, .. }) => {
-                self.flight.agent.achieve_go_to(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg)
+                agent.achieve_go_to(pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg)
             }
         };
     }
@@ -295,14 +294,11 @@ impl Vehicle {
     /// Begins the next step. After the last one, the flight ends if the drone is on the ground; in the air it
     /// holds until it gets another order.
     fn next_step(&mut self, now: Duration) {
-        let due = if self.flight.ends_on_ground && self.on_ground() {
-            None
-        } else {
-            self.mission.advance(&self.pose(now))
-        };
-        match due {
+        match self.mission.advance(&self.pose(now)) {
             Some(due) => {
-                self.flight.due = Some(Active { due, since: now, offered: false });
+                if let Life::Flying(flying) = &mut self.life {
+                    flying.due = Some(Active { due, since: now, offered: false });
+                }
                 self.events.push_back(FlightEvent::StepStarted { step: due.step });
                 if due.is_corrected() {
                     self.events.push_back(FlightEvent::TargetCorrected { step: due.step });
@@ -315,22 +311,20 @@ impl Vehicle {
 
     /// The agent has reported how its last order ended.
     fn order_ended(&mut self, now: Duration, report: Report) {
-        if self.flight.landing.is_some() {
-            // The end of a landing is detected from the drone's state.
-            return;
-        }
+        // The end of a landing is detected from the drone's state.
+        let Life::Flying(flying) = &mut self.life else { return };
         if report == Report::Paused {
-            self.order_paused();
-            if let Some(active) = &mut self.flight.due {
+            if let Some(active) = &mut flying.due {
                 active.offered = false;
             }
+            self.order_paused();
             return;
         }
-        if self.flight.manual.holds_mission {
+        if flying.manual.pauses_mission() {
             self.manual_target_ended(report);
             return;
         }
-        let Some(active) = self.flight.due.take() else { return };
+        let Some(active) = flying.due.take() else { return };
         if report != Report::Done {
             self.land(now, LandingReason::StepFailed { step: active.due.step });
             return;

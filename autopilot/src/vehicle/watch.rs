@@ -4,11 +4,12 @@ use std::time::Duration;
 
 use ardrone_link::navdata::DroneState;
 
+use super::life::{Departure, Life, Preparation, Watched, Why};
 use super::readiness::NotReady;
 use super::{
-    AgentOrder, Authority, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configured,
-    Danger, FAULT_TIME, FlightEvent, FlightPhase, LANDING_TIMEOUT, LandingReason, SETTLE_TIME,
-    TAG_LANDING_TIMEOUT, Trust, Vehicle, Veto, session,
+    AgentOrder, BLIND_LANDING_TIME, CONFIGURE_TIMEOUT, CONNECT_TIMEOUT, Configured, Danger,
+    FAULT_TIME, FlightEvent, LANDING_TIMEOUT, LandingReason, SETTLE_TIME, TAG_LANDING_TIMEOUT,
+    Trust, Vehicle, Veto, session,
 };
 use crate::outcome::Outcome;
 
@@ -21,81 +22,101 @@ const HEARD: Duration = Duration::from_millis(500);
 pub(super) const OURS: Duration = Duration::from_secs(2);
 
 impl Vehicle {
-    /// Advances the phase and detects the conditions that end a flight.
+    /// Advances the state and detects the conditions that end a flight.
     pub(super) fn watch(&mut self, now: Duration) {
-        let departs = self.departure.is_some();
         if self.has_lasting_emergency(now) {
             self.end(now, Outcome::Emergency);
         }
-        match self.phase {
-            _ if self.is_flown_by_another() => {
-                if departs {
+        match &self.life {
+            Life::Preparing { stage, departure } => {
+                self.watch_preparation(now, *stage, *departure);
+            }
+            Life::Standby { since, has_flown } if !self.on_ground() => {
+                self.has_risen(*has_flown && now.saturating_sub(*since) < OURS, now);
+            }
+            Life::Standby { .. } => {}
+            Life::Flying(_) => self.watch_flight(now),
+            Life::Landing { since, .. } => self.watch_landing(now, *since),
+        }
+    }
+
+    fn watch_preparation(
+        &mut self,
+        now: Duration,
+        stage: Preparation,
+        departure: Option<Departure>,
+    ) {
+        let lasts = |since, time| now.saturating_sub(since) >= time;
+        let takes_over = self.life.takes_over();
+        match stage {
+            Preparation::Connecting => {
+                if departure.is_some_and(|departure| lasts(departure.ordered, CONNECT_TIMEOUT)) {
+                    self.end(now, Outcome::NoDrone);
+                }
+            }
+            Preparation::Observing(watched) if departure.is_some() => {
+                if lasts(watched.since, SETTLE_TIME) {
+                    self.take_over_or_refuse(now, self.packets_hz(now, watched));
+                }
+            }
+            // Another client has landed the drone, and may have changed its settings.
+            Preparation::Observing(_) => {
+                if self.on_ground() && self.navdata.is_some() {
+                    self.request(now, session::Request::AllSettings);
+                    self.begin_to_configure(now);
+                }
+            }
+            // Another pilot has taken off with the drone while it was being prepared.
+            _ if !takes_over && !self.on_ground() => {
+                if departure.is_some() {
                     self.refuse(now, vec![NotReady::NotLanded.to_string()]);
                 } else {
                     self.observe_again(now);
                 }
             }
-            FlightPhase::Connecting
-                if self.departure.is_some_and(|at| now.saturating_sub(at) >= CONNECT_TIMEOUT) =>
-            {
-                self.end(now, Outcome::NoDrone);
-            }
-            FlightPhase::Observing { since, received } if departs => {
-                let watched = now.saturating_sub(since);
-                if watched >= SETTLE_TIME {
-                    let packets = self.session.statistics().received.saturating_sub(received);
-                    self.take_over_or_refuse(now, watched, packets);
+            Preparation::Configuring { since } => {
+                if departure.is_some() && lasts(since, CONFIGURE_TIMEOUT) {
+                    let reason = "the drone does not take its configuration".to_owned();
+                    self.refuse(now, vec![reason]);
                 }
             }
-            // Another client has landed the drone, and may have changed its settings.
-            FlightPhase::Observing { .. } if self.on_ground() && self.navdata.is_some() => {
-                self.request(now, session::Request::AllSettings);
-                self.begin_to_configure(now, Authority::OnGround);
-            }
-            FlightPhase::Configuring { since }
-                if departs && now.saturating_sub(since) >= CONFIGURE_TIMEOUT =>
-            {
-                let reason = "the drone does not take its configuration".to_owned();
-                self.refuse(now, vec![reason]);
-            }
-            FlightPhase::Settling { since, received } => {
-                let watched = now.saturating_sub(since);
-                if watched < SETTLE_TIME {
-                } else if departs {
-                    let packets = self.session.statistics().received.saturating_sub(received);
-                    self.take_off_or_refuse(now, watched, packets);
+            Preparation::Trimming(watched) if lasts(watched.since, SETTLE_TIME) => {
+                if departure.is_some() {
+                    self.take_off_or_refuse(now, self.packets_hz(now, watched));
                 } else {
-                    self.phase = FlightPhase::Standby { since: now };
+                    self.life.enter(Life::Standby { since: now, has_flown: false });
                 }
             }
-            FlightPhase::Standby { since } if !self.on_ground() => self.has_risen(now, since),
-            FlightPhase::Flying => self.watch_flight(now),
-            FlightPhase::Landing { since } => self.watch_landing(now, since),
-            FlightPhase::Connecting
-            | FlightPhase::Observing { .. }
-            | FlightPhase::Configuring { .. }
-            | FlightPhase::Standby { .. } => {}
+            Preparation::Trimming(_) => {}
         }
     }
 
-    /// Handles a drone that took off while standing by.
-    fn has_risen(&mut self, now: Duration, since: Duration) {
-        if self.flight.has_begun && now.saturating_sub(since) < OURS {
-            self.phase = FlightPhase::Landing { since: now };
-            // Pre-empting goals are always accepted.
-            let accepted = self.flight.agent.achieve_land();
-            debug_assert!(accepted);
+    /// Navdata packets per second since the drone is monitored.
+    fn packets_hz(&self, now: Duration, watched: Watched) -> f64 {
+        let packets = self.session.statistics().received.saturating_sub(watched.received);
+        packets as f64 / now.saturating_sub(watched.since).as_secs_f64()
+    }
+
+    /// Handles a drone that took off while standing by: it follows an old order of ours, or another pilot flies it.
+    fn has_risen(&mut self, is_ours: bool, now: Duration) {
+        if is_ours {
+            self.agent_lands();
+            self.life.enter(Life::Landing { since: now, why: Why::StillUp });
         } else {
             self.observe_again(now);
         }
     }
 
+    /// Pre-empting goals are always accepted, and obeyed in the next step.
+    fn agent_lands(&mut self) {
+        let accepted = self.flight.agent.achieve_land();
+        debug_assert!(accepted);
+    }
+
     /// Another pilot flies the drone: stop sending until it stands on the ground.
     fn observe_again(&mut self, now: Duration) {
         self.events.push_back(FlightEvent::FlownByAnother);
-        self.authority = Authority::None;
-        let received = self.session.statistics().received;
-        self.phase = FlightPhase::Observing { since: now, received };
+        self.life.prepare(Preparation::Observing(self.watched_from(now)));
     }
 
     /// Checks the conditions that end a flight. The agent repeats a landing until the drone is down.
@@ -111,7 +132,7 @@ impl Vehicle {
         if matches!(trust, Trust::Unresponsive(_)) {
             self.land(now, LandingReason::Distrust(trust));
         }
-        if let Some(active) = self.flight.due
+        if let Some(active) = self.life.due().copied()
             && let Some(limit) = match active.due.order {
                 AgentOrder::Land => Some(LANDING_TIMEOUT),
                 AgentOrder::LandOnTag => Some(TAG_LANDING_TIMEOUT),
@@ -133,37 +154,30 @@ impl Vehicle {
 
     /// Whether the drone has cut its motors in a flight, for [`FAULT_TIME`].
     fn has_lasting_emergency(&mut self, now: Duration) -> bool {
-        let flies = matches!(self.phase, FlightPhase::Flying | FlightPhase::Landing { .. });
-        let emergency = flies && self.drone_state().contains(DroneState::EMERGENCY);
+        let emergency =
+            self.life.is_in_flight() && self.drone_state().contains(DroneState::EMERGENCY);
         self.flight.emergency.lasts(now, emergency, FAULT_TIME)
     }
 
     /// Whether the drone has landed by itself: the agent hears of it only if it had an order to carry out.
     fn has_come_down(&mut self, now: Duration) -> bool {
-        self.flight.has_lifted |= !self.on_ground();
-        let down = self.flight.has_lifted && self.on_ground() && !self.lands();
+        let on_ground = self.on_ground();
+        let Life::Flying(flying) = &mut self.life else { return false };
+        flying.has_lifted |= !on_ground;
+        let down = flying.has_lifted && on_ground && !self.lands();
         self.flight.down.lasts(now, down, FAULT_TIME)
-    }
-
-    /// Whether another pilot has taken off with the drone while it was being prepared.
-    fn is_flown_by_another(&self) -> bool {
-        let prepares =
-            matches!(self.phase, FlightPhase::Configuring { .. } | FlightPhase::Settling { .. });
-        prepares && self.authority == Authority::OnGround && !self.on_ground()
     }
 
     /// Refuses the flight. A drone that was taken over in the air is landed; otherwise nothing is sent to a
     /// drone in the air.
     pub(super) fn refuse(&mut self, now: Duration, reasons: Vec<String>) {
-        if self.authority == Authority::TakenOver && !self.on_ground() {
-            self.flight.refusals = reasons;
-            self.land(now, LandingReason::TakeOverRefused);
+        if self.life.takes_over() && !self.on_ground() {
+            self.agent_lands();
+            self.give_up(now, Why::TakeOverRefused(reasons));
             return;
         }
         if !self.on_ground() {
-            self.authority = Authority::None;
-            let received = self.session.statistics().received;
-            self.phase = FlightPhase::Observing { since: now, received };
+            self.life.prepare(Preparation::Observing(self.watched_from(now)));
         }
         self.end(now, Outcome::PreflightRefused { reasons });
     }
@@ -209,12 +223,12 @@ impl Vehicle {
             },
             Danger::Lost => LandingReason::PlaceUncertain,
             Danger::Wind => LandingReason::Wind,
-            Danger::NoProgress if self.flight.manual.sends() => LandingReason::ManualTargetTimedOut,
+            Danger::NoProgress if self.life.manual().sends() => LandingReason::ManualTargetTimedOut,
             Danger::NoProgress => LandingReason::StepTimedOut {
-                step: self.flight.due.map_or(0, |active| active.due.step),
+                step: self.life.due().map_or(0, |active| active.due.step),
             },
         };
-        self.give_up(now, reason);
+        self.give_up(now, Why::GivenUp(reason));
     }
 
     fn watch_landing(&mut self, now: Duration, since: Duration) {
@@ -226,64 +240,62 @@ impl Vehicle {
         let known = self.demo().is_some();
         if landed && known {
             self.flight.report.landed_at = Some(now);
-        } else if !(blind && elapsed >= BLIND_LANDING_TIME || elapsed >= LANDING_TIMEOUT) {
+        } else if self.flight.outcome.is_some()
+            || !(blind && elapsed >= BLIND_LANDING_TIME || elapsed >= LANDING_TIMEOUT)
+        {
             return;
         }
-        let outcome = match self.flight.landing {
-            Some(LandingReason::Operator) if landed => Outcome::Interrupted,
-            Some(LandingReason::Operator) => Outcome::LeftLanding,
-            Some(LandingReason::LinkLost) => Outcome::LinkLost,
-            Some(LandingReason::TakeOverRefused) => {
-                Outcome::PreflightRefused { reasons: std::mem::take(&mut self.flight.refusals) }
-            }
-            Some(reason) => {
-                let mut reason = reason.to_string();
-                if !landed {
-                    reason.push_str("; the drone did not confirm that it has landed");
+        let outcome = match &self.life {
+            _ if blind => Outcome::LinkLost,
+            Life::Landing { why: Why::GivenUp(reason), .. } => match reason {
+                LandingReason::Operator if landed => Outcome::Interrupted,
+                LandingReason::Operator => Outcome::LeftLanding,
+                LandingReason::LinkLost => Outcome::LinkLost,
+                reason if landed => Outcome::Failsafe { reason: reason.to_string() },
+                reason => {
+                    let reason = format!("{reason}; the drone did not confirm that it has landed");
+                    Outcome::Failsafe { reason }
                 }
-                Outcome::Failsafe { reason }
+            },
+            Life::Landing { why: Why::TakeOverRefused(reasons), .. } => {
+                Outcome::PreflightRefused { reasons: reasons.clone() }
             }
-            None => Outcome::Completed,
+            _ => Outcome::Completed,
         };
-        self.end(now, if blind { Outcome::LinkLost } else { outcome });
+        self.end(now, outcome);
     }
 
     /// Gives up the mission and lands. The first reason is kept. On the ground the flight ends at once.
     pub(super) fn land(&mut self, now: Duration, reason: LandingReason) {
-        let flies = matches!(self.phase, FlightPhase::Flying);
-        if self.flight.landing.is_some()
-            || !flies && self.departure.is_none() && !self.is_ours_in_the_air()
-        {
-            return;
+        match &self.life {
+            Life::Standby { .. } | Life::Landing { .. } => return,
+            Life::Preparing { stage, departure } => match stage {
+                _ if departure.is_none() => return,
+                Preparation::Observing(_) => {
+                    self.refuse(now, vec![NotReady::NotLanded.to_string()]);
+                    return;
+                }
+                stage if *stage == Preparation::Connecting || self.on_ground() => {
+                    self.end(now, Outcome::Interrupted);
+                    return;
+                }
+                _ => {}
+            },
+            Life::Flying(_) => {}
         }
-        if self.authority == Authority::None && self.navdata.is_some() {
-            self.refuse(now, vec![NotReady::NotLanded.to_string()]);
-            return;
-        }
-        if !flies && self.on_ground() {
-            self.end(now, Outcome::Interrupted);
-            return;
-        }
-        // Pre-empting: always accepted, obeyed in the next step.
-        let accepted = self.flight.agent.achieve_land();
-        debug_assert!(accepted);
-        self.give_up(now, reason);
+        self.agent_lands();
+        self.give_up(now, Why::GivenUp(reason));
     }
 
     /// Marks the mission as given up; the agent lands. The first reason is kept.
-    fn give_up(&mut self, now: Duration, reason: LandingReason) {
-        if self.flight.landing.is_some() {
+    pub(super) fn give_up(&mut self, now: Duration, why: Why) {
+        if matches!(self.life, Life::Landing { .. }) {
             return;
         }
-        self.events.push_back(FlightEvent::LandingOrdered(reason));
-        self.flight.landing = Some(reason);
-        self.flight.due = None;
-        self.phase = FlightPhase::Landing { since: now };
-    }
-
-    /// Whether a drone in the air was taken over but is not being flown yet.
-    fn is_ours_in_the_air(&self) -> bool {
-        self.authority == Authority::TakenOver && !self.on_ground()
+        if let Some(reason) = why.reason() {
+            self.events.push_back(FlightEvent::LandingOrdered(reason));
+        }
+        self.life.enter(Life::Landing { since: now, why });
     }
 
     /// Sets the flight's outcome; the first one is kept. A drone on the ground returns to standby; one in the
@@ -297,38 +309,30 @@ impl Vehicle {
             self.flight.outcome = Some(outcome);
             self.pending.outcome = true;
         }
-        self.departure = None;
         let is_down = self.session.is_alive() && self.on_ground() && self.demo().is_some();
-        self.phase = match &self.phase {
-            FlightPhase::Settling { .. } | FlightPhase::Flying | FlightPhase::Landing { .. }
-                if is_down && self.session.is_ready() =>
-            {
-                FlightPhase::Standby { since: now }
+        let is_ready = is_down && self.session.is_ready();
+        let standby = |has_flown| Life::Standby { since: now, has_flown };
+        let next = match self.life {
+            Life::Preparing { stage: Preparation::Trimming(_), .. } if is_ready => standby(false),
+            Life::Preparing { stage, .. } => Life::Preparing { stage, departure: None },
+            Life::Flying(_) | Life::Landing { .. } if is_ready => standby(true),
+            Life::Flying(_) | Life::Landing { .. } if is_down => {
+                let stage = Preparation::Configuring { since: now };
+                Life::Preparing { stage, departure: None }
             }
-            FlightPhase::Flying | FlightPhase::Landing { .. } if is_down => {
-                FlightPhase::Configuring { since: now }
+            Life::Flying(_) => {
+                self.agent_lands();
+                Life::Landing { since: now, why: Why::StillUp }
             }
-            FlightPhase::Flying => {
-                // Pre-empting goals are always accepted.
-                let accepted = self.flight.agent.achieve_land();
-                debug_assert!(accepted);
-                FlightPhase::Landing { since: now }
-            }
-            other => other.clone(),
+            Life::Landing { .. } | Life::Standby { .. } => return,
         };
-        if is_down {
-            self.authority = match self.authority {
-                Authority::TakenOver => Authority::OnGround,
-                other => other,
-            };
-        }
+        self.life.enter(next);
     }
 
     /// Starts sending to the drone.
-    pub(super) fn begin_to_configure(&mut self, now: Duration, authority: Authority) {
-        self.authority = authority;
+    pub(super) fn begin_to_configure(&mut self, now: Duration) {
         self.flight.asked_at = now;
         self.configured = Configured::default();
-        self.phase = FlightPhase::Configuring { since: now };
+        self.life.prepare(Preparation::Configuring { since: now });
     }
 }

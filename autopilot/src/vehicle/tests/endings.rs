@@ -150,7 +150,7 @@ fn a_target_that_is_not_reached_in_time_is_the_operators_or_the_plans() {
             bench.accepted(OperatorOrder::GoTo(Place::at(0.0, 1.0)));
         }
         bench.vehicle.endangered(bench.now, Danger::NoProgress);
-        bench.vehicle.flight.landing
+        bench.vehicle.life.landing_reason()
     };
     assert_eq!(reason(true), Some(LandingReason::ManualTargetTimedOut));
     assert_eq!(reason(false), Some(LandingReason::StepTimedOut { step: 1 }));
