@@ -6,6 +6,7 @@
 
 mod brake;
 mod carried;
+mod descent;
 mod stopping;
 
 use std::time::Duration;
@@ -14,6 +15,7 @@ use kinematics::{Pose, Sticks};
 
 use self::brake::Brake;
 use self::carried::CarriedOff;
+use self::descent::{Cause, Descent, place_upwind};
 pub(crate) use self::stopping::Stopping;
 use crate::agent::AgentCommand;
 use crate::fence::FlightLimits;
@@ -30,34 +32,13 @@ const REACTION_S: f64 = 0.5;
 /// inside: nearer to it, wind could carry the drone over the fence, which lands it. A drone that has left the
 /// fence is flown back this far.
 pub(crate) const INSIDE_M: f64 = 0.5;
-/// Height above the fence's floor to which a drone that has left the fence is flown down before it lands.
-const LOW_M: f64 = 0.15;
-/// Longest flight back into the fence; then the drone is landed where it is.
-const RETREAT: Duration = Duration::from_secs(10);
-/// The flight back is given up when the drone comes no nearer by [`WAY_BACK_M`] in this time, because then it
-/// cannot hold against the wind.
-const NO_WAY_BACK: Duration = Duration::from_millis(1500);
-/// Smallest approach that counts as progress on the way back.
-const WAY_BACK_M: f64 = 0.05;
-/// The flight back is given up at once where the outward wind exceeds this fraction of full tilt.
-const TOO_STRONG: f64 = 1.0;
-/// Longest gust: during it the flight back is not given up.
+/// Longest gust: during it the flight back into the fence is not given up.
 const GUST: Duration = Duration::from_millis(1200);
 /// Nor is it given up for this time after the drone has lost [`BRAKES_M_S`] of its outward speed: it was thrown
 /// out by a gust, and is braking.
 const BRAKES: Duration = Duration::from_millis(600);
 /// Loss of outward speed that shows that the drone is braking.
 const BRAKES_M_S: f64 = 0.5;
-/// A drone that cannot come back is flown down against the wind to this height, and lands by itself from there.
-/// Above this height it sinks faster by its sticks than in its own landing.
-const HIGH_M: f64 = 0.8;
-/// Slowest descent of any airframe. A drone that takes longer than this allows, or reports no descent, is left to
-/// its own landing.
-const SINKS_M_S: f64 = 0.4;
-/// Distance of the target that makes the drone tilt fully against the wind on its way down.
-const UPWIND_TARGET_M: f64 = 2.0;
-/// Without usable navdata for this time the drone is landed instead of flown back or down.
-const BLIND_RETREAT: Duration = Duration::from_secs(1);
 /// Largest rate of descent at the fence's floor. Towards the floor the descent is limited to what the slowest
 /// airframe can stop.
 const SINK_AT_FLOOR_M_S: f64 = 0.15;
@@ -174,27 +155,39 @@ impl Situation {
     }
 }
 
+/// What the agent is free to do.
+#[derive(Debug, Clone, Copy)]
+enum State {
+    /// To fly inside the fence.
+    Free,
+    /// The drone is brought down, because it is not safe to fly on.
+    BringingDown(Descent),
+    /// Nothing: the drone was ordered to land, which is not taken back in the air.
+    Landing {
+        /// Why it was brought down.
+        cause: Option<Cause>,
+    },
+    /// To take off: the drone was landed, or ordered to stay on the ground. If it is in the air all the same, it follows
+    /// an older order, and any order to fly would keep it there.
+    StaysDown,
+}
+
+impl State {
+    fn cause(&self) -> Option<Cause> {
+        match self {
+            Self::BringingDown(descent) => Some(descent.cause),
+            Self::Landing { cause } => *cause,
+            Self::Free | Self::StaysDown => None,
+        }
+    }
+}
+
 /// Replaces unsafe commands of the agent; the last stage before the session.
 #[derive(Debug, Clone)]
 pub struct SafetyMonitor {
     fence: FlightLimits,
-    /// The veto for which the drone is being landed.
-    danger: Option<Veto>,
-    /// End of the time for flying back into the fence.
-    retreats_until: Duration,
-    /// End of the time for flying down outside the fence.
-    sinks_until: Duration,
-    way_back: WayBack,
+    state: State,
     carried_off: CarriedOff,
-    /// Target of the descent against the wind.
-    upwind: Pose,
-    /// Place inside the fence to which the drone is flown back: the nearest one, until the drone is there.
-    back_at: Pose,
-    /// The drone has been ordered to land; in the air this is not taken back.
-    lands: bool,
-    /// The last order was to stay on the ground. If the drone is in the air all the same, it has followed an
-    /// older take-off order, and any order to fly would keep it there.
-    stays_down: bool,
     /// What the fence leaves of this tick's sticks.
     brake: Brake,
     sticks: Sticks,
@@ -205,15 +198,8 @@ impl SafetyMonitor {
     pub fn new(fence: FlightLimits) -> Self {
         Self {
             fence,
-            danger: None,
-            retreats_until: Duration::ZERO,
-            sinks_until: Duration::ZERO,
-            way_back: WayBack::default(),
+            state: State::Free,
             carried_off: CarriedOff::default(),
-            upwind: Pose::default(),
-            back_at: Pose::default(),
-            lands: false,
-            stays_down: false,
             brake: Brake::default(),
             sticks: Sticks::default(),
         }
@@ -230,19 +216,20 @@ impl SafetyMonitor {
         if now.emergency && flies {
             return (AgentCommand::Standby, Some(Veto::Emergency));
         }
-        match command {
-            AgentCommand::Standby => self.stays_down = true,
-            AgentCommand::TakeOff => self.stays_down = false,
-            _ => {}
-        }
         if !now.airborne {
-            self.danger = None;
             self.carried_off = CarriedOff::default();
-            self.lands = false;
+            self.state = match (command, self.state) {
+                (AgentCommand::TakeOff, _) => State::Free,
+                (AgentCommand::Standby, _) => State::StaysDown,
+                (_, State::BringingDown(_) | State::Landing { .. }) => State::StaysDown,
+                (_, state @ (State::Free | State::StaysDown)) => state,
+            };
             return (command, None);
         }
         let (command, veto) = self.check_in_the_air(command, flies, now);
-        self.lands = command == AgentCommand::Land;
+        if command == AgentCommand::Land {
+            self.state = State::Landing { cause: self.state.cause() };
+        }
         (command, veto)
     }
 
@@ -252,32 +239,27 @@ impl SafetyMonitor {
         flies: bool,
         now: &Situation,
     ) -> (AgentCommand, Option<Veto>) {
-        if self.lands || now.landing || self.stays_down {
-            return (AgentCommand::Land, flies.then(|| self.danger.unwrap_or(Veto::Landing)));
+        let lands = matches!(self.state, State::Landing { .. } | State::StaysDown);
+        if lands || now.landing || command == AgentCommand::Standby {
+            let veto = self.state.cause().map_or(Veto::Landing, Cause::veto);
+            return (AgentCommand::Land, flies.then_some(veto));
         }
         self.carried_off.see(now, self.fence.radius_m);
-        if flies && self.danger.is_none() {
-            self.danger = self.reason_to_land(now);
-            self.retreats_until = now.now + RETREAT;
-            self.sinks_until = now.now + time_to_sink(now.pose.z_m);
-            self.upwind = self.place_upwind(&now.pose);
-            self.back_at = self.fence.nearest_inside(&now.pose, INSIDE_M);
+        if flies
+            && matches!(self.state, State::Free)
+            && let Some(cause) = self.reason_to_land(now)
+        {
             let gust_since = self.carried_off.since().unwrap_or(now.now);
-            self.way_back = WayBack::begin(now.now, gust_since);
+            self.state = State::BringingDown(Descent::begin(cause, now, &self.fence, gust_since));
         }
-        self.way_back.see(now);
-        if let Some(danger) = self.danger {
-            // Once the drone is that far inside, its target must not move with it: nothing would stop it.
-            if now.pose.x_m.hypot(now.pose.y_m) > self.fence.radius_m - INSIDE_M {
-                self.back_at = self.fence.nearest_inside(&now.pose, INSIDE_M);
-            }
-            return (self.bring_down(danger, now), Some(danger));
+        if let State::BringingDown(descent) = &mut self.state {
+            return (descent.command(now, &self.fence), Some(descent.cause.veto()));
         }
         let moves = matches!(command, AgentCommand::GoTo(_) | AgentCommand::Sticks);
         match command {
             _ if moves && now.blind_for > STALE => (AgentCommand::Hover, Some(Veto::StaleNavdata)),
             _ if moves && self.carried_off.leans() => {
-                (AgentCommand::GoTo(self.place_upwind(&now.pose)), Some(Veto::AgainstWind))
+                (AgentCommand::GoTo(place_upwind(&now.pose, &self.fence)), Some(Veto::AgainstWind))
             }
             AgentCommand::GoTo(target) if !self.is_inside(&target, 1e-6) => (
                 AgentCommand::GoTo(self.fence.nearest_inside(&target, 0.0)),
@@ -293,7 +275,9 @@ impl SafetyMonitor {
 
     /// Ends a flight back into the fence: the drone lands where it is.
     pub fn land_here(&mut self) {
-        self.lands |= self.danger.is_some();
+        if let State::BringingDown(Descent { cause, .. }) = self.state {
+            self.state = State::Landing { cause: Some(cause) };
+        }
     }
 
     /// Limits the sticks to `most`, and their change since the last tick. Where the drone could not stop inside the
@@ -332,53 +316,16 @@ impl SafetyMonitor {
         self.sticks = Sticks::default();
     }
 
-    /// The next command of a landing for `danger`. The drone's own landing drifts, the more the higher it
-    /// begins; while navdata are usable the drone is therefore flown back and down first. If it cannot come
-    /// back, it still tilts against the wind and sinks faster than by itself, down to [`HIGH_M`].
-    fn bring_down(&self, danger: Veto, now: &Situation) -> AgentCommand {
-        let is_across = now.pose.x_m.hypot(now.pose.y_m) > self.fence.radius_m;
-        let is_hopeless = is_across && self.way_back.is_none(now);
-        let sinks = now.pose.z_m > HIGH_M && now.now < self.sinks_until;
-        let (target, may_fly) = match danger {
-            Veto::OutsideFence => (self.retreat(&now.pose), sinks || !is_hopeless),
-            Veto::CarriedOff => (Some(self.upwind), sinks),
-            _ => (None, false),
-        };
-        let retreats = may_fly && now.blind_for <= BLIND_RETREAT && now.now < self.retreats_until;
-        match target {
-            Some(target) if retreats && now.blind_for <= STALE => AgentCommand::GoTo(target),
-            Some(_) if retreats => AgentCommand::Hover,
-            _ => AgentCommand::Land,
-        }
-    }
-
-    /// A low target in the direction of the fence's centre, far enough for full tilt.
-    fn place_upwind(&self, pose: &Pose) -> Pose {
-        let away_m = pose.x_m.hypot(pose.y_m).max(f64::EPSILON);
-        let share = 1.0 - UPWIND_TARGET_M / away_m;
-        let low_m = self.fence.floor_m + LOW_M;
-        Pose { x_m: pose.x_m * share, y_m: pose.y_m * share, z_m: low_m, ..*pose }
-    }
-
-    fn reason_to_land(&self, now: &Situation) -> Option<Veto> {
+    fn reason_to_land(&self, now: &Situation) -> Option<Cause> {
         if now.blind_for > BLIND {
-            Some(Veto::Blind)
+            Some(Cause::Blind)
         } else if !self.is_inside_above(&now.pose, MARGIN_M) {
-            Some(Veto::OutsideFence)
+            Some(Cause::OutsideFence)
         } else if self.carried_off.lasts(now.now) {
-            Some(Veto::CarriedOff)
+            Some(Cause::CarriedOff)
         } else {
             None
         }
-    }
-
-    /// A low place inside the fence; `None` if the drone is near it.
-    fn retreat(&self, pose: &Pose) -> Option<Pose> {
-        let low_m = self.fence.floor_m + LOW_M;
-        let target = Pose { z_m: low_m, ..self.back_at };
-        let is_inside = pose.x_m.hypot(pose.y_m) <= self.fence.radius_m;
-        let is_there = is_inside && pose.z_m <= low_m + LOW_M;
-        (!is_there).then_some(target)
     }
 
     fn is_inside(&self, pose: &Pose, margin_m: f64) -> bool {
@@ -398,56 +345,6 @@ impl SafetyMonitor {
             && (end.z_m <= self.fence.ceiling_m || end.z_m < here.z_m)
             && (end.z_m >= self.fence.floor_m || end.z_m > here.z_m)
     }
-}
-
-/// Progress of a drone outside the fence on its way back.
-#[derive(Debug, Clone, Copy, Default)]
-struct WayBack {
-    /// Smallest distance from the fence's centre so far, and when it was reached.
-    away_m: f64,
-    nearer_at: Duration,
-    /// Largest outward speed since it last fell by [`BRAKES_M_S`], and until when a braking drone is given
-    /// time.
-    away_m_s: f64,
-    brakes_until: Duration,
-}
-
-impl WayBack {
-    fn begin(now: Duration, gust_since: Duration) -> Self {
-        Self { nearer_at: now, brakes_until: gust_since + GUST, ..Self::default() }
-    }
-
-    fn see(&mut self, now: &Situation) {
-        let away_m = now.pose.x_m.hypot(now.pose.y_m);
-        let [right_m_s, forward_m_s, _] = now.velocity_m_s;
-        let away_m_s = outward(now, [right_m_s, forward_m_s]);
-        if away_m < self.away_m - WAY_BACK_M {
-            (self.away_m, self.nearer_at) = (away_m, now.now);
-        }
-        if away_m_s < self.away_m_s - BRAKES_M_S {
-            self.away_m_s = away_m_s;
-            self.brakes_until = self.brakes_until.max(now.now + BRAKES);
-        }
-        self.away_m = self.away_m.max(away_m);
-        self.away_m_s = self.away_m_s.max(away_m_s);
-    }
-
-    fn is_none(&self, now: &Situation) -> bool {
-        let no_nearer = now.now >= self.nearer_at + NO_WAY_BACK;
-        let too_strong = outward(now, now.wind) > TOO_STRONG;
-        (no_nearer || too_strong) && now.now >= self.brakes_until
-    }
-}
-
-/// The component of (right, forward) that points away from the fence's centre.
-fn outward(now: &Situation, [right, forward]: [f64; 2]) -> f64 {
-    let Pose { x_m, y_m, .. } = now.pose;
-    (right * x_m + forward * y_m) / x_m.hypot(y_m).max(f64::EPSILON)
-}
-
-/// Longest descent from this height to [`HIGH_M`].
-fn time_to_sink(height_m: f64) -> Duration {
-    Duration::try_from_secs_f64((height_m - HIGH_M) / SINKS_M_S).unwrap_or_default().min(RETREAT)
 }
 
 /// Each stick within `most`; one that is no number is at rest.

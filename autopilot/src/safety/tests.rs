@@ -1,3 +1,4 @@
+use super::descent::*;
 use super::*;
 
 pub(super) const FINE: Situation = Situation {
