@@ -68,7 +68,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
             "step": null,
             "command": null,
         }),
-        Message::Mission { name, steps } => json!({
+        Message::Mission { name, steps, .. } => json!({
             "type": "mission",
             "name": name,
             "steps": steps.iter().map(|step| step.text.as_str()).collect::<Vec<_>>(),

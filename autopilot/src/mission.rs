@@ -7,7 +7,9 @@ use estimator::SurveyedTag;
 use kinematics::Pose;
 
 use crate::agent::ApproachSettings;
-use crate::plan::{AgentOrder, Command, Commands, DryRun, FlightLimits, Interpreter, Plan, Step};
+use crate::plan::{
+    AgentOrder, Command, Commands, DryRun, FlightLimits, Interpreter, MissionId, Plan, Step,
+};
 
 /// An order that is due.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,6 +59,8 @@ pub struct Mission {
     limits: FlightLimits,
     /// The loaded plan's; empty without one.
     name: String,
+    /// Of the commands that it consists of, if it consists of nothing else.
+    id: Option<MissionId>,
     steps: Vec<Step>,
     tags: Vec<SurveyedTag>,
     next: usize,
@@ -69,6 +73,7 @@ impl Mission {
         Self {
             limits,
             name: String::new(),
+            id: None,
             steps: Vec::new(),
             tags: Vec::new(),
             next: 0,
@@ -80,6 +85,7 @@ impl Mission {
     pub fn load(&mut self, plan: Plan, airborne: bool) {
         self.tags = plan.tags().to_vec();
         plan.name().clone_into(&mut self.name);
+        self.id = None;
         self.steps = plan.into_steps();
         self.next = 0;
         self.interpreter =
@@ -119,6 +125,8 @@ impl Mission {
         } else if commands.clears() {
             self.steps.drain(next..end);
         }
+        // A mission that is extended is no longer the one that was handed over.
+        self.id = commands.id().filter(|_| self.steps.is_empty());
         let end = self.steps.len() - usize::from(self.lands_implicitly());
         self.steps.splice(end..end, commands.into_steps());
         Ok(())
@@ -127,6 +135,7 @@ impl Mission {
     /// Removes all steps. The reference and the settings are kept.
     pub fn clear(&mut self) {
         self.name.clear();
+        self.id = None;
         self.steps.clear();
         self.tags.clear();
         self.next = 0;
@@ -141,6 +150,11 @@ impl Mission {
     /// Name of the loaded plan; empty without one.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The number that its maker gave it, as long as it is what that one made.
+    pub fn id(&self) -> Option<MissionId> {
+        self.id
     }
 
     /// The tags that the loaded plan declares.
@@ -297,6 +311,42 @@ mod tests {
         append(&mut written, "takeoff\ngoto 0 2 0 0", None).unwrap();
         assert_eq!(texts(&written), ["takeoff", "land", "takeoff", "goto 0 2 0 0"]);
         assert!(!written.has_ended());
+    }
+
+    #[test]
+    fn only_the_whole_mission_has_the_number_of_its_commands() {
+        let made = |id, clears| {
+            let hover = [Command::TakeOff { take_over: false }, Command::Hold { time_s: 1.0 }];
+            Commands::new("made", MissionId(id), clears, hover).unwrap()
+        };
+        let mut mission = mission("takeoff\ngoto 0 1 0 0\nland");
+        assert_eq!(mission.id(), None);
+        mission.append(made(1, true), None).unwrap();
+        assert_eq!(
+            (mission.id(), texts(&mission)),
+            (Some(MissionId(1)), vec!["takeoff", "hold 1"])
+        );
+        // What is refused leaves it as it is, and what is appended makes another of it.
+        assert!(append(&mut mission, "goto 0 50 0 0", None).is_err());
+        assert_eq!(mission.id(), Some(MissionId(1)));
+        append(&mut mission, "land", None).unwrap();
+        assert_eq!(mission.id(), None);
+        mission.append(made(2, false), None).unwrap();
+        assert_eq!((mission.id(), mission.steps().len()), (None, 5));
+        // Behind its end commands begin a new one.
+        mission.clear();
+        mission.append(made(3, false), None).unwrap();
+        assert_eq!(mission.id(), Some(MissionId(3)));
+        while mission.advance(&HOVER).is_some() {}
+        mission.append(made(4, false), None).unwrap();
+        assert_eq!((mission.id(), mission.steps().len()), (Some(MissionId(4)), 2));
+        // In flight what has been flown stays in front of it.
+        let due = mission.advance(&Pose::default()).unwrap();
+        let underway = Underway { here: HOVER, airborne: true, due: Some(due) };
+        mission.append(made(5, true), Some(underway)).unwrap();
+        assert_eq!((mission.id(), mission.steps().len()), (None, 3));
+        mission.load(Plan::parse("plan", "takeoff\nland").unwrap(), false);
+        assert_eq!(mission.id(), None);
     }
 
     #[test]

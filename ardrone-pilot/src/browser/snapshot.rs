@@ -65,7 +65,7 @@ impl Snapshot {
                 self.remember(&object);
             }
             // The page redraws everything.
-            Message::Mission { name, steps } if *steps != self.steps => {
+            Message::Mission { name, steps, .. } if *steps != self.steps => {
                 self.steps.clone_from(steps);
                 self.name = printable(name).into_owned();
                 self.notes.clear();

@@ -36,7 +36,7 @@ use crate::realtime::Realtime;
 use crate::recording::{Recorder, Timing};
 use crate::timing::{TickHealth, TickRecorder, TickSummary};
 use autopilot::outcome::Outcome;
-use autopilot::plan::{Plan, Step};
+use autopilot::plan::{MissionId, Plan, Step};
 use autopilot::vehicle::{
     CannotFly, FlightEvent, FlightReport, Input, NotReady, Operator, OperatorOrder, Output,
     Refused, Stage, Status, TICK, Transmit, Vehicle, VehicleConfig, Waypoint,
@@ -60,6 +60,8 @@ pub enum Message {
     Mission {
         /// Name of the loaded plan; empty without one.
         name: String,
+        /// The number that its maker gave it; none for a plan, and once it is extended.
+        id: Option<MissionId>,
         /// All its steps.
         steps: Vec<Step>,
     },
@@ -531,11 +533,11 @@ impl TickLoop {
                     Message::Event(now, event)
                 }
                 Output::Waypoint(waypoint) => Message::Waypoint(waypoint),
-                Output::Mission { name, steps } => {
+                Output::Mission { name, id, steps } => {
                     if let Some(recorder) = &mut self.recorder {
                         recorder.mission(now, name.to_owned(), steps.to_vec());
                     }
-                    Message::Mission { name: name.to_owned(), steps: steps.to_vec() }
+                    Message::Mission { name: name.to_owned(), id, steps: steps.to_vec() }
                 }
                 Output::Readiness(reasons) => Message::Readiness(now, reasons.to_vec()),
                 Output::Ended(outcome) if self.stay == Stay::UntilLeft => {

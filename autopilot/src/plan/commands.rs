@@ -3,8 +3,9 @@
 use diagnostic::Diagnostic;
 
 use super::dry_run::DryRun;
+use super::language::Meaning;
 use super::parser::{self, Line};
-use super::{FlightLimits, PlanError, Step, check};
+use super::{Command, FlightLimits, MissionId, PlanError, Step, check, writer};
 
 /// Commands of the plan language, to be appended to a mission. Only their syntax is checked here; whether
 /// they lead outside the fence depends on the mission before them.
@@ -13,6 +14,7 @@ pub struct Commands {
     text: String,
     lines: Vec<Line>,
     clears: bool,
+    id: Option<MissionId>,
 }
 
 impl Commands {
@@ -21,7 +23,33 @@ impl Commands {
     /// # Errors
     /// [`PlanError`] with all problems; a text without commands is one.
     pub fn parse(name: &str, text: &str) -> Result<Self, PlanError> {
-        let (lines, mut diagnostics) = parser::parse(text);
+        let (lines, diagnostics) = parser::parse(text);
+        Self::checked(name, text.to_owned(), lines, diagnostics)
+    }
+
+    /// Commands of a program that makes a mission of them; with `clears` they replace the one before. Their text is written
+    /// here, and means the same when it is read; the number is not in it.
+    ///
+    /// # Errors
+    /// As [`Commands::parse`].
+    pub fn new(
+        name: &str,
+        id: MissionId,
+        clears: bool,
+        commands: impl IntoIterator<Item = Command>,
+    ) -> Result<Self, PlanError> {
+        let meant = commands.into_iter().map(Meaning::Step);
+        let (text, lines, diagnostics) =
+            writer::write(clears.then_some(Meaning::Clears).into_iter().chain(meant));
+        Ok(Self { id: Some(id), ..Self::checked(name, text, lines, diagnostics)? })
+    }
+
+    fn checked(
+        name: &str,
+        text: String,
+        lines: Vec<Line>,
+        mut diagnostics: Vec<Diagnostic>,
+    ) -> Result<Self, PlanError> {
         if lines.is_empty() && diagnostics.is_empty() {
             diagnostics
                 .push(Diagnostic::error("no command", 0..0).help("write one, as `goto 0 1 0 0`"));
@@ -31,11 +59,11 @@ impl Commands {
                 .help("put it into a plan, before its take-off")
         }));
         if !diagnostics.is_empty() {
-            return Err(PlanError::new(name, text, &diagnostics));
+            return Err(PlanError::new(name, &text, &diagnostics));
         }
         let clears = lines.iter().any(|line| line.clears);
         let lines = parser::clear_commands(lines);
-        Ok(Self { text: text.to_owned(), lines, clears })
+        Ok(Self { text, lines, clears, id: None })
     }
 
     /// The parsed text.
@@ -46,6 +74,11 @@ impl Commands {
     /// Whether they contain `clearCommands`, which drops the commands before it.
     pub fn clears(&self) -> bool {
         self.clears
+    }
+
+    /// The number of the mission that they are; none for those from a text.
+    pub fn id(&self) -> Option<MissionId> {
+        self.id
     }
 
     /// Reasons why they cannot follow `run`, one sentence each.

@@ -192,7 +192,7 @@ fn offset(from: &Pose, by: &Pose) -> Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::{Plan, ZOrigin};
+    use crate::plan::{LANGUAGE, Plan, ZOrigin, parser};
 
     const FIRST_HOVER: Pose = Pose { x_m: 0.1, y_m: -0.1, z_m: 0.8, yaw_deg: 2.0 };
     const SECOND_HOVER: Pose = Pose { x_m: 0.4, y_m: 1.2, z_m: 0.9, yaw_deg: -3.0 };
@@ -305,6 +305,19 @@ mod tests {
         let start = "setReference $START$\ngoto 1 0 1.5 90";
         assert_target(&format!("takeoff\ngoto 2 2 0 0\n{start}"), [1.0, 0.0, 1.5, 90.0]);
         assert_target("setReference $START$\ntakeoff\ngoto 1 0 1.5 90", [1.0, 0.0, 1.5, 90.0]);
+    }
+
+    #[test]
+    fn a_setting_orders_nothing() {
+        let examples =
+            LANGUAGE.iter().map(|declared| declared.example).filter(|line| !line.is_empty());
+        for example in examples.chain(["setReference 1 0 0 0", "setReference $START$"]) {
+            let (lines, _) = parser::parse(example);
+            let Some(command) = lines[0].command else { continue };
+            let order =
+                Interpreter::new(FlightLimits::default()).carry_out(command, &Pose::default());
+            assert_eq!(command.is_setting(), order.is_none(), "{example}");
+        }
     }
 
     #[test]

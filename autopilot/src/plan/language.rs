@@ -13,7 +13,7 @@ use super::Command;
 const MAX_DISTANCE_M: f64 = 100.0;
 const MAX_ANGLE_DEG: f64 = 3600.0;
 /// Most numbers behind a command.
-const MOST: usize = 4;
+pub(super) const MOST: usize = 4;
 
 /// A command of the plan language.
 #[derive(Debug)]

@@ -19,6 +19,7 @@ mod language;
 mod parser;
 mod tags;
 mod warnings;
+mod writer;
 
 use diagnostic::{Diagnostic, Severity};
 use estimator::SurveyedTag;
@@ -113,7 +114,16 @@ pub enum Command {
     },
 }
 
+/// The number of a mission, given by whoever made it of commands: by that they know it again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MissionId(pub u32);
+
 impl Command {
+    /// Whether it only changes how later commands are flown.
+    pub fn is_setting(self) -> bool {
+        self.concerns_targets() == Some(false) || matches!(self, Self::SetMaxControl { .. })
+    }
+
     /// What it is to targets: `Some(true)` if the drone flies to some place by it, as the settings say, and `Some(false)` if
     /// it is such a setting.
     pub(crate) fn concerns_targets(self) -> Option<bool> {

@@ -7,7 +7,7 @@ use super::language::{Declaration, LANGUAGE, Meaning, Number};
 use super::{Command, Step};
 
 /// Largest plan. A plan is read by people and flown on one battery.
-const MAX_LINES: usize = 10_000;
+pub(super) const MAX_LINES: usize = 10_000;
 
 /// A command and its place in the text.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +26,25 @@ pub(super) struct Line {
 }
 
 impl Line {
+    /// The line with this text, which means this by its declaration.
+    pub(super) fn new(
+        number: usize,
+        span: Span,
+        text: String,
+        declaration: &Declaration,
+        meaning: Meaning,
+    ) -> Self {
+        Self {
+            number,
+            span,
+            text,
+            command: if let Meaning::Step(command) = meaning { Some(command) } else { None },
+            tag: if let Meaning::Tag(tag) = meaning { Some(tag) } else { None },
+            clears: meaning == Meaning::Clears,
+            note: declaration.note,
+        }
+    }
+
     /// Converts it to a step; `None` for a keyword without effect in flight.
     pub(super) fn into_step(self) -> Option<Step> {
         Some(Step { command: self.command?, line: self.number, text: self.text })
@@ -39,10 +58,7 @@ pub(super) fn parse(text: &str) -> (Vec<Line>, Vec<Diagnostic>) {
     let mut start = 0;
     for (index, raw) in text.split('\n').enumerate() {
         if index >= MAX_LINES {
-            diagnostics.push(
-                Diagnostic::error(format!("more than {MAX_LINES} lines"), start..start)
-                    .help("no battery lasts that long: is this a flight plan?"),
-            );
+            diagnostics.push(too_long(start));
             break;
         }
         match parse_line(raw, start, index + 1) {
@@ -52,6 +68,12 @@ pub(super) fn parse(text: &str) -> (Vec<Line>, Vec<Diagnostic>) {
         start += raw.len() + 1;
     }
     (lines, diagnostics)
+}
+
+/// The problem of a text that goes on at `start` behind its last line.
+pub(super) fn too_long(start: usize) -> Diagnostic {
+    Diagnostic::error(format!("more than {MAX_LINES} lines"), start..start)
+        .help("no battery lasts that long: is this a flight plan?")
 }
 
 /// Note about a command that has another meaning in `tum_ardrone`.
@@ -87,15 +109,8 @@ fn parse_line(raw: &str, start: usize, number: usize) -> Result<Option<Line>, Di
     let end = arguments.last().map_or(command.span.end, |last| last.span.end);
     let span = command.span.start..end;
     let meaning = meaning(declaration, &arguments, &span)?;
-    Ok(Some(Line {
-        number,
-        span,
-        text: code.split_whitespace().collect::<Vec<_>>().join(" "),
-        command: if let Meaning::Step(command) = meaning { Some(command) } else { None },
-        tag: if let Meaning::Tag(tag) = meaning { Some(tag) } else { None },
-        clears: meaning == Meaning::Clears,
-        note: declaration.note,
-    }))
+    let text = code.split_whitespace().collect::<Vec<_>>().join(" ");
+    Ok(Some(Line::new(number, span, text, declaration, meaning)))
 }
 
 fn words(code: &str, start: usize) -> impl Iterator<Item = Word<'_>> {
@@ -139,16 +154,21 @@ fn meaning(
 }
 
 fn read(word: &Word<'_>, number: &Number, declaration: &Declaration) -> Result<f64, Diagnostic> {
-    let Number { low, high, .. } = *number;
     match word.text.parse::<f64>() {
-        Ok(value) if (low..=high).contains(&value) => Ok(value),
-        Ok(value) if value.is_finite() => {
-            Err(Diagnostic::error(format!("{value} is out of range"), word.span.clone())
-                .help(format!("expected a number from {low} to {high}")))
-        }
+        Ok(value) if value.is_finite() => check(value, number, &word.span).map(|()| value),
         _ => {
             let message = format!("`{}` is not a number", word.text.escape_debug());
             Err(Diagnostic::error(message, word.span.clone()).help(declaration.usage()))
         }
     }
+}
+
+/// Checks that a number is one that its command takes.
+pub(super) fn check(value: f64, number: &Number, span: &Span) -> Result<(), Diagnostic> {
+    let Number { low, high, .. } = *number;
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    Err(Diagnostic::error(format!("{value} is out of range"), span.clone())
+        .help(format!("expected a number from {low} to {high}")))
 }

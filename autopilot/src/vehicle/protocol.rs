@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::{Decision, FlightEvent, NotReady, Operator, OperatorOrder, Vehicle, Waypoint};
 use crate::outcome::Outcome;
-use crate::plan::Step;
+use crate::plan::{MissionId, Step};
 
 /// An input of the vehicle.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +45,8 @@ pub enum Output<'a> {
     Mission {
         /// Name of the loaded plan; empty without one.
         name: &'a str,
+        /// The number that its maker gave it; none for a plan, and once it is extended.
+        id: Option<MissionId>,
         /// All its steps.
         steps: &'a [Step],
     },
@@ -102,6 +104,7 @@ impl Vehicle {
         if std::mem::take(&mut self.pending.mission) {
             return Some(Output::Mission {
                 name: self.mission.name(),
+                id: self.mission.id(),
                 steps: self.mission.steps(),
             });
         }

@@ -425,7 +425,8 @@ mod tests {
     fn the_screen_shows_the_flight() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\ngoto 1 1 0 0\nland\n").unwrap();
         let mut view = View::new(&FlightLimits::default());
-        view.take_in(&Message::Mission { name: String::new(), steps: plan.steps().to_vec() });
+        let steps = plan.steps().to_vec();
+        view.take_in(&Message::Mission { name: String::new(), id: None, steps });
         for tick in 0..40_u32 {
             let status = status(f64::from(tick) / 40.0);
             let ticks = TickHealth { lateness: Duration::from_micros(230), skipped: 1 };
