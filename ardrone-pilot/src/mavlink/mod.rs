@@ -13,7 +13,7 @@ mod server;
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use autopilot::plan::Step;
+use autopilot::plan::MissionId;
 use autopilot::vehicle::{FlightEvent, NotReady, Status};
 use crossbeam_channel::{Sender, bounded};
 use mavlink_vehicle::Config;
@@ -94,7 +94,7 @@ impl MavlinkServer {
             Message::Status(_, status, _) => News::Status(*status),
             Message::Event(_, event) => News::Event(event.clone()),
             Message::Readiness(_, reasons) => News::Readiness(reasons.clone()),
-            Message::Mission { steps, .. } => News::Mission(steps.clone()),
+            Message::Mission { id, .. } => News::Mission(*id),
             // The status says it, or it is of no interest to others.
             Message::Realtime(_)
             | Message::Waypoint(_)
@@ -122,5 +122,5 @@ enum News {
     Status(Status),
     Event(FlightEvent),
     Readiness(Vec<NotReady>),
-    Mission(Vec<Step>),
+    Mission(Option<MissionId>),
 }

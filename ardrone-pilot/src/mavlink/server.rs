@@ -184,7 +184,7 @@ impl Exchange {
                 News::Status(status) => Input::Status(status),
                 News::Event(event) => Input::Event(event),
                 News::Readiness(reasons) => Input::Readiness(reasons),
-                News::Mission(steps) => Input::Mission(steps),
+                News::Mission(id) => Input::Mission(*id),
             };
             self.vehicle.handle(now, input);
         }

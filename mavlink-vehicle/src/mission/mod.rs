@@ -6,9 +6,11 @@ mod transfer;
 mod translate;
 
 pub use item::{Item, command};
-pub use program::{Program, Translated};
+pub(crate) use program::TAKE_OFF;
+pub use program::{Step, Translated};
 pub use transfer::{Event, Handled, Message, Outgoing, Outgoings, Partner, Received, Transfer};
-pub use translate::{Fence, MAX_ITEMS, Problem, Rules, translate};
+pub use translate::{MAX_ITEMS, Problem, Rules, translate};
+pub(crate) use translate::{SHORT_STAY_S, short, short_pose};
 
 /// Results of `MISSION_ACK` (`MAV_MISSION_RESULT`).
 pub mod result {
@@ -44,7 +46,16 @@ pub mod result {
 
 #[cfg(test)]
 mod tests {
-    use super::Item;
+    use autopilot::plan::{Commands, MissionId};
+
+    use super::{Item, Step};
+
+    /// Steps as logs hold them; empty without any.
+    pub(super) fn written(steps: &[Step]) -> String {
+        let commands = steps.iter().map(|step| step.command);
+        let commands = Commands::new("test", MissionId(0), false, commands);
+        if steps.is_empty() { String::new() } else { commands.unwrap().text().to_owned() }
+    }
 
     /// An item without parameters.
     pub(super) fn item(seq: u16, frame: u8, command: u16) -> Item {

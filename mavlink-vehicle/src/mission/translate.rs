@@ -3,17 +3,20 @@
 //! Yaws are degrees clockwise from north, except in the frames 20 and 21, where they count from the heading at
 //! the start, and in the local take-off and landing, where the dialect has radians.
 
+use autopilot::plan::{Command, FlightLimits};
 use kinematics::{Pose, wrap_deg};
 
-use super::program::{Action, REACH_M, Step, Translated};
+use super::program::{Step, TAKE_OFF, Translated};
 use super::{Item, command, result};
 use crate::place::{Frame, Global, Origin, Place, PlaceError};
 
 /// Largest mission.
 pub const MAX_ITEMS: usize = 200;
 
+/// A target is reached within this distance.
+const REACH_M: f64 = 0.2;
 /// Stay at a way-point without hold time.
-const SHORT_STAY_S: f64 = 0.3;
+pub(crate) const SHORT_STAY_S: f64 = 0.3;
 /// Longest stay of the plan language.
 const LONGEST_STAY_S: f64 = 600.0;
 /// Expected height after a take-off.
@@ -31,24 +34,13 @@ const MAVPROXY: u8 = 230;
 /// A home item is this near to the origin.
 const NEAR_HOME_M: f64 = 2.0;
 
-/// Where targets may be, as for flight plans.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fence {
-    /// Lowest height above the floor, in metres.
-    pub floor_m: f64,
-    /// Highest height above the floor, in metres.
-    pub ceiling_m: f64,
-    /// Largest horizontal distance from the start, in metres.
-    pub radius_m: f64,
-}
-
 /// What a mission is judged by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rules {
     /// What places on the globe mean.
     pub origin: Origin,
     /// Where targets may be.
-    pub fence: Fence,
+    pub fence: FlightLimits,
     /// Limit of the horizontal speed, and what it is without an item that sets it.
     pub max_speed_m_s: f64,
 }
@@ -98,7 +90,7 @@ pub fn translate(
         }
     }
     let Translator { steps, limited, .. } = translator;
-    Ok(Translated { steps, speed_m_s: max_speed_m_s, limited })
+    Ok(Translated { steps, speed_m_s: short(max_speed_m_s), limited })
 }
 
 /// Whether it says where home is, instead of a place to fly to.
@@ -250,7 +242,7 @@ impl Translator {
             None => (pose.x_m, pose.y_m),
         };
         self.yaw_deg = self.yaw(at)?;
-        self.push(at, Action::TakeOff);
+        self.push(at, TAKE_OFF);
         let height_m = place.z_m.filter(|_| at.item.z != 0.0);
         let wanted_m = height_m.unwrap_or(self.height_m());
         let z_m = self.clamped(wanted_m);
@@ -360,7 +352,7 @@ impl Translator {
                 return Err(at.problem(result::INVALID_PARAM2, reason));
             }
         };
-        self.push(at, Action::Speed { limit_m_s });
+        self.push(at, Command::SetSpeed { speed_m_s: short(limit_m_s) });
         Ok(())
     }
 
@@ -368,7 +360,7 @@ impl Translator {
         at.has_finite_parameters()?;
         let pose = Pose { z_m: self.height_m(), yaw_deg: self.yaw_deg, ..Pose::default() };
         self.go_to(at, pose, REACH_M, SHORT_STAY_S);
-        self.push(at, Action::Land);
+        self.push(at, Command::Land);
         self.end = Some((at.index, "landing"));
         Ok(())
     }
@@ -380,7 +372,7 @@ impl Translator {
             let pose = Pose { x_m, y_m, z_m: self.height_m(), yaw_deg: self.yaw(at)? };
             self.go_to(at, pose, REACH_M, SHORT_STAY_S);
         }
-        self.push(at, Action::Land);
+        self.push(at, Command::Land);
         self.end = Some((at.index, "landing"));
         Ok(())
     }
@@ -393,14 +385,23 @@ impl Translator {
         }
     }
 
-    fn push(&mut self, at: At<'_>, action: Action) {
-        self.steps.push(Step { item: at.index, action });
+    fn push(&mut self, at: At<'_>, command: Command) {
+        self.steps.push(Step { item: at.index, command });
+    }
+
+    fn target(&mut self, at: At<'_>, reach_m: f64, stay_s: f64, target: Command) {
+        // A drone that has just reached its target must not be too far from it to stay.
+        let stay_within_m = (reach_m + 0.3).max(0.5);
+        self.push(at, Command::SetReachDistance { distance_m: short(reach_m) });
+        self.push(at, Command::SetStayDistance { distance_m: short(stay_within_m) });
+        self.push(at, Command::SetStayTime { time_s: short(stay_s) });
+        self.push(at, target);
     }
 
     fn go_to(&mut self, at: At<'_>, pose: Pose, reach_m: f64, stay_s: f64) {
         self.pose = Some(pose);
         self.yaw_deg = pose.yaw_deg;
-        self.push(at, Action::GoTo { pose, reach_m, stay_s });
+        self.target(at, reach_m, stay_s, Command::GoTo(short_pose(&pose)));
     }
 
     fn stay(&mut self, at: At<'_>, stay_s: f64) {
@@ -409,7 +410,10 @@ impl Translator {
                 let pose = Pose { yaw_deg: self.yaw_deg, ..pose };
                 self.go_to(at, pose, REACH_M, stay_s);
             }
-            None => self.push(at, Action::Stay { stay_s }),
+            // Where the drone is.
+            None => {
+                self.target(at, REACH_M, stay_s, Command::MoveByRelative(Pose::default()));
+            }
         }
     }
 
@@ -472,7 +476,7 @@ impl Translator {
     }
 
     fn height(&self, at: At<'_>, z_m: f64) -> Result<f64, Problem> {
-        let Fence { floor_m, ceiling_m, .. } = self.rules.fence;
+        let FlightLimits { floor_m, ceiling_m, .. } = self.rules.fence;
         if (floor_m - GRID_M..=ceiling_m + GRID_M).contains(&z_m) {
             return Ok(self.clamped(z_m));
         }
@@ -484,7 +488,7 @@ impl Translator {
 
     /// The nearest height inside the fence that few digits can tell.
     fn clamped(&self, z_m: f64) -> f64 {
-        let Fence { floor_m, ceiling_m, .. } = self.rules.fence;
+        let FlightLimits { floor_m, ceiling_m, .. } = self.rules.fence;
         let lowest_m = (floor_m * DIGITS - 1e-6).ceil() / DIGITS;
         let highest_m = (ceiling_m * DIGITS + 1e-6).floor() / DIGITS;
         z_m.max(lowest_m).min(highest_m)
@@ -494,6 +498,16 @@ impl Translator {
     fn height_m(&self) -> f64 {
         self.clamped(self.pose.map_or(HOVER_M, |pose| pose.z_m))
     }
+}
+
+/// A number with few digits, and never -0: it is shown to people.
+pub(crate) fn short(number: f64) -> f64 {
+    (number * DIGITS).round() / DIGITS + 0.0
+}
+
+pub(crate) fn short_pose(pose: &Pose) -> Pose {
+    let [x_m, y_m, z_m, yaw_deg] = [pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg].map(short);
+    Pose { x_m, y_m, z_m, yaw_deg }
 }
 
 /// Why this command is refused.

@@ -1,39 +1,32 @@
 //! The mission that the vehicle was given by `MAVLink`, and how far it is.
 
-use autopilot::plan::Step;
+use autopilot::plan::MissionId;
 
 use super::modes::Purpose;
+use crate::mission::Step;
 
 /// A mission that was handed to the vehicle.
 #[derive(Debug, Clone)]
 pub(super) struct Handed {
-    pub(super) purpose: Purpose,
-    /// Its commands, by which it is recognised.
-    pub(super) lines: Vec<String>,
-    /// The item of each command.
-    pub(super) items: Vec<u16>,
+    /// Its number, by which it is recognised.
+    id: MissionId,
+    purpose: Purpose,
+    steps: Vec<Step>,
     /// The stored mission from which it was made.
-    pub(super) id: u32,
+    stored: u32,
 }
 
 impl Handed {
-    /// The item of a step that is the last of its item.
+    /// The item of a step that is the last of its item. Settings are no steps that will be reported.
     fn item_done(&self, step: usize) -> Option<u16> {
-        let item = *self.items.get(step)?;
-        let mut later = self.items.iter().zip(&self.lines).skip(step + 1);
-        // Settings are no steps that will be reported.
-        let goes_on = later.any(|(other, line)| *other == item && !is_setting(line));
-        (!goes_on).then_some(item)
+        let item = self.steps.get(step)?.item;
+        let goes_on = |later: &Step| later.item == item && !later.command.is_setting();
+        (!self.steps.iter().skip(step + 1).any(goes_on)).then_some(item)
     }
 
     fn is_last(&self, step: usize) -> bool {
-        self.lines.iter().skip(step + 1).all(|line| is_setting(line))
+        self.steps.iter().skip(step + 1).all(|later| later.command.is_setting())
     }
-}
-
-/// Whether a line of a plan only changes how later ones are flown.
-fn is_setting(line: &str) -> bool {
-    line.starts_with("set")
 }
 
 /// How far the mission of [`Handed`] is.
@@ -52,6 +45,7 @@ enum Progress {
 #[derive(Debug, Default)]
 pub(super) struct Flown {
     handed: Option<Handed>,
+    next_id: u32,
     progress: Progress,
     /// The item with which the stored mission begins next time.
     first_item: u16,
@@ -62,19 +56,22 @@ pub(super) struct Flown {
 }
 
 impl Flown {
-    /// This mission is handed to the vehicle.
-    pub(super) fn hand(&mut self, handed: Handed) {
+    /// The number of the next mission that is handed over.
+    pub(super) fn next_id(&self) -> MissionId {
+        MissionId(self.next_id)
+    }
+
+    /// This mission is handed to the vehicle, made of the `stored` one.
+    pub(super) fn hand(&mut self, purpose: Purpose, steps: Vec<Step>, stored: u32) {
+        self.handed = Some(Handed { id: self.next_id(), purpose, steps, stored });
+        self.next_id = self.next_id.wrapping_add(1);
         self.item = None;
-        self.handed = Some(handed);
         self.progress = Progress::Other;
     }
 
-    /// The vehicle has a mission of these steps.
-    pub(super) fn recognise(&mut self, steps: &[Step]) {
-        let steps = steps.iter().map(|step| step.text.as_str());
-        let ours = self.handed.as_ref().is_some_and(|handed| {
-            !handed.lines.is_empty() && steps.eq(handed.lines.iter().map(String::as_str))
-        });
+    /// The vehicle has another mission, with this number if it was made by a program.
+    pub(super) fn recognise(&mut self, mission: Option<MissionId>) {
+        let ours = self.handed.as_ref().is_some_and(|handed| mission == Some(handed.id));
         self.progress = if ours { Progress::Ours } else { Progress::Other };
     }
 
@@ -85,8 +82,8 @@ impl Flown {
 
     /// The vehicle flies a step of its mission.
     pub(super) fn at_step(&mut self, step: usize) {
-        if let Some(item) = self.ours().and_then(|handed| handed.items.get(step)) {
-            self.item = Some(*item);
+        if let Some(item) = self.ours().and_then(|handed| handed.steps.get(step)) {
+            self.item = Some(item.item);
         }
     }
 
@@ -133,7 +130,7 @@ impl Flown {
 
     /// Whether the vehicle has the stored mission of this number.
     pub(super) fn is_stored(&self, id: u32) -> bool {
-        let is_it = |handed: &Handed| handed.purpose == Purpose::Mission && handed.id == id;
+        let is_it = |handed: &Handed| handed.purpose == Purpose::Mission && handed.stored == id;
         self.progress != Progress::Other && self.handed.as_ref().is_some_and(is_it)
     }
 
@@ -150,30 +147,29 @@ impl Flown {
     }
 
     #[cfg(test)]
-    pub(super) fn lines(&self) -> &[String] {
-        self.handed.as_ref().map_or(&[], |handed| &handed.lines)
+    pub(super) fn steps(&self) -> &[Step] {
+        self.handed.as_ref().map_or(&[], |handed| &handed.steps)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use autopilot::plan::Plan;
+    use autopilot::plan::Command;
+    use kinematics::Pose;
 
     use super::*;
-
-    const TEXT: &str = "takeoff\nsetStayTime 1\ngoto 0 0 1 0\ngoto 1 0 1 0\nsetStayTime 0.3\n";
-
-    fn handed(purpose: Purpose) -> Handed {
-        let lines = TEXT.lines().map(str::to_owned).collect();
-        Handed { purpose, lines, items: vec![0, 1, 1, 1, 1], id: 7 }
-    }
+    use crate::mission::TAKE_OFF;
 
     fn flown(purpose: Purpose) -> Flown {
+        let to = Command::GoTo(Pose { z_m: 1.0, ..Pose::default() });
+        let [stay, later] = [1.0, 0.3].map(|time_s| Command::SetStayTime { time_s });
+        let steps = [(0, TAKE_OFF), (1, stay), (1, to), (1, to), (1, later)];
+        let steps = steps.map(|(item, command)| Step { item, command }).to_vec();
         let mut flown = Flown::default();
-        flown.hand(handed(purpose));
-        // A plan lands at its end, a mission need not.
-        let plan = Plan::parse("test", TEXT).unwrap();
-        flown.recognise(&plan.steps()[..5]);
+        let id = flown.next_id();
+        flown.hand(purpose, steps, 7);
+        assert!(!flown.goes_on(), "the vehicle does not have it yet");
+        flown.recognise(Some(id));
         flown
     }
 
@@ -196,7 +192,7 @@ mod tests {
         let mut flown = flown(Purpose::TakeOff);
         assert_eq!(flown.step_done(0), None);
         assert_eq!((flown.purpose(), flown.is_stored(7)), (Purpose::TakeOff, false));
-        flown.recognise(&[]);
+        flown.recognise(Some(flown.next_id()));
         flown.at_step(0);
         assert_eq!((flown.step_done(0), flown.item()), (None, None));
         assert_eq!(flown.purpose(), Purpose::Mission);

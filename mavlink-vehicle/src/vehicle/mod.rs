@@ -23,7 +23,6 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use arrayvec::{ArrayString, ArrayVec};
-use autopilot::plan::FlightLimits;
 use autopilot::vehicle::{FlightEvent, NotReady, Operator, OperatorOrder, Station as Kind, Status};
 
 use self::arming::Arming;
@@ -38,7 +37,7 @@ use self::stations::Stations;
 use self::texts::Texts;
 use crate::dialect::{MISSION_ITEM_REACHED_DATA, MavMessage, MavSeverity};
 use crate::frame::{Buffer, Encoder, LONGEST_FRAME, frames};
-use crate::mission::{Fence, Rules, Transfer};
+use crate::mission::{Rules, Transfer};
 use crate::place::Origin;
 use crate::signing::Signing;
 
@@ -126,7 +125,7 @@ impl MavlinkVehicle {
             Input::Status(status) => self.take_status(now, status),
             Input::Readiness(reasons) => self.take_readiness(reasons),
             Input::Event(event) => self.take_event(event),
-            Input::Mission(steps) => self.flown.recognise(steps),
+            Input::Mission(id) => self.flown.recognise(id),
             Input::Answer { ticket, answer } => self.take_answer(now, ticket, &answer),
             Input::PeerGone(peer) => self.stations.forget_peer(peer),
         }
@@ -183,10 +182,9 @@ impl MavlinkVehicle {
 
     /// The rules by which missions are judged.
     fn rules(&self) -> Rules {
-        let FlightLimits { floor_m, ceiling_m, radius_m, .. } = self.config.limits;
         Rules {
             origin: self.origin,
-            fence: Fence { floor_m, ceiling_m, radius_m },
+            fence: self.config.limits,
             max_speed_m_s: self.parameters.value(parameters::CRUISE_SPEED),
         }
     }

@@ -2,15 +2,16 @@
 
 use std::time::Duration;
 
-use autopilot::plan::Commands;
+use autopilot::plan::{Command, Commands};
 use autopilot::vehicle::{Operator, OperatorOrder, Refused, Station as Kind};
+use kinematics::Pose;
 
-use super::flown::Handed;
 use super::following::Source;
 use super::modes::Purpose;
 use super::stations::{GONE_AFTER, Station};
 use super::{MavlinkVehicle, ORDERS, Ticket, To};
 use crate::dialect::{COMMAND_ACK_DATA, MavMessage, MavResult};
+use crate::mission::{SHORT_STAY_S, Step, TAKE_OFF, short, short_pose};
 
 /// A command is answered after this time even if the vehicle has not answered.
 const ANSWER_TIME: Duration = Duration::from_millis(300);
@@ -44,8 +45,14 @@ pub(super) struct Awaited {
 }
 
 impl MavlinkVehicle {
-    /// Acknowledges a command.
-    pub(super) fn acknowledge(&mut self, station: Station, command: u16, result: MavResult) {
+    /// Acknowledges a command; nothing if there was none.
+    pub(super) fn acknowledge(
+        &mut self,
+        station: Station,
+        command: impl Into<Option<u16>>,
+        result: MavResult,
+    ) {
+        let Some(command) = command.into() else { return };
         let acknowledgement = COMMAND_ACK_DATA {
             command,
             result,
@@ -92,11 +99,8 @@ impl MavlinkVehicle {
             left += 1;
         }
         if left == 0 {
-            if let Some(command) = command {
-                let busy = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
-                self.acknowledge(station, command, busy);
-            }
-            return;
+            let busy = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
+            return self.acknowledge(station, command, busy);
         }
         self.awaited.push(Awaited {
             ticket,
@@ -166,9 +170,7 @@ impl MavlinkVehicle {
     }
 
     fn answered(&mut self, now: Duration, awaited: &Awaited) {
-        if let Some(command) = awaited.command {
-            self.acknowledge(awaited.station, command, awaited.result);
-        }
+        self.acknowledge(awaited.station, awaited.command, awaited.result);
         if awaited.result != MavResult::MAV_RESULT_ACCEPTED {
             return;
         }
@@ -187,41 +189,35 @@ impl MavlinkVehicle {
         command: Option<u16>,
         height_m: Option<f64>,
     ) {
-        let climb = height_m.map(|height_m| format!("setStayTime 0.3\ngoto 0 0 {height_m:.3} 0\n"));
-        let text = format!("setReference $START$\ntakeoff\n{}", climb.unwrap_or_default());
-        let items = vec![0; text.lines().count()];
-        self.hand_over(now, station, command, Purpose::TakeOff, &text, items);
+        let climb = height_m.map(|z_m| to(Pose { z_m, ..Pose::default() }));
+        let commands = [Command::SetReferenceStart, TAKE_OFF].into_iter();
+        let commands = commands.chain(climb.into_iter().flatten());
+        self.hand_over(now, station, command, Purpose::TakeOff, of_no_item(commands));
     }
 
     /// Flies to the start and lands.
     pub(super) fn fly_home(&mut self, now: Duration, station: Station, command: u16) {
         let limits = &self.config.limits;
         let pose = self.present().and_then(|status| status.pose).unwrap_or_default();
-        let height_m = pose.z_m.clamp(limits.floor_m, limits.ceiling_m);
-        let yaw_deg = pose.yaw_deg;
-        let speed_m_s = self.parameters.value(super::parameters::CRUISE_SPEED);
-        let text = format!(
-            "setReference $START$\nsetSpeed {speed_m_s:.3}\nsetStayTime 0.3\n\
-             goto 0 0 {height_m:.3} {yaw_deg:.3}\nland\n"
-        );
-        let items = vec![0; text.lines().count()];
-        self.hand_over(now, station, Some(command), Purpose::Return, &text, items);
+        let z_m = pose.z_m.clamp(limits.floor_m, limits.ceiling_m);
+        let speed_m_s = short(self.parameters.value(super::parameters::CRUISE_SPEED));
+        let commands = [Command::SetReferenceStart, Command::SetSpeed { speed_m_s }].into_iter();
+        let home = to(Pose { z_m, yaw_deg: pose.yaw_deg, ..Pose::default() });
+        let commands = commands.chain(home).chain([Command::Land]);
+        self.hand_over(now, station, Some(command), Purpose::Return, of_no_item(commands));
     }
 
     /// Flies the stored mission, from where it is to begin.
     pub(super) fn fly_mission(&mut self, now: Duration, station: Station, command: Option<u16>) {
         let first = self.flown.first_item();
-        let program = self.transfer.translated().commands_from(first, self.is_airborne());
-        if program.text.is_empty() {
+        let steps = self.transfer.translated().steps_from(first, self.is_airborne());
+        if steps.is_empty() {
             self.warn(format_args!("there is no mission, or nothing is left of it"));
-            if let Some(command) = command {
-                self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
-            }
-            return;
+            return self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
         }
         // The next time it begins with its first item again.
         self.flown.begin_at(0);
-        self.hand_over(now, station, command, Purpose::Mission, &program.text, program.items);
+        self.hand_over(now, station, command, Purpose::Mission, steps);
     }
 
     /// Hands a mission to the vehicle, which flies it at once.
@@ -231,32 +227,24 @@ impl MavlinkVehicle {
         station: Station,
         command: Option<u16>,
         purpose: Purpose,
-        text: &str,
-        items: Vec<u16>,
+        steps: Vec<Step>,
     ) {
         if self.is_others(station) {
             // What is known of the mission that flies must not change by an order that will be refused.
-            if let Some(command) = command {
-                let refused = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
-                self.acknowledge(station, command, refused);
-            }
-            return;
+            let refused = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
+            return self.acknowledge(station, command, refused);
         }
         let airborne = self.is_airborne();
         // On the ground it replaces another mission as a whole; in the air that is cleared first, so that its step ends.
-        let whole = if airborne { text.to_owned() } else { format!("clearCommands\n{text}") };
-        let commands = match Commands::parse("MAVLink", &whole) {
+        let commands = steps.iter().map(|step| step.command);
+        let commands = match Commands::new("MAVLink", self.flown.next_id(), !airborne, commands) {
             Ok(commands) => commands,
             Err(error) => {
                 self.warn(format_args!("{error}"));
-                if let Some(command) = command {
-                    self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
-                }
-                return;
+                return self.acknowledge(station, command, MavResult::MAV_RESULT_DENIED);
             }
         };
-        let lines = text.lines().map(str::to_owned).collect();
-        self.flown.hand(Handed { purpose, lines, items, id: self.transfer.id() });
+        self.flown.hand(purpose, steps, self.transfer.id());
         let clear = airborne.then_some(OperatorOrder::Clear);
         let rest = [OperatorOrder::Append(commands), OperatorOrder::Start { when_ready: false }];
         self.order(now, station, command, After::Nothing, clear.into_iter().chain(rest));
@@ -266,10 +254,8 @@ impl MavlinkVehicle {
         let old = |awaited: &Awaited| now.saturating_sub(awaited.since) >= ANSWER_TIME;
         while let Some(index) = self.awaited.iter().position(old) {
             let late = self.awaited.swap_remove(index);
-            if let Some(command) = late.command {
-                let busy = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
-                self.acknowledge(late.station, command, busy);
-            }
+            let busy = MavResult::MAV_RESULT_TEMPORARILY_REJECTED;
+            self.acknowledge(late.station, late.command, busy);
         }
     }
 
@@ -290,6 +276,16 @@ impl MavlinkVehicle {
             self.release();
         }
     }
+}
+
+/// The way to a place relative to the start.
+fn to(pose: Pose) -> [Command; 2] {
+    [Command::SetStayTime { time_s: SHORT_STAY_S }, Command::GoTo(short_pose(&pose))]
+}
+
+/// Steps that belong to no item of the stored mission.
+fn of_no_item(commands: impl Iterator<Item = Command>) -> Vec<Step> {
+    commands.map(|command| Step { item: 0, command }).collect()
 }
 
 /// What a refusal by the vehicle is in `MAVLink`.

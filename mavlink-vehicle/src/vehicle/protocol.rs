@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use autopilot::plan::{FlightLimits, Step};
+use autopilot::plan::{FlightLimits, MissionId};
 use autopilot::vehicle::{
     FlightEvent, NotReady, Operator, OperatorOrder, Refused, StationPatience, Status,
 };
@@ -83,8 +83,8 @@ pub enum Input<'a> {
     Readiness(&'a [NotReady]),
     /// Something happened to the vehicle.
     Event(&'a FlightEvent),
-    /// The steps of the vehicle's mission.
-    Mission(&'a [Step]),
+    /// The vehicle's mission has changed; its number, if a program has made it.
+    Mission(Option<MissionId>),
     /// The vehicle's answer to an order, each of which has one.
     Answer {
         /// The order's.

@@ -1,5 +1,6 @@
 //! The vehicle as its clients see it.
 
+use autopilot::plan::Command;
 use autopilot::vehicle::{ManualControl, Phase, Place, Station as Kind, Vehicle, VehicleConfig};
 use mavlink_core::Message as _;
 
@@ -198,7 +199,7 @@ fn armed_it_takes_off_and_unarmed_it_waits_to_be() {
         _ => None,
     });
     let commands = commands.unwrap();
-    assert!(commands.text().contains("takeoff") && commands.text().contains("goto 0 0 1.500 0"));
+    assert!(commands.text().contains("takeoff") && commands.text().contains("goto 0 0 1.5 0"));
     assert_eq!(bench.ordered(), ["append", "start"]);
     let mut bench = Bench::new(Config::default());
     bench.accepts(22, NOTHING);
@@ -533,7 +534,7 @@ fn an_order_of_another_station_changes_nothing_of_the_mission_that_flies() {
     let mut bench = Bench::new(Config::default());
     bench.accepts(400, first(1.0));
     bench.accepts(22, NOTHING);
-    let lines = bench.vehicle.flown.lines().to_vec();
+    let steps = bench.vehicle.flown.steps().to_vec();
     bench.fly();
     bench.say(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
     bench.orders.clear();
@@ -544,7 +545,7 @@ fn an_order_of_another_station_changes_nothing_of_the_mission_that_flies() {
         ..COMMAND_LONG_DATA::default()
     }));
     assert!(bench.ordered().is_empty());
-    assert_eq!(bench.vehicle.flown.lines(), lines);
+    assert_eq!(bench.vehicle.flown.steps(), steps);
 }
 
 impl Bench {
@@ -594,8 +595,9 @@ fn a_mission_begins_where_whoever_has_the_controls_says() {
     bench.client = Encoder::new(255, 190);
     bench.accepts(300, start(2.0));
     assert_eq!(bench.ordered(), ["append", "start"]);
-    let lines = bench.vehicle.flown.lines().join("\n");
-    assert!(!lines.contains("goto 0.000 1.000") && lines.contains("land"), "{lines}");
+    let steps = bench.vehicle.flown.steps();
+    assert!(steps.iter().all(|step| step.item >= 2), "{steps:?}");
+    assert_eq!(steps.last().map(|step| step.command), Some(Command::Land));
     assert_eq!(bench.vehicle.flown.first_item(), 0, "the next time it begins at its beginning");
 }
 
@@ -614,4 +616,43 @@ fn what_waits_for_arming_is_begun_only_by_its_own_station() {
     assert_eq!(bench.ordered(), ["take"]);
     assert!(bench.is_armed());
     assert_eq!(bench.vehicle.flown.first_item(), 2, "it was not begun");
+}
+
+#[test]
+fn a_mission_is_known_by_its_number_until_it_is_another() {
+    let reached = |bench: &mut Bench, step| {
+        bench.sent.clear();
+        bench.vehicle.handle(bench.now, Input::Event(&FlightEvent::StepDone { step }));
+        bench.collect();
+        bench.sent.iter().find_map(|(_, message)| match message {
+            MavMessage::MISSION_ITEM_REACHED(data) => Some(data.seq),
+            _ => None,
+        })
+    };
+    let mut bench = Bench::new(Config::default());
+    bench.upload();
+    bench.accepts(400, first(1.0));
+    bench.accepts(300, NOTHING);
+    let id = bench.orders.iter().find_map(|(_, order)| match order {
+        OperatorOrder::Append(commands) => commands.id(),
+        _ => None,
+    });
+    let take_off = bench
+        .vehicle
+        .flown
+        .steps()
+        .iter()
+        .position(|step| matches!(step.command, Command::TakeOff { .. }));
+    let take_off = take_off.unwrap();
+    // The way up is still to come.
+    let up = take_off + 4;
+    bench.fly();
+    assert_eq!(reached(&mut bench, up), None, "the vehicle has not said that it has the mission");
+    bench.vehicle.handle(bench.now, Input::Mission(id));
+    assert_eq!([take_off, up].map(|step| reached(&mut bench, step)), [None, Some(0)]);
+    bench.vehicle.handle(bench.now, Input::Mission(None));
+    let last = bench.vehicle.flown.steps().len() - 1;
+    assert_eq!(reached(&mut bench, last), None, "it was extended, or is another");
+    bench.vehicle.handle(bench.now, Input::Mission(id));
+    assert_eq!(reached(&mut bench, last), Some(3));
 }

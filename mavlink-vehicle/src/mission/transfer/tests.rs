@@ -1,9 +1,9 @@
 use std::collections::VecDeque;
 
+use autopilot::plan::{FlightLimits, ZOrigin};
 use proptest::prelude::*;
 
 use super::*;
-use crate::mission::Fence as Limits;
 use crate::mission::command;
 use crate::mission::tests::item;
 use crate::place::Origin;
@@ -15,7 +15,7 @@ const RULES: Rules = Rules {
         altitude_m: 488.0,
         heading_deg: 0.0,
     },
-    fence: Limits { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0 },
+    fence: FlightLimits { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover },
     max_speed_m_s: 2.2,
 };
 const QGC: Partner = Partner { system: 255, component: 190 };
@@ -84,7 +84,7 @@ fn a_mission_reads_back_as_it_was_sent() {
     assert_eq!(bench.transfer.id(), 0);
     assert_eq!(bench.upload(&sent), (vec![ack(result::ACCEPTED)], Some(Event::Accepted)));
     assert_eq!((bench.transfer.items(), bench.transfer.id()), (&sent[..], 1));
-    assert!(bench.transfer.translated().commands_from(0, false).text.contains("goto"));
+    assert!(bench.transfer.translated().steps_from(0, false).len() > 3);
     let list = Received::RequestList { mission_type: MISSION };
     bench.assert(QGC, list, &[Message::Count { count: 3, mission_type: MISSION }]);
     for item in sent {
@@ -261,7 +261,7 @@ fn a_mission_is_cleared() {
         assert_eq!(event, Some(Event::Cleared));
         assert!(bench.transfer.items().is_empty() && bench.transfer.uploading().is_none());
         assert_eq!(bench.transfer.id(), 2);
-        assert!(bench.transfer.translated().commands_from(0, false).text.is_empty());
+        assert!(bench.transfer.translated().steps_from(0, false).is_empty());
         assert_eq!(bench.after(1000), (vec![], None));
     }
 }

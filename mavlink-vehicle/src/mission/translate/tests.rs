@@ -1,10 +1,13 @@
+use autopilot::plan::ZOrigin;
 use proptest::prelude::*;
 
 use super::*;
-use crate::mission::tests::item;
-use crate::mission::{Program, command::*};
+use crate::mission::command::*;
+use crate::mission::tests::{item, written};
 use crate::place::ABSENT;
 
+const LIMITS: FlightLimits =
+    FlightLimits { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0, z_origin: ZOrigin::Hover };
 const RULES: Rules = Rules {
     origin: Origin {
         latitude_deg: 47.397_742,
@@ -12,7 +15,7 @@ const RULES: Rules = Rules {
         altitude_m: 488.0,
         heading_deg: 0.0,
     },
-    fence: Fence { floor_m: 0.3, ceiling_m: 3.0, radius_m: 10.0 },
+    fence: LIMITS,
     max_speed_m_s: 2.2,
 };
 const NED: u8 = 1;
@@ -45,7 +48,7 @@ fn translated(items: &[Item]) -> Translated {
 /// The commands without settings.
 #[track_caller]
 fn assert_flown(items: &[Item], expected: &[&str]) {
-    let text = translated(items).commands_from(0, false).text;
+    let text = written(&translated(items).steps_from(0, false));
     let lines = text.lines().filter(|line| !line.starts_with("set"));
     assert_eq!(lines.collect::<Vec<_>>(), expected);
 }
@@ -80,21 +83,22 @@ fn a_mission_is_a_whole_program() {
         Item { param1: 2.0, param2: 1.0, param4: 90.0, ..at(NAV_WAYPOINT, 1, 2, 1.2) },
         item(0, MISSION, NAV_RETURN_TO_LAUNCH),
     ];
-    let Program { text, items } = translated(&mission).commands_from(0, false);
+    let steps = translated(&mission).steps_from(0, false);
+    let items: Vec<u16> = steps.iter().map(|step| step.item).collect();
     let expected = "setReference $START$\nsetSpeed 2.2\ntakeoff\n\
                     setInitialReachDist 0.2\nsetStayWithinDist 0.5\nsetStayTime 0.3\ngoto 0 0 1.5 0\n\
                     setSpeed 0.5\n\
                     setInitialReachDist 1\nsetStayWithinDist 1.3\nsetStayTime 2\ngoto 1 2 1.2 90\n\
                     setInitialReachDist 0.2\nsetStayWithinDist 0.5\nsetStayTime 0.3\ngoto 0 0 1.2 90\n\
                     land\n";
-    assert_eq!(text, expected);
+    assert_eq!(written(&steps), expected);
     assert_eq!(items, [0, 0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 3, 3, 3, 3, 3]);
     // A stay in the middle begins with the way to its place.
     let delay = Item { param1: 5.0, ..item(0, MISSION, NAV_DELAY) };
     let mission = [take_off(), at(NAV_WAYPOINT, 1, 0, 1.0), delay];
-    let text = translated(&mission).commands_from(2, true).text;
+    let text = written(&translated(&mission).steps_from(2, true));
     assert!(text.ends_with("setStayTime 5\ngoto 1 0 1 0\n"), "{text}");
-    assert_eq!(translated(&[]).commands_from(0, false), Program::default());
+    assert_eq!(translated(&[]).steps_from(0, false), []);
 }
 
 #[test]
@@ -128,10 +132,10 @@ fn a_take_off_climbs_to_the_height_of_its_item() {
 fn a_way_point_is_flown_to_and_held() {
     // A way-point before any take-off: the mission may start in the air.
     let way_point = Item { param1: 2.5, param2: 0.4, ..at(NAV_WAYPOINT, -1, 2, 0.3) };
-    let program = translated(&[way_point]).commands_from(0, true);
+    let steps = translated(&[way_point]).steps_from(0, true);
     let expected = "setReference $START$\nsetSpeed 2.2\nsetInitialReachDist 0.4\n\
                     setStayWithinDist 0.7\nsetStayTime 2.5\ngoto -1 2 0.3 0\n";
-    assert_eq!(program.text, expected);
+    assert_eq!(written(&steps), expected);
     // NaN keeps the heading of the item before; a place or height that is not given stays.
     let turned = Item { param4: -90.0, ..at(NAV_WAYPOINT, 1, 0, 1.0) };
     let here = Item { x: ABSENT, y: ABSENT, z: f32::NAN, ..at(NAV_WAYPOINT, 0, 0, 0.0) };
@@ -159,7 +163,7 @@ fn acceptance_radii_are_within_reason() {
         [(0.0, "0.2"), (f32::NAN, "0.2"), (0.01, "0.1"), (0.5, "0.5"), (9.0, "1")]
     {
         let way_point = Item { param2, ..at(NAV_WAYPOINT, 1, 0, 1.0) };
-        let text = translated(&[way_point]).commands_from(0, true).text;
+        let text = written(&translated(&[way_point]).steps_from(0, true));
         assert!(text.contains(&format!("setInitialReachDist {expected}\n")), "{text}");
     }
 }
@@ -176,7 +180,9 @@ fn way_points_of_all_frames_are_understood() {
         let (x, y, z) = origin.fields(Frame::from_number(frame).unwrap(), &place);
         let way_point = Item { x, y, z, param4: yaw, ..item(0, frame, NAV_WAYPOINT) };
         let translated = translated_by(&[way_point], &rules).unwrap();
-        let Action::GoTo { pose, .. } = translated.steps[0].action else { panic!("no way") };
+        let Some(Command::GoTo(pose)) = translated.steps.last().map(|step| step.command) else {
+            panic!("no way")
+        };
         assert!((pose.x_m - 1.0).abs() < 0.012 && (pose.y_m - 2.0).abs() < 0.012, "{pose:?}");
         assert!((pose.z_m - 1.5).abs() < 1e-4 && (pose.yaw_deg - 90.0).abs() < 1e-9, "{pose:?}");
     }
@@ -192,12 +198,12 @@ fn way_points_of_all_frames_are_understood() {
 #[test]
 fn a_loiter_stays_at_its_place_or_here() {
     let loiter = Item { param1: 5.0, param4: 1.0, ..at(NAV_LOITER_TIME, 1, 0, 1.0) };
-    let text = translated(&[loiter]).commands_from(0, true).text;
+    let text = written(&translated(&[loiter]).steps_from(0, true));
     assert!(text.ends_with("setStayTime 5\ngoto 1 0 1 0\n"), "{text}");
     let here = Item { param1: 7.0, ..item(0, RELATIVE, NAV_LOITER_TIME) };
-    let text = translated(&[loiter, here]).commands_from(0, true).text;
+    let text = written(&translated(&[loiter, here]).steps_from(0, true));
     assert!(text.ends_with("setStayTime 7\ngoto 1 0 1 0\n"), "{text}");
-    let text = translated(&[here]).commands_from(0, true).text;
+    let text = written(&translated(&[here]).steps_from(0, true));
     assert!(text.ends_with("setStayTime 7\nmoveByRel 0 0 0 0\n"), "{text}");
     // Higher at the same place.
     let above = Item { z: 2.0, ..here };
@@ -224,7 +230,7 @@ fn a_delay_stays() {
     let delay = Item { param1: 3.0, param2: -1.0, ..item(0, MISSION, NAV_DELAY) };
     for command in [NAV_DELAY, CONDITION_DELAY] {
         let text =
-            translated(&[take_off(), Item { command, ..delay }]).commands_from(0, false).text;
+            written(&translated(&[take_off(), Item { command, ..delay }]).steps_from(0, false));
         assert!(text.ends_with("goto 0 0 1.5 0\nsetStayTime 3\ngoto 0 0 1.5 0\n"), "{text}");
     }
     let clock = Item { param1: -1.0, ..delay };
@@ -243,7 +249,7 @@ fn a_turn_is_on_the_spot() {
     };
     let facing = Item { param4: 90.0, ..at(NAV_WAYPOINT, 1, 0, 1.0) };
     let last = |turn| {
-        let text = translated(&[facing, turn]).commands_from(1, true).text;
+        let text = written(&translated(&[facing, turn]).steps_from(1, true));
         let yaws = text.lines().filter_map(|line| line.strip_prefix("goto 1 0 1 "));
         yaws.map(|yaw| yaw.parse().unwrap()).collect::<Vec<f64>>()
     };
@@ -278,7 +284,7 @@ fn the_speed_is_limited() {
     {
         let rules = Rules { max_speed_m_s: 1.5, ..RULES };
         let mission = [way_point, speed(1.0, 0.5), speed(0.0, wanted), way_point];
-        let text = translated_by(&mission, &rules).unwrap().commands_from(3, true).text;
+        let text = written(&translated_by(&mission, &rules).unwrap().steps_from(3, true));
         assert!(text.contains(&format!("setSpeed {expected}\n")), "{wanted}: {text}");
     }
     assert_problem(&[speed(2.0, 1.0)], result::INVALID_PARAM1, "parameter 1 is 2");
@@ -390,9 +396,9 @@ fn the_home_of_mavproxy_is_no_way_point() {
     let (x, y) = (473_977_420, 85_455_940);
     let home = Item { x, y, z: 488.0, current: 1, ..item(0, 0, NAV_WAYPOINT) };
     let mission = numbered(&[home, take_off()]);
-    let program = translate(&mission, MAVPROXY, &RULES).unwrap().commands_from(0, false);
-    assert!(!program.text.contains("goto 0 0 0.3"), "{}", program.text);
-    assert_eq!(program.items.iter().max(), Some(&1));
+    let steps = translate(&mission, MAVPROXY, &RULES).unwrap().steps_from(0, false);
+    assert!(!written(&steps).contains("goto 0 0 0.3"), "{steps:?}");
+    assert_eq!(steps.iter().map(|step| step.item).max(), Some(1));
     // Others mean a place by it, and so does MAVProxy in other frames, later, or further away.
     assert!(translate(&mission, GCS, &RULES).is_err());
     for other in [
@@ -436,30 +442,28 @@ fn any_item() -> impl Strategy<Value = Item> {
         })
 }
 
-/// Checks a program as the plan language would, with the numbers as written.
-fn assert_flies(program: &Program, mut airborne: bool) {
-    assert_eq!(program.text.lines().count(), program.items.len());
-    assert!(program.items.is_sorted());
+/// Checks steps as the plan language would.
+fn assert_flies(steps: &[Step], mut airborne: bool) {
+    assert!(steps.is_sorted_by_key(|step| step.item));
+    let lines = written(steps).lines().count();
+    assert_eq!(lines, steps.len());
     let mut has_landed = false;
-    for line in program.text.lines() {
-        let mut words = line.split(' ');
-        let word = words.next().unwrap();
-        let numbers: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
-        match (word, &numbers[..]) {
-            ("setReference", []) => assert_eq!(line, "setReference $START$"),
-            ("takeoff", []) => assert!(!std::mem::replace(&mut airborne, true)),
-            ("setSpeed", &[speed_m_s]) => assert!((0.1..=2.2).contains(&speed_m_s)),
-            ("setInitialReachDist", &[reach_m]) => assert!((0.1..=1.0).contains(&reach_m)),
-            ("setStayWithinDist", &[stay_m]) => assert!((0.5..=1.3).contains(&stay_m)),
-            ("setStayTime", &[stay_s]) => assert!((0.0..=600.0).contains(&stay_s)),
-            ("goto", &[x_m, y_m, z_m, yaw_deg]) => {
+    for step in steps {
+        match step.command {
+            Command::SetReferenceStart => {}
+            TAKE_OFF => assert!(!std::mem::replace(&mut airborne, true)),
+            Command::SetSpeed { speed_m_s } => assert!((0.1..=2.2).contains(&speed_m_s)),
+            Command::SetReachDistance { distance_m } => assert!((0.1..=1.0).contains(&distance_m)),
+            Command::SetStayDistance { distance_m } => assert!((0.5..=1.3).contains(&distance_m)),
+            Command::SetStayTime { time_s } => assert!((0.0..=600.0).contains(&time_s)),
+            Command::GoTo(Pose { x_m, y_m, z_m, yaw_deg }) => {
                 assert!(airborne && !has_landed);
-                assert!(x_m.hypot(y_m) <= 10.0 && (0.3..=3.0).contains(&z_m), "{line}");
-                assert!((-180.0..=180.0).contains(&yaw_deg), "{line}");
+                assert!(x_m.hypot(y_m) <= 10.0 && (0.3..=3.0).contains(&z_m), "{step:?}");
+                assert!((-180.0..=180.0).contains(&yaw_deg), "{step:?}");
             }
-            ("moveByRel", &[0.0, 0.0, 0.0, 0.0]) => assert!(airborne),
-            ("land", []) => assert!(airborne && !std::mem::replace(&mut has_landed, true)),
-            _ => panic!("unknown: {line}"),
+            Command::MoveByRelative(by) => assert!(airborne && by == Pose::default()),
+            Command::Land => assert!(airborne && !std::mem::replace(&mut has_landed, true)),
+            _ => panic!("unknown: {step:?}"),
         }
     }
 }
@@ -476,10 +480,10 @@ proptest! {
         for items in std::iter::once(&whole[..]).chain(whole.chunks(1)) {
             match translated_by(items, &RULES) {
                 Ok(translated) => {
-                    let program = translated.commands_from(first, airborne);
-                    prop_assert!(program.items.iter().all(|item| *item >= first));
-                    assert_flies(&program, airborne);
-                    assert_flies(&translated.commands_from(0, airborne), airborne);
+                    let steps = translated.steps_from(first, airborne);
+                    prop_assert!(steps.iter().all(|step| step.item >= first));
+                    assert_flies(&steps, airborne);
+                    assert_flies(&translated.steps_from(0, airborne), airborne);
                 }
                 Err(problem) => {
                     prop_assert!(usize::from(problem.item) < items.len());
