@@ -1,4 +1,7 @@
 //! Those to whom we speak: the remotes that were given, and others who have spoken to us.
+//!
+//! A silence here is that of an address, whose slot is needed for others. When an operator counts as gone is judged by
+//! `mavlink-vehicle`'s stations.
 
 use std::net::SocketAddr;
 use std::time::Duration;

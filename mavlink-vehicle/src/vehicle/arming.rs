@@ -38,9 +38,20 @@ pub(super) struct Arming {
     armed: Option<(Duration, Operator)>,
     /// What will be done when it is armed.
     pending: Option<Pending>,
+    /// Who has the controls, as long as that is known better than by the vehicle's last status.
+    pub(super) controls: Option<Controls>,
 }
 
+/// An operator who has the controls, or nobody.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Controls(Option<Operator>);
+
 impl Arming {
+    /// Somebody else has taken the controls, who does not expect that a take-off follows.
+    pub(super) fn of_another(by: Operator) -> Self {
+        Self { controls: Some(Controls(Some(by))), ..Self::default() }
+    }
+
     pub(super) fn is_armed(&self) -> bool {
         self.armed.is_some()
     }
@@ -52,13 +63,18 @@ impl Arming {
 }
 
 impl MavlinkVehicle {
+    /// The operator who has the controls.
+    pub(super) fn holder(&self) -> Option<Operator> {
+        match self.arming.controls {
+            Some(Controls(holder)) => holder,
+            None => self.present().and_then(|status| status.controls),
+        }
+    }
+
     /// An operator has armed the vehicle: what waited for it is done.
     pub(super) fn armed_by(&mut self, now: Duration, by: Operator) {
         self.arming.armed = Some((now + ARMED_TIME, by));
-        // Known before the next status says so.
-        if let Some((_, status)) = &mut self.status {
-            status.controls = Some(by);
-        }
+        self.arming.controls = Some(Controls(Some(by)));
         self.say(MavSeverity::MAV_SEVERITY_INFO, format_args!("armed by {by}"));
         // Whoever takes the controls does not expect that another's take-off follows.
         let pending = self.arming.pending.take();
@@ -86,9 +102,8 @@ impl MavlinkVehicle {
     }
 
     pub(super) fn disarm(&mut self) {
-        // The vehicle's status may not say yet that this one has the controls.
-        let armed = self.arming.armed;
-        self.arming = Arming::default();
+        let armed = self.arming.armed.take();
+        self.arming.give_up();
         self.following = Following::default();
         match armed {
             Some((_, by)) => self.release_of(by),
@@ -98,7 +113,7 @@ impl MavlinkVehicle {
 
     /// Whoever has the controls by `MAVLink` gives them back.
     pub(super) fn release(&mut self) {
-        if let Some(holder) = self.present().and_then(|status| status.controls)
+        if let Some(holder) = self.holder()
             && holder.station == Kind::Mavlink
         {
             self.release_of(holder);
@@ -107,10 +122,7 @@ impl MavlinkVehicle {
 
     fn release_of(&mut self, holder: Operator) {
         self.order_quietly(holder, OperatorOrder::Release);
-        // Known before the next status says so.
-        if let Some((_, status)) = &mut self.status {
-            status.controls = status.controls.filter(|controls| *controls != holder);
-        }
+        self.arming.controls = Some(Controls(self.holder().filter(|other| *other != holder)));
     }
 
     /// Neither arming nor a take-off that waits for it lasts.

@@ -73,10 +73,6 @@ pub struct MavlinkVehicle {
     arming: Arming,
     following: Following,
     awaited: ArrayVec<Awaited, 16>,
-    /// The operator who gave the last order, and where.
-    ordered_at: Option<(Operator, u8)>,
-    /// When the vehicle was last told that the station with the controls is there.
-    presence: Option<Duration>,
     next_ticket: u32,
     /// Mode and arming that were told last.
     told: Option<(Mode, bool)>,
@@ -106,8 +102,6 @@ impl MavlinkVehicle {
             arming: Arming::default(),
             following: Following::default(),
             awaited: ArrayVec::new(),
-            ordered_at: None,
-            presence: None,
             next_ticket: 0,
             told: None,
             config,
@@ -192,6 +186,7 @@ impl MavlinkVehicle {
     fn take_status(&mut self, now: Duration, status: &Status) {
         let flew = self.is_flying();
         self.status = Some((now, *status));
+        self.arming.controls = None;
         // Somebody elsewhere has stepped in, who does not expect that a take-off follows.
         if status.controls.is_some_and(|holder| holder.station != Kind::Mavlink) {
             self.arming.give_up();
@@ -221,7 +216,7 @@ impl MavlinkVehicle {
         match event {
             FlightEvent::StepStarted { .. } => return,
             // Whoever takes the controls does not expect that another's take-off follows.
-            FlightEvent::ControlsTaken { .. } => self.arming = Arming::default(),
+            FlightEvent::ControlsTaken { by } => self.arming = Arming::of_another(*by),
             FlightEvent::StepDone { step } => {
                 if let Some(seq) = self.flown.step_done(*step) {
                     let reached = MISSION_ITEM_REACHED_DATA { seq };

@@ -8,15 +8,13 @@ use kinematics::Pose;
 
 use super::following::Source;
 use super::modes::Purpose;
-use super::stations::{GONE_AFTER, Station};
+use super::stations::Station;
 use super::{MavlinkVehicle, ORDERS, Ticket, To};
 use crate::dialect::{COMMAND_ACK_DATA, MavMessage, MavResult};
 use crate::mission::{SHORT_STAY_S, Step, TAKE_OFF, short, short_pose};
 
 /// A command is answered after this time even if the vehicle has not answered.
 const ANSWER_TIME: Duration = Duration::from_millis(300);
-/// The vehicle hears so often of a station that has the controls and is heard.
-const PRESENT_EVERY: Duration = Duration::from_millis(250);
 
 /// What follows an order that was accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,7 +84,7 @@ impl MavlinkVehicle {
         orders: impl IntoIterator<Item = OperatorOrder>,
     ) {
         self.take_over_from_silent(now, station.operator());
-        self.ordered_at = Some((station.operator(), station.peer));
+        self.stations.orders(station);
         let ticket = self.ticket();
         let mut left = 0;
         let mut may_fly = false;
@@ -114,30 +112,19 @@ impl MavlinkVehicle {
         });
     }
 
-    /// When an operator was last heard where he gives his orders.
-    fn last_heard(&self, operator: Operator) -> Option<Duration> {
-        let ordered = self.ordered_at.filter(|(by, _)| *by == operator);
-        self.stations.last_heard(operator, ordered.map(|(_, peer)| peer))
-    }
-
-    /// Whether an operator at a `MAVLink` station has been silent for so long that another may have the controls.
-    fn is_gone(&self, now: Duration, operator: Operator) -> bool {
-        let heard = self.last_heard(operator);
-        operator.station == Kind::Mavlink
-            && heard.is_none_or(|at| now.saturating_sub(at) >= GONE_AFTER)
-    }
-
     /// Whether somebody else has the controls, and is there.
     pub(super) fn is_others(&self, station: Station) -> bool {
-        let Some((at, status)) = &self.status else { return false };
-        let other = status.controls.filter(|holder| *holder != station.operator());
-        other.is_some_and(|holder| !self.is_gone(*at, holder))
+        let Some((at, _)) = &self.status else { return false };
+        let other = self.holder().filter(|holder| *holder != station.operator());
+        other.is_some_and(|holder| !self.stations.is_gone(*at, holder))
     }
 
     /// The controls of a station that has been silent for some time go to one that gives an order.
     fn take_over_from_silent(&mut self, now: Duration, by: Operator) {
-        let Some(holder) = self.present().and_then(|status| status.controls) else { return };
-        if holder != by && self.is_gone(now, holder) {
+        if let Some(holder) = self.holder()
+            && holder != by
+            && self.stations.is_gone(now, holder)
+        {
             self.order_quietly(holder, OperatorOrder::Release);
         }
     }
@@ -262,17 +249,13 @@ impl MavlinkVehicle {
     /// Tells the vehicle of the station that has the controls, or else of the one that ordered last, while that is heard, and
     /// lets go of the controls on the ground if it is not.
     pub(super) fn watch_stations(&mut self, now: Duration) {
-        let holder = self.present().and_then(|status| status.controls);
-        let holder = holder.filter(|holder| holder.station == Kind::Mavlink);
-        let ordered = self.ordered_at.map(|(by, _)| by).filter(|_| self.is_flying());
+        let holder = self.holder().filter(|holder| holder.station == Kind::Mavlink);
+        let ordered = self.stations.ordered().filter(|_| self.is_flying());
         let Some(watched) = holder.or(ordered) else { return };
-        if self.last_heard(watched).is_some_and(|at| {
-            self.presence.is_none_or(|told| at > told && now.saturating_sub(told) >= PRESENT_EVERY)
-        }) {
-            self.presence = Some(now);
+        if self.stations.tells_presence(now, watched) {
             self.order_quietly(watched, OperatorOrder::Present);
         }
-        if holder.is_some_and(|holder| self.is_gone(now, holder)) && !self.is_armed() {
+        if holder.is_some_and(|holder| self.stations.is_gone(now, holder)) && !self.is_armed() {
             self.release();
         }
     }

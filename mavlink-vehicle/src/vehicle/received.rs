@@ -248,7 +248,7 @@ impl MavlinkVehicle {
 
     /// Passes a set-point on that is followed.
     fn pass_on(&mut self, station: Station, setpoint: Setpoint) {
-        self.ordered_at = Some((station.operator(), station.peer));
+        self.stations.orders(station);
         self.order_quietly(station.operator(), OperatorOrder::Setpoint(setpoint));
     }
 
