@@ -1,47 +1,131 @@
-//! Drives a vehicle with a simulated drone; the counterpart of [`flight`](crate::flight) in simulated time.
+//! Drives a vehicle: passes on what arrives, ticks, sends, and shows all that passes to a tee.
+//!
+//! It is the same over UDP in real time ([`flight`](crate::flight)) and with a simulated drone: only the
+//! [`Surroundings`] differ.
 
 use std::time::Duration;
 
 use ardrone_link::WAKE_UP;
 use autopilot::Vehicle;
-use autopilot::vehicle::{Input, Operator, OperatorOrder, Output, Refused, TICK, Transmit};
+use autopilot::vehicle::{
+    Input, Operator, OperatorOrder, Output, Refused, Stage, TICK, Telemetry, Transmit,
+};
 use mock_drone::{Message, World, WorldConfig};
 
-/// Interval of handling navdata; the drone's own steps are finer.
-pub const POLL: Duration = Duration::from_millis(5);
+/// What a vehicle is connected to, with its clock.
+pub trait Surroundings {
+    /// Time since the beginning.
+    fn now(&self) -> Duration;
 
-/// A vehicle and its world, with their common time.
-#[derive(Debug)]
-pub struct Driver {
-    /// The vehicle.
-    pub vehicle: Vehicle,
-    /// The drone and the air around it.
-    pub world: World,
-    now: Duration,
-    next_tick: Duration,
+    /// Lets time pass: at most until then, and no longer than until something has arrived.
+    fn wait(&mut self, until: Duration);
+
+    /// A tick begins that was due at `deadline`, after others that were missed.
+    fn begin_tick(&mut self, now: Duration, deadline: Duration, missed: u64) {
+        _ = (now, deadline, missed);
+    }
+
+    /// Passes on what has arrived: before a tick, or else until `until`.
+    fn receive(&mut self, now: Duration, until: Option<Duration>, take: impl Take);
+
+    /// A stage of the tick has ended.
+    fn done(&mut self, stage: Stage) {
+        _ = stage;
+    }
+
+    /// Sends something to the drone.
+    fn send(&mut self, now: Duration, transmit: Transmit<'_>);
 }
 
-/// Inputs and outputs of the vehicle, as a recording contains them.
+/// Takes an input; refuses as [`Vehicle::handle`].
+pub trait Take: FnMut(Duration, Input<'_>) -> Result<(), Refused> {}
+
+impl<F: FnMut(Duration, Input<'_>) -> Result<(), Refused>> Take for F {}
+
+/// What passes a vehicle, as a recording contains it.
 #[derive(Debug)]
 pub enum Passed<'a> {
-    /// From the drone's navdata port.
-    Navdata(&'a [u8]),
-    /// From the drone's control port.
-    Control(&'a str),
-    /// An output of the vehicle; datagrams have been delivered.
-    Output(Output<'a>),
+    /// An input, and whether it was accepted.
+    Input(Input<'a>, bool),
+    /// A datagram was sent to the drone.
+    Sent {
+        /// It.
+        transmit: Transmit<'a>,
+        /// Delay of its tick after the deadline.
+        late: Duration,
+        /// Time from the begin of the tick until it was sent.
+        work: Duration,
+    },
+    /// The vehicle tells something.
+    Told(Telemetry),
 }
 
-impl Driver {
+/// A vehicle and what it is connected to.
+#[derive(Debug)]
+pub struct Driver<S> {
+    /// The vehicle.
+    pub vehicle: Vehicle,
+    /// What it is connected to.
+    pub surroundings: S,
+    /// When the next tick is due.
+    deadline: Duration,
+}
+
+impl<S: Surroundings> Driver<S> {
     /// A driver at time zero.
-    pub fn new(vehicle: Vehicle, world: &WorldConfig) -> Self {
-        let world = World::new(world);
-        Self { vehicle, world, now: Duration::ZERO, next_tick: Duration::ZERO }
+    pub fn over(vehicle: Vehicle, surroundings: S) -> Self {
+        Self { vehicle, surroundings, deadline: Duration::ZERO }
     }
 
     /// Time since the beginning.
     pub fn now(&self) -> Duration {
-        self.now
+        self.surroundings.now()
+    }
+
+    /// Handles what has arrived by now, and ticks if a tick is due; returns whether it was. A missed deadline is skipped,
+    /// never caught up, because the drone needs only the newest command.
+    pub fn step(&mut self, mut tee: impl FnMut(Duration, Passed<'_>)) -> bool {
+        let now = self.surroundings.now();
+        let is_due = now >= self.deadline;
+        let deadline = self.deadline;
+        if is_due {
+            let missed = self.skip_missed(now);
+            self.surroundings.begin_tick(now, self.deadline, missed);
+            self.deadline += TICK;
+        }
+        let until = (!is_due).then_some(deadline);
+        let vehicle = &mut self.vehicle;
+        self.surroundings.receive(now, until, |now, input| handle(vehicle, now, input, &mut tee));
+        if is_due {
+            let late = now.saturating_sub(self.deadline.saturating_sub(TICK));
+            self.tick(now, late, tee);
+        }
+        is_due
+    }
+
+    fn tick(&mut self, begun: Duration, late: Duration, mut tee: impl FnMut(Duration, Passed<'_>)) {
+        let now = self.surroundings.now();
+        let surroundings = &mut self.surroundings;
+        // A tick is never refused.
+        _ = self.vehicle.handle_timed(now, Input::Tick, |stage| surroundings.done(stage));
+        while let Some(output) = self.vehicle.poll() {
+            tee(
+                now,
+                match output {
+                    Output::Transmit(transmit) => {
+                        surroundings.send(now, transmit);
+                        let work = surroundings.now().saturating_sub(begun);
+                        Passed::Sent { transmit, late, work }
+                    }
+                    Output::Telemetry(telemetry) => Passed::Told(telemetry),
+                },
+            );
+        }
+    }
+
+    /// Lets time pass until the next tick is due, or something has arrived.
+    pub fn pass(&mut self) {
+        self.surroundings.wait(self.deadline);
     }
 
     /// Gives an operator's order.
@@ -49,60 +133,131 @@ impl Driver {
     /// # Errors
     /// [`Refused`] if the vehicle refuses it.
     pub fn order(&mut self, by: Operator, order: OperatorOrder) -> Result<(), Refused> {
-        self.vehicle.order(self.now, by, order)
+        self.handle(Input::Order(by, order), |_, _| {})
     }
 
-    /// Handles all input of the present time, and ticks if a tick is due; returns whether it was. Time does
-    /// not advance, so that the state after the tick can be inspected.
-    pub fn step(&mut self, mut tee: impl FnMut(Passed<'_>)) -> bool {
-        let now = self.now;
+    /// Passes on an input that does not come from the surroundings.
+    ///
+    /// # Errors
+    /// As [`Vehicle::handle`].
+    pub fn handle(
+        &mut self,
+        input: Input<'_>,
+        tee: impl FnMut(Duration, Passed<'_>),
+    ) -> Result<(), Refused> {
+        let now = self.now();
+        handle(&mut self.vehicle, now, input, tee)
+    }
+
+    /// When the next tick is due, which is taken to be done then.
+    pub(crate) fn next_tick(&mut self) -> Duration {
+        self.skip_missed(self.now());
+        let deadline = self.deadline;
+        self.deadline += TICK;
+        deadline
+    }
+
+    /// Moves the deadline to the last one that has passed; returns the number missed before it.
+    fn skip_missed(&mut self, now: Duration) -> u64 {
+        let mut missed = 0;
+        while self.deadline + TICK <= now {
+            self.deadline += TICK;
+            missed += 1;
+        }
+        missed
+    }
+}
+
+/// Passes an input to a vehicle, and to the tee with whether it was accepted.
+pub(crate) fn handle(
+    vehicle: &mut Vehicle,
+    now: Duration,
+    input: Input<'_>,
+    mut tee: impl FnMut(Duration, Passed<'_>),
+) -> Result<(), Refused> {
+    let handled = vehicle.handle(now, input.clone());
+    tee(now, Passed::Input(input, handled.is_ok()));
+    handled
+}
+
+/// Interval of handling navdata in simulated time; the drone's own steps are finer.
+pub const POLL: Duration = Duration::from_millis(5);
+
+/// A simulated drone and the air around it, in simulated time.
+#[derive(Debug)]
+pub struct Simulated {
+    /// The drone and the air around it.
+    pub world: World,
+    now: Duration,
+}
+
+impl Surroundings for Simulated {
+    fn now(&self) -> Duration {
+        self.now
+    }
+
+    fn wait(&mut self, _until: Duration) {
+        self.now += POLL;
+    }
+
+    fn receive(&mut self, now: Duration, _until: Option<Duration>, mut take: impl Take) {
         self.world.advance(now);
         while let Some(message) = self.world.receive(now) {
-            match &message {
-                Message::Navdata(packet) => {
-                    self.vehicle.handle(now, Input::Navdata(packet));
-                    tee(Passed::Navdata(packet));
-                }
-                Message::Control(dump) => {
-                    self.vehicle.handle(now, Input::Control(dump.as_bytes()));
-                    tee(Passed::Control(dump));
-                }
-            }
+            // What is damaged is only counted.
+            _ = match &message {
+                Message::Navdata(packet) => take(now, Input::Navdata(packet)),
+                Message::Control(dump) => take(now, Input::Control(dump.as_bytes())),
+            };
         }
-        if !self.is_tick_due() {
-            return false;
+    }
+
+    fn send(&mut self, now: Duration, transmit: Transmit<'_>) {
+        match transmit {
+            Transmit::Command { datagram, .. } => self.world.send_at(now, datagram),
+            Transmit::WakeUp => self.world.send_wake_up(now, &WAKE_UP),
         }
-        self.vehicle.tick(now);
-        while let Some(output) = self.vehicle.poll() {
-            match &output {
-                Output::Transmit(Transmit::Command { datagram, .. }) => {
-                    self.world.send_at(now, datagram);
-                }
-                Output::Transmit(Transmit::WakeUp) => self.world.send_wake_up(now, &WAKE_UP),
-                _ => {}
-            }
-            tee(Passed::Output(output));
-        }
-        true
+    }
+}
+
+impl Driver<Simulated> {
+    /// A vehicle with a simulated drone.
+    pub fn new(vehicle: Vehicle, world: &WorldConfig) -> Self {
+        Self::over(vehicle, Simulated { world: World::new(world), now: Duration::ZERO })
+    }
+
+    /// The drone and the air around it.
+    pub fn world(&self) -> &World {
+        &self.surroundings.world
     }
 
     /// Simulates a program that does not run: the world advances, and input is queued. Returns whether a tick
     /// was missed.
     pub fn stall(&mut self) -> bool {
-        self.world.advance(self.now);
-        self.is_tick_due()
-    }
-
-    /// Advances the time.
-    pub fn pass(&mut self) {
-        self.now += POLL;
-    }
-
-    fn is_tick_due(&mut self) -> bool {
-        let due = self.now >= self.next_tick;
-        if due {
-            self.next_tick += TICK;
+        let now = self.now();
+        self.surroundings.world.advance(now);
+        let is_due = now >= self.deadline;
+        if is_due {
+            self.deadline += TICK;
         }
-        due
+        is_due
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use autopilot::vehicle::VehicleConfig;
+
+    use super::*;
+
+    #[test]
+    fn missed_deadlines_are_counted_and_skipped() {
+        let ms = Duration::from_millis;
+        let vehicle = Vehicle::new(&VehicleConfig::default()).unwrap();
+        let mut driver = Driver::new(vehicle, &WorldConfig::default());
+        driver.deadline = ms(30);
+        assert_eq!(driver.skip_missed(ms(59)), 0);
+        assert_eq!(driver.deadline, ms(30));
+        assert_eq!(driver.skip_missed(ms(125)), 3);
+        assert_eq!(driver.deadline, ms(120));
     }
 }

@@ -1,14 +1,16 @@
 //! JSON objects for programs and browsers, each with its `type`.
 
 use std::fmt::Write as _;
+use std::time::Duration;
 
 use autopilot::plan::Step;
-use autopilot::vehicle::{CrossCheck, FlightEvent, FlightReport, ManualControl, Status};
+use autopilot::vehicle::{CrossCheck, FlightEvent, FlightReport, ManualControl, Status, Telemetry};
 use diagnostic::is_printable;
 use serde_json::{Value, json};
 
 use crate::flight::{FinishedFlight, Message};
 use crate::recording::{GpsPosition, Place, Recorded, Tags};
+use crate::timing::TickHealth;
 
 /// A value as text that is safe anywhere: on a terminal, in a page, in a script. Characters with a meaning
 /// there are written as escapes like `\u003c`, which are equivalent in JSON.
@@ -42,10 +44,27 @@ fn escaped(json: &str) -> String {
 pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
     match message {
         Message::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
-        Message::Event(at, FlightEvent::Landed) => {
+        Message::Telemetry(at, Telemetry::Status(status), ticks) => {
+            self::status(*at, status, *ticks)
+        }
+        Message::Telemetry(at, told, _) => telemetry(*at, told, steps),
+        Message::Trouble(at, trouble) => json!({
+            "type": "event",
+            "t_s": at.as_secs_f64(),
+            "warning": true,
+            "text": trouble.to_string(),
+            "step": null,
+            "command": null,
+        }),
+    }
+}
+
+fn telemetry(at: Duration, telemetry: &Telemetry, steps: &[Step]) -> Value {
+    match telemetry {
+        Telemetry::Event(FlightEvent::Landed) => {
             json!({ "type": "landed", "t_s": at.as_secs_f64() })
         }
-        Message::Event(at, event) => {
+        Telemetry::Event(event) => {
             let step = match event {
                 FlightEvent::StepStarted { step } | FlightEvent::StepDone { step } => Some(*step),
                 _ => None,
@@ -60,26 +79,18 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
                 "command": command,
             })
         }
-        Message::Trouble(at, trouble) => json!({
-            "type": "event",
-            "t_s": at.as_secs_f64(),
-            "warning": true,
-            "text": trouble.to_string(),
-            "step": null,
-            "command": null,
-        }),
-        Message::Mission { name, steps, .. } => json!({
+        Telemetry::Mission { name, steps, .. } => json!({
             "type": "mission",
             "name": name,
             "steps": steps.iter().map(|step| step.text.as_str()).collect::<Vec<_>>(),
         }),
-        Message::Readiness(at, reasons) => json!({
+        Telemetry::Readiness(reasons) => json!({
             "type": "ready",
             "t_s": at.as_secs_f64(),
             "ready": reasons.is_empty(),
             "reasons": reasons.iter().map(ToString::to_string).collect::<Vec<_>>(),
         }),
-        Message::Ended(at, outcome, report) => json!({
+        Telemetry::Ended(outcome, report) => json!({
             "type": "flight_ended",
             "t_s": at.as_secs_f64(),
             "outcome": outcome.to_string(),
@@ -90,7 +101,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
             "final_error_m": report.final_error_m(),
             "known": known(report),
         }),
-        Message::Waypoint(waypoint) => json!({
+        Telemetry::Waypoint(waypoint) => json!({
             "type": "target",
             "t_s": waypoint.at.as_secs_f64(),
             "step": waypoint.step,
@@ -98,47 +109,51 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
             "reached": Place::from(&waypoint.pose),
             "error_m": waypoint.error_m(),
         }),
-        Message::Status(at, status, ticks) => {
-            let Status { phase, step, steps, target, distance_m, battery_percent, .. } = status;
-            json!({
-                "type": "status",
-                "t_s": at.as_secs_f64(),
-                "phase": phase.name(),
-                "landing": status.landing.map(|reason| reason.to_string()),
-                "emergency": status.emergency,
-                "step": step,
-                "steps": steps,
-                "mission_waits": status.mission_waits,
-                "manual": status.manual.map(ManualControl::name),
-                "controls": status.controls.map(|operator| operator.to_string()),
-                "pose": status.pose.map(|pose| Place::from(&pose)),
-                "velocity_m_s": status.velocity_m_s,
-                "target": target.map(|target| Place::from(&target)),
-                "distance_m": distance_m,
-                "battery_percent": battery_percent,
-                "horizontal_deviation_m": status.horizontal_deviation_m,
-                "horizontal_deviation_holds": status.rests_on.to_string(),
-                "rests_on": status.rests_on.name(),
-                "contradicted_by": status.contradicted_by.map(CrossCheck::name),
-                "vertical_deviation_m": status.vertical_deviation_m,
-                "tags": status.tags.as_ref().map(|tags| json!({
-                    "known": tags.known.count(),
-                    "map": Tags::from(tags).tags,
-                    "seen_s": tags.seen_ago.map(|ago| ago.as_secs_f64()),
-                    "heading_held": tags.heading_held,
-                    "drift_m": [tags.drift_m.x, tags.drift_m.y],
-                })),
-                "gps": status.gps.map(GpsPosition::from),
-                "attitude_deg": status.attitude_deg,
-                "navdata_hz": status.navdata_hz,
-                "navdata_age_s": status.navdata_age.map(|age| age.as_secs_f64()),
-                "tick_late_s": ticks.lateness.as_secs_f64(),
-                "ticks_skipped": ticks.skipped,
-                "order": status.command,
-                "plans": status.plans.places().map(|(line, _)| line).collect::<Vec<_>>(),
-            })
-        }
+        // With the timing of the ticks.
+        Telemetry::Status(status) => self::status(at, status, TickHealth::default()),
     }
+}
+
+/// The vehicle's status.
+fn status(at: Duration, status: &Status, ticks: TickHealth) -> Value {
+    let Status { phase, step, steps, target, distance_m, battery_percent, .. } = status;
+    json!({
+        "type": "status",
+        "t_s": at.as_secs_f64(),
+        "phase": phase.name(),
+        "landing": status.landing.map(|reason| reason.to_string()),
+        "emergency": status.emergency,
+        "step": step,
+        "steps": steps,
+        "mission_waits": status.mission_waits,
+        "manual": status.manual.map(ManualControl::name),
+        "controls": status.controls.map(|operator| operator.to_string()),
+        "pose": status.pose.map(|pose| Place::from(&pose)),
+        "velocity_m_s": status.velocity_m_s,
+        "target": target.map(|target| Place::from(&target)),
+        "distance_m": distance_m,
+        "battery_percent": battery_percent,
+        "horizontal_deviation_m": status.horizontal_deviation_m,
+        "horizontal_deviation_holds": status.rests_on.to_string(),
+        "rests_on": status.rests_on.name(),
+        "contradicted_by": status.contradicted_by.map(CrossCheck::name),
+        "vertical_deviation_m": status.vertical_deviation_m,
+        "tags": status.tags.as_ref().map(|tags| json!({
+            "known": tags.known.count(),
+            "map": Tags::from(tags).tags,
+            "seen_s": tags.seen_ago.map(|ago| ago.as_secs_f64()),
+            "heading_held": tags.heading_held,
+            "drift_m": [tags.drift_m.x, tags.drift_m.y],
+        })),
+        "gps": status.gps.map(GpsPosition::from),
+        "attitude_deg": status.attitude_deg,
+        "navdata_hz": status.navdata_hz,
+        "navdata_age_s": status.navdata_age.map(|age| age.as_secs_f64()),
+        "tick_late_s": ticks.lateness.as_secs_f64(),
+        "ticks_skipped": ticks.skipped,
+        "order": status.command,
+        "plans": status.plans.places().map(|(line, _)| line).collect::<Vec<_>>(),
+    })
 }
 
 /// The end of the flight.

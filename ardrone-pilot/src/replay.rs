@@ -99,11 +99,12 @@ impl Replay {
         let mut parted = false;
         for (at, entry) in &log.entries {
             match entry {
-                Entry::Navdata(packet) => vehicle.handle(*at, Input::Navdata(packet)),
-                Entry::Control(bytes) => vehicle.handle(*at, Input::Control(bytes)),
+                // What was refused is refused again.
+                Entry::Navdata(packet) => _ = vehicle.handle(*at, Input::Navdata(packet)),
+                Entry::Control(bytes) => _ = vehicle.handle(*at, Input::Control(bytes)),
                 Entry::Order(order) => {
                     let (by, order) = order.as_ref().clone().given(&config.limits)?;
-                    vehicle.handle(*at, Input::Order(by, order));
+                    _ = vehicle.handle(*at, Input::Order(by, order));
                 }
                 Entry::Decoded(_)
                 | Entry::Tags(_)
@@ -111,7 +112,7 @@ impl Replay {
                 | Entry::Event { .. }
                 | Entry::Outcome { .. } => {}
                 Entry::Tick(recorded) => {
-                    vehicle.tick(*at);
+                    _ = vehicle.handle(*at, Input::Tick);
                     while let Some(output) = vehicle.poll() {
                         if let Output::Transmit(Transmit::Command {
                             datagram,

@@ -5,7 +5,7 @@ use std::time::Duration;
 use autopilot::outcome::Outcome;
 use autopilot::plan::Plan;
 use autopilot::vehicle::{
-    CannotFly, Decision, FlightEvent, Output, Phase, SurveyedTag, Vehicle, VehicleConfig,
+    CannotFly, Decision, FlightEvent, Phase, SurveyedTag, Telemetry, Vehicle, VehicleConfig,
 };
 use kinematics::Pose;
 use mock_drone::{FloorTag, WorldConfig};
@@ -58,19 +58,19 @@ pub fn fly(
     world: &WorldConfig,
 ) -> Result<SimulatedFlight, CannotFly> {
     let mut driver = Driver::new(Vehicle::flying(plan, config)?, world);
-    let charged = driver.world.truth().battery_percent;
+    let charged = driver.world().truth().battery_percent;
     let (mut outcome, mut warnings, mut track) = (None, Vec::new(), Vec::new());
     let mut lifted: Option<Duration> = None;
     let mut landed = Duration::ZERO;
     while outcome.is_none() && driver.now() < LONGEST {
         let now = driver.now();
         let since = now.saturating_sub(lifted.unwrap_or(now));
-        driver.step(|passed| match passed {
-            Passed::Output(Output::Ended(ended)) => outcome = Some(ended.clone()),
-            Passed::Output(Output::Event(event)) if event.warns() => warnings.push((since, event)),
+        driver.step(|_, passed| match passed {
+            Passed::Told(Telemetry::Ended(ended, _)) => outcome = Some(ended),
+            Passed::Told(Telemetry::Event(event)) if event.warns() => warnings.push((since, event)),
             _ => {}
         });
-        let truth = driver.world.truth();
+        let truth = driver.world().truth();
         if driver.vehicle.decision().is_some_and(is_in_the_air) {
             lifted.get_or_insert(now);
             landed = now;
@@ -82,7 +82,7 @@ pub fn fly(
         driver.pass();
     }
     let duration = landed.saturating_sub(lifted.unwrap_or(landed));
-    let battery_percent = charged - driver.world.truth().battery_percent;
+    let battery_percent = charged - driver.world().truth().battery_percent;
     Ok(SimulatedFlight { outcome, duration, battery_percent, track, warnings })
 }
 

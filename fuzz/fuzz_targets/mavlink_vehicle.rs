@@ -3,7 +3,9 @@
 
 use std::time::Duration;
 
-use autopilot::vehicle::{OperatorOrder, Phase, Refused, Status, Vehicle, VehicleConfig};
+use autopilot::vehicle::{
+    OperatorOrder, Phase, Refused, Status, Telemetry, Vehicle, VehicleConfig,
+};
 use libfuzzer_sys::fuzz_target;
 use mavlink_core::{Message as _, calculate_crc};
 use mavlink_vehicle::dialect::{
@@ -122,7 +124,7 @@ fuzz_target!(|bytes: &[u8]| {
     let mut status = still.status(Duration::ZERO);
     let mut now = Duration::from_secs(1);
     let mut sequence = 0_u8;
-    vehicle.handle(now, Input::Readiness(&[]));
+    vehicle.handle(now, Input::Telemetry(&Telemetry::Readiness([].into())));
     let set = |status: &mut Status, phase: u8| {
         status.phase = if phase & 1 != 0 { Phase::Flying } else { Phase::Standby };
         status.airborne = phase & 3 == 3;
@@ -152,7 +154,7 @@ fuzz_target!(|bytes: &[u8]| {
                 vehicle.handle(now, Input::Datagram { peer, local: true, bytes: &bytes });
             }
         }
-        vehicle.handle(now, Input::Status(&status));
+        vehicle.handle(now, Input::Telemetry(&Telemetry::Status(status)));
         vehicle.tick(now);
         let mut outputs = 0;
         while let Some(output) = vehicle.poll(now) {

@@ -4,16 +4,16 @@
 
 use std::time::Duration;
 
-use ardrone_pilot::recording::{Record, Timing};
+use ardrone_pilot::recording::Record;
 use autopilot::outcome::Outcome;
 use autopilot::plan::Plan;
 use autopilot::vehicle::{
-    CannotFly, FlightEvent, FlightReport, Operator, OperatorOrder, Output, Status, TICK, Transmit,
+    CannotFly, FlightEvent, FlightReport, Input, Operator, OperatorOrder, Status, TICK, Telemetry,
     Vehicle, VehicleConfig,
 };
 use mock_drone::{Truth, World, WorldConfig};
 
-use ardrone_pilot::drive::{Driver, Passed};
+use ardrone_pilot::drive::{Driver, Passed, Simulated};
 
 /// A world to fly in.
 #[derive(Debug, Clone, Default)]
@@ -107,7 +107,7 @@ impl Simulation {
         watch: impl FnMut(&Moment),
     ) -> Result<SimulatedFlight, SimulationError> {
         let mut watch = watch;
-        self.run(plan, |moment, _| watch(moment), |_| {})
+        self.run(plan, |moment, _| watch(moment), |_, _| {})
     }
 
     /// As [`Simulation::fly_watched`]; `watch` also gets the world, from which it may simulate other courses.
@@ -119,7 +119,7 @@ impl Simulation {
         plan: Plan,
         watch: impl FnMut(&Moment, &World),
     ) -> Result<SimulatedFlight, SimulationError> {
-        self.run(plan, watch, |_| {})
+        self.run(plan, watch, |_, _| {})
     }
 
     /// As [`Simulation::fly`]; `record` gets every entry of a flight log.
@@ -129,16 +129,19 @@ impl Simulation {
     pub fn fly_recorded(
         &self,
         plan: Plan,
-        record: impl FnMut(Record),
+        mut record: impl FnMut(Record),
     ) -> Result<SimulatedFlight, SimulationError> {
-        self.run(plan, |_, _| {}, record)
+        let tee = |at, passed: &Passed<'_>| {
+            Record::of(at, passed, |bytes| Some(bytes.to_vec())).into_iter().for_each(&mut record);
+        };
+        self.run(plan, |_, _| {}, tee)
     }
 
     fn run(
         &self,
         plan: Plan,
         mut watch: impl FnMut(&Moment, &World),
-        mut record: impl FnMut(Record),
+        mut tee: impl FnMut(Duration, &Passed<'_>),
     ) -> Result<SimulatedFlight, SimulationError> {
         let vehicle = Vehicle::flying(plan, &self.pilot)?;
         let mut driver = Driver::new(vehicle, &self.world);
@@ -150,7 +153,7 @@ impl Simulation {
             let now = driver.now();
             if self.is_stalled(now) {
                 if driver.stall() {
-                    watch(&moment(&driver, false), &driver.world);
+                    watch(&moment(&driver, false), driver.world());
                 }
                 driver.pass();
                 continue;
@@ -160,33 +163,30 @@ impl Simulation {
             let due_too = std::iter::from_fn(|| others.next_if(|(at, ..)| now >= *at));
             for (by, order) in due.chain(due_too.map(|(_, by, order)| (*by, order))) {
                 // A refused order changes nothing.
-                _ = driver.order(by, order.clone());
-                record(Record::Order { at: now, by, order: order.clone() });
+                _ = driver.handle(Input::Order(by, order.clone()), |at, passed| tee(at, &passed));
             }
             let mut ended = None;
             let mut reached = false;
-            let ticked = driver.step(|passed| {
-                match &passed {
-                    Passed::Output(Output::Event(event)) => events.push((now, event.clone())),
-                    Passed::Output(Output::Waypoint(_)) => reached = true,
-                    Passed::Output(Output::Ended(outcome)) => ended = Some((*outcome).clone()),
+            let ticked = driver.step(|at, passed| {
+                tee(at, &passed);
+                match passed {
+                    Passed::Told(Telemetry::Event(event)) => events.push((at, event)),
+                    Passed::Told(Telemetry::Waypoint(_)) => reached = true,
+                    Passed::Told(Telemetry::Ended(outcome, _)) => ended = Some(outcome),
                     _ => {}
-                }
-                if let Some(entry) = recorded(now, passed) {
-                    record(entry);
                 }
             });
             if ticked {
-                watch(&moment(&driver, ended.is_some()), &driver.world);
+                watch(&moment(&driver, ended.is_some()), driver.world());
                 if reached {
-                    truth_at_waypoints.push(driver.world.truth());
+                    truth_at_waypoints.push(driver.world().truth());
                 }
             }
             let Some(outcome) = ended else {
                 driver.pass();
                 continue;
             };
-            let Driver { vehicle, mut world, .. } = driver;
+            let Driver { vehicle, surroundings: Simulated { mut world, .. }, .. } = driver;
             let end = now + self.aftermath;
             let mut later = now;
             while later < end {
@@ -212,22 +212,7 @@ impl Simulation {
     }
 }
 
-fn moment(driver: &Driver, is_over: bool) -> Moment {
+fn moment(driver: &Driver<Simulated>, is_over: bool) -> Moment {
     let now = driver.now();
-    Moment { now, truth: driver.world.truth(), status: driver.vehicle.status(now), is_over }
-}
-
-/// The entry of the flight log for an input or output.
-fn recorded(at: Duration, passed: Passed<'_>) -> Option<Record> {
-    Some(match passed {
-        Passed::Navdata(packet) => Record::Navdata { at, packet: packet.to_vec() },
-        Passed::Control(dump) => Record::Control { at, bytes: dump.as_bytes().to_vec() },
-        Passed::Output(Output::Transmit(Transmit::Command { datagram, decision })) => {
-            let (timing, datagram) = (Timing::default(), datagram.to_vec());
-            Record::Tick { decision: *decision?, timing, datagram }
-        }
-        Passed::Output(Output::Event(event)) => Record::Event { at, event },
-        Passed::Output(Output::Ended(outcome)) => Record::Outcome { at, outcome: outcome.clone() },
-        Passed::Output(_) => return None,
-    })
+    Moment { now, truth: driver.world().truth(), status: driver.vehicle.status(now), is_over }
 }

@@ -3,19 +3,81 @@
 use std::time::Duration;
 
 use allocation_counter::measure;
-use ardrone_pilot::recording::{Header, Recorder, Timing};
+use ardrone_link::WAKE_UP;
+use ardrone_pilot::drive::{Driver, POLL, Surroundings, Take};
+use ardrone_pilot::recording::{Header, Recorder};
 use autopilot::Vehicle;
 use autopilot::vehicle::{
-    Input, NavdataRate, Operator, OperatorOrder, Output, Phase, Place, TICK, TagConfig, Transmit,
-    VehicleConfig,
+    Input, NavdataRate, Operator, OperatorOrder, Phase, Place, TagConfig, Transmit, VehicleConfig,
 };
 use kinematics::Sticks;
 use mock_drone::{FloorTag, Message, World, WorldConfig};
 use system_tests::{SQUARE, plan};
 
-const POLL: Duration = Duration::from_millis(5);
+/// A world that works only while nothing is measured.
+struct Quiet {
+    world: World,
+    now: Duration,
+    received: Vec<Message>,
+    sent: Vec<u8>,
+    wakes_up: bool,
+}
 
-/// Counts allocations in flight. On the ground the configuration is read and compared, which allocates.
+impl Quiet {
+    fn new(config: &WorldConfig) -> Self {
+        let (received, sent) = (Vec::new(), Vec::with_capacity(4096));
+        Self { world: World::new(config), now: Duration::ZERO, received, sent, wakes_up: false }
+    }
+
+    /// Lets the world go on.
+    fn advance(&mut self) {
+        self.received.clear();
+        self.world.advance(self.now);
+        while let Some(message) = self.world.receive(self.now) {
+            self.received.push(message);
+        }
+    }
+
+    /// Delivers what was sent.
+    fn deliver(&mut self) {
+        if !self.sent.is_empty() {
+            self.world.send_at(self.now, &self.sent);
+            self.sent.clear();
+        }
+        if std::mem::take(&mut self.wakes_up) {
+            self.world.send_wake_up(self.now, &WAKE_UP);
+        }
+    }
+}
+
+impl Surroundings for Quiet {
+    fn now(&self) -> Duration {
+        self.now
+    }
+
+    fn wait(&mut self, _until: Duration) {
+        self.now += POLL;
+    }
+
+    fn receive(&mut self, now: Duration, _until: Option<Duration>, mut take: impl Take) {
+        for message in &self.received {
+            _ = match message {
+                Message::Navdata(packet) => take(now, Input::Navdata(packet)),
+                Message::Control(dump) => take(now, Input::Control(dump.as_bytes())),
+            };
+        }
+    }
+
+    fn send(&mut self, _now: Duration, transmit: Transmit<'_>) {
+        match transmit {
+            Transmit::Command { datagram, .. } => self.sent.extend_from_slice(datagram),
+            Transmit::WakeUp => self.wakes_up = true,
+        }
+    }
+}
+
+/// Counts allocations in flight. On the ground the configuration is read and compared, which allocates, as does the report of
+/// a flight that has ended there.
 fn allocations(
     navdata: NavdataRate,
     orders: &[(Duration, OperatorOrder)],
@@ -23,66 +85,39 @@ fn allocations(
 ) -> u64 {
     let mut config = VehicleConfig { navdata, ..VehicleConfig::default() };
     config.estimator.tags = tags.copied();
-    let mut pilot = Vehicle::flying(plan(SQUARE), &config).unwrap();
-    let mut world = World::new(&WorldConfig {
+    let vehicle = Vehicle::flying(plan(SQUARE), &config).unwrap();
+    let world = WorldConfig {
         tags: vec![FloorTag::new(0.0, 0.0, 0.0), FloorTag::new(1.0, 1.0, 0.0)],
         ..WorldConfig::default()
-    });
+    };
+    let mut driver = Driver::over(vehicle, Quiet::new(&world));
     let mut orders = orders.iter().peekable();
     let mut allocations = 0;
-    let mut wakes_up = false;
     let folder = tempfile::tempdir().unwrap();
     let (mut recorder, recording) =
         Recorder::start(&folder.path().join("flight.mcap"), &Header::default()).unwrap();
-    let mut now = Duration::ZERO;
-    while pilot.outcome().is_none() {
-        let flies = pilot.status(now).phase == Phase::Flying;
-        let mut count = |work: &mut dyn FnMut()| {
-            let asked = measure(work).count_total;
-            allocations += if flies { asked } else { 0 };
-        };
-        world.advance(now);
-        while let Some(message) = world.receive(now) {
-            match message {
-                Message::Navdata(packet) => count(&mut || {
-                    pilot.handle(now, Input::Navdata(&packet));
-                    recorder.navdata(now, &packet);
-                }),
-                Message::Control(dump) => pilot.handle(now, Input::Control(dump.as_bytes())),
-            }
-        }
-        if now.as_millis().is_multiple_of(TICK.as_millis()) {
+    while driver.vehicle.outcome().is_none() {
+        let now = driver.now();
+        let flies = driver.vehicle.status(now).phase == Phase::Flying;
+        driver.surroundings.advance();
+        let asked = measure(|| {
             while let Some((_, order)) = orders.next_if(|(at, _)| now >= *at) {
-                count(&mut || pilot.handle(now, Input::Order(Operator::TERMINAL, order.clone())));
+                let order = Input::Order(Operator::TERMINAL, order.clone());
+                let handled = driver.handle(order, |at, passed| recorder.pass(at, &passed));
+                assert_eq!(handled, Ok(()));
             }
-            count(&mut || pilot.tick(now));
-            count(&mut || {
-                while let Some(output) = pilot.poll() {
-                    match output {
-                        Output::Transmit(Transmit::Command { datagram, decision }) => {
-                            if let Some(decision) = decision {
-                                recorder.tick(*decision, Timing::default(), datagram);
-                            }
-                        }
-                        Output::Transmit(Transmit::WakeUp) => wakes_up = true,
-                        Output::Event(event) => recorder.event(now, event),
-                        Output::Waypoint(_)
-                        | Output::Ended(_)
-                        | Output::Mission { .. }
-                        | Output::Readiness(_) => {}
-                    }
-                }
-            });
-            world.send_at(now, pilot.datagram());
-            if std::mem::take(&mut wakes_up) {
-                world.send_wake_up(now, &ardrone_link::WAKE_UP);
-            }
+            driver.step(|at, passed| recorder.pass(at, &passed));
+        });
+        if flies && driver.vehicle.outcome().is_none() {
+            allocations += asked.count_total;
         }
-        now += POLL;
+        driver.surroundings.deliver();
+        driver.pass();
     }
     drop(recorder);
     assert!(recording.finish().unwrap().bytes > 100_000);
-    assert!(now > Duration::from_secs(15), "it flew: {:?}", pilot.outcome());
+    let outcome = driver.vehicle.outcome();
+    assert!(driver.now() > Duration::from_secs(15), "it flew: {outcome:?}");
     allocations
 }
 

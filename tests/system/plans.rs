@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use ardrone_pilot::recording::Record;
 use autopilot::outcome::Outcome;
 use autopilot::plan::{Command, Expectation, FlightLimits, ZOrigin};
-use autopilot::vehicle::FlightEvent;
+use autopilot::vehicle::{FlightEvent, Telemetry};
 use autopilot::{Plan, VehicleConfig};
 use kinematics::Pose;
 use mock_drone::{DroneConfig, WorldConfig};
@@ -82,12 +82,11 @@ fn fly(simulation: &Simulation, plan: &Plan) -> Flown {
                 stay_ms.insert(step, decision.percepts.settings.stay_time_ms);
             }
         }
-        Record::Event { event: FlightEvent::StepStarted { step }, .. } => {
-            began.insert(step, place);
-        }
-        Record::Event { event: FlightEvent::StepDone { step }, .. } => {
-            ended.insert(step, place);
-        }
+        Record::Telemetry { telemetry: Telemetry::Event(event), .. } => match event {
+            FlightEvent::StepStarted { step } => _ = began.insert(step, place),
+            FlightEvent::StepDone { step } => _ = ended.insert(step, place),
+            _ => {}
+        },
         _ => {}
     };
     let flight = simulation.fly_recorded(plan.clone(), record).unwrap();

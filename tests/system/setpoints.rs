@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use ardrone_pilot::drive::{Driver, Passed};
+use ardrone_pilot::drive::{Driver, Passed, Simulated};
 use autopilot::plan::Plan;
 use autopilot::vehicle::{
-    FlightEvent, Heading, Horizontal, LandingReason, ManualControl, Operator, OperatorOrder,
-    Output, Phase, Setpoint, Station, Vertical,
+    FlightEvent, Heading, Horizontal, LandingReason, ManualControl, Operator, OperatorOrder, Phase,
+    Setpoint, Station, Telemetry, Vertical,
 };
 use autopilot::{Vehicle, VehicleConfig};
 use mock_drone::airframe::Profile;
@@ -23,7 +23,7 @@ const PROFILES: [fn() -> Profile; 4] = [Profile::rec, Profile::tum, Profile::tf,
 
 /// A vehicle that a ground station flies, which shows each second that it is there.
 struct Bench {
-    driver: Driver,
+    driver: Driver<Simulated>,
     events: Vec<FlightEvent>,
     /// Set-point sent every [`PERIOD`].
     sent: Option<Setpoint>,
@@ -51,7 +51,7 @@ impl Bench {
     }
 
     fn truth(&self) -> Truth {
-        self.driver.world.truth()
+        self.driver.world().truth()
     }
 
     /// The frame that navdata span begins where the drone stood.
@@ -71,8 +71,8 @@ impl Bench {
             self.next_at = now + PERIOD;
         }
         let events = &mut self.events;
-        self.driver.step(|passed| {
-            if let Passed::Output(Output::Event(event)) = passed {
+        self.driver.step(|_, passed| {
+            if let Passed::Told(Telemetry::Event(event)) = passed {
                 events.push(event);
             }
         });

@@ -4,6 +4,7 @@ use ardrone_link::DroneAddress;
 use ardrone_pilot::flight::{Flight, Message};
 use autopilot::VehicleConfig;
 use autopilot::outcome::Outcome;
+use autopilot::vehicle::Telemetry;
 use mock_drone::firmware::Phase;
 use mock_drone::scenario::Scenario;
 use mock_drone::server::{MockDrone, Ports};
@@ -32,7 +33,7 @@ fn a_flight_over_udp_is_the_simulated_one() {
             .unwrap();
     let mut truths = Vec::new();
     for message in flight.messages() {
-        if let Message::Waypoint(waypoint) = message {
+        if let Message::Telemetry(_, Telemetry::Waypoint(waypoint), _) = message {
             let truth = mock.truth();
             let error_m = true_error_m(&waypoint, &truth);
             assert!(error_m < 0.2, "{error_m:.2} m");

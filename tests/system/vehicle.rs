@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use ardrone_link::at::{Command, Datagram, Ref};
-use ardrone_pilot::drive::{Driver, Passed};
+use ardrone_pilot::drive::{Driver, Passed, Simulated};
 use autopilot::outcome::Outcome;
 use autopilot::plan::{Commands, FlightLimits};
 use autopilot::vehicle::{
-    FlightEvent, LandingReason, NotReady, Operator, OperatorOrder, Output, Phase, Refused, Station,
+    FlightEvent, LandingReason, NotReady, Operator, OperatorOrder, Phase, Refused, Station, TICK,
+    Telemetry, Transmit,
 };
 use autopilot::{Vehicle, VehicleConfig};
 use mock_drone::scenario::Scenario;
@@ -21,11 +22,13 @@ const REMOTE: Operator = Operator { station: Station::Mavlink, number: 1, local:
 
 /// A vehicle without a mission, with its collected outputs.
 struct Bench {
-    driver: Driver,
+    driver: Driver<Simulated>,
     events: Vec<(Duration, FlightEvent)>,
     outcomes: Vec<Outcome>,
     ready: Option<Vec<NotReady>>,
     missions: usize,
+    /// The drone was sent something in the last step.
+    is_told: bool,
 }
 
 impl Bench {
@@ -40,7 +43,8 @@ impl Bench {
 
     fn with(config: &VehicleConfig, world: &WorldConfig) -> Self {
         let driver = Driver::new(Vehicle::new(config).unwrap(), world);
-        Self { driver, events: Vec::new(), outcomes: Vec::new(), ready: None, missions: 0 }
+        let (events, outcomes) = (Vec::new(), Vec::new());
+        Self { driver, events, outcomes, ready: None, missions: 0, is_told: false }
     }
 
     /// A vehicle in standby.
@@ -70,21 +74,20 @@ impl Bench {
     }
 
     fn truth(&self) -> Truth {
-        self.driver.world.truth()
+        self.driver.world().truth()
     }
 
     fn step(&mut self) {
         let now = self.driver.now();
-        let Self { driver, events, outcomes, ready, missions } = self;
-        driver.step(|passed| {
-            let Passed::Output(output) = passed else { return };
-            match output {
-                Output::Event(event) => events.push((now, event)),
-                Output::Ended(outcome) => outcomes.push(outcome.clone()),
-                Output::Readiness(reasons) => *ready = Some(reasons.to_vec()),
-                Output::Mission { .. } => *missions += 1,
-                Output::Waypoint(_) | Output::Transmit(_) => {}
-            }
+        let Self { driver, events, outcomes, ready, missions, is_told } = self;
+        *is_told = false;
+        driver.step(|_, passed| match passed {
+            Passed::Told(Telemetry::Event(event)) => events.push((now, event)),
+            Passed::Told(Telemetry::Ended(outcome, _)) => outcomes.push(outcome),
+            Passed::Told(Telemetry::Readiness(reasons)) => *ready = Some(reasons.to_vec()),
+            Passed::Told(Telemetry::Mission { .. }) => *missions += 1,
+            Passed::Sent { transmit: Transmit::Command { .. }, .. } => *is_told = true,
+            _ => {}
         });
         driver.pass();
     }
@@ -336,7 +339,11 @@ fn a_drone_that_somebody_else_flies_is_left_alone_until_it_stands() {
     assert_eq!(bench.count(&FlightEvent::FlownByAnother), 1);
     bench.accepted(OperatorOrder::Load(plan(SQUARE)));
     assert!(matches!(bench.order(START), Err(Refused::NotReady(_))));
-    assert!(bench.driver.vehicle.datagram().is_empty(), "nothing is said to it");
+    let end = bench.driver.now() + 3 * TICK;
+    while bench.driver.now() < end {
+        bench.step();
+        assert!(!bench.is_told, "nothing is said to it");
+    }
     // It is lost by its pilot, and lands by itself.
     bench.until(60 * SECOND, |bench| bench.phase() == Phase::Standby);
     bench.run(SECOND);
@@ -448,7 +455,7 @@ fn numbers_of_another_client_do_not_carry_the_drone_far_out_of_its_fence() {
             let mut datagram = Datagram::new();
             datagram.push(number + further, &Command::Ref(Ref::TakeOff)).unwrap();
             let now = bench.driver.now();
-            bench.driver.world.send_at(now, datagram.as_bytes());
+            bench.driver.surroundings.world.send_at(now, datagram.as_bytes());
             bench.step();
         }
         let mut farthest_m = 0.0_f64;

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use autopilot::agent::{PLANS, SOURCE, plan_text};
 use autopilot::outcome::Outcome;
 use autopilot::plan::{Declaration, FlightLimits, LANGUAGE, Plan, Step, expectations};
+use autopilot::vehicle::Telemetry;
 use diagnostic::printable;
 use serde_json::{Value, json};
 
@@ -54,25 +55,31 @@ impl Snapshot {
     /// Applies a message; returns the JSON object to send to browsers.
     pub(super) fn take_in(&mut self, message: &Message) -> Value {
         let object = json::message(message, &self.steps);
-        match message {
-            Message::Status(_, status, _) => {
+        let (at, telemetry) = match message {
+            Message::Telemetry(at, telemetry, _) => (at, telemetry),
+            Message::Trouble(..) => {
+                self.remember(&object);
+                return object;
+            }
+            Message::Realtime(_) => return object,
+        };
+        match telemetry {
+            Telemetry::Status(status) => {
                 if let Some(pose) = status.pose {
                     self.flown_path.add(pose.x_m, pose.y_m);
                 }
                 self.status = object.clone();
             }
-            Message::Event(..) | Message::Trouble(..) => {
-                self.remember(&object);
-            }
+            Telemetry::Event(_) => self.remember(&object),
             // The page redraws everything.
-            Message::Mission { name, steps, .. } if *steps != self.steps => {
+            Telemetry::Mission { name, steps, .. } if *steps != self.steps => {
                 self.steps.clone_from(steps);
                 self.name = printable(name).into_owned();
                 self.notes.clear();
                 return self.so_far();
             }
-            Message::Readiness(..) => self.ready = object.clone(),
-            Message::Ended(at, outcome, _) => {
+            Telemetry::Readiness(_) => self.ready = object.clone(),
+            Telemetry::Ended(outcome, _) => {
                 let event = json!({
                     "type": "event",
                     "t_s": at.as_secs_f64(),
@@ -84,7 +91,7 @@ impl Snapshot {
                 self.remember(&event);
                 return event;
             }
-            Message::Mission { .. } | Message::Realtime(_) | Message::Waypoint(_) => {}
+            Telemetry::Mission { .. } | Telemetry::Waypoint(_) => {}
         }
         object
     }
@@ -156,6 +163,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
+    use crate::timing::TickHealth;
     use autopilot::vehicle::FlightEvent;
 
     #[test]
@@ -164,7 +172,8 @@ mod tests {
         let mut snapshot = Snapshot::new(Some(&plan), &FlightLimits::default(), "192.168.1.1");
         for step in 0..EVENTS + 5 {
             let at = Duration::from_secs(step as u64);
-            snapshot.take_in(&Message::Event(at, FlightEvent::StepStarted { step }));
+            let started = Telemetry::Event(FlightEvent::StepStarted { step });
+            snapshot.take_in(&Message::Telemetry(at, started, TickHealth::default()));
         }
         let snapshot_json = snapshot.so_far();
         assert_eq!(snapshot_json["steps"][1]["text"], "goto 0 1 0 0");

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{FlightLimits, Plan, Step, TagUse, given_tag_warnings};
-use autopilot::vehicle::{SurveyedTag, VehicleConfig};
+use autopilot::vehicle::{SurveyedTag, Telemetry, VehicleConfig};
 use crossbeam_channel::bounded;
 use mock_drone::server::{MockDrone, Ports};
 use serde_json::Value;
@@ -253,13 +253,17 @@ struct Outputs<'a> {
 
 impl Outputs<'_> {
     fn send(&mut self, message: &Message, watch: &mut Watch) {
-        if let Message::Mission { steps, .. } = message {
+        let telemetry = match message {
+            Message::Telemetry(_, telemetry, _) => Some(telemetry),
+            Message::Realtime(_) | Message::Trouble(..) => None,
+        };
+        if let Some(Telemetry::Mission { steps, .. }) = telemetry {
             self.steps.clone_from(steps);
         }
         if self.arguments.json {
             print_object(&json::message(message, &self.steps));
         }
-        if let (Message::Waypoint(waypoint), Some(mock)) = (message, &self.mock) {
+        if let (Some(Telemetry::Waypoint(waypoint)), Some(mock)) = (telemetry, &self.mock) {
             self.truths.push(TrueWaypoint::new(waypoint, &mock.truth()));
         }
         if let Some(browser) = &self.browser {

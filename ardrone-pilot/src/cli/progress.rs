@@ -4,7 +4,7 @@ use std::io::stderr;
 use std::time::Duration;
 
 use autopilot::plan::Step;
-use autopilot::vehicle::{FlightEvent, NotReady, Phase, Status, TICK};
+use autopilot::vehicle::{FlightEvent, NotReady, Phase, Status, TICK, Telemetry};
 use rustix::termios::tcgetwinsize;
 
 use super::prompt::PromptLine;
@@ -37,21 +37,29 @@ impl Progress {
 
     pub(super) fn show(&mut self, message: &Message) {
         match message {
-            Message::Event(at, event) => {
-                let text = self.event_text(event);
-                self.print_line(&format!("{} {text}", time(*at)));
-            }
+            Message::Telemetry(at, telemetry, _) => self.tell(*at, telemetry),
             Message::Trouble(at, trouble) => self.print_line(&format!("{} {trouble}", time(*at))),
             Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
-            Message::Waypoint(_) => {}
-            Message::Mission { steps, .. } => self.steps.clone_from(steps),
-            Message::Readiness(at, reasons) => {
-                if let Some(text) = readiness(reasons) {
-                    self.print_line(&format!("{} {text}", time(*at)));
-                }
+        }
+    }
+
+    fn tell(&mut self, at: Duration, telemetry: &Telemetry) {
+        let text = match telemetry {
+            Telemetry::Event(event) => Some(self.event_text(event)),
+            Telemetry::Readiness(reasons) => readiness(reasons),
+            Telemetry::Ended(outcome, _) => Some(outcome.to_string()),
+            Telemetry::Waypoint(_) => None,
+            Telemetry::Mission { steps, .. } => {
+                self.steps.clone_from(steps);
+                None
             }
-            Message::Ended(at, outcome, _) => self.print_line(&format!("{} {outcome}", time(*at))),
-            Message::Status(at, status, _) => self.status(*at, status),
+            Telemetry::Status(status) => {
+                self.status(at, status);
+                None
+            }
+        };
+        if let Some(text) = text {
+            self.print_line(&format!("{} {text}", time(at)));
         }
     }
 

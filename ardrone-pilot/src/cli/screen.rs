@@ -9,6 +9,7 @@ use std::mem::ManuallyDrop;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use autopilot::plan::FlightLimits;
+use autopilot::vehicle::Telemetry;
 use crossterm::cursor::Show;
 use crossterm::execute;
 use crossterm::terminal::{EnterAlternateScreen, LeaveAlternateScreen, size};
@@ -84,7 +85,7 @@ impl Screen {
         }
         self.view.take_in(message);
         // Changes between two status messages need no redraw of their own.
-        if matches!(message, Message::Status(..)) {
+        if matches!(message, Message::Telemetry(_, Telemetry::Status(_), _)) {
             self.draw();
         }
     }

@@ -307,7 +307,7 @@ mod tests {
         // Nobody listens any more: the system reports it with the next call.
         drop((at, navdata));
         link.wake_up(Duration::ZERO);
-        let start = crate::flight::clock();
+        let start = crate::flight::real_time::clock();
         let time = Duration::from_millis(50);
         link.wait(time);
         let mut buffer = [0; 100];

@@ -14,13 +14,14 @@ mod link;
 #[cfg(test)]
 mod operators;
 mod orders;
+mod real_time;
 mod services;
 
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use ardrone_link::settings::SettingError;
@@ -29,17 +30,19 @@ use crossbeam_channel::{Receiver, Sender, bounded};
 use self::link::{Link, sleep};
 pub use self::link::{Port, Trouble};
 pub use self::orders::Controls;
-use self::orders::{Orders, Request};
+use self::orders::Orders;
+use self::real_time::{RealTime, clock};
 pub(crate) use self::services::EndSignals;
 use self::services::Services;
+use crate::drive::{Driver, Passed};
 use crate::realtime::Realtime;
-use crate::recording::{Recorder, Timing};
-use crate::timing::{TickHealth, TickRecorder, TickSummary};
+use crate::recording::Recorder;
+use crate::timing::{TickHealth, TickSummary};
 use autopilot::outcome::Outcome;
-use autopilot::plan::{MissionId, Plan, Step};
+use autopilot::plan::Plan;
 use autopilot::vehicle::{
-    CannotFly, FlightEvent, FlightReport, Input, NotReady, Operator, OperatorOrder, Output,
-    Refused, Stage, Status, TICK, Transmit, Vehicle, VehicleConfig, Waypoint,
+    CannotFly, FlightReport, Input, Operator, OperatorOrder, Output, Telemetry, Transmit, Vehicle,
+    VehicleConfig,
 };
 
 /// Messages of a flight in progress.
@@ -48,28 +51,11 @@ use autopilot::vehicle::{
 pub enum Message {
     /// Real-time scheduling granted to the flight's thread.
     Realtime(Realtime),
-    /// Something happened.
-    Event(Duration, FlightEvent),
-    /// A target was reached and held for its stay time.
-    Waypoint(Waypoint),
+    /// What the vehicle tells, and the timing of the ticks. The end of a flight with which the program exits is not among
+    /// it: it is returned by [`Flight::finish`].
+    Telemetry(Duration, Telemetry, TickHealth),
     /// A local network problem; the flight goes on.
     Trouble(Duration, Trouble),
-    /// Status, several times a second.
-    Status(Duration, Status, TickHealth),
-    /// The mission has changed; all its steps.
-    Mission {
-        /// Name of the loaded plan; empty without one.
-        name: String,
-        /// The number that its maker gave it; none for a plan, and once it is extended.
-        id: Option<MissionId>,
-        /// All its steps.
-        steps: Vec<Step>,
-    },
-    /// The reasons not to take off have changed; all of them.
-    Readiness(Duration, Vec<NotReady>),
-    /// A flight has ended and the vehicle stays. The end of a flight with which the program exits is returned
-    /// by [`Flight::finish`] instead.
-    Ended(Duration, Outcome, Box<FlightReport>),
 }
 
 /// Statistics of the local end of the link.
@@ -140,20 +126,12 @@ pub struct Flight {
     thread: Option<JoinHandle<Result<FinishedFlight, FlightError>>>,
 }
 
-/// Ticks between status messages.
-const STATUS_TICKS: u32 = 3;
 /// Capacity of the message channel.
 const MESSAGES: usize = 256;
-/// Receive buffer, larger than any navdata packet.
-const BUFFER_BYTES: usize = 8192;
 /// Ticks in which a flight that ends in the air orders the landing.
 const PARTING_ORDERS: u32 = 10;
 /// Limit on these ticks if the system refuses datagrams.
 const PARTING_TICKS: u32 = 3 * PARTING_ORDERS;
-/// Maximum datagrams read in a tick; more than the socket's buffer holds.
-const DATAGRAMS_PER_TICK: u32 = 1000;
-/// Datagrams read even by a tick that is late.
-const DATAGRAMS_IF_LATE: u32 = 32;
 /// Maximum datagrams recorded in a tick.
 const RECORDED_PER_TICK: u32 = 64;
 /// Maximum of these that may be invalid.
@@ -189,7 +167,8 @@ impl Flight {
         let control_port = SocketAddr::new(address, drone.control_port);
         let services = Services::start(control_port, controls.clone())?;
         let (sender, messages) = bounded(MESSAGES);
-        let tick = TickLoop::new(vehicle, stay, link, orders, services, recorder, sender);
+        let surroundings = RealTime::new(link, orders, services);
+        let tick = TickLoop::new(vehicle, stay, surroundings, recorder, sender);
         let thread = std::thread::Builder::new()
             .name("flight".to_owned())
             .spawn(move || tick.run(|_| {}))
@@ -253,11 +232,6 @@ fn resolve(host: &str) -> Result<IpAddr, FlightError> {
         .ok_or_else(|| error(io::Error::new(io::ErrorKind::NotFound, "it has no IPv4 address")))
 }
 
-/// Origin of the flight's time.
-fn clock() -> Instant {
-    Instant::now()
-}
-
 /// When the tick loop ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Stay {
@@ -268,45 +242,82 @@ enum Stay {
 }
 
 struct TickLoop {
-    vehicle: Vehicle,
+    driver: Driver<RealTime>,
     stay: Stay,
-    link: Link,
-    orders: Orders,
-    services: Services,
-    recorder: Option<Recorder>,
-    messages: Sender<Message>,
-    dropped_messages: u64,
-    ticks: TickRecorder,
-    realtime: Realtime,
-    start: Instant,
-    /// Deadline of the next tick.
-    deadline: Duration,
-    buffer: Vec<u8>,
-    intake: Intake,
-    summary: LinkSummary,
-    /// A flood was reported; once per flight is enough.
-    flood_reported: bool,
-    /// A first request to exit was handled.
-    stopping: bool,
+    tee: Tee,
 }
 
-/// Remaining number of datagrams that a tick may read and record.
-#[derive(Debug, Clone, Copy)]
-struct Intake {
-    taken: u32,
-    recorded: u32,
+/// Passes on all that passes the vehicle, without ever waiting: to the flight log, and to those who watch.
+struct Tee {
+    recorder: Option<Recorder>,
+    recorded: Recorded,
+    /// Datagrams missing from the flight log because too many arrived.
+    unrecorded: u64,
+    messages: Sender<Message>,
+    dropped_messages: u64,
+    tells_end: bool,
+    /// Timing of the ticks since the last status.
+    health: TickHealth,
+}
+
+/// Datagrams recorded in this tick.
+#[derive(Debug, Clone, Copy, Default)]
+struct Recorded {
+    all: u32,
     refused: u32,
 }
 
-impl Intake {
-    const NOTHING: Self = Self { taken: 0, recorded: 0, refused: 0 };
-
+impl Recorded {
     /// Whether a datagram may be recorded; `good` if it was valid.
-    fn records(&mut self, good: bool) -> bool {
-        let room = self.recorded < RECORDED_PER_TICK && (good || self.refused < REFUSED_PER_TICK);
-        self.recorded += u32::from(room);
+    fn has_room(&mut self, good: bool) -> bool {
+        let room = self.all < RECORDED_PER_TICK && (good || self.refused < REFUSED_PER_TICK);
+        self.all += u32::from(room);
         self.refused += u32::from(room && !good);
         room
+    }
+}
+
+impl Tee {
+    fn pass(&mut self, at: Duration, passed: Passed<'_>) {
+        match passed {
+            Passed::Input(Input::Navdata(_), good) if !self.recorded.has_room(good) => {
+                self.unrecorded += 1;
+                return;
+            }
+            _ => {}
+        }
+        if let Some(recorder) = &mut self.recorder {
+            recorder.pass(at, &passed);
+        }
+        match passed {
+            Passed::Told(Telemetry::Ended(..)) if !self.tells_end => {}
+            Passed::Told(telemetry) => {
+                let is_status = matches!(telemetry, Telemetry::Status(_));
+                self.send(Message::Telemetry(at, telemetry, self.health));
+                if is_status {
+                    self.health.lateness = Duration::ZERO;
+                }
+            }
+            Passed::Input(..) | Passed::Sent { .. } => {}
+        }
+    }
+
+    /// Reports a problem that does not end the flight.
+    fn warn(&mut self, at: Duration, trouble: Trouble) {
+        self.note(at, trouble.to_string());
+        self.send(Message::Trouble(at, trouble));
+    }
+
+    fn note(&mut self, at: Duration, text: String) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.note(at, text);
+        }
+    }
+
+    fn send(&mut self, message: Message) {
+        if self.messages.try_send(message).is_err() {
+            self.dropped_messages += 1;
+        }
     }
 }
 
@@ -314,45 +325,34 @@ impl TickLoop {
     fn new(
         vehicle: Vehicle,
         stay: Stay,
-        link: Link,
-        orders: Orders,
-        services: Services,
+        surroundings: RealTime,
         recorder: Option<Recorder>,
         messages: Sender<Message>,
     ) -> Self {
-        Self {
-            vehicle,
-            stay,
-            link,
-            orders,
-            services,
+        let tee = Tee {
             recorder,
+            recorded: Recorded::default(),
+            unrecorded: 0,
             messages,
             dropped_messages: 0,
-            ticks: TickRecorder::default(),
-            realtime: Realtime::default(),
-            start: clock(),
-            deadline: Duration::ZERO,
-            buffer: vec![0_u8; BUFFER_BYTES],
-            intake: Intake::NOTHING,
-            summary: LinkSummary::default(),
-            flood_reported: false,
-            stopping: false,
-        }
+            tells_end: stay == Stay::UntilLeft,
+            health: TickHealth::default(),
+        };
+        Self { driver: Driver::over(vehicle, surroundings), stay, tee }
     }
 
-    /// Runs the loop to its end. `before` is called with the number of each tick.
+    /// Runs the loop to its end. `after` is called with the number of each tick.
     ///
     /// However the flight ends, its last datagrams order the landing, unless the drone is known to be down.
-    fn run(mut self, before: impl FnMut(u32)) -> Result<FinishedFlight, FlightError> {
-        self.realtime = Realtime::acquire();
-        self.send(Message::Realtime(self.realtime));
-        self.start = clock();
+    fn run(mut self, after: impl FnMut(u32)) -> Result<FinishedFlight, FlightError> {
+        let realtime = Realtime::acquire();
+        self.tee.send(Message::Realtime(realtime));
+        self.driver.surroundings.restart();
         // After a panic only the session is used, which a panic elsewhere cannot leave inconsistent.
-        let flown = catch_unwind(AssertUnwindSafe(|| self.fly(before)));
+        let flown = catch_unwind(AssertUnwindSafe(|| self.fly(after)));
         let end = flown.map_err(|_| FlightError::Panicked);
         let down = match &end {
-            Ok(_) if self.stay == Stay::UntilLeft => self.vehicle.is_at_rest(),
+            Ok(_) if self.stay == Stay::UntilLeft => self.driver.vehicle.is_at_rest(),
             Ok(outcome) => {
                 matches!(
                     outcome,
@@ -366,213 +366,50 @@ impl TickLoop {
         if !down {
             self.part();
         }
-        end.map(|outcome| self.finished(outcome, down))
+        end.map(|outcome| self.finished(outcome, down, realtime))
     }
 
-    fn fly(&mut self, mut before: impl FnMut(u32)) -> Outcome {
-        let mut held_up = false;
+    fn fly(&mut self, mut after: impl FnMut(u32)) -> Outcome {
         let mut count = 0_u32;
         loop {
-            let now = self.start.elapsed();
-            if let Some(rest) = self.deadline.checked_sub(now).filter(|rest| !rest.is_zero()) {
-                self.link.wait(rest);
-                let woken = self.start.elapsed();
-                self.take_in_navdata();
-                held_up = woken < self.deadline && self.start.elapsed() >= self.deadline;
+            let Self { driver, tee, .. } = self;
+            if !driver.step(|at, passed| tee.pass(at, passed)) {
+                driver.pass();
                 continue;
             }
-            let skipped = skip_missed(&mut self.deadline, now);
-            let late = now.saturating_sub(self.deadline);
-            self.ticks.begin(now, self.deadline, skipped, std::mem::take(&mut held_up));
-            self.deadline += TICK;
-            before(count);
-            self.link.begin_tick();
-            self.intake = Intake::NOTHING;
-            self.take_in_late_navdata();
-            self.take_in_services(now);
-            self.tick();
-            self.ticks.end();
-            self.record_tick(late, self.start.elapsed().saturating_sub(now));
-            self.report(now, count.is_multiple_of(STATUS_TICKS));
+            after(count);
             count = count.wrapping_add(1);
-            if let Some(outcome) = self.end() {
+            tee.recorded = Recorded::default();
+            let health = driver.surroundings.end_tick();
+            tee.health.skipped = health.skipped;
+            tee.health.lateness = tee.health.lateness.max(health.lateness);
+            while let Some(trouble) = driver.surroundings.poll_trouble() {
+                tee.warn(driver.now(), trouble);
+            }
+            let stops = driver.surroundings.stops();
+            if let Some(outcome) = self.end(stops) {
                 return outcome;
             }
             // A second stop does not wait for the ground.
-            if self.orders.stops() >= 2 {
+            if stops >= 2 {
                 return Outcome::LeftLanding;
             }
+            self.driver.pass();
         }
     }
 
     /// The outcome, if the end of the first flight or a request to exit ends the loop.
-    fn end(&self) -> Option<Outcome> {
-        let outcome = self.vehicle.outcome();
+    fn end(&self, stops: u32) -> Option<Outcome> {
+        let outcome = self.driver.vehicle.outcome();
         match self.stay {
             Stay::UntilFlown => outcome.cloned(),
-            Stay::UntilLeft if self.orders.stops() == 0 => None,
+            Stay::UntilLeft if stops == 0 => None,
             // The landing of a lost drone is never confirmed.
             Stay::UntilLeft => {
-                (self.vehicle.is_at_rest() || outcome.is_some()).then_some(Outcome::Interrupted)
+                let may_leave = self.driver.vehicle.is_at_rest() || outcome.is_some();
+                may_leave.then_some(Outcome::Interrupted)
             }
         }
-    }
-
-    /// Decides and sends, and measures each stage.
-    fn tick(&mut self) {
-        let start = self.start;
-        let now = start.elapsed();
-        let mut last = now;
-        let mut done = |ticks: &mut TickRecorder, stage| {
-            let now = start.elapsed();
-            ticks.spend(stage, now.saturating_sub(last));
-            last = now;
-        };
-        self.vehicle.tick_timed(now, |stage| done(&mut self.ticks, stage));
-        while let Some(transmit) = self.vehicle.poll_transmit() {
-            match transmit {
-                Transmit::Command { datagram, .. } => {
-                    self.link.send(now, datagram);
-                }
-                Transmit::WakeUp => self.link.wake_up(now),
-            }
-        }
-        done(&mut self.ticks, Stage::Send);
-    }
-
-    /// Handles incoming navdata until the next tick is due.
-    fn take_in_navdata(&mut self) {
-        let begun = self.start.elapsed();
-        let mut now = begun;
-        while now < self.deadline {
-            if self.intake.taken >= DATAGRAMS_PER_TICK {
-                // Leaves the rest of the tick to other threads.
-                self.link.rest();
-                self.summary.flooded_ticks += 1;
-                if !std::mem::replace(&mut self.flood_reported, true) {
-                    self.warn(now, Trouble::Flood);
-                }
-                break;
-            }
-            if !self.take_in_datagram(now) {
-                break;
-            }
-            now = self.start.elapsed();
-        }
-        self.ticks.spend(Stage::Estimate, now.saturating_sub(begun));
-    }
-
-    /// Handles navdata that arrived before a tick that is late, so that it does not decide without them.
-    fn take_in_late_navdata(&mut self) {
-        let now = self.start.elapsed();
-        for _ in 0..DATAGRAMS_IF_LATE {
-            if !self.take_in_datagram(now) {
-                break;
-            }
-        }
-        self.ticks.spend(Stage::Estimate, self.start.elapsed().saturating_sub(now));
-    }
-
-    /// Returns whether there was a datagram.
-    fn take_in_datagram(&mut self, now: Duration) -> bool {
-        let Some(length) = self.link.receive(now, &mut self.buffer) else { return false };
-        self.intake.taken += 1;
-        let packet = self.buffer.get(..length).unwrap_or_default();
-        let before = self.vehicle.link_statistics().received;
-        self.vehicle.handle(now, Input::Navdata(packet));
-        let good = self.vehicle.link_statistics().received > before;
-        if let Some(recorder) = &mut self.recorder {
-            if self.intake.records(good) {
-                recorder.navdata(now, packet);
-            } else {
-                self.summary.unrecorded += 1;
-            }
-        }
-        true
-    }
-
-    fn take_in_services(&mut self, now: Duration) {
-        for bytes in self.services.poll_control() {
-            self.vehicle.handle(now, Input::Control(&bytes));
-            if let Some(recorder) = &mut self.recorder {
-                recorder.control(now, &bytes);
-            }
-        }
-        for Request { by, order, answer } in self.orders.poll() {
-            let answered = obey(&mut self.vehicle, self.recorder.as_mut(), now, by, order);
-            if let Some(answer) = answer {
-                answer(answered);
-            }
-        }
-        if self.orders.stops() > 0 && !std::mem::replace(&mut self.stopping, true) {
-            let (by, land) = (Operator::TERMINAL, OperatorOrder::Land);
-            // Landing is never refused.
-            _ = obey(&mut self.vehicle, self.recorder.as_mut(), now, by, land);
-        }
-    }
-
-    fn record_tick(&mut self, late: Duration, work: Duration) {
-        // While the drone is not spoken to nothing is decided: the last decision is an old one.
-        if self.vehicle.datagram().is_empty() {
-            return;
-        }
-        if let (Some(recorder), Some(decision)) = (&mut self.recorder, self.vehicle.decision()) {
-            let ms = |time: Duration| time.as_secs_f64() * 1e3;
-            let timing = Timing { late_ms: ms(late), work_ms: ms(work) };
-            recorder.tick(*decision, timing, self.vehicle.datagram());
-        }
-    }
-
-    fn report(&mut self, now: Duration, with_status: bool) {
-        while let Some(output) = self.vehicle.poll() {
-            let message = match output {
-                Output::Event(event) => {
-                    if let Some(recorder) = &mut self.recorder {
-                        recorder.event(now, event.clone());
-                    }
-                    Message::Event(now, event)
-                }
-                Output::Waypoint(waypoint) => Message::Waypoint(waypoint),
-                Output::Mission { name, id, steps } => {
-                    if let Some(recorder) = &mut self.recorder {
-                        recorder.mission(now, name.to_owned(), steps.to_vec());
-                    }
-                    Message::Mission { name: name.to_owned(), id, steps: steps.to_vec() }
-                }
-                Output::Readiness(reasons) => Message::Readiness(now, reasons.to_vec()),
-                Output::Ended(outcome) if self.stay == Stay::UntilLeft => {
-                    let outcome = outcome.clone();
-                    if let Some(recorder) = &mut self.recorder {
-                        recorder.outcome(now, outcome.clone());
-                    }
-                    Message::Ended(now, outcome, Box::new(self.vehicle.report().clone()))
-                }
-                // Sent already; the end is reported by `finish`.
-                Output::Transmit(_) | Output::Ended(_) => continue,
-            };
-            self.send(message);
-        }
-        if let Some(trouble) = self.link.poll_trouble() {
-            self.warn(now, trouble);
-        }
-        if with_status {
-            let health = self.ticks.health();
-            self.send(Message::Status(now, self.vehicle.status(now), health));
-        }
-    }
-
-    fn send(&mut self, message: Message) {
-        if self.messages.try_send(message).is_err() {
-            self.dropped_messages += 1;
-        }
-    }
-
-    /// Reports a problem that does not end the flight.
-    fn warn(&mut self, now: Duration, trouble: Trouble) {
-        if let Some(recorder) = &mut self.recorder {
-            recorder.note(now, trouble.to_string());
-        }
-        self.send(Message::Trouble(now, trouble));
     }
 
     /// Orders the landing in ticks of its own, without waiting for anything else. It uses only the session,
@@ -580,73 +417,49 @@ impl TickLoop {
     fn part(&mut self) {
         let mut parted = 0;
         for _ in 0..PARTING_TICKS {
-            let now = self.start.elapsed();
-            skip_missed(&mut self.deadline, now);
-            sleep(self.deadline.saturating_sub(now));
-            self.deadline += TICK;
-            let now = self.start.elapsed();
-            self.vehicle.part(now);
-            let Some(Transmit::Command { datagram, .. }) = self.vehicle.poll_transmit() else {
+            sleep(self.driver.next_tick().saturating_sub(self.driver.now()));
+            let now = self.driver.now();
+            let Driver { vehicle, surroundings, .. } = &mut self.driver;
+            // A tick is never refused.
+            _ = vehicle.handle(now, Input::Part);
+            let Some(Output::Transmit(Transmit::Command { datagram, .. })) = vehicle.poll() else {
                 // Nothing was ever sent to this drone.
                 break;
             };
-            parted += u32::from(self.link.send(now, datagram));
+            parted += u32::from(surroundings.send_datagram(now, datagram));
             if parted == PARTING_ORDERS {
                 break;
             }
         }
         // A drone that is down was landed; that it was told so once more is nothing to tell.
-        if let (Some(recorder), 1.., false) =
-            (&mut self.recorder, parted, self.vehicle.is_at_rest())
-        {
+        if parted > 0 && !self.driver.vehicle.is_at_rest() {
             let note = format!(
                 "the program ended before the drone was down; the last {parted} datagrams ordered it to land"
             );
-            recorder.note(self.start.elapsed(), note);
+            self.tee.note(self.driver.now(), note);
         }
     }
 
-    fn finished(&mut self, outcome: Outcome, is_down: bool) -> FinishedFlight {
-        if let Some(recorder) = &mut self.recorder
-            && self.stay == Stay::UntilFlown
+    fn finished(&mut self, outcome: Outcome, is_down: bool, realtime: Realtime) -> FinishedFlight {
+        let now = self.driver.now();
+        let Self { driver: Driver { vehicle, surroundings, .. }, tee, .. } = self;
+        let report = vehicle.report().clone();
+        if vehicle.outcome().is_none()
+            && let Some(recorder) = &mut tee.recorder
         {
-            recorder.outcome(self.start.elapsed(), outcome.clone());
+            let ended = Telemetry::Ended(outcome.clone(), Box::new(report.clone()));
+            recorder.pass(now, &Passed::Told(ended));
         }
-        let (errors, bound_anew) = self.link.failures();
         FinishedFlight {
             outcome,
             is_down,
-            report: self.vehicle.report().clone(),
-            ticks: self.ticks.summary(self.realtime),
-            dropped_messages: self.dropped_messages,
-            lost_records: self.recorder.as_ref().map_or(0, Recorder::lost),
-            link: LinkSummary { errors, bound_anew, ..self.summary },
+            report,
+            ticks: surroundings.summary(realtime),
+            dropped_messages: tee.dropped_messages,
+            lost_records: tee.recorder.as_ref().map_or(0, Recorder::lost),
+            link: LinkSummary { unrecorded: tee.unrecorded, ..surroundings.link_summary() },
         }
     }
-}
-
-/// Passes on an order and records it even if it is refused: a replay refuses it again.
-fn obey(
-    vehicle: &mut Vehicle,
-    recorder: Option<&mut Recorder>,
-    now: Duration,
-    by: Operator,
-    order: OperatorOrder,
-) -> Result<(), Refused> {
-    if let Some(recorder) = recorder {
-        recorder.order(now, by, order.clone());
-    }
-    vehicle.order(now, by, order)
-}
-
-/// Moves the deadline to the last one that has passed; returns the number missed before it.
-fn skip_missed(deadline: &mut Duration, now: Duration) -> u64 {
-    let mut skipped = 0;
-    while *deadline + TICK <= now {
-        *deadline += TICK;
-        skipped += 1;
-    }
-    skipped
 }
 
 #[cfg(test)]
@@ -656,16 +469,6 @@ mod tests {
     use mock_drone::server::{MockDrone, Ports};
 
     use super::*;
-
-    #[test]
-    fn missed_deadlines_are_counted_and_skipped() {
-        let ms = Duration::from_millis;
-        let mut deadline = ms(30);
-        assert_eq!(skip_missed(&mut deadline, ms(59)), 0);
-        assert_eq!(deadline, ms(30));
-        assert_eq!(skip_missed(&mut deadline, ms(125)), 3);
-        assert_eq!(deadline, ms(120));
-    }
 
     #[test]
     fn a_drone_without_address_is_named() {
@@ -690,7 +493,8 @@ mod tests {
         let services = Services::start(control_port, controls.clone()).unwrap();
         let (sender, messages) = bounded(MESSAGES);
         let stay = Stay::UntilFlown;
-        (TickLoop::new(vehicle, stay, link, orders, services, None, sender), controls, messages)
+        let surroundings = RealTime::new(link, orders, services);
+        (TickLoop::new(vehicle, stay, surroundings, None, sender), controls, messages)
     }
 
     #[test]
@@ -708,9 +512,9 @@ mod tests {
 
     #[test]
     fn a_tick_records_what_matters_of_a_flood() {
-        let mut intake = Intake::NOTHING;
-        let garbage = (0..1000).filter(|_| intake.records(false)).count();
-        let packets = (0..1000).filter(|_| intake.records(true)).count();
+        let mut recorded = Recorded::default();
+        let garbage = (0..1000).filter(|_| recorded.has_room(false)).count();
+        let packets = (0..1000).filter(|_| recorded.has_room(true)).count();
         assert_eq!((garbage, packets), (8, 56));
     }
 }

@@ -14,8 +14,8 @@ use kinematics::{Pose, Sticks};
 use mock_drone::{Message, World, WorldConfig};
 use proptest::prelude::*;
 
-use super::obey;
 use super::orders::{Orders, Request};
+use crate::drive::handle;
 use crate::recording::Recorder;
 
 const LOCAL: Operator = Operator::TERMINAL;
@@ -125,7 +125,9 @@ proptest! {
             }
             for Request { by, order, .. } in orders.poll() {
                 let refuses = rules.refuses(by, &order);
-                let answer = obey(&mut vehicle, Some(&mut recorder), now, by, order);
+                let order = Input::Order(by, order);
+                let answer =
+                    handle(&mut vehicle, now, order, |at, passed| recorder.pass(at, &passed));
                 let held = match &answer {
                     Err(Refused::ControlsHeld(holder)) => Some(*holder),
                     _ => None,
@@ -135,11 +137,13 @@ proptest! {
             world.advance(now);
             while let Some(message) = world.receive(now) {
                 match message {
-                    Message::Navdata(packet) => vehicle.handle(now, Input::Navdata(&packet)),
-                    Message::Control(dump) => vehicle.handle(now, Input::Control(dump.as_bytes())),
+                    Message::Navdata(packet) => _ = vehicle.handle(now, Input::Navdata(&packet)),
+                    Message::Control(dump) => {
+                        _ = vehicle.handle(now, Input::Control(dump.as_bytes()));
+                    }
                 }
             }
-            vehicle.tick(now);
+            prop_assert_eq!(vehicle.handle(now, Input::Tick), Ok(()));
             while let Some(output) = vehicle.poll() {
                 match output {
                     Output::Transmit(Transmit::Command { datagram, decision }) => {
@@ -154,7 +158,7 @@ proptest! {
                         }
                     }
                     Output::Transmit(Transmit::WakeUp) => world.send_wake_up(now, &WAKE_UP),
-                    _ => {}
+                    Output::Telemetry(_) => {}
                 }
             }
             let Pose { z_m, .. } = vehicle.status(now).pose.unwrap_or_default();

@@ -13,8 +13,7 @@ mod server;
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use autopilot::plan::MissionId;
-use autopilot::vehicle::{FlightEvent, NotReady, Status};
+use autopilot::vehicle::Telemetry;
 use crossbeam_channel::{Sender, bounded};
 use mavlink_vehicle::Config;
 
@@ -71,17 +70,17 @@ impl Listener {
     /// # Errors
     /// [`MavlinkError::Thread`].
     pub fn open(self, config: Config, controls: Controls) -> Result<MavlinkServer, MavlinkError> {
-        let (news, told) = bounded(BEHIND);
+        let (telemetry, told) = bounded(BEHIND);
         let server = Server::start(self.socket, &self.remotes, config, controls, told)
             .map_err(MavlinkError::Thread)?;
-        Ok(MavlinkServer { news, missed: AtomicU64::new(0), _server: server })
+        Ok(MavlinkServer { telemetry, missed: AtomicU64::new(0), _server: server })
     }
 }
 
 /// The vehicle as MAVLink's clients see it. Dropping it tells them the last news, and ends.
 #[derive(Debug)]
 pub struct MavlinkServer {
-    news: Sender<News>,
+    telemetry: Sender<Telemetry>,
     /// Messages for which there was no room.
     missed: AtomicU64,
     _server: Server,
@@ -90,18 +89,9 @@ pub struct MavlinkServer {
 impl MavlinkServer {
     /// Takes in a message of the flight; never blocks.
     pub fn show(&self, message: &Message) {
-        let news = match message {
-            Message::Status(_, status, _) => News::Status(*status),
-            Message::Event(_, event) => News::Event(event.clone()),
-            Message::Readiness(_, reasons) => News::Readiness(reasons.clone()),
-            Message::Mission { id, .. } => News::Mission(*id),
-            // The status says it, or it is of no interest to others.
-            Message::Realtime(_)
-            | Message::Waypoint(_)
-            | Message::Trouble(..)
-            | Message::Ended(..) => return,
-        };
-        if self.news.try_send(news).is_err() {
+        // The rest the status says, or it is of no interest to others.
+        let Message::Telemetry(_, telemetry, _) = message else { return };
+        if self.telemetry.try_send(telemetry.clone()).is_err() {
             self.missed.fetch_add(1, Ordering::Relaxed);
         }
     }
@@ -113,14 +103,4 @@ impl Drop for MavlinkServer {
             tracing::warn!("MAVLink was too slow: {missed} messages of the flight were lost");
         }
     }
-}
-
-/// What the vehicle is told of the flight.
-#[derive(Debug)]
-#[allow(clippy::large_enum_variant, reason = "most are of the largest")]
-enum News {
-    Status(Status),
-    Event(FlightEvent),
-    Readiness(Vec<NotReady>),
-    Mission(Option<MissionId>),
 }

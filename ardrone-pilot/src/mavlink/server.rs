@@ -5,7 +5,7 @@ use std::net::SocketAddr;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use autopilot::vehicle::{Operator, OperatorOrder, Refused};
+use autopilot::vehicle::{Operator, OperatorOrder, Refused, Telemetry};
 use crossbeam_channel::{Receiver, Sender, bounded};
 use mavlink_vehicle::{Config, Input, MavlinkVehicle, Output, Signing, Ticket, To, frames};
 use time::UtcDateTime;
@@ -13,7 +13,6 @@ use tokio::net::UdpSocket;
 use tokio::sync::oneshot;
 use tokio::time::MissedTickBehavior;
 
-use super::News;
 use super::peers::Peers;
 use crate::flight::Controls;
 
@@ -47,7 +46,7 @@ impl Server {
         remotes: &[SocketAddr],
         mut config: Config,
         controls: Controls,
-        news: Receiver<News>,
+        telemetry: Receiver<Telemetry>,
     ) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let socket = {
@@ -64,7 +63,7 @@ impl Server {
             socket,
             peers: Peers::new(remotes),
             controls,
-            news,
+            telemetry,
             answers,
             answering,
             start: Instant::now(),
@@ -134,7 +133,7 @@ struct Exchange {
     /// Whether nobody but this machine is to be heard.
     only_here: bool,
     controls: Controls,
-    news: Receiver<News>,
+    telemetry: Receiver<Telemetry>,
     answers: Receiver<Answer>,
     /// The other end, for those who answer.
     answering: Sender<Answer>,
@@ -179,14 +178,8 @@ impl Exchange {
         while let Some(gone) = self.peers.forget(now) {
             self.vehicle.handle(now, Input::PeerGone(gone));
         }
-        for news in self.news.try_iter().take(super::BEHIND) {
-            let input = match &news {
-                News::Status(status) => Input::Status(status),
-                News::Event(event) => Input::Event(event),
-                News::Readiness(reasons) => Input::Readiness(reasons),
-                News::Mission(id) => Input::Mission(*id),
-            };
-            self.vehicle.handle(now, input);
+        for telemetry in self.telemetry.try_iter().take(super::BEHIND) {
+            self.vehicle.handle(now, Input::Telemetry(&telemetry));
         }
         self.take_answers(now);
         self.vehicle.tick(now);

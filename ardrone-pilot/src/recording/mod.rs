@@ -25,9 +25,10 @@ pub use reader::{Entry, LARGEST_FILE_BYTES, Log, LogError};
 pub use recorder::{Recorded, Recorder, Recording, RecordingError, VideoRecorder};
 pub use writer::LogWriter;
 
-use autopilot::outcome::Outcome;
-use autopilot::plan::{Step, ZOrigin};
-use autopilot::vehicle::{Decision, FlightEvent, Operator, OperatorOrder};
+use autopilot::plan::ZOrigin;
+use autopilot::vehicle::{Decision, Input, Operator, OperatorOrder, Telemetry, Transmit};
+
+use crate::drive::Passed;
 
 /// Names of attachments.
 const AGENT_FILE: &str = "autopilot.asl";
@@ -85,28 +86,12 @@ pub enum Record {
         /// The order.
         order: OperatorOrder,
     },
-    /// The mission, which has changed.
-    Mission {
-        /// The time of the change.
-        at: Duration,
-        /// Name of the loaded plan; empty without one.
-        name: String,
-        /// All its steps.
-        steps: Vec<Step>,
-    },
-    /// An event of the flight.
-    Event {
+    /// What the vehicle told: events, missions and outcomes.
+    Telemetry {
         /// Its time.
         at: Duration,
-        /// The event.
-        event: FlightEvent,
-    },
-    /// Outcome of the flight.
-    Outcome {
-        /// Its time.
-        at: Duration,
-        /// The outcome.
-        outcome: Outcome,
+        /// What.
+        telemetry: Telemetry,
     },
     /// Another message for people.
     Note {
@@ -131,4 +116,35 @@ pub enum Record {
         /// The datagram that was sent.
         datagram: Vec<u8>,
     },
+}
+
+impl Record {
+    /// The entry for what passes a vehicle, if there is one; `copy` copies bytes, and may have no room for them.
+    pub fn of(
+        at: Duration,
+        passed: &Passed<'_>,
+        copy: impl FnOnce(&[u8]) -> Option<Vec<u8>>,
+    ) -> Option<Self> {
+        Some(match passed {
+            Passed::Input(Input::Navdata(packet), _) => Self::Navdata { at, packet: copy(packet)? },
+            Passed::Input(Input::Control(bytes), _) => Self::Control { at, bytes: bytes.to_vec() },
+            // Even if it was refused: a replay refuses it again.
+            Passed::Input(Input::Order(by, order), _) => {
+                Self::Order { at, by: *by, order: order.clone() }
+            }
+            Passed::Sent { transmit: Transmit::Command { datagram, decision }, late, work } => {
+                let ms = |time: &Duration| time.as_secs_f64() * 1e3;
+                let timing = Timing { late_ms: ms(late), work_ms: ms(work) };
+                Self::Tick { decision: *(*decision)?, timing, datagram: copy(datagram)? }
+            }
+            Passed::Told(
+                telemetry
+                @ (Telemetry::Event(_) | Telemetry::Mission { .. } | Telemetry::Ended(..)),
+            ) => Self::Telemetry { at, telemetry: telemetry.clone() },
+            // The rest can be seen in the ticks.
+            Passed::Input(Input::Tick | Input::Part, _)
+            | Passed::Sent { transmit: Transmit::WakeUp, .. }
+            | Passed::Told(_) => return None,
+        })
+    }
 }

@@ -7,14 +7,11 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use ardrone_link::video::Picture;
-use autopilot::outcome::Outcome;
-use autopilot::plan::Step;
-use autopilot::vehicle::{Decision, FlightEvent, Operator, OperatorOrder};
 use crossbeam_channel::{Receiver, Sender, bounded, never, select_biased};
 use mcap::McapError;
 
-use super::messages::Timing;
 use super::{Header, LogWriter, Record};
+use crate::drive::Passed;
 
 /// Capacity of the queue to the writer: some seconds.
 const WAITING: usize = 1024;
@@ -150,36 +147,18 @@ impl Recorder {
         self.lost
     }
 
-    /// A datagram from the navdata port.
-    pub fn navdata(&mut self, at: Duration, packet: &[u8]) {
-        if let Some(packet) = self.filled(packet) {
-            self.record(Record::Navdata { at, packet });
+    /// What passes a vehicle.
+    pub fn pass(&mut self, at: Duration, passed: &Passed<'_>) {
+        let mut is_full = false;
+        let record = Record::of(at, passed, |bytes| {
+            let filled = self.filled(bytes);
+            is_full = filled.is_none();
+            filled
+        });
+        self.lost += u64::from(is_full);
+        if let Some(record) = record {
+            self.record(record);
         }
-    }
-
-    /// Bytes from the control port.
-    pub fn control(&mut self, at: Duration, bytes: &[u8]) {
-        self.record(Record::Control { at, bytes: bytes.to_vec() });
-    }
-
-    /// An operator's order.
-    pub fn order(&mut self, at: Duration, by: Operator, order: OperatorOrder) {
-        self.record(Record::Order { at, by, order });
-    }
-
-    /// The mission, which has changed.
-    pub fn mission(&mut self, at: Duration, name: String, steps: Vec<Step>) {
-        self.record(Record::Mission { at, name, steps });
-    }
-
-    /// An event of the flight.
-    pub fn event(&mut self, at: Duration, event: FlightEvent) {
-        self.record(Record::Event { at, event });
-    }
-
-    /// Outcome of the flight.
-    pub fn outcome(&mut self, at: Duration, outcome: Outcome) {
-        self.record(Record::Outcome { at, outcome });
     }
 
     /// Another message for people.
@@ -187,19 +166,9 @@ impl Recorder {
         self.record(Record::Note { at, text });
     }
 
-    /// A tick.
-    pub fn tick(&mut self, decision: Decision, timing: Timing, datagram: &[u8]) {
-        if let Some(datagram) = self.filled(datagram) {
-            self.record(Record::Tick { decision, timing, datagram });
-        }
-    }
-
     /// A free buffer filled with `content`, if there is one.
-    fn filled(&mut self, content: &[u8]) -> Option<Vec<u8>> {
-        let Ok(mut buffer) = self.buffers.try_recv() else {
-            self.lost += 1;
-            return None;
-        };
+    fn filled(&self, content: &[u8]) -> Option<Vec<u8>> {
+        let mut buffer = self.buffers.try_recv().ok()?;
         buffer.clear();
         buffer.extend_from_slice(content);
         Some(buffer)

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use ardrone_link::navdata::Packet;
 use autopilot::outcome::Outcome;
-use autopilot::vehicle::TagStatus;
+use autopilot::vehicle::{TagStatus, Telemetry};
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use mcap::records::{MessageHeader, Metadata};
@@ -131,19 +131,7 @@ impl<W: Write + Seek> LogWriter<W> {
             Record::Order { at, by, order } => {
                 self.message(topic::ORDERS, *at, &Order::new(*by, order.clone()))
             }
-            Record::Mission { at, name, steps } => {
-                let steps = steps.iter().map(|step| step.text.clone()).collect();
-                self.message(topic::MISSION, *at, &Mission { name: name.clone(), steps })
-            }
-            Record::Event { at, event } => {
-                let level = if event.warns() { Level::Warning } else { Level::Info };
-                self.log(*at, level, EVENT, &event.to_string())
-            }
-            Record::Outcome { at, outcome } => {
-                let good = *outcome == Outcome::Completed;
-                let level = if good { Level::Info } else { Level::Warning };
-                self.log(*at, level, OUTCOME, &outcome.to_string())
-            }
+            Record::Telemetry { at, telemetry } => self.telemetry(*at, telemetry),
             Record::Note { at, text } => self.log(*at, Level::Info, EVENT, text),
             Record::Picture { at, picture } => self.picture(*at, picture),
             Record::Tick { decision, timing, datagram } => {
@@ -162,6 +150,24 @@ impl<W: Write + Seek> LogWriter<W> {
                 }
                 self.message(topic::TICK, decision.at, &tick)
             }
+        }
+    }
+
+    fn telemetry(&mut self, at: Duration, telemetry: &Telemetry) -> Result<(), McapError> {
+        let level = |is_good| if is_good { Level::Info } else { Level::Warning };
+        match telemetry {
+            Telemetry::Mission { name, steps, .. } => {
+                let steps = steps.iter().map(|step| step.text.clone()).collect();
+                self.message(topic::MISSION, at, &Mission { name: name.clone(), steps })
+            }
+            Telemetry::Event(event) => {
+                self.log(at, level(!event.warns()), EVENT, &event.to_string())
+            }
+            Telemetry::Ended(outcome, _) => {
+                let is_good = *outcome == Outcome::Completed;
+                self.log(at, level(is_good), OUTCOME, &outcome.to_string())
+            }
+            Telemetry::Waypoint(_) | Telemetry::Readiness(_) | Telemetry::Status(_) => Ok(()),
         }
     }
 

@@ -7,7 +7,7 @@ use ardrone_link::navdata::{GpsFix, Navdata, Packet};
 use ardrone_link::session;
 
 use super::life::{Life, Preparation};
-use super::{FlightEvent, LandingReason, Outcome, Phase, Vehicle, sample, sights};
+use super::{FlightEvent, LandingReason, Outcome, Phase, Refused, Vehicle, sample, sights};
 
 /// Time constant of the navdata rate's average, in seconds.
 const RATE_TIME_S: f64 = 1.0;
@@ -23,8 +23,9 @@ pub(super) const DETECTION_SECTION: &str = "detect:";
 pub(super) const VIDEO_SECTION: &str = "video:";
 
 impl Vehicle {
-    pub(super) fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) {
-        let Some(navdata) = self.pass_on(now, session::Input::Navdata(datagram)) else { return };
+    pub(super) fn handle_navdata(&mut self, now: Duration, datagram: &[u8]) -> Result<(), Refused> {
+        let navdata = self.pass_on(now, session::Input::Navdata(datagram));
+        let navdata = navdata.ok_or(Refused::Datagram)?;
         if let Some(demo) = &navdata.demo {
             self.flight.estimator.update(&sample(now, &navdata, demo));
         }
@@ -37,6 +38,7 @@ impl Vehicle {
         {
             self.handle_further_options(now, &packet);
         }
+        Ok(())
     }
 
     /// What the session does not need: roundels, and the flight recorder's position, which is not in every packet.

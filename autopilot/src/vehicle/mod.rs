@@ -1,8 +1,7 @@
 //! The vehicle: navdata and operator orders in, one AT datagram every 30 ms out, the agent in between.
 //!
-//! A [`Vehicle`] is a pure state machine. The shell passes in what arrives ([`Vehicle::handle`],
-//! [`Vehicle::order`]): navdata, bytes from the control port, and operator orders. Every 30 ms it calls
-//! [`Vehicle::tick`] and then sends and displays the outputs ([`Vehicle::poll`]). The vehicle rests on the
+//! A [`Vehicle`] is a pure state machine. The shell passes in what arrives ([`Vehicle::handle`]): navdata, bytes from the
+//! control port, operator orders, and every 30 ms a tick; then it sends and displays the outputs ([`Vehicle::poll`]). The vehicle rests on the
 //! ground until an operator starts a mission, flies it, and rests again.
 
 mod control;
@@ -33,6 +32,7 @@ mod tick;
 mod watch;
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::Duration;
 
 use ardrone_link::at::{Config, Identity};
@@ -57,7 +57,7 @@ use self::operators::Controls;
 pub use self::operators::{Operator, Station};
 pub use self::phase::Phase;
 use self::protocol::Pending;
-pub use self::protocol::{Input, Output, Transmit};
+pub use self::protocol::{Input, Output, Telemetry, Transmit};
 pub use self::readiness::NotReady;
 pub use self::refused::Refused;
 pub use self::report::{FlightReport, Waypoint};
@@ -190,7 +190,9 @@ pub struct Vehicle {
     packet_at: Option<Duration>,
     off_ground_at: Option<Duration>,
     /// Reasons not to take off, and the ticks until they are checked again.
-    readiness: Vec<NotReady>,
+    readiness: Arc<[NotReady]>,
+    /// The only one in flight.
+    in_flight: Arc<[NotReady]>,
     readiness_in: u32,
     events: VecDeque<FlightEvent>,
     /// Decision of the last tick; `None` before the first navdata.
@@ -253,7 +255,8 @@ impl Vehicle {
             navdata_hz: 0.0,
             packet_at: None,
             off_ground_at: None,
-            readiness: Vec::with_capacity(1),
+            readiness: Arc::new([]),
+            in_flight: Arc::new([NotReady::InFlight]),
             readiness_in: 0,
             events: VecDeque::with_capacity(EVENTS),
             decision: None,
@@ -305,24 +308,6 @@ impl Vehicle {
     /// The drone is monitored from now on.
     fn watched_from(&self, now: Duration) -> Watched {
         Watched { since: now, received: self.session.statistics().received }
-    }
-
-    /// A tick of a program that is about to exit: orders the landing through the session alone, so that it
-    /// works whatever state the agent and the estimator are in. See [`session::Input::Part`].
-    pub fn part(&mut self, now: Duration) {
-        self.session.handle(now, session::Input::Part);
-        let transmit = self.session.poll_transmit();
-        self.pending.command = matches!(transmit, Some(session::Transmit::Command(_)));
-    }
-
-    /// Counts of valid, stale and damaged datagrams.
-    pub fn link_statistics(&self) -> session::Statistics {
-        self.session.statistics()
-    }
-
-    /// The datagram of the last tick, empty if there was none.
-    pub fn datagram(&self) -> &[u8] {
-        self.session.datagram()
     }
 
     /// Decision of the last tick; `None` before the first navdata.

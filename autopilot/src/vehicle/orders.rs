@@ -14,12 +14,8 @@ use ardrone_link::session::Request;
 use ardrone_link::settings::{Camera, Setting};
 
 impl Vehicle {
-    /// Handles an order from an operator. An accepted order takes effect in the next tick.
-    ///
-    /// # Errors
-    /// [`Refused`] with the reason. Nothing has changed then, except that a local operator's hold takes the
-    /// controls from a remote one even if there is nothing to hold.
-    pub fn order(
+    /// Handles an order from an operator.
+    pub(super) fn order(
         &mut self,
         now: Duration,
         by: Operator,

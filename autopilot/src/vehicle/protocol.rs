@@ -1,11 +1,20 @@
 //! Inputs and outputs of the vehicle. They are the same for a flight over UDP, a simulated flight and a
 //! replay; recording is a tee on both.
 
+use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Decision, FlightEvent, NotReady, Operator, OperatorOrder, Vehicle, Waypoint};
+use ardrone_link::session;
+
+use super::{
+    Decision, FlightEvent, FlightReport, NotReady, Operator, OperatorOrder, Refused, Stage, Status,
+    Vehicle, Waypoint,
+};
 use crate::outcome::Outcome;
 use crate::plan::{MissionId, Step};
+
+/// Ticks between two status.
+const STATUS_TICKS: u32 = 3;
 
 /// An input of the vehicle.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,8 +23,13 @@ pub enum Input<'a> {
     Navdata(&'a [u8]),
     /// Bytes from the drone's control port.
     Control(&'a [u8]),
-    /// An operator's order. Use [`Vehicle::order`] instead to learn whether it was accepted.
+    /// An operator's order.
     Order(Operator, OperatorOrder),
+    /// It is time to decide what the drone shall do: once every [`TICK`](super::TICK).
+    Tick,
+    /// Likewise for a program that is about to exit: the session alone orders the landing, so that it works whatever state
+    /// the agent and the estimator are in. See [`session::Input::Part`].
+    Part,
 }
 
 /// Something to send to the drone.
@@ -34,28 +48,39 @@ pub enum Transmit<'a> {
     WakeUp,
 }
 
-/// An output of the vehicle.
+/// What the vehicle tells whoever watches it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Output<'a> {
-    /// A datagram for the drone.
-    Transmit(Transmit<'a>),
-    /// An event of the flight.
+#[allow(clippy::large_enum_variant, reason = "a box would be asked for in flight")]
+pub enum Telemetry {
+    /// Something happened.
     Event(FlightEvent),
     /// The mission has changed.
     Mission {
         /// Name of the loaded plan; empty without one.
-        name: &'a str,
+        name: String,
         /// The number that its maker gave it; none for a plan, and once it is extended.
         id: Option<MissionId>,
         /// All its steps.
-        steps: &'a [Step],
+        steps: Vec<Step>,
     },
-    /// A target of the mission was reached.
+    /// A target of the mission was reached and held for its stay time.
     Waypoint(Waypoint),
     /// The reasons not to take off have changed; all of them.
-    Readiness(&'a [NotReady]),
-    /// The flight's outcome. Returned once per flight, as the last output of a tick.
-    Ended(&'a Outcome),
+    Readiness(Arc<[NotReady]>),
+    /// Several times a second.
+    Status(Status),
+    /// A flight has ended: the last that is told of it.
+    Ended(Outcome, Box<FlightReport>),
+}
+
+/// An output of the vehicle.
+#[derive(Debug, Clone, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a box would be asked for in flight")]
+pub enum Output<'a> {
+    /// A datagram for the drone.
+    Transmit(Transmit<'a>),
+    /// What is told.
+    Telemetry(Telemetry),
 }
 
 /// Outputs that have not been polled yet.
@@ -67,58 +92,100 @@ pub(super) struct Pending {
     pub(super) mission: bool,
     pub(super) readiness: bool,
     pub(super) outcome: bool,
+    pub(super) status: bool,
+    /// Ticks since the last status.
+    ticks: u32,
+    /// Time of the last tick.
+    at: Duration,
     /// Number of this flight's waypoints that have been polled.
     pub(super) waypoints: usize,
 }
 
+impl Pending {
+    /// Begins a tick. A datagram that was not sent is outdated.
+    fn begin_tick(&mut self, now: Duration) {
+        (self.command, self.wake_up) = (false, false);
+        self.status |= self.ticks.is_multiple_of(STATUS_TICKS);
+        self.ticks = self.ticks.wrapping_add(1);
+        self.at = now;
+    }
+}
+
 impl Vehicle {
-    /// Handles one input, which takes effect in the next tick. `now` must not run backwards.
-    pub fn handle(&mut self, now: Duration, input: Input<'_>) {
+    /// Handles an input. `now` must not run backwards. What arrives takes effect in the next tick; poll the outputs after
+    /// each tick.
+    ///
+    /// # Errors
+    /// [`Refused`] for an order that is not accepted, and a datagram that is damaged or old. Nothing has changed then but
+    /// counts, except that a local operator's hold takes the controls from a remote one even if there is nothing to hold.
+    pub fn handle(&mut self, now: Duration, input: Input<'_>) -> Result<(), Refused> {
+        self.handle_timed(now, input, |_| {})
+    }
+
+    /// As [`Vehicle::handle`]; `done` is called at the end of each stage of a tick.
+    ///
+    /// # Errors
+    /// As [`Vehicle::handle`].
+    pub fn handle_timed(
+        &mut self,
+        now: Duration,
+        input: Input<'_>,
+        done: impl FnMut(Stage),
+    ) -> Result<(), Refused> {
         match input {
-            Input::Navdata(datagram) => self.handle_navdata(now, datagram),
+            Input::Navdata(datagram) => return self.handle_navdata(now, datagram),
             Input::Control(bytes) => self.handle_control(now, bytes),
-            // A refused order changes nothing; callers who need the reason call `order`.
-            Input::Order(by, order) => _ = self.order(now, by, order),
+            Input::Order(by, order) => return self.order(now, by, order),
+            Input::Tick => {
+                self.pending.begin_tick(now);
+                self.decide(now, done);
+            }
+            Input::Part => {
+                self.session.handle(now, session::Input::Part);
+                let transmit = self.session.poll_transmit();
+                let command = matches!(transmit, Some(session::Transmit::Command(_)));
+                self.pending = Pending { command, ..Pending::default() };
+            }
         }
+        Ok(())
     }
 
-    /// Decides what the drone shall do. Call it every [`TICK`](super::TICK), then poll the outputs.
-    pub fn tick(&mut self, now: Duration) {
-        self.tick_timed(now, |_| {});
-    }
-
-    /// The next datagram to send. The command comes first, because it must not wait for the rest.
-    pub fn poll_transmit(&mut self) -> Option<Transmit<'_>> {
+    /// The next output, until there is none. The command comes first, because it must not wait for the rest.
+    pub fn poll(&mut self) -> Option<Output<'_>> {
         if std::mem::take(&mut self.pending.command) {
             let datagram = self.session.datagram();
-            return Some(Transmit::Command { datagram, decision: self.decision.as_ref() });
+            let decision = self.decision.as_ref();
+            return Some(Output::Transmit(Transmit::Command { datagram, decision }));
         }
-        std::mem::take(&mut self.pending.wake_up).then_some(Transmit::WakeUp)
+        if std::mem::take(&mut self.pending.wake_up) {
+            return Some(Output::Transmit(Transmit::WakeUp));
+        }
+        self.poll_telemetry().map(Output::Telemetry)
     }
 
-    /// The next output, datagrams first. Call it after each tick until it returns `None`.
-    pub fn poll(&mut self) -> Option<Output<'_>> {
-        if self.pending.command || self.pending.wake_up {
-            return self.poll_transmit().map(Output::Transmit);
-        }
+    fn poll_telemetry(&mut self) -> Option<Telemetry> {
         if std::mem::take(&mut self.pending.mission) {
-            return Some(Output::Mission {
-                name: self.mission.name(),
+            return Some(Telemetry::Mission {
+                name: self.mission.name().to_owned(),
                 id: self.mission.id(),
-                steps: self.mission.steps(),
+                steps: self.mission.steps().to_vec(),
             });
         }
         if let Some(event) = self.events.pop_front() {
-            return Some(Output::Event(event));
+            return Some(Telemetry::Event(event));
         }
         if let Some(waypoint) = self.flight.report.waypoints.get(self.pending.waypoints) {
             self.pending.waypoints += 1;
-            return Some(Output::Waypoint(*waypoint));
+            return Some(Telemetry::Waypoint(*waypoint));
         }
         if std::mem::take(&mut self.pending.readiness) {
-            return Some(Output::Readiness(&self.readiness));
+            return Some(Telemetry::Readiness(Arc::clone(&self.readiness)));
+        }
+        if std::mem::take(&mut self.pending.status) {
+            return Some(Telemetry::Status(self.status(self.pending.at)));
         }
         let outcome = self.flight.outcome.as_ref();
-        outcome.filter(|_| std::mem::take(&mut self.pending.outcome)).map(Output::Ended)
+        let outcome = outcome.filter(|_| std::mem::take(&mut self.pending.outcome))?.clone();
+        Some(Telemetry::Ended(outcome, Box::new(self.flight.report.clone())))
     }
 }

@@ -61,6 +61,9 @@ pub enum Refused {
     /// The drone is not in its emergency state, or not on the ground.
     #[error("there is no emergency to recover from on the ground")]
     NoEmergency,
+    /// A datagram is damaged, or older than another one.
+    #[error("the datagram is damaged or old")]
+    Datagram,
     /// The tick loop's queue was full.
     #[error("too many orders are waiting: try again")]
     Busy,

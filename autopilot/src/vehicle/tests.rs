@@ -22,23 +22,26 @@ fn vehicle(plan: &str) -> Vehicle {
 #[test]
 fn nothing_is_sent_to_a_drone_that_was_not_heard() {
     let mut vehicle = vehicle("takeoff\nland");
-    vehicle.tick(Duration::ZERO);
+    assert_eq!(vehicle.handle(Duration::ZERO, Input::Tick), Ok(()));
     assert_eq!(vehicle.status(Duration::ZERO).pose, None, "unknown, not zero");
-    assert_eq!(vehicle.poll_transmit(), Some(Transmit::WakeUp));
-    assert_eq!(vehicle.poll_transmit(), None);
+    assert_eq!(vehicle.poll(), Some(Output::Transmit(Transmit::WakeUp)));
+    while let Some(output) = vehicle.poll() {
+        assert!(matches!(output, Output::Telemetry(_)), "{output:?}");
+    }
 }
 
 #[test]
 fn a_drone_that_never_answers_ends_the_flight() {
     let mut vehicle = vehicle("takeoff\nland");
-    vehicle.tick(CONNECT_TIMEOUT.saturating_sub(TICK));
+    assert_eq!(vehicle.handle(CONNECT_TIMEOUT.saturating_sub(TICK), Input::Tick), Ok(()));
     assert_eq!(vehicle.outcome(), None);
     while vehicle.poll().is_some() {}
-    vehicle.tick(CONNECT_TIMEOUT);
+    assert_eq!(vehicle.handle(CONNECT_TIMEOUT, Input::Tick), Ok(()));
     assert_eq!(vehicle.outcome(), Some(&Outcome::NoDrone));
-    let outputs: Vec<_> =
-        std::iter::from_fn(|| vehicle.poll().map(|output| matches!(output, Output::Ended(_))))
-            .collect();
+    let outputs: Vec<_> = std::iter::from_fn(|| {
+        vehicle.poll().map(|output| matches!(output, Output::Telemetry(Telemetry::Ended(..))))
+    })
+    .collect();
     assert_eq!(outputs.iter().filter(|ended| **ended).count(), 1, "the end is said once");
     assert_eq!(outputs.last(), Some(&true), "and last");
 }
@@ -46,7 +49,8 @@ fn a_drone_that_never_answers_ends_the_flight() {
 #[test]
 fn an_order_to_land_before_the_flight_just_ends_it() {
     let mut vehicle = vehicle("takeoff\nland");
-    vehicle.handle(Duration::ZERO, Input::Order(Operator::TERMINAL, OperatorOrder::Land));
+    let land = Input::Order(Operator::TERMINAL, OperatorOrder::Land);
+    assert_eq!(vehicle.handle(Duration::ZERO, land), Ok(()));
     assert_eq!(vehicle.outcome(), Some(&Outcome::Interrupted));
 }
 
@@ -56,8 +60,8 @@ fn random_navdata_is_ignored() {
     for length in 0..600_usize {
         let bytes: Vec<u8> =
             (0_u8..=255).cycle().map(|i| i.wrapping_mul(37)).take(length).collect();
-        vehicle.handle(Duration::ZERO, Input::Navdata(&bytes));
-        vehicle.handle(Duration::ZERO, Input::Control(&bytes));
+        assert_eq!(vehicle.handle(Duration::ZERO, Input::Navdata(&bytes)), Err(Refused::Datagram));
+        assert_eq!(vehicle.handle(Duration::ZERO, Input::Control(&bytes)), Ok(()));
     }
     assert_eq!(vehicle.status(Duration::ZERO).battery_percent, None);
 }
@@ -87,7 +91,7 @@ fn refusals(plan: &str, demo: Demo, packets: u64, later: Duration) -> Vec<String
     let mut packet = PacketWriter::new(&mut bytes, DroneState::empty(), 1, 0);
     packet.option(&NavdataOption::Demo(demo)).unwrap();
     packet.finish();
-    vehicle.handle(Duration::ZERO, Input::Navdata(&bytes));
+    assert_eq!(vehicle.handle(Duration::ZERO, Input::Navdata(&bytes)), Ok(()));
     vehicle.life.prepare(Preparation::Trimming(vehicle.watched_from(Duration::ZERO)));
     vehicle.take_off_or_refuse(later, packets as f64);
     match vehicle.outcome() {

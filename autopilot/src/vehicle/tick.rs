@@ -1,5 +1,6 @@
 //! One tick: percepts, the agent's decision, the safety layer, and the datagram.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use ardrone_link::at::Motion;
@@ -24,16 +25,8 @@ const DISOBEDIENT: f64 = 0.7;
 const HEARD: Duration = Duration::from_millis(150);
 
 impl Vehicle {
-    /// As [`Vehicle::tick`]; `done` is called at the end of each stage.
-    pub fn tick_timed(&mut self, now: Duration, mut done: impl FnMut(Stage)) {
-        // A datagram that was not sent is outdated.
-        self.pending.command = false;
-        self.pending.wake_up = false;
-        self.decide(now, &mut done);
-    }
-
-    /// Decides what the drone shall do, and encodes it.
-    fn decide(&mut self, now: Duration, done: &mut impl FnMut(Stage)) {
+    /// Decides what the drone shall do, and encodes it; `done` is called at the end of each stage.
+    pub(super) fn decide(&mut self, now: Duration, mut done: impl FnMut(Stage)) {
         let step_s = self
             .last_tick
             .map_or(TICK, |last| now.saturating_sub(last))
@@ -129,22 +122,20 @@ impl Vehicle {
             return;
         }
         self.readiness_in = READINESS_TICKS;
-        // A tick in flight must not allocate: there is room for one reason.
+        // A tick in flight must not allocate.
         if self.life.is_in_flight() {
-            if self.readiness != [NotReady::InFlight] {
-                self.readiness.clear();
-                self.readiness.push(NotReady::InFlight);
+            if !Arc::ptr_eq(&self.readiness, &self.in_flight) {
+                self.readiness = Arc::clone(&self.in_flight);
                 self.pending.readiness = true;
             }
             return;
         }
-        let mut reasons = self.not_ready(now);
+        let reasons = self.not_ready(now);
         let kinds = |reasons: &[NotReady]| -> Vec<_> {
             reasons.iter().map(std::mem::discriminant).collect()
         };
         self.pending.readiness |= kinds(&reasons) != kinds(&self.readiness);
-        self.readiness.clear();
-        self.readiness.append(&mut reasons);
+        self.readiness = reasons.into();
     }
 
     /// Predicted position and motion at `at`.

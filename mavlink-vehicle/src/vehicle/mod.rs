@@ -23,7 +23,9 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use arrayvec::{ArrayString, ArrayVec};
-use autopilot::vehicle::{FlightEvent, NotReady, Operator, OperatorOrder, Station as Kind, Status};
+use autopilot::vehicle::{
+    FlightEvent, NotReady, Operator, OperatorOrder, Station as Kind, Status, Telemetry,
+};
 
 use self::arming::Arming;
 use self::flown::Flown;
@@ -116,10 +118,13 @@ impl MavlinkVehicle {
                     self.receive(now, peer, local, &frame);
                 }
             }
-            Input::Status(status) => self.take_status(now, status),
-            Input::Readiness(reasons) => self.take_readiness(reasons),
-            Input::Event(event) => self.take_event(event),
-            Input::Mission(id) => self.flown.recognise(id),
+            Input::Telemetry(telemetry) => match telemetry {
+                Telemetry::Status(status) => self.take_status(now, status),
+                Telemetry::Readiness(reasons) => self.take_readiness(reasons),
+                Telemetry::Event(event) => self.take_event(event),
+                Telemetry::Mission { id, .. } => self.flown.recognise(*id),
+                Telemetry::Waypoint(_) | Telemetry::Ended(..) => {}
+            },
             Input::Answer { ticket, answer } => self.take_answer(now, ticket, &answer),
             Input::PeerGone(peer) => self.stations.forget_peer(peer),
         }

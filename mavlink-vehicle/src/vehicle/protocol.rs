@@ -2,10 +2,8 @@
 
 use std::time::Duration;
 
-use autopilot::plan::{FlightLimits, MissionId};
-use autopilot::vehicle::{
-    FlightEvent, NotReady, Operator, OperatorOrder, Refused, StationPatience, Status,
-};
+use autopilot::plan::FlightLimits;
+use autopilot::vehicle::{Operator, OperatorOrder, Refused, StationPatience, Telemetry};
 
 use crate::place::Origin;
 use crate::signing::Key;
@@ -77,14 +75,8 @@ pub enum Input<'a> {
     },
     /// A peer is forgotten; its number will be that of another.
     PeerGone(u8),
-    /// The vehicle's status, several times a second.
-    Status(&'a Status),
-    /// All reasons why the vehicle cannot take off.
-    Readiness(&'a [NotReady]),
-    /// Something happened to the vehicle.
-    Event(&'a FlightEvent),
-    /// The vehicle's mission has changed; its number, if a program has made it.
-    Mission(Option<MissionId>),
+    /// What the vehicle tells.
+    Telemetry(&'a Telemetry),
     /// The vehicle's answer to an order, each of which has one.
     Answer {
         /// The order's.

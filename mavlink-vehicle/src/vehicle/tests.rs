@@ -1,7 +1,9 @@
 //! The vehicle as its clients see it.
 
 use autopilot::plan::Command;
-use autopilot::vehicle::{ManualControl, Phase, Place, Station as Kind, Vehicle, VehicleConfig};
+use autopilot::vehicle::{
+    ManualControl, Phase, Place, Station as Kind, Telemetry, Vehicle, VehicleConfig,
+};
 use mavlink_core::Message as _;
 
 use super::*;
@@ -40,7 +42,7 @@ impl Bench {
             orders: Vec::new(),
             answer: Ok(()),
         };
-        bench.vehicle.handle(bench.now, Input::Readiness(&[]));
+        bench.vehicle.handle(bench.now, Input::Telemetry(&Telemetry::Readiness([].into())));
         bench.pass(Duration::from_millis(20));
         bench.sent.clear();
         bench
@@ -50,7 +52,7 @@ impl Bench {
         let end = self.now + time;
         while self.now < end {
             self.now += Duration::from_millis(20);
-            self.vehicle.handle(self.now, Input::Status(&self.status));
+            self.vehicle.handle(self.now, Input::Telemetry(&Telemetry::Status(self.status)));
             self.vehicle.tick(self.now);
             self.collect();
         }
@@ -229,7 +231,9 @@ fn arming_passes_and_needs_a_ready_drone() {
     for odd in [NAN, 0.5, 7.0, f32::INFINITY] {
         bench.refuses(400, first(odd));
     }
-    bench.vehicle.handle(bench.now, Input::Readiness(&[NotReady::NoDrone]));
+    bench
+        .vehicle
+        .handle(bench.now, Input::Telemetry(&Telemetry::Readiness([NotReady::NoDrone].into())));
     bench.refuses(400, first(1.0));
     bench.pass(SECOND);
     assert!(bench.said("not ready"));
@@ -476,10 +480,10 @@ fn a_take_off_that_waits_is_given_up_by_what_is_ordered_after_it() {
     let mut bench = Bench::new(Config::default());
     bench.accepts(22, NOTHING);
     let taken = FlightEvent::ControlsTaken { by: Operator::TERMINAL };
-    bench.vehicle.handle(bench.now, Input::Event(&taken));
+    bench.vehicle.handle(bench.now, Input::Telemetry(&Telemetry::Event(taken.clone())));
     bench.accepts(400, first(1.0));
     assert_eq!(bench.ordered(), ["take"]);
-    bench.vehicle.handle(bench.now, Input::Event(&taken));
+    bench.vehicle.handle(bench.now, Input::Telemetry(&Telemetry::Event(taken.clone())));
     assert!(!bench.is_armed());
     // A local operator who takes free controls and gives them back has stepped in, too.
     let mut bench = Bench::new(Config::default());
@@ -622,7 +626,8 @@ fn what_waits_for_arming_is_begun_only_by_its_own_station() {
 fn a_mission_is_known_by_its_number_until_it_is_another() {
     let reached = |bench: &mut Bench, step| {
         bench.sent.clear();
-        bench.vehicle.handle(bench.now, Input::Event(&FlightEvent::StepDone { step }));
+        let done = Telemetry::Event(FlightEvent::StepDone { step });
+        bench.vehicle.handle(bench.now, Input::Telemetry(&done));
         bench.collect();
         bench.sent.iter().find_map(|(_, message)| match message {
             MavMessage::MISSION_ITEM_REACHED(data) => Some(data.seq),
@@ -648,11 +653,13 @@ fn a_mission_is_known_by_its_number_until_it_is_another() {
     let up = take_off + 4;
     bench.fly();
     assert_eq!(reached(&mut bench, up), None, "the vehicle has not said that it has the mission");
-    bench.vehicle.handle(bench.now, Input::Mission(id));
+    let mission = |id| Telemetry::Mission { name: String::new(), id, steps: Vec::new() };
+    bench.vehicle.handle(bench.now, Input::Telemetry(&mission(id)));
     assert_eq!([take_off, up].map(|step| reached(&mut bench, step)), [None, Some(0)]);
-    bench.vehicle.handle(bench.now, Input::Mission(None));
+    bench.vehicle.handle(bench.now, Input::Telemetry(&mission(None)));
     let last = bench.vehicle.flown.steps().len() - 1;
     assert_eq!(reached(&mut bench, last), None, "it was extended, or is another");
-    bench.vehicle.handle(bench.now, Input::Mission(id));
+    let mission = |id| Telemetry::Mission { name: String::new(), id, steps: Vec::new() };
+    bench.vehicle.handle(bench.now, Input::Telemetry(&mission(id)));
     assert_eq!(reached(&mut bench, last), Some(3));
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use autopilot::outcome::Outcome;
 use autopilot::plan::FlightLimits;
-use autopilot::vehicle::{FlightEvent, NotReady, Phase, RestsOn, Status};
+use autopilot::vehicle::{FlightEvent, NotReady, Phase, RestsOn, Status, Telemetry};
 use diagnostic::printable;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -84,28 +84,37 @@ impl View {
     pub(super) fn take_in(&mut self, message: &Message) {
         match message {
             Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
-            Message::Waypoint(_) => {}
-            Message::Mission { steps, .. } => {
+            Message::Trouble(at, trouble) => {
+                let line = format!("{:6.1} s {trouble}", at.as_secs_f64());
+                remember(&mut self.messages, (line, true));
+            }
+            Message::Telemetry(at, telemetry, ticks) => {
+                self.ticks = *ticks;
+                self.tell(*at, telemetry);
+            }
+        }
+    }
+
+    fn tell(&mut self, at: Duration, telemetry: &Telemetry) {
+        match telemetry {
+            Telemetry::Waypoint(_) => {}
+            Telemetry::Mission { steps, .. } => {
                 self.steps = steps.iter().map(|step| step.text.clone()).collect();
             }
-            Message::Readiness(_, reasons) => {
+            Telemetry::Readiness(reasons) => {
                 self.not_ready = reasons
                     .iter()
                     .filter(|reason| **reason != NotReady::InFlight)
                     .map(|reason| printable(&reason.to_string()).into_owned())
                     .collect();
             }
-            Message::Ended(at, outcome, report) => {
+            Telemetry::Ended(outcome, report) => {
                 let (done, steps) = (report.steps_done, report.steps);
                 let text = format!("{outcome}; {done} of {steps} steps");
                 let line = format!("{:6.1} s {}", at.as_secs_f64(), printable(&text));
                 remember(&mut self.messages, (line, *outcome != Outcome::Completed));
             }
-            Message::Trouble(at, trouble) => {
-                let line = format!("{:6.1} s {trouble}", at.as_secs_f64());
-                remember(&mut self.messages, (line, true));
-            }
-            Message::Event(at, event) => {
+            Telemetry::Event(event) => {
                 let text = match event {
                     FlightEvent::StepStarted { step } => {
                         let text = self.steps.get(*step).map_or("", String::as_str);
@@ -116,10 +125,7 @@ impl View {
                 let line = format!("{:6.1} s {}", at.as_secs_f64(), printable(&text));
                 remember(&mut self.messages, (line, event.warns()));
             }
-            Message::Status(at, status, ticks) => {
-                self.ticks = *ticks;
-                self.look(*at, status);
-            }
+            Telemetry::Status(status) => self.look(at, status),
         }
     }
 
@@ -426,16 +432,16 @@ mod tests {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\ngoto 1 1 0 0\nland\n").unwrap();
         let mut view = View::new(&FlightLimits::default());
         let steps = plan.steps().to_vec();
-        view.take_in(&Message::Mission { name: String::new(), id: None, steps });
+        let ticks = TickHealth { lateness: Duration::from_micros(230), skipped: 1 };
+        let mut tell = |at, telemetry| view.take_in(&Message::Telemetry(at, telemetry, ticks));
+        tell(Duration::ZERO, Telemetry::Mission { name: String::new(), id: None, steps });
         for tick in 0..40_u32 {
             let status = status(f64::from(tick) / 40.0);
-            let ticks = TickHealth { lateness: Duration::from_micros(230), skipped: 1 };
-            let at = Duration::from_millis(u64::from(tick) * 90);
-            view.take_in(&Message::Status(at, status, ticks));
+            tell(Duration::from_millis(u64::from(tick) * 90), Telemetry::Status(status));
         }
         let started = FlightEvent::StepStarted { step: 2 };
-        view.take_in(&Message::Event(Duration::from_secs(3), started));
-        view.take_in(&Message::Event(Duration::from_secs(4), FlightEvent::LinkLost));
+        tell(Duration::from_secs(3), Telemetry::Event(started));
+        tell(Duration::from_secs(4), Telemetry::Event(FlightEvent::LinkLost));
         let mut terminal = Terminal::new(TestBackend::new(90, 26)).unwrap();
         terminal.draw(|frame| draw(frame, &view)).unwrap();
         insta::assert_snapshot!(terminal.backend());
@@ -465,7 +471,8 @@ mod tests {
         let mut view = View::new(&FlightLimits::default());
         let rests_on = RestsOn::of(Some(&tags));
         let status = Status { tags: Some(tags), rests_on, ..status(0.5) };
-        view.take_in(&Message::Status(Duration::from_secs(3), status, TickHealth::default()));
+        let (at, status) = (Duration::from_secs(3), Telemetry::Status(status));
+        view.take_in(&Message::Telemetry(at, status, TickHealth::default()));
         let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
         terminal.draw(|frame| draw(frame, &view)).unwrap();
         insta::assert_snapshot!(terminal.backend());

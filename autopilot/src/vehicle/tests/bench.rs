@@ -119,7 +119,7 @@ impl Bench {
     }
 
     pub(super) fn order(&mut self, order: OperatorOrder) -> Result<(), Refused> {
-        self.vehicle.order(self.now, Operator::TERMINAL, order)
+        self.vehicle.handle(self.now, Input::Order(Operator::TERMINAL, order))
     }
 
     pub(super) fn accepted(&mut self, order: OperatorOrder) {
@@ -145,19 +145,22 @@ impl Bench {
         if self.is_heard {
             self.hear();
         }
-        self.vehicle.tick(self.now);
+        assert_eq!(self.vehicle.handle(self.now, Input::Tick), Ok(()));
         self.commands.clear();
         while let Some(output) = self.vehicle.poll() {
             match output {
                 Output::Transmit(Transmit::Command { datagram, .. }) => {
                     self.commands = decode(datagram).map(|command| command.unwrap().1).collect();
                 }
-                Output::Event(event) => self.events.push(event),
-                Output::Ended(outcome) => self.outcomes.push(outcome.clone()),
-                Output::Readiness(reasons) => self.readiness.push(reasons.to_vec()),
-                Output::Mission { steps, .. } => self.missions.push(steps.len()),
-                Output::Waypoint(waypoint) => self.waypoints.push(waypoint),
                 Output::Transmit(Transmit::WakeUp) => {}
+                Output::Telemetry(telemetry) => match telemetry {
+                    Telemetry::Event(event) => self.events.push(event),
+                    Telemetry::Ended(outcome, _) => self.outcomes.push(outcome),
+                    Telemetry::Readiness(reasons) => self.readiness.push(reasons.to_vec()),
+                    Telemetry::Mission { steps, .. } => self.missions.push(steps.len()),
+                    Telemetry::Waypoint(waypoint) => self.waypoints.push(waypoint),
+                    Telemetry::Status(_) => {}
+                },
             }
         }
         let acknowledge = DroneState::COMMAND_ACKNOWLEDGE;
@@ -189,7 +192,7 @@ impl Bench {
             packet.option(&NavdataOption::Gps(gps)).unwrap();
         }
         packet.finish();
-        self.vehicle.handle(self.now, Input::Navdata(&bytes));
+        assert_eq!(self.vehicle.handle(self.now, Input::Navdata(&bytes)), Ok(()));
     }
 
     /// A roundel of 19 cm in the middle of the picture.

@@ -119,7 +119,8 @@ fn the_configuration_that_is_read_back_must_be_the_one_that_was_set() {
             text.extend([setting.key(), " = ", value, "\n"]);
         }
         text.push('\0');
-        bench.vehicle.handle(bench.now, Input::Control(text.as_bytes()));
+        let handled = bench.vehicle.handle(bench.now, Input::Control(text.as_bytes()));
+        assert_eq!(handled, Ok(()));
         bench.run(SECOND);
         assert!(bench.events.contains(&FlightEvent::ConfigurationRead { version: None }));
         assert_eq!((bench.phase(), bench.vehicle.readiness()), (Phase::Standby, &expected[..]));
@@ -139,9 +140,14 @@ fn after_flat_trim_the_drone_settles_for_half_a_second() {
     let mut bench = Bench::new();
     bench.until(3 * SECOND, |bench| bench.phase() == Phase::Trimming);
     let since = bench.now;
-    bench.vehicle.tick(since + SETTLE_TIME.saturating_sub(Duration::from_millis(1)));
+    assert_eq!(
+        bench
+            .vehicle
+            .handle(since + SETTLE_TIME.saturating_sub(Duration::from_millis(1)), Input::Tick),
+        Ok(())
+    );
     assert_eq!(bench.phase(), Phase::Trimming);
-    bench.vehicle.tick(since + SETTLE_TIME);
+    assert_eq!(bench.vehicle.handle(since + SETTLE_TIME, Input::Tick), Ok(()));
     assert_eq!(bench.phase(), Phase::Standby);
 }
 

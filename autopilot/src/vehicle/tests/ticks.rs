@@ -195,7 +195,7 @@ fn a_mission_is_output_with_all_its_steps_when_it_changes() {
     bench.accepted(OperatorOrder::Clear);
     bench.step();
     assert_eq!(bench.missions, [4, 0]);
-    assert_eq!(bench.vehicle.link_statistics().received, u64::from(bench.sequence));
+    assert_eq!(bench.vehicle.session.statistics().received, u64::from(bench.sequence));
 }
 
 #[test]
@@ -224,10 +224,10 @@ fn each_flight_begins_anew() {
 #[test]
 fn a_program_that_exits_lands_the_drone_and_says_so_in_its_datagram() {
     let mut bench = Bench::in_the_air(STAY);
-    bench.vehicle.part(bench.now + TICK);
-    let expected = bench.vehicle.datagram().to_vec();
+    assert_eq!(bench.vehicle.handle(bench.now + TICK, Input::Part), Ok(()));
+    let expected = bench.vehicle.session.datagram().to_vec();
     assert!(expected.starts_with(b"AT*REF="), "{expected:?}");
-    let Some(Transmit::Command { datagram, .. }) = bench.vehicle.poll_transmit() else {
+    let Some(Output::Transmit(Transmit::Command { datagram, .. })) = bench.vehicle.poll() else {
         panic!("nothing was sent")
     };
     assert_eq!(datagram, expected);
