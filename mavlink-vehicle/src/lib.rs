@@ -16,11 +16,12 @@
 pub mod dialect;
 mod frame;
 pub mod mission;
-pub mod place;
+mod place;
 mod signing;
 #[allow(deprecated, reason = "clients of all ages are answered")]
 mod vehicle;
 
 pub use frame::{Buffer, Encoder, Frame, FrameError, LONGEST_FRAME, Version, frames};
+pub use place::{Origin, OriginError};
 pub use signing::{Key, KeyError, Refusal, Signature, Signing};
 pub use vehicle::{Autopilot, Config, Input, MavlinkVehicle, Output, Ticket, To};

@@ -4,14 +4,14 @@
 //! yaw in degrees clockwise from above. The drone knows neither where it is on the globe nor where north is: an
 //! [`Origin`] says which place and which direction are meant.
 
-use kinematics::{Pose, Velocity, wrap_deg, wrap_rad};
+use kinematics::{wrap_deg, wrap_rad};
 
 /// Radius of the sphere, in metres: that of PX4 and MAVSDK. Scripts that mix local and global coordinates then
 /// agree with us to the grid of 1e-7°.
-pub const EARTH_RADIUS_M: f64 = 6_371_000.0;
+const EARTH_RADIUS_M: f64 = 6_371_000.0;
 
 /// Coordinate of a place in an integer field that is not given.
-pub const ABSENT: i32 = i32::MAX;
+pub(crate) const ABSENT: i32 = i32::MAX;
 
 /// Metres of one degree of latitude.
 const METRES_PER_DEGREE: f64 = std::f64::consts::PI * EARTH_RADIUS_M / 180.0;
@@ -60,40 +60,18 @@ pub enum OriginError {
     Heading(f64),
 }
 
-/// A place or displacement in metres: north, east, down.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Ned {
-    /// North.
-    pub north_m: f64,
-    /// East.
-    pub east_m: f64,
-    /// Down.
-    pub down_m: f64,
-}
-
-/// A velocity in metres per second: north, east, down.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct NedVelocity {
-    /// North.
-    pub north_m_s: f64,
-    /// East.
-    pub east_m_s: f64,
-    /// Down.
-    pub down_m_s: f64,
-}
-
 /// A place on the globe as MAVLink's integers have it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Global {
+pub(crate) struct Global {
     /// Degrees × 1e7, north positive.
-    pub latitude_e7: i32,
+    pub(crate) latitude_e7: i32,
     /// Degrees × 1e7, east positive.
-    pub longitude_e7: i32,
+    pub(crate) longitude_e7: i32,
 }
 
 /// The frames in which places are taken; numbers as in `MAV_FRAME`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Frame {
+pub(crate) enum Frame {
     /// 0 and 5: latitude, longitude, height above mean sea level.
     Global,
     /// 1: north, east, down from the start.
@@ -112,7 +90,7 @@ pub enum Frame {
 
 /// Why a place cannot be understood.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum PlaceError {
+pub(crate) enum PlaceError {
     /// Heights above a terrain that nobody knows.
     #[error("frame {0} counts heights from the terrain, which is not known here: use frame 3")]
     Terrain(u8),
@@ -132,11 +110,11 @@ pub enum PlaceError {
 
 /// A place in our frame; what was not given is `None`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Place {
+pub(crate) struct Place {
     /// Right and forward of the start, in metres.
-    pub ground_m: Option<(f64, f64)>,
+    pub(crate) ground_m: Option<(f64, f64)>,
     /// Height above the floor at the start, in metres.
-    pub z_m: Option<f64>,
+    pub(crate) z_m: Option<f64>,
 }
 
 impl Frame {
@@ -144,7 +122,7 @@ impl Frame {
     ///
     /// # Errors
     /// [`PlaceError::Terrain`], [`PlaceError::Frame`].
-    pub fn from_number(number: u8) -> Result<Self, PlaceError> {
+    pub(crate) fn from_number(number: u8) -> Result<Self, PlaceError> {
         match number {
             0 | 5 => Ok(Self::Global),
             1 => Ok(Self::LocalNed),
@@ -159,12 +137,12 @@ impl Frame {
     }
 
     /// Whether x and y are latitude and longitude.
-    pub fn is_global(self) -> bool {
+    pub(crate) fn is_global(self) -> bool {
         matches!(self, Self::Global | Self::GlobalRelative)
     }
 
     /// Number by which the integers x and y of this frame are divided.
-    pub fn scale(self) -> f64 {
+    pub(crate) fn scale(self) -> f64 {
         match self {
             Self::Global | Self::GlobalRelative => GLOBAL_SCALE,
             Self::LocalNed | Self::LocalEnu | Self::LocalFrd | Self::LocalFlu => LOCAL_SCALE,
@@ -194,43 +172,24 @@ impl Origin {
         Ok(self)
     }
 
-    /// The place of a pose; its heading is in [`Self::yaw_ned_rad`].
-    pub fn ned(&self, pose: &Pose) -> Ned {
-        let (north_m, east_m) = self.north_east(pose.x_m, pose.y_m);
-        Ned { north_m, east_m, down_m: -pose.z_m }
-    }
-
-    /// The pose at a place, with a yaw in radians clockwise from north.
-    pub fn pose(&self, place: &Ned, yaw_ned_rad: f64) -> Pose {
-        let (x_m, y_m) = self.right_forward(place.north_m, place.east_m);
-        Pose { x_m, y_m, z_m: -place.down_m, yaw_deg: self.yaw_deg(yaw_ned_rad) }
-    }
-
-    /// A velocity of ours.
-    pub fn ned_velocity(&self, velocity: &Velocity) -> NedVelocity {
-        let (north_m_s, east_m_s) = self.north_east(velocity.x_m_s, velocity.y_m_s);
-        NedVelocity { north_m_s, east_m_s, down_m_s: -velocity.z_m_s }
-    }
-
-    /// A velocity to ours, with a rate of turn in radians per second, clockwise.
-    pub fn velocity(&self, velocity: &NedVelocity, yaw_rad_s: f64) -> Velocity {
-        let (x_m_s, y_m_s) = self.right_forward(velocity.north_m_s, velocity.east_m_s);
-        let z_m_s = -velocity.down_m_s;
-        Velocity { x_m_s, y_m_s, z_m_s, yaw_deg_s: yaw_rad_s.to_degrees() }
+    /// A place or velocity of ours, right, forward and up, as north, east and down.
+    pub(crate) fn ned(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let (north, east) = self.north_east(x, y);
+        [north, east, -z]
     }
 
     /// Our yaw as radians clockwise from north, in [-π, π).
-    pub fn yaw_ned_rad(&self, yaw_deg: f64) -> f64 {
+    pub(crate) fn yaw_ned_rad(&self, yaw_deg: f64) -> f64 {
         wrap_rad((yaw_deg + self.heading_deg).to_radians())
     }
 
     /// Radians clockwise from north as our yaw, in [-180, 180) degrees.
-    pub fn yaw_deg(&self, yaw_ned_rad: f64) -> f64 {
+    pub(crate) fn yaw_deg(&self, yaw_ned_rad: f64) -> f64 {
         wrap_deg(yaw_ned_rad.to_degrees() - self.heading_deg)
     }
 
     /// The place on the globe, right and forward of the start.
-    pub fn global(&self, x_m: f64, y_m: f64) -> Global {
+    pub(crate) fn global(&self, x_m: f64, y_m: f64) -> Global {
         let (north_m, east_m) = self.north_east(x_m, y_m);
         let longitude_deg = self.longitude_deg + east_m / self.metres_per_degree_east();
         Global {
@@ -240,7 +199,7 @@ impl Origin {
     }
 
     /// Right and forward of the start, in metres.
-    pub fn ground_m(&self, place: Global) -> (f64, f64) {
+    pub(crate) fn ground_m(&self, place: Global) -> (f64, f64) {
         let latitude_deg = f64::from(place.latitude_e7) / GLOBAL_SCALE;
         let longitude_deg = f64::from(place.longitude_e7) / GLOBAL_SCALE;
         self.right_forward(
@@ -250,12 +209,12 @@ impl Origin {
     }
 
     /// Height above mean sea level, in metres, of a height above the floor.
-    pub fn amsl_m(&self, z_m: f64) -> f64 {
+    pub(crate) fn amsl_m(&self, z_m: f64) -> f64 {
         self.altitude_m + z_m
     }
 
     /// Height above the floor, in metres, of one above mean sea level.
-    pub fn z_m(&self, amsl_m: f64) -> f64 {
+    pub(crate) fn z_m(&self, amsl_m: f64) -> f64 {
         amsl_m - self.altitude_m
     }
 
@@ -264,7 +223,7 @@ impl Origin {
     ///
     /// # Errors
     /// [`PlaceError`] if the frame is not supported, or a coordinate impossible; one of x and y alone is no place.
-    pub fn place(&self, frame: u8, x: i32, y: i32, z: f32) -> Result<Place, PlaceError> {
+    pub(crate) fn place(&self, frame: u8, x: i32, y: i32, z: f32) -> Result<Place, PlaceError> {
         let frame = Frame::from_number(frame)?;
         if z.is_infinite() {
             return Err(PlaceError::Z);
@@ -279,36 +238,6 @@ impl Origin {
             _ => z,
         };
         Ok(Place { ground_m: self.ground_in(frame, x, y)?, z_m: (!z_m.is_nan()).then_some(z_m) })
-    }
-
-    /// The integer fields for a place, the inverse of [`Self::place`].
-    pub fn fields(&self, frame: Frame, place: &Place) -> (i32, i32, f32) {
-        let (x, y) = match (place.ground_m, frame) {
-            (None, _) | (_, Frame::Mission) => (ABSENT, ABSENT),
-            (Some((x_m, y_m)), Frame::Global | Frame::GlobalRelative) => {
-                let Global { latitude_e7, longitude_e7 } = self.global(x_m, y_m);
-                (latitude_e7, longitude_e7)
-            }
-            (Some((x_m, y_m)), _) => {
-                let (north_m, east_m) = self.north_east(x_m, y_m);
-                let (x, y) = match frame {
-                    Frame::LocalEnu => (east_m, north_m),
-                    Frame::LocalFrd => (y_m, x_m),
-                    Frame::LocalFlu => (y_m, -x_m),
-                    _ => (north_m, east_m),
-                };
-                (scaled(x, LOCAL_SCALE), scaled(y, LOCAL_SCALE))
-            }
-        };
-        let z = match (place.z_m, frame) {
-            (None, _) | (_, Frame::Mission) => f64::NAN,
-            (Some(z_m), Frame::Global) => self.amsl_m(z_m),
-            (Some(z_m), Frame::LocalNed | Frame::LocalFrd) => -z_m,
-            (Some(z_m), _) => z_m,
-        };
-        // A height has less than 24 significant bits of meaning.
-        #[allow(clippy::cast_possible_truncation)]
-        (x, y, z as f32)
     }
 
     fn ground_in(&self, frame: Frame, x: i32, y: i32) -> Result<Option<(f64, f64)>, PlaceError> {
@@ -341,7 +270,8 @@ impl Origin {
         (y * cos - x * sin, y * sin + x * cos)
     }
 
-    fn right_forward(self, north: f64, east: f64) -> (f64, f64) {
+    /// What is so far north and east, right and forward.
+    pub(crate) fn right_forward(self, north: f64, east: f64) -> (f64, f64) {
         let (sin, cos) = self.heading_deg.to_radians().sin_cos();
         (east * cos - north * sin, north * cos + east * sin)
     }
@@ -364,6 +294,38 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+
+    impl Origin {
+        /// The integer fields for a place, the inverse of [`Self::place`].
+        pub(crate) fn fields(&self, frame: Frame, place: &Place) -> (i32, i32, f32) {
+            let (x, y) = match (place.ground_m, frame) {
+                (None, _) | (_, Frame::Mission) => (ABSENT, ABSENT),
+                (Some((x_m, y_m)), Frame::Global | Frame::GlobalRelative) => {
+                    let Global { latitude_e7, longitude_e7 } = self.global(x_m, y_m);
+                    (latitude_e7, longitude_e7)
+                }
+                (Some((x_m, y_m)), _) => {
+                    let (north_m, east_m) = self.north_east(x_m, y_m);
+                    let (x, y) = match frame {
+                        Frame::LocalEnu => (east_m, north_m),
+                        Frame::LocalFrd => (y_m, x_m),
+                        Frame::LocalFlu => (y_m, -x_m),
+                        _ => (north_m, east_m),
+                    };
+                    (scaled(x, LOCAL_SCALE), scaled(y, LOCAL_SCALE))
+                }
+            };
+            let z = match (place.z_m, frame) {
+                (None, _) | (_, Frame::Mission) => f64::NAN,
+                (Some(z_m), Frame::Global) => self.amsl_m(z_m),
+                (Some(z_m), Frame::LocalNed | Frame::LocalFrd) => -z_m,
+                (Some(z_m), _) => z_m,
+            };
+            // A height has less than 24 significant bits of meaning.
+            #[allow(clippy::cast_possible_truncation)]
+            (x, y, z as f32)
+        }
+    }
 
     /// Our +y points east.
     const EASTWARD: Origin = Origin {
@@ -399,12 +361,7 @@ mod tests {
             (-90.0, 1.0, 0.0, 1.0, 0.0),
         ] {
             let origin = Origin { heading_deg, ..Origin::default() };
-            let ned = origin.ned(&Pose { x_m, y_m, z_m: 1.5, yaw_deg: 0.0 });
-            assert_near(&[ned.north_m, ned.east_m, ned.down_m], &[north_m, east_m, -1.5], 1e-9);
-            let velocity = Velocity { x_m_s: x_m, y_m_s: y_m, z_m_s: 0.3, yaw_deg_s: 0.0 };
-            let velocity = origin.ned_velocity(&velocity);
-            let velocity = [velocity.north_m_s, velocity.east_m_s, velocity.down_m_s];
-            assert_near(&velocity, &[north_m, east_m, -0.3], 1e-9);
+            assert_near(&origin.ned([x_m, y_m, 1.5]), &[north_m, east_m, -1.5], 1e-9);
             let yaw_deg = origin.yaw_ned_rad(0.0).to_degrees();
             assert_near(&[wrap_deg(yaw_deg - heading_deg)], &[0.0], 1e-9);
         }
@@ -513,14 +470,10 @@ mod tests {
             origin in origins(),
             (x_m, y_m, z_m, yaw_deg) in (-50.0..50.0, -50.0..50.0, -3.0..3.0, -179.0..179.0),
         ) {
-            let pose = Pose { x_m, y_m, z_m, yaw_deg };
-            let back = origin.pose(&origin.ned(&pose), origin.yaw_ned_rad(yaw_deg));
-            assert_near(&[back.x_m, back.y_m, back.z_m], &[x_m, y_m, z_m], 1e-6);
-            assert_near(&[back.yaw_deg], &[yaw_deg], 1e-6);
-            let velocity = Velocity { x_m_s: x_m, y_m_s: y_m, z_m_s: z_m, yaw_deg_s: yaw_deg };
-            let back = origin.velocity(&origin.ned_velocity(&velocity), yaw_deg.to_radians());
-            assert_near(&[back.x_m_s, back.y_m_s, back.z_m_s], &[x_m, y_m, z_m], 1e-6);
-            assert_near(&[back.yaw_deg_s], &[yaw_deg], 1e-6);
+            let [north_m, east_m, down_m] = origin.ned([x_m, y_m, z_m]);
+            let (back_x_m, back_y_m) = origin.right_forward(north_m, east_m);
+            assert_near(&[back_x_m, back_y_m, -down_m], &[x_m, y_m, z_m], 1e-6);
+            assert_near(&[origin.yaw_deg(origin.yaw_ned_rad(yaw_deg))], &[yaw_deg], 1e-6);
         }
 
         #[test]

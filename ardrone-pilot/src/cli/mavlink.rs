@@ -8,8 +8,7 @@ use std::path::{Path, PathBuf};
 
 use autopilot::vehicle::VehicleConfig;
 use clap::{Args, ValueEnum};
-use mavlink_vehicle::place::Origin;
-use mavlink_vehicle::{Autopilot, Config, Key, KeyError};
+use mavlink_vehicle::{Autopilot, Config, Key, KeyError, Origin};
 
 use crate::mavlink::MOST_REMOTES;
 

@@ -8,7 +8,7 @@ use crate::dialect::{
     MANUAL_CONTROL_DATA, PositionTargetTypemask as Mask, SET_POSITION_TARGET_GLOBAL_INT_DATA,
     SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
-use crate::place::{Ned, NedVelocity, Origin};
+use crate::place::Origin;
 
 /// Why a set-point is not followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -123,11 +123,10 @@ pub(crate) fn local(
     let place = if fields.wants(PLACE) {
         let (north_m, east_m) = (Fields::number(data.x)?, Fields::number(data.y)?);
         let pose = || pose.ok_or(NoSetpoint::NoPlace);
-        let turned = |ned: Ned| origin.pose(&ned, 0.0);
-        let level = turned(Ned { north_m, east_m, down_m: 0.0 });
+        let (x_m, y_m) = origin.right_forward(north_m, east_m);
         Some(match (offset, body) {
-            (false, _) => (level.x_m, level.y_m),
-            (true, false) => (pose()?.x_m + level.x_m, pose()?.y_m + level.y_m),
+            (false, _) => (x_m, y_m),
+            (true, false) => (pose()?.x_m + x_m, pose()?.y_m + y_m),
             // Forward and right of the drone.
             (true, true) => {
                 let pose = pose()?;
@@ -187,8 +186,8 @@ pub(crate) fn global(
 }
 
 fn level_velocity(origin: &Origin, north_m_s: f64, east_m_s: f64) -> Horizontal {
-    let velocity = origin.velocity(&NedVelocity { north_m_s, east_m_s, down_m_s: 0.0 }, 0.0);
-    Horizontal::Velocity { x_m_s: velocity.x_m_s, y_m_s: velocity.y_m_s }
+    let (x_m_s, y_m_s) = origin.right_forward(north_m_s, east_m_s);
+    Horizontal::Velocity { x_m_s, y_m_s }
 }
 
 /// What full sticks mean: in m/s along the ground and up, and in degrees/s.

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use autopilot::vehicle::{LandingReason, Phase, Status, Trust};
-use kinematics::{Pose, Velocity};
+use kinematics::Pose;
 use mavlink_core::types::CharArray;
 
 use super::modes::Mode;
@@ -286,24 +286,17 @@ impl View<'_> {
 
     /// North, east and down, in m/s.
     fn ned_velocity(&self) -> [f64; 3] {
-        let [x_m_s, y_m_s, z_m_s] = self.status.velocity_m_s.unwrap_or_default();
-        let velocity = Velocity { x_m_s, y_m_s, z_m_s, yaw_deg_s: 0.0 };
-        let ned = self.vehicle.origin.ned_velocity(&velocity);
-        [ned.north_m_s, ned.east_m_s, ned.down_m_s]
+        self.vehicle.origin.ned(self.status.velocity_m_s.unwrap_or_default())
+    }
+
+    fn ned(&self, pose: &Pose) -> [f32; 3] {
+        self.vehicle.origin.ned([pose.x_m, pose.y_m, pose.z_m]).map(f32_of)
     }
 
     fn local(&self) -> Option<LOCAL_POSITION_NED_DATA> {
-        let place = self.vehicle.origin.ned(&self.pose()?);
+        let [x, y, z] = self.ned(&self.pose()?);
         let [vx, vy, vz] = self.ned_velocity().map(f32_of);
-        Some(LOCAL_POSITION_NED_DATA {
-            time_boot_ms: self.ms(),
-            x: f32_of(place.north_m),
-            y: f32_of(place.east_m),
-            z: f32_of(place.down_m),
-            vx,
-            vy,
-            vz,
-        })
+        Some(LOCAL_POSITION_NED_DATA { time_boot_ms: self.ms(), x, y, z, vx, vy, vz })
     }
 
     /// Latitude and longitude × 1e7, and heights in mm above the sea and the start.
@@ -426,12 +419,12 @@ impl View<'_> {
                 ..POSITION_TARGET_LOCAL_NED_DATA::default()
             };
         };
-        let place = self.vehicle.origin.ned(&target);
+        let [x, y, z] = self.ned(&target);
         POSITION_TARGET_LOCAL_NED_DATA {
             time_boot_ms,
-            x: f32_of(place.north_m),
-            y: f32_of(place.east_m),
-            z: f32_of(place.down_m),
+            x,
+            y,
+            z,
             yaw: f32_of(self.vehicle.origin.yaw_ned_rad(target.yaw_deg)),
             // Place and yaw.
             type_mask: PositionTargetTypemask::from_bits_truncate(0b1001_1111_1000),
