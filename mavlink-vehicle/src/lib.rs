@@ -15,7 +15,7 @@
 )]
 pub mod dialect;
 mod frame;
-pub mod mission;
+mod mission;
 mod place;
 mod signing;
 #[allow(deprecated, reason = "clients of all ages are answered")]

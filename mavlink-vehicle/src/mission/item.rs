@@ -1,71 +1,92 @@
 //! Items of a mission, as they travel.
 
+use crate::dialect::{MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA};
 use crate::place::{ABSENT, Frame};
 
-/// An item as `MISSION_ITEM_INT` carries it, kept bit for bit: a mission reads back as it was sent.
-#[derive(Debug, Clone, Copy)]
-pub struct Item {
+/// Makes the item of the fields that are the same in `MISSION_ITEM_INT` and `MISSION_ITEM`.
+macro_rules! item {
+    ($($(#[$doc:meta])* $field:ident: $kind:ty),* $(,)?) => {
+        /// An item as `MISSION_ITEM_INT` carries it, kept bit for bit: a mission reads back as it was sent.
+        #[derive(Debug, Clone, Copy)]
+        pub(crate) struct Item {
+            $($(#[$doc])* pub(crate) $field: $kind,)*
+            /// Fifth parameter: latitude in degrees × 1e7, or a local coordinate in metres × 1e4.
+            pub(crate) x: i32,
+            /// Sixth parameter: longitude in degrees × 1e7, or a local coordinate in metres × 1e4.
+            pub(crate) y: i32,
+        }
+
+        impl Item {
+            pub(crate) fn of_integers(data: &MISSION_ITEM_INT_DATA) -> Self {
+                Self { x: data.x, y: data.y, $($field: data.$field),* }
+            }
+
+            pub(crate) fn of_floats(data: &MISSION_ITEM_DATA) -> Self {
+                Self { x: 0, y: 0, $($field: data.$field),* }.with_floats(data.x, data.y)
+            }
+
+            pub(crate) fn to(self, target_system: u8, target_component: u8) -> MISSION_ITEM_INT_DATA {
+                MISSION_ITEM_INT_DATA {
+                    target_system,
+                    target_component,
+                    x: self.x,
+                    y: self.y,
+                    $($field: self.$field),*
+                }
+            }
+        }
+
+        /// Equal bit for bit: a NaN equals itself.
+        impl PartialEq for Item {
+            fn eq(&self, other: &Self) -> bool {
+                (self.x, self.y) == (other.x, other.y)
+                    $(&& self.$field.to_ne_bytes() == other.$field.to_ne_bytes())*
+            }
+        }
+    };
+}
+
+item! {
     /// Its index, from 0.
-    pub seq: u16,
+    seq: u16,
     /// `MAV_FRAME`.
-    pub frame: u8,
+    frame: u8,
     /// `MAV_CMD`; see [`command`].
-    pub command: u16,
+    command: u16,
     /// Whether it is the current one.
-    pub current: u8,
+    current: u8,
     /// Whether the next follows by itself.
-    pub autocontinue: u8,
-    /// First parameter of the command.
-    pub param1: f32,
-    /// Second parameter.
-    pub param2: f32,
-    /// Third parameter.
-    pub param3: f32,
-    /// Fourth parameter.
-    pub param4: f32,
-    /// Fifth parameter: latitude in degrees × 1e7, or a local coordinate in metres × 1e4.
-    pub x: i32,
-    /// Sixth parameter: longitude in degrees × 1e7, or a local coordinate in metres × 1e4.
-    pub y: i32,
+    autocontinue: u8,
+    param1: f32,
+    param2: f32,
+    param3: f32,
+    param4: f32,
     /// Seventh parameter: height in metres, in its frame.
-    pub z: f32,
+    z: f32,
     /// `MAV_MISSION_TYPE`: 0 for a mission.
-    pub mission_type: u8,
+    mission_type: u8,
 }
 
 /// The `MAV_CMD` that have a meaning in a mission.
-pub mod command {
-    /// Fly to a place.
-    pub const NAV_WAYPOINT: u16 = 16;
-    /// Hold a place until an order.
-    pub const NAV_LOITER_UNLIM: u16 = 17;
-    /// Hold a place for some time.
-    pub const NAV_LOITER_TIME: u16 = 19;
-    /// Fly to the start, and land.
-    pub const NAV_RETURN_TO_LAUNCH: u16 = 20;
-    /// Land.
-    pub const NAV_LAND: u16 = 21;
-    /// Take off.
-    pub const NAV_TAKEOFF: u16 = 22;
-    /// Land at a place in a local frame.
-    pub const NAV_LAND_LOCAL: u16 = 23;
-    /// Take off at a place in a local frame.
-    pub const NAV_TAKEOFF_LOCAL: u16 = 24;
-    /// Wait.
-    pub const NAV_DELAY: u16 = 93;
-    /// Wait.
-    pub const CONDITION_DELAY: u16 = 112;
-    /// Turn.
-    pub const CONDITION_YAW: u16 = 115;
-    /// Limit the speed.
-    pub const DO_CHANGE_SPEED: u16 = 178;
+pub(crate) mod command {
+    pub(crate) const NAV_WAYPOINT: u16 = 16;
+    pub(crate) const NAV_LOITER_UNLIM: u16 = 17;
+    pub(crate) const NAV_LOITER_TIME: u16 = 19;
+    pub(crate) const NAV_RETURN_TO_LAUNCH: u16 = 20;
+    pub(crate) const NAV_LAND: u16 = 21;
+    pub(crate) const NAV_TAKEOFF: u16 = 22;
+    pub(crate) const NAV_LAND_LOCAL: u16 = 23;
+    pub(crate) const NAV_TAKEOFF_LOCAL: u16 = 24;
+    pub(crate) const NAV_DELAY: u16 = 93;
+    pub(crate) const CONDITION_DELAY: u16 = 112;
+    pub(crate) const CONDITION_YAW: u16 = 115;
+    pub(crate) const DO_CHANGE_SPEED: u16 = 178;
 }
 
 impl Item {
     /// The item that a `MISSION_ITEM` carries, whose x and y are degrees, metres or parameters in `f32`. NaN, and
     /// what no integer holds, is [`ABSENT`].
-    #[must_use]
-    pub fn with_floats(self, x: f32, y: f32) -> Self {
+    fn with_floats(self, x: f32, y: f32) -> Self {
         let scale = Frame::from_number(self.frame).map_or(1.0, Frame::scale);
         let integer = |value: f32| {
             let scaled = (f64::from(value) * scale).round();
@@ -75,25 +96,6 @@ impl Item {
             if fits { scaled as i32 } else { ABSENT }
         };
         Self { x: integer(x), y: integer(y), ..self }
-    }
-
-    fn bits(&self) -> ([u16; 6], [u32; 5], [i32; 2]) {
-        let Self { seq, frame, command, current, autocontinue, x, y, mission_type, .. } = *self;
-        let [frame, current, autocontinue, mission_type] =
-            [frame, current, autocontinue, mission_type].map(u16::from);
-        let floats = [self.param1, self.param2, self.param3, self.param4, self.z];
-        (
-            [seq, frame, command, current, autocontinue, mission_type],
-            floats.map(f32::to_bits),
-            [x, y],
-        )
-    }
-}
-
-/// Equal bit for bit: a NaN equals itself.
-impl PartialEq for Item {
-    fn eq(&self, other: &Self) -> bool {
-        self.bits() == other.bits()
     }
 }
 

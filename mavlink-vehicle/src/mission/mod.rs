@@ -1,47 +1,31 @@
 //! Missions: their items, what they mean in our plan language, and how they travel.
 
+#[allow(deprecated, reason = "clients of all ages are answered")]
 mod item;
 mod program;
 mod transfer;
 mod translate;
 
-pub use item::{Item, command};
+pub(crate) use item::{Item, command};
 pub(crate) use program::TAKE_OFF;
-pub use program::{Step, Translated};
-pub use transfer::{Event, Handled, Message, Outgoing, Outgoings, Partner, Received, Transfer};
-pub use translate::{MAX_ITEMS, Problem, Rules, translate};
+pub(crate) use program::{Step, Translated};
+pub(crate) use transfer::{Event, Handled, Message, Partner, Received, Transfer};
+pub(crate) use translate::{MAX_ITEMS, Problem, Rules, translate};
 pub(crate) use translate::{SHORT_STAY_S, short, short_pose};
 
-/// Results of `MISSION_ACK` (`MAV_MISSION_RESULT`).
-pub mod result {
-    /// Done.
-    pub const ACCEPTED: u8 = 0;
-    /// The frame is not supported.
-    pub const UNSUPPORTED_FRAME: u8 = 2;
-    /// The command or the kind of mission is not supported.
-    pub const UNSUPPORTED: u8 = 3;
-    /// Too many items.
-    pub const NO_SPACE: u8 = 4;
-    /// `param1`.
-    pub const INVALID_PARAM1: u8 = 6;
-    /// `param2`.
-    pub const INVALID_PARAM2: u8 = 7;
-    /// `param3`.
-    pub const INVALID_PARAM3: u8 = 8;
-    /// `param4`.
-    pub const INVALID_PARAM4: u8 = 9;
-    /// `x`.
-    pub const INVALID_PARAM5_X: u8 = 10;
-    /// `y`.
-    pub const INVALID_PARAM6_Y: u8 = 11;
-    /// `z`.
-    pub const INVALID_PARAM7: u8 = 12;
-    /// Another item was wanted.
-    pub const INVALID_SEQUENCE: u8 = 13;
-    /// Not now, or not from this sender.
-    pub const DENIED: u8 = 14;
-    /// The transfer was given up.
-    pub const OPERATION_CANCELLED: u8 = 15;
+/// Results of `MISSION_ACK`.
+pub(crate) mod result {
+    pub(crate) use crate::dialect::MavMissionResult::{
+        MAV_MISSION_ACCEPTED as ACCEPTED, MAV_MISSION_DENIED as DENIED,
+        MAV_MISSION_INVALID_PARAM1 as INVALID_PARAM1, MAV_MISSION_INVALID_PARAM2 as INVALID_PARAM2,
+        MAV_MISSION_INVALID_PARAM3 as INVALID_PARAM3, MAV_MISSION_INVALID_PARAM4 as INVALID_PARAM4,
+        MAV_MISSION_INVALID_PARAM5_X as INVALID_PARAM5_X,
+        MAV_MISSION_INVALID_PARAM6_Y as INVALID_PARAM6_Y,
+        MAV_MISSION_INVALID_PARAM7 as INVALID_PARAM7,
+        MAV_MISSION_INVALID_SEQUENCE as INVALID_SEQUENCE, MAV_MISSION_NO_SPACE as NO_SPACE,
+        MAV_MISSION_OPERATION_CANCELLED as OPERATION_CANCELLED,
+        MAV_MISSION_UNSUPPORTED as UNSUPPORTED, MAV_MISSION_UNSUPPORTED_FRAME as UNSUPPORTED_FRAME,
+    };
 }
 
 #[cfg(test)]

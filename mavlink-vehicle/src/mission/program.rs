@@ -9,16 +9,16 @@ pub(crate) const TAKE_OFF: Command = Command::TakeOff { take_over: false };
 
 /// A command, and the item to which it belongs; an item may have several, or none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
+pub(crate) struct Step {
     /// Index of the item.
-    pub item: u16,
+    pub(crate) item: u16,
     /// What to do.
-    pub command: Command,
+    pub(crate) command: Command,
 }
 
 /// A mission of which each item can be flown.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Translated {
+pub(crate) struct Translated {
     /// With the settings of each target, also if they are those of the one before.
     pub(super) steps: Vec<Step>,
     /// Speed limit where the mission sets none, in metres per second.
@@ -29,14 +29,14 @@ pub struct Translated {
 
 impl Translated {
     /// What is flown otherwise than an item says, because it was outside the limits: for a person, each at most 100 bytes.
-    pub fn limited(&self) -> &[String] {
+    pub(crate) fn limited(&self) -> &[String] {
         &self.limited
     }
 
     /// The steps from item `first` on; none if nothing is left to fly. They set all that they depend on, so that no mission
     /// flown before counts. On the ground a take-off is put in front if none comes first; with the drone `airborne` there is
     /// none. A stay or a turn begins with the way to its place. What does not end with a landing is held at its end.
-    pub fn steps_from(&self, first: u16, mut airborne: bool) -> Vec<Step> {
+    pub(crate) fn steps_from(&self, first: u16, mut airborne: bool) -> Vec<Step> {
         let begin = self.steps.partition_point(|step| step.item < first);
         let (before, steps) = self.steps.split_at(begin);
         let is_flight = |step: &&Step| !step.command.is_setting() && step.command != Command::Land;

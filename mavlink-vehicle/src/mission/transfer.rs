@@ -6,7 +6,10 @@
 
 use std::time::Duration;
 
+use arrayvec::ArrayVec;
+
 use super::{Item, MAX_ITEMS, Problem, Rules, Translated, result, translate};
+use crate::dialect::MavMissionResult;
 
 /// Silence after which an item is asked for again.
 const REPEAT_AFTER: Duration = Duration::from_millis(250);
@@ -24,97 +27,61 @@ const ALL: u8 = 255;
 
 /// Another participant of the network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Partner {
-    /// System id.
-    pub system: u8,
-    /// Component id.
-    pub component: u8,
+pub(crate) struct Partner {
+    pub(crate) system: u8,
+    pub(crate) component: u8,
 }
 
 /// A message to the vehicle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Received {
+pub(crate) enum Received {
     /// `MISSION_COUNT`: an upload begins.
-    Count {
-        /// Number of items.
-        count: u16,
-        /// `MAV_MISSION_TYPE`.
-        mission_type: u8,
-    },
-    /// `MISSION_ITEM_INT`, or `MISSION_ITEM` by [`Item::with_floats`].
+    Count { count: u16, mission_type: u8 },
+    /// `MISSION_ITEM_INT`, or `MISSION_ITEM`.
     Item(Item),
     /// `MISSION_REQUEST_LIST`: a download begins.
-    RequestList {
-        /// `MAV_MISSION_TYPE`.
-        mission_type: u8,
-    },
+    RequestList { mission_type: u8 },
     /// `MISSION_REQUEST_INT` or `MISSION_REQUEST`.
-    Request {
-        /// Index of the item.
-        seq: u16,
-        /// `MAV_MISSION_TYPE`.
-        mission_type: u8,
-    },
+    Request { seq: u16, mission_type: u8 },
     /// `MISSION_ACK`: the end of a download, or of an upload that is given up.
-    Ack {
-        /// `MAV_MISSION_RESULT`.
-        result: u8,
-        /// `MAV_MISSION_TYPE`.
-        mission_type: u8,
-    },
+    Ack { result: u8, mission_type: u8 },
     /// `MISSION_CLEAR_ALL`.
-    ClearAll {
-        /// `MAV_MISSION_TYPE`.
-        mission_type: u8,
-    },
+    ClearAll { mission_type: u8 },
     /// `MISSION_REQUEST_PARTIAL_LIST` or `MISSION_WRITE_PARTIAL_LIST`.
-    PartialList {
-        /// `MAV_MISSION_TYPE`.
-        mission_type: u8,
-    },
+    PartialList { mission_type: u8 },
+}
+
+impl Received {
+    /// `MAV_MISSION_TYPE`.
+    pub(crate) fn mission_type(&self) -> u8 {
+        match *self {
+            Self::Count { mission_type, .. }
+            | Self::Item(Item { mission_type, .. })
+            | Self::RequestList { mission_type }
+            | Self::Request { mission_type, .. }
+            | Self::Ack { mission_type, .. }
+            | Self::ClearAll { mission_type }
+            | Self::PartialList { mission_type } => mission_type,
+        }
+    }
 }
 
 /// A message of the vehicle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Message {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Message {
     /// `MISSION_COUNT`
-    Count {
-        /// Number of items.
-        count: u16,
-        /// `MAV_MISSION_TYPE`.
-        mission_type: u8,
-    },
+    Count { count: u16, mission_type: u8 },
     /// `MISSION_REQUEST_INT`, of a mission.
-    Request {
-        /// Index of the item.
-        seq: u16,
-    },
+    Request { seq: u16 },
     /// `MISSION_ITEM_INT`
     Item(Item),
     /// `MISSION_ACK`
-    Ack {
-        /// `MAV_MISSION_RESULT`.
-        result: u8,
-        /// `MAV_MISSION_TYPE`.
-        mission_type: u8,
-    },
+    Ack { result: MavMissionResult, mission_type: u8 },
 }
-
-/// A message and whom it is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Outgoing {
-    /// The receiver.
-    pub to: Partner,
-    /// What to send.
-    pub message: Message,
-}
-
-/// At most two messages, in order.
-pub type Outgoings = std::iter::Flatten<std::array::IntoIter<Option<Outgoing>, 2>>;
 
 /// What happened to the stored mission.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Event {
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Event {
     /// A new mission is stored.
     Accepted,
     /// The mission was removed.
@@ -126,30 +93,26 @@ pub enum Event {
 }
 
 /// What is to be done after a message or some time.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Handled {
-    messages: [Option<Outgoing>; 2],
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Handled {
+    /// The messages to send to the partner, in order.
+    pub(crate) messages: ArrayVec<Message, 2>,
     /// What happened, if it did.
-    pub event: Option<Event>,
+    pub(crate) event: Option<Event>,
 }
 
 impl Handled {
-    /// The messages to send, in order.
-    pub fn messages(&self) -> Outgoings {
-        self.messages.into_iter().flatten()
+    fn send(message: Message) -> Self {
+        Self::default().then(message)
     }
 
-    fn send(to: Partner, message: Message) -> Self {
-        Self { messages: [Some(Outgoing { to, message }), None], event: None }
+    fn ack(result: MavMissionResult, mission_type: u8) -> Self {
+        Self::send(Message::Ack { result, mission_type })
     }
 
-    fn ack(to: Partner, result: u8, mission_type: u8) -> Self {
-        Self::send(to, Message::Ack { result, mission_type })
-    }
-
-    fn then(self, to: Partner, message: Message) -> Self {
-        let [first, _] = self.messages;
-        Self { messages: [first, Some(Outgoing { to, message })], ..self }
+    fn then(mut self, message: Message) -> Self {
+        self.messages.push(message);
+        self
     }
 
     fn with(self, event: Event) -> Self {
@@ -159,7 +122,7 @@ impl Handled {
 
 /// The stored mission, and how it comes and goes. At first there is none.
 #[derive(Debug, Default)]
-pub struct Transfer {
+pub(crate) struct Transfer {
     items: Vec<Item>,
     /// Component that sent them.
     sender_component: u8,
@@ -190,7 +153,7 @@ struct Finished {
     from: Partner,
     at: Duration,
     last: u16,
-    result: u8,
+    result: MavMissionResult,
 }
 
 /// Someone reads this mission.
@@ -202,22 +165,22 @@ struct Download {
 
 impl Transfer {
     /// The stored items, as they were sent.
-    pub fn items(&self) -> &[Item] {
+    pub(crate) fn items(&self) -> &[Item] {
         &self.items
     }
 
     /// What the stored items mean.
-    pub fn translated(&self) -> &Translated {
+    pub(crate) fn translated(&self) -> &Translated {
         &self.translated
     }
 
     /// A number that changes with each stored mission; 0 before the first.
-    pub fn id(&self) -> u32 {
+    pub(crate) fn id(&self) -> u32 {
         self.id
     }
 
     /// Who uploads a mission now.
-    pub fn uploading(&self) -> Option<Partner> {
+    pub(crate) fn uploading(&self) -> Option<Partner> {
         self.upload.map(|upload| upload.from)
     }
 
@@ -225,13 +188,13 @@ impl Transfer {
     ///
     /// # Errors
     /// [`Problem`] if an item cannot be flown by them; nothing has changed then.
-    pub fn translate_again(&mut self, rules: &Rules) -> Result<(), Problem> {
+    pub(crate) fn translate_again(&mut self, rules: &Rules) -> Result<(), Problem> {
         self.translated = translate(&self.items, self.sender_component, rules)?;
         Ok(())
     }
 
     /// Handles a message. `now` never goes back.
-    pub fn handle(
+    pub(crate) fn handle(
         &mut self,
         now: Duration,
         from: Partner,
@@ -239,62 +202,56 @@ impl Transfer {
         rules: &Rules,
     ) -> Handled {
         let is_partner = self.upload.is_none_or(|upload| upload.from == from);
+        let mission_type = received.mission_type();
         match *received {
-            Received::Count { mission_type, .. }
-            | Received::ClearAll { mission_type }
-            | Received::PartialList { mission_type }
-            | Received::Item(Item { mission_type, .. })
+            Received::Count { .. }
+            | Received::ClearAll { .. }
+            | Received::PartialList { .. }
+            | Received::Item(_)
                 if !is_partner =>
             {
-                Handled::ack(from, result::DENIED, mission_type)
+                Handled::ack(result::DENIED, mission_type)
             }
-            Received::Count { count, mission_type: MISSION } => self.count(now, from, count),
-            Received::ClearAll { mission_type: mission_type @ (MISSION | ALL) } => {
+            Received::ClearAll { mission_type: MISSION | ALL } => {
                 self.clear();
-                Handled::ack(from, result::ACCEPTED, mission_type).with(Event::Cleared)
+                Handled::ack(result::ACCEPTED, mission_type).with(Event::Cleared)
             }
-            Received::Item(item) if item.mission_type == MISSION => {
-                self.item(now, from, &item, rules)
+            Received::RequestList { mission_type: FENCE | RALLY } => {
+                Handled::send(Message::Count { count: 0, mission_type })
             }
-            Received::RequestList { mission_type: MISSION } => self.list(from),
-            Received::RequestList { mission_type: mission_type @ (FENCE | RALLY) } => {
-                Handled::send(from, Message::Count { count: 0, mission_type })
-            }
-            Received::Request { seq, mission_type: MISSION } => self.request(from, seq),
             Received::Ack { result, mission_type: MISSION | ALL } => {
                 self.acknowledged(from, result)
             }
             Received::Ack { .. } => Handled::default(),
-            Received::Count { mission_type, .. }
-            | Received::ClearAll { mission_type }
-            | Received::PartialList { mission_type }
-            | Received::RequestList { mission_type }
-            | Received::Request { mission_type, .. }
-            | Received::Item(Item { mission_type, .. }) => {
-                Handled::ack(from, result::UNSUPPORTED, mission_type)
+            _ if mission_type != MISSION => Handled::ack(result::UNSUPPORTED, mission_type),
+            Received::Count { count, .. } => self.count(now, from, count),
+            Received::Item(item) => self.item(now, from, &item, rules),
+            Received::RequestList { .. } => self.list(from),
+            Received::Request { seq, .. } => self.request(from, seq),
+            Received::ClearAll { .. } | Received::PartialList { .. } => {
+                Handled::ack(result::UNSUPPORTED, mission_type)
             }
         }
     }
 
     /// Asks again for an item that did not come, or gives up. To be called at least every 100 ms.
-    pub fn tick(&mut self, now: Duration) -> Handled {
+    pub(crate) fn tick(&mut self, now: Duration) -> Handled {
         let seq = self.wanted();
         let Some(upload) = &mut self.upload else { return Handled::default() };
         if now.saturating_sub(upload.asked_at) < REPEAT_AFTER {
             return Handled::default();
         }
-        let from = upload.from;
         if upload.repeats >= REPEATS {
             self.upload = None;
-            return Handled::ack(from, result::OPERATION_CANCELLED, MISSION).with(Event::Cancelled);
+            return Handled::ack(result::OPERATION_CANCELLED, MISSION).with(Event::Cancelled);
         }
         upload.repeats += 1;
         upload.asked_at = now;
-        Handled::send(from, Message::Request { seq })
+        Handled::send(Message::Request { seq })
     }
 
     /// Removes the mission, and gives up an upload.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.upload = None;
         self.finished = None;
         self.store(Vec::new(), 0, Translated::default());
@@ -318,21 +275,21 @@ impl Transfer {
         self.finished = None;
         if count == 0 {
             self.clear();
-            return Handled::ack(from, result::ACCEPTED, MISSION).with(Event::Cleared);
+            return Handled::ack(result::ACCEPTED, MISSION).with(Event::Cleared);
         }
         if usize::from(count) > MAX_ITEMS {
             let reason = format!("{count} items: at most {MAX_ITEMS} are taken");
             // The first that is too much.
             let item = u16::try_from(MAX_ITEMS).unwrap_or(u16::MAX);
             let problem = Problem { item, result: result::NO_SPACE, reason };
-            return Handled::ack(from, result::NO_SPACE, MISSION).with(Event::Refused(problem));
+            return Handled::ack(result::NO_SPACE, MISSION).with(Event::Refused(problem));
         }
         let asked = self.wanted().saturating_add(1);
         let under_way = before.map_or(0, |before| before.under_way.max(asked));
         self.incoming.clear();
         self.incoming.reserve_exact(usize::from(count));
         self.upload = Some(Upload { from, count, asked_at: now, repeats: 0, under_way });
-        Handled::send(from, Message::Request { seq: 0 })
+        Handled::send(Message::Request { seq: 0 })
     }
 
     fn item(&mut self, now: Duration, from: Partner, item: &Item, rules: &Rules) -> Handled {
@@ -347,20 +304,20 @@ impl Transfer {
             // One of the two is from before the partner began anew.
             self.incoming.clear();
             upload.under_way = upload.under_way.max(wanted.saturating_add(1));
-            return Handled::send(from, Message::Request { seq: 0 });
+            return Handled::send(Message::Request { seq: 0 });
         }
         if item.seq != wanted {
             let again = Message::Request { seq: wanted };
             if item.seq < upload.under_way {
-                return Handled::send(from, again);
+                return Handled::send(again);
             }
-            return Handled::ack(from, result::INVALID_SEQUENCE, MISSION).then(from, again);
+            return Handled::ack(result::INVALID_SEQUENCE, MISSION).then(again);
         }
         upload.repeats = 0;
         self.incoming.push(*item);
         let next = wanted + 1;
         if next < upload.count {
-            return Handled::send(from, Message::Request { seq: next });
+            return Handled::send(Message::Request { seq: next });
         }
         self.upload = None;
         self.finish(now, from, item.seq, rules)
@@ -376,7 +333,7 @@ impl Transfer {
             Err(problem) => (problem.result, Event::Refused(problem)),
         };
         self.finished = Some(Finished { from, at: now, last, result });
-        Handled::ack(from, result, MISSION).with(event)
+        Handled::ack(result, MISSION).with(event)
     }
 
     /// An item while no upload goes on.
@@ -390,9 +347,9 @@ impl Transfer {
                 if item.seq < finished.last {
                     return Handled::default();
                 }
-                Handled::ack(from, finished.result, MISSION)
+                Handled::ack(finished.result, MISSION)
             }
-            _ => Handled::ack(from, result::INVALID_SEQUENCE, MISSION),
+            _ => Handled::ack(result::INVALID_SEQUENCE, MISSION),
         }
     }
 
@@ -404,18 +361,18 @@ impl Transfer {
         *newest = Some(Download { by, id: self.id });
         // At most `MAX_ITEMS`.
         let count = u16::try_from(self.items.len()).unwrap_or(u16::MAX);
-        Handled::send(by, Message::Count { count, mission_type: MISSION })
+        Handled::send(Message::Count { count, mission_type: MISSION })
     }
 
     fn request(&self, by: Partner, seq: u16) -> Handled {
         let mut downloads = self.downloads.iter().flatten();
         if downloads.any(|download| download.by == by && download.id != self.id) {
             // The rest of another mission would make a mixture.
-            return Handled::ack(by, result::OPERATION_CANCELLED, MISSION);
+            return Handled::ack(result::OPERATION_CANCELLED, MISSION);
         }
         match self.items.get(usize::from(seq)) {
-            Some(item) => Handled::send(by, Message::Item(*item)),
-            None => Handled::ack(by, result::INVALID_SEQUENCE, MISSION),
+            Some(item) => Handled::send(Message::Item(*item)),
+            None => Handled::ack(result::INVALID_SEQUENCE, MISSION),
         }
     }
 
@@ -428,7 +385,7 @@ impl Transfer {
     fn acknowledged(&mut self, from: Partner, result: u8) -> Handled {
         self.end_download(from);
         // The acknowledgement of a download that was doubled on its way gives nothing up.
-        if result == result::ACCEPTED || self.uploading() != Some(from) {
+        if result == result::ACCEPTED as u8 || self.uploading() != Some(from) {
             return Handled::default();
         }
         self.upload = None;

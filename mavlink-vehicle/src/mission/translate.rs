@@ -8,10 +8,11 @@ use kinematics::{Pose, wrap_deg};
 
 use super::program::{Step, TAKE_OFF, Translated};
 use super::{Item, command, result};
+use crate::dialect::MavMissionResult;
 use crate::place::{Frame, Global, Origin, Place, PlaceError};
 
 /// Largest mission.
-pub const MAX_ITEMS: usize = 200;
+pub(crate) const MAX_ITEMS: usize = 200;
 
 /// A target is reached within this distance.
 const REACH_M: f64 = 0.2;
@@ -36,25 +37,25 @@ const NEAR_HOME_M: f64 = 2.0;
 
 /// What a mission is judged by.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rules {
+pub(crate) struct Rules {
     /// What places on the globe mean.
-    pub origin: Origin,
+    pub(crate) origin: Origin,
     /// Where targets may be.
-    pub fence: FlightLimits,
+    pub(crate) fence: FlightLimits,
     /// Limit of the horizontal speed, and what it is without an item that sets it.
-    pub max_speed_m_s: f64,
+    pub(crate) max_speed_m_s: f64,
 }
 
 /// The first item that cannot be flown.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{reason}")]
-pub struct Problem {
+pub(crate) struct Problem {
     /// Its index.
-    pub item: u16,
-    /// `MAV_MISSION_RESULT`, see [`result`].
-    pub result: u8,
+    pub(crate) item: u16,
+    /// What its sender is answered.
+    pub(crate) result: MavMissionResult,
     /// For a person; at most 200 bytes.
-    pub reason: String,
+    pub(crate) reason: String,
 }
 
 /// Checks all items, which `sender_component` sent, and translates them. The home position that MAVProxy sends
@@ -62,7 +63,7 @@ pub struct Problem {
 ///
 /// # Errors
 /// [`Problem`] names the first item that is wrong.
-pub fn translate(
+pub(crate) fn translate(
     items: &[Item],
     sender_component: u8,
     rules: &Rules,
@@ -110,7 +111,7 @@ struct At<'a> {
 }
 
 impl At<'_> {
-    fn problem(self, result: u8, reason: impl AsRef<str>) -> Problem {
+    fn problem(self, result: MavMissionResult, reason: impl AsRef<str>) -> Problem {
         let reason = format!("item {}: {}", self.index, reason.as_ref());
         Problem { item: self.index, result, reason }
     }
@@ -132,11 +133,7 @@ impl At<'_> {
         let value = self.param(number).unwrap_or(default);
         let known = choices.contains(&value);
         let wrong = || format!("parameter {number} is {value}, not one of {choices:?}");
-        if known {
-            Ok(value)
-        } else {
-            Err(self.problem(result::INVALID_PARAM1 + number - 1, wrong()))
-        }
+        if known { Ok(value) } else { Err(self.problem(result_of(number), wrong())) }
     }
 
     fn stay_s(self) -> Result<f64, Problem> {
@@ -177,16 +174,10 @@ impl At<'_> {
 
     fn has_finite_parameters(self) -> Result<(), Problem> {
         let Item { param1, param2, param3, param4, z, .. } = *self.item;
-        let numbers = [
-            (1, result::INVALID_PARAM1, param1),
-            (2, result::INVALID_PARAM2, param2),
-            (3, result::INVALID_PARAM3, param3),
-            (4, result::INVALID_PARAM4, param4),
-            (7, result::INVALID_PARAM7, z),
-        ];
-        match numbers.into_iter().find(|(_, _, value)| value.is_infinite()) {
-            Some((number, result, _)) => {
-                Err(self.problem(result, format!("parameter {number} is infinite")))
+        let numbers = [(1, param1), (2, param2), (3, param3), (4, param4), (7, z)];
+        match numbers.into_iter().find(|(_, value)| value.is_infinite()) {
+            Some((number, _)) => {
+                Err(self.problem(result_of(number), format!("parameter {number} is infinite")))
             }
             None => Ok(()),
         }
@@ -508,6 +499,17 @@ pub(crate) fn short(number: f64) -> f64 {
 pub(crate) fn short_pose(pose: &Pose) -> Pose {
     let [x_m, y_m, z_m, yaw_deg] = [pose.x_m, pose.y_m, pose.z_m, pose.yaw_deg].map(short);
     Pose { x_m, y_m, z_m, yaw_deg }
+}
+
+/// What is answered if a parameter other than a place is wrong.
+fn result_of(parameter: u8) -> MavMissionResult {
+    match parameter {
+        1 => result::INVALID_PARAM1,
+        2 => result::INVALID_PARAM2,
+        3 => result::INVALID_PARAM3,
+        4 => result::INVALID_PARAM4,
+        _ => result::INVALID_PARAM7,
+    }
 }
 
 /// Why this command is refused.

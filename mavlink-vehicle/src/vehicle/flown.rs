@@ -17,15 +17,9 @@ pub(super) struct Handed {
 }
 
 impl Handed {
-    /// The item of a step that is the last of its item. Settings are no steps that will be reported.
-    fn item_done(&self, step: usize) -> Option<u16> {
-        let item = self.steps.get(step)?.item;
-        let goes_on = |later: &Step| later.item == item && !later.command.is_setting();
-        (!self.steps.iter().skip(step + 1).any(goes_on)).then_some(item)
-    }
-
-    fn is_last(&self, step: usize) -> bool {
-        self.steps.iter().skip(step + 1).all(|later| later.command.is_setting())
+    /// The steps behind this one whose ends will be reported, which those of settings are not.
+    fn behind(&self, step: usize) -> impl Iterator<Item = &Step> {
+        self.steps.iter().skip(step + 1).filter(|later| !later.command.is_setting())
     }
 }
 
@@ -90,8 +84,10 @@ impl Flown {
     /// The vehicle has carried out a step of its mission. Returns the item that is reached by it.
     pub(super) fn step_done(&mut self, step: usize) -> Option<u16> {
         let handed = self.ours()?;
-        let done = handed.item_done(step).filter(|_| handed.purpose == Purpose::Mission);
-        let is_last = handed.is_last(step);
+        let item = handed.steps.get(step)?.item;
+        let goes_on = handed.behind(step).any(|later| later.item == item);
+        let is_last = handed.behind(step).next().is_none();
+        let done = (!goes_on && handed.purpose == Purpose::Mission).then_some(item);
         let reached = done.filter(|item| self.reached != Some(*item));
         if reached.is_some() {
             self.reached = reached;

@@ -135,8 +135,10 @@ impl MavlinkVehicle {
         self.watch_orders(now);
         self.watch_arming(now);
         self.watch_stations(now);
-        let handled = self.transfer.tick(now);
-        self.transferred(&handled);
+        if let Some(partner) = self.transfer.uploading() {
+            let handled = self.transfer.tick(now);
+            self.transferred(partner, &handled);
+        }
         if self.has_news(now) {
             self.tell(now);
         }

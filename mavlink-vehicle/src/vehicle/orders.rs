@@ -10,7 +10,7 @@ use super::following::Source;
 use super::modes::Purpose;
 use super::stations::Station;
 use super::{MavlinkVehicle, ORDERS, Ticket, To};
-use crate::dialect::{COMMAND_ACK_DATA, MavMessage, MavResult};
+use crate::dialect::{COMMAND_ACK_DATA, MavMessage, MavResult, MavSeverity};
 use crate::mission::{SHORT_STAY_S, Step, TAKE_OFF, short, short_pose};
 
 /// A command is answered after this time even if the vehicle has not answered.
@@ -83,7 +83,12 @@ impl MavlinkVehicle {
         after: After,
         orders: impl IntoIterator<Item = OperatorOrder>,
     ) {
-        self.take_over_from_silent(now, station.operator());
+        // The controls of a station that has been silent for some time go to one that gives an order.
+        if let Some(holder) = self.holder().filter(|holder| *holder != station.operator())
+            && self.stations.is_gone(now, holder)
+        {
+            self.order_quietly(holder, OperatorOrder::Release);
+        }
         self.stations.orders(station);
         let ticket = self.ticket();
         let mut left = 0;
@@ -119,39 +124,27 @@ impl MavlinkVehicle {
         other.is_some_and(|holder| !self.stations.is_gone(*at, holder))
     }
 
-    /// The controls of a station that has been silent for some time go to one that gives an order.
-    fn take_over_from_silent(&mut self, now: Duration, by: Operator) {
-        if let Some(holder) = self.holder()
-            && holder != by
-            && self.stations.is_gone(now, holder)
-        {
-            self.order_quietly(holder, OperatorOrder::Release);
-        }
-    }
-
     pub(super) fn take_answer(
         &mut self,
         now: Duration,
         ticket: Ticket,
         answer: &Result<(), Refused>,
     ) {
-        let Some(index) = self.awaited.iter().position(|awaited| awaited.ticket == ticket) else {
-            return;
-        };
-        let Some(awaited) = self.awaited.get_mut(index) else { return };
+        let of_it = |awaited: &&mut Awaited| awaited.ticket == ticket;
+        let Some(awaited) = self.awaited.iter_mut().find(of_it) else { return };
         awaited.left = awaited.left.saturating_sub(1);
         if let Err(refused) = answer
             && !(awaited.may_fly && *refused == Refused::Flying)
         {
-            let is_first = awaited.result == MavResult::MAV_RESULT_ACCEPTED;
-            awaited.result = result_of(refused);
-            if is_first {
-                self.warn(format_args!("refused: {refused}"));
+            if awaited.result == MavResult::MAV_RESULT_ACCEPTED {
+                self.texts
+                    .say(MavSeverity::MAV_SEVERITY_WARNING, format_args!("refused: {refused}"));
             }
+            awaited.result = result_of(refused);
         }
-        let done = self.awaited.get(index).filter(|awaited| awaited.left == 0).copied();
-        if let Some(done) = done {
-            self.awaited.swap_remove(index);
+        let done = *awaited;
+        if done.left == 0 {
+            self.awaited.retain(|awaited| awaited.ticket != ticket);
             self.answered(now, &done);
         }
     }

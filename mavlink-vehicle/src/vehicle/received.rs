@@ -12,9 +12,9 @@ use super::setpoints::{NoSetpoint, global, local};
 use super::stations::Station;
 use super::{COMPONENT, MavlinkVehicle, SYSTEM, To};
 use crate::dialect::{
-    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MavCmd,
-    MavMessage, MavModeFlag, MavParamError, MavResult, MavSeverity, PARAM_ERROR_DATA, PING_DATA,
-    SET_MODE_DATA, TIMESYNC_DATA,
+    MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_REQUEST_INT_DATA, MavCmd, MavMessage,
+    MavModeFlag, MavParamError, MavResult, MavSeverity, PARAM_ERROR_DATA, PING_DATA, SET_MODE_DATA,
+    TIMESYNC_DATA,
 };
 use crate::frame::Frame;
 use crate::mission::{Event, Handled, Item, Message, Partner, Received, result};
@@ -24,27 +24,6 @@ use crate::place::Origin;
 const NOTES: usize = 4;
 /// The target of all systems, and of all components.
 const ALL: u8 = 0;
-
-/// The item that a message carries, whose places are numbers of another type.
-macro_rules! item {
-    ($data:expr, $x:expr, $y:expr) => {
-        Item {
-            seq: $data.seq,
-            frame: $data.frame,
-            command: $data.command,
-            current: $data.current,
-            autocontinue: $data.autocontinue,
-            param1: $data.param1,
-            param2: $data.param2,
-            param3: $data.param3,
-            param4: $data.param4,
-            x: $x,
-            y: $y,
-            z: $data.z,
-            mission_type: $data.mission_type,
-        }
-    };
-}
 
 impl MavlinkVehicle {
     /// A frame with a valid checksum has arrived.
@@ -91,9 +70,7 @@ impl MavlinkVehicle {
             }
             MavMessage::PARAM_REQUEST_LIST(_) => {
                 for index in 0..self.parameters.count() {
-                    if let Some(message) = self.parameters.at(index) {
-                        self.send(to, message);
-                    }
+                    self.tell_parameter(to, index);
                 }
             }
             MavMessage::PARAM_REQUEST_READ(data) => {
@@ -257,10 +234,8 @@ impl MavlinkVehicle {
             MavMessage::MISSION_COUNT(data) => {
                 Received::Count { count: data.count, mission_type: data.mission_type }
             }
-            MavMessage::MISSION_ITEM_INT(data) => Received::Item(item!(data, data.x, data.y)),
-            MavMessage::MISSION_ITEM(data) => {
-                Received::Item(item!(data, 0, 0).with_floats(data.x, data.y))
-            }
+            MavMessage::MISSION_ITEM_INT(data) => Received::Item(Item::of_integers(data)),
+            MavMessage::MISSION_ITEM(data) => Received::Item(Item::of_floats(data)),
             MavMessage::MISSION_REQUEST_LIST(data) => {
                 Received::RequestList { mission_type: data.mission_type }
             }
@@ -296,18 +271,13 @@ impl MavlinkVehicle {
         let changes = matches!(received, Received::Count { .. } | Received::ClearAll { .. });
         if changes && let Some(why) = self.may_not_change(station) {
             self.warn(format_args!("mission not changed: {why}"));
-            let mission_type = match received {
-                Received::Count { mission_type, .. } | Received::ClearAll { mission_type } => {
-                    mission_type
-                }
-                _ => 0,
-            };
+            let mission_type = received.mission_type();
             let message = Message::Ack { result: result::DENIED, mission_type };
             return self.send_of_mission(partner, message);
         }
         let rules = self.rules();
         let handled = self.transfer.handle(now, partner, &received, &rules);
-        self.transferred(&handled);
+        self.transferred(partner, &handled);
     }
 
     /// Why a station may not change the stored mission now.
@@ -326,9 +296,9 @@ impl MavlinkVehicle {
     }
 
     /// What a transfer has led to.
-    pub(super) fn transferred(&mut self, handled: &Handled) {
-        for outgoing in handled.messages() {
-            self.send_of_mission(outgoing.to, outgoing.message);
+    pub(super) fn transferred(&mut self, partner: Partner, handled: &Handled) {
+        for message in &handled.messages {
+            self.send_of_mission(partner, *message);
         }
         let Some(event) = &handled.event else { return };
         match event {
@@ -375,27 +345,13 @@ impl MavlinkVehicle {
                 target_component,
                 mission_type: 0,
             }),
-            Message::Item(item) => MavMessage::MISSION_ITEM_INT(MISSION_ITEM_INT_DATA {
-                param1: item.param1,
-                param2: item.param2,
-                param3: item.param3,
-                param4: item.param4,
-                x: item.x,
-                y: item.y,
-                z: item.z,
-                seq: item.seq,
-                command: item.command,
-                target_system,
-                target_component,
-                frame: item.frame,
-                current: item.current,
-                autocontinue: item.autocontinue,
-                mission_type: item.mission_type,
-            }),
+            Message::Item(item) => {
+                MavMessage::MISSION_ITEM_INT(item.to(target_system, target_component))
+            }
             Message::Ack { result, mission_type } => MavMessage::MISSION_ACK(MISSION_ACK_DATA {
                 target_system,
                 target_component,
-                mavtype: result,
+                mavtype: result as u8,
                 mission_type,
                 opaque_id,
             }),

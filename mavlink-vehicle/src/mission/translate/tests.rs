@@ -54,7 +54,7 @@ fn assert_flown(items: &[Item], expected: &[&str]) {
 }
 
 #[track_caller]
-fn assert_problem(items: &[Item], result: u8, reason: &str) {
+fn assert_problem(items: &[Item], result: MavMissionResult, reason: &str) {
     let problem = translated_by(items, &RULES).unwrap_err();
     assert_eq!(problem.result, result, "{problem}");
     assert!(problem.reason.contains(reason), "{problem}");
@@ -435,9 +435,9 @@ fn any_item() -> impl Strategy<Value = Item> {
             param2,
             param3,
             param4,
+            z,
             x,
             y,
-            z,
             ..item(0, frame, command)
         })
 }
