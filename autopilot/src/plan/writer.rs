@@ -1,4 +1,4 @@
-//! Writes commands that were made, not read: the inverse of the [parser](super::parser), by the same declarations.
+//! Writes commands that were made, not read: the inverse of the [parser], by the same declarations.
 
 use diagnostic::Diagnostic;
 use kinematics::Pose;

@@ -9,6 +9,7 @@
 //! | of set-points or sticks | they cannot be followed; whoever sent them may be there | [`following`](super::following), and the agent in flight |
 //! | of the partner of a mission's upload | an item is asked for again | [`Transfer`](crate::mission::Transfer) |
 //! | of a peer's address | its place is another's. Its stations are gone at once: nothing can be sent to them | the shell, which knows addresses |
+
 use std::time::Duration;
 
 use arrayvec::ArrayVec;
@@ -18,7 +19,6 @@ use autopilot::vehicle::{Operator, Station as Kind};
 const MOST: usize = 16;
 /// After this silence another station may take the place of one that has the controls.
 const GONE_AFTER: Duration = Duration::from_secs(5);
-
 /// The vehicle hears so often of a station that is heard.
 const PRESENT_EVERY: Duration = Duration::from_millis(250);
 
