@@ -663,3 +663,13 @@ fn a_mission_is_known_by_its_number_until_it_is_another() {
     bench.vehicle.handle(bench.now, Input::Telemetry(&mission(id)));
     assert_eq!(reached(&mut bench, last), Some(3));
 }
+
+#[test]
+fn the_next_status_says_who_has_the_controls() {
+    let mut bench = Bench::new(Config::default());
+    bench.accepts(400, first(1.0));
+    bench.ordered();
+    bench.status.controls = Some(Operator::TERMINAL);
+    bench.pass(Duration::from_millis(20));
+    bench.refuses(22, NOTHING);
+}
