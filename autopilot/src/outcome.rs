@@ -30,6 +30,8 @@ pub enum Outcome {
     },
     /// The drone cut its motors.
     Emergency,
+    /// An operator called the flight off before it began.
+    CalledOff,
     /// An operator ordered the landing, and the drone has landed.
     Interrupted,
     /// An operator ordered the landing, and the program ended before the drone confirmed that it is down.
@@ -46,7 +48,7 @@ impl Outcome {
             Self::Failsafe { .. } => 40,
             Self::Emergency => 50,
             Self::Contradicted { .. } => 60,
-            Self::Interrupted | Self::LeftLanding => 130,
+            Self::CalledOff | Self::Interrupted | Self::LeftLanding => 130,
         }
     }
 }
@@ -70,6 +72,7 @@ impl fmt::Display for Outcome {
             }
             Self::Failsafe { reason } => write!(f, "landed by a failsafe: {reason}"),
             Self::Emergency => f.write_str("emergency: the drone has cut its motors"),
+            Self::CalledOff => f.write_str("called off by the operator before take-off"),
             Self::Interrupted => f.write_str("landed on the operator's order"),
             Self::LeftLanding => f.write_str(
                 "left while the drone was landing on the operator's order: it has not confirmed that it is down",

@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use autopilot::vehicle::Phase;
+
 /// The packages of the workspace and the packages that each may depend on.
 const MAY_USE: [(&str, &[&str]); 14] = [
     ("diagnostic", &[]),
@@ -325,4 +327,19 @@ fn unsafe_code_is_in_one_file() {
     }
     let autopilot = std::fs::read_to_string("../autopilot/src/lib.rs").unwrap();
     assert!(autopilot.contains("#![deny(unsafe_code)]"));
+}
+
+/// Each state that may follow another is drawn, and nothing else.
+#[test]
+fn the_drawing_of_the_vehicles_states_is_what_they_are() {
+    let text = std::fs::read_to_string("../ARCHITECTURE.md").unwrap();
+    let drawing = text.split("```").find(|block| block.contains("[*] --> connecting")).unwrap();
+    let drawn: BTreeSet<(&str, &str)> = drawing
+        .lines()
+        .filter_map(|line| line.trim().split_once(':')?.0.split_once(" --> "))
+        .collect();
+    let listed = Phase::ALL
+        .into_iter()
+        .flat_map(|phase| phase.next().iter().map(move |next| (phase.name(), next.name())));
+    assert_eq!(drawn, listed.collect());
 }

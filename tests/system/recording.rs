@@ -1,14 +1,19 @@
 //! Flight logs can be read, even if truncated, and replayed.
 
+use std::collections::BTreeSet;
 use std::io::Cursor;
 use std::time::Duration;
 
-use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter};
+use ardrone_pilot::flight::Flight;
+use ardrone_pilot::recording::{Entry, Header, Log, LogError, LogWriter, Recorder};
 use ardrone_pilot::replay::Replay;
 use ardrone_pilot::report;
 use ardrone_pilot::settings::Settings;
+use autopilot::outcome::Outcome;
 use autopilot::plan::ZOrigin;
 use autopilot::vehicle::{FlightEvent, NavdataRate, OperatorOrder, Place, VehicleConfig};
+use mock_drone::WorldConfig;
+use mock_drone::server::{MockDrone, Ports};
 use serde_json::{Value, json};
 use system_tests::sim::{SimulatedFlight, Simulation};
 use system_tests::{SQUARE, plan};
@@ -80,6 +85,38 @@ fn other_code_is_recognised() {
     let first = replay.differences.first().unwrap();
     assert!(first.at > Duration::from_secs(3), "the take-off is the same: {replay}");
     assert!(replay.to_string().contains("then: Goto by"), "{replay}");
+}
+
+/// Topics of a log with their schemas, and whether there are messages in them.
+fn topics(file: &[u8]) -> BTreeSet<(String, String, Vec<u8>, bool)> {
+    let summary = mcap::Summary::read(file).unwrap().unwrap();
+    let counts = summary.stats.unwrap().channel_message_counts;
+    let channels = summary.channels.values().map(|channel| {
+        let schema = channel.schema.as_ref().unwrap();
+        let has_messages = counts.get(&channel.id).is_some_and(|count| *count > 0);
+        (channel.topic.clone(), schema.name.clone(), schema.data.to_vec(), has_messages)
+    });
+    channels.collect()
+}
+
+#[test]
+fn a_simulated_flight_and_the_same_over_udp_leave_the_same_topics() {
+    const PLAN: &str = "takeoff\ngoto 0 0 0 0\nland\n";
+    let (_, simulated) = recorded(PLAN, &Simulation::default());
+    let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+    let address = crate::udp::address(&mock);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("flight.mcap");
+    let (recorder, recording) = Recorder::start(&path, &header(PLAN)).unwrap();
+    let config = VehicleConfig::default();
+    let flight = Flight::start(Some(plan(PLAN)), &config, &address, Some(recorder)).unwrap();
+    assert_eq!(flight.finish().unwrap().outcome, Outcome::Completed);
+    recording.finish().unwrap();
+    let flown = std::fs::read(path).unwrap();
+    let [simulated, flown] = [&simulated, &flown].map(|file| topics(file));
+    assert_eq!(simulated, flown);
+    let with_messages = flown.iter().filter(|(.., has_messages)| *has_messages).count();
+    assert!(with_messages >= 7, "{with_messages}");
 }
 
 /// Size of the plan, the settings and the agent's source in a log.
@@ -380,7 +417,7 @@ fn a_hostile_log_makes_no_large_page() {
 #[test]
 fn a_report_shows_what_went_wrong() {
     let scenario = mock_drone::scenario::Scenario::parse("faults", "8 battery 5\n").unwrap();
-    let world = mock_drone::WorldConfig { scenario, ..Default::default() };
+    let world = WorldConfig { scenario, ..Default::default() };
     let (_, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
     let page = report::html(&Log::read(&file).unwrap(), &[]).unwrap();
     for part in [
@@ -396,7 +433,7 @@ fn a_report_shows_what_went_wrong() {
 /// A refused flight has no warnings in flight, but its outcome is one.
 #[test]
 fn a_refused_flight_is_not_reported_as_a_good_one() {
-    let mut world = mock_drone::WorldConfig::default();
+    let mut world = WorldConfig::default();
     world.drone.battery_percent = 10.0;
     let (flight, file) = recorded(SQUARE, &Simulation { world, ..Simulation::default() });
     assert_ne!(flight.outcome.exit_status(), 0);

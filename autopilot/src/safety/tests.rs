@@ -440,3 +440,63 @@ fn sticks_are_limited_and_do_not_jump() {
     monitor.let_go();
     assert!((monitor.limit(&full, 1.0, 2.0, 0.7).roll - 1.0).abs() < 1e-12);
 }
+
+/// Every command in every state, on the ground and in the air, inside and outside: what may follow is what is drawn.
+#[test]
+fn the_drawing_of_the_monitors_states_is_what_they_are() {
+    let name = |monitor: &SafetyMonitor| {
+        let text = format!("{:?}", monitor.state);
+        text.split([' ', '(']).next().unwrap_or_default().to_owned()
+    };
+    let outside = Situation { pose: Pose { x_m: 50.0, z_m: 2.0, ..FINE.pose }, ..FINE };
+    let blind = Situation { blind_for: Duration::from_secs(9), ..FINE };
+    let situations = [
+        FINE,
+        outside,
+        blind,
+        Situation { landing: true, ..FINE },
+        Situation { airborne: false, ..FINE },
+        Situation { emergency: true, ..FINE },
+    ];
+    let target = AgentCommand::GoTo(FINE.pose);
+    let commands = [
+        AgentCommand::Standby,
+        AgentCommand::TakeOff,
+        AgentCommand::Hover,
+        AgentCommand::Sticks,
+        AgentCommand::Land,
+        target,
+    ];
+    let mut reached = vec![monitor()];
+    let mut seen = std::collections::BTreeSet::new();
+    for _ in 0..4 {
+        for monitor in std::mem::take(&mut reached) {
+            for (situation, command) in
+                situations.iter().flat_map(|it| commands.iter().map(move |one| (it, one)))
+            {
+                for lands_here in [false, true] {
+                    let mut next = monitor.clone();
+                    if lands_here {
+                        next.land_here();
+                    } else {
+                        next.check(*command, situation);
+                    }
+                    if seen.insert((name(&monitor), name(&next))) {
+                        reached.push(next);
+                    }
+                }
+            }
+            reached.push(monitor);
+        }
+    }
+    let text = include_str!("../../../ARCHITECTURE.md");
+    let drawing = text.split("```").find(|block| block.contains("[*] --> Free")).unwrap();
+    let drawn =
+        drawing.lines().filter_map(|line| line.trim().split_once(':')?.0.split_once(" --> "));
+    let drawn = drawn.map(|(from, to)| (from.to_owned(), to.to_owned()));
+    assert_eq!(seen.into_iter().filter(|(from, to)| from != to).collect::<Vec<_>>(), {
+        let mut drawn: Vec<_> = drawn.collect();
+        drawn.sort();
+        drawn
+    });
+}

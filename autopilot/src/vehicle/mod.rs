@@ -13,6 +13,7 @@ mod landing_reason;
 mod life;
 mod link;
 mod manual;
+mod manual_orders;
 mod operator_order;
 mod operators;
 mod orders;

@@ -251,7 +251,7 @@ impl Vehicle {
         }
         // A start that waits must not outlive the emergency.
         if self.life.departure().is_some() {
-            self.end(now, Outcome::Interrupted);
+            self.end(now, Outcome::CalledOff);
         }
         self.request(now, Request::EmergencyReset);
         Ok(())

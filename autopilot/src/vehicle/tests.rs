@@ -51,7 +51,7 @@ fn an_order_to_land_before_the_flight_just_ends_it() {
     let mut vehicle = vehicle("takeoff\nland");
     let land = Input::Order(Operator::TERMINAL, OperatorOrder::Land);
     assert_eq!(vehicle.handle(Duration::ZERO, land), Ok(()));
-    assert_eq!(vehicle.outcome(), Some(&Outcome::Interrupted));
+    assert_eq!(vehicle.outcome(), Some(&Outcome::CalledOff));
 }
 
 #[test]

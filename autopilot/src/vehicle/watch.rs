@@ -276,7 +276,7 @@ impl Vehicle {
                     return;
                 }
                 stage if *stage == Preparation::Connecting || self.on_ground() => {
-                    self.end(now, Outcome::Interrupted);
+                    self.end(now, Outcome::CalledOff);
                     return;
                 }
                 _ => {}

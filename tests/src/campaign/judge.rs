@@ -6,7 +6,7 @@ use std::time::Duration;
 use ardrone_link::at::Motion;
 use ardrone_link::navdata::DroneState;
 use autopilot::outcome::Outcome;
-use autopilot::vehicle::{Phase as PilotPhase, TICK};
+use autopilot::vehicle::{FlightEvent, Phase as PilotPhase, TICK};
 use mock_drone::firmware::Phase;
 use mock_drone::{Drone, Truth};
 
@@ -406,6 +406,8 @@ impl Judge {
 
     fn judge_outcome(&mut self, flight: &Flight, flown: &SimulatedFlight) {
         let end = flown.duration;
+        let begins = |event: &FlightEvent| matches!(event, FlightEvent::StepStarted { .. });
+        let has_begun = flown.events.iter().any(|(_, event)| begins(event));
         let says_down = match &flown.outcome {
             // Nobody exits early here, so an unconfirmed landing did not work.
             Outcome::Completed
@@ -413,6 +415,8 @@ impl Judge {
             | Outcome::Interrupted
             | Outcome::LeftLanding
             | Outcome::Emergency => true,
+            // Unless it had begun nothing is said of where the drone is.
+            Outcome::CalledOff => has_begun,
             Outcome::Failsafe { reason } => !reason.contains("did not confirm"),
             Outcome::NoDrone | Outcome::LinkLost | Outcome::PreflightRefused { .. } => false,
         };

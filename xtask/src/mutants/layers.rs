@@ -116,8 +116,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
         "it is forgotten that the drone must stay down",
         &[edit(
             SAFETY,
-            "if self.lands || now.landing || self.stays_down {",
-            "if self.lands || now.landing || self.stays_down && self.lands {",
+            "matches!(self.state, State::Landing { .. } | State::StaysDown)",
+            "matches!(self.state, State::Landing { .. })",
         )],
     ),
     mutant(

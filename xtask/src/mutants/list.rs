@@ -33,6 +33,7 @@ pub(super) const AGENT: &str = "autopilot/agent/autopilot.asl";
 const BINDING: &str = "autopilot/src/agent.rs";
 const ACTIVITY: &str = "autopilot/src/agent/activity.rs";
 pub(super) const SAFETY: &str = "autopilot/src/safety.rs";
+const DESCENT: &str = "autopilot/src/safety/descent.rs";
 const FLIGHT: &str = "autopilot/src/vehicle/flight.rs";
 const TICK: &str = "autopilot/src/vehicle/tick.rs";
 const CONTROL: &str = "autopilot/src/vehicle/control.rs";
@@ -40,6 +41,7 @@ const WATCH: &str = "autopilot/src/vehicle/watch.rs";
 const ORDERS: &str = "autopilot/src/vehicle/orders.rs";
 const OPERATORS: &str = "autopilot/src/vehicle/operators.rs";
 const MANUAL: &str = "autopilot/src/vehicle/manual.rs";
+const MANUAL_ORDERS: &str = "autopilot/src/vehicle/manual_orders.rs";
 const SETPOINT: &str = "autopilot/src/vehicle/setpoint.rs";
 pub(super) const ESTIMATOR: &str = "estimator/src/lib.rs";
 const FRAME: &str = "kinematics/src/frame.rs";
@@ -197,8 +199,8 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "self.carried_off.lasts(Duration::ZERO)",
             ),
             edit(
-                SAFETY,
-                "let is_hopeless = is_across && self.way_back.is_none(now);",
+                DESCENT,
+                "let is_hopeless = away_m > fence.radius_m && self.way_back.is_none(now);",
                 "let is_hopeless = false;",
             ),
         ],
@@ -215,7 +217,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "@landed[req(\"SAF-2\")]\n",
                 "+!comeDown : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit\n  <- sendHover;\n     !!wait.\n\n@landed[req(\"SAF-2\")]\n",
             ),
-            edit(SAFETY, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
+            edit(
+                SAFETY,
+                "if command == AgentCommand::Land {",
+                "if command == AgentCommand::Land && flies != flies {",
+            ),
         ],
     ),
     mutant(
@@ -260,9 +266,9 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "landWhenSaturated(Most) & Weak >= 0 & Most >= 0",
             ),
             edit(
-                SAFETY,
-                "sinks || !is_hopeless),\n            Veto::CarriedOff => (Some(self.upwind), sinks),",
-                "sinks || is_hopeless || !is_hopeless),\n            Veto::CarriedOff => (Some(self.upwind), true),",
+                DESCENT,
+                "sinks || !is_hopeless),\n            Cause::CarriedOff => (Some(self.upwind), sinks),",
+                "sinks || is_hopeless || !is_hopeless),\n            Cause::CarriedOff => (Some(self.upwind), true),",
             ),
         ],
     ),
@@ -297,11 +303,15 @@ pub(super) const MUTANTS: &[Mutant] = &[
         &[
             edit(
                 ORDERS,
-                "if self.lands() {\n            Err(Refused::Landing)\n        } else if self.is_foreign() {\n            Err(Refused::FlownByAnother)\n        } else if self.phase != FlightPhase::Flying || self.on_ground()",
+                "if self.lands() {\n            Err(Refused::Landing)\n        } else if self.is_foreign() {\n            Err(Refused::FlownByAnother)\n        } else if self.life.flying().is_none() || self.on_ground()",
                 "if self.on_ground()",
             ),
             edit(AGENT, "+!hold : comingDown\n", "+!hold : comingDown & onGround\n"),
-            edit(SAFETY, "self.lands = command == AgentCommand::Land;", "self.lands = false;"),
+            edit(
+                SAFETY,
+                "if command == AgentCommand::Land {",
+                "if command == AgentCommand::Land && flies != flies {",
+            ),
         ],
     ),
     mutant(
@@ -356,9 +366,9 @@ pub(super) const MUTANTS: &[Mutant] = &[
     mutant(
         "station: a mission that waits for it goes on by itself",
         &[edit(
-            MANUAL,
-            "manual.holds_mission = true;\n                self.events.push_back(FlightEvent::PausedForStation);",
-            "manual.holds_mission = false;\n                self.events.push_back(FlightEvent::PausedForStation);",
+            MANUAL_ORDERS,
+            "*mode = Mode::Hold;\n                self.events.push_back(FlightEvent::PausedForStation);",
+            "*mode = Mode::Mission;\n                self.events.push_back(FlightEvent::PausedForStation);",
         )],
     ),
     mutant(
@@ -393,7 +403,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
                 "wanted_m_s - outward * too_fast_m_s",
                 "wanted_m_s - outward * (0.0 * too_fast_m_s)",
             ),
-            edit(MANUAL, "*target = fence.nearest_inside(&wanted, INSIDE_M);", "*target = wanted;"),
+            edit(
+                MANUAL_ORDERS,
+                "*target = fence.nearest_inside(&wanted, INSIDE_M);",
+                "*target = wanted;",
+            ),
             edit(
                 SAFETY,
                 "self.fence.radius_m + margin_m",

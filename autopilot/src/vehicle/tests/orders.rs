@@ -179,7 +179,7 @@ fn what_is_ordered_before_the_take_off_ends_the_flight_on_the_ground() {
         bench.accepted(order);
         assert!(bench.vehicle.is_at_rest(), "{name}");
         bench.run(5 * SECOND);
-        assert_eq!(bench.outcomes, [Outcome::Interrupted], "{name}");
+        assert_eq!(bench.outcomes, [Outcome::CalledOff], "{name}");
         assert_eq!(bench.phase(), Phase::Standby, "{name}");
     }
 }
@@ -256,7 +256,7 @@ fn an_emergency_is_cleared_on_the_ground_only_and_ends_a_start_that_waits() {
     bench.run(2 * TICK);
     bench.accepted(OperatorOrder::Recover);
     bench.run(TICK);
-    assert_eq!(bench.outcomes, [Outcome::Interrupted]);
+    assert_eq!(bench.outcomes, [Outcome::CalledOff]);
     assert_eq!(bench.reference(), Some(Ref::ToggleEmergency));
 }
 
