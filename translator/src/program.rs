@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use diagnostic::Span;
 
-use crate::configuration::{Basic, Configuration, Instance, Settings};
+use crate::configuration::{Basic, Configuration, ExternalTrigger, Instance, Settings};
 use crate::syntax::ast::{Arithmetic, Operator, Relation, TriggerKind};
 use crate::types::CType;
 
@@ -462,6 +462,19 @@ pub(crate) fn deferred_room(settings: &Settings, formulae: usize) -> usize {
 }
 
 impl Program {
+    /// Beliefs that the environment can set.
+    pub(crate) fn settable(&self) -> impl Iterator<Item = &Belief> {
+        self.beliefs.iter().filter(|belief| belief.settable)
+    }
+
+    /// The number of an event that the environment can raise, and the event.
+    pub(crate) fn raised(&self, event: &ExternalTrigger) -> Option<(usize, &External)> {
+        self.external.iter().enumerate().find(|(_, external)| {
+            (external.operator, external.kind, &external.name)
+                == (event.operator, event.kind, &event.name.text)
+        })
+    }
+
     pub(crate) fn belief(&self, id: BeliefId) -> &Belief {
         &self.beliefs[id.0]
     }

@@ -86,7 +86,7 @@ fn external_functions(writer: &mut Writer, program: &Program) {
         let parameters = raw_parameters(&external.types);
         writer.line(format!("fn {prefix}{name}(agent: *mut State{parameters}) -> bool;"));
     }
-    for belief in program.beliefs.iter().filter(|belief| belief.settable) {
+    for belief in program.settable() {
         let parameters = raw_parameters(&belief.types);
         writer.line(format!("fn {prefix}set_{}(agent: *mut State{parameters});", belief.name));
     }
@@ -109,7 +109,7 @@ fn environment_trait(writer: &mut Writer, program: &Program) {
 
 fn beliefs(writer: &mut Writer, program: &Program) {
     let prefix = symbol_prefix(program);
-    let settables: Vec<_> = program.beliefs.iter().filter(|belief| belief.settable).collect();
+    let settables: Vec<_> = program.settable().collect();
     writer.line("/// The beliefs that the environment may set during a cycle.");
     writer.line("#[derive(Debug)]");
     writer.open_here("pub struct Beliefs<'a>");

@@ -65,6 +65,12 @@ pub struct Configuration {
 }
 
 impl Configuration {
+    /// The fields of a struct, by the name of its type.
+    pub(crate) fn fields(&self, name: &str) -> &[(Name, CType)] {
+        let declared = self.structs.iter().find(|declared| declared.name.text == name);
+        declared.map_or(&[], |declared| &declared.fields)
+    }
+
     /// Possible paths of each file in `includes`, relative to the folder of the outputs: beside the headers
     /// that include it, and in that folder.
     pub(crate) fn included_files(&self) -> BTreeSet<String> {

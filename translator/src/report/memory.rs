@@ -105,9 +105,7 @@ fn size_of_type(program: &Program, ctype: &CType) -> (usize, usize) {
         }
         TypeKind::Float32 => (4, 4),
         TypeKind::Struct => {
-            let mut structs = program.configuration.structs.iter();
-            let declared = structs.find(|declared| declared.name.text == ctype.name);
-            let fields = declared.map_or(&[][..], |declared| &declared.fields[..]);
+            let fields = program.configuration.fields(&ctype.name);
             let (bytes, alignment) =
                 fields.iter().fold((0_usize, 1), |(bytes, alignment), (_, field)| {
                     let (size, align) = size_of_type(program, field);

@@ -15,8 +15,10 @@ use std::fmt::Write as _;
 
 pub(crate) use self::environment::NO_OWN_STATE;
 use super::cycle::{event_name, no_event};
-use super::names::{Names, typed_arguments};
-use crate::backend::c::harness::{ANSWERS, STEPS};
+use super::host::{ANSWERS, Host, STEPS};
+use super::names::{Names, argument, listed, typed_arguments};
+use crate::backend::writer::Writer;
+use crate::configuration::Basic;
 use crate::plain;
 use crate::program::Program;
 use crate::scripted::Act;
@@ -81,6 +83,45 @@ impl<'a> Comparison<'a> {
     }
 }
 
+impl Host for Comparison<'_> {
+    fn called(&self, writer: &mut Writer, number: usize, basic: &Basic) {
+        if self.names.is_context() {
+            writer.line(
+                "plain_assert(environment == plain_environment, \"the environment's pointer\");",
+            );
+        }
+        writer.line(format!("bool watched = plain_logged({});", number + 1));
+        for (_, argument, slot) in self.slots(basic) {
+            writer.line(format!("if (watched) {{ {slot} = {argument}; }}"));
+        }
+        if basic.result.kind != TypeKind::Void {
+            writer.line(format!("uint32_t place = plain_asked_{number};"));
+            writer.line(format!("plain_assert_room(place < {ROOM}, \"{ENOUGH_ROOM}\");"));
+            writer.line(format!("__CPROVER_assume(place < {ROOM});"));
+            writer.line(format!("plain_asked_{number}++;"));
+            let (answer, any) = (self.answer(number, basic), self.any(&basic.result));
+            if self.beginning.is_empty() {
+                writer.line(format!("{answer} = {any};"));
+            } else {
+                let given = format!("plain_given_{number}");
+                let left = format!("plain_given_left_{number}");
+                writer.line(format!("{answer} = {given} != 0 ? *{given} : {any};"));
+                writer.line(format!("if ({given} != 0 && {left} > 1) {{ {given}++; {left}--; }}"));
+            }
+            let name = &basic.name.text;
+            writer.line(format!("__CPROVER_output(\"{ANSWERS} {name}\", {answer});"));
+        }
+        writer.line("(void)watched;");
+        if self.names.is_context() {
+            writer.line("plain_controlled();");
+        }
+    }
+
+    fn answer(&self, number: usize, _: &Basic) -> String {
+        format!("plain_answer_{number}[place]")
+    }
+}
+
 impl Comparison<'_> {
     fn text(&self) -> String {
         let mut text = String::from(
@@ -132,17 +173,16 @@ impl Comparison<'_> {
     }
 
     fn values(&self, text: &mut String) {
+        let fields = |name: &str| self.program.configuration.fields(name).iter();
         text.push_str("static const char plain_texts[256];\n");
         for ctype in &self.types {
             let (name, index) = (&ctype.name, self.index(ctype));
             let any = match ctype.kind {
                 TypeKind::Bool => "__CPROVER_assume(value == 0 || value == 1); ".to_owned(),
                 TypeKind::Text => "unsigned char which; value = &plain_texts[which]; ".to_owned(),
-                TypeKind::Struct => {
-                    self.fields(name).fold(String::new(), |text, (field, ctype)| {
-                        format!("{text}value.{field} = {}; ", self.any(ctype))
-                    })
-                }
+                TypeKind::Struct => fields(name).fold(String::new(), |text, (field, ctype)| {
+                    format!("{text}value.{} = {}; ", field.text, self.any(ctype))
+                }),
                 _ => String::new(),
             };
             _ = writeln!(
@@ -159,9 +199,8 @@ impl Comparison<'_> {
                     )
                 }
                 TypeKind::Struct => {
-                    let fields = self.fields(name);
-                    let same = fields.map(|(field, ctype)| {
-                        self.same(ctype, &format!("a.{field}"), &format!("b.{field}"))
+                    let same = fields(name).map(|(field, ctype)| {
+                        self.same(ctype, &format!("a.{}", field.text), &format!("b.{}", field.text))
                     });
                     format!("return {};", same.collect::<Vec<_>>().join(" && "))
                 }
@@ -172,14 +211,6 @@ impl Comparison<'_> {
             _ = writeln!(text, "static bool plain_same_{index}({name} a, {name} b) {{ {same} }}");
         }
         text.push('\n');
-    }
-
-    /// The fields of a struct.
-    fn fields<'b>(&'b self, name: &str) -> impl Iterator<Item = (&'b str, &'b CType)> {
-        let structs = &self.program.configuration.structs;
-        let declared = structs.iter().find(|declared| declared.name.text == name);
-        let fields = declared.into_iter().flat_map(|declared| &declared.fields);
-        fields.map(|(field, ctype)| (field.text.as_str(), ctype))
     }
 
     /// The calls of both. One call of the step is watched, which may be any: what the C calls there, and with which
@@ -230,89 +261,43 @@ impl Comparison<'_> {
              plain_assert(made, \"another call, or none\");\n    __CPROVER_assume(made);\n    \
              plain_repeated++;\n    return watched;\n}\n\n",
         );
-        for number in 0..self.program.configuration.basics.len() {
-            self.call(text, number);
+        let mut writer = Writer::default();
+        self.basics(&mut writer, self.program, &self.names);
+        for (number, basic) in self.program.configuration.basics.iter().enumerate() {
+            self.repeated(&mut writer, number, basic);
         }
+        text.push_str(&writer.finish());
     }
 
-    fn call(&self, text: &mut String, number: usize) {
-        let basic = &self.program.configuration.basics[number];
-        let (name, result) = (&basic.name.text, &basic.result.name);
-        let mut parameters: Vec<String> = typed_arguments(&basic.parameters).collect();
-        let plainly = if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
+    /// The arguments of an action, each with the place in which it is kept.
+    fn slots<'b>(&self, basic: &'b Basic) -> Vec<(&'b CType, String, String)> {
         let slots = basic.parameters.iter().enumerate().map(|(index, ctype)| {
             let slot = basic.parameters[..index].iter().filter(|other| *other == ctype).count();
-            (
-                ctype,
-                format!("argument{}", index + 1),
-                format!("plain_log_{}_{slot}", self.index(ctype)),
-            )
+            (ctype, argument(index), format!("plain_log_{}_{slot}", self.index(ctype)))
         });
-        let slots: Vec<(&CType, String, String)> = slots.collect();
-        if self.names.is_context() {
-            parameters.insert(0, "void *environment".to_owned());
-        } else if parameters.is_empty() {
-            parameters.push("void".to_owned());
-        }
-        let action = self.names.action(basic);
-        _ = writeln!(text, "{result} {action}({})\n{{", parameters.join(", "));
-        if self.names.is_context() {
-            text.push_str(
-                "    plain_assert(environment == plain_environment, \"the environment's pointer\");\n",
-            );
-        }
-        _ = writeln!(text, "    bool watched = plain_logged({});", number + 1);
-        for (_, argument, slot) in &slots {
-            _ = writeln!(text, "    if (watched) {{ {slot} = {argument}; }}");
-        }
-        let answers = basic.result.kind != TypeKind::Void;
-        let answer = format!("plain_answer_{number}[place]");
-        if answers {
-            _ = writeln!(text, "    uint32_t place = plain_asked_{number};");
-            _ = writeln!(text, "    plain_assert_room(place < {ROOM}, \"{ENOUGH_ROOM}\");");
-            _ = writeln!(text, "    __CPROVER_assume(place < {ROOM});");
-            _ = writeln!(text, "    plain_asked_{number}++;");
-            let any = self.any(&basic.result);
-            if self.beginning.is_empty() {
-                _ = writeln!(text, "    {answer} = {any};");
-            } else {
-                let given = format!("plain_given_{number}");
-                _ = writeln!(
-                    text,
-                    "    {answer} = {given} != 0 ? *{given} : {any};\n    \
-                     if ({given} != 0 && plain_given_left_{number} > 1) {{ {given}++; plain_given_left_{number}--; }}"
-                );
-            }
-            _ = writeln!(text, "    __CPROVER_output(\"{ANSWERS} {name}\", {answer});");
-        }
-        text.push_str("    (void)watched;\n");
-        if self.names.is_context() {
-            text.push_str("    plain_controlled();\n");
-        }
-        if answers {
-            _ = writeln!(text, "    return {answer};");
-        }
-        _ = writeln!(text, "}}\nstatic {result} plain_call_{number}({plainly})\n{{");
-        _ = writeln!(text, "    bool watched = plain_expected({});", number + 1);
-        for (ctype, argument, slot) in &slots {
-            let same = self.same(ctype, argument, slot);
-            _ = writeln!(
-                text,
-                "    plain_assert(!watched || {same}, \"another value for {name}\");"
-            );
-        }
-        text.push_str("    (void)watched;\n");
-        if answers {
-            _ = writeln!(text, "    uint32_t place = plain_answered_{number};");
-            // No question is left out: the C has asked as often, or an earlier call differs.
-            _ = writeln!(text, "    __CPROVER_assume(place < {ROOM});");
-            _ = writeln!(text, "    plain_answered_{number}++;\n    return {answer};");
-        }
-        text.push_str("}\n\n");
+        slots.collect()
     }
 
-    fn interface_call(&self, name: &str, values: impl IntoIterator<Item = String>) -> String {
-        format!("{}({})", self.names.interface(name), self.names.arguments(values))
+    /// A call of an action by the plain translation.
+    fn repeated(&self, writer: &mut Writer, number: usize, basic: &Basic) {
+        let (name, result) = (&basic.name.text, &basic.result.name);
+        let parameters = listed(typed_arguments(&basic.parameters));
+        writer.open(format!("static {result} plain_call_{number}({parameters})"));
+        writer.line(format!("bool watched = plain_expected({});", number + 1));
+        for (ctype, argument, slot) in self.slots(basic) {
+            let same = self.same(ctype, &argument, &slot);
+            writer.line(format!("plain_assert(!watched || {same}, \"another value for {name}\");"));
+        }
+        writer.line("(void)watched;");
+        if basic.result.kind != TypeKind::Void {
+            writer.line(format!("uint32_t place = plain_answered_{number};"));
+            // No question is left out: the C has asked as often, or an earlier call differs.
+            writer.line(format!("__CPROVER_assume(place < {ROOM});"));
+            writer.line(format!("plain_answered_{number}++;"));
+            writer.line(format!("return {};", self.answer(number, basic)));
+        }
+        writer.close("}");
+        writer.line("");
     }
 
     fn entries(&self, text: &mut String) {
@@ -321,7 +306,7 @@ impl Comparison<'_> {
         _ = writeln!(
             text,
             "static void plain_both_step(void)\n{{\n    plain_restart();\n    {};\n    plain_step();",
-            self.interface_call("next_step", [])
+            self.names.call("next_step", None)
         );
         text.push_str("    plain_compare();\n}\n\n");
         self.steps(text);

@@ -5,9 +5,9 @@
 
 use std::collections::BTreeSet;
 
-use super::names::{Names, argument_names, typed_arguments};
-use super::state::{counters, external_name};
-use super::trace::{TRACE, trace_call, trace_value};
+use super::host::{Call, Host, changes, choose, counts, created, update};
+use super::names::Names;
+use super::trace::{TRACE, ask, make, trace_call, trace_result};
 use crate::backend::writer::Writer;
 use crate::configuration::{Basic, Struct};
 use crate::program::Program;
@@ -25,23 +25,15 @@ const RANDOM: &str = include_str!("exercise/random.c");
 
 /// A type whose values only the environment can create, and which the program would have to create.
 pub(crate) fn uncreatable_type(program: &Program) -> Option<String> {
-    let results = program.configuration.basics.iter().map(|basic| &basic.result);
-    let settable = program.beliefs.iter().filter(|belief| belief.settable);
-    let arguments = settable.flat_map(|belief| &belief.types);
-    let events = program.external.iter().flat_map(|external| &external.types);
-    let mut all = results.chain(arguments).chain(events);
-    all.find(|ctype| ctype.kind == TypeKind::Opaque).map(|ctype| ctype.name.clone())
+    created(program, |kind| kind == TypeKind::Opaque)
 }
 
 /// The functions of the interface, as linker symbols: `next_step` first.
 pub(crate) fn interface_symbols(program: &Program) -> Vec<String> {
     let names = Names::new(program);
     let fixed = ["next_step", "init", "clear", "can_add_event"].map(str::to_owned);
-    let counted = counters(program).map(|counter| format!("{}_events", counter.name));
-    let events = program.external.iter().map(external_name);
-    let settable = program.beliefs.iter().filter(|belief| belief.settable);
-    let set = settable.map(|belief| format!("set_{}", belief.name));
-    let all = fixed.into_iter().chain(counted).chain(events).chain(set);
+    let counted = counts(program).chain(changes(program)).map(|call| call.name());
+    let all = fixed.into_iter().chain(counted);
     all.map(|name| names.interface(&name)).collect()
 }
 
@@ -76,10 +68,8 @@ pub(crate) fn exercise(program: &Program, text: &str) -> String {
     for declared in &program.configuration.structs {
         any_struct(&mut writer, declared);
     }
-    for basic in &program.configuration.basics {
-        builder.basic(&mut writer, basic);
-    }
-    builder.update(&mut writer);
+    builder.basics(&mut writer, program, &builder.names);
+    update(&mut writer, &builder.names);
     builder.call(&mut writer);
     builder.entry(&mut writer);
     writer.finish()
@@ -90,129 +80,71 @@ struct Builder<'a> {
     names: Names,
 }
 
+impl Host for Builder<'_> {
+    fn called(&self, writer: &mut Writer, _: usize, basic: &Basic) {
+        if self.is_clock(basic) {
+            let ctype = &basic.result.name;
+            // It never runs backwards.
+            writer.line(format!("static {ctype} time = 0;"));
+            writer.line(format!("time += ({ctype})any_below(1500U);"));
+        }
+        trace_call(writer, self.program, &basic.name.text, &basic.parameters);
+    }
+
+    fn answer(&self, number: usize, basic: &Basic) -> String {
+        if self.is_clock(basic) {
+            "time".to_owned()
+        } else if basic.result.kind == TypeKind::Bool {
+            format!("any_answer({number}U)")
+        } else {
+            any(&basic.result)
+        }
+    }
+
+    fn answered(&self, writer: &mut Writer, basic: &Basic) {
+        trace_result(writer, self.program, &basic.result);
+    }
+}
+
 impl Builder<'_> {
     fn is_clock(&self, basic: &Basic) -> bool {
         let clock = &self.program.configuration.settings.clock;
         clock.as_ref().is_some_and(|clock| clock.text == basic.name.text)
     }
 
-    /// A basic action or function: traces its call and returns anything.
-    fn basic(&self, writer: &mut Writer, basic: &Basic) {
-        let ctype = &basic.result.name;
-        let mut parameters = Vec::new();
-        if self.names.is_context() {
-            parameters.push("void *environment".to_owned());
-        }
-        parameters.extend(typed_arguments(&basic.parameters));
-        if parameters.is_empty() {
-            parameters.push("void".to_owned());
-        }
-        writer.open(format!("{ctype} {}({})", self.names.action(basic), parameters.join(", ")));
-        if self.is_clock(basic) {
-            // It never runs backwards.
-            writer.line(format!("static {ctype} time = 0;"));
-            writer.line(format!("time += ({ctype})any_below(1500U);"));
-        }
-        if self.names.is_context() {
-            writer.line("(void)environment;");
-        }
-        trace_call(writer, self.program, &basic.name.text, &basic.parameters);
-        if basic.result.kind != TypeKind::Void {
-            let basics = self.program.configuration.basics.iter();
-            let index = basics.take_while(|other| !std::ptr::eq(*other, basic)).count();
-            let value = if self.is_clock(basic) {
-                "time".to_owned()
-            } else if basic.result.kind == TypeKind::Bool {
-                format!("any_answer({index}U)")
-            } else {
-                any(&basic.result)
-            };
-            writer.line(format!("const {ctype} result = {value};"));
-            writer.line("asl2c_trace_text(\" = \");");
-            trace_value(writer, self.program, "result", &basic.result);
-        }
-        writer.line("asl2c_trace_text(\"\\n\");");
-        if basic.result.kind != TypeKind::Void {
-            writer.line("return result;");
-        }
-        writer.close("}");
-        writer.line("");
-    }
-
-    fn update(&self, writer: &mut Writer) {
-        let update = self.names.interface("updateBeliefs");
-        writer.line("/* Beliefs are set between the steps. */");
-        if self.names.is_context() {
-            let state = self.names.state_type();
-            writer.open(format!("void {update}({state} *self, void *environment)"));
-            writer.line("(void)self;");
-            writer.line("(void)environment;");
-        } else {
-            writer.open(format!("void {update}(void)"));
-        }
-        writer.close("}");
-        writer.line("");
-    }
-
     /// One call of the interface, other than `init()` and `next_step()`.
     fn call(&self, writer: &mut Writer) {
-        let none: [CType; 0] = [];
-        let events = self.program.external.iter();
-        let mut calls: Vec<(String, &[CType], bool)> =
-            events.map(|external| (external_name(external), &*external.types, true)).collect();
-        let settable = self.program.beliefs.iter().filter(|belief| belief.settable);
-        calls
-            .extend(settable.map(|belief| (format!("set_{}", belief.name), &*belief.types, false)));
-        calls.push(("can_add_event".to_owned(), &none, true));
+        let calls = changes(self.program).chain([Call::Room]);
         writer.line(
             "/* One random call by the environment, if it is one of those that happen now. */",
         );
-        writer.open(format!("static void asl2c_call_anything({})", self.names.parameters(&none)));
+        writer.open(format!("static void asl2c_call_anything({})", self.names.parameters(&[])));
         // Events are raised as often as beliefs are set, however many there are.
-        let (events, others) = (self.program.external.len(), calls.len());
-        let others = others - events;
+        let (events, others) = (self.program.external.len(), self.program.settable().count() + 1);
         writer.line(format!("uint64_t choice = {events}U + any_below({others}U);"));
         if events > 0 {
             writer.line(format!("choice = any_bool() ? any_below({events}U) : choice;"));
         }
-        writer.open("switch (asl2c_happens(choice) ? choice : UINT64_MAX)");
-        for (case, (name, types, answers)) in calls.iter().enumerate() {
-            writer.line(format!("case {case}U:"));
-            writer.open_bare();
-            for (ctype, argument) in types.iter().zip(argument_names(types)) {
-                writer.line(format!("const {} {argument} = {};", ctype.name, any(ctype)));
-            }
+        let make = |writer: &mut Writer, call: &Call<'_>, arguments| {
+            let name = call.name();
             writer.line("asl2c_trace_text(\"> \");");
-            trace_call(writer, self.program, name, types);
-            let called = self.names.interface(name);
-            let called = format!("{called}({})", self.names.arguments(argument_names(types)));
-            if *answers {
+            trace_call(writer, self.program, &name, call.types());
+            let called = self.names.call(&name, arguments);
+            if let Call::Set(_) = call {
+                writer.line(format!("{called};"));
+            } else {
                 writer.line("asl2c_trace_text(\" = \");");
                 writer.line(format!("asl2c_trace_bool({called});"));
-            } else {
-                writer.line(format!("{called};"));
             }
             writer.line("asl2c_trace_text(\"\\n\");");
-            writer.line("break;");
-            writer.close("}");
-        }
-        writer.line("default:");
-        writer.line("    break;");
-        writer.close("}");
+        };
+        choose(writer, "asl2c_happens(choice) ? choice : UINT64_MAX", calls, any, make, &[]);
         writer.close("}");
         writer.line("");
     }
 
     fn entry(&self, writer: &mut Writer) {
-        let own = |name: &str| {
-            let arguments = self.names.arguments(std::iter::empty());
-            format!("{}({arguments})", self.names.interface(name))
-        };
-        let init = if self.names.is_context() {
-            format!("{}(self, 0)", self.names.interface("init"))
-        } else {
-            own("init")
-        };
+        let init = self.names.init_call("0");
         writer.open("void asl2c_exercise(void)");
         if self.names.is_context() {
             let state = self.names.state_type();
@@ -222,27 +154,21 @@ impl Builder<'_> {
         writer.line(format!("{init};"));
         writer.open(format!("for (uint32_t left = {EXERCISE_STEPS}; left > 0U; left--)"));
         writer.open("while (any_below(3U) != 0U)");
-        let arguments = self.names.arguments(std::iter::empty());
+        let arguments = self.names.arguments(None);
         writer.line(format!("asl2c_call_anything({arguments});"));
         writer.close("}");
-        writer.line("asl2c_trace_text(\"> next_step()\\n\");");
-        writer.line(format!("{};", own("next_step")));
+        make(writer, "next_step", &self.names.call("next_step", None));
         writer.line("asl2c_change_situation();");
         writer.open("if (any_below(24U) == 0U)");
-        for counter in counters(self.program) {
-            let name = format!("{}_events", counter.name);
-            writer.line(format!("asl2c_trace_text(\"> {name}() = \");"));
-            writer.line(format!("asl2c_trace_unsigned({});", own(&name)));
-            writer.line("asl2c_trace_text(\"\\n\");");
+        for counter in counts(self.program) {
+            ask(writer, &self.names, &counter.name(), "unsigned");
         }
         writer.open("if (any_below(8U) != 0U)");
-        writer.line("asl2c_trace_text(\"> init()\\n\");");
-        writer.line(format!("{init};"));
+        make(writer, "init", &init);
         writer.close("}");
         writer.line("else");
         writer.open_bare();
-        writer.line("asl2c_trace_text(\"> clear()\\n\");");
-        writer.line(format!("{};", own("clear")));
+        make(writer, "clear", &self.names.call("clear", None));
         writer.close("}");
         writer.close("}");
         writer.close("}");

@@ -12,23 +12,17 @@ use std::collections::BTreeMap;
 
 pub(crate) use self::moment::Moment;
 use super::cycle::event_name;
-use super::names::{Names, argument_names, typed_arguments};
+use super::host::{ANSWERS, Call, Host, STEPS, changes, choose, created, record, update};
+use super::names::{Names, argument_names};
 use super::state::{Slot, belief_value, external_name, held, inbox_ring, pending};
 use crate::analysis::constants::c_number;
 use crate::backend::writer::Writer;
 use crate::configuration::{
-    CallBound, Cause, Comparison, ExternalTrigger, Formula, Operand, Property,
+    Basic, CallBound, Cause, Comparison, ExternalTrigger, Formula, Operand, Property,
 };
 use crate::program::{External, Program};
 use crate::syntax::ast::{Name, Number, Relation};
-use crate::types::{CType, TypeKind};
-
-/// Name in a trace for calls by the environment, with their arguments.
-pub const CALLS: &str = "calls";
-/// Name in a trace for results of functions.
-pub const ANSWERS: &str = "answers";
-/// Name in a trace for steps of the agent.
-pub const STEPS: &str = "steps";
+use crate::types::TypeKind;
 
 /// The texts of a proof.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,14 +39,7 @@ pub(crate) struct Harness {
 
 /// Types without a way to create arbitrary values.
 pub(crate) fn unknown_type(program: &Program) -> Option<String> {
-    let basics = &program.configuration.basics;
-    let results = basics.iter().map(|basic| &basic.result);
-    let settable = program.beliefs.iter().filter(|belief| belief.settable);
-    let arguments = settable.flat_map(|belief| &belief.types);
-    let events = program.external.iter().flat_map(|external| &external.types);
-    let unknown =
-        |ctype: &&CType| matches!(ctype.kind, TypeKind::Opaque | TypeKind::Text | TypeKind::Struct);
-    results.chain(arguments).chain(events).find(unknown).map(|ctype| ctype.name.clone())
+    created(program, |kind| matches!(kind, TypeKind::Opaque | TypeKind::Text | TypeKind::Struct))
 }
 
 /// The harness of `program`, whose state is passed in.
@@ -66,6 +53,32 @@ pub(crate) fn harness(program: &Program) -> Harness {
 struct Builder<'a> {
     program: &'a Program,
     names: Names,
+}
+
+impl Host for Builder<'_> {
+    fn declare(&self, writer: &mut Writer, _: usize, basic: &Basic) {
+        writer.line(format!("static uint32_t {};", calls(&basic.name.text)));
+    }
+
+    fn called(&self, writer: &mut Writer, _: usize, basic: &Basic) {
+        for argument in argument_names(&basic.parameters) {
+            writer.line(format!("(void){argument};"));
+        }
+        let calls = calls(&basic.name.text);
+        // Saturates at two, which is already a violation.
+        writer.line(format!("{calls} = ({calls} < 2U) ? ({calls} + 1U) : 2U;"));
+    }
+
+    fn answer(&self, _: usize, basic: &Basic) -> String {
+        anything(&basic.result.name)
+    }
+
+    fn answered(&self, writer: &mut Writer, basic: &Basic) {
+        if basic.result.kind != TypeKind::Void {
+            let name = &basic.name.text;
+            writer.line(format!("__CPROVER_output(\"{ANSWERS} {name}\", result);"));
+        }
+    }
 }
 
 impl Builder<'_> {
@@ -86,7 +99,8 @@ impl Builder<'_> {
         writer.line("#endif");
         writer.line("");
         self.anything(&mut writer);
-        self.basics(&mut writer);
+        self.basics(&mut writer, self.program, &self.names);
+        update(&mut writer, &self.names);
         self.monitors(&mut writer);
         writer.line("#include \"invariant.h\"");
         writer.line("");
@@ -123,40 +137,6 @@ impl Builder<'_> {
             writer.line(format!("static {name} {} {{ return {volatile}{test}; }}", any(name)));
         }
         writer.line("#endif");
-        writer.line("");
-    }
-
-    fn basics(&self, writer: &mut Writer) {
-        let update = self.names.interface("updateBeliefs");
-        for basic in &self.program.configuration.basics {
-            let action = self.names.action(basic);
-            writer.line(format!("static uint32_t {};", calls(&basic.name.text)));
-            let mut parameters = vec!["void *environment".to_owned()];
-            parameters.extend(typed_arguments(&basic.parameters));
-            let parameters = parameters.join(", ");
-            writer.open(format!("{} {action}({parameters})", basic.result.name));
-            writer.line("(void)environment;");
-            for argument in argument_names(&basic.parameters) {
-                writer.line(format!("(void){argument};"));
-            }
-            let calls = calls(&basic.name.text);
-            // Saturates at two, which is already a violation.
-            writer.line(format!("{calls} = ({calls} < 2U) ? ({calls} + 1U) : 2U;"));
-            if basic.result.kind != TypeKind::Void {
-                let (ctype, name) = (&basic.result.name, &basic.name.text);
-                writer.line(format!("const {ctype} result = {};", anything(ctype)));
-                writer.line(format!("__CPROVER_output(\"{ANSWERS} {name}\", result);"));
-                writer.line("return result;");
-            }
-            writer.close("}");
-            writer.line("");
-        }
-        writer.line("/* Beliefs are set by separate transitions. */");
-        let state = self.names.state_type();
-        writer.open(format!("void {update}({state} *agent, void *environment)"));
-        writer.line("(void)agent;");
-        writer.line("(void)environment;");
-        writer.close("}");
         writer.line("");
     }
 
@@ -302,16 +282,9 @@ impl Builder<'_> {
             .expect("the analysis refuses comparisons of beliefs with numbers that do not fit")
     }
 
-    fn external(&self, event: &ExternalTrigger) -> Option<&External> {
-        self.program.external.iter().find(|external| {
-            (external.operator, external.kind, external.name.as_str())
-                == (event.operator, event.kind, event.name.text.as_str())
-        })
-    }
-
     /// Whether such an event is pending, as a C expression.
     fn waits(&self, event: &ExternalTrigger) -> String {
-        let Some(external) = self.external(event) else { return "false".to_owned() };
+        let Some((_, external)) = self.program.raised(event) else { return "false".to_owned() };
         let trigger = external_name(external);
         if external.preemptive {
             return format!("self->{}", pending(Slot::Preemptive, &trigger));
@@ -331,51 +304,34 @@ impl Builder<'_> {
         let state = self.names.state_type();
         writer.line("/* One nondeterministic transition. */");
         writer.open(format!("static void transition({state} *self)"));
-        writer.open(format!("switch ({})", anything("uint32_t")));
-        let mut case = 0_usize;
-        for external in &self.program.external {
-            writer.line(format!("case {case}U:"));
-            self.raise(writer, external);
-            case += 1;
-        }
-        for belief in self.program.beliefs.iter().filter(|belief| belief.settable) {
-            writer.line(format!("case {case}U:"));
-            let set = self.names.interface(&format!("set_{}", belief.name));
-            let values = recorded_arguments(writer, &format!("set_{}", belief.name), &belief.types);
-            writer.line(format!("{set}({values});"));
-            writer.line("break;");
-            writer.close("}");
-            case += 1;
-        }
-        writer.line(format!("case {case}U:"));
-        self.clear(writer);
-        writer.line("default:");
-        writer.line(format!("    __CPROVER_output(\"{STEPS}\", 0U);"));
-        writer.line("    step(self);");
-        writer.line("    break;");
-        writer.close("}");
+        let make = |writer: &mut Writer, call: &Call<'_>, arguments: Vec<String>| {
+            let name = call.name();
+            record(writer, &name, &arguments);
+            let made = self.names.call(&name, arguments);
+            match call {
+                Call::Raise(_, external) => self.raise(writer, external, &made),
+                _ => writer.line(format!("{made};")),
+            }
+            if let Call::Clear = call {
+                // With the events, what is due is dropped.
+                for property in self.properties() {
+                    if let Formula::Within { .. } = &property.formula {
+                        writer.line(format!("due_{} = 0U;", property.name.text));
+                    }
+                }
+            }
+        };
+        let calls = changes(self.program).chain([Call::Clear]);
+        let step = [format!("__CPROVER_output(\"{STEPS}\", 0U);"), "step(self);".to_owned()];
+        choose(writer, &anything("uint32_t"), calls, |ctype| anything(&ctype.name), make, &step);
         writer.close("}");
         writer.line("");
     }
 
-    /// All events are dropped, and with them what is due.
-    fn clear(&self, writer: &mut Writer) {
-        writer.line(format!("    __CPROVER_output(\"{CALLS} clear\", 0U);"));
-        writer.line(format!("    {}(self);", self.names.interface("clear")));
-        for property in self.properties() {
-            if let Formula::Within { .. } = &property.formula {
-                writer.line(format!("    due_{} = 0U;", property.name.text));
-            }
-        }
-        writer.line("    break;");
-    }
-
-    fn raise(&self, writer: &mut Writer, external: &External) {
-        let raise = self.names.interface(&external_name(external));
-        let values = recorded_arguments(writer, &external_name(external), &external.types);
-        writer.open(format!("if ({raise}({values}))"));
+    fn raise(&self, writer: &mut Writer, external: &External, made: &str) {
+        writer.open(format!("if ({made})"));
         let is_this = |event: &ExternalTrigger| {
-            self.external(event).is_some_and(|e| std::ptr::eq(e, external))
+            self.program.raised(event).is_some_and(|(_, other)| std::ptr::eq(other, external))
         };
         for property in self.properties() {
             let name = &property.name.text;
@@ -394,8 +350,6 @@ impl Builder<'_> {
                 _ => {}
             }
         }
-        writer.close("}");
-        writer.line("break;");
         writer.close("}");
     }
 
@@ -449,19 +403,6 @@ impl Builder<'_> {
 /// Whether a slot of a ring holds an event, as a C expression.
 fn occupied(ring: &str, slot: usize, length: usize) -> String {
     format!("(((({slot}U + {length}U) - self->{ring}_first) % {length}U) < self->{ring}_count)")
-}
-
-/// Opens a block for a transition of this name: creates arbitrary arguments and records them in the trace.
-/// Returns the arguments.
-fn recorded_arguments(writer: &mut Writer, name: &str, types: &[CType]) -> String {
-    writer.open_bare();
-    let arguments: Vec<String> = argument_names(types).collect();
-    for (ctype, argument) in types.iter().zip(&arguments) {
-        writer.line(format!("const {} {argument} = {};", ctype.name, anything(&ctype.name)));
-    }
-    let values = if arguments.is_empty() { "0U".to_owned() } else { arguments.join(", ") };
-    writer.line(format!("__CPROVER_output(\"{CALLS} {name}\", {values});"));
-    std::iter::once("self".to_owned()).chain(arguments).collect::<Vec<_>>().join(", ")
 }
 
 /// An expression with an arbitrary value.

@@ -1,9 +1,8 @@
 //! The generated headers and the types at the head of the C file.
 
-use super::names::{Names, comment_safe, include_path, typed};
+use super::names::{Names, comment_safe, include_path, listed, typed};
 use super::state::{Counter, FieldType, StateLayout, counters, external_name};
 use crate::backend::writer::Writer;
-use crate::configuration::Basic;
 use crate::program::Program;
 use crate::types::CType;
 
@@ -70,7 +69,7 @@ pub(super) fn agent_header(
         let parameters = names.parameters(&external.types);
         declare(&mut writer, comment, format!("bool {name}({parameters})"));
     }
-    for belief in program.beliefs.iter().filter(|belief| belief.settable) {
+    for belief in program.settable() {
         let name = names.interface(&format!("set_{}", belief.name));
         let parameters = names.parameters(&belief.types);
         let comment = if belief.perceived.is_some() {
@@ -97,15 +96,10 @@ pub(super) fn basics_header(program: &Program, names: &Names, input: &str) -> St
         includes(&mut writer, program);
     }
     writer.line("/* Called at the start of each deliberation cycle; may call set_ functions. */");
-    let parameters = if names.is_context() {
-        format!("{} *agent, void *environment", names.state_type())
-    } else {
-        "void".to_owned()
-    };
-    writer.line(format!("void {}({parameters});", names.interface("updateBeliefs")));
+    writer.line(format!("{};", names.update_head()));
     for basic in &program.configuration.basics {
         writer.line("");
-        writer.line(format!("{};", action_prototype(names, basic)));
+        writer.line(format!("{};", names.action_head(basic)));
     }
     writer.line("");
     writer.line(format!("#endif /* {guard} */"));
@@ -133,11 +127,8 @@ pub(super) fn private_types(writer: &mut Writer, names: &Names, layout: &StateLa
 
 /// `void init(void)`, or with the state and the environment's pointer.
 pub(super) fn init_prototype(names: &Names) -> String {
-    let parameters = if names.is_context() {
-        format!("{} *self, void *environment", names.state_type())
-    } else {
-        "void".to_owned()
-    };
+    let state = || format!("{} *self, void *environment", names.state_type());
+    let parameters = listed(names.is_context().then(state));
     format!("void {}({parameters})", names.interface("init"))
 }
 
@@ -177,16 +168,6 @@ fn state_types(writer: &mut Writer, names: &Names, layout: &StateLayout) {
     writer.dedent();
     writer.line(format!("}} {};", names.state_type()));
     writer.line("");
-}
-
-fn action_prototype(names: &Names, basic: &Basic) -> String {
-    let mut parameters = Vec::new();
-    if names.is_context() {
-        parameters.push("void *environment".to_owned());
-    }
-    parameters.extend(super::names::typed_arguments(&basic.parameters));
-    let parameters = if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
-    typed(&basic.result, &format!("{}({parameters})", names.action(basic)))
 }
 
 fn structs(writer: &mut Writer, program: &Program) {

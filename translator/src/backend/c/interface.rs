@@ -48,7 +48,7 @@ pub(super) fn interface(
         writer.line("");
         raise(writer, program, names, external);
     }
-    for belief in program.beliefs.iter().filter(|belief| belief.settable) {
+    for belief in program.settable() {
         writer.line("");
         set(writer, program, names, helpers, belief);
     }

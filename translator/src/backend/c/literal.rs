@@ -30,10 +30,7 @@ pub(super) fn literal(program: &Program, value: Option<&Value>, ctype: &CType) -
 }
 
 fn fields<'a>(program: &'a Program, ctype: &CType) -> impl Iterator<Item = &'a CType> {
-    let name = ctype.name.clone();
-    let structs = program.configuration.structs.iter();
-    let declared = structs.filter(move |declared| declared.name.text == name);
-    declared.flat_map(|declared| &declared.fields).map(|(_, ctype)| ctype)
+    program.configuration.fields(&ctype.name).iter().map(|(_, ctype)| ctype)
 }
 
 fn integer(value: i128) -> String {

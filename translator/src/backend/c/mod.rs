@@ -13,6 +13,7 @@ mod handlers;
 mod harness;
 mod header;
 mod helpers;
+mod host;
 mod interface;
 mod literal;
 mod locals;
@@ -35,8 +36,8 @@ pub(crate) use self::exercise::{
     environment_symbols, exercise, interface_symbols, uncreatable_type,
 };
 pub(crate) use self::handlers::plan_name;
-pub use self::harness::{ANSWERS, CALLS, STEPS};
 pub(crate) use self::harness::{Moment, harness, unknown_type};
+pub use self::host::{ANSWERS, CALLS, STEPS};
 pub use self::names::include_path;
 pub(crate) use self::names::{action_symbol, comment_safe, symbol_prefix};
 pub(crate) use self::scripted::scripted;

@@ -47,9 +47,31 @@ impl Names {
 
     /// A parameter list, starting with the agent's state if it is passed in.
     pub(super) fn parameters(&self, types: &[CType]) -> String {
-        let mut parameters = self.state_parameter();
-        parameters.extend(typed_arguments(types));
-        if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") }
+        listed(self.state_parameter().into_iter().chain(typed_arguments(types)))
+    }
+
+    /// The head of a basic action's function, which begins with the environment's pointer if the state is passed in.
+    pub(super) fn action_head(&self, basic: &Basic) -> String {
+        let environment = self.is_context().then(|| "void *environment".to_owned());
+        let parameters = environment.into_iter().chain(typed_arguments(&basic.parameters));
+        typed(&basic.result, &format!("{}({})", self.action(basic), listed(parameters)))
+    }
+
+    /// The head of the environment's `updateBeliefs()`.
+    pub(super) fn update_head(&self) -> String {
+        let state = || format!("{} *agent, void *environment", self.state_type());
+        let parameters = listed(self.is_context().then(state));
+        format!("void {}({parameters})", self.interface("updateBeliefs"))
+    }
+
+    /// A call of the interface.
+    pub(super) fn call(&self, name: &str, arguments: impl IntoIterator<Item = String>) -> String {
+        format!("{}({})", self.interface(name), self.arguments(arguments))
+    }
+
+    /// A call of `init()` with this pointer of the environment, if it has one.
+    pub(super) fn init_call(&self, environment: &str) -> String {
+        self.call("init", self.is_context().then(|| environment.to_owned()))
     }
 
     /// The arguments of a call inside the agent.
@@ -83,6 +105,12 @@ pub(crate) fn action_symbol(program: &Program, name: &str) -> String {
 /// `double argument1`, `int argument2`, ..
 pub(super) fn typed_arguments(types: &[CType]) -> impl Iterator<Item = String> {
     types.iter().enumerate().map(|(index, ctype)| typed(ctype, &argument(index)))
+}
+
+/// A list of parameters, or `void`.
+pub(super) fn listed(parameters: impl IntoIterator<Item = String>) -> String {
+    let parameters = parameters.into_iter().collect::<Vec<_>>().join(", ");
+    if parameters.is_empty() { "void".to_owned() } else { parameters }
 }
 
 /// `argument1`, `argument2`, ..

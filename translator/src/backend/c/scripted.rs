@@ -1,9 +1,10 @@
 //! A program that makes the calls of given tests and traces them.
 
+use super::host::{Host, counts, update};
 use super::literal::literal;
-use super::names::{Names, typed, typed_arguments};
-use super::state::{counters, external_name};
-use super::trace::{TRACE, trace_call, trace_value, traced};
+use super::names::{Names, typed};
+use super::state::external_name;
+use super::trace::{TRACE, ask, make, trace_call, trace_result, traced};
 use crate::backend::writer::Writer;
 use crate::c_string::c_string;
 use crate::configuration::{Basic, ExternalTrigger};
@@ -32,10 +33,8 @@ pub(crate) fn scripted(program: &Program, tests: &[Vec<Act>]) -> String {
     writer.close("}");
     writer.line("");
     let builder = Builder { program, names: Names::new(program) };
-    for basic in &program.configuration.basics {
-        builder.basic(&mut writer, basic);
-    }
-    builder.update(&mut writer);
+    builder.basics(&mut writer, program, &builder.names);
+    update(&mut writer, &builder.names);
     builder.begin(&mut writer);
     for (index, acts) in tests.iter().enumerate() {
         builder.test(&mut writer, index + 1, acts);
@@ -49,77 +48,47 @@ struct Builder<'a> {
     names: Names,
 }
 
+impl Host for Builder<'_> {
+    fn declare(&self, writer: &mut Writer, _: usize, basic: &Basic) {
+        if basic.result.kind != TypeKind::Void {
+            let (name, zero) = (&basic.name.text, literal(self.program, None, &basic.result));
+            let zeros = typed(&basic.result, &format!("asl2c_{name}_0[1]"));
+            writer.line(format!("static const {zeros} = {{ {zero} }};"));
+            let next = typed(&basic.result, &format!("*asl2c_{name}_next"));
+            writer.line(format!("static const {next};"));
+            writer.line(format!("static uint32_t asl2c_{name}_left;"));
+        }
+    }
+
+    fn called(&self, writer: &mut Writer, _: usize, basic: &Basic) {
+        if !self.is_trace(basic) {
+            trace_call(writer, self.program, &basic.name.text, &basic.parameters);
+        }
+    }
+
+    fn answer(&self, _: usize, basic: &Basic) -> String {
+        format!("*asl2c_{}_next", basic.name.text)
+    }
+
+    fn answered(&self, writer: &mut Writer, basic: &Basic) {
+        let name = &basic.name.text;
+        if basic.result.kind != TypeKind::Void {
+            writer.open(format!("if (asl2c_{name}_left > 1U)"));
+            writer.line(format!("asl2c_{name}_next++;"));
+            writer.line(format!("asl2c_{name}_left--;"));
+            writer.close("}");
+        }
+        if !self.is_trace(basic) {
+            trace_result(writer, self.program, &basic.result);
+        }
+    }
+}
+
 impl Builder<'_> {
     /// The function that is called with each chosen plan, which the interpreter does not know.
     fn is_trace(&self, basic: &Basic) -> bool {
         let trace = &self.program.configuration.settings.trace;
         trace.as_ref().is_some_and(|trace| trace.text == basic.name.text)
-    }
-
-    /// A basic action or function: traces its call and returns its next answer.
-    fn basic(&self, writer: &mut Writer, basic: &Basic) {
-        let name = &basic.name.text;
-        let has_result = basic.result.kind != TypeKind::Void;
-        if has_result {
-            let zero = literal(self.program, None, &basic.result);
-            writer.line(format!(
-                "static const {} = {{ {zero} }};",
-                typed(&basic.result, &format!("asl2c_{name}_0[1]"))
-            ));
-            writer.line(format!(
-                "static const {};",
-                typed(&basic.result, &format!("*asl2c_{name}_next"))
-            ));
-            writer.line(format!("static uint32_t asl2c_{name}_left;"));
-        }
-        let mut parameters = Vec::new();
-        if self.names.is_context() {
-            parameters.push("void *environment".to_owned());
-        }
-        parameters.extend(typed_arguments(&basic.parameters));
-        if parameters.is_empty() {
-            parameters.push("void".to_owned());
-        }
-        let head = format!("{}({})", self.names.action(basic), parameters.join(", "));
-        writer.open(typed(&basic.result, &head));
-        if self.names.is_context() {
-            writer.line("(void)environment;");
-        }
-        if !self.is_trace(basic) {
-            trace_call(writer, self.program, name, &basic.parameters);
-        }
-        if has_result {
-            writer.line(format!("const {} = *asl2c_{name}_next;", typed(&basic.result, "result")));
-            writer.open(format!("if (asl2c_{name}_left > 1U)"));
-            writer.line(format!("asl2c_{name}_next++;"));
-            writer.line(format!("asl2c_{name}_left--;"));
-            writer.close("}");
-            writer.line("asl2c_trace_text(\" = \");");
-            trace_value(writer, self.program, "result", &basic.result);
-        }
-        if !self.is_trace(basic) {
-            writer.line("asl2c_trace_text(\"\\n\");");
-        }
-        if has_result {
-            writer.line("return result;");
-        }
-        writer.close("}");
-        writer.line("");
-    }
-
-    fn update(&self, writer: &mut Writer) {
-        let update = self.names.interface("updateBeliefs");
-        writer.line("/* Beliefs are set between the steps. */");
-        if self.names.is_context() {
-            let state = self.names.state_type();
-            writer.open(format!("void {update}({state} *self, void *environment)"));
-            writer.line("(void)self;");
-            writer.line("(void)environment;");
-        } else {
-            writer.open(format!("void {update}(void)"));
-        }
-        writer.close("}");
-        writer.line("");
     }
 
     /// The start of each test.
@@ -132,14 +101,9 @@ impl Builder<'_> {
                 writer.line(format!("asl2c_{name}_left = 1U;"));
             }
         }
-        let environment = self.names.is_context().then(|| "0".to_owned());
-        writer.line(format!("{};", self.call("init", environment)));
+        writer.line(format!("{};", self.names.init_call("0")));
         writer.close("}");
         writer.line("");
-    }
-
-    fn call(&self, name: &str, arguments: impl IntoIterator<Item = String>) -> String {
-        format!("{}({})", self.names.interface(name), self.names.arguments(arguments))
     }
 
     fn test(&self, writer: &mut Writer, number: usize, acts: &[Act]) {
@@ -157,47 +121,36 @@ impl Builder<'_> {
                         "asl2c_trace_text({});",
                         c_string(&format!("> {}\n", self.traced_call(&name, values, types)))
                     ));
-                    writer.line(format!("{};", self.call(&name, self.literals(values, types))));
+                    writer
+                        .line(format!("{};", self.names.call(&name, self.literals(values, types))));
                 }
                 Act::Answer(function, values) => {
                     answers += 1;
                     self.answer(writer, function, values, answers);
                 }
                 Act::Clear => {
-                    writer.line("asl2c_trace_text(\"> clear()\\n\");");
-                    writer.line(format!("{};", self.call("clear", None)));
+                    make(writer, "clear", &self.names.call("clear", None));
                 }
                 Act::Step => {
-                    writer.line("asl2c_trace_text(\"> next_step()\\n\");");
-                    writer.line(format!("{};", self.call("next_step", None)));
+                    make(writer, "next_step", &self.names.call("next_step", None));
                 }
             }
         }
-        writer.line("asl2c_trace_text(\"> can_add_event() = \");");
-        writer.line(format!("asl2c_trace_bool({});", self.call("can_add_event", None)));
-        for counter in counters(self.program) {
-            let name = format!("{}_events", counter.name);
-            writer.line(format!("asl2c_trace_text(\"\\n> {name}() = \");"));
-            writer.line(format!("asl2c_trace_unsigned({});", self.call(&name, None)));
+        ask(writer, &self.names, "can_add_event", "bool");
+        for counter in counts(self.program) {
+            ask(writer, &self.names, &counter.name(), "unsigned");
         }
-        writer.line("asl2c_trace_text(\"\\n\");");
         writer.close("}");
         writer.line("");
     }
 
     fn raise(&self, writer: &mut Writer, event: &ExternalTrigger, values: &[Value]) {
-        let mut events = self.program.external.iter();
-        let Some(external) = events.find(|external| {
-            (external.operator, external.kind, &external.name)
-                == (event.operator, event.kind, &event.name.text)
-        }) else {
-            return;
-        };
+        let Some((_, external)) = self.program.raised(event) else { return };
         let name = external_name(external);
         let call = self.traced_call(&name, values, &external.types);
         writer.line(format!("asl2c_trace_text({});", c_string(&format!("> {call} = "))));
         let arguments = self.literals(values, &external.types);
-        writer.line(format!("asl2c_trace_bool({});", self.call(&name, arguments)));
+        writer.line(format!("asl2c_trace_bool({});", self.names.call(&name, arguments)));
         writer.line("asl2c_trace_text(\"\\n\");");
     }
 

@@ -1,6 +1,6 @@
 //! Traces of calls with their values: C that writes them, and the same text of a value that is known here.
 
-use super::names::argument_names;
+use super::names::{Names, argument_names};
 use crate::backend::writer::Writer;
 use crate::configuration::Configuration;
 use crate::interpreter::Value;
@@ -22,6 +22,28 @@ pub(super) fn trace_call(writer: &mut Writer, program: &Program, name: &str, typ
     writer.line("asl2c_trace_text(\")\");");
 }
 
+/// Traces the end of a call of a basic action, with its `result` if it has one.
+pub(super) fn trace_result(writer: &mut Writer, program: &Program, result: &CType) {
+    if result.kind != TypeKind::Void {
+        writer.line("asl2c_trace_text(\" = \");");
+        trace_value(writer, program, "result", result);
+    }
+    writer.line("asl2c_trace_text(\"\\n\");");
+}
+
+/// Makes a call of the interface that has no arguments in the trace, and traces it.
+pub(super) fn make(writer: &mut Writer, name: &str, call: &str) {
+    writer.line(format!("asl2c_trace_text(\"> {name}()\\n\");"));
+    writer.line(format!("{call};"));
+}
+
+/// Traces what a function of the interface answers, by the function for its type.
+pub(super) fn ask(writer: &mut Writer, names: &Names, name: &str, kind: &str) {
+    writer.line(format!("asl2c_trace_text(\"> {name}() = \");"));
+    writer.line(format!("asl2c_trace_{kind}({});", names.call(name, None)));
+    writer.line("asl2c_trace_text(\"\\n\");");
+}
+
 /// Traces a value.
 pub(super) fn trace_value(writer: &mut Writer, program: &Program, value: &str, ctype: &CType) {
     let function = match ctype.kind {
@@ -34,9 +56,7 @@ pub(super) fn trace_value(writer: &mut Writer, program: &Program, value: &str, c
         // No value of such a type is ever created.
         TypeKind::Opaque | TypeKind::Void => return writer.line("asl2c_trace_text(\"?\");"),
         TypeKind::Struct => {
-            let structs = &program.configuration.structs;
-            let fields = structs.iter().filter(|declared| declared.name.text == ctype.name);
-            for (field, of) in fields.flat_map(|declared| &declared.fields) {
+            for (field, of) in program.configuration.fields(&ctype.name) {
                 writer.line("asl2c_trace_text(\"{\");");
                 trace_value(writer, program, &format!("{value}.{}", field.text), of);
                 writer.line("asl2c_trace_text(\"}\");");
@@ -60,12 +80,8 @@ pub fn traced(value: &Value, ctype: &CType, configuration: &Configuration) -> St
         Value::Float(value) => format!("{:#x}", value.to_bits()),
         Value::Text(text) => text.clone(),
         Value::Struct(values) => {
-            let structs = &configuration.structs;
-            let declared = structs.iter().find(|declared| declared.name.text == ctype.name);
-            let fields = declared.map_or(&[][..], |declared| &declared.fields);
+            let values = values.iter().zip(configuration.fields(&ctype.name));
             let parts = values
-                .iter()
-                .zip(fields)
                 .map(|(value, (_, ctype))| format!("{{{}}}", traced(value, ctype, configuration)));
             parts.collect::<Vec<_>>().concat()
         }

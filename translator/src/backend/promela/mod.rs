@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 use self::choice::Comparisons;
 use super::writer::Writer;
 use crate::configuration::{ExternalTrigger, Property};
-use crate::program::{BeliefId, External, HandlerId, Program};
+use crate::program::{BeliefId, HandlerId, Program};
 
 /// Marks a line of a replay that describes an action of the agent.
 pub(crate) const MARK: &str = "@";
@@ -256,16 +256,9 @@ impl Emission<'_> {
         self.writer.line(format!("printf(\"{MARK} {what}\\n\");"));
     }
 
-    fn external(&self, event: &ExternalTrigger) -> Option<(usize, &External)> {
-        self.program.external.iter().enumerate().find(|(_, external)| {
-            (external.operator, external.kind, external.name.as_str())
-                == (event.operator, event.kind, event.name.text.as_str())
-        })
-    }
-
     /// Whether such an event is pending, as an expression.
     fn waits(&self, event: &ExternalTrigger) -> String {
-        match self.external(event) {
+        match self.program.raised(event) {
             Some((index, external)) if external.preemptive => format!("preempts_{index}"),
             Some((index, _)) => format!("inbox??[{}]", self.number(Waiting::External(index))),
             None => "false".to_owned(),

@@ -84,8 +84,9 @@ impl Emission<'_> {
 
     /// The environment has raised an event.
     pub(super) fn on_raise(&mut self, index: usize) {
-        let is_this =
-            |event: &ExternalTrigger| self.external(event).is_some_and(|(other, _)| other == index);
+        let is_this = |event: &ExternalTrigger| {
+            self.program.raised(event).is_some_and(|(other, _)| other == index)
+        };
         let case = |property: &Property| match &property.formula {
             Formula::Within { unless, .. } if unless.iter().any(&is_this) => {
                 vec![when("true", "due = 0")]

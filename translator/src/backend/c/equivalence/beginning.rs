@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Comparison;
-use crate::backend::c::harness::{CALLS, STEPS};
+use crate::backend::c::host::{CALLS, STEPS};
 use crate::backend::c::literal::literal;
 use crate::backend::c::state::external_name;
 use crate::configuration::ExternalTrigger;
@@ -36,7 +36,7 @@ impl Comparison<'_> {
                 }
                 Act::Clear => {
                     _ = writeln!(text, "    __CPROVER_output(\"{CALLS} clear\", 0U);");
-                    let clear = self.interface_call("clear", []);
+                    let clear = self.names.call("clear", None);
                     _ = writeln!(text, "    {clear};\n    plain_clear();\n    plain_compare();");
                 }
                 Act::Step => {
@@ -66,16 +66,10 @@ impl Comparison<'_> {
     }
 
     fn raise(&self, text: &mut String, event: &ExternalTrigger, values: &[Value]) {
-        let mut externals = self.program.external.iter().enumerate();
-        let Some((number, external)) = externals.find(|(_, external)| {
-            (external.operator, external.kind, &external.name)
-                == (event.operator, event.kind, &event.name.text)
-        }) else {
-            return;
-        };
+        let Some((number, external)) = self.program.raised(event) else { return };
         let name = external_name(external);
         let given = self.given(text, &name, values, &external.types);
-        let raised = self.interface_call(&name, given.clone());
+        let raised = self.names.call(&name, given.clone());
         let given = given.join(", ");
         _ = writeln!(text, "        bool accepted = {raised};");
         _ = writeln!(text, "        bool expected = plain_raise_{number}({given});");
@@ -91,7 +85,7 @@ impl Comparison<'_> {
         let Some(declared) = beliefs.find(|declared| declared.name == belief) else { return };
         let name = format!("set_{belief}");
         let given = self.given(text, &name, values, &declared.types);
-        let set = self.interface_call(&name, given.clone());
+        let set = self.names.call(&name, given.clone());
         let given = given.join(", ");
         _ = writeln!(text, "        {set};\n        plain_set_{belief}({given});");
         text.push_str("        plain_compare();\n    }\n");

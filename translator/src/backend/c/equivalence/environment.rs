@@ -10,12 +10,12 @@
 use std::fmt::Write as _;
 
 use super::Comparison;
-use crate::backend::c::harness::CALLS;
-use crate::backend::c::names::typed_arguments;
+use crate::backend::c::host::{Call, changes, choose, counts, record};
+use crate::backend::c::names::{listed, typed_arguments};
 use crate::backend::c::state::{
-    FieldType, Slot, belief_value, counters, external_name, handler_name, held, layout, pending,
-    rings,
+    FieldType, Slot, belief_value, handler_name, held, layout, pending, rings,
 };
+use crate::backend::writer::Writer;
 use crate::program::Belief;
 use crate::types::CType;
 
@@ -23,10 +23,6 @@ use crate::types::CType;
 pub(crate) const NO_OWN_STATE: &str = "static void plain_own(void)\n{\n}\n";
 
 impl Comparison<'_> {
-    fn settable(&self) -> impl Iterator<Item = &Belief> {
-        self.program.beliefs.iter().filter(|belief| belief.settable)
-    }
-
     /// What is arbitrary whenever the environment has had control, and its pointer.
     pub(super) fn control(&self, text: &mut String) {
         text.push_str(NO_OWN_STATE);
@@ -43,7 +39,7 @@ impl Comparison<'_> {
 
     /// Calls of setters at the start of a step, the same for both.
     pub(super) fn updates(&self, text: &mut String) {
-        for belief in self.settable() {
+        for belief in self.program.settable() {
             let name = &belief.name;
             for call in 0..calls(belief) {
                 _ = writeln!(text, "static bool plain_updates_{name}_{call};");
@@ -52,18 +48,11 @@ impl Comparison<'_> {
                     _ = writeln!(text, "static {ctype} plain_update_{name}_{call}_{index};");
                 }
             }
-            let parameters: Vec<String> = typed_arguments(&belief.types).collect();
-            let parameters =
-                if parameters.is_empty() { "void".to_owned() } else { parameters.join(", ") };
+            let parameters = listed(typed_arguments(&belief.types));
             _ = writeln!(text, "static void plain_set_{name}({parameters});");
         }
-        let update = self.names.interface("updateBeliefs");
-        let parameters = if self.names.is_context() {
-            format!("{} *agent, void *environment", self.names.state_type())
-        } else {
-            "void".to_owned()
-        };
-        _ = writeln!(text, "void {update}({parameters})\n{{\n    (void)plain_logged(0);");
+        let update = self.names.update_head();
+        _ = writeln!(text, "{update}\n{{\n    (void)plain_logged(0);");
         if self.names.is_context() {
             text.push_str("    plain_assert(agent == self && environment == plain_environment, \"the environment's pointer\");\n");
         }
@@ -73,7 +62,7 @@ impl Comparison<'_> {
         );
         let mut plainly = String::new();
         let any_bool = self.any(&CType::named("bool"));
-        for belief in self.settable() {
+        for belief in self.program.settable() {
             let name = &belief.name;
             for call in 0..calls(belief) {
                 let chosen = format!("plain_updates_{name}_{call}");
@@ -86,7 +75,7 @@ impl Comparison<'_> {
                     values.push(value);
                 }
                 _ = writeln!(plainly, "    if ({chosen}) plain_set_{name}({});", values.join(", "));
-                let set = self.interface_call(&format!("set_{name}"), values);
+                let set = self.names.call(&format!("set_{name}"), values);
                 _ = writeln!(text, "        {set};\n    }}");
             }
         }
@@ -98,63 +87,60 @@ impl Comparison<'_> {
 
     /// One call outside of a step.
     pub(super) fn calls_of_the_environment(&self, text: &mut String) {
-        text.push_str("static void plain_call_by_environment(void)\n{\n");
-        _ = writeln!(text, "    switch ({}) {{", self.any(&CType::named("uint32_t")));
-        let mut case = 0;
-        let mut transition = |body: &str| {
-            _ = writeln!(text, "    case {case}U: {{\n{body}        break;\n    }}");
-            case += 1;
+        let same_result = |left: &str, right: &str, name: &str| {
+            format!("plain_assert({left} == {right}, \"another result of {name}\");")
         };
-        for (number, external) in self.program.external.iter().enumerate() {
-            let name = external_name(external);
-            let mut body = String::new();
-            let values = self.recorded(&mut body, &name, &external.types);
-            let raised = self.interface_call(&name, values.clone());
-            let values = values.join(", ");
-            _ = writeln!(
-                body,
-                "        bool accepted = {raised};\n        bool expected = plain_raise_{number}({values});\n        \
-                 plain_assert(accepted == expected, \"another result of {name}\");"
-            );
-            transition(&body);
-        }
-        for belief in self.settable() {
-            transition(&self.set_alone(belief));
-        }
-        let clear = self.interface_call("clear", []);
-        transition(&format!(
-            "        __CPROVER_output(\"{CALLS} clear\", 0U);\n        {clear};\n        plain_clear();\n"
-        ));
-        let counted = counters(self.program);
-        let counted = counted
-            .into_iter()
-            .map(|counter| (format!("{}_events", counter.name), format!("plain.{}", counter.name)));
-        let room = ("can_add_event".to_owned(), "plain_has_room()".to_owned());
-        for (name, expected) in std::iter::once(room).chain(counted) {
-            let asked = self.interface_call(&name, []);
-            transition(&format!(
-                "        plain_assert({asked} == {expected}, \"another result of {name}\");\n"
-            ));
-        }
-        text.push_str("    default:\n        break;\n    }\n    plain_compare();\n}\n\n");
+        let make = |writer: &mut Writer, call: &Call<'_>, arguments: Vec<String>| {
+            let (name, values) = (call.name(), arguments.join(", "));
+            if !matches!(call, Call::Room | Call::Count(_)) {
+                record(writer, &name, &arguments);
+            }
+            let made = self.names.call(&name, arguments);
+            match call {
+                Call::Raise(number, _) => {
+                    writer.line(format!("bool accepted = {made};"));
+                    writer.line(format!("bool expected = plain_raise_{number}({values});"));
+                    writer.line(same_result("accepted", "expected", &name));
+                }
+                Call::Set(belief) => self.set_alone(writer, belief, &made, &values),
+                Call::Clear => {
+                    writer.line(format!("{made};"));
+                    writer.line("plain_clear();");
+                }
+                Call::Room => writer.line(same_result(&made, "plain_has_room()", &name)),
+                Call::Count(counter) => {
+                    writer.line(same_result(&made, &format!("plain.{counter}"), &name));
+                }
+            }
+        };
+        let mut writer = Writer::default();
+        let calls = changes(self.program).chain([Call::Clear, Call::Room]);
+        let choice = self.any(&CType::named("uint32_t"));
+        writer.open("static void plain_call_by_environment(void)");
+        choose(
+            &mut writer,
+            &choice,
+            calls.chain(counts(self.program)),
+            |ctype| self.any(ctype),
+            make,
+            &[],
+        );
+        writer.line("plain_compare();");
+        writer.close("}");
+        writer.line("");
+        text.push_str(&writer.finish());
     }
 
     /// A call of a setter: nothing but its belief changes.
-    fn set_alone(&self, belief: &Belief) -> String {
-        let name = format!("set_{}", belief.name);
-        let mut body = String::new();
-        let values = self.recorded(&mut body, &name, &belief.types);
+    fn set_alone(&self, writer: &mut Writer, belief: &Belief, made: &str, values: &str) {
         let state = if self.names.is_context() { "*self" } else { "agent" };
-        _ = writeln!(body, "        {} before = {state};", self.names.state_type());
-        let set = self.interface_call(&name, values.clone());
-        let (values, unchanged) = (values.join(", "), self.unchanged(belief));
-        _ = writeln!(
-            body,
-            "        {set};\n        plain_set_{}({values});\n        \
-             plain_assert(plain_searching || ({unchanged}), \"{name} changes more than its belief\");",
-            belief.name
-        );
-        body
+        let (name, unchanged) = (&belief.name, self.unchanged(belief));
+        writer.line(format!("{} before = {state};", self.names.state_type()));
+        writer.line(format!("{made};"));
+        writer.line(format!("plain_set_{name}({values});"));
+        writer.line(format!(
+            "plain_assert(plain_searching || ({unchanged}), \"set_{name} changes more than its belief\");"
+        ));
     }
 
     /// Whether the state is as in `before` but for a belief, as an expression.
@@ -197,8 +183,7 @@ impl Comparison<'_> {
 
     /// Both start.
     pub(super) fn init(&self) -> String {
-        let init = if self.names.is_context() { "self, plain_environment" } else { "" };
-        format!("    {}({init});\n    plain_init();\n", self.names.interface("init"))
+        format!("    {};\n    plain_init();\n", self.names.init_call("plain_environment"))
     }
 
     /// Any state of the C, and of all that it does not know.
@@ -241,19 +226,6 @@ impl Comparison<'_> {
             "}\n\n/* Any two related states. */\nstatic void plain_start(void)\n{\n    plain_havoc();\n    \
              __CPROVER_assume(plain_well_formed());\n    plain_relate(&plain);\n}\n\n",
         );
-    }
-
-    /// Declares arbitrary arguments of a call by the environment. Returns their names.
-    fn recorded(&self, text: &mut String, call: &str, types: &[CType]) -> Vec<String> {
-        let mut names = Vec::new();
-        for (index, ctype) in types.iter().enumerate() {
-            let (name, any) = (format!("argument{}", index + 1), self.any(ctype));
-            _ = writeln!(text, "        {} {name} = {any};", ctype.name);
-            names.push(name);
-        }
-        let values = if names.is_empty() { "0U".to_owned() } else { names.join(", ") };
-        _ = writeln!(text, "        __CPROVER_output(\"{CALLS} {call}\", {values});");
-        names
     }
 }
 
