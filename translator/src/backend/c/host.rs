@@ -99,14 +99,20 @@ pub(super) fn choose<'a>(
     writer.open(format!("switch ({choice})"));
     for (case, call) in calls.enumerate() {
         writer.line(format!("case {case}U:"));
-        writer.open_bare();
+        // A block for the arguments; CBMC chooses another counterexample if `clear()` has one too.
+        let is_block = !matches!(call, Call::Clear);
+        if is_block {
+            writer.open_bare()
+        } else {
+            writer.indent()
+        }
         let arguments: Vec<String> = argument_names(call.types()).collect();
         for (ctype, argument) in call.types().iter().zip(&arguments) {
             writer.line(format!("{} = {};", constant(ctype, argument), any(ctype)));
         }
         make(writer, &call, arguments);
         writer.line("break;");
-        writer.close("}");
+        if is_block { writer.close("}") } else { writer.dedent() }
     }
     writer.line("default:");
     for line in otherwise {
