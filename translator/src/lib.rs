@@ -156,12 +156,6 @@ pub enum TranslateError {
         /// The type.
         name: String,
     },
-    /// The trace matrix could not be written as CSV.
-    #[error("cannot write the trace matrix: {problem}")]
-    Matrix {
-        /// The error.
-        problem: String,
-    },
 }
 
 impl TranslateError {
@@ -169,7 +163,7 @@ impl TranslateError {
     pub fn diagnostics(&self) -> &[Diagnostic] {
         match self {
             Self::Refused(found) => found,
-            Self::Unprovable { .. } | Self::Matrix { .. } => &[],
+            Self::Unprovable { .. } => &[],
         }
     }
 }
@@ -205,8 +199,7 @@ pub fn translate(
         files.push(GeneratedFile { name: rust.text.clone(), text, setting: "rust" });
     }
     if let Some(name) = &settings.matrix {
-        let matrix = backend::matrix::emit(&program, &settings.input, &files[0].text)
-            .map_err(|source| TranslateError::Matrix { problem: source.to_string() })?;
+        let matrix = backend::matrix::emit(&program, &settings.input, &files[0].text);
         for (ending, text) in [("csv", matrix.csv), ("json", matrix.json)] {
             files.push(GeneratedFile { name: format!("{name}.{ending}"), text, setting: "matrix" });
         }

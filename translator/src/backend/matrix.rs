@@ -1,6 +1,7 @@
 //! The trace matrix: from requirement to plan, source lines, C function and its lines.
 
 use std::collections::HashMap;
+use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
@@ -34,10 +35,10 @@ pub(crate) struct Matrix {
 }
 
 /// Maps the plans of `program` to their functions in `source`, the generated C.
-pub(crate) fn emit(program: &Program, input: &str, source: &str) -> Result<Matrix, csv::Error> {
+pub(crate) fn emit(program: &Program, input: &str, source: &str) -> Matrix {
     let rows = rows(program, source);
     let output = &program.configuration.settings.output;
-    Ok(Matrix { csv: csv(&rows, input, output)?, json: json(&rows, input, output) })
+    Matrix { csv: csv(&rows, input, output), json: json(&rows, input, output) }
 }
 
 /// The rows for the plans of `program`, with their functions in `source`, the generated C.
@@ -81,40 +82,29 @@ fn function_lines(source: &str) -> HashMap<&str, (usize, usize)> {
     functions
 }
 
-fn csv(rows: &[TraceRow], input: &str, output: &str) -> Result<String, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record([
-        "requirement",
-        "plan",
-        "label",
-        "trigger",
-        "source",
-        "source_first_line",
-        "source_last_line",
-        "function",
-        "c_file",
-        "c_first_line",
-        "c_last_line",
-    ])?;
+const COLUMNS: &str = "requirement,plan,label,trigger,source,source_first_line,source_last_line,\
+    function,c_file,c_first_line,c_last_line\n";
+
+fn csv(rows: &[TraceRow], input: &str, output: &str) -> String {
+    let mut text = COLUMNS.to_owned();
     for row in rows {
-        let lines = [row.source_lines.0, row.source_lines.1, row.c_lines.0, row.c_lines.1];
-        let [source_first, source_last, c_first, c_last] = lines.map(|line| line.to_string());
-        writer.write_record([
-            &row.requirement,
-            &row.plan.to_string(),
-            &row.label,
-            &row.trigger,
-            input,
-            &source_first,
-            &source_last,
-            &row.function,
-            output,
-            &c_first,
-            &c_last,
-        ])?;
+        let ((first, last), (c_first, c_last)) = (row.source_lines, row.c_lines);
+        let [requirement, label, trigger, input, function, output] =
+            [&row.requirement, &row.label, &row.trigger, input, &row.function, output].map(field);
+        // Writing to a string cannot fail.
+        _ = write!(text, "{requirement},{},{label},{trigger},{input},{first},{last},", row.plan);
+        _ = writeln!(text, "{function},{output},{c_first},{c_last}");
     }
-    let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    text
+}
+
+/// A text as a field of CSV: in quotes if it would end the field.
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
 }
 
 fn json(rows: &[TraceRow], input: &str, output: &str) -> String {
@@ -133,4 +123,24 @@ fn json(rows: &[TraceRow], input: &str, output: &str) -> String {
         })
         .collect();
     format!("{:#}\n", Value::Array(rows))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::field;
+
+    #[test]
+    fn no_text_ends_its_field() {
+        for (text, expected) in [
+            ("SAF-1", "SAF-1"),
+            ("", ""),
+            ("a b", "a b"),
+            ("a,b", "\"a,b\""),
+            ("say \"a\"", "\"say \"\"a\"\"\""),
+            ("a\r", "\"a\r\""),
+            ("a\nb", "\"a\nb\""),
+        ] {
+            assert_eq!(field(text), expected);
+        }
+    }
 }
