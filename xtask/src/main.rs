@@ -5,6 +5,7 @@ mod campaign;
 mod cases;
 mod command_line;
 mod cross_checks;
+mod edit;
 mod fly;
 mod healthy;
 mod job;

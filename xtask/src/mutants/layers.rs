@@ -1,7 +1,8 @@
 //! Mutants of a layer behind others that work. Random flights do not detect them, but `system_tests::rules` has flights
 //! for each.
 
-use super::list::{AGENT, ESTIMATOR, Edit, Expected, Mutant, SAFETY, edit, mutant};
+use super::list::{AGENT, ESTIMATOR, Expected, Mutant, SAFETY, mutant};
+use crate::edit::{edit, layered};
 
 const PLAUSIBILITY: &str = "estimator/src/plausibility.rs";
 const HEADING: &str = "estimator/src/heading.rs";
@@ -13,8 +14,13 @@ const TAKE_OFF: &str = "ardrone-link/src/session/take_off.rs";
 const SILENCE: &str = "ardrone-link/src/session/silence.rs";
 
 /// A mistake that another layer makes up for.
-const fn covered(name: &'static str, edits: &'static [Edit]) -> Mutant {
-    Mutant { name, edits, expected: Expected::Nothing }
+const fn covered(
+    name: &'static str,
+    file: &'static str,
+    from: &'static str,
+    to: &'static str,
+) -> Mutant {
+    Mutant { expected: Expected::Nothing, ..mutant(name, file, from, to) }
 }
 
 /// All of them.
@@ -22,171 +28,141 @@ pub(super) const MUTANTS: &[Mutant] = &[
     // Estimation.
     mutant(
         "an altitude of the floor is believed",
-        &[edit(
-            ESTIMATOR,
-            "sample.airborne && sample.altitude_m < ON_FLOOR_M;",
-            "sample.airborne && sample.altitude_m + ON_FLOOR_M < f64::MIN;",
-        )],
+        ESTIMATOR,
+        "sample.airborne && sample.altitude_m < ON_FLOOR_M;",
+        "sample.airborne && sample.altitude_m + ON_FLOOR_M < f64::MIN;",
     ),
     mutant(
         "a disproved quantity is believed at once",
-        &[edit(
-            PLAUSIBILITY,
-            "(arrival_s - last_s < DISPROVED_TIME_S).then_some((quantity, since_s))",
-            "(arrival_s - last_s < 0.001).then_some((quantity, since_s))",
-        )],
+        PLAUSIBILITY,
+        "(arrival_s - last_s < DISPROVED_TIME_S).then_some((quantity, since_s))",
+        "(arrival_s - last_s < 0.001).then_some((quantity, since_s))",
     ),
     mutant(
         "the first velocity of a flight is any",
-        &[edit(ESTIMATOR, "            self.velocity_gate.rest();\n", "")],
+        ESTIMATOR,
+        "            self.velocity_gate.rest();\n",
+        "",
     ),
     mutant(
         "a gap lets any velocity in",
-        &[edit(
-            PLAUSIBILITY,
-            "let wind_m_s = NEW_WIND_M_S2 * gap_s",
-            "let wind_m_s = (NEW_WIND_M_S2 + JUMP_M_S2) * gap_s",
-        )],
+        PLAUSIBILITY,
+        "let wind_m_s = NEW_WIND_M_S2 * gap_s",
+        "let wind_m_s = (NEW_WIND_M_S2 + JUMP_M_S2) * gap_s",
     ),
     mutant(
         "a compass that hangs in a turn is believed",
+        HEADING,
+        "if repeated && angle_deg.abs() > STUCK_DEG {",
+        "if repeated && angle_deg.abs() > STUCK_DEG.max(1e9) {",
+    ),
+    layered(
+        mutant(
+            "a drone that receives nothing turns as ordered",
+            HEADING,
+            "let rate_deg_s = self.measured_deg_s();",
+            "let rate_deg_s = self.turn_deg_s;",
+        ),
         &[edit(
             HEADING,
-            "if repeated && angle_deg.abs() > STUCK_DEG {",
-            "if repeated && angle_deg.abs() > STUCK_DEG.max(1e9) {",
+            "model.turned(self.measured_deg_s(), last_s, at_s).1;",
+            "model.turned(self.turn_deg_s, last_s, at_s).1;",
         )],
-    ),
-    mutant(
-        "a drone that receives nothing turns as ordered",
-        &[
-            edit(
-                HEADING,
-                "let rate_deg_s = self.measured_deg_s();",
-                "let rate_deg_s = self.turn_deg_s;",
-            ),
-            edit(
-                HEADING,
-                "model.turned(self.measured_deg_s(), last_s, at_s).1;",
-                "model.turned(self.turn_deg_s, last_s, at_s).1;",
-            ),
-        ],
     ),
     mutant(
         "a step of the compass in a turn is a part of it",
-        &[edit(
-            HEADING,
-            "stepped = surprise_deg > MAX_SURPRISE_DEG",
-            "stepped = surprise_deg > 3.0 * angle_deg.abs() + MAX_SURPRISE_DEG",
-        )],
+        HEADING,
+        "stepped = surprise_deg > MAX_SURPRISE_DEG",
+        "stepped = surprise_deg > 3.0 * angle_deg.abs() + MAX_SURPRISE_DEG",
     ),
     mutant(
         "a drone that leans and turns has a dead velocity",
-        &[edit(
-            RESPONSE,
-            "Axis::turn(right, forward, turned_deg);",
-            "Axis::turn(right, forward, 0.0 * turned_deg);",
-        )],
+        RESPONSE,
+        "Axis::turn(right, forward, turned_deg);",
+        "Axis::turn(right, forward, 0.0 * turned_deg);",
     ),
     mutant(
         "rejected velocities leave no uncertainty",
-        &[edit(
-            UNCERTAINTY,
-            "self.disputed_m += surprise_m_s",
-            "self.disputed_m += 0.0 * surprise_m_s",
-        )],
+        UNCERTAINTY,
+        "self.disputed_m += surprise_m_s",
+        "self.disputed_m += 0.0 * surprise_m_s",
     ),
     mutant(
         "every sighting near a tag is one of it",
-        &[edit(
-            TAG_FILTER,
-            "squared_deviations(off, spread) < GATE * GATE",
-            "squared_deviations(off, spread) < GATE * f64::INFINITY",
-        )],
+        TAG_FILTER,
+        "squared_deviations(off, spread) < GATE * GATE",
+        "squared_deviations(off, spread) < GATE * f64::INFINITY",
     ),
     // The safety monitor and the flight.
     mutant(
         "no ceiling",
-        &[edit(
-            SAFETY,
-            "&& pose.z_m <= self.fence.ceiling_m + margin_m",
-            "&& pose.z_m <= self.fence.ceiling_m + margin_m.max(1e9)",
-        )],
+        SAFETY,
+        "&& pose.z_m <= self.fence.ceiling_m + margin_m",
+        "&& pose.z_m <= self.fence.ceiling_m + margin_m.max(1e9)",
     ),
     mutant(
         "it is forgotten that the drone must stay down",
-        &[edit(
-            SAFETY,
-            "matches!(self.state, State::Landing { .. } | State::StaysDown)",
-            "matches!(self.state, State::Landing { .. })",
-        )],
+        SAFETY,
+        "matches!(self.state, State::Landing { .. } | State::StaysDown)",
+        "matches!(self.state, State::Landing { .. })",
     ),
     mutant(
         "a drone that makes no progress flies on",
-        &[edit(
-            SATURATION,
-            "across || up || storm || blocked {",
-            "across || up || storm || blocked && step_s < 0.0 {",
-        )],
+        SATURATION,
+        "across || up || storm || blocked {",
+        "across || up || storm || blocked && step_s < 0.0 {",
     ),
     mutant(
         "a target is approached for ever",
-        &[edit(AGENT, "approachTime(60000).", "approachTime(2000000000).")],
+        AGENT,
+        "approachTime(60000).",
+        "approachTime(2000000000).",
     ),
     // Two layers against streams of orders: a hold that is not begun anew needs no brake.
     covered(
         "nothing brakes at the fence",
-        &[edit(
-            SAFETY,
-            "let left = self.brake.leave(demand);",
-            "let left = Brake::default().leave(demand);",
-        )],
+        SAFETY,
+        "let left = self.brake.leave(demand);",
+        "let left = Brake::default().leave(demand);",
     ),
     // Two layers against blindness: the agent lands first.
     covered(
         "guard never lands blind",
-        &[edit(
+        SAFETY,
+        "if now.blind_for > BLIND {",
+        "if now.blind_for > BLIND.max(Duration::MAX) {",
+    ),
+    layered(
+        mutant(
+            "guard never lands blind, agent without @blind",
             SAFETY,
             "if now.blind_for > BLIND {",
             "if now.blind_for > BLIND.max(Duration::MAX) {",
+        ),
+        &[edit(
+            AGENT,
+            "@blind[req(\"SAF-5\")]\n+!watch : ",
+            "@blind[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
         )],
-    ),
-    mutant(
-        "guard never lands blind, agent without @blind",
-        &[
-            edit(
-                SAFETY,
-                "if now.blind_for > BLIND {",
-                "if now.blind_for > BLIND.max(Duration::MAX) {",
-            ),
-            edit(
-                AGENT,
-                "@blind[req(\"SAF-5\")]\n+!watch : ",
-                "@blind[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
-            ),
-        ],
     ),
     // Two layers against an old order to fly: what is not heard gets no order at all.
     covered(
         "the take-off latch is ignored",
+        TAKE_OFF,
+        "*self = Self::Withheld { landing_ordered: false };",
+        "*self = Self::Follow { airborne: true };",
+    ),
+    layered(
+        mutant(
+            "a drone that is not heard is ordered to fly",
+            SILENCE,
+            "self.returned_at.is_none() && now.saturating_sub(self.at) < UNHEARD",
+            "now.saturating_sub(self.at) < Duration::MAX",
+        ),
         &[edit(
             TAKE_OFF,
             "*self = Self::Withheld { landing_ordered: false };",
             "*self = Self::Follow { airborne: true };",
         )],
-    ),
-    mutant(
-        "a drone that is not heard is ordered to fly",
-        &[
-            edit(
-                SILENCE,
-                "self.returned_at.is_none() && now.saturating_sub(self.at) < UNHEARD",
-                "now.saturating_sub(self.at) < Duration::MAX",
-            ),
-            edit(
-                TAKE_OFF,
-                "*self = Self::Withheld { landing_ordered: false };",
-                "*self = Self::Follow { airborne: true };",
-            ),
-        ],
     ),
 ];

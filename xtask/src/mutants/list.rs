@@ -1,23 +1,10 @@
 //! Mutants that the fault campaign must detect. Each replaced text must occur exactly once in its file. When
 //! the code has changed, adapt the mutant rather than drop it.
 
-/// A text and its replacement.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Edit {
-    /// Path relative to the workspace.
-    pub(super) file: &'static str,
-    pub(super) from: &'static str,
-    pub(super) to: &'static str,
-}
+use crate::edit::{self, edit, layered};
 
-/// The workspace with one mistake. Where two layers protect against a danger, both are disabled.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Mutant {
-    /// Description of the mistake.
-    pub(super) name: &'static str,
-    pub(super) edits: &'static [Edit],
-    pub(super) expected: Expected,
-}
+/// The workspace with one mistake.
+pub(super) type Mutant = edit::Mutant<Expected>;
 
 /// What the judge must find.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,12 +36,13 @@ const TAGS: &str = "estimator/src/tags/mod.rs";
 const TAG_MAP: &str = "estimator/src/tags/map.rs";
 const HORIZONTAL: &str = "estimator/src/horizontal.rs";
 
-pub(super) const fn mutant(name: &'static str, edits: &'static [Edit]) -> Mutant {
-    Mutant { name, edits, expected: Expected::Fault }
-}
-
-pub(super) const fn edit(file: &'static str, from: &'static str, to: &'static str) -> Edit {
-    Edit { file, from, to }
+pub(super) const fn mutant(
+    name: &'static str,
+    file: &'static str,
+    from: &'static str,
+    to: &'static str,
+) -> Mutant {
+    Mutant { name, first: edit(file, from, to), more: &[], expected: Expected::Fault }
 }
 
 /// Mutants that random flights, landings with gaps or single sensor faults detect.
@@ -62,137 +50,116 @@ pub(super) const MUTANTS: &[Mutant] = &[
     // Estimation.
     mutant(
         "no integration: the place never moves",
-        &[edit(HORIZONTAL, "self.position_m = position_m;", "self.position_m = position_m * 0.0;")],
+        HORIZONTAL,
+        "self.position_m = position_m;",
+        "self.position_m = position_m * 0.0;",
     ),
     mutant(
         "half of each velocity",
-        &[edit(
-            FLIGHT,
-            "velocity_forward_m_s: demo.velocity_forward_m_s,\n        velocity_right_m_s: demo.velocity_right_m_s,",
-            "velocity_forward_m_s: 0.5 * demo.velocity_forward_m_s,\n        velocity_right_m_s: 0.5 * demo.velocity_right_m_s,",
-        )],
+        FLIGHT,
+        "velocity_forward_m_s: demo.velocity_forward_m_s,\n        velocity_right_m_s: demo.velocity_right_m_s,",
+        "velocity_forward_m_s: 0.5 * demo.velocity_forward_m_s,\n        velocity_right_m_s: 0.5 * demo.velocity_right_m_s,",
     ),
     mutant(
         "right is left",
-        &[edit(
-            FLIGHT,
-            "velocity_right_m_s: demo.velocity_right_m_s,",
-            "velocity_right_m_s: -demo.velocity_right_m_s,",
-        )],
+        FLIGHT,
+        "velocity_right_m_s: demo.velocity_right_m_s,",
+        "velocity_right_m_s: -demo.velocity_right_m_s,",
     ),
     mutant(
         "the heading turns no velocity",
-        &[edit(FRAME, "Rotation2::new(-yaw_deg.to_radians())", "Rotation2::new(0.0 * yaw_deg)")],
+        FRAME,
+        "Rotation2::new(-yaw_deg.to_radians())",
+        "Rotation2::new(0.0 * yaw_deg)",
     ),
-    mutant(
-        "the heading turns velocities the wrong way",
-        &[
-            edit(
-                FRAME,
-                "Rotation2::new(-yaw_deg.to_radians())",
-                "Rotation2::new(1.0 * yaw_deg.to_radians())",
-            ),
-            edit(
-                FRAME,
-                "Rotation2::new(yaw_deg.to_radians())",
-                "Rotation2::new(-1.0 * yaw_deg.to_radians())",
-            ),
-        ],
+    layered(
+        mutant(
+            "the heading turns velocities the wrong way",
+            FRAME,
+            "Rotation2::new(-yaw_deg.to_radians())",
+            "Rotation2::new(1.0 * yaw_deg.to_radians())",
+        ),
+        &[edit(
+            FRAME,
+            "Rotation2::new(yaw_deg.to_radians())",
+            "Rotation2::new(-1.0 * yaw_deg.to_radians())",
+        )],
     ),
     mutant(
         "the altitude is always 0.8 m",
-        &[edit(FLIGHT, "altitude_m: demo.altitude_m,", "altitude_m: 0.8 + 0.0 * demo.altitude_m,")],
+        FLIGHT,
+        "altitude_m: demo.altitude_m,",
+        "altitude_m: 0.8 + 0.0 * demo.altitude_m,",
     ),
     mutant(
         "the place is always certain",
-        &[edit(
-            ESTIMATOR,
-            "self.uncertainty.horizontal_m(",
-            "0.0 * self.uncertainty.horizontal_m(",
-        )],
+        ESTIMATOR,
+        "self.uncertainty.horizontal_m(",
+        "0.0 * self.uncertainty.horizontal_m(",
     ),
-    mutant(
-        "navdata are always believed",
-        &[edit(ESTIMATOR, "self.plausibility.trust()", "Trust::Sound")],
-    ),
+    mutant("navdata are always believed", ESTIMATOR, "self.plausibility.trust()", "Trust::Sound"),
     // Safety monitor.
     mutant(
         "no fence",
-        &[edit(
-            SAFETY,
-            "Self {\n            fence,",
-            "let fence = FlightLimits { radius_m: 1e9, ceiling_m: 1e9, floor_m: -1e9, ..fence };\n        Self {\n            fence,",
-        )],
+        SAFETY,
+        "Self {\n            fence,",
+        "let fence = FlightLimits { radius_m: 1e9, ceiling_m: 1e9, floor_m: -1e9, ..fence };\n        Self {\n            fence,",
     ),
     mutant(
         "no vetoes at all",
-        &[edit(
-            SAFETY,
-            "if now.emergency && flies {",
-            "if flies == flies {\n            return (command, None);\n        }\n        if now.emergency && flies {",
-        )],
+        SAFETY,
+        "if now.emergency && flies {",
+        "if flies == flies {\n            return (command, None);\n        }\n        if now.emergency && flies {",
     ),
-    mutant("guard off in the air", &[edit(SAFETY, "if !now.airborne {", "if now.airborne {")]),
+    mutant("guard off in the air", SAFETY, "if !now.airborne {", "if now.airborne {"),
     mutant(
         "the fence holds the drone outside",
-        &[edit(
-            SAFETY,
-            "pose.x_m.hypot(pose.y_m) <= self.fence.radius_m + margin_m",
-            "pose.x_m.hypot(pose.y_m) >= self.fence.radius_m + margin_m",
-        )],
+        SAFETY,
+        "pose.x_m.hypot(pose.y_m) <= self.fence.radius_m + margin_m",
+        "pose.x_m.hypot(pose.y_m) >= self.fence.radius_m + margin_m",
     ),
     mutant(
         "the ceiling holds the drone above",
-        &[edit(
-            SAFETY,
-            "&& pose.z_m <= self.fence.ceiling_m + margin_m",
-            "&& pose.z_m >= self.fence.ceiling_m + margin_m",
-        )],
+        SAFETY,
+        "&& pose.z_m <= self.fence.ceiling_m + margin_m",
+        "&& pose.z_m >= self.fence.ceiling_m + margin_m",
     ),
     mutant(
         "floor and ceiling changed places",
-        &[edit(
-            SAFETY,
-            "Self {\n            fence,",
-            "let fence = FlightLimits { ceiling_m: fence.floor_m, floor_m: fence.ceiling_m, ..fence };\n        Self {\n            fence,",
-        )],
+        SAFETY,
+        "Self {\n            fence,",
+        "let fence = FlightLimits { ceiling_m: fence.floor_m, floor_m: fence.ceiling_m, ..fence };\n        Self {\n            fence,",
     ),
-    mutant(
-        "stale navdata are flown by",
-        &[
-            edit(
-                SAFETY,
-                "moves && now.blind_for > STALE",
-                "moves && now.blind_for > Duration::MAX",
-            ),
-            edit(AGENT, "holdWhenBlind(300).", "holdWhenBlind(2000000000)."),
-        ],
+    layered(
+        mutant(
+            "stale navdata are flown by",
+            SAFETY,
+            "moves && now.blind_for > STALE",
+            "moves && now.blind_for > Duration::MAX",
+        ),
+        &[edit(AGENT, "holdWhenBlind(300).", "holdWhenBlind(2000000000).")],
     ),
     // The agent.
     mutant(
         "agent without @blind",
-        &[edit(
-            AGENT,
-            "@blind[req(\"SAF-5\")]\n+!watch : ",
-            "@blind[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
-        )],
+        AGENT,
+        "@blind[req(\"SAF-5\")]\n+!watch : ",
+        "@blind[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
     ),
     mutant(
         "agent without @lost",
-        &[edit(
-            AGENT,
-            "@lost[req(\"SAF-5\")]\n+!watch : ",
-            "@lost[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
-        )],
+        AGENT,
+        "@lost[req(\"SAF-5\")]\n+!watch : ",
+        "@lost[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
     ),
-    mutant(
-        "agent without @too_weak, guard without storms",
+    layered(
+        mutant(
+            "agent without @too_weak, guard without storms",
+            AGENT,
+            "@too_weak[req(\"SAF-5\")]\n+!watch : ",
+            "@too_weak[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
+        ),
         &[
-            edit(
-                AGENT,
-                "@too_weak[req(\"SAF-5\")]\n+!watch : ",
-                "@too_weak[req(\"SAF-5\")]\n+!watch : battery(Charge) & Charge < 0 & ",
-            ),
             edit(
                 SAFETY,
                 "self.carried_off.lasts(now.now)",
@@ -207,59 +174,55 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "landWhenBlind(2000000000)",
-        &[edit(AGENT, "landWhenBlind(2000).", "landWhenBlind(2000000000).")],
+        AGENT,
+        "landWhenBlind(2000).",
+        "landWhenBlind(2000000000).",
     ),
-    mutant(
-        "a landing is forgotten after a gap",
-        &[
-            edit(
-                AGENT,
-                "@landed[req(\"SAF-2\")]\n",
-                "+!comeDown : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit\n  <- sendHover;\n     !!wait.\n\n@landed[req(\"SAF-2\")]\n",
-            ),
-            edit(
-                SAFETY,
-                "if command == AgentCommand::Land {",
-                "if command == AgentCommand::Land && flies != flies {",
-            ),
-        ],
+    layered(
+        mutant(
+            "a landing is forgotten after a gap",
+            AGENT,
+            "@landed[req(\"SAF-2\")]\n",
+            "+!comeDown : blindFor(Time) & holdWhenBlind(Limit) & Time > Limit\n  <- sendHover;\n     !!wait.\n\n@landed[req(\"SAF-2\")]\n",
+        ),
+        &[edit(
+            SAFETY,
+            "if command == AgentCommand::Land {",
+            "if command == AgentCommand::Land && flies != flies {",
+        )],
     ),
     mutant(
         "goals are flown 1000 m off",
-        &[edit(
-            BINDING,
-            "fn send_goto(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {",
-            "fn send_goto(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {\n        let x_m = x_m + 1000.0;",
-        )],
+        BINDING,
+        "fn send_goto(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {",
+        "fn send_goto(&mut self, x_m: f64, y_m: f64, z_m: f64, yaw_deg: f64) {\n        let x_m = x_m + 1000.0;",
     ),
     mutant(
         "the battery is always full",
-        &[edit(
-            TICK,
-            "if empty { 0 } else { demo.battery_percent }",
-            "if empty { 100 } else { demo.battery_percent.max(100) }",
-        )],
+        TICK,
+        "if empty { 0 } else { demo.battery_percent }",
+        "if empty { 100 } else { demo.battery_percent.max(100) }",
     ),
     mutant(
         "never blind",
-        &[edit(
-            TICK,
-            "fn blind_for(&self, now: Duration) -> Duration {\n",
-            "fn blind_for(&self, now: Duration) -> Duration {\n        let now = now.min(Duration::ZERO);\n",
-        )],
+        TICK,
+        "fn blind_for(&self, now: Duration) -> Duration {\n",
+        "fn blind_for(&self, now: Duration) -> Duration {\n        let now = now.min(Duration::ZERO);\n",
     ),
     mutant(
         "every place is reached",
-        &[edit(
-            BINDING,
-            "distance(&pose, &target) <= distance_m",
-            "distance(&pose, &target) >= 0.0",
-        )],
+        BINDING,
+        "distance(&pose, &target) <= distance_m",
+        "distance(&pose, &target) >= 0.0",
     ),
-    mutant(
-        "flown against a storm on the way down",
+    layered(
+        mutant(
+            "flown against a storm on the way down",
+            AGENT,
+            "Share > Breeze & Share < Storm",
+            "Share > Breeze & Storm > 0.0",
+        ),
         &[
-            edit(AGENT, "Share > Breeze & Share < Storm", "Share > Breeze & Storm > 0.0"),
             edit(
                 AGENT,
                 "landWhenSaturated(Most) & Weak <= Most",
@@ -275,37 +238,31 @@ pub(super) const MUTANTS: &[Mutant] = &[
     // Commands sent.
     mutant(
         "the roll stick is the wrong way round",
-        &[edit(
-            CONTROL,
-            "roll: Fraction::saturating(demand.roll),",
-            "roll: Fraction::saturating(-demand.roll),",
-        )],
+        CONTROL,
+        "roll: Fraction::saturating(demand.roll),",
+        "roll: Fraction::saturating(-demand.roll),",
     ),
     mutant(
         "the pitch stick is the wrong way round",
-        &[edit(
-            CONTROL,
-            "pitch: Fraction::saturating(demand.pitch),",
-            "pitch: Fraction::saturating(-demand.pitch),",
-        )],
+        CONTROL,
+        "pitch: Fraction::saturating(demand.pitch),",
+        "pitch: Fraction::saturating(-demand.pitch),",
     ),
     mutant(
         "the climb stick is the wrong way round",
-        &[edit(
-            CONTROL,
-            "gaz: Fraction::saturating(demand.gaz),",
-            "gaz: Fraction::saturating(-demand.gaz),",
-        )],
+        CONTROL,
+        "gaz: Fraction::saturating(demand.gaz),",
+        "gaz: Fraction::saturating(-demand.gaz),",
     ),
     // The flight as a whole.
-    mutant(
-        "a hold takes a landing back",
+    layered(
+        mutant(
+            "a hold takes a landing back",
+            ORDERS,
+            "if self.lands() {\n            Err(Refused::Landing)\n        } else if self.is_foreign() {\n            Err(Refused::FlownByAnother)\n        } else if self.life.flying().is_none() || self.on_ground()",
+            "if self.on_ground()",
+        ),
         &[
-            edit(
-                ORDERS,
-                "if self.lands() {\n            Err(Refused::Landing)\n        } else if self.is_foreign() {\n            Err(Refused::FlownByAnother)\n        } else if self.life.flying().is_none() || self.on_ground()",
-                "if self.on_ground()",
-            ),
             edit(AGENT, "+!hold : comingDown\n", "+!hold : comingDown & onGround\n"),
             edit(
                 SAFETY,
@@ -316,93 +273,89 @@ pub(super) const MUTANTS: &[Mutant] = &[
     ),
     mutant(
         "the pilot's landing order is lost",
-        &[edit(
-            ORDERS,
-            "land_here();\n                self.land(now, LandingReason::Operator);",
-            "land_here();",
-        )],
+        ORDERS,
+        "land_here();\n                self.land(now, LandingReason::Operator);",
+        "land_here();",
     ),
     mutant(
         "a step that failed counts as done",
-        &[edit(TICK, "if report != Report::Done {", "if report != report {")],
+        TICK,
+        "if report != Report::Done {",
+        "if report != report {",
     ),
     mutant(
         "the flight ends before the drone is down",
-        &[edit(
-            WATCH,
-            "let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;",
-            "let landed = !blind;",
-        )],
+        WATCH,
+        "let landed = !blind && self.on_ground() && elapsed >= ON_ITS_WAY;",
+        "let landed = !blind;",
     ),
     // Streams of orders.
     mutant(
         "each order to hold begins the hold anew",
-        &[edit(
-            ACTIVITY,
-            "(Some((Pursuit::Staying, _)), Some(place)) => place,",
-            "(Some((Pursuit::Staying, _)), Some(place)) if pose.z_m.is_nan() => place,",
-        )],
+        ACTIVITY,
+        "(Some((Pursuit::Staying, _)), Some(place)) => place,",
+        "(Some((Pursuit::Staying, _)), Some(place)) if pose.z_m.is_nan() => place,",
     ),
     // Whoever flies from elsewhere.
-    mutant(
-        "station: anybody's presence counts for it",
-        &[
-            edit(
-                OPERATORS,
-                "if self.holder == Some(by) {",
-                "if self.holder.is_some_and(|holder| holder.station == by.station) {",
-            ),
-            edit(OPERATORS, "&& *operator == by", "&& operator.station == by.station"),
-        ],
+    layered(
+        mutant(
+            "station: anybody's presence counts for it",
+            OPERATORS,
+            "if self.holder == Some(by) {",
+            "if self.holder.is_some_and(|holder| holder.station == by.station) {",
+        ),
+        &[edit(OPERATORS, "&& *operator == by", "&& operator.station == by.station")],
     ),
     mutant(
         "station: its silence is never counted",
-        &[edit(OPERATORS, "now.saturating_sub(heard)", "heard.saturating_sub(now)")],
+        OPERATORS,
+        "now.saturating_sub(heard)",
+        "heard.saturating_sub(now)",
     ),
     mutant(
         "station: set-points are always new",
-        &[edit(MANUAL, "let age = now.saturating_sub(at);", "let age = at.saturating_sub(now);")],
+        MANUAL,
+        "let age = now.saturating_sub(at);",
+        "let age = at.saturating_sub(now);",
     ),
     mutant(
         "station: a mission that waits for it goes on by itself",
-        &[edit(
-            MANUAL_ORDERS,
-            "*mode = Mode::Hold;\n                self.events.push_back(FlightEvent::PausedForStation);",
-            "*mode = Mode::Mission;\n                self.events.push_back(FlightEvent::PausedForStation);",
-        )],
+        MANUAL_ORDERS,
+        "*mode = Mode::Hold;\n                self.events.push_back(FlightEvent::PausedForStation);",
+        "*mode = Mode::Mission;\n                self.events.push_back(FlightEvent::PausedForStation);",
     ),
     mutant(
         "station: without it the mission is flown on until it lands",
-        &[edit(
-            TICK,
-            "hold_after_ms: ms(self.config.station.hold_after),",
-            "hold_after_ms: ms(self.config.station.land_after),",
-        )],
+        TICK,
+        "hold_after_ms: ms(self.config.station.hold_after),",
+        "hold_after_ms: ms(self.config.station.land_after),",
     ),
     mutant(
         "station: without it the drone holds for ever",
-        &[edit(
-            TICK,
-            "land_after_ms: ms(self.config.station.land_after),",
-            "land_after_ms: ms(self.config.station.land_after * 1_000_000),",
-        )],
+        TICK,
+        "land_after_ms: ms(self.config.station.land_after),",
+        "land_after_ms: ms(self.config.station.land_after * 1_000_000),",
     ),
     mutant(
         "station: without set-points the drone holds for ever",
-        &[edit(AGENT, "landWithoutSetpoints(10500).", "landWithoutSetpoints(2000000000).")],
+        AGENT,
+        "landWithoutSetpoints(10500).",
+        "landWithoutSetpoints(2000000000).",
     ),
     mutant(
         "station: set-points of ten seconds ago are flown",
-        &[edit(AGENT, "holdWithoutSetpoints(500).", "holdWithoutSetpoints(10000).")],
+        AGENT,
+        "holdWithoutSetpoints(500).",
+        "holdWithoutSetpoints(10000).",
     ),
-    mutant(
-        "station: set-points lead out of the fence",
+    layered(
+        mutant(
+            "station: set-points lead out of the fence",
+            SETPOINT,
+            "wanted_m_s - outward * too_fast_m_s",
+            "wanted_m_s - outward * (0.0 * too_fast_m_s)",
+        ),
         &[
-            edit(
-                SETPOINT,
-                "wanted_m_s - outward * too_fast_m_s",
-                "wanted_m_s - outward * (0.0 * too_fast_m_s)",
-            ),
             edit(
                 MANUAL_ORDERS,
                 "*target = fence.nearest_inside(&wanted, INSIDE_M);",
@@ -418,26 +371,20 @@ pub(super) const MUTANTS: &[Mutant] = &[
     // Tags.
     mutant(
         "a tag that is seen again is the nearest known one, however far",
-        &[edit(
-            TAG_MAP,
-            "let is_it = alone\n            && self.is_out_of_view(nearest, now_s)\n            && filter.may_be_one(trial, nearest, way_m);",
-            "let is_it = self.is_out_of_view(nearest, now_s) && (alone || way_m < f64::MAX);",
-        )],
+        TAG_MAP,
+        "let is_it = alone\n            && self.is_out_of_view(nearest, now_s)\n            && filter.may_be_one(trial, nearest, way_m);",
+        "let is_it = self.is_out_of_view(nearest, now_s) && (alone || way_m < f64::MAX);",
     ),
     mutant(
         "tags leave no uncertainty",
-        &[edit(
-            TAGS,
-            "(self.filter.place_variance_m2() + squares).sqrt()",
-            "(self.filter.place_variance_m2() + squares) * 0.0",
-        )],
+        TAGS,
+        "(self.filter.place_variance_m2() + squares).sqrt()",
+        "(self.filter.place_variance_m2() + squares) * 0.0",
     ),
     mutant(
         "tags correct the place twice",
-        &[edit(
-            TAGS,
-            "odometry_m + self.filter.correction().place_m",
-            "odometry_m + 2.0 * self.filter.correction().place_m",
-        )],
+        TAGS,
+        "odometry_m + self.filter.correction().place_m",
+        "odometry_m + 2.0 * self.filter.correction().place_m",
     ),
 ];

@@ -58,18 +58,18 @@ impl Workspace {
     /// [`MutantsError::Changed`] if a text to be replaced does not occur exactly once.
     pub(super) fn changed(&self, mutant: &Mutant) -> Result<Changed, MutantsError> {
         let mut changed = Changed::new();
-        for edit in mutant.edits {
+        for edit in mutant.edits() {
             let text = if let Some(text) = changed.remove(edit.file) {
                 text
             } else {
                 let path = self.original.join(edit.file);
                 std::fs::read_to_string(&path).map_err(in_file("cannot read", &path))?
             };
-            let times = text.matches(edit.from).count();
-            if times != 1 {
-                return Err(MutantsError::Changed { name: mutant.name, file: edit.file, times });
-            }
-            changed.insert(edit.file, text.replacen(edit.from, edit.to, 1));
+            let text = edit.apply(&text).map_err(|times| {
+                let (name, file) = (mutant.name, edit.file);
+                MutantsError::Changed { name, file, times }
+            })?;
+            changed.insert(edit.file, text);
         }
         Ok(changed)
     }
@@ -132,27 +132,17 @@ impl Workspace {
 
 #[cfg(test)]
 mod tests {
-    use super::super::list::{Edit, Expected};
+    use super::super::list::mutant;
     use super::*;
+    use crate::edit::{edit, layered};
 
-    const TWICE: Mutant = Mutant {
-        name: "twice",
-        edits: &[
-            Edit { file: "clippy.toml", from: "allow-unwrap-in-tests", to: "a" },
-            Edit { file: "clippy.toml", from: "allow-expect-in-tests", to: "b" },
-        ],
-        expected: Expected::Fault,
-    };
-    const GONE: Mutant = Mutant {
-        name: "gone",
-        edits: &[Edit { file: "clippy.toml", from: "no such", to: "" }],
-        ..TWICE
-    };
-    const MANY: Mutant = Mutant {
-        name: "many",
-        edits: &[Edit { file: "clippy.toml", from: "allow-", to: "" }],
-        ..TWICE
-    };
+    const CLIPPY: &str = "clippy.toml";
+    const TWICE: Mutant = layered(
+        mutant("twice", CLIPPY, "allow-unwrap-in-tests", "a"),
+        &[edit(CLIPPY, "allow-expect-in-tests", "b")],
+    );
+    const GONE: Mutant = mutant("gone", CLIPPY, "no such", "");
+    const MANY: Mutant = mutant("many", CLIPPY, "allow-", "");
 
     #[test]
     fn a_mutant_of_other_code_is_no_mutant() {

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use asl2c::{Cbmc, Checked, Checks, Plan, Proof};
 use translator::TranslateError;
 
-use self::mutants::{MUTANTS, Mutant, Place, RUN_TIME};
+use self::mutants::{AGENT, C, CONFIGURATION, MUTANTS, Mutant, RUN_TIME};
 use self::proof::{broken, prove, violates, write_program};
 use self::report::Report;
 use self::run_time::{alarms, coarse_alarms};
@@ -122,7 +122,7 @@ struct Caught {
 impl Caught {
     /// Whether every method found the property broken.
     fn is_caught(&self) -> bool {
-        self.broken.iter().any(|name| name == self.mutant.breaks) && self.on_model != Some(false)
+        self.broken.iter().any(|name| name == self.mutant.expected) && self.on_model != Some(false)
     }
 }
 
@@ -190,7 +190,7 @@ impl Verifier {
     fn mutants(&self, invariant: &[String]) -> Result<Vec<Caught>, VerifyError> {
         // Mistakes in the C take longest: a core that begins with them last is alone with them at the end.
         let mut numbers: Vec<usize> = (0..MUTANTS.len()).collect();
-        numbers.sort_by_key(|number| MUTANTS[*number].place != Place::C);
+        numbers.sort_by_key(|number| MUTANTS[*number].first.file != C);
         let mut caught = parallel::map(&numbers, |number| {
             let folder = folder("verify").join(format!("mutant{number}"));
             self.mutant(&MUTANTS[number], invariant, &folder).map(|caught| (number, caught))
@@ -206,12 +206,12 @@ impl Verifier {
         folder: &Path,
     ) -> Result<Caught, VerifyError> {
         let changed =
-            |place, text: &str| mutant.apply(place, text).unwrap_or_else(|| text.to_owned());
-        let configuration = changed(Place::Configuration, AUTOPILOT.configuration);
-        let text = changed(Place::Agent, AUTOPILOT.text);
+            |file, text: &str| mutant.change(file, text).unwrap_or_else(|| text.to_owned());
+        let configuration = changed(CONFIGURATION, AUTOPILOT.configuration);
+        let text = changed(AGENT, AUTOPILOT.text);
         let agent = Agent { configuration: &configuration, text: &text, ..AUTOPILOT };
-        let spoil = |file: &str| mutant.apply(Place::C, file);
-        if mutant.breaks == RUN_TIME {
+        let spoil = |file: &str| mutant.change(C, file);
+        if mutant.expected == RUN_TIME {
             write_program(&agent, folder, spoil)?;
             let is_seen = !coarse_alarms(folder)?.is_empty();
             let broken = is_seen.then(|| RUN_TIME.to_owned()).into_iter().collect();
@@ -220,21 +220,21 @@ impl Verifier {
         // The agent keeps the property in each transition from a state that satisfies its invariant. A mutant that
         // does not is caught at once; another may break the invariant first.
         let goals = mutant.goals(AUTOPILOT.text);
-        let wanted = (mutant.breaks, goals.as_slice());
+        let wanted = (mutant.expected, goals.as_slice());
         let at_once = violates(&agent, &self.cbmc, folder, invariant, wanted, spoil)?;
         // If the property also fails on the model, the agent's invariant suffices to find it on the C.
         // Otherwise all candidates are needed, because a failed proof with fewer conditions says nothing
         // about the mutant.
-        let on_model = mutant.place != Place::C;
+        let on_model = mutant.first.file != C;
         let broken = if at_once {
-            vec![mutant.breaks.to_owned()]
+            vec![mutant.expected.to_owned()]
         } else {
             let known = if on_model { invariant } else { &[] };
-            let plan = Plan { checks: Checks::Properties, known, enough: Some(mutant.breaks) };
+            let plan = Plan { checks: Checks::Properties, known, enough: Some(mutant.expected) };
             let proof = prove(&agent, &self.cbmc, folder, &plan, spoil)?;
             broken(&proof).into_iter().map(str::to_owned).collect()
         };
-        let on_model = on_model.then(|| model::is_refuted(&agent, mutant.breaks)).transpose()?;
+        let on_model = on_model.then(|| model::is_refuted(&agent, mutant.expected)).transpose()?;
         Ok(Caught { mutant, broken, on_model })
     }
 }

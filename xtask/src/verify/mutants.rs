@@ -1,46 +1,32 @@
 //! Mutants of agent and C, each of which breaks a property: a proof that accepts one of them is worthless.
 
-/// Source that is changed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    /// The AgentSpeak source.
-    Agent,
-    /// The configuration.
-    Configuration,
-    /// The generated C.
-    C,
-}
+use crate::edit::{self, edit};
 
-/// A change and the property that it breaks; `run time` stands for a run-time error.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Mutant {
-    /// Description of the mistake.
-    pub(super) name: &'static str,
-    /// Source that is changed.
-    pub(super) place: Place,
-    from: &'static str,
-    to: &'static str,
-    /// Property that must be found broken.
-    pub(super) breaks: &'static str,
-}
+/// The agent with one mistake, and the property that it breaks; [`RUN_TIME`] stands for a run-time error.
+pub(super) type Mutant = edit::Mutant<&'static str>;
 
-/// Value of [`Mutant::breaks`] for a run-time error.
+/// Sources that are changed.
+pub(super) const AGENT: &str = "autopilot/agent/autopilot.asl";
+pub(super) const CONFIGURATION: &str = "autopilot/agent/autopilot.conf";
+/// The generated C.
+pub(super) const C: &str = "autopilot.c";
+
+/// What a mutant breaks that has a run-time error.
 pub(super) const RUN_TIME: &str = "run time";
 
 impl Mutant {
-    /// Changes the first occurrence; `None` if there is none, or the mutant changes another source.
-    pub(super) fn apply(&self, place: Place, text: &str) -> Option<String> {
-        (place == self.place && text.contains(self.from))
-            .then(|| text.replacen(self.from, self.to, 1))
+    /// The changed text of a source; `None` if the mutant changes another.
+    pub(super) fn change(&self, file: &str, text: &str) -> Option<String> {
+        self.first.apply(text).ok().filter(|_| file == self.first.file)
     }
 
     /// Goals whose events probably show the mistake: that of the changed plan, and one to which the property applies.
     pub(super) fn goals(&self, agent: &'static str) -> Vec<&'static str> {
-        let end = agent.find(self.from).map_or(0, |start| start + self.from.len());
+        let end = agent.find(self.first.from).map_or(0, |start| start + self.first.from.len());
         let mut plans = agent[..end].lines().rev();
         let changed = plans.find_map(|line| line.strip_prefix("+!").or(line.strip_prefix("-!")));
         let changed = changed.and_then(|plan| plan.split(|c: char| !c.is_alphanumeric()).next());
-        let meant = match self.breaks {
+        let meant = match self.expected {
             "landing_is_honoured" => "land",
             "take_off_is_not_blind" => "takeOff",
             "a_search_ends" | "a_search_keeps_a_reserve" | "a_search_stays_inside" => "search",
@@ -55,22 +41,23 @@ impl Mutant {
     }
 }
 
+const fn mutant(
+    name: &'static str,
+    file: &'static str,
+    from: &'static str,
+    to: &'static str,
+    breaks: &'static str,
+) -> Mutant {
+    Mutant { name, first: edit(file, from, to), more: &[], expected: breaks }
+}
+
 const fn agent(
     name: &'static str,
     from: &'static str,
     to: &'static str,
     breaks: &'static str,
 ) -> Mutant {
-    Mutant { name, place: Place::Agent, from, to, breaks }
-}
-
-const fn c(
-    name: &'static str,
-    from: &'static str,
-    to: &'static str,
-    breaks: &'static str,
-) -> Mutant {
-    Mutant { name, place: Place::C, from, to, breaks }
+    mutant(name, AGENT, from, to, breaks)
 }
 
 /// All mutants.
@@ -93,13 +80,13 @@ pub(super) const MUTANTS: [Mutant; 76] = [
         "+!goDown\n  <- +comingDown;\n     -target(_, _, _, _);\n     sendHover.",
         "landing_is_honoured",
     ),
-    Mutant {
-        name: "landing does not pre-empt",
-        place: Place::Configuration,
-        from: "preemptive {\n  +!land;",
-        to: "preemptive {",
-        breaks: "landing_is_honoured",
-    },
+    mutant(
+        "landing does not pre-empt",
+        CONFIGURATION,
+        "preemptive {\n  +!land;",
+        "preemptive {",
+        "landing_is_honoured",
+    ),
     agent(
         "landing stops in the air",
         "+!comeDown\n  <- -target(_, _, _, _);\n     sendLand;",
@@ -426,8 +413,8 @@ pub(super) const MUTANTS: [Mutant; 76] = [
     ),
     agent(
         "a descent onto a tag climbs again when the tag is lost",
-        "     tellTagLost;\n     reportFailed;\n     sendLand;\n     !comeDown.",
-        "     tellTagLost;\n     reportFailed;\n     sendHover;\n     !!wait.",
+        "+!ontoTag : not tagKnown\n  <- -target(_, _, _, _);\n     tellTagLost;\n     reportFailed;\n     sendLand;\n     !comeDown.",
+        "+!ontoTag : not tagKnown\n  <- -target(_, _, _, _);\n     tellTagLost;\n     reportFailed;\n     sendHover;\n     !!wait.",
         "descending_goes_on",
     ),
     agent(
@@ -514,20 +501,23 @@ pub(super) const MUTANTS: [Mutant; 76] = [
         "\n",
         "a_silent_station_stops",
     ),
-    c(
+    mutant(
         "the C forgets a landing order",
+        C,
         "self->preemptive_achieve_land_pending = true;",
         "self->preemptive_achieve_land_pending = false;",
         "landing_is_honoured",
     ),
-    c(
+    mutant(
         "the C writes outside the inbox",
-        "const uint32_t slot = 0U;\n        self->inbox_queue[slot]",
-        "const uint32_t slot = 1U;\n        self->inbox_queue[slot]",
+        C,
+        "const uint32_t slot = 0U;\n        self->inbox_queue[slot] = AUTOPILOT_EVENT_INBOX_achieve_takeOff",
+        "const uint32_t slot = 1U;\n        self->inbox_queue[slot] = AUTOPILOT_EVENT_INBOX_achieve_takeOff",
         RUN_TIME,
     ),
-    c(
+    mutant(
         "the C keeps an old event",
+        C,
         "event = self->posted;\n        self->posted = AUTOPILOT_EVENT_NONE;",
         "event = AUTOPILOT_EVENT_NONE;",
         "one_command",
@@ -550,5 +540,20 @@ mod tests {
         assert_eq!(goals("blindness is accepted for weeks"), ["wait"]);
         assert_eq!(goals("a search may take weeks"), ["search"]);
         assert_eq!(goals("the C forgets a landing order"), ["land"]);
+    }
+
+    /// The proof would go on with the agent as it is, and say that the mutant is not caught.
+    #[test]
+    fn each_mutant_can_be_made() {
+        let parsed = translator::parse_configuration(AUTOPILOT.name, AUTOPILOT.configuration);
+        let c = translator::obligations(&parsed.unwrap(), AUTOPILOT.text).unwrap();
+        for mutant in &MUTANTS {
+            let text = match mutant.first.file {
+                AGENT => AUTOPILOT.text,
+                CONFIGURATION => AUTOPILOT.configuration,
+                _ => &c.files[0].text,
+            };
+            assert!(mutant.first.apply(text).is_ok_and(|changed| changed != text), "{mutant:?}");
+        }
     }
 }

@@ -125,7 +125,7 @@ impl Report {
             _ = writeln!(
                 text,
                 "| {} | {} | {not}{broken} | {on_model} |",
-                mutant.name, mutant.breaks
+                mutant.name, mutant.expected
             );
         }
         self.compare(&mut text);
