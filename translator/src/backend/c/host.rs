@@ -102,9 +102,9 @@ pub(super) fn choose<'a>(
         // A block for the arguments; CBMC chooses another counterexample if `clear()` has one too.
         let is_block = !matches!(call, Call::Clear);
         if is_block {
-            writer.open_bare()
+            writer.open_bare();
         } else {
-            writer.indent()
+            writer.indent();
         }
         let arguments: Vec<String> = argument_names(call.types()).collect();
         for (ctype, argument) in call.types().iter().zip(&arguments) {
