@@ -44,6 +44,7 @@ impl<F: FnMut(Duration, Input<'_>) -> Result<(), Refused>> Take for F {}
 
 /// What passes a vehicle, as a recording contains it.
 #[derive(Debug)]
+#[allow(clippy::large_enum_variant, reason = "a box would be asked for in flight")]
 pub enum Passed<'a> {
     /// An input, and whether it was accepted.
     Input(Input<'a>, bool),

@@ -220,9 +220,11 @@ impl SafetyMonitor {
             self.carried_off = CarriedOff::default();
             self.state = match (command, self.state) {
                 (AgentCommand::TakeOff, _) => State::Free,
-                (AgentCommand::Standby, _) => State::StaysDown,
-                (_, State::BringingDown(_) | State::Landing { .. }) => State::StaysDown,
-                (_, state @ (State::Free | State::StaysDown)) => state,
+                (AgentCommand::Standby, _)
+                | (_, State::BringingDown(_) | State::Landing { .. } | State::StaysDown) => {
+                    State::StaysDown
+                }
+                (_, State::Free) => State::Free,
             };
             return (command, None);
         }

@@ -12,6 +12,10 @@ use crate::plan::AgentOrder;
 
 /// What the vehicle is doing.
 #[derive(Debug, Clone, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is one, and a box would be asked for in flight"
+)]
 pub(super) enum Life {
     /// On the ground as far as is known, and not ready to fly.
     Preparing {
