@@ -28,6 +28,7 @@ mod safety;
 mod sensors;
 mod sequence;
 mod setpoints;
+mod side_by_side;
 mod simulated;
 mod streams;
 mod tag_log;
