@@ -263,6 +263,11 @@ pub(super) const MUTANTS: &[Mutant] = &[
             "if self.on_ground()",
         ),
         &[
+            edit(
+                ORDERS,
+                "self.hold_here();",
+                "self.hold_here();\n                _ = self.flight.agent.achieve_hold();",
+            ),
             edit(AGENT, "+!hold : comingDown\n", "+!hold : comingDown & onGround\n"),
             edit(
                 SAFETY,
