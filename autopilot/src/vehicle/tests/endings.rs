@@ -4,8 +4,9 @@ use ardrone_link::at::Ref;
 use ardrone_link::navdata::Gps;
 
 use super::super::watch::ON_ITS_WAY;
-use super::bench::{Bench, SECOND};
+use super::bench::{Bench, SECOND, START};
 use super::*;
+use crate::agent::AgentCommand;
 
 const PLAN: &str = "takeoff\nland";
 
@@ -238,4 +239,186 @@ fn a_drone_that_hovers_is_in_the_air_whatever_its_bit_says() {
     assert!(bench.vehicle.status(bench.now).airborne);
     assert!(bench.vehicle.decision().unwrap().percepts.hovering);
     assert!(bench.outcomes.is_empty(), "{:?}", bench.outcomes);
+}
+
+/// Motors that are cut in the air and come back must not fly on.
+#[test]
+fn a_drone_that_is_in_the_air_after_its_emergency_is_landed() {
+    let mut bench = Bench::in_the_air("takeoff\nsetStayTime 90\ngoto 0 0 0 0\nland");
+    bench.run(SECOND);
+    bench.state |= DroneState::EMERGENCY;
+    bench.run(SECOND);
+    assert_eq!(bench.outcomes, [Outcome::Emergency]);
+    assert_eq!(bench.phase(), Phase::Landing);
+    bench.state = bench.state.difference(DroneState::EMERGENCY);
+    bench.run(SECOND);
+    assert_eq!((bench.phase(), bench.reference()), (Phase::Landing, Some(Ref::Land)));
+    assert_eq!(bench.vehicle.decision().unwrap().wanted, AgentCommand::Land);
+}
+
+#[test]
+fn an_emergency_on_the_ground_is_no_end_of_a_flight() {
+    let mut bench = Bench::standing_by(PLAN);
+    bench.state |= DroneState::EMERGENCY;
+    bench.run(2 * SECOND);
+    assert_eq!((bench.phase(), bench.outcomes.len()), (Phase::Standby, 0));
+}
+
+#[test]
+fn a_fault_on_the_ground_does_not_take_back_a_take_off() {
+    let mut bench = Bench::standing_by(PLAN);
+    bench.accepted(START);
+    bench.until(SECOND, |bench| bench.reference() == Some(Ref::TakeOff));
+    bench.state |= DroneState::TOO_MUCH_WIND;
+    bench.run(2 * FAULT_TIME);
+    assert_eq!((bench.phase(), bench.reference()), (Phase::Flying, Some(Ref::TakeOff)));
+}
+
+/// The bits of a drone that has just restarted do not say what it does.
+#[test]
+fn a_drone_in_emergency_is_down_only_once_its_flight_data_say_so() {
+    let mut bench = Bench::in_the_air(PLAN);
+    bench.is_heard = false;
+    bench.run(SECOND / 2);
+    bench.is_heard = true;
+    (bench.sequence, bench.has_demo) = (0, false);
+    bench.comes_down();
+    bench.state |= DroneState::NAVDATA_BOOTSTRAP | DroneState::EMERGENCY;
+    bench.run(2 * SECOND);
+    assert_eq!(bench.outcomes, [Outcome::Emergency]);
+    assert_eq!(bench.phase(), Phase::Landing);
+}
+
+/// A take-off that was ordered may have lifted it meanwhile.
+#[test]
+fn a_drone_that_is_lost_on_the_ground_before_it_rose_is_landed_in_silence() {
+    let mut bench = Bench::standing_by(PLAN);
+    bench.accepted(START);
+    bench.until(SECOND, |bench| bench.reference() == Some(Ref::TakeOff));
+    bench.is_heard = false;
+    bench.until(10 * SECOND, |bench| bench.phase() == Phase::Landing);
+    let since = bench.now;
+    assert_eq!(bench.vehicle.status(since).landing, Some(LandingReason::LinkLost));
+    bench.until(10 * SECOND, |bench| !bench.outcomes.is_empty());
+    assert!(bench.now >= since + BLIND_LANDING_TIME);
+    assert_eq!(bench.outcomes, [Outcome::LinkLost]);
+    assert_eq!(bench.vehicle.report().landed_at, None);
+    assert_eq!((bench.phase(), bench.reference()), (Phase::Landing, Some(Ref::Land)));
+}
+
+#[test]
+fn a_flight_that_the_link_has_ended_is_called_so_even_if_the_drone_is_heard_again() {
+    let mut bench = Bench::in_the_air("takeoff\nsetStayTime 90\ngoto 0 0 0 0\nland");
+    bench.is_heard = false;
+    let ordered = FlightEvent::LandingOrdered(LandingReason::LinkLost);
+    bench.until(10 * SECOND, |bench| bench.events.contains(&ordered));
+    bench.is_heard = true;
+    bench.run(SECOND);
+    bench.comes_down();
+    bench.until(2 * SECOND, |bench| !bench.outcomes.is_empty());
+    assert_eq!(bench.outcomes, [Outcome::LinkLost]);
+    assert_eq!(bench.phase(), Phase::Standby);
+}
+
+#[test]
+fn landings_are_given_up_exactly_after_their_time() {
+    let mut bench = Bench::in_the_air(PLAN);
+    bench.until(SECOND, |bench| bench.vehicle.status(bench.now).step == Some(1));
+    let since = bench.now;
+    bench.until(2 * LANDING_TIMEOUT, |bench| bench.phase() == Phase::Landing);
+    assert_eq!(bench.now, since + LANDING_TIMEOUT);
+    bench.until(2 * LANDING_TIMEOUT, |bench| !bench.outcomes.is_empty());
+    assert_eq!(bench.now, since + 2 * LANDING_TIMEOUT);
+    // The order that the next tick will be late enough for.
+    let mut bench = Bench::in_the_air(PLAN);
+    let ticks = BLIND_LANDING_TIME.as_millis().div_ceil(TICK.as_millis());
+    let ends = bench.now + TICK * u32::try_from(ticks).unwrap();
+    let ordered = ends.saturating_sub(BLIND_LANDING_TIME);
+    let land = Input::Order(Operator::TERMINAL, OperatorOrder::Land);
+    assert_eq!(bench.vehicle.handle(ordered, land), Ok(()));
+    bench.is_heard = false;
+    bench.until(10 * SECOND, |bench| !bench.outcomes.is_empty());
+    assert_eq!(bench.now, ends);
+}
+
+/// Steps that are no landings have the agent's limits.
+#[test]
+fn a_place_may_be_held_for_longer_than_a_landing_may_last() {
+    let mut bench = Bench::in_the_air("takeoff\nsetStayTime 120\ngoto 0 0 0 0\nland");
+    bench.run(TAG_LANDING_TIMEOUT + 5 * SECOND);
+    assert_eq!((bench.phase(), bench.vehicle.status(bench.now).step), (Phase::Flying, Some(2)));
+    bench.until(30 * SECOND, |bench| bench.waypoints.len() == 1);
+}
+
+#[test]
+fn a_drone_whose_sensor_is_not_believed_holds_before_it_is_landed() {
+    let mut bench = Bench::in_the_air("takeoff\nsetStayTime 90\ngoto 0 0 0 0\nland");
+    bench.accepted(OperatorOrder::Hold);
+    bench.drifts_m_s = 0.5;
+    bench.until(10 * SECOND, |bench| bench.vehicle.status(bench.now).trust != Trust::Sound);
+    bench.step();
+    assert_eq!(bench.phase(), Phase::Flying, "{:?}", bench.events);
+    bench.until(10 * SECOND, |bench| bench.phase() == Phase::Landing);
+    let Some(LandingReason::Distrust(trust)) = bench.vehicle.status(bench.now).landing else {
+        panic!("{:?}", bench.events)
+    };
+    assert!(matches!(trust, Trust::Implausible(_)), "{trust:?}");
+}
+
+#[test]
+fn each_danger_that_lands_the_drone_has_its_own_reason() {
+    let blind_after = |silence_ms: u64| {
+        let mut bench = Bench::in_the_air(PLAN);
+        let now = bench.now + Duration::from_millis(silence_ms);
+        bench.vehicle.endangered(now, Danger::Blind);
+        bench.vehicle.life.landing_reason()
+    };
+    assert_eq!(blind_after(0), Some(LandingReason::NavdataLate));
+    assert_eq!(blind_after(500), Some(LandingReason::NavdataLate));
+    assert_eq!(blind_after(501), Some(LandingReason::LinkLost));
+    for (danger, reason) in [
+        (Danger::Lost, LandingReason::PlaceUncertain),
+        (Danger::Wind, LandingReason::Wind),
+        (Danger::SetpointsGone, LandingReason::SetpointsGone),
+        (Danger::StationGone, LandingReason::StationGone),
+        (Danger::BatteryEmpty, LandingReason::Battery { percent: 80 }),
+    ] {
+        let mut bench = Bench::in_the_air(PLAN);
+        bench.vehicle.endangered(bench.now, danger);
+        assert_eq!(bench.vehicle.life.landing_reason(), Some(reason));
+    }
+}
+
+#[test]
+fn warnings_are_told_and_land_nobody() {
+    let mut bench = Bench::in_the_air(PLAN);
+    let silent = FlightEvent::StationSilent;
+    for (danger, event) in [
+        (Danger::BatteryLow, FlightEvent::BatteryLow { percent: 80 }),
+        (Danger::Searching, FlightEvent::SearchingTag),
+        (Danger::NoTag, FlightEvent::NoTagFound),
+        (Danger::TagLost, FlightEvent::TagLost),
+        (Danger::StationSilent, silent.clone()),
+    ] {
+        bench.vehicle.events.clear();
+        bench.vehicle.endangered(bench.now, danger);
+        assert_eq!(bench.vehicle.events, [event]);
+        assert_eq!(bench.phase(), Phase::Flying);
+    }
+    // The agent says it in every step; another warning in between does not count.
+    for (last, told) in [(Danger::StationSilent, 0), (Danger::BatteryLow, 1)] {
+        bench.vehicle.events.clear();
+        bench.vehicle.decision.as_mut().unwrap().danger = Some(last);
+        bench.vehicle.endangered(bench.now, Danger::StationSilent);
+        assert_eq!(bench.vehicle.events.len(), told);
+    }
+}
+
+#[test]
+fn cut_motors_are_told_as_such_and_not_as_a_landing_on_order() {
+    let mut bench = Bench::in_the_air(PLAN);
+    bench.accepted(OperatorOrder::Cut);
+    bench.step();
+    assert!(bench.events.contains(&FlightEvent::CutOrdered));
+    assert_eq!(bench.vehicle.status(bench.now).landing, None);
 }

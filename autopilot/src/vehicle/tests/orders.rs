@@ -410,3 +410,67 @@ fn a_mission_that_is_cleared_in_the_air_leaves_the_drone_holding_and_may_be_appe
     assert_eq!(bench.outcomes, [Outcome::Completed]);
     assert_eq!(bench.order(START), Err(Refused::NeverTakesOff));
 }
+
+/// With the reason that the mission has: none.
+#[test]
+fn a_mission_that_is_replaced_during_its_landing_gives_no_reason_to_land() {
+    let mut bench = Bench::in_the_air(PLAN);
+    bench.until(SECOND, |bench| bench.reference() == Some(Ref::Land));
+    bench.accepted(plan(STAY));
+    bench.step();
+    assert_eq!((bench.phase(), bench.vehicle.status(bench.now).landing), (Phase::Landing, None));
+    let ordered = |event: &FlightEvent| matches!(event, FlightEvent::LandingOrdered(_));
+    assert!(!bench.events.iter().any(ordered), "{:?}", bench.events);
+}
+
+/// Its state is the last that was heard of it.
+#[test]
+fn an_emergency_of_a_drone_that_was_lost_is_not_cleared() {
+    let mut bench = Bench::standing_by(PLAN);
+    bench.state |= DroneState::EMERGENCY;
+    bench.run(SECOND);
+    bench.is_heard = false;
+    bench.run(3 * SECOND);
+    assert_eq!(bench.phase(), Phase::Connecting);
+    assert_eq!(bench.order(OperatorOrder::Recover), Err(Refused::NoEmergency));
+}
+
+#[test]
+fn a_station_without_controls_is_watched_as_long_as_the_drone_flies_for_it() {
+    const STATION: Operator = Operator { station: Station::Mavlink, number: 0xffbe, local: false };
+    let told = |orders: &[OperatorOrder], expected: &[Result<(), Refused>]| {
+        let mut bench = Bench::in_the_air("takeoff\nsetStayTime 60\ngoto 0 0 0 0\nland");
+        bench.accepted(OperatorOrder::Release);
+        for order in [OperatorOrder::Take, OperatorOrder::Hold, OperatorOrder::Release] {
+            assert_eq!(bench.vehicle.order(bench.now, STATION, order), Ok(()));
+        }
+        let results: Vec<_> = orders.iter().map(|order| bench.order(order.clone())).collect();
+        assert_eq!(results, expected);
+        bench.accepted(OperatorOrder::Release);
+        bench.run(5 * SECOND);
+        bench.events.contains(&FlightEvent::StationSilent)
+    };
+    assert!(told(&[], &[]));
+    assert!(told(&[OperatorOrder::Take], &[Ok(())]), "it has ordered nothing");
+    let nowhere = OperatorOrder::GoTo(Place::at(f64::NAN, 0.0));
+    assert!(told(&[nowhere], &[Err(Refused::NoPlace)]), "nor by a refused order");
+    assert!(!told(&[HERE], &[Ok(())]), "it flies for the terminal now");
+}
+
+#[test]
+fn a_drone_that_is_flown_back_into_its_fence_lands_where_it_is_on_order() {
+    let mut config = VehicleConfig { read_back: false, ..VehicleConfig::default() };
+    config.limits.radius_m = 0.1;
+    let mut bench = Bench::in_the_air_with(&config, STAY);
+    bench.accepted(OperatorOrder::Hold);
+    bench.drifts_m_s = 0.3;
+    bench.until(10 * SECOND, |bench| bench.phase() == Phase::Landing);
+    let reason = LandingReason::Safety(Veto::OutsideFence);
+    assert_eq!(bench.vehicle.status(bench.now).landing, Some(reason));
+    bench.drifts_m_s = 0.0;
+    bench.run(4 * TICK);
+    assert_eq!(bench.reference(), Some(Ref::TakeOff), "it is flown back");
+    bench.accepted(OperatorOrder::Land);
+    bench.step();
+    assert_eq!(bench.reference(), Some(Ref::Land));
+}

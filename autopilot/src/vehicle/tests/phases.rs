@@ -2,9 +2,10 @@
 
 use ardrone_link::at::Ref;
 
-use super::super::watch::OURS;
+use super::super::watch::{ON_ITS_WAY, OURS};
 use super::bench::{Bench, SECOND, START};
 use super::*;
+use crate::agent::AgentCommand;
 
 const PLAN: &str = "takeoff\nland";
 const TAKE_OVER: &str = "autoTakeover 500 800 4000 0.5\nland";
@@ -334,4 +335,266 @@ fn while_the_drone_settles_a_flight_that_is_about_to_begin_is_the_reason_not_to_
         bench.until(3 * SECOND, |bench| bench.phase() == Phase::Trimming);
         assert_eq!(bench.vehicle.not_ready(bench.now), [reason]);
     }
+}
+
+#[test]
+fn a_phase_is_written_with_the_width_that_is_asked_for() {
+    for phase in Phase::ALL {
+        assert_eq!(format!("[{phase:>12}]"), format!("[{:>12}]", phase.name()));
+    }
+}
+
+/// Whoever has not flown it has no old order that could have lifted it.
+#[test]
+fn a_drone_that_rises_before_its_first_flight_is_flown_by_another_however_soon() {
+    for refused in [false, true] {
+        let mut bench = Bench::new();
+        if refused {
+            load(&mut bench, PLAN);
+            bench.accepted(WHEN_READY);
+            bench.battery_percent = 15;
+        }
+        bench.until(5 * SECOND, |bench| bench.phase() == Phase::Standby);
+        assert_eq!(bench.outcomes.len(), usize::from(refused));
+        bench.rises();
+        bench.step();
+        assert_eq!((bench.phase(), bench.commands.len()), (Phase::Observing, 0), "{refused}");
+    }
+}
+
+/// For a moment it may fall back under the bit of its state: an order of ours may still be on its way.
+#[test]
+fn a_drone_that_rose_again_for_a_moment_is_landed_as_long_as_an_order_is_on_its_way() {
+    let mut bench = Bench::in_the_air(PLAN);
+    bench.until(SECOND, |bench| bench.reference() == Some(Ref::Land));
+    bench.comes_down();
+    bench.until(SECOND, |bench| bench.phase() == Phase::Standby);
+    bench.rises();
+    bench.step();
+    let since = bench.now;
+    assert_eq!(bench.phase(), Phase::Landing);
+    assert_eq!(bench.vehicle.decision().unwrap().wanted, AgentCommand::Land, "the agent lands it");
+    bench.comes_down();
+    bench.until(SECOND, |bench| bench.phase() == Phase::Standby);
+    assert_eq!(bench.now.saturating_sub(since), ON_ITS_WAY);
+    assert_eq!(bench.outcomes, [Outcome::Completed], "the first outcome is kept");
+}
+
+#[test]
+fn a_drone_that_is_lost_while_it_is_prepared_or_watched_is_looked_for_again() {
+    for phase in [Phase::Observing, Phase::Configuring, Phase::Trimming] {
+        let mut bench = Bench::new();
+        if phase == Phase::Observing {
+            bench.rises();
+        }
+        bench.until(3 * SECOND, |bench| bench.phase() == phase);
+        // Trimming ends without the drone.
+        bench.is_heard = false;
+        bench.run(3 * SECOND);
+        assert_eq!(bench.phase(), Phase::Connecting, "{phase}");
+        bench.is_heard = true;
+        bench.step();
+        let found = if phase == Phase::Observing { phase } else { Phase::Configuring };
+        assert_eq!(bench.phase(), found, "{phase}");
+    }
+}
+
+#[test]
+fn while_the_drone_settles_it_may_be_flown_by_another_or_restart() {
+    for restarts in [false, true] {
+        let mut bench = Bench::new();
+        bench.until(3 * SECOND, |bench| bench.phase() == Phase::Trimming);
+        if restarts {
+            // It settles for no longer than it is silent.
+            bench.now += SECOND / 2;
+            bench.sequence = 0;
+            bench.state |= DroneState::NAVDATA_BOOTSTRAP;
+        } else {
+            bench.rises();
+        }
+        bench.step();
+        let expected = if restarts { Phase::Configuring } else { Phase::Observing };
+        assert_eq!(bench.phase(), expected);
+    }
+}
+
+/// It may have been set up for somebody else.
+#[test]
+fn a_drone_that_another_pilot_has_landed_is_given_all_its_settings_again() {
+    let mut bench = Bench::standing_by(PLAN);
+    let count = bench.vehicle.settings.len();
+    bench.rises();
+    bench.run(SECOND);
+    assert_eq!(bench.phase(), Phase::Observing);
+    bench.comes_down();
+    let mut keys = std::collections::BTreeSet::new();
+    bench.until(5 * SECOND, |bench| {
+        for command in &bench.commands {
+            if let ardrone_link::at::Command::Config(config) = command {
+                keys.insert(config.key().to_owned());
+            }
+        }
+        bench.phase() == Phase::Standby
+    });
+    assert_eq!(keys.len(), count, "{keys:?}");
+}
+
+#[test]
+fn a_flight_whose_drone_rises_before_it_is_refused_at_once() {
+    for starts in [false, true] {
+        let mut bench = Bench::new();
+        load(&mut bench, PLAN);
+        if starts {
+            bench.accepted(WHEN_READY);
+        }
+        bench.step();
+        bench.rises();
+        bench.run(2 * TICK);
+        assert_eq!((bench.phase(), bench.outcomes.len()), (Phase::Observing, usize::from(starts)));
+        let told = bench.events.contains(&FlightEvent::FlownByAnother);
+        assert_eq!(told, !starts, "a refusal says it already");
+    }
+}
+
+/// What it had sent before is no sign of a good link now.
+#[test]
+fn a_drone_that_another_pilot_took_is_watched_anew_before_it_is_taken_over() {
+    for refused in [false, true] {
+        let mut bench = Bench::new();
+        load(&mut bench, PLAN);
+        if refused {
+            // An acknowledge bit that never falls keeps every setting waiting.
+            bench.obeys = false;
+            bench.state |= DroneState::COMMAND_ACKNOWLEDGE;
+            bench.accepted(WHEN_READY);
+        }
+        for _ in 0..100 {
+            if refused {
+                bench.state |= DroneState::COMMAND_ACKNOWLEDGE;
+            }
+            bench.step();
+        }
+        bench.rises();
+        bench.step();
+        assert_eq!(bench.phase(), Phase::Observing);
+        let since = bench.now;
+        load(&mut bench, TAKE_OVER);
+        bench.accepted(WHEN_READY);
+        bench.outcomes.clear();
+        for tick in 1..25 {
+            bench.is_heard = tick % 10 == 0;
+            bench.step();
+            let is_over = bench.now >= since + SETTLE_TIME;
+            assert_eq!(bench.outcomes.len(), usize::from(is_over), "{refused} {tick}");
+        }
+        assert!(!bench.events.contains(&FlightEvent::TakingOver));
+    }
+}
+
+/// Nothing is sent, so there is nothing to land.
+#[test]
+fn a_landing_is_no_end_of_what_was_never_begun() {
+    for rises in [false, true] {
+        let mut bench = Bench::new();
+        bench.accepted(OperatorOrder::Land);
+        if rises {
+            bench.rises();
+        }
+        for _ in 0..10 {
+            bench.step();
+            bench.accepted(OperatorOrder::Land);
+        }
+        let expected = if rises { Phase::Observing } else { Phase::Configuring };
+        assert_eq!((bench.phase(), bench.outcomes.len()), (expected, 0));
+    }
+}
+
+#[test]
+fn what_is_ordered_before_a_take_over_leaves_the_drone_to_its_pilot() {
+    for order in [OperatorOrder::Land, OperatorOrder::Hold, OperatorOrder::Cut] {
+        let name = order.name();
+        let mut bench = in_the_air_already();
+        load(&mut bench, TAKE_OVER);
+        bench.accepted(WHEN_READY);
+        bench.run(5 * TICK);
+        bench.accepted(order);
+        bench.run(SECOND);
+        let reasons = vec![NotReady::NotLanded.to_string()];
+        assert_eq!(bench.outcomes, [Outcome::PreflightRefused { reasons }], "{name}");
+        assert_eq!((bench.phase(), bench.commands.len()), (Phase::Observing, 0), "{name}");
+        assert!(bench.vehicle.is_at_rest());
+    }
+}
+
+#[test]
+fn a_landing_while_the_drone_is_prepared_lands_it_if_it_is_in_the_air() {
+    for takes_over in [false, true] {
+        let mut bench = if takes_over { in_the_air_already() } else { Bench::new() };
+        load(&mut bench, if takes_over { TAKE_OVER } else { PLAN });
+        bench.accepted(WHEN_READY);
+        bench.until(2 * SECOND, |bench| bench.phase() == Phase::Configuring);
+        bench.accepted(OperatorOrder::Land);
+        bench.step();
+        if takes_over {
+            assert_eq!((bench.phase(), bench.reference()), (Phase::Landing, Some(Ref::Land)));
+            assert_eq!(bench.outcomes, []);
+            bench.comes_down();
+            bench.run(SECOND);
+        }
+        let outcome = if takes_over { Outcome::Interrupted } else { Outcome::CalledOff };
+        assert_eq!(bench.outcomes, [outcome], "{takes_over}");
+    }
+}
+
+/// The state of a drone that was lost in the air is the last that was heard of it.
+#[test]
+fn a_start_that_waits_for_a_lost_drone_just_ends() {
+    let mut bench = in_the_air_already();
+    bench.run(SECOND);
+    bench.is_heard = false;
+    bench.run(3 * SECOND);
+    assert_eq!(bench.phase(), Phase::Connecting);
+    load(&mut bench, PLAN);
+    bench.accepted(WHEN_READY);
+    bench.accepted(OperatorOrder::Land);
+    bench.step();
+    assert_eq!(
+        (bench.phase(), &bench.outcomes[..]),
+        (Phase::Connecting, &[Outcome::CalledOff][..])
+    );
+}
+
+#[test]
+fn a_take_over_that_is_refused_says_why_it_lands_unless_the_drone_is_down_already() {
+    for is_down in [false, true] {
+        let mut bench = in_the_air_already();
+        load(&mut bench, TAKE_OVER);
+        bench.accepted(WHEN_READY);
+        bench.until(2 * SECOND, |bench| bench.events.contains(&FlightEvent::TakingOver));
+        bench.battery_percent = 15;
+        if is_down {
+            bench.comes_down();
+        }
+        bench.until(3 * SECOND, |bench| {
+            bench.phase() == if is_down { Phase::Standby } else { Phase::Landing }
+        });
+        let reason = LandingReason::TakeOverRefused;
+        let ordered = FlightEvent::LandingOrdered(reason);
+        assert_eq!(bench.events.contains(&ordered), !is_down);
+        assert_eq!(bench.vehicle.status(bench.now).landing, (!is_down).then_some(reason));
+        assert_eq!(bench.outcomes.len(), usize::from(is_down));
+    }
+}
+
+#[test]
+fn settings_that_a_drone_has_not_taken_count_until_it_is_configured_again() {
+    let mut bench = Bench::standing_by(PLAN);
+    bench.vehicle.setting_unconfirmed("control:outdoor");
+    bench.run(SECOND);
+    assert_eq!(bench.vehicle.readiness(), [NotReady::Settings("control:outdoor".to_owned())]);
+    bench.rises();
+    bench.run(SECOND);
+    bench.comes_down();
+    bench.run(4 * SECOND);
+    assert_eq!((bench.phase(), bench.vehicle.readiness()), (Phase::Standby, &[][..]));
 }
