@@ -44,15 +44,16 @@ impl Flown {
 
 #[test]
 fn in_simulated_time_each_flies_as_alone_bit_for_bit() {
-    let drivers = || [driver(1, PLANS[0]), driver(2, PLANS[1])];
-    let alone = drivers().map(|mut driver| {
+    let drivers = || vec![driver(1, PLANS[0]), driver(2, PLANS[1])];
+    let fly_alone = |mut driver: Driver<Simulated>| {
         let mut flown = Flown::default();
         while flown.outcome.is_none() {
             flown.step(&mut driver);
         }
         flown
-    });
-    let mut together = [Flown::default(), Flown::default()];
+    };
+    let alone: Vec<Flown> = drivers().into_iter().map(fly_alone).collect();
+    let mut together = vec![Flown::default(), Flown::default()];
     let mut drivers = drivers();
     while together.iter().any(|flown| flown.outcome.is_none()) {
         for (flown, driver) in together.iter_mut().zip(&mut drivers) {
