@@ -17,6 +17,7 @@ use crate::outcome::Outcome;
 pub(super) const ON_ITS_WAY: Duration = Duration::from_millis(600);
 /// The link to a drone that was heard so recently is not lost.
 const HEARD: Duration = Duration::from_millis(500);
+const NOT_CONFIRMED: &str = "the drone did not confirm that it has landed";
 /// A drone that rises within this time after landing follows an old order of ours. Later than that, another
 /// pilot flies it.
 pub(super) const OURS: Duration = Duration::from_secs(2);
@@ -252,11 +253,11 @@ impl Vehicle {
                 LandingReason::Operator => Outcome::LeftLanding,
                 LandingReason::LinkLost => Outcome::LinkLost,
                 reason if landed => Outcome::Failsafe { reason: reason.to_string() },
-                reason => {
-                    let reason = format!("{reason}; the drone did not confirm that it has landed");
-                    Outcome::Failsafe { reason }
-                }
+                reason => Outcome::Failsafe { reason: format!("{reason}; {NOT_CONFIRMED}") },
             },
+            Life::Landing { why: Why::Replaced, .. } if !landed => {
+                Outcome::Failsafe { reason: NOT_CONFIRMED.to_owned() }
+            }
             Life::Landing { why: Why::TakeOverRefused(reasons), .. } => {
                 Outcome::PreflightRefused { reasons: reasons.clone() }
             }

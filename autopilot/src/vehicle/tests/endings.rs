@@ -48,6 +48,25 @@ fn a_landing_step_that_never_ends_is_given_up_after_its_time() {
 }
 
 #[test]
+fn a_mission_that_is_replaced_while_it_lands_has_ended_once_the_drone_is_down() {
+    for comes_down in [true, false] {
+        let mut bench = Bench::in_the_air(PLAN);
+        bench.until(SECOND, |bench| bench.reference() == Some(Ref::Land));
+        bench.accepted(OperatorOrder::Load(Plan::parse("next", PLAN).unwrap()));
+        bench.run(SECOND);
+        assert_eq!((bench.phase(), bench.reference()), (Phase::Landing, Some(Ref::Land)));
+        assert_eq!(bench.vehicle.status(bench.now).landing, None, "nothing was given up");
+        if comes_down {
+            bench.comes_down();
+        }
+        bench.until(2 * LANDING_TIMEOUT, |bench| !bench.outcomes.is_empty());
+        let reason = "the drone did not confirm that it has landed".to_owned();
+        let outcome = if comes_down { Outcome::Completed } else { Outcome::Failsafe { reason } };
+        assert_eq!(bench.outcomes, [outcome]);
+    }
+}
+
+#[test]
 fn a_landing_is_over_once_the_drone_has_had_time_to_rise() {
     let mut bench = Bench::in_the_air(PLAN);
     bench.accepted(OperatorOrder::Land);
