@@ -442,9 +442,11 @@ impl TickLoop {
 
     fn finished(&mut self, outcome: Outcome, is_down: bool, realtime: Realtime) -> FinishedFlight {
         let now = self.driver.now();
-        let Self { driver: Driver { vehicle, surroundings, .. }, tee, .. } = self;
+        let Self { driver: Driver { vehicle, surroundings, .. }, tee, stay } = self;
         let report = vehicle.report().clone();
-        if vehicle.outcome().is_none()
+        // The vehicle has not told the end of a flight that is left; one that stays is left without a flight.
+        if *stay == Stay::UntilFlown
+            && vehicle.outcome().is_none()
             && let Some(recorder) = &mut tee.recorder
         {
             let ended = Telemetry::Ended(outcome.clone(), Box::new(report.clone()));
