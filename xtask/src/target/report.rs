@@ -125,7 +125,8 @@ const LIMITS: &str = "
 ## Limits
 
 - Instructions are counted, not cycles: these depend on the memory's wait states, which are the board's.
-- The figures hold for this version of the compiler and these options (`-O2 -fno-jump-tables`).
+- The figures hold for this version of the compiler and these options (`-O2 -fno-jump-tables -ffp-contract=off`). The last one is needed for
+  `float` on a Cortex-M4F, whose multiply-add rounds once: the result is not the one that was proved then.
 - An agent that multiplies or divides `double`s or divides 64-bit integers uses functions of libgcc with loops: its longest
   path is reported as unknown, its stack is not.
 - An interrupt needs stack of its own, which is not included.
