@@ -87,21 +87,27 @@ impl<S: Surroundings> Driver<S> {
     /// never caught up, because the drone needs only the newest command.
     pub fn step(&mut self, mut tee: impl FnMut(Duration, Passed<'_>)) -> bool {
         let now = self.surroundings.now();
-        let is_due = now >= self.deadline;
-        let deadline = self.deadline;
-        if is_due {
-            let missed = self.skip_missed(now);
-            self.surroundings.begin_tick(now, self.deadline, missed);
-            self.deadline += TICK;
+        if now < self.deadline {
+            self.receive(now, Some(self.deadline), &mut tee);
+            return false;
         }
-        let until = (!is_due).then_some(deadline);
+        let missed = self.skip_missed(now);
+        let late = now.saturating_sub(self.deadline);
+        self.surroundings.begin_tick(now, self.deadline, missed);
+        self.deadline += TICK;
+        self.receive(now, None, &mut tee);
+        self.tick(now, late, tee);
+        true
+    }
+
+    fn receive(
+        &mut self,
+        now: Duration,
+        until: Option<Duration>,
+        tee: &mut impl FnMut(Duration, Passed<'_>),
+    ) {
         let vehicle = &mut self.vehicle;
-        self.surroundings.receive(now, until, |now, input| handle(vehicle, now, input, &mut tee));
-        if is_due {
-            let late = now.saturating_sub(self.deadline.saturating_sub(TICK));
-            self.tick(now, late, tee);
-        }
-        is_due
+        self.surroundings.receive(now, until, |now, input| handle(vehicle, now, input, &mut *tee));
     }
 
     fn tick(&mut self, begun: Duration, late: Duration, mut tee: impl FnMut(Duration, Passed<'_>)) {
@@ -192,6 +198,14 @@ pub struct Simulated {
     now: Duration,
 }
 
+/// What arrives from a simulated drone, for the vehicle.
+pub fn input(message: &Message) -> Input<'_> {
+    match message {
+        Message::Navdata(packet) => Input::Navdata(packet),
+        Message::Control(dump) => Input::Control(dump.as_bytes()),
+    }
+}
+
 impl Surroundings for Simulated {
     fn now(&self) -> Duration {
         self.now
@@ -205,10 +219,7 @@ impl Surroundings for Simulated {
         self.world.advance(now);
         while let Some(message) = self.world.receive(now) {
             // What is damaged is only counted.
-            _ = match &message {
-                Message::Navdata(packet) => take(now, Input::Navdata(packet)),
-                Message::Control(dump) => take(now, Input::Control(dump.as_bytes())),
-            };
+            _ = take(now, input(&message));
         }
     }
 

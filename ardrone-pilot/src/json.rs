@@ -44,10 +44,7 @@ fn escaped(json: &str) -> String {
 pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
     match message {
         Message::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
-        Message::Telemetry(at, Telemetry::Status(status), ticks) => {
-            self::status(*at, status, *ticks)
-        }
-        Message::Telemetry(at, told, _) => telemetry(*at, told, steps),
+        Message::Telemetry(at, told, ticks) => telemetry(*at, told, *ticks, steps),
         Message::Trouble(at, trouble) => json!({
             "type": "event",
             "t_s": at.as_secs_f64(),
@@ -59,7 +56,7 @@ pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
     }
 }
 
-fn telemetry(at: Duration, telemetry: &Telemetry, steps: &[Step]) -> Value {
+fn telemetry(at: Duration, telemetry: &Telemetry, ticks: TickHealth, steps: &[Step]) -> Value {
     match telemetry {
         Telemetry::Event(FlightEvent::Landed) => {
             json!({ "type": "landed", "t_s": at.as_secs_f64() })
@@ -109,12 +106,11 @@ fn telemetry(at: Duration, telemetry: &Telemetry, steps: &[Step]) -> Value {
             "reached": Place::from(&waypoint.pose),
             "error_m": waypoint.error_m(),
         }),
-        // With the timing of the ticks.
-        Telemetry::Status(status) => self::status(at, status, TickHealth::default()),
+        Telemetry::Status(status) => self::status(at, status, ticks),
     }
 }
 
-/// The vehicle's status.
+/// The vehicle's status, with the timing of the ticks.
 fn status(at: Duration, status: &Status, ticks: TickHealth) -> Value {
     let Status { phase, step, steps, target, distance_m, battery_percent, .. } = status;
     json!({

@@ -116,7 +116,8 @@ fn a_simulated_flight_and_the_same_over_udp_leave_the_same_topics() {
     let [simulated, flown] = [&simulated, &flown].map(|file| topics(file));
     assert_eq!(simulated, flown);
     let with_messages = flown.iter().filter(|(.., has_messages)| *has_messages).count();
-    assert!(with_messages >= 7, "{with_messages}");
+    // Navdata raw and decoded, control, mission, log, tick, pose and target.
+    assert_eq!(with_messages, 8);
 }
 
 /// Size of the plan, the settings and the agent's source in a log.

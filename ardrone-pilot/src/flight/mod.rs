@@ -281,7 +281,7 @@ impl Tee {
     fn pass(&mut self, at: Duration, passed: Passed<'_>) {
         match passed {
             Passed::Input(Input::Navdata(_), good) if !self.recorded.has_room(good) => {
-                self.unrecorded += 1;
+                self.unrecorded += u64::from(self.recorder.is_some());
                 return;
             }
             _ => {}
@@ -449,7 +449,7 @@ impl TickLoop {
             && vehicle.outcome().is_none()
             && let Some(recorder) = &mut tee.recorder
         {
-            let ended = Telemetry::Ended(outcome.clone(), Box::new(report.clone()));
+            let ended = Telemetry::Ended(outcome.clone(), std::sync::Arc::new(report.clone()));
             recorder.pass(now, &Passed::Told(ended));
         }
         FinishedFlight {

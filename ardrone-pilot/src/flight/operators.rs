@@ -11,11 +11,11 @@ use autopilot::vehicle::{
     Vehicle, VehicleConfig,
 };
 use kinematics::{Pose, Sticks};
-use mock_drone::{Message, World, WorldConfig};
+use mock_drone::{World, WorldConfig};
 use proptest::prelude::*;
 
 use super::orders::{Orders, Request};
-use crate::drive::handle;
+use crate::drive::{handle, input};
 use crate::recording::Recorder;
 
 const LOCAL: Operator = Operator::TERMINAL;
@@ -136,12 +136,7 @@ proptest! {
             }
             world.advance(now);
             while let Some(message) = world.receive(now) {
-                match message {
-                    Message::Navdata(packet) => _ = vehicle.handle(now, Input::Navdata(&packet)),
-                    Message::Control(dump) => {
-                        _ = vehicle.handle(now, Input::Control(dump.as_bytes()));
-                    }
-                }
+                _ = vehicle.handle(now, input(&message));
             }
             prop_assert_eq!(vehicle.handle(now, Input::Tick), Ok(()));
             while let Some(output) = vehicle.poll() {

@@ -1,5 +1,6 @@
 //! State that lives for one flight.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use ardrone_link::navdata::{ControlState, Demo, DroneState, Navdata};
@@ -42,7 +43,8 @@ pub(super) struct Flight {
     pub(super) target: Option<Pose>,
     /// When the drone was first asked for full navdata, or else when the flight began.
     pub(super) asked_at: Duration,
-    pub(super) report: FlightReport,
+    /// Shared with whoever was told of the end, which must not ask for memory.
+    report: Arc<FlightReport>,
     pub(super) outcome: Option<Outcome>,
 }
 
@@ -69,9 +71,17 @@ impl Flight {
             cross_checks: CrossChecks::default(),
             target: None,
             asked_at: begins,
-            report: FlightReport::default(),
+            report: Arc::default(),
             outcome: None,
         }
+    }
+
+    pub(super) fn report(&self) -> &Arc<FlightReport> {
+        &self.report
+    }
+
+    pub(super) fn report_mut(&mut self) -> &mut FlightReport {
+        Arc::make_mut(&mut self.report)
     }
 }
 

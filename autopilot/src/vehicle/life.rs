@@ -147,14 +147,14 @@ impl Life {
 
     /// Goes on to another stage of preparation. A flight that was ordered still is.
     pub(super) fn prepare(&mut self, stage: Preparation) {
-        let departure = self.departure().copied();
+        let departure = self.departure();
         self.enter(Self::Preparing { stage, departure });
     }
 
     /// The flight that was ordered and has not begun.
-    pub(super) fn departure(&self) -> Option<&Departure> {
+    pub(super) fn departure(&self) -> Option<Departure> {
         match self {
-            Self::Preparing { departure, .. } => departure.as_ref(),
+            Self::Preparing { departure, .. } => *departure,
             _ => None,
         }
     }
@@ -190,8 +190,8 @@ impl Life {
     }
 
     /// The step being flown.
-    pub(super) fn due(&self) -> Option<&Active> {
-        self.flying()?.due.as_ref()
+    pub(super) fn due(&self) -> Option<Active> {
+        self.flying()?.due
     }
 
     /// The order of the step being flown.

@@ -301,7 +301,7 @@ impl Vehicle {
     fn mission_changed(&mut self) {
         self.pending.mission = true;
         let steps = self.mission.steps().len();
-        let report = &mut self.flight.report;
+        let report = self.flight.report_mut();
         report.steps = steps;
         report.waypoints.reserve(steps.saturating_sub(report.waypoints.len()));
     }
@@ -338,7 +338,7 @@ impl Vehicle {
 
     /// Report of the current or last flight.
     pub fn report(&self) -> &FlightReport {
-        &self.flight.report
+        self.flight.report()
     }
 
     /// A snapshot for displays.
@@ -355,7 +355,7 @@ impl Vehicle {
             emergency: self.drone_state().contains(DroneState::EMERGENCY),
             airborne: self.navdata.is_some() && !self.on_ground(),
             step: self.life.due().map(|active| active.due.step),
-            steps: self.flight.report.steps,
+            steps: self.flight.report().steps,
             mission_waits: self.life.manual().pauses_mission(),
             manual: self.life.manual().control(now),
             controls: self.controls.holder(),

@@ -80,7 +80,7 @@ impl Vehicle {
     /// Compares the claimed place with what else knows of it, in one tick.
     pub(super) fn cross_check(&mut self, now: Duration, tags: Option<&TagStatus>, step_s: f64) {
         let fix = self.gps(now);
-        if self.on_ground() && self.flight.report.took_off_at.is_none() {
+        if self.on_ground() && self.flight.report().took_off_at.is_none() {
             self.flight.cross_checks.start = fix.or(self.flight.cross_checks.start);
             return;
         }

@@ -70,7 +70,7 @@ pub enum Telemetry {
     /// Several times a second.
     Status(Status),
     /// A flight has ended: the last that is told of it.
-    Ended(Outcome, Box<FlightReport>),
+    Ended(Outcome, Arc<FlightReport>),
 }
 
 /// An output of the vehicle.
@@ -174,7 +174,7 @@ impl Vehicle {
         if let Some(event) = self.events.pop_front() {
             return Some(Telemetry::Event(event));
         }
-        if let Some(waypoint) = self.flight.report.waypoints.get(self.pending.waypoints) {
+        if let Some(waypoint) = self.flight.report().waypoints.get(self.pending.waypoints) {
             self.pending.waypoints += 1;
             return Some(Telemetry::Waypoint(*waypoint));
         }
@@ -186,6 +186,6 @@ impl Vehicle {
         }
         let outcome = self.flight.outcome.as_ref();
         let outcome = outcome.filter(|_| std::mem::take(&mut self.pending.outcome))?.clone();
-        Some(Telemetry::Ended(outcome, Box::new(self.flight.report.clone())))
+        Some(Telemetry::Ended(outcome, Arc::clone(self.flight.report())))
     }
 }

@@ -321,11 +321,11 @@ impl Vehicle {
             return;
         }
         let pose = self.pose(now);
-        self.flight.report.steps_done = active.due.step + 1;
+        self.flight.report_mut().steps_done = active.due.step + 1;
         match active.due.order {
             AgentOrder::TakeOff => {
                 self.mission.take_off_ended(&self.plan_origin(pose));
-                self.flight.report.took_off_at.get_or_insert(active.since);
+                self.flight.report_mut().took_off_at.get_or_insert(active.since);
             }
             AgentOrder::GoTo(target) => {
                 let waypoint = Waypoint {
@@ -336,11 +336,11 @@ impl Vehicle {
                     rests_on: RestsOn::of(self.flight.estimator.tag_status(now).as_ref()),
                     at: now,
                 };
-                self.flight.report.waypoints.push(waypoint);
+                self.flight.report_mut().waypoints.push(waypoint);
             }
             AgentOrder::FindTag => self.mission.stopped_at(&pose),
             AgentOrder::Land | AgentOrder::LandOnTag => {
-                self.flight.report.landed_at = Some(now);
+                self.flight.report_mut().landed_at = Some(now);
             }
         }
         self.events.push_back(FlightEvent::StepDone { step: active.due.step });

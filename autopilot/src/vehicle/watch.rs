@@ -133,7 +133,7 @@ impl Vehicle {
         if matches!(trust, Trust::Unresponsive(_)) {
             self.land(now, LandingReason::Distrust(trust));
         }
-        if let Some(active) = self.life.due().copied()
+        if let Some(active) = self.life.due()
             && let Some(limit) = match active.due.order {
                 AgentOrder::Land => Some(LANDING_TIMEOUT),
                 AgentOrder::LandOnTag => Some(TAG_LANDING_TIMEOUT),
@@ -240,7 +240,7 @@ impl Vehicle {
         // A restarted drone sends its state before it sends flight data.
         let known = self.demo().is_some();
         if landed && known {
-            self.flight.report.landed_at = Some(now);
+            self.flight.report_mut().landed_at = Some(now);
         } else if self.flight.outcome.is_some()
             || !(blind && elapsed >= BLIND_LANDING_TIME || elapsed >= LANDING_TIMEOUT)
         {
