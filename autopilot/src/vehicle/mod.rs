@@ -14,6 +14,7 @@ mod life;
 mod link;
 mod manual;
 mod manual_orders;
+mod name;
 mod operator_order;
 mod operators;
 mod orders;
@@ -53,6 +54,7 @@ use self::flight::{Flight, is_airborne, sample};
 pub use self::landing_reason::LandingReason;
 use self::life::{Life, Watched};
 pub use self::manual::ManualControl;
+pub use self::name::{NoVehicleName, VehicleName};
 pub use self::operator_order::{CommandsText, OperatorOrder, OrderText, Place, PlanText};
 use self::operators::Controls;
 pub use self::operators::{Operator, Station};
@@ -88,6 +90,10 @@ pub enum NavdataRate {
 /// Configuration of a [`Vehicle`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct VehicleConfig {
+    /// Its name.
+    pub name: VehicleName,
+    /// Number of its `MAVLink` system, 1 to 250.
+    pub system: u8,
     /// The fence: lowest and highest flight height, and radius.
     pub limits: FlightLimits,
     /// Whether the drone's configuration is read back over the control port before take-off.
@@ -126,6 +132,8 @@ impl Default for StationPatience {
 impl Default for VehicleConfig {
     fn default() -> Self {
         Self {
+            name: VehicleName::default(),
+            system: 1,
             limits: FlightLimits::default(),
             read_back: true,
             navdata: NavdataRate::default(),
@@ -309,6 +317,11 @@ impl Vehicle {
     /// The drone is monitored from now on.
     fn watched_from(&self, now: Duration) -> Watched {
         Watched { since: now, received: self.session.statistics().received }
+    }
+
+    /// Its name.
+    pub fn name(&self) -> VehicleName {
+        self.config.name
     }
 
     /// Decision of the last tick; `None` before the first navdata.

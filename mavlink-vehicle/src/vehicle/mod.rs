@@ -43,8 +43,7 @@ use crate::mission::{Rules, Transfer};
 use crate::place::Origin;
 use crate::signing::Signing;
 
-/// Our system and component: an autopilot.
-pub(crate) const SYSTEM: u8 = 1;
+/// Our component: an autopilot.
 pub(crate) const COMPONENT: u8 = 1;
 /// Messages that may wait to be sent.
 const MESSAGES: usize = 256;
@@ -88,7 +87,7 @@ impl MavlinkVehicle {
         let signing = config.key.clone().map(|key| Signing::new(key, 0, config.unix_time, 0));
         Self {
             origin,
-            encoder: Encoder::new(SYSTEM, COMPONENT),
+            encoder: Encoder::new(config.system, COMPONENT),
             signing,
             messages: VecDeque::with_capacity(MESSAGES),
             orders: VecDeque::with_capacity(ORDERS),

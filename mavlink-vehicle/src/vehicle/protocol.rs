@@ -21,6 +21,8 @@ pub enum Autopilot {
 /// Configuration of a [`MavlinkVehicle`](super::MavlinkVehicle).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Config {
+    /// Number of the vehicle's system, 1 to 250.
+    pub system: u8,
     /// Whose autopilot it claims to be.
     pub autopilot: Autopilot,
     /// Where the start of a flight lies on the globe.
@@ -44,6 +46,7 @@ pub struct Config {
 impl Default for Config {
     fn default() -> Self {
         Self {
+            system: 1,
             autopilot: Autopilot::default(),
             origin: Origin::default(),
             limits: FlightLimits::default(),

@@ -10,7 +10,7 @@ use super::modes::Mode;
 use super::parameters::NotSet;
 use super::setpoints::{NoSetpoint, global, local};
 use super::stations::Station;
-use super::{COMPONENT, MavlinkVehicle, SYSTEM, To};
+use super::{COMPONENT, MavlinkVehicle, To};
 use crate::dialect::{
     MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_REQUEST_INT_DATA, MavCmd, MavMessage,
     MavModeFlag, MavParamError, MavResult, MavSeverity, PARAM_ERROR_DATA, PING_DATA, SET_MODE_DATA,
@@ -35,15 +35,21 @@ impl MavlinkVehicle {
             }
         }
         // Our own, come back, or of nobody.
-        if frame.system == ALL || (frame.system, frame.component) == (SYSTEM, COMPONENT) {
+        if frame.system == ALL || (frame.system, frame.component) == (self.config.system, COMPONENT)
+        {
             return;
         }
         let station = Station { system: frame.system, component: frame.component, peer, local };
         self.stations.heard(now, station);
-        if target(&frame.message).is_some_and(|(system, component)| !is_ours(system, component)) {
+        if target(&frame.message).is_some_and(|target| !self.is_meant(target)) {
             return;
         }
         self.received(now, station, &frame.message);
+    }
+
+    /// Whether a message for this system and component is for this vehicle.
+    fn is_meant(&self, (system, component): (u8, u8)) -> bool {
+        [ALL, self.config.system].contains(&system) && [ALL, COMPONENT].contains(&component)
     }
 
     fn received(&mut self, now: Duration, station: Station, message: &MavMessage) {
@@ -358,10 +364,6 @@ impl MavlinkVehicle {
         };
         self.send(To::Peer(peer), message);
     }
-}
-
-fn is_ours(system: u8, component: u8) -> bool {
-    matches!(system, ALL | SYSTEM) && matches!(component, ALL | COMPONENT)
 }
 
 /// The system and component that a message is for; nothing if it is for everybody.

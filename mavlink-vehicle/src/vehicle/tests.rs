@@ -21,6 +21,8 @@ struct Bench {
     now: Duration,
     client: Encoder,
     peer: u8,
+    /// Whom its commands are for.
+    target_system: u8,
     status: Status,
     /// What it sent and ordered, and who ordered it.
     sent: Vec<(To, MavMessage)>,
@@ -37,6 +39,7 @@ impl Bench {
             now: SECOND,
             client: Encoder::new(255, 190),
             peer: 0,
+            target_system: 1,
             status: Status { phase: Phase::Standby, battery_percent: Some(80), ..status },
             sent: Vec::new(),
             orders: Vec::new(),
@@ -59,11 +62,13 @@ impl Bench {
     }
 
     fn collect(&mut self) {
+        let system = self.vehicle.config.system;
         loop {
             let order = match self.vehicle.poll(self.now) {
                 None => return,
                 Some(Output::Datagram { to, bytes }) => {
                     let frame = frames(bytes).next().unwrap().unwrap();
+                    assert_eq!(frame.system, system);
                     self.sent.push((to, frame.message));
                     continue;
                 }
@@ -102,7 +107,7 @@ impl Bench {
             param6,
             param7,
             command,
-            target_system: 1,
+            target_system: self.target_system,
             target_component: 1,
             confirmation: 0,
         }));
@@ -187,6 +192,16 @@ fn setpoint(x: f32) -> MavMessage {
         coordinate_frame: 1,
         ..SET_POSITION_TARGET_LOCAL_NED_DATA::default()
     })
+}
+
+#[test]
+fn a_vehicle_answers_to_its_own_number() {
+    let mut bench = Bench::new(Config { system: 7, ..Config::default() });
+    assert_eq!(bench.command(400, first(1.0)), None);
+    assert_eq!(bench.ordered(), [""; 0]);
+    bench.target_system = 7;
+    bench.accepts(400, first(1.0));
+    assert_eq!(bench.ordered(), ["take"]);
 }
 
 #[test]
