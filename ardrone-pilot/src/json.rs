@@ -8,7 +8,7 @@ use autopilot::vehicle::{CrossCheck, FlightEvent, FlightReport, ManualControl, S
 use diagnostic::is_printable;
 use serde_json::{Value, json};
 
-use crate::flight::{FinishedFlight, Message};
+use crate::flight::{Content, FinishedFlight, Message};
 use crate::recording::{GpsPosition, Place, Recorded, Tags};
 use crate::timing::TickHealth;
 
@@ -42,10 +42,16 @@ fn escaped(json: &str) -> String {
 
 /// A message of the flight.
 pub(crate) fn message(message: &Message, steps: &[Step]) -> Value {
-    match message {
-        Message::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
-        Message::Telemetry(at, told, ticks) => telemetry(*at, told, *ticks, steps),
-        Message::Trouble(at, trouble) => json!({
+    let mut object = content(&message.content, steps);
+    object["vehicle"] = message.vehicle.as_str().into();
+    object
+}
+
+fn content(content: &Content, steps: &[Step]) -> Value {
+    match content {
+        Content::Realtime(realtime) => json!({ "type": "realtime", "text": realtime.to_string() }),
+        Content::Telemetry(at, told, ticks) => telemetry(*at, told, *ticks, steps),
+        Content::Trouble(at, trouble) => json!({
             "type": "event",
             "t_s": at.as_secs_f64(),
             "warning": true,
@@ -161,6 +167,7 @@ pub(crate) fn end(
     let report = &finished.report;
     json!({
         "type": "end",
+        "vehicle": finished.vehicle,
         "outcome": finished.outcome.to_string(),
         "exit_status": exit_status,
         "steps": report.steps,

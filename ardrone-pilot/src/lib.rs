@@ -1,6 +1,6 @@
 //! The program `ardrone-pilot`: everything with I/O around the pure crate `autopilot`.
 //!
-//! - [`flight`] runs the vehicle in real time over UDP. [`realtime`] requests real-time scheduling, and
+//! - [`flight`] runs the vehicle in real time over UDP; [`runtime`] is for what is slow beside it. [`realtime`] requests real-time scheduling, and
 //!   [`timing`] measures the ticks.
 //! - [`recording`] is the flight log, [`replay`] replays a log, [`report`] makes a page of it,
 //!   `flights` finds the flights in it, [`plan_drawing`] draws a
@@ -31,6 +31,7 @@ pub mod realtime;
 pub mod recording;
 pub mod replay;
 pub mod report;
+pub mod runtime;
 pub mod settings;
 pub mod simulation;
 mod text_file;

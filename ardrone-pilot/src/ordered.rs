@@ -1,7 +1,7 @@
 //! Orders that programs and pages send: JSON objects like `{"order":"hold"}`.
 
 use autopilot::plan::{FlightLimits, PlanError, TagUse};
-use autopilot::vehicle::{OperatorOrder, OrderText};
+use autopilot::vehicle::{OperatorOrder, OrderText, VehicleName};
 use serde::Deserialize as _;
 use serde_json::Value;
 
@@ -14,9 +14,28 @@ pub(crate) enum ReadError {
     /// The order has no use for this.
     #[error("unknown field `{}`", .0.escape_debug())]
     Unknown(String),
+    /// It is for another vehicle.
+    #[error("it is for the vehicle {ordered}, and this is {here:?}")]
+    Elsewhere {
+        /// The vehicle that it names.
+        ordered: Value,
+        /// This one.
+        here: VehicleName,
+    },
     /// The plan cannot be flown, or there are no such commands.
     #[error(transparent)]
     Plan(#[from] PlanError),
+}
+
+/// Takes the name of the vehicle out of a request, which may leave it out.
+///
+/// # Errors
+/// [`ReadError::Elsewhere`] if it names another vehicle.
+pub(crate) fn take_vehicle(request: &mut Value, here: VehicleName) -> Result<(), ReadError> {
+    match request.as_object_mut().and_then(|request| request.remove("vehicle")) {
+        Some(ordered) if ordered != here.as_str() => Err(ReadError::Elsewhere { ordered, here }),
+        _ => Ok(()),
+    }
 }
 
 /// Reads an order.

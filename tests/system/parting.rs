@@ -240,8 +240,8 @@ fn a_log_that_may_not_grow_ends_the_log_and_not_the_flight() {
 #[test]
 fn a_flight_that_is_dropped_lands() {
     let relay = Relay::start(&WorldConfig::default());
-    let flight =
-        Flight::start(Some(plan(LONG)), &VehicleConfig::default(), relay.address(), None).unwrap();
+    let (runtime, config) = (crate::udp::runtime(), VehicleConfig::default());
+    let flight = Flight::start(&runtime, Some(plan(LONG)), &config, relay.address(), None).unwrap();
     flying(&relay);
     drop(flight);
     assert_eq!(relay.truth().phase, Phase::Landed);

@@ -11,7 +11,9 @@ use ardrone_pilot::report;
 use ardrone_pilot::settings::Settings;
 use autopilot::outcome::Outcome;
 use autopilot::plan::ZOrigin;
-use autopilot::vehicle::{FlightEvent, NavdataRate, OperatorOrder, Place, VehicleConfig};
+use autopilot::vehicle::{
+    FlightEvent, NavdataRate, OperatorOrder, Place, VehicleConfig, VehicleName,
+};
 use mock_drone::WorldConfig;
 use mock_drone::server::{MockDrone, Ports};
 use serde_json::{Value, json};
@@ -20,6 +22,7 @@ use system_tests::{SQUARE, plan};
 
 fn header(text: &str) -> Header {
     Header {
+        vehicle: VehicleName::default(),
         start: Duration::from_secs(1_700_000_000),
         plan_name: "plan.txt".to_owned(),
         plan: text.to_owned(),
@@ -109,7 +112,9 @@ fn a_simulated_flight_and_the_same_over_udp_leave_the_same_topics() {
     let path = folder.path().join("flight.mcap");
     let (recorder, recording) = Recorder::start(&path, &header(PLAN)).unwrap();
     let config = VehicleConfig::default();
-    let flight = Flight::start(Some(plan(PLAN)), &config, &address, Some(recorder)).unwrap();
+    let runtime = crate::udp::runtime();
+    let flight =
+        Flight::start(&runtime, Some(plan(PLAN)), &config, &address, Some(recorder)).unwrap();
     assert_eq!(flight.finish().unwrap().outcome, Outcome::Completed);
     recording.finish().unwrap();
     let flown = std::fs::read(path).unwrap();

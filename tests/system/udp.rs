@@ -1,7 +1,8 @@
 //! Flights over real sockets.
 
 use ardrone_link::DroneAddress;
-use ardrone_pilot::flight::{Flight, Message};
+use ardrone_pilot::flight::{Content, Flight};
+use ardrone_pilot::runtime::{Runtime, SecondSignal};
 use autopilot::VehicleConfig;
 use autopilot::outcome::Outcome;
 use autopilot::vehicle::Telemetry;
@@ -23,17 +24,22 @@ pub(crate) fn address(mock: &MockDrone) -> DroneAddress {
     }
 }
 
+/// What runs beside the flights.
+pub(crate) fn runtime() -> Runtime {
+    Runtime::start(SecondSignal::IsPassedOn).unwrap()
+}
+
 #[test]
 fn a_flight_over_udp_is_the_simulated_one() {
     let simulated = Simulation::default().fly(plan(SQUARE)).unwrap();
 
     let mock = MockDrone::start(&WorldConfig::default(), Ports::LOOPBACK).unwrap();
+    let (runtime, config) = (runtime(), VehicleConfig::default());
     let flight =
-        Flight::start(Some(plan(SQUARE)), &VehicleConfig::default(), &address(&mock), None)
-            .unwrap();
+        Flight::start(&runtime, Some(plan(SQUARE)), &config, &address(&mock), None).unwrap();
     let mut truths = Vec::new();
     for message in flight.messages() {
-        if let Message::Telemetry(_, Telemetry::Waypoint(waypoint), _) = message {
+        if let Content::Telemetry(_, Telemetry::Waypoint(waypoint), _) = message.content {
             let truth = mock.truth();
             let error_m = true_error_m(&waypoint, &truth);
             assert!(error_m < 0.2, "{error_m:.2} m");
@@ -57,8 +63,8 @@ fn ends(scenario: &str) -> (Outcome, Truth) {
     let world = WorldConfig { scenario, ..WorldConfig::default() };
     let mock = MockDrone::start(&world, Ports::LOOPBACK).unwrap();
     let flown = plan("takeoff\nsetStayTime 5\ngoto 0 0.5 0 0\nland\n");
-    let flight =
-        Flight::start(Some(flown), &VehicleConfig::default(), &address(&mock), None).unwrap();
+    let (runtime, config) = (runtime(), VehicleConfig::default());
+    let flight = Flight::start(&runtime, Some(flown), &config, &address(&mock), None).unwrap();
     let outcome = flight.finish().unwrap().outcome;
     (outcome, mock.truth())
 }

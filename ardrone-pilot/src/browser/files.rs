@@ -193,6 +193,7 @@ impl Files {
             "name": name,
             "bytes": bytes,
             "start_s": log.start.as_secs(),
+            "vehicle": log.vehicle,
             "drone": log.drone,
             "version": log.version,
             "complete": log.complete,

@@ -1,7 +1,7 @@
 //! The ground station in a browser: a page in which plans are made and simulated, flights are watched and ordered, and
 //! recorded ones looked back at.
 //!
-//! The page is served by a thread of its own, which has no access to the flight except its [`Controls`]: no
+//! Whoever serves the page has no access to the flight except its [`Controls`]: no
 //! client can affect the tick. What reads files or thinks is done on threads with the lowest priority. A page that falls behind gets a new snapshot; one that does not read is
 //! disconnected.
 //!
@@ -28,6 +28,7 @@ pub use self::planning::Planning;
 use self::server::Server;
 use self::snapshot::Snapshot;
 use crate::flight::{Controls, Message};
+use crate::runtime::Runtime;
 use crate::video::VideoFeed;
 
 /// Why the page cannot be served.
@@ -44,9 +45,6 @@ pub enum BrowserError {
     /// The system has no random numbers.
     #[error("cannot make a token for the page: {0}")]
     Token(String),
-    /// A thread could not be started.
-    #[error("cannot start the page's thread")]
-    Thread(#[source] std::io::Error),
 }
 
 /// What the page offers besides the flight.
@@ -90,22 +88,20 @@ impl Listener {
     }
 
     /// Starts serving the page.
-    ///
-    /// # Errors
-    /// [`BrowserError::Thread`] if the thread cannot be started.
     pub fn open(
         self,
+        runtime: &Runtime,
         plan: Option<&Plan>,
         page: PageConfig,
         controls: Controls,
         video: Option<VideoFeed>,
-    ) -> Result<Browser, BrowserError> {
+    ) -> Browser {
         let PageConfig { drone, planning, plans, flights, recording } = page;
-        let snapshot = Snapshot::new(plan, &planning.config.limits, &drone);
+        let snapshot = Snapshot::new(plan, &planning.config, &drone);
         let files = Files::new(planning, plans, flights, recording);
-        let server = Server::start(self.listener, self.access, snapshot, files, controls, video)
-            .map_err(BrowserError::Thread)?;
-        Ok(Browser { server })
+        let server =
+            Server::start(runtime, self.listener, self.access, snapshot, files, controls, video);
+        Browser { server }
     }
 }
 

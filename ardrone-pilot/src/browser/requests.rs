@@ -127,7 +127,8 @@ impl Requests {
 }
 
 fn request(text: &str, planning: &Planning) -> Result<Request, ReadError> {
-    let object: Value = serde_json::from_str(text)?;
+    let mut object: Value = serde_json::from_str(text)?;
+    ordered::take_vehicle(&mut object, planning.config.name)?;
     match object.get("order").and_then(Value::as_str) {
         Some("typed" | "arm") => Ok(Request::Own(serde_json::from_value(object)?)),
         _ => ordered::read(&object, &planning.config.limits, planning.tags()).map(Request::Order),
@@ -155,6 +156,8 @@ mod tests {
         assert_eq!(order(r#"{"order":"hold"}"#), Ok(Some(OperatorOrder::Hold)));
         assert_eq!(order(r#"{"order":"resume"}"#), Ok(Some(OperatorOrder::Resume)));
         assert_eq!(order(r#"{"order":"land"}"#), Ok(Some(OperatorOrder::Land)));
+        let named = order(r#"{"order":"land","vehicle":"ardrone"}"#);
+        assert_eq!(named, Ok(Some(OperatorOrder::Land)));
         let bottom = Ok(Some(OperatorOrder::Camera { camera: Camera::Bottom }));
         assert_eq!(order(r#"{"order":"camera","camera":"bottom"}"#), bottom);
         let steer = OperatorOrder::Steer(Sticks { pitch: -0.5, ..Sticks::default() });
@@ -171,6 +174,8 @@ mod tests {
             r#"{"order":"goto","x_m":1e999,"y_m":0}"#,
             r#"{"order":"goto","x_m":1,"y_m":0,"z_m":1}"#,
             r#"{"order":"hold","for":1}"#,
+            r#"{"order":"land","vehicle":"other"}"#,
+            r#"{"order":"arm","vehicle":"other"}"#,
         ] {
             assert!(matches!(order(text), Err(RequestError::Meaningless(_))), "{text}");
         }

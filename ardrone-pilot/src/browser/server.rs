@@ -1,10 +1,8 @@
 //! HTTP and WebSocket server of the page.
 
-use std::io;
 use std::net::TcpListener;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::JoinHandle;
 use std::time::Duration;
 
 use autopilot::vehicle::{Operator, OperatorOrder, Station};
@@ -28,6 +26,7 @@ use rustix::net::sockopt::set_socket_send_buffer_size;
 use serde_json::{Value, json};
 use tokio::net::TcpStream;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, broadcast, mpsc, oneshot};
+use tokio::task::JoinSet;
 use tokio::time::{Instant, timeout};
 use tokio_io_timeout::TimeoutStream;
 
@@ -37,6 +36,7 @@ use super::pictures;
 use super::requests::Requests;
 use super::snapshot::Snapshot;
 use crate::flight::Controls;
+use crate::runtime::{Runtime, Task};
 use crate::video::VideoFeed;
 
 /// Maximum number of simultaneous HTTP connections; further ones wait in the system's queue.
@@ -98,25 +98,23 @@ const ASSETS: [Asset; 9] = [
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
     img-src 'self' data: blob:; frame-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// The server's thread.
+/// Serves the page until this is dropped.
 #[derive(Debug)]
 pub(super) struct Server {
     shared: Arc<Shared>,
-    end: Option<oneshot::Sender<()>>,
-    thread: Option<JoinHandle<()>>,
+    task: Task<()>,
 }
 
 impl Server {
-    /// Starts serving until dropped.
     pub(super) fn start(
+        runtime: &Runtime,
         listener: TcpListener,
         access: Access,
         snapshot: Snapshot,
         files: Files,
         controls: Controls,
         video: Option<VideoFeed>,
-    ) -> io::Result<Self> {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    ) -> Self {
         let shared = Arc::new(Shared {
             access,
             files: Arc::new(files),
@@ -127,23 +125,9 @@ impl Server {
             video,
             watchers: Arc::new(Semaphore::new(VIEWERS as usize)),
         });
-        let (end, ended) = oneshot::channel();
         let served = Arc::clone(&shared);
-        let thread = std::thread::Builder::new().name("browser".to_owned()).spawn(move || {
-            runtime.block_on(async {
-                let viewers = Arc::clone(&served.viewers);
-                tokio::select! {
-                    () = serve(listener, served) => {}
-                    // The flight has ended.
-                    _ = ended => {}
-                }
-                // Viewers that are slower than this miss the end.
-                _ = timeout(PARTING_TIME, viewers.acquire_many(VIEWERS)).await;
-            });
-            // The end does not wait for a simulation or a report.
-            runtime.shutdown_background();
-        })?;
-        Ok(Self { shared, end: Some(end), thread: Some(thread) })
+        let task = runtime.run("serving the page", |ended| serve_until(ended, listener, served));
+        Self { shared, task }
     }
 
     /// Updates the snapshot and sends the change to all viewers.
@@ -161,15 +145,7 @@ impl Drop for Server {
     fn drop(&mut self) {
         // Dropping the sender ends the viewers' streams after the last message.
         self.shared.stage().sender = None;
-        if let Some(end) = self.end.take() {
-            // The thread may have ended already.
-            _ = end.send(());
-        }
-        if let Some(thread) = self.thread.take()
-            && thread.join().is_err()
-        {
-            tracing::error!("the thread that serves the page panicked");
-        }
+        self.task.end();
     }
 }
 
@@ -213,7 +189,18 @@ impl Shared {
     }
 }
 
-/// Accepts connections; never returns.
+async fn serve_until(ended: oneshot::Receiver<()>, listener: TcpListener, shared: Arc<Shared>) {
+    let viewers = Arc::clone(&shared.viewers);
+    tokio::select! {
+        () = serve(listener, shared) => {}
+        // The flight has ended.
+        _ = ended => {}
+    }
+    // Viewers that are slower than this miss the end.
+    _ = timeout(PARTING_TIME, viewers.acquire_many(VIEWERS)).await;
+}
+
+/// Accepts connections; never returns. They end with it.
 async fn serve(listener: TcpListener, shared: Arc<Shared>) {
     let listener = match tokio::net::TcpListener::from_std(listener) {
         Ok(listener) => listener,
@@ -231,13 +218,15 @@ async fn serve(listener: TcpListener, shared: Arc<Shared>) {
         .merge(shared.files.router())
         .layer(middleware::from_fn_with_state(shared, guard));
     let places = Arc::new(Semaphore::new(CONNECTIONS));
+    let mut connections = JoinSet::new();
     loop {
+        while connections.try_join_next().is_some() {}
         // The semaphore is never closed.
         let Ok(place) = Arc::clone(&places).acquire_owned().await else { return };
         match listener.accept().await {
             Ok((stream, peer)) => {
                 let app = app.clone().layer(Extension(Local(peer.ip().is_loopback())));
-                drop(tokio::spawn(connection(stream, app, place)));
+                drop(connections.spawn(connection(stream, app, place)));
             }
             // Too many open files: waits until some are closed.
             Err(_) => tokio::time::sleep(Duration::from_millis(100)).await,

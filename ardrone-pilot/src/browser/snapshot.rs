@@ -5,11 +5,11 @@ use std::collections::VecDeque;
 use autopilot::agent::{PLANS, SOURCE, plan_text};
 use autopilot::outcome::Outcome;
 use autopilot::plan::{Declaration, FlightLimits, LANGUAGE, Plan, Step, expectations};
-use autopilot::vehicle::Telemetry;
+use autopilot::vehicle::{Telemetry, VehicleConfig, VehicleName};
 use diagnostic::printable;
 use serde_json::{Value, json};
 
-use crate::flight::Message;
+use crate::flight::{Content, Message};
 use crate::flown_path::FlownPath;
 use crate::json;
 use crate::recording::Place;
@@ -23,6 +23,7 @@ const EVENTS: usize = 100;
 pub(super) struct Snapshot {
     steps: Vec<Step>,
     limits: FlightLimits,
+    vehicle: VehicleName,
     /// The drone that is flown, for people.
     drone: String,
     name: String,
@@ -36,11 +37,12 @@ pub(super) struct Snapshot {
 
 impl Snapshot {
     /// Initial state, with a plan or without a mission.
-    pub(super) fn new(plan: Option<&Plan>, limits: &FlightLimits, drone: &str) -> Self {
+    pub(super) fn new(plan: Option<&Plan>, config: &VehicleConfig, drone: &str) -> Self {
         let name = plan.map_or("", Plan::name);
         Self {
             steps: plan.map_or(Vec::new(), |plan| plan.steps().to_vec()),
-            limits: *limits,
+            limits: config.limits,
+            vehicle: config.name,
             drone: printable(drone).into_owned(),
             name: printable(name).into_owned(),
             notes: plan.map_or(Vec::new(), |plan| plan.notes().to_vec()),
@@ -55,13 +57,13 @@ impl Snapshot {
     /// Applies a message; returns the JSON object to send to browsers.
     pub(super) fn take_in(&mut self, message: &Message) -> Value {
         let object = json::message(message, &self.steps);
-        let (at, telemetry) = match message {
-            Message::Telemetry(at, telemetry, _) => (at, telemetry),
-            Message::Trouble(..) => {
+        let (at, telemetry) = match &message.content {
+            Content::Telemetry(at, telemetry, _) => (at, telemetry),
+            Content::Trouble(..) => {
                 self.remember(&object);
                 return object;
             }
-            Message::Realtime(_) => return object,
+            Content::Realtime(_) => return object,
         };
         match telemetry {
             Telemetry::Status(status) => {
@@ -127,6 +129,7 @@ impl Snapshot {
         json!({
             "type": "flight",
             "version": env!("CARGO_PKG_VERSION"),
+            "vehicle": self.vehicle,
             "drone": self.drone,
             "plan": self.name,
             "notes": self.notes,
@@ -169,11 +172,14 @@ mod tests {
     #[test]
     fn a_late_viewer_knows_what_happened() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\nland\n").unwrap();
-        let mut snapshot = Snapshot::new(Some(&plan), &FlightLimits::default(), "192.168.1.1");
+        let mut snapshot = Snapshot::new(Some(&plan), &VehicleConfig::default(), "192.168.1.1");
         for step in 0..EVENTS + 5 {
             let at = Duration::from_secs(step as u64);
             let started = Telemetry::Event(FlightEvent::StepStarted { step });
-            snapshot.take_in(&Message::Telemetry(at, started, TickHealth::default()));
+            snapshot.take_in(&Message {
+                vehicle: VehicleName::default(),
+                content: Content::Telemetry(at, started, TickHealth::default()),
+            });
         }
         let snapshot_json = snapshot.so_far();
         assert_eq!(snapshot_json["steps"][1]["text"], "goto 0 1 0 0");

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use ardrone_link::DroneAddress;
 use autopilot::plan::{FlightLimits, Plan, Step, TagUse, given_tag_warnings};
-use autopilot::vehicle::{SurveyedTag, Telemetry, VehicleConfig};
+use autopilot::vehicle::{SurveyedTag, Telemetry, VehicleConfig, VehicleName};
 use crossbeam_channel::bounded;
 use mock_drone::server::{MockDrone, Ports};
 use serde_json::Value;
@@ -20,12 +20,13 @@ use super::progress::Progress;
 use super::prompt::PromptLine;
 use super::screen::{Screen, Warnings};
 use super::summary::{Summary, TrueWaypoint};
-use super::{CommandError, leave, read, read_settings, terminal};
+use super::{CommandError, read, read_settings, terminal};
 use crate::browser::{Browser, Listener, PageConfig, Planning};
-use crate::flight::{Controls, Flight, Message};
+use crate::flight::{Content, Controls, Flight, Message};
 use crate::json;
 use crate::mavlink::{self, MavlinkServer};
-use crate::recording::{Header, Recorder, Recording};
+use crate::recording::{self, Header, Recorder, Recording};
+use crate::runtime::{Runtime, SecondSignal};
 use crate::settings::Settings;
 use crate::simulation;
 use crate::timing::TimingReport;
@@ -75,30 +76,21 @@ pub(super) fn run(arguments: &Fly, warnings: &Warnings) -> Result<u8, CommandErr
     if let Some(warning) = mavlink.as_ref().and_then(|station| station.wanted.warning) {
         progress.warn(warning);
     }
-    let (recorder, recording) = match record(arguments, &settings, plan.as_ref())? {
+    let (recorder, recording) = match record(arguments, &settings, config.name, plan.as_ref())? {
         Some((recorder, recording)) => (Some(recorder), Some(recording)),
         None => (None, None),
     };
-    let video = watch_video(arguments, mock.as_ref(), recording.as_ref())?;
-    let flight = Flight::start(plan.clone(), &config, &drone, recorder)?;
+    let runtime = Runtime::start(SecondSignal::Exits).map_err(CommandError::Threads)?;
+    let video = watch_video(&runtime, arguments, mock.as_ref(), recording.as_ref());
+    let flight = Flight::start(&runtime, plan.clone(), &config, &drone, recorder)?;
     let controls = flight.controls();
-    // Not fatal, because the drone may already be flying.
-    if let Err(error) = leave::on_second_signal(controls.clone()) {
-        progress.warn(&format!(
-            "a second Ctrl-C cannot end the program while its output is blocked: {error}"
-        ));
-    }
     let page = page_config(arguments, config.clone(), surveyed, recording.as_ref());
     let open = |listener: Listener| {
         let feed = video.as_ref().map(Video::feed);
-        listener.open(plan.as_ref(), page, controls.clone(), feed)
+        listener.open(&runtime, plan.as_ref(), page, controls.clone(), feed)
     };
-    let browser = listener.map(open).transpose().unwrap_or_else(|error| {
-        // Not fatal, because the drone may already be flying.
-        progress.warn(&terminal::Causes(&error).to_string());
-        None
-    });
-    let mavlink = mavlink.and_then(|station| station.open(&controls, &mut progress));
+    let browser = listener.map(open);
+    let mavlink = mavlink.and_then(|station| station.open(&runtime, &controls, &mut progress));
     let wanted = !plain && !arguments.json && std::io::stdin().is_terminal();
     let screen = || Screen::start(&config.limits, warnings, prompt.clone());
     let mut watch = Watch::new(progress, wanted.then(screen).flatten(), &stations);
@@ -205,8 +197,13 @@ impl Station {
         Ok(Self { wanted, listener })
     }
 
-    fn open(self, controls: &Controls, progress: &mut Progress) -> Option<MavlinkServer> {
-        let opened = self.listener.open(self.wanted.config, controls.clone());
+    fn open(
+        self,
+        runtime: &Runtime,
+        controls: &Controls,
+        progress: &mut Progress,
+    ) -> Option<MavlinkServer> {
+        let opened = self.listener.open(runtime, self.wanted.config, controls.clone());
         // Not fatal, because the drone may already be flying.
         opened.map_err(|error| progress.warn(&terminal::Causes(&error).to_string())).ok()
     }
@@ -253,9 +250,9 @@ struct Outputs<'a> {
 
 impl Outputs<'_> {
     fn send(&mut self, message: &Message, watch: &mut Watch) {
-        let telemetry = match message {
-            Message::Telemetry(_, telemetry, _) => Some(telemetry),
-            Message::Realtime(_) | Message::Trouble(..) => None,
+        let telemetry = match &message.content {
+            Content::Telemetry(_, telemetry, _) => Some(telemetry),
+            Content::Realtime(_) | Content::Trouble(..) => None,
         };
         if let Some(Telemetry::Mission { steps, .. }) = telemetry {
             self.steps.clone_from(steps);
@@ -335,19 +332,21 @@ impl Watch {
 fn record(
     arguments: &Fly,
     settings: &Settings,
+    vehicle: VehicleName,
     plan: Option<&Plan>,
 ) -> Result<Option<(Recorder, Recording)>, CommandError> {
     if arguments.no_log {
         return Ok(None);
     }
-    let now = UtcDateTime::now();
+    let start = UtcDateTime::now() - UtcDateTime::UNIX_EPOCH;
+    let start = start.try_into().unwrap_or_default();
     let path = match &arguments.log {
         Some(path) => path.clone(),
-        None => default_log(now)?,
+        None => default_log(start, vehicle)?,
     };
-    let start = now - UtcDateTime::UNIX_EPOCH;
     let header = Header {
-        start: start.try_into().unwrap_or_default(),
+        vehicle,
+        start,
         plan_name: plan.map_or("", Plan::name).to_owned(),
         plan: plan.map_or("", Plan::text).to_owned(),
         settings: settings.to_toml()?,
@@ -392,41 +391,33 @@ fn log_folder(arguments: &Fly) -> PathBuf {
     }
 }
 
-/// `flights/2026-11-21T13-45-07Z.mcap`: names that sort by time and are valid on any file system.
-fn default_log(now: UtcDateTime) -> Result<PathBuf, CommandError> {
+/// A new file in the usual folder.
+fn default_log(start: Duration, vehicle: VehicleName) -> Result<PathBuf, CommandError> {
     let folder = PathBuf::from(FLIGHTS);
     std::fs::create_dir_all(&folder).map_err(|source| CommandError::Write {
         what: "the folder",
         path: folder.display().to_string(),
         source,
     })?;
-    let (date, time) = (now.date(), now.time());
-    Ok(folder.join(format!(
-        "{:04}-{:02}-{:02}T{:02}-{:02}-{:02}Z.mcap",
-        date.year(),
-        u8::from(date.month()),
-        date.day(),
-        time.hour(),
-        time.minute(),
-        time.second()
-    )))
+    Ok(folder.join(recording::file_name(start, vehicle)))
 }
 
 /// Starts the video if the page may show it, or it is recorded.
 fn watch_video(
+    runtime: &Runtime,
     arguments: &Fly,
     mock: Option<&MockDrone>,
     recording: Option<&Recording>,
-) -> Result<Option<Video>, CommandError> {
+) -> Option<Video> {
     let recorder = recording.filter(|_| arguments.record_video).map(Recording::video);
     if recorder.is_none() && arguments.ui.is_none() {
-        return Ok(None);
+        return None;
     }
     let (host, port) = match mock.map(MockDrone::ports) {
         Some(ports) => (ports.host.to_string(), ports.video.unwrap_or_default()),
         None => (arguments.drone.clone(), arguments.video_port),
     };
-    Video::start(&host, port, recorder).map(Some).map_err(CommandError::VideoThread)
+    Some(Video::start(runtime, &host, port, recorder))
 }
 
 fn drone_address(arguments: &Fly, mock: Option<&MockDrone>) -> DroneAddress {

@@ -131,6 +131,7 @@ impl MavlinkArguments {
             _ => None,
         };
         let config = Config {
+            system: vehicle.system,
             autopilot: match self.mavlink_as {
                 None | Some(Claim::Generic) => Autopilot::Generic,
                 Some(Claim::Px4) => Autopilot::Px4,

@@ -4,7 +4,6 @@ mod arguments;
 mod check;
 mod fly;
 mod keys;
-mod leave;
 mod mavlink;
 mod program;
 mod progress;
@@ -58,8 +57,8 @@ enum CommandError {
     Report(#[from] ReportError),
     #[error(transparent)]
     Video(#[from] ExportError),
-    #[error("cannot start the thread of the video")]
-    VideoThread(#[source] std::io::Error),
+    #[error("cannot start the threads beside the flight")]
+    Threads(#[source] std::io::Error),
     #[error(transparent)]
     Picture(#[from] PlanDrawingError),
     #[error(transparent)]
@@ -93,7 +92,7 @@ impl CommandError {
             | Self::PrintSettings(_)
             | Self::Picture(_)
             | Self::Video(_)
-            | Self::VideoThread(_)
+            | Self::Threads(_)
             | Self::Report(_)
             | Self::Recording(_)
             | Self::Browser(_)

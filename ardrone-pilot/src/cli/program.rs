@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use autopilot::plan::{FlightLimits, TagUse};
-use autopilot::vehicle::{Operator, OperatorOrder, Refused};
+use autopilot::vehicle::{Operator, OperatorOrder, Refused, VehicleName};
 use crossbeam_channel::{Receiver, Sender, bounded, unbounded};
 use serde_json::{Value, json};
 
@@ -57,6 +57,7 @@ pub(super) fn read_orders(
     limits: FlightLimits,
     controls: Controls,
 ) -> std::io::Result<()> {
+    let vehicle = controls.vehicle();
     let desk = Desk { controls, landings: Arc::default() };
     let (waiting, orders) = bounded(WAITING);
     let (answering, answers) = unbounded::<(Caller, Receiver<Result<(), Refused>>)>();
@@ -77,7 +78,7 @@ pub(super) fn read_orders(
         let mut input = BufReader::new(std::io::stdin());
         while let Some(line) = next_line(&mut input) {
             let (caller, wanted) = match lines {
-                Lines::Json => parse_json(line, &limits),
+                Lines::Json => parse_json(line, &limits, vehicle),
                 Lines::Typed => parse_typed(line, &limits),
             };
             desk.take(caller, wanted, &waiting);
@@ -99,7 +100,7 @@ enum Wanted {
 /// Who gets the answer to a line.
 #[derive(Debug, Clone, PartialEq)]
 enum Caller {
-    /// A program, by the `id` that it gave.
+    /// A program: its answer, with the `id` that it gave.
     Json(Value),
     /// A person, who sees refusals behind the line.
     Typed(String),
@@ -108,22 +109,20 @@ enum Caller {
 impl Caller {
     fn answer(&self, answer: Result<(), String>) {
         match (self, answer) {
-            (Self::Json(id), Ok(())) => {
-                print_answer(&json!({ "type": "answer", "id": id, "accepted": true }));
+            (Self::Json(object), answer) => {
+                let mut object = object.clone();
+                object["accepted"] = answer.is_ok().into();
+                if let Err(reason) = answer {
+                    object["reason"] = reason.into();
+                }
+                terminal::print(format_args!("{}\n", json::text(&object)));
             }
-            (Self::Json(id), Err(reason)) => print_answer(
-                &json!({ "type": "answer", "id": id, "accepted": false, "reason": reason }),
-            ),
             (Self::Typed(_), Ok(())) => {}
             (Self::Typed(line), Err(reason)) => {
                 terminal::print_message(format_args!("refused: {line}: {reason}"));
             }
         }
     }
-}
-
-fn print_answer(answer: &Value) {
-    terminal::print(format_args!("{}\n", json::text(answer)));
 }
 
 /// An order on its way, and how many landings had been ordered when it was read.
@@ -273,8 +272,11 @@ fn parse_typed(
 fn parse_json(
     line: Result<String, TooLong>,
     limits: &FlightLimits,
+    vehicle: VehicleName,
 ) -> (Caller, Result<Wanted, String>) {
-    let unnamed = |reason: String| (Caller::Json(Value::Null), Err(reason));
+    let answer =
+        |id: Value| Caller::Json(json!({ "type": "answer", "id": id, "vehicle": vehicle }));
+    let unnamed = |reason: String| (answer(Value::Null), Err(reason));
     let line = match line {
         Ok(line) => line,
         Err(error) => return unnamed(error.to_string()),
@@ -284,13 +286,13 @@ fn parse_json(
         Err(error) => return unnamed(format!("not JSON: {error}")),
     };
     let id = object.as_object_mut().and_then(|object| object.remove("id")).unwrap_or(Value::Null);
-    let wanted = match object.get("order").and_then(Value::as_str) {
-        Some("quit") => Ok(Wanted::Quit),
-        _ => ordered::read(&object, limits, TagUse::Unknown)
-            .map(Wanted::Order)
-            .map_err(|error| error.to_string()),
-    };
-    (Caller::Json(id), wanted)
+    let wanted = ordered::take_vehicle(&mut object, vehicle).and_then(|()| {
+        match object.get("order").and_then(Value::as_str) {
+            Some("quit") => Ok(Wanted::Quit),
+            _ => ordered::read(&object, limits, TagUse::Unknown).map(Wanted::Order),
+        }
+    });
+    (answer(id), wanted.map_err(|error| error.to_string()))
 }
 
 #[cfg(test)]
@@ -302,13 +304,17 @@ mod tests {
     #[test]
     fn objects_are_orders() {
         let requested = |line: &str| {
-            let (caller, wanted) = parse_json(Ok(line.to_owned()), &FlightLimits::default());
-            assert_eq!(caller, Caller::Json(7.into()));
+            let limits = FlightLimits::default();
+            let (caller, wanted) = parse_json(Ok(line.to_owned()), &limits, VehicleName::default());
+            let answer = json!({ "type": "answer", "id": 7, "vehicle": "ardrone" });
+            assert_eq!(caller, Caller::Json(answer));
             wanted
         };
         let order = |order| Ok(Wanted::Order(order));
         assert_eq!(requested(r#"{"id":7,"order":"hold"}"#), order(OperatorOrder::Hold));
         assert_eq!(requested(r#"{"id":7,"order":"quit"}"#), Ok(Wanted::Quit));
+        let named = requested(r#"{"id":7,"vehicle":"ardrone","order":"land"}"#);
+        assert_eq!(named, order(OperatorOrder::Land));
         let start = requested(r#"{"id":7,"order":"start","when_ready":true}"#);
         assert_eq!(start, order(OperatorOrder::Start { when_ready: true }));
         let load = requested(r#"{"id":7,"order":"load","plan":"takeoff\ngoto 0 1 0 0\nland\n"}"#);
@@ -323,6 +329,9 @@ mod tests {
         for wrong in [
             r#"{"id":7,"order":"load","plan":"goto 0 1 0 0"}"#,
             r#"{"id":7,"order":"hold","more":1}"#,
+            r#"{"id":7,"order":"land","vehicle":"other"}"#,
+            r#"{"id":7,"order":"quit","vehicle":"other"}"#,
+            r#"{"id":7,"order":"land","vehicle":null}"#,
             r#"{"id":7,"order":"fly"}"#,
             r#"{"id":7}"#,
         ] {

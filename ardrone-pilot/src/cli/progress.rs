@@ -9,7 +9,7 @@ use rustix::termios::tcgetwinsize;
 
 use super::prompt::PromptLine;
 use super::terminal;
-use crate::flight::Message;
+use crate::flight::{Content, Message};
 
 /// Interval of status lines in plain mode.
 const PLAIN_STATUS_INTERVAL: Duration = Duration::from_secs(1);
@@ -36,10 +36,10 @@ impl Progress {
     }
 
     pub(super) fn show(&mut self, message: &Message) {
-        match message {
-            Message::Telemetry(at, telemetry, _) => self.tell(*at, telemetry),
-            Message::Trouble(at, trouble) => self.print_line(&format!("{} {trouble}", time(*at))),
-            Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
+        match &message.content {
+            Content::Telemetry(at, telemetry, _) => self.tell(*at, telemetry),
+            Content::Trouble(at, trouble) => self.print_line(&format!("{} {trouble}", time(*at))),
+            Content::Realtime(realtime) => self.print_line(&realtime.to_string()),
         }
     }
 

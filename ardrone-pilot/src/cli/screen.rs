@@ -21,7 +21,7 @@ use tracing_subscriber::fmt::MakeWriter;
 use self::view::View;
 use super::prompt::PromptLine;
 use super::terminal;
-use crate::flight::Message;
+use crate::flight::{Content, Message};
 
 /// Minimum size in columns and rows; smaller terminals get lines.
 const LEAST: (u16, u16) = (70, 20);
@@ -85,7 +85,7 @@ impl Screen {
         }
         self.view.take_in(message);
         // Changes between two status messages need no redraw of their own.
-        if matches!(message, Message::Telemetry(_, Telemetry::Status(_), _)) {
+        if matches!(message.content, Content::Telemetry(_, Telemetry::Status(_), _)) {
             self.draw();
         }
     }

@@ -10,12 +10,12 @@
 //! Whatever ends a flight before the drone is down – an error, a panic or a second Ctrl-C – the last
 //! datagrams order the landing. A socket error never ends the flight.
 
+mod control_port;
 mod link;
 #[cfg(test)]
 mod operators;
 mod orders;
 mod real_time;
-mod services;
 
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
@@ -27,28 +27,37 @@ use ardrone_link::DroneAddress;
 use ardrone_link::settings::SettingError;
 use crossbeam_channel::{Receiver, Sender, bounded};
 
+use self::control_port::ControlPort;
 use self::link::{Link, sleep};
 pub use self::link::{Port, Trouble};
 pub use self::orders::Controls;
 use self::orders::Orders;
 use self::real_time::{RealTime, clock};
-pub(crate) use self::services::EndSignals;
-use self::services::Services;
 use crate::drive::{Driver, Passed};
 use crate::realtime::Realtime;
 use crate::recording::Recorder;
+use crate::runtime::Runtime;
 use crate::timing::{TickHealth, TickSummary};
 use autopilot::outcome::Outcome;
 use autopilot::plan::Plan;
 use autopilot::vehicle::{
     CannotFly, FlightReport, Input, Operator, OperatorOrder, Output, Telemetry, Transmit, Vehicle,
-    VehicleConfig,
+    VehicleConfig, VehicleName,
 };
 
-/// Messages of a flight in progress.
+/// A message of a flight in progress.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Message {
+    /// Whose it is.
+    pub vehicle: VehicleName,
+    /// What it says.
+    pub content: Content,
+}
+
+/// What a [`Message`] says.
 #[derive(Debug, Clone, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "a box would be asked for in flight")]
-pub enum Message {
+pub enum Content {
     /// Real-time scheduling granted to the flight's thread.
     Realtime(Realtime),
     /// What the vehicle tells, and the timing of the ticks. The end of a flight with which the program exits is not among
@@ -74,6 +83,8 @@ pub struct LinkSummary {
 /// Result of a flight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FinishedFlight {
+    /// Whose it was.
+    pub vehicle: VehicleName,
     /// Outcome; for a vehicle that stayed, the outcome of leaving it.
     pub outcome: Outcome,
     /// Whether the drone was confirmed to be down at the end.
@@ -145,12 +156,13 @@ const LOOK: Duration = Duration::from_millis(20);
 
 impl Flight {
     /// Starts a vehicle, and records it if there is a recorder. With a plan it flies the plan and ends;
-    /// without one, it stays until an operator quits. Ctrl-C, any other end signal, and a closed terminal
-    /// land and exit; a second one exits at once, with the landing ordered.
+    /// without one, it stays until an operator quits. A signal to the [`Runtime`] lands and exits; a second one exits at once,
+    /// with the landing ordered.
     ///
     /// # Errors
     /// [`FlightError`] if the drone's address cannot be resolved, or a socket or thread cannot be had.
     pub fn start(
+        runtime: &Runtime,
         plan: Option<Plan>,
         config: &VehicleConfig,
         drone: &DroneAddress,
@@ -163,11 +175,10 @@ impl Flight {
         };
         let address = resolve(&drone.host)?;
         let link = Link::new(address, drone).map_err(FlightError::Socket)?;
-        let (orders, controls) = Orders::new();
-        let control_port = SocketAddr::new(address, drone.control_port);
-        let services = Services::start(control_port, controls.clone())?;
+        let (orders, controls) = Orders::new(vehicle.name(), runtime.ending().begin_flight());
+        let control_port = ControlPort::read(runtime, SocketAddr::new(address, drone.control_port));
         let (sender, messages) = bounded(MESSAGES);
-        let surroundings = RealTime::new(link, orders, services);
+        let surroundings = RealTime::new(link, orders, control_port);
         let tick = TickLoop::new(vehicle, stay, surroundings, recorder, sender);
         let thread = std::thread::Builder::new()
             .name("flight".to_owned())
@@ -249,6 +260,7 @@ struct TickLoop {
 
 /// Passes on all that passes the vehicle, without ever waiting: to the flight log, and to those who watch.
 struct Tee {
+    vehicle: VehicleName,
     recorder: Option<Recorder>,
     recorded: Recorded,
     /// Datagrams missing from the flight log because too many arrived.
@@ -293,7 +305,7 @@ impl Tee {
             Passed::Told(Telemetry::Ended(..)) if !self.tells_end => {}
             Passed::Told(telemetry) => {
                 let is_status = matches!(telemetry, Telemetry::Status(_));
-                self.send(Message::Telemetry(at, telemetry, self.health));
+                self.send(Content::Telemetry(at, telemetry, self.health));
                 if is_status {
                     self.health.lateness = Duration::ZERO;
                 }
@@ -305,7 +317,7 @@ impl Tee {
     /// Reports a problem that does not end the flight.
     fn warn(&mut self, at: Duration, trouble: Trouble) {
         self.note(at, trouble.to_string());
-        self.send(Message::Trouble(at, trouble));
+        self.send(Content::Trouble(at, trouble));
     }
 
     fn note(&mut self, at: Duration, text: String) {
@@ -314,7 +326,8 @@ impl Tee {
         }
     }
 
-    fn send(&mut self, message: Message) {
+    fn send(&mut self, content: Content) {
+        let message = Message { vehicle: self.vehicle, content };
         if self.messages.try_send(message).is_err() {
             self.dropped_messages += 1;
         }
@@ -330,6 +343,7 @@ impl TickLoop {
         messages: Sender<Message>,
     ) -> Self {
         let tee = Tee {
+            vehicle: vehicle.name(),
             recorder,
             recorded: Recorded::default(),
             unrecorded: 0,
@@ -346,7 +360,7 @@ impl TickLoop {
     /// However the flight ends, its last datagrams order the landing, unless the drone is known to be down.
     fn run(mut self, after: impl FnMut(u32)) -> Result<FinishedFlight, FlightError> {
         let realtime = Realtime::acquire();
-        self.tee.send(Message::Realtime(realtime));
+        self.tee.send(Content::Realtime(realtime));
         self.driver.surroundings.restart();
         // After a panic only the session is used, which a panic elsewhere cannot leave inconsistent.
         let flown = catch_unwind(AssertUnwindSafe(|| self.fly(after)));
@@ -453,6 +467,7 @@ impl TickLoop {
             recorder.pass(now, &Passed::Told(ended));
         }
         FinishedFlight {
+            vehicle: tee.vehicle,
             outcome,
             is_down,
             report,
@@ -471,6 +486,7 @@ mod tests {
     use mock_drone::server::{MockDrone, Ports};
 
     use super::*;
+    use crate::runtime::SecondSignal;
 
     #[test]
     fn a_drone_without_address_is_named() {
@@ -490,12 +506,12 @@ mod tests {
         let plan = Plan::parse("plan", "takeoff\nsetStayTime 60\ngoto 0 1 0 0\nland\n").unwrap();
         let vehicle = Vehicle::flying(plan, &VehicleConfig::default()).unwrap();
         let link = Link::new(ports.host, &address).unwrap();
-        let (orders, controls) = Orders::new();
-        let control_port = SocketAddr::new(ports.host, ports.control);
-        let services = Services::start(control_port, controls.clone()).unwrap();
+        let runtime = Runtime::start(SecondSignal::IsPassedOn).unwrap();
+        let (orders, controls) = Orders::new(vehicle.name(), runtime.ending().begin_flight());
+        let control_port = ControlPort::read(&runtime, SocketAddr::new(ports.host, ports.control));
         let (sender, messages) = bounded(MESSAGES);
         let stay = Stay::UntilFlown;
-        let surroundings = RealTime::new(link, orders, services);
+        let surroundings = RealTime::new(link, orders, control_port);
         (TickLoop::new(vehicle, stay, surroundings, None, sender), controls, messages)
     }
 

@@ -8,7 +8,7 @@ use autopilot::agent::AgentCommand;
 use autopilot::plan::{Commands, Plan};
 use autopilot::vehicle::{
     Input, Operator, OperatorOrder, Output, Phase, Place, Refused, Station, TICK, Transmit,
-    Vehicle, VehicleConfig,
+    Vehicle, VehicleConfig, VehicleName,
 };
 use kinematics::{Pose, Sticks};
 use mock_drone::{World, WorldConfig};
@@ -17,6 +17,7 @@ use proptest::prelude::*;
 use super::orders::{Orders, Request};
 use crate::drive::{handle, input};
 use crate::recording::Recorder;
+use crate::runtime::Ending;
 
 const LOCAL: Operator = Operator::TERMINAL;
 const PAGE: Operator = Operator { station: Station::Browser, number: 1, local: false };
@@ -99,7 +100,7 @@ proptest! {
     fn nothing_delays_a_landing_and_no_remote_operator_overrules_a_local_one(
         script in orders(), landing in 60..600_u64, lander in prop_oneof![Just(LOCAL), Just(STATION)],
     ) {
-        let (orders, controls) = Orders::new();
+        let (orders, controls) = Orders::new(VehicleName::default(), Ending::default().begin_flight());
         let mut recorder = Recorder::stalled();
         let mut vehicle = Vehicle::flying(
             plan("takeoff\nsetStayTime 60\ngoto 0 1 0 0\nland\n"), &VehicleConfig::default(),

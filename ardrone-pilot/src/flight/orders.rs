@@ -5,8 +5,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::time::Duration;
 
-use autopilot::vehicle::{Operator, OperatorOrder, Refused, Station};
+use autopilot::vehicle::{Operator, OperatorOrder, Refused, Station, VehicleName};
 use crossbeam_channel::{Receiver, Sender, bounded};
+
+use crate::runtime::UnderWay;
 
 /// Capacity of the order queue; one tick handles all of them.
 const WAITING: usize = 64;
@@ -16,6 +18,7 @@ const ANSWER_TIME: Duration = Duration::from_secs(1);
 /// Gives orders to a vehicle, from any thread.
 #[derive(Debug, Clone)]
 pub struct Controls {
+    vehicle: VehicleName,
     urgent: Arc<Urgent>,
     others: Sender<Request>,
 }
@@ -40,6 +43,11 @@ impl fmt::Debug for Request {
 }
 
 impl Controls {
+    /// The vehicle that gets the orders.
+    pub fn vehicle(&self) -> VehicleName {
+        self.vehicle
+    }
+
     /// Gives an order without waiting for an answer. Landing and cutting the motors cannot be lost on the
     /// way: they are counters, not entries of a queue.
     ///
@@ -170,14 +178,18 @@ fn unpacked(number: u32) -> Option<Operator> {
 pub(super) struct Orders {
     urgent: Arc<Urgent>,
     others: Receiver<Request>,
+    under_way: UnderWay,
 }
 
 impl Orders {
     /// Creates both ends.
-    pub(super) fn new() -> (Self, Controls) {
+    pub(super) fn new(vehicle: VehicleName, under_way: UnderWay) -> (Self, Controls) {
         let urgent = Arc::new(Urgent::default());
         let (sender, others) = bounded(WAITING);
-        (Self { urgent: Arc::clone(&urgent), others }, Controls { urgent, others: sender })
+        (
+            Self { urgent: Arc::clone(&urgent), others, under_way },
+            Controls { vehicle, urgent, others: sender },
+        )
     }
 
     /// Orders since the last tick, at most as many as the queue holds. Urgent orders come last, so that they
@@ -194,9 +206,9 @@ impl Orders {
         others.chain(landing.flatten()).chain(cut.flatten())
     }
 
-    /// How often the exit was requested.
+    /// How often the exit was requested, of this vehicle or by a signal of all.
     pub(super) fn stops(&self) -> u32 {
-        self.urgent.stops.load(Ordering::Relaxed)
+        self.urgent.stops.load(Ordering::Relaxed).saturating_add(self.under_way.signals())
     }
 }
 
@@ -209,13 +221,15 @@ impl Drop for Orders {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::runtime::Ending;
 
     const BY: Operator = Operator::TERMINAL;
     const REMOTE: Operator = Operator { station: Station::Mavlink, number: 3, local: false };
 
     #[test]
     fn landing_cutting_and_stopping_are_heard_when_nothing_else_is() {
-        let (orders, controls) = Orders::new();
+        let (orders, controls) =
+            Orders::new(VehicleName::default(), Ending::default().begin_flight());
         while controls.order(BY, OperatorOrder::Hold).is_ok() {}
         assert_eq!(controls.order(BY, OperatorOrder::Hold), Err(Refused::Busy));
         assert_eq!(controls.ask(REMOTE, OperatorOrder::Cut), Ok(()));
@@ -236,7 +250,8 @@ mod tests {
 
     #[test]
     fn a_flight_that_is_over_hears_nothing() {
-        let (orders, controls) = Orders::new();
+        let (orders, controls) =
+            Orders::new(VehicleName::default(), Ending::default().begin_flight());
         assert!(!controls.is_over());
         drop(orders);
         assert_eq!(controls.order(BY, OperatorOrder::Land), Err(Refused::Left));
@@ -259,7 +274,8 @@ mod tests {
 
     #[test]
     fn an_answer_comes_back() {
-        let (orders, controls) = Orders::new();
+        let (orders, controls) =
+            Orders::new(VehicleName::default(), Ending::default().begin_flight());
         let asked = std::thread::spawn(move || controls.ask(REMOTE, OperatorOrder::Clear));
         let request = loop {
             if let Some(request) = orders.poll().next() {

@@ -1,13 +1,13 @@
-//! What a flight over UDP is connected to: the sockets, the operators, the slow services, and the clock.
+//! What a flight over UDP is connected to: the sockets, the operators, and the clock.
 
 use std::time::{Duration, Instant};
 
 use autopilot::vehicle::{Input, Operator, OperatorOrder, Stage, Transmit};
 
 use super::LinkSummary;
+use super::control_port::ControlPort;
 use super::link::{Link, Trouble};
 use super::orders::{Orders, Request};
-use super::services::Services;
 use crate::drive::{Surroundings, Take};
 use crate::realtime::Realtime;
 use crate::timing::{TickHealth, TickRecorder, TickSummary};
@@ -29,7 +29,7 @@ pub(super) fn clock() -> Instant {
 pub(super) struct RealTime {
     link: Link,
     orders: Orders,
-    services: Services,
+    control_port: ControlPort,
     start: Instant,
     buffer: Vec<u8>,
     /// Datagrams read in this tick.
@@ -47,11 +47,11 @@ pub(super) struct RealTime {
 }
 
 impl RealTime {
-    pub(super) fn new(link: Link, orders: Orders, services: Services) -> Self {
+    pub(super) fn new(link: Link, orders: Orders, control_port: ControlPort) -> Self {
         Self {
             link,
             orders,
-            services,
+            control_port,
             start: clock(),
             buffer: vec![0_u8; BUFFER_BYTES],
             taken: 0,
@@ -130,8 +130,8 @@ impl RealTime {
         true
     }
 
-    fn receive_services(&mut self, now: Duration, take: &mut impl Take) {
-        for bytes in self.services.poll_control() {
+    fn receive_orders(&mut self, now: Duration, take: &mut impl Take) {
+        for bytes in self.control_port.poll() {
             _ = take(now, Input::Control(&bytes));
         }
         for Request { by, order, answer } in self.orders.poll() {
@@ -179,7 +179,7 @@ impl Surroundings for RealTime {
         self.stage_ended = self.now();
         self.ticks.spend(Stage::Estimate, self.stage_ended.saturating_sub(now));
         if until.is_none() {
-            self.receive_services(now, &mut take);
+            self.receive_orders(now, &mut take);
             self.stage_ended = self.now();
         }
     }

@@ -1,6 +1,6 @@
 //! MAVLink: ground stations and programs of others see the drone as one of theirs.
 //!
-//! All of MAVLink is in the pure [`MavlinkVehicle`](mavlink_vehicle::MavlinkVehicle). Here is its shell: a thread with one UDP
+//! All of MAVLink is in the pure [`MavlinkVehicle`](mavlink_vehicle::MavlinkVehicle). Here is its shell: one UDP
 //! socket and a clock, and no access to the flight except its [`Controls`]. No client can affect the tick: what arrives is
 //! bounded in each 20 ms, and orders go the way of all others.
 //!
@@ -18,9 +18,10 @@ use crossbeam_channel::{Sender, bounded};
 use mavlink_vehicle::Config;
 
 use self::server::Server;
-use crate::flight::{Controls, Message};
+use crate::flight::{Content, Controls, Message};
+use crate::runtime::Runtime;
 
-/// Messages of the flight that may wait for the thread: a second of the fastest.
+/// Messages of the flight that may wait to be told: a second of the fastest.
 const BEHIND: usize = 256;
 
 /// Most remotes that can be spoken to, which leaves places for others who speak first.
@@ -37,9 +38,9 @@ pub enum MavlinkError {
         /// The system's error.
         source: std::io::Error,
     },
-    /// A thread could not be started.
-    #[error("cannot start the thread of MAVLink")]
-    Thread(#[source] std::io::Error),
+    /// The socket cannot be used.
+    #[error("cannot use the socket for MAVLink")]
+    Socket(#[source] std::io::Error),
 }
 
 /// A bound socket, reserved before the flight begins.
@@ -68,11 +69,16 @@ impl Listener {
     /// Starts the vehicle; the time of its configuration is set here.
     ///
     /// # Errors
-    /// [`MavlinkError::Thread`].
-    pub fn open(self, config: Config, controls: Controls) -> Result<MavlinkServer, MavlinkError> {
+    /// [`MavlinkError::Socket`].
+    pub fn open(
+        self,
+        runtime: &Runtime,
+        config: Config,
+        controls: Controls,
+    ) -> Result<MavlinkServer, MavlinkError> {
         let (telemetry, told) = bounded(BEHIND);
-        let server = Server::start(self.socket, &self.remotes, config, controls, told)
-            .map_err(MavlinkError::Thread)?;
+        let server = Server::start(runtime, self.socket, &self.remotes, config, controls, told)
+            .map_err(MavlinkError::Socket)?;
         Ok(MavlinkServer { telemetry, missed: AtomicU64::new(0), _server: server })
     }
 }
@@ -90,7 +96,7 @@ impl MavlinkServer {
     /// Takes in a message of the flight; never blocks.
     pub fn show(&self, message: &Message) {
         // The rest the status says, or it is of no interest to others.
-        let Message::Telemetry(_, telemetry, _) = message else { return };
+        let Content::Telemetry(_, telemetry, _) = &message.content else { return };
         if self.telemetry.try_send(telemetry.clone()).is_err() {
             self.missed.fetch_add(1, Ordering::Relaxed);
         }

@@ -1,8 +1,7 @@
-//! The thread that speaks MAVLink.
+//! Speaks MAVLink.
 
 use std::io;
 use std::net::SocketAddr;
-use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use autopilot::vehicle::{Operator, OperatorOrder, Refused, Telemetry};
@@ -15,6 +14,7 @@ use tokio::time::MissedTickBehavior;
 
 use super::peers::Peers;
 use crate::flight::Controls;
+use crate::runtime::{Runtime, Task};
 
 /// Time between the vehicle's ticks.
 const TICK: Duration = Duration::from_millis(20);
@@ -33,24 +33,21 @@ const OUTPUTS: u32 = 1024;
 
 type Answer = (Ticket, Result<(), Refused>);
 
-/// The thread, which ends when this is dropped.
+/// Speaks until this is dropped.
 #[derive(Debug)]
-pub(super) struct Server {
-    end: Option<oneshot::Sender<()>>,
-    thread: Option<JoinHandle<Lost>>,
-}
+pub(super) struct Server(Task<Lost>);
 
 impl Server {
     pub(super) fn start(
+        runtime: &Runtime,
         socket: std::net::UdpSocket,
         remotes: &[SocketAddr],
         mut config: Config,
         controls: Controls,
         telemetry: Receiver<Telemetry>,
     ) -> io::Result<Self> {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let socket = {
-            let _inside = runtime.enter();
+            let _inside = runtime.handle().enter();
             UdpSocket::from_std(socket)?
         };
         let unix_time = UtcDateTime::now() - UtcDateTime::UNIX_EPOCH;
@@ -70,32 +67,19 @@ impl Server {
             intake: Intake::default(),
             lost: Lost::default(),
         };
-        let (end, ended) = oneshot::channel();
-        let thread = std::thread::Builder::new()
-            .name("mavlink".to_owned())
-            .spawn(move || runtime.block_on(exchange.run(ended)))?;
-        Ok(Self { end: Some(end), thread: Some(thread) })
+        Ok(Self(runtime.run("MAVLink", |ended| exchange.run(ended))))
     }
 }
 
 impl Drop for Server {
     fn drop(&mut self) {
-        if let Some(end) = self.end.take() {
-            // The thread may have ended already.
-            _ = end.send(());
+        // Told here, because what runs beside the flight must not wait for anybody to read this.
+        let Some(Lost { dropped, unsent }) = self.0.end() else { return };
+        if dropped > 0 {
+            tracing::warn!("MAVLink: too many datagrams came; {dropped} were dropped");
         }
-        match self.thread.take().map(JoinHandle::join) {
-            // The thread itself must not wait for anybody to read this.
-            Some(Ok(Lost { dropped, unsent })) => {
-                if dropped > 0 {
-                    tracing::warn!("MAVLink: too many datagrams came; {dropped} were dropped");
-                }
-                if unsent > 0 {
-                    tracing::warn!("MAVLink: the system refused to send {unsent} datagrams");
-                }
-            }
-            Some(Err(_)) => tracing::error!("the thread of MAVLink panicked"),
-            None => {}
+        if unsent > 0 {
+            tracing::warn!("MAVLink: the system refused to send {unsent} datagrams");
         }
     }
 }

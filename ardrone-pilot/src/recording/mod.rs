@@ -26,7 +26,10 @@ pub use recorder::{Recorded, Recorder, Recording, RecordingError, VideoRecorder}
 pub use writer::LogWriter;
 
 use autopilot::plan::ZOrigin;
-use autopilot::vehicle::{Decision, Input, Operator, OperatorOrder, Telemetry, Transmit};
+use autopilot::vehicle::{
+    Decision, Input, Operator, OperatorOrder, Telemetry, Transmit, VehicleName,
+};
+use time::UtcDateTime;
 
 use crate::drive::Passed;
 
@@ -45,6 +48,8 @@ const FLIGHT: &str = "flight";
 /// Description of the recorded flight.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Header {
+    /// The vehicle's name.
+    pub vehicle: VehicleName,
     /// Origin of the flight's time, since the Unix epoch.
     pub start: Duration,
     /// The plan's file name.
@@ -116,6 +121,21 @@ pub enum Record {
         /// The datagram that was sent.
         datagram: Vec<u8>,
     },
+}
+
+/// Name of the log of a flight that starts then, since the Unix epoch: `2026-11-21T13-45-07Z-ardrone.mcap`. Names that sort by time, differ for each vehicle, and are valid on any file system.
+pub fn file_name(start: Duration, vehicle: VehicleName) -> String {
+    let start = UtcDateTime::UNIX_EPOCH + start;
+    let (date, time) = (start.date(), start.time());
+    format!(
+        "{:04}-{:02}-{:02}T{:02}-{:02}-{:02}Z-{vehicle}.mcap",
+        date.year(),
+        u8::from(date.month()),
+        date.day(),
+        time.hour(),
+        time.minute(),
+        time.second()
+    )
 }
 
 impl Record {

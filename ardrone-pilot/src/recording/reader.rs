@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use autopilot::plan::ZOrigin;
+use autopilot::vehicle::VehicleName;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use diagnostic::printable;
@@ -19,6 +20,8 @@ use super::{AGENT_FILE, FLIGHT, FORMAT, OUTCOME, PLAN_FILE, SETTINGS_FILE, topic
 /// A recorded flight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Log {
+    /// The vehicle's name.
+    pub vehicle: VehicleName,
     /// The plan's file name.
     pub plan_name: String,
     /// The plan.
@@ -147,11 +150,16 @@ impl Log {
             .parse()
             .map_err(|_| LogError::Foreign { missing: "start_ns that is a number".to_owned() })?;
         let start = Duration::from_nanos(start);
+        // The first logs had no names.
+        let vehicle = flight.get("vehicle").map(|name| name.parse()).transpose();
+        let vehicle = vehicle
+            .map_err(|_| LogError::Foreign { missing: "vehicle that is a name".to_owned() })?;
         let mut entries = content.entries;
         for (at, _) in &mut entries {
             *at = at.saturating_sub(start);
         }
         Ok(Self {
+            vehicle: vehicle.unwrap_or_default(),
             plan_name: metadata("plan")?,
             plan: text(PLAN_FILE)?,
             settings: text(SETTINGS_FILE)?,

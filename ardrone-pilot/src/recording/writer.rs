@@ -42,6 +42,8 @@ const CAMERA: &str = "camera";
 pub struct LogWriter<W: Write + Seek> {
     writer: Writer<W>,
     channels: BTreeMap<&'static str, u16>,
+    /// Metadata of each channel: whose it is.
+    vehicle: BTreeMap<String, String>,
     start_ns: u64,
     sequence: u32,
     ticks: u64,
@@ -65,10 +67,11 @@ impl<W: Write + Seek> LogWriter<W> {
             .profile("")
             .library("ardrone-pilot");
         let mut writer = options.create(writer)?;
+        let vehicle = BTreeMap::from([("vehicle".to_owned(), header.vehicle.to_string())]);
         let mut channels = BTreeMap::new();
         for topic in topic::ALL {
             let schema = writer.add_schema(topic.schema, "jsonschema", topic.text.as_bytes())?;
-            let channel = writer.add_channel(schema, topic.name, "json", &BTreeMap::new())?;
+            let channel = writer.add_channel(schema, topic.name, "json", &vehicle)?;
             channels.insert(topic.name, channel);
         }
         let start_ns = u64::try_from(header.start.as_nanos()).unwrap_or(u64::MAX);
@@ -76,6 +79,7 @@ impl<W: Write + Seek> LogWriter<W> {
             ("format", FORMAT.to_string()),
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
             ("start_ns", start_ns.to_string()),
+            ("vehicle", header.vehicle.to_string()),
             ("plan", header.plan_name.clone()),
             ("z_origin", header.z_origin.name().to_owned()),
             ("drone", header.drone.clone()),
@@ -98,6 +102,7 @@ impl<W: Write + Seek> LogWriter<W> {
         Ok(Self {
             writer,
             channels,
+            vehicle,
             start_ns,
             sequence: 0,
             ticks: 0,
@@ -193,8 +198,7 @@ impl<W: Write + Seek> LogWriter<W> {
             let schema = compressed_video::schema();
             let schema =
                 self.writer.add_schema(compressed_video::SCHEMA_NAME, encoding, &schema)?;
-            let channel =
-                self.writer.add_channel(schema, topic::VIDEO, encoding, &BTreeMap::new())?;
+            let channel = self.writer.add_channel(schema, topic::VIDEO, encoding, &self.vehicle)?;
             *self.video.insert(channel)
         };
         let time = Duration::from_nanos(self.start_ns).saturating_add(at);

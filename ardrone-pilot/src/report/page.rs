@@ -132,7 +132,8 @@ fn head(page: &mut String, log: &Log, flight: &Flight<'_>) {
     let (plan, drone, version) = (escaped(&title(log)), escaped(&log.drone), escaped(&log.version));
     _ = write!(
         page,
-        "<h1>{plan}</h1>\n<p class=\"faint\">{date}{drone}, ardrone-pilot {version}</p>\n"
+        "<h1>{plan}</h1>\n<p class=\"faint\">{date}{}, {drone}, ardrone-pilot {version}</p>\n",
+        log.vehicle
     );
     let warning = flight.events.iter().find(|(_, warns, _)| *warns);
     let warning = warning.map(|(at_s, _, text)| format!("; first warning at {at_s:.1} s: {text}"));

@@ -13,7 +13,9 @@ use pid::Law;
 use serde::{Deserialize, Serialize};
 
 use self::section::{Comments, LawName};
-use self::sections::{Airframe, Controller, Delays, Drone, Estimator, Fence, Station, Video};
+use self::sections::{
+    Airframe, Controller, Delays, Drone, Estimator, Fence, Station, Vehicle, Video,
+};
 pub use self::tags::GivenTag;
 use self::tags::Tags;
 
@@ -21,6 +23,7 @@ use self::tags::Tags;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
+    vehicle: Vehicle,
     fence: Fence,
     drone: Drone,
     video: Video,
@@ -61,7 +64,8 @@ const HEADER: &str = "\
 ";
 
 /// The sections' comments.
-const COMMENTS: [Comments; 9] = [
+const COMMENTS: [Comments; 10] = [
+    Vehicle::COMMENTS,
     Fence::COMMENTS,
     Drone::COMMENTS,
     Video::COMMENTS,
@@ -149,10 +153,21 @@ impl Settings {
 
     /// The vehicle's configuration.
     pub fn pilot_config(&self, z_origin: ZOrigin) -> VehicleConfig {
-        let Self { fence, drone, video, station, delays, airframe, estimator, tags, controller } =
-            self;
+        let Self {
+            vehicle,
+            fence,
+            drone,
+            video,
+            station,
+            delays,
+            airframe,
+            estimator,
+            tags,
+            controller,
+        } = self;
         let mut config = VehicleConfig::default();
         config.limits.z_origin = z_origin;
+        vehicle.apply(&mut config);
         fence.apply(&mut config);
         drone.apply(&mut config);
         video.apply(&mut config);
@@ -166,9 +181,20 @@ impl Settings {
     }
 
     fn reasons_against(&self) -> Vec<String> {
-        let Self { fence, drone, video, station, delays, airframe, estimator, tags, controller } =
-            self;
-        let mut reasons = fence.out_of_range();
+        let Self {
+            vehicle,
+            fence,
+            drone,
+            video,
+            station,
+            delays,
+            airframe,
+            estimator,
+            tags,
+            controller,
+        } = self;
+        let mut reasons = vehicle.out_of_range();
+        reasons.extend(fence.out_of_range());
         reasons.extend(drone.out_of_range());
         reasons.extend(video.out_of_range());
         reasons.extend(station.out_of_range());
@@ -219,6 +245,7 @@ mod tests {
                     toml::Value::Float(number) => (number * 1.05).into(),
                     // A bit rate that is not asked for.
                     toml::Value::Integer(0) => 500.into(),
+                    toml::Value::Integer(1) => 2.into(),
                     toml::Value::Integer(number) => (number - 1).into(),
                     toml::Value::Boolean(on) => (!on).into(),
                     toml::Value::Array(_) => vec![0.9, 0.8].into(),
@@ -233,7 +260,7 @@ mod tests {
                 tried += 1;
             }
         }
-        assert_eq!(tried, 43);
+        assert_eq!(tried, 45);
     }
 
     #[test]

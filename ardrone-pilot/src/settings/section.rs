@@ -223,6 +223,12 @@ impl Numbers for f64 {
     }
 }
 
+impl Numbers for u8 {
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        std::iter::once(f64::from(*self))
+    }
+}
+
 impl Numbers for [f64; 2] {
     fn numbers(&self) -> impl Iterator<Item = f64> {
         self.iter().copied()

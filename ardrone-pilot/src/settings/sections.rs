@@ -2,13 +2,22 @@
 
 use std::ops::RangeInclusive;
 
-use autopilot::vehicle::VehicleConfig;
+use autopilot::vehicle::{VehicleConfig, VehicleName};
 use serde::{Deserialize, Serialize};
 
 use super::section::{BitRate, Degrees, LawName, Milliseconds, Navdata, section};
 
 /// Range of gains that the estimator accepts.
 const GAIN: RangeInclusive<f64> = 0.4..=2.5;
+
+section! {
+    struct Vehicle("vehicle") of VehicleConfig {
+        /// Its name, in orders, messages and logs: up to 16 letters a to z, digits and hyphens, with a letter first.
+        name: VehicleName = [name],
+        /// Number of its MAVLink system.
+        system: u8 = [system] in 1.0..=250.0,
+    }
+}
 
 section! {
     #[allow(clippy::struct_field_names, reason = "the unit belongs to the name")]

@@ -1,22 +1,21 @@
 //! Live video beside a flight.
 //!
-//! It has a thread and a socket of its own and no access to the flight, so that nothing in the stream can affect the tick.
+//! It has a socket of its own and no access to the flight, so that nothing in the stream can affect the tick.
 //! Nothing is decoded: browsers and the flight log take the pictures as the drone encoded them. The drone is only asked to
 //! stream while somebody watches or records.
 
 mod export;
 
-use std::io;
 use std::sync::Arc;
-use std::thread::JoinHandle;
 use std::time::Duration;
 
 use ardrone_link::video::{Picture, VideoEvent};
 use ardrone_link::{VideoNews, VideoStream};
-use tokio::sync::{broadcast, oneshot};
+use tokio::sync::broadcast;
 
 pub use self::export::{ExportError, Exported, export};
 use crate::recording::VideoRecorder;
+use crate::runtime::{Runtime, Task};
 
 /// Pictures that a viewer may fall behind before it continues with the newest key picture: two seconds.
 const BEHIND: usize = 64;
@@ -45,53 +44,36 @@ impl VideoFeed {
     }
 }
 
-/// The video's thread, which ends when this is dropped.
+/// Reads the video until this is dropped.
 #[derive(Debug)]
 pub struct Video {
     feed: VideoFeed,
-    end: Option<oneshot::Sender<()>>,
-    thread: Option<JoinHandle<()>>,
+    _task: Task<()>,
 }
 
 impl Video {
-    /// Starts the thread for the drone at this address; with a recorder all pictures are recorded.
-    ///
-    /// # Errors
-    /// The system's error if there can be no thread.
-    pub fn start(host: &str, port: u16, recorder: Option<VideoRecorder>) -> io::Result<Self> {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    /// Begins to read it from the drone at this address; with a recorder all pictures are recorded.
+    pub fn start(
+        runtime: &Runtime,
+        host: &str,
+        port: u16,
+        recorder: Option<VideoRecorder>,
+    ) -> Self {
         let feed = VideoFeed { sender: broadcast::Sender::new(BEHIND) };
-        let (end, ended) = oneshot::channel();
         let (sender, host) = (feed.sender.clone(), host.to_owned());
-        let thread = std::thread::Builder::new().name("video".to_owned()).spawn(move || {
-            runtime.block_on(async {
-                tokio::select! {
-                    () = pass_on(&host, port, &sender, recorder) => {}
-                    // The flight has ended.
-                    _ = ended => {}
-                }
-            });
-        })?;
-        Ok(Self { feed, end: Some(end), thread: Some(thread) })
+        let task = runtime.run("the video", |ended| async move {
+            tokio::select! {
+                () = pass_on(&host, port, &sender, recorder) => {}
+                // The flight has ended.
+                _ = ended => {}
+            }
+        });
+        Self { feed, _task: task }
     }
 
     /// For viewers.
     pub fn feed(&self) -> VideoFeed {
         self.feed.clone()
-    }
-}
-
-impl Drop for Video {
-    fn drop(&mut self) {
-        if let Some(end) = self.end.take() {
-            // The thread may have ended already.
-            _ = end.send(());
-        }
-        if let Some(thread) = self.thread.take()
-            && thread.join().is_err()
-        {
-            tracing::error!("the thread of the video panicked");
-        }
     }
 }
 

@@ -55,7 +55,8 @@ function order(request) {
   }
   // Another order disarms the cut; sticks that are held do not.
   if (!["steer", "camera"].includes(request.order)) armedUntil = 0;
-  socket.send(JSON.stringify(request));
+  // Not for another vehicle that is flown at the same address later.
+  socket.send(JSON.stringify({ ...request, vehicle: flight?.vehicle }));
 }
 
 function take(message) {
@@ -104,7 +105,8 @@ function begin(message) {
   trail = message.trail;
   decided = "";
   $("plan").textContent = message.plan || "ardrone-pilot";
-  document.title = message.plan ? `${message.plan} – ardrone-pilot` : "ardrone-pilot";
+  document.title = [message.plan, message.vehicle, "ardrone-pilot"].filter(Boolean).join(" – ");
+  $("vehicle").textContent = message.vehicle;
   $("nodrone").textContent = message.drone;
   $("nomission").hidden = message.steps.length > 0;
   $("edit").hidden = !message.steps.length;

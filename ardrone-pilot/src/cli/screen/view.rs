@@ -16,7 +16,7 @@ use ratatui::widgets::canvas::{Canvas, Circle, Line as Segment, Points};
 use ratatui::widgets::{Block, Gauge, List, ListItem, Paragraph};
 
 use super::tags;
-use crate::flight::Message;
+use crate::flight::{Content, Message};
 use crate::flown_path::FlownPath;
 use crate::timing::TickHealth;
 
@@ -82,13 +82,13 @@ impl View {
     }
 
     pub(super) fn take_in(&mut self, message: &Message) {
-        match message {
-            Message::Realtime(realtime) => self.print_line(&realtime.to_string()),
-            Message::Trouble(at, trouble) => {
+        match &message.content {
+            Content::Realtime(realtime) => self.print_line(&realtime.to_string()),
+            Content::Trouble(at, trouble) => {
                 let line = format!("{:6.1} s {trouble}", at.as_secs_f64());
                 remember(&mut self.messages, (line, true));
             }
-            Message::Telemetry(at, telemetry, ticks) => {
+            Content::Telemetry(at, telemetry, ticks) => {
                 self.ticks = *ticks;
                 self.tell(*at, telemetry);
             }
@@ -389,7 +389,7 @@ mod tests {
     use super::*;
     use autopilot::agent::ChosenPlans;
     use autopilot::plan::Plan;
-    use autopilot::vehicle::{KnownTag, TagStatus, Trust};
+    use autopilot::vehicle::{KnownTag, TagStatus, Trust, VehicleName};
     use kinematics::Airframe;
 
     /// A drone on its way to a target, which it has flown this share of.
@@ -427,13 +427,18 @@ mod tests {
         }
     }
 
+    fn message(at: Duration, telemetry: Telemetry, ticks: TickHealth) -> Message {
+        let content = Content::Telemetry(at, telemetry, ticks);
+        Message { vehicle: VehicleName::default(), content }
+    }
+
     #[test]
     fn the_screen_shows_the_flight() {
         let plan = Plan::parse("p", "takeoff\ngoto 0 1 0 0\ngoto 1 1 0 0\nland\n").unwrap();
         let mut view = View::new(&FlightLimits::default());
         let steps = plan.steps().to_vec();
         let ticks = TickHealth { lateness: Duration::from_micros(230), skipped: 1 };
-        let mut tell = |at, telemetry| view.take_in(&Message::Telemetry(at, telemetry, ticks));
+        let mut tell = |at, telemetry| view.take_in(&message(at, telemetry, ticks));
         tell(Duration::ZERO, Telemetry::Mission { name: String::new(), id: None, steps });
         for tick in 0..40_u32 {
             let status = status(f64::from(tick) / 40.0);
@@ -472,7 +477,7 @@ mod tests {
         let rests_on = RestsOn::of(Some(&tags));
         let status = Status { tags: Some(tags), rests_on, ..status(0.5) };
         let (at, status) = (Duration::from_secs(3), Telemetry::Status(status));
-        view.take_in(&Message::Telemetry(at, status, TickHealth::default()));
+        view.take_in(&message(at, status, TickHealth::default()));
         let mut terminal = Terminal::new(TestBackend::new(80, 24)).unwrap();
         terminal.draw(|frame| draw(frame, &view)).unwrap();
         insta::assert_snapshot!(terminal.backend());
