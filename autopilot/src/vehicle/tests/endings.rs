@@ -3,10 +3,12 @@
 use ardrone_link::at::Ref;
 use ardrone_link::navdata::Gps;
 
+use super::super::life::{Active, Flying};
 use super::super::watch::ON_ITS_WAY;
 use super::bench::{Bench, SECOND, START};
 use super::*;
 use crate::agent::AgentCommand;
+use crate::mission::Due;
 
 const PLAN: &str = "takeoff\nland";
 
@@ -440,4 +442,38 @@ fn cut_motors_are_told_as_such_and_not_as_a_landing_on_order() {
     bench.step();
     assert!(bench.events.contains(&FlightEvent::CutOrdered));
     assert_eq!(bench.vehicle.status(bench.now).landing, None);
+}
+
+/// A hovering drone could not show that its altitude follows the sticks again.
+#[test]
+fn a_drone_whose_altitude_does_not_follow_its_sticks_is_landed_at_once() {
+    let mut bench = Bench::in_the_air("takeoff\nsetStayTime 90\ngoto 0 0 0 0\nland");
+    bench.accepted(OperatorOrder::GoTo(Place { height_m: Some(2.0), ..Place::default() }));
+    let unresponsive = Trust::Unresponsive(Quantity::Altitude);
+    bench.until(20 * SECOND, |bench| bench.vehicle.status(bench.now).trust == unresponsive);
+    let reason = LandingReason::Distrust(unresponsive);
+    assert_eq!(bench.vehicle.status(bench.now).landing, Some(reason));
+    assert_eq!((bench.phase(), bench.reference()), (Phase::Landing, Some(Ref::Land)));
+}
+
+/// One on a tag may begin with a search. Steps that are no landings have the agent's limits.
+#[test]
+fn each_landing_of_a_plan_has_its_time_and_nothing_else_has() {
+    let orders = [
+        (AgentOrder::Land, Some(LANDING_TIMEOUT)),
+        (AgentOrder::LandOnTag, Some(TAG_LANDING_TIMEOUT)),
+        (AgentOrder::FindTag, None),
+        (AgentOrder::TakeOff, None),
+    ];
+    for (order, limit) in orders {
+        let mut vehicle = vehicle(PLAN);
+        let active = Active { due: Due { step: 3, order }, since: SECOND, offered: true };
+        vehicle.life = Life::Flying(Flying { due: Some(active), ..Flying::default() });
+        let ends = SECOND + limit.unwrap_or(10 * TAG_LANDING_TIMEOUT);
+        vehicle.watch(ends.saturating_sub(Duration::from_millis(1)));
+        assert_eq!(vehicle.life.phase(), Phase::Flying, "{order:?}");
+        vehicle.watch(ends);
+        let reason = limit.map(|_| LandingReason::StepTimedOut { step: 3 });
+        assert_eq!(vehicle.life.landing_reason(), reason, "{order:?}");
+    }
 }
