@@ -149,7 +149,10 @@ impl Manual {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector2;
+
     use super::*;
+    use crate::vehicle::{Heading, Horizontal, Vertical};
 
     #[test]
     fn stick_input_expires() {
@@ -158,9 +161,55 @@ mod tests {
         let last = until.saturating_sub(Duration::from_millis(1));
         assert_eq!(manual.sticks(last), Some(sticks));
         assert_eq!(manual.sticks(until), None);
+        assert_eq!(manual.control(last), Some(ManualControl::Sticks));
+        assert_eq!(manual.control(until), Some(ManualControl::Hold), "then it holds");
         assert_eq!(Manual::default().sticks(last), None);
         assert!(!manual.sends(), "no place was given");
         let mode = Mode::SentTo { place: Pose::default(), offered: false };
         assert!(Manual { mode, ..manual }.sends());
+    }
+
+    #[test]
+    fn what_is_done_by_hand_is_named_like_its_variants() {
+        for control in [
+            ManualControl::Hold,
+            ManualControl::Sticks,
+            ManualControl::Target,
+            ManualControl::Setpoints,
+        ] {
+            assert_eq!(control.name(), format!("{control:?}").to_lowercase());
+        }
+    }
+
+    const TARGET: Pose = Pose { x_m: 1.0, y_m: 2.0, z_m: 1.5, yaw_deg: 30.0 };
+
+    fn following(stopped: bool) -> Manual {
+        let setpoint = Setpoint {
+            horizontal: Horizontal::Place { x_m: TARGET.x_m, y_m: TARGET.y_m },
+            vertical: Vertical::Height(TARGET.z_m),
+            heading: Heading::Yaw(TARGET.yaw_deg),
+        };
+        let course = Course::new(Vector2::new(0.25, 0.5), Vector2::zeros());
+        let at = Duration::from_secs(5);
+        let mode = Mode::Following { setpoint, at, target: TARGET, course, stopped };
+        Manual { mode, ..Manual::default() }
+    }
+
+    #[test]
+    fn set_points_have_got_as_far_as_their_course() {
+        let percept = following(false).setpoint(Duration::from_millis(5400)).unwrap();
+        assert_eq!((percept.pose, percept.age_ms), (TARGET, 400));
+        assert_eq!(percept.reached, Pose { x_m: 0.25, y_m: 0.5, ..TARGET });
+        assert_eq!(Manual::default().setpoint(Duration::from_secs(6)), None);
+    }
+
+    #[test]
+    fn the_course_leads_to_the_target_of_set_points_that_are_followed_and_nowhere_else() {
+        let leads = |stopped, to| following(stopped).course(&to).is_some();
+        assert!(leads(false, TARGET));
+        assert!(leads(false, Pose { yaw_deg: -90.0, ..TARGET }), "its heading may differ");
+        assert!(!leads(false, Pose { x_m: 1.001, ..TARGET }));
+        assert!(!leads(true, TARGET), "it has stopped");
+        assert_eq!(Manual::default().course(&TARGET), None);
     }
 }

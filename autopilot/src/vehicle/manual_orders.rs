@@ -87,7 +87,7 @@ impl Vehicle {
     }
 
     /// Those of the controller's own reference.
-    fn course_limits(&self) -> MotionLimits {
+    pub(super) fn course_limits(&self) -> MotionLimits {
         self.config.cascade.motion_limits(
             self.full_tilt_m_s2() * self.least_thrust(),
             self.flight.wind_m_s2.norm(),

@@ -1,4 +1,5 @@
 mod bench;
+mod by_hand;
 mod endings;
 mod orders;
 mod phases;
