@@ -122,3 +122,21 @@ fn motion(demand: &Sticks) -> Motion {
         yaw: Fraction::saturating(demand.yaw),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vehicle::VehicleConfig;
+
+    #[test]
+    fn a_drone_sinks_at_full_stick_as_it_was_identified_but_no_slower_than_it_climbs() {
+        for (drop_gain, expected_m_s) in [(1.5, 0.6), (1.0, 0.4), (0.5, 0.4)] {
+            let mut config = VehicleConfig::default();
+            config.estimator.identify = false;
+            config.estimator.limits.climb_m_s = 0.4;
+            config.estimator.airframe.drop_gain = drop_gain;
+            let sink_m_s = Vehicle::new(&config).unwrap().full_sink_m_s();
+            assert!((sink_m_s - expected_m_s).abs() < 1e-9, "{drop_gain}: {sink_m_s}");
+        }
+    }
+}

@@ -255,3 +255,35 @@ fn a_drone_that_is_sent_forward_and_does_not_come_nearer_is_saturated_until_it_h
     bench.run(SECOND / 2);
     assert!(saturated_ms(&bench) < most_ms);
 }
+
+#[test]
+fn the_status_is_told_in_every_third_tick_and_says_whether_the_drone_is_in_the_air() {
+    let mut bench = Bench::standing_by(STAY);
+    assert!(!bench.vehicle.status(bench.now).airborne);
+    let mut told = 0;
+    for _ in 0..30 {
+        bench.now += TICK;
+        assert_eq!(bench.vehicle.handle(bench.now, Input::Tick), Ok(()));
+        while let Some(output) = bench.vehicle.poll() {
+            told += usize::from(matches!(output, Output::Telemetry(Telemetry::Status(_))));
+        }
+    }
+    assert_eq!(told, 10);
+    assert!(Bench::in_the_air(STAY).vehicle.status(SECOND).airborne);
+}
+
+/// The drone answers with its next packet, for which it waits for half an interval on average.
+#[test]
+fn the_delay_of_the_link_is_what_an_answer_takes_less_half_an_interval() {
+    let mut bench = Bench::standing_by(STAY);
+    let round_trip = bench.vehicle.session.round_trip().unwrap();
+    let half = Duration::from_millis(25);
+    assert!(round_trip > half, "{round_trip:?}");
+    bench.vehicle.navdata_hz = 20.0;
+    bench.accepted(OperatorOrder::Start { when_ready: false });
+    let mut expected = estimator::Estimator::new(bench.vehicle.config.estimator);
+    let untold = expected.order_delay();
+    expected.expect_link_delay(round_trip.saturating_sub(half));
+    assert_ne!(expected.order_delay(), untold);
+    assert_eq!(bench.vehicle.flight.estimator.order_delay(), expected.order_delay());
+}
