@@ -71,6 +71,15 @@ fn the_camera_is_chosen_by_whoever_flies() {
     bench.accepted(OperatorOrder::Release);
     assert_eq!(bench.vehicle.order(bench.now, REMOTE, BOTTOM), Ok(()));
     assert_eq!(bench.vehicle.order(bench.now, OTHER, steer()), Ok(()));
+    for (by, expected) in
+        [(OTHER, Ok(())), (Operator::TERMINAL, Ok(())), (REMOTE, Err(Refused::ControlsHeld(OTHER)))]
+    {
+        assert_eq!(bench.vehicle.order(bench.now, by, BOTTOM), expected, "{by}");
+    }
+    let mut bench = Bench::standing_by(PLAN);
+    bench.rises();
+    bench.run(SECOND);
+    assert_eq!(bench.order(BOTTOM), Err(Refused::FlownByAnother), "nothing is sent to it");
 }
 
 #[test]
