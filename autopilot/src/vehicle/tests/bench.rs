@@ -26,6 +26,8 @@ pub(super) struct Bench {
     pub(super) sequence: u32,
     /// It drifts to the right.
     pub(super) drifts_m_s: f64,
+    /// It leans by this: roll, pitch.
+    pub(super) leans_deg: [f64; 2],
     /// Its bottom camera sees a roundel below it.
     pub(super) sees_tag: bool,
     /// The flight recorder's option of its next packets.
@@ -59,6 +61,7 @@ impl Bench {
             obeys: true,
             sequence: 0,
             drifts_m_s: 0.0,
+            leans_deg: [0.0; 2],
             sees_tag: false,
             gps: None,
             height_m: 0.0,
@@ -220,8 +223,8 @@ impl Bench {
             altitude_m: self.height_m + noise,
             velocity_forward_m_s: if flies { noise } else { 0.0 },
             velocity_right_m_s: if flies { self.drifts_m_s - noise } else { 0.0 },
-            roll_deg: 10.0 * noise,
-            pitch_deg: 20.0 * noise,
+            roll_deg: self.leans_deg[0] + 10.0 * noise,
+            pitch_deg: self.leans_deg[1] + 20.0 * noise,
             yaw_deg: 30.0 * noise,
             ..Demo::default()
         }

@@ -1,5 +1,7 @@
 //! Ticks: readiness, percepts, wind, and what is output.
 
+use kinematics::Sticks;
+
 use super::bench::{Bench, SECOND};
 use super::*;
 
@@ -118,6 +120,9 @@ fn wind_is_a_share_of_the_weakest_acceleration_at_full_tilt() {
     config.estimator.limits.tilt_rad = 0.4;
     config.estimator.airframe.thrust_gain = nalgebra::Vector2::new(0.9, 0.5);
     config.estimator.airframe.drag_1_s = nalgebra::Vector2::new(0.7, 0.6);
+    config.estimator.airframe.tilt_lag_s = 0.2;
+    config.estimator.airframe.drop_gain = 1.5;
+    config.estimator.limits.climb_m_s = 0.4;
     let mut vehicle = Vehicle::new(&config).unwrap();
     let full_m_s2 = 0.5 * 9.806_65 * 0.4_f64.tan();
     vehicle.flight.wind_m_s2 = nalgebra::Vector2::new(full_m_s2, 0.0);
@@ -133,6 +138,8 @@ fn wind_is_a_share_of_the_weakest_acceleration_at_full_tilt() {
     assert!(situation.wind[0].abs() < 1e-9 && (situation.wind[1] + 0.5).abs() < 0.01);
     assert!((situation.full_tilt_m_s2 - full_m_s2).abs() < 0.01, "{}", situation.full_tilt_m_s2);
     assert!((situation.drag_1_s - 0.6).abs() < 1e-9);
+    assert!((situation.tilts_after_s - 0.23).abs() < 1e-9);
+    assert!((situation.sink_m_s - 0.6).abs() < 1e-9);
     assert_eq!((situation.airborne, situation.landing), (false, false));
     assert!(situation.velocity_m_s.iter().sum::<f64>() > 14.9);
     assert!((situation.pose.z_m - 3.0).abs() < 1e-9);
@@ -286,4 +293,74 @@ fn the_delay_of_the_link_is_what_an_answer_takes_less_half_an_interval() {
     expected.expect_link_delay(round_trip.saturating_sub(half));
     assert_ne!(expected.order_delay(), untold);
     assert_eq!(bench.vehicle.flight.estimator.order_delay(), expected.order_delay());
+}
+
+/// Whether the last datagram begins with number 1, which every drone accepts.
+fn insists(bench: &Bench) -> bool {
+    let first = ardrone_link::at::decode(bench.vehicle.session.datagram()).next();
+    first.is_some_and(|command| command.unwrap().0 == 1)
+}
+
+/// Steers for this time; when the vehicle first insisted on being obeyed.
+fn insists_after(bench: &mut Bench, sticks: Sticks, time: Duration) -> Option<Duration> {
+    let since = bench.now + TICK;
+    let end = bench.now + time;
+    while bench.now < end {
+        bench.accepted(OperatorOrder::Steer(sticks));
+        bench.step();
+        if insists(bench) {
+            return Some(bench.now.saturating_sub(since));
+        }
+    }
+    None
+}
+
+#[test]
+fn a_drone_that_leans_otherwise_than_it_is_told_for_too_long_is_made_to_listen() {
+    let right = Sticks { roll: 1.0, ..Sticks::default() };
+    let forward = Sticks { pitch: -1.0, ..Sticks::default() };
+    for (sticks, leans, obeys) in [
+        (right, [1.0, 0.0], true),
+        (right, [0.35, 0.0], true),
+        (right, [0.25, 0.0], false),
+        (right, [1.0, 0.75], false),
+        (forward, [0.0, -1.0], true),
+        (forward, [0.0, -0.25], false),
+    ] {
+        let mut bench = Bench::in_the_air(STAY);
+        let full_deg = bench.vehicle.config.estimator.limits.tilt_rad.to_degrees();
+        bench.leans_deg = leans.map(|share| share * full_deg);
+        let within = Duration::from_millis(500) + bench.vehicle.flight.estimator.order_delay();
+        let after = insists_after(&mut bench, sticks, within + 3 * TICK);
+        let in_time = after.is_some_and(|after| after >= within && after < within + TICK);
+        assert_eq!((after.is_none(), in_time), (obeys, !obeys), "{leans:?}: {after:?} {within:?}");
+    }
+}
+
+/// What is not heard for a moment may have been obeyed.
+#[test]
+fn a_drone_that_is_not_heard_is_not_taken_for_one_that_does_not_listen() {
+    let right = Sticks { roll: 1.0, ..Sticks::default() };
+    let mut bench = Bench::in_the_air(STAY);
+    let within = Duration::from_millis(500) + bench.vehicle.flight.estimator.order_delay();
+    let before = within.saturating_sub(7 * TICK);
+    assert_eq!(insists_after(&mut bench, right, before), None);
+    bench.is_heard = false;
+    assert_eq!(insists_after(&mut bench, right, 9 * TICK), None);
+}
+
+#[test]
+fn a_landing_of_a_drone_that_rose_by_an_old_order_is_a_flight_for_which_nobody_is_ready() {
+    let mut bench = Bench::in_the_air("takeoff\nland");
+    bench.run(TICK);
+    bench.comes_down();
+    bench.until(SECOND, |bench| bench.phase() == Phase::Standby);
+    bench.run(SECOND / 2);
+    assert_eq!(bench.vehicle.readiness(), []);
+    bench.rises();
+    bench.run(SECOND / 2);
+    assert_eq!(
+        (bench.phase(), bench.vehicle.readiness()),
+        (Phase::Landing, &[NotReady::InFlight][..])
+    );
 }
