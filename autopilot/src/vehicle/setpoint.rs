@@ -290,4 +290,40 @@ mod tests {
         assert!(!Setpoint { vertical: Vertical::Climb(f64::INFINITY), ..still }.is_finite());
         assert!(!Setpoint { heading: Heading::Turn(f64::NAN), ..still }.is_finite());
     }
+
+    #[test]
+    fn drag_helps_a_drone_to_slow_down_and_to_nothing_else() {
+        let limits = MotionLimits { jerk_m_s3: 1e9, ..LIMITS };
+        for (flies_m_s, wanted_m_s, expected_m_s2) in [
+            ([2.0, 0.0], [0.0, 0.0], 1.5 + 0.4 * 2.0 / 2.0),
+            ([0.5, 0.0], [2.0, 0.0], 1.5),
+            ([1.0, 0.0], [1.0, 1.0], 1.5),
+        ] {
+            let mut course = Course::new(Vector2::zeros(), flies_m_s.into());
+            let [x_m_s, y_m_s] = wanted_m_s;
+            let wanted = setpoint(Horizontal::Velocity { x_m_s, y_m_s });
+            let here = Pose { x_m: 0.0, y_m: 0.0, ..HERE };
+            wanted.advance(&mut course, &here, (&limits, 0.4), 99.0, STEP_S);
+            let found_m_s2 = course.acceleration_m_s2.norm();
+            assert!((found_m_s2 - expected_m_s2).abs() < 1e-9, "{wanted_m_s:?}: {found_m_s2}");
+        }
+    }
+
+    #[test]
+    fn near_the_fence_a_drone_flies_outward_no_faster_than_it_can_stop_and_inward_as_it_likes() {
+        let inside = |wanted: [f64; 2], course_m: f64, here_m: f64, flies_m_s: f64| {
+            let course = Course::new(Vector2::new(course_m, 0.0), Vector2::new(flies_m_s, 0.0));
+            kept_inside_m_s(wanted.into(), &course, &Vector2::new(here_m, 0.0), 4.0)
+        };
+        let most_m_s = Stopping::CAUTIOUS.speed_m_s(0.1);
+        let is = |found: Vector2<f64>, x, y| (found - Vector2::new(x, y)).norm() < 1e-9;
+        // Whichever is further out counts: the course or the drone.
+        for (course_m, here_m) in [(3.9, 3.0), (3.0, 3.9)] {
+            assert!(is(inside([2.0, 1.0], course_m, here_m, 0.0), most_m_s, 1.0));
+            assert!(is(inside([-2.0, 1.0], course_m, here_m, 0.0), -2.0, 1.0));
+            let brakes = inside([0.0, 1.0], course_m, here_m, 2.0);
+            assert!(is(brakes, most_m_s - 2.0, 0.0), "{brakes}");
+        }
+        assert!(is(inside([-1.0, 0.5], 4.2, 4.2, 0.0), -1.0, 0.5), "it stands outside");
+    }
 }
