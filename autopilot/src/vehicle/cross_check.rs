@@ -94,4 +94,15 @@ mod tests {
         assert_eq!(of(Some(0)), "by a tag in view");
         assert_eq!(of(Some(40)), "by a tag 40 s ago, if the drone's velocity is right since");
     }
+
+    #[test]
+    fn what_a_claim_rests_on_and_what_contradicts_it_have_names() {
+        let tag = RestsOn::Tag { seen_ago: IN_VIEW };
+        assert_eq!([RestsOn::Velocity.name(), tag.name()], ["velocity", "tag"]);
+        for (by, name, text) in
+            [(CrossCheck::Tags, "tags", "a tag on the floor"), (CrossCheck::Gps, "gps", "the GPS")]
+        {
+            assert_eq!((by.name(), by.to_string().as_str()), (name, text));
+        }
+    }
 }

@@ -121,6 +121,7 @@ mod tests {
         assert!(!contradicts(TagStatus { is_due: false, ..unseen }));
         assert!(!contradicts(TagStatus { seen_ago: seen_ago(0), ..unseen }));
         assert!(!contradicts(TagStatus { seen_ago: None, ..unseen }));
+        assert!(!contradicts(TagStatus { seen_ago: Some(IN_VIEW), ..unseen }));
         assert!(contradicts(TagStatus { given_up: 1, ..TagStatus::default() }));
         let mut cross_checks = CrossChecks::default();
         let moments =
@@ -155,6 +156,11 @@ mod tests {
         assert_eq!(contradicts_after(19.2, 0.0), Some(5));
         assert_eq!(contradicts_after(28.0, 10.0), None, "in any direction");
         assert_eq!(contradicts_after(0.0, 19.2), Some(5), "it stands");
+        // One that is exact agrees with a place that is.
+        let exact = GpsFix { horizontal_error_m: 0.0, ..north(0.0) };
+        let mut agrees = CrossChecks { start: Some(exact), ..CrossChecks::default() };
+        let mut seconds = (0..20).map(Duration::from_secs);
+        assert!(!seconds.any(|now| agrees.see_gps(now, &exact, Vector2::zeros(), 0.0)));
         let mut fresh = CrossChecks::default();
         assert!(!fresh.see_gps(Duration::from_secs(9), &north(99.0), Vector2::zeros(), 0.0));
     }
@@ -164,5 +170,24 @@ mod tests {
         let at = |latitude_deg, longitude_deg| GpsFix { latitude_deg, longitude_deg, ..north(0.0) };
         assert!((distance_m(&at(60.0, 2.0), &at(60.0, 2.001)) - 55.66).abs() < 0.01);
         assert!((distance_m(&at(0.0, 179.999), &at(0.0, -179.999)) - 222.64).abs() < 0.01);
+    }
+
+    /// Where the drone is not above it a tag is not due, which says nothing of it.
+    #[test]
+    fn a_tag_is_missed_for_three_seconds_in_all_since_it_was_in_view() {
+        let due = TagStatus {
+            seen_ago: Some(Duration::from_secs(4)),
+            is_due: true,
+            ..TagStatus::default()
+        };
+        let elsewhere = TagStatus { is_due: false, ..due };
+        let in_view = TagStatus { seen_ago: Some(IN_VIEW), ..elsewhere };
+        for (between, contradicts) in [(due, true), (elsewhere, false), (in_view, false)] {
+            let mut cross_checks = CrossChecks::default();
+            let mut see = |tags: &TagStatus| cross_checks.see_tags(tags, 1.0);
+            assert_eq!([see(&due), see(&due), see(&due)], [false; 3]);
+            assert_eq!(see(&between), contradicts);
+            assert_eq!(see(&due), between != in_view);
+        }
     }
 }

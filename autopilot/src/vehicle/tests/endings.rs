@@ -178,9 +178,8 @@ fn a_target_that_is_not_reached_in_time_is_the_operators_or_the_plans() {
     assert_eq!(reason(false), Some(LandingReason::StepTimedOut { step: 1 }));
 }
 
-#[test]
-fn a_plan_whose_place_is_contradicted_is_not_called_flown() {
-    let gps = |north_m: f64| Gps {
+fn gps(north_m: f64) -> Gps {
+    Gps {
         plugged: 1,
         data_available: 1,
         satellite_count: 7,
@@ -188,7 +187,11 @@ fn a_plan_whose_place_is_contradicted_is_not_called_flown() {
         longitude_deg: 2.4,
         horizontal_error_m: 3.0,
         ..Gps::default()
-    };
+    }
+}
+
+#[test]
+fn a_plan_whose_place_is_contradicted_is_not_called_flown() {
     let config = VehicleConfig { read_back: false, gps: true, ..VehicleConfig::default() };
     let by = CrossCheck::Gps;
     for (north_m, outcome, status) in
@@ -207,6 +210,24 @@ fn a_plan_whose_place_is_contradicted_is_not_called_flown() {
         let tells = bench.events.iter().filter(|event| **event == told).count();
         assert_eq!(tells, usize::from(status == 60), "once");
     }
+}
+
+/// The place on the ground counts, from which it took off.
+#[test]
+fn a_gps_that_leaps_during_the_take_off_contradicts() {
+    let config = VehicleConfig { read_back: false, gps: true, ..VehicleConfig::default() };
+    let mut bench = Bench::with(&config);
+    bench.gps = Some(gps(0.0));
+    let mut bench = bench.stands_by("takeoff\nsetStayTime 90\ngoto 0 0 0 0\nland");
+    bench.accepted(START);
+    bench.until(SECOND, |bench| bench.reference() == Some(Ref::TakeOff));
+    bench.rises();
+    bench.control_state = ControlState::TakingOff;
+    bench.gps = Some(gps(60.0));
+    bench.run(2 * SECOND);
+    bench.control_state = ControlState::Hovering;
+    bench.run(7 * SECOND);
+    assert_eq!(bench.vehicle.status(bench.now).contradicted_by, Some(CrossCheck::Gps));
 }
 
 #[test]

@@ -138,6 +138,7 @@ fn a_tag_is_in_view_for_half_a_second() {
         percepts(&bench.vehicle, now, &Prediction::default()).unwrap().seen
     };
     assert!(is_seen(499));
+    assert!(!is_seen(500));
     assert!(!is_seen(501));
 }
 
