@@ -598,3 +598,21 @@ fn settings_that_a_drone_has_not_taken_count_until_it_is_configured_again() {
     bench.run(4 * SECOND);
     assert_eq!((bench.phase(), bench.vehicle.readiness()), (Phase::Standby, &[][..]));
 }
+
+/// Without flight data nobody knows that it stands.
+#[test]
+fn a_flight_that_is_called_off_while_its_drone_settles_lets_it_settle() {
+    let mut bench = Bench::new();
+    load(&mut bench, PLAN);
+    bench.accepted(WHEN_READY);
+    bench.until(3 * SECOND, |bench| bench.phase() == Phase::Trimming);
+    bench.has_demo = false;
+    bench.step();
+    bench.accepted(OperatorOrder::Land);
+    assert_eq!(bench.phase(), Phase::Trimming);
+    bench.run(SECOND);
+    assert_eq!(
+        (bench.phase(), bench.outcomes.as_slice()),
+        (Phase::Standby, &[Outcome::CalledOff][..])
+    );
+}
