@@ -245,6 +245,11 @@ mod tests {
     }
 
     #[test]
+    fn a_plan_without_a_name_is_called_plan() {
+        assert_eq!(plan(), "plan");
+    }
+
+    #[test]
     fn texts_of_orders_are_parsed_within_the_fence() {
         let load = |plan: &str| {
             let plan = PlanText { name: "p".to_owned(), plan: plan.to_owned() };

@@ -223,6 +223,8 @@ mod tests {
     fn operators_have_names() {
         assert_eq!(Operator::TERMINAL.to_string(), "the local terminal");
         assert_eq!(PAGE.to_string(), "the remote browser 1");
+        let system_and_component = Operator { number: 0xffbe, ..STATION };
+        assert_eq!(system_and_component.to_string(), "the remote mavlink 255.190");
         for station in Station::ALL {
             assert_eq!(station.name(), format!("{station:?}").to_lowercase());
         }

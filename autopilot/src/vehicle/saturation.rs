@@ -243,6 +243,10 @@ mod tests {
         assert_eq!(ticks_until_blocked(0.45, 0.9), Some(13), "it circles");
         assert_eq!(ticks_until_blocked(0.45, FLIES_M_S), None, "it holds, aside");
         assert_eq!(ticks_until_blocked(HERE_M, 0.9), None, "it is there");
+        let mut way = Way { target: TARGET, nearest_m: 3.0, for_s: 5.75 };
+        assert!(way.is_blocked(&TARGET, 3.0 - WAY_M, 0.0, 0.5), "that is no way yet");
+        let mut way = Way { target: TARGET, nearest_m: 3.0, for_s: 5.75 };
+        assert!(!way.is_blocked(&TARGET, 2.9 - WAY_M, 0.0, 0.5));
     }
 
     fn after_a_second(demand: Sticks, position: [f64; 3], velocity: [f64; 3]) -> i64 {
