@@ -149,4 +149,51 @@ mod tests {
         assert!((least(-0.3) + 1.0).abs() < 1e-9);
         assert!(least(-0.6) > -0.9, "{}", least(-0.6));
     }
+
+    /// Half of the sticks is left where the way to rest ends 5 cm beyond what is tolerated.
+    #[test]
+    fn wind_lengthens_the_way_to_rest_and_drag_shortens_it() {
+        for (wind, drag_1_s, braking_m_s2) in
+            [(0.0, 0.2, 2.2), (0.0, 0.6, 2.6), (0.5, 0.2, 1.2), (-0.5, 0.2, 3.2), (0.95, 0.2, 0.6)]
+        {
+            let way_m = 0.2 * 2.0 + 4.0 / (2.0 * braking_m_s2);
+            let pose = Pose { x_m: 4.2 - way_m, ..FINE.pose };
+            let soon = Motion { pose, velocity_m_s: [2.0, 0.0, 0.0] };
+            let now = Situation { soon, wind: [wind, 0.0], drag_1_s, ..FINE };
+            let sticks = Sticks { roll: 1.0, ..Sticks::default() };
+            let left = Brake::of(&now, 0.0, &FENCE).leave(&sticks).roll;
+            assert!((left - 0.5).abs() < 1e-9, "{wind} {drag_1_s}: {left}");
+        }
+    }
+
+    /// What is left of the gaz, up and down, of a drone that climbs at this rate, and was last sent this gaz.
+    fn gaz_left(z_m: f64, up_m_s: f64, gaz: f64) -> [f64; 2] {
+        let soon = Motion { pose: Pose { z_m, ..FINE.pose }, velocity_m_s: [0.0, 0.0, up_m_s] };
+        let brake = Brake::of(&Situation { soon, ..FINE }, gaz, &FENCE);
+        [brake.most_gaz, brake.least_gaz]
+    }
+
+    #[test]
+    fn half_of_the_gaz_is_left_where_the_way_to_rest_ends_half_a_band_away() {
+        let way_m = 0.7 * 0.1 + 0.7 * 0.7 / (2.0 * (0.7 + 0.35) / 0.5);
+        let [up, down] = gaz_left(3.2 - way_m, 0.7, 0.0);
+        assert!((up - 0.5).abs() < 1e-9 && (down + 1.0).abs() < 1e-9, "{up} {down}");
+        let [_, lag_s] = Airframe::CLIMB_LAGS_S;
+        let climbs_m_s = Airframe::WEAKEST_CLIMB * 0.7;
+        let way_m = 0.3 * 0.1 + 0.3 * 0.3 / (2.0 * (climbs_m_s + 0.15) / lag_s);
+        let [up, down] = gaz_left(0.275 + way_m, -0.3, 0.0);
+        assert!((up - 1.0).abs() < 1e-9 && (down + 0.5).abs() < 1e-9, "{up} {down}");
+        // One that stands goes nowhere, wherever it is.
+        for z_m in [0.2, 1.0, 3.4] {
+            let [up, down] = gaz_left(z_m, 0.0, -1.0);
+            assert!((up - 1.0).abs() < 1e-9 && (down + 1.0).abs() < 1e-9, "{z_m}: {up} {down}");
+        }
+    }
+
+    #[test]
+    fn both_sticks_at_once_are_left_where_there_is_room() {
+        let soon = Motion { velocity_m_s: [0.5, 0.5, 0.0], ..FINE.soon };
+        let sticks = Sticks { roll: 1.0, pitch: -1.0, ..Sticks::default() };
+        assert_eq!(Brake::of(&Situation { soon, ..FINE }, 0.0, &FENCE).leave(&sticks), sticks);
+    }
 }

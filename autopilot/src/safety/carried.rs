@@ -186,6 +186,10 @@ mod tests {
         let now = Situation { pose, velocity_m_s: [0.0, -3.0, 0.0], ..FINE };
         let room_m = Motion::of(&now).room_m(&now, RADIUS_M);
         assert!((room_m - 8.0).abs() < 1e-9, "{room_m}");
+        let pose_aside = Pose { x_m: 6.0, y_m: 2.0, ..FINE.pose };
+        let aside = Situation { pose: pose_aside, velocity_m_s: [3.0, 3.0, 0.0], ..now };
+        let room_m = Motion::of(&aside).room_m(&aside, RADIUS_M);
+        assert!((room_m - (92.0_f64.sqrt() - 32.0_f64.sqrt())).abs() < 1e-9, "{room_m}");
         let back = Situation { velocity_m_s: [-3.0, 0.0, 0.0], ..now };
         assert!((Motion::of(&back).room_m(&back, RADIUS_M) - 16.0).abs() < 1e-9);
         let outside = Situation { pose: Pose { x_m: 11.0, ..pose }, ..now };

@@ -99,7 +99,8 @@ fn a_drone_that_is_landed_for_its_safety_is_landed_to_the_end() {
         let veto = monitor.check(AgentCommand::Hover, &bad).1;
         assert!(veto.is_some_and(Veto::lands));
         let low = Situation { pose: Pose { z_m: 0.5, ..FINE.pose }, ..FINE };
-        assert_eq!(monitor.check(GO_TO, &low).0, AgentCommand::Land, "it came back");
+        assert_eq!(monitor.check(GO_TO, &low), (AgentCommand::Land, veto), "it came back");
+        assert_eq!(monitor.check(GO_TO, &low).1, veto, "for the same reason to the end");
         let landed = Situation { airborne: false, ..FINE };
         assert_eq!(monitor.check(AgentCommand::TakeOff, &landed).0, AgentCommand::TakeOff);
     }
@@ -130,6 +131,27 @@ fn a_drone_outside_the_fence_is_flown_back_and_down() {
     monitor.check(GO_TO, &outside);
     monitor.land_here();
     assert_eq!(monitor.check(land, &outside).0, land, "nor does it wait for the pilot");
+}
+
+#[test]
+fn the_way_back_leads_to_the_nearest_place_until_the_drone_is_as_far_inside() {
+    let at = |x_m, y_m| Situation { pose: Pose { x_m, y_m, z_m: 2.0, ..FINE.pose }, ..FINE };
+    let mut monitor = monitor();
+    for (here, [x_m, y_m]) in
+        [(at(10.5, 0.0), [9.5, 0.0]), (at(0.0, 9.8), [0.0, 9.5]), (at(3.0, 0.0), [0.0, 9.5])]
+    {
+        let (command, _) = monitor.check(GO_TO, &here);
+        let AgentCommand::GoTo(target) = command else { panic!("{command:?}") };
+        assert!((target.x_m - x_m).hypot(target.y_m - y_m) < 1e-9, "{target:?}");
+    }
+}
+
+#[test]
+fn a_drone_stops_from_the_larger_of_its_speeds_on_each_axis() {
+    let soon = Motion { velocity_m_s: [1.0, -2.0, -0.5], ..FINE.soon };
+    let now = Situation { velocity_m_s: [2.0, -1.0, 0.5], soon, ..FINE };
+    let [right, forward, up] = now.stops_from().velocity_m_s.map(|m_s| (10.0 * m_s).round());
+    assert!(right > 19.0 && forward < -19.0 && up < 0.0, "{right} {forward} {up}");
 }
 
 #[test]
